@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/data_types.hpp>
+
+#include <type_traits>
+
+namespace sinew {
+
+/// The three traversals in which components meet the matrix of a solver: `pattern` and `bind` once at init, `add` in
+/// each step. Components call the same `add` in all of them; drivers find the places of their blocks in `bind`.
+enum class AssemblyPhase { pattern, bind, add };
+
+/// Jacobian of degrees of freedom that are the system's own.
+struct IdentityJacobian {
+  template <class J>
+  friend J const& operator*(J const& j, IdentityJacobian) {
+    return j;
+  }
+};
+
+/// Degrees of freedom of an independent state: dofs offset, offset + 1, ... of the system, N a point.
+template <int N>
+struct DirectDofs {
+  static constexpr int size = N;
+  static constexpr bool direct = true;
+  int offset;
+
+  template <class F>
+  void expand(int point, F&& f) const {
+    f(offset + point * N, IdentityJacobian{});
+  }
+};
+
+/// Degrees of freedom of a mapped state: each point depends, through the rows of J, on points of the parent.
+template <class Mapping, class Parent>
+struct MappedDofs {
+  static constexpr int size = Mapping::Out::size;
+  static constexpr bool direct = false;
+  Mapping const& mapping;
+  Parent parent;
+
+  template <class F>
+  void expand(int point, F&& f) const {
+    mapping.forEachJacobianBlock(point, [&](int above, auto const& j) {
+      parent.expand(above, [&](int dof, auto const& jAbove) { f(dof, (j * jAbove)); });
+    });
+  }
+};
+
+/// Adds element blocks K between points i and j to A as J_i' K J_j. `A` and `B` are the degrees of freedom of the
+/// two ends of an interaction; one body has the same twice.
+template <AssemblyPhase Phase, class Matrix, class A, class B = A>
+struct MatrixSink {
+  static constexpr AssemblyPhase phase = Phase;
+  static constexpr bool direct = A::direct && B::direct;
+  using MatrixType = Matrix;
+  Matrix& matrix;
+  A first;
+  B second;
+
+  template <int SideI = 0, int SideJ = 0, class K>
+  void add(int i, int j, K const& k) const {
+    side<SideI>().expand(i, [&](int row, auto const& ji) {
+      side<SideJ>().expand(j, [&](int column, auto const& jj) { place(row, column, ji, jj, k); });
+    });
+  }
+  void fix(int point) const {
+    if constexpr (Phase == AssemblyPhase::add && A::direct)
+      for (int c = 0; c < A::size; ++c) matrix.fix(first.offset + point * A::size + c);
+  }
+  template <int Side>
+  auto const& side() const {
+    if constexpr (Side == 0)
+      return first;
+    else
+      return second;
+  }
+
+ private:
+  template <class Ji, class Jj, class K>
+  void place(int row, int column, Ji const& ji, Jj const& jj, K const& k) const {
+    if constexpr (std::is_same_v<Ji, IdentityJacobian> && std::is_same_v<Jj, IdentityJacobian>)
+      put(row, column, k);
+    else if constexpr (std::is_same_v<Ji, IdentityJacobian>)
+      put(row, column, (k * jj).eval());
+    else if constexpr (std::is_same_v<Jj, IdentityJacobian>)
+      put(row, column, (ji.transpose() * k).eval());
+    else
+      put(row, column, (ji.transpose() * k * jj).eval());
+  }
+  template <class K>
+  void put(int row, int column, K const& k) const {
+    if constexpr (Phase == AssemblyPhase::pattern)
+      matrix.announce(row, column, K::RowsAtCompileTime, K::ColsAtCompileTime);
+    else if constexpr (Phase == AssemblyPhase::add)
+      matrix.add(row, column, k);
+  }
+};
+
+}  // namespace sinew

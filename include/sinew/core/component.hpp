@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/data_types.hpp>
+#include <sinew/core/fields.hpp>
+#include <sinew/core/vec_id.hpp>
+#include <sinew/topology/mesh.hpp>
+
+#include <concepts>
+#include <span>
+#include <string>
+
+namespace sinew {
+
+/// What a component is in its node. A component names its role (`using Role = role::Mass;`) and fulfils the
+/// concept of the same name below; it has no base class and knows no other component.
+namespace role {
+struct Context;               // a value inherited by the subtree, such as Gravity
+struct Topology;              // elements over the points of the node's state
+struct State;                 // degrees of freedom
+struct VisualModel;           // positions that follow by a mapping and take no part in mechanics
+struct Mass;
+struct ForceField;
+struct InteractionForceField;
+struct ProjectiveConstraint;
+struct Mapping;
+struct OdeSolver;
+struct LinearSolver;
+struct StepCallback;          // called at the end of each step
+}  // namespace role
+
+template <class C, class R>
+concept HasRole = std::same_as<typename C::Role, R>;
+
+/// Elements over the points of one node, as components see them at init. Empty where there is no topology.
+struct TopologyView {
+  std::span<Edge const> edges{};
+  std::span<Triangle const> triangles{};
+  std::span<Quad const> quads{};
+  std::span<Tetrahedron const> tetrahedra{};
+  std::span<Hexahedron const> hexahedra{};
+};
+
+/// What a component of a node is given at init: where it stands (for messages), the rest positions of the node's
+/// state, and the nearest topology.
+template <class D>
+struct InitContext {
+  std::string where;
+  typename D::VecCoord const& rest;
+  TopologyView topology;
+};
+
+/// Arguments of the mechanical operations. The product with a vector is (m M + b B + k K) dx, where
+/// K = df/dx and B = df/dv, so an implicit step has negative b and k.
+struct MechanicalParams {
+  double time = 0, dt = 0;
+  Eigen::Vector3d gravity{0, 0, 0};
+  double m = 0, b = 0, k = 0;
+};
+
+/// What an assembled or matrix-free system is made of: m M + b B + k K.
+struct MatrixFactors {
+  double m = 0, b = 0, k = 0;
+};
+
+/// A state vector of particles [m], or of rigids, and all that solvers do with it.
+template <class C>
+concept State = HasRole<C, role::State> && requires(C s, CoordId x, DerivId v) {
+  typename C::DataTypes;
+  { s[x] } -> std::same_as<typename C::DataTypes::VecCoord&>;
+  { s[v] } -> std::same_as<typename C::DataTypes::VecDeriv&>;
+  s.init(std::string{});
+  s.reset();
+};
+
+template <class C, class D = typename C::DataTypes>
+concept Mass = HasRole<C, role::Mass> &&
+               requires(C m, InitContext<D> c, MechanicalParams p, typename D::VecDeriv f, typename D::VecCoord x) {
+                 m.init(c);
+                 m.addForce(p, f, x, f);  // weight, and gyroscopic forces of rigids
+                 m.addMDx(f, x, f, 1.0);  // f += factor M dx
+                 m.accFromF(f, x, f);     // a = M^-1 f
+                 { m.kineticEnergy(x, f) } -> std::convertible_to<double>;
+               };
+
+template <class C, class D = typename C::DataTypes>
+concept ForceField =
+    HasRole<C, role::ForceField> &&
+    requires(C ff, InitContext<D> c, MechanicalParams p, typename D::VecDeriv f, typename D::VecCoord x) {
+      ff.init(c);
+      ff.addForce(p, f, x, f);
+      ff.addDForce(p, f, f);  // df += (k K + b B) dx at the last addForce
+      { ff.potentialEnergy(x) } -> std::convertible_to<double>;
+    };
+
+template <class C, class D = typename C::DataTypes>
+concept InteractionForceField =
+    HasRole<C, role::InteractionForceField> &&
+    requires(C ff, InitContext<D> c, MechanicalParams p, typename D::VecDeriv f, typename D::VecCoord x) {
+      typename C::Ends;
+      ff.init(c, c);
+      ff.addForce(p, f, f, x, x, f, f);
+      ff.addDForce(p, f, f, f, f);
+      { ff.potentialEnergy(x, x) } -> std::convertible_to<double>;
+    };
+
+template <class C, class D = typename C::DataTypes>
+concept ProjectiveConstraint =
+    HasRole<C, role::ProjectiveConstraint> && requires(C pc, InitContext<D> c, typename D::VecDeriv dx) {
+      pc.init(c);
+      pc.projectResponse(dx);  // remove forbidden displacements
+    };
+
+template <class C, class In = typename C::In, class Out = typename C::Out>
+concept Mapping = HasRole<C, role::Mapping> &&
+                  requires(C m, InitContext<In> parent, InitContext<Out> child, typename In::VecCoord xi,
+                           typename In::VecDeriv vi, typename Out::VecCoord xo, typename Out::VecDeriv vo) {
+                    m.init(parent, child, xo);  // may fill an empty child
+                    m.apply(xo, xi);
+                    m.applyJ(vo, vi);   // vo = J vi at the last apply
+                    m.applyJT(vi, vo);  // vi += J' vo
+                  };
+
+template <class C>
+concept OdeSolver = HasRole<C, role::OdeSolver> && requires {
+  { C::implicit } -> std::convertible_to<bool>;
+  { C::auxiliary } -> std::convertible_to<Auxiliary>;
+};
+
+template <class C>
+concept LinearSolver = HasRole<C, role::LinearSolver> && requires {
+  { C::auxiliary } -> std::convertible_to<Auxiliary>;
+};
+
+}  // namespace sinew

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/lanes.hpp>
+#include <sinew/core/platform.hpp>
+
+#include <Eigen/Geometry>
+#include <string_view>
+#include <vector>
+
+namespace sinew {
+
+template <class Real, int N>
+using Vec = Eigen::Matrix<Real, N, 1>;
+template <class Real, int R, int C = R>
+using Mat = Eigen::Matrix<Real, R, C>;
+/// Not over-aligned, so that a rigid position is seven scalars without a gap.
+template <class Real>
+using Quat = Eigen::Quaternion<Real, Eigen::DontAlign>;
+
+/// Position of a rigid body: centre [m] and unit quaternion from body to world axes. In the plane the quaternion
+/// is replaced by the angle [rad].
+template <class Real>
+struct RigidCoord3 {
+  Vec<Real, 3> center{Real(0), Real(0), Real(0)};
+  Quat<Real> orientation{Real(1), Real(0), Real(0), Real(0)};
+  bool operator==(RigidCoord3 const& o) const {
+    return center == o.center && orientation.coeffs() == o.orientation.coeffs();
+  }
+};
+template <class Real>
+struct RigidCoord2 {
+  Vec<Real, 2> center{Real(0), Real(0)};
+  Real orientation{0};
+  bool operator==(RigidCoord2 const&) const = default;
+};
+
+/// Mass of a rigid body: mass [kg], and inertia about the centre in body axes [kg m^2] (a scalar in the plane).
+template <class Real, int Dim>
+struct RigidMass {
+  using Inertia = Mat<Real, Dim == 3 ? 3 : 1>;
+  Real mass{1};
+  Inertia inertia = Inertia::Identity();
+};
+
+/// Points of N coordinates: position and velocity are N-vectors.
+template <int N, class R>
+struct VecTypes {
+  using Real = R;
+  using Coord = Vec<R, N>;
+  using Deriv = Vec<R, N>;
+  using VecCoord = std::vector<Coord>;
+  using VecDeriv = std::vector<Deriv>;
+  using MassType = R;
+  static constexpr int spatial = N < 3 ? N : 3;  // coordinates of `Coord` that are a place
+  static constexpr int size = N;                 // degrees of freedom of a point
+  static constexpr bool rigid = false;
+  template <class S>
+  using rebind = VecTypes<N, S>;
+
+  SINEW_INLINE static Coord zero() { return Coord::Zero(); }
+  SINEW_INLINE static Vec<R, spatial> center(Coord const& x) { return x.template head<spatial>(); }
+  SINEW_INLINE static void increment(Coord& x, Deriv const& dx) { x += dx; }
+  /// dx with increment(from, dx) = to.
+  SINEW_INLINE static Deriv difference(Coord const& from, Coord const& to) { return to - from; }
+  /// Time derivative of theta, where x = increment(x0, theta) moves with velocity v.
+  SINEW_INLINE static Deriv chart_rate(Deriv const& /*theta*/, Deriv const& v) { return v; }
+  static bool finite(Coord const& x) { return x.allFinite(); }
+};
+
+/// Rigid bodies in space: Deriv is (linear velocity, angular velocity), both in world axes.
+template <int Dim, class R>
+struct RigidTypes;
+
+template <class R>
+struct RigidTypes<3, R> {
+  using Real = R;
+  using Coord = RigidCoord3<R>;
+  using Deriv = Vec<R, 6>;
+  using VecCoord = std::vector<Coord>;
+  using VecDeriv = std::vector<Deriv>;
+  using MassType = RigidMass<R, 3>;
+  static constexpr int spatial = 3, size = 6;
+  static constexpr bool rigid = true;
+  template <class S>
+  using rebind = RigidTypes<3, S>;
+
+  static Coord zero() { return {}; }
+  SINEW_INLINE static Vec<R, 3> center(Coord const& x) { return x.center; }
+  /// q <- exp(w) q, with the rotation vector w in world axes; the unit length is restored.
+  static void increment(Coord& x, Deriv const& dx) {
+    using std::sqrt, std::cos, std::sin;
+    x.center += dx.template head<3>();
+    const Vec<R, 3> w = dx.template tail<3>();
+    const R angle2 = w.squaredNorm(), half = sqrt(angle2) / 2;
+    const R s = half < R(1e-4) ? R(0.5) * (1 - half * half / 6) : R(0.5) * sin(half) / half;
+    Quat<R> turn;
+    turn.w() = cos(half);
+    turn.vec() = s * w;
+    x.orientation = (turn * x.orientation).normalized();
+  }
+  static Deriv difference(Coord const& from, Coord const& to) {
+    Deriv d;
+    d.template head<3>() = to.center - from.center;
+    Quat<R> turn = to.orientation * from.orientation.conjugate();
+    if (turn.w() < 0) turn.coeffs() = -turn.coeffs();
+    const R sine = turn.vec().norm();
+    const R scale = sine < R(1e-6) ? R(2) : 2 * std::atan2(sine, turn.w()) / sine;
+    d.template tail<3>() = scale * turn.vec();
+    return d;
+  }
+  /// dexp^-1 of the rotation group to third order, what a fourth-order method needs (Munthe-Kaas 1999).
+  static Deriv chart_rate(Deriv const& theta, Deriv const& v) {
+    Deriv rate = v;
+    const Vec<R, 3> t = theta.template tail<3>(), w = v.template tail<3>(), tw = t.cross(w);
+    rate.template tail<3>() += R(-0.5) * tw + R(1) / 12 * t.cross(tw);
+    return rate;
+  }
+  static bool finite(Coord const& x) { return x.center.allFinite() && x.orientation.coeffs().allFinite(); }
+};
+
+template <class R>
+struct RigidTypes<2, R> {
+  using Real = R;
+  using Coord = RigidCoord2<R>;
+  using Deriv = Vec<R, 3>;
+  using VecCoord = std::vector<Coord>;
+  using VecDeriv = std::vector<Deriv>;
+  using MassType = RigidMass<R, 2>;
+  static constexpr int spatial = 2, size = 3;
+  static constexpr bool rigid = true;
+  template <class S>
+  using rebind = RigidTypes<2, S>;
+
+  static Coord zero() { return {}; }
+  SINEW_INLINE static Vec<R, 2> center(Coord const& x) { return x.center; }
+  static void increment(Coord& x, Deriv const& dx) {
+    x.center += dx.template head<2>();
+    x.orientation += dx[2];
+  }
+  static Deriv difference(Coord const& from, Coord const& to) {
+    return Deriv(to.center[0] - from.center[0], to.center[1] - from.center[1], to.orientation - from.orientation);
+  }
+  static Deriv chart_rate(Deriv const&, Deriv const& v) { return v; }
+  static bool finite(Coord const& x) { return x.center.allFinite() && std::isfinite(x.orientation); }
+};
+
+using Vec1d = VecTypes<1, double>;
+using Vec2d = VecTypes<2, double>;
+using Vec3d = VecTypes<3, double>;
+using Vec6d = VecTypes<6, double>;
+using Rigid2d = RigidTypes<2, double>;
+using Rigid3d = RigidTypes<3, double>;
+using Vec1f = VecTypes<1, float>;
+using Vec2f = VecTypes<2, float>;
+using Vec3f = VecTypes<3, float>;
+using Vec6f = VecTypes<6, float>;
+using Rigid2f = RigidTypes<2, float>;
+using Rigid3f = RigidTypes<3, float>;
+
+/// "Vec3d", "Rigid3f"...: the name by which messages and scene files know a DataTypes.
+template <class D>
+struct data_types_name;
+template <int N, class R>
+struct data_types_name<VecTypes<N, R>> {
+  static constexpr char text[] = {'V', 'e', 'c', char('0' + N), sizeof(R) == 8 ? 'd' : 'f', 0};
+  static constexpr std::string_view value{text, 5};
+};
+template <int N, class R>
+struct data_types_name<RigidTypes<N, R>> {
+  static constexpr char text[] = {'R', 'i', 'g', 'i', 'd', char('0' + N), sizeof(R) == 8 ? 'd' : 'f', 0};
+  static constexpr std::string_view value{text, 7};
+};
+
+}  // namespace sinew

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/assembly.hpp>
+#include <sinew/core/data_types.hpp>
+
+#include <array>
+#include <cstring>
+#include <vector>
+
+namespace sinew {
+
+/// Runs an element law over all elements of a body on one core: packs W elements into lanes, gathers their points,
+/// calls the law, scatters what it returns. `Law<D>` knows one element and offers
+///   arity, usesVelocity              how many points it has; whether force reads v
+///   Rest, Tangent                    what force needs; what dforce and block need of the last force
+///   energy, force, dforce, block     see StiffSpring and TetrahedronFEM for their arguments
+/// The tangent is symmetric: block(j, i) = block(i, j)', and only i <= j is asked for.
+/// `Rest` holds nothing but scalars (or Eigen objects of them), so that W of them interleave into one of lanes.
+template <template <class> class LawOf, class D, int W = native_width<typename D::Real>>
+struct ElementDriver {
+  using Real = typename D::Real;
+  using Coord = typename D::Coord;
+  using Deriv = typename D::Deriv;
+  using L = lanes<Real, W>;
+  using DL = typename D::template rebind<L>;
+  using Law = LawOf<DL>;
+  using Rest = typename LawOf<D>::Rest;
+  static constexpr int arity = Law::arity;
+  static constexpr int pairs = arity * (arity + 1) / 2;
+  using Indices = std::array<int, arity>;
+  using Coords = std::array<Coord const*, arity>;  // first point of the state that each end of an element lives on
+  using ConstDerivs = std::array<Deriv const*, arity>;
+  using Derivs = std::array<Deriv*, arity>;
+
+  struct Pack {
+    typename Law::Rest rest;
+    typename Law::Tangent tangent;
+    int index[arity][W];
+    int active;
+  };
+  // where the blocks of a pack stand in the matrix of the solver: slot of the one on or above the diagonal, and whether it
+  // is the transpose of the law's block(i, j)
+  struct Slots {
+    int slot[pairs][W];
+    typename lane_mask<L>::type transposed[pairs];
+  };
+  std::vector<Pack> packs{};
+  std::vector<Slots> slots{};
+
+  /// The last pack is filled up with copies of its last element, which are computed and never scattered.
+  void init(std::vector<Indices> const& elements, std::vector<Rest> const& rest) {
+    static_assert(sizeof(typename Law::Rest) == W * sizeof(Rest), "a law's Rest holds only scalars of its Real");
+    constexpr std::size_t reals = sizeof(Rest) / sizeof(Real);
+    packs = std::vector<Pack>((elements.size() + W - 1) / W);
+    slots.clear();
+    for (std::size_t p = 0; p < packs.size(); ++p) {
+      Pack& pack = packs[p];
+      pack.active = int(std::min<std::size_t>(W, elements.size() - p * W));
+      Real interleaved[reals * W];
+      for (int l = 0; l < W; ++l) {
+        const std::size_t e = p * W + std::size_t(std::min(l, pack.active - 1));
+        Real one[reals];
+        std::memcpy(one, &rest[e], sizeof one);
+        for (std::size_t r = 0; r < reals; ++r) interleaved[r * W + std::size_t(l)] = one[r];
+        for (int k = 0; k < arity; ++k) pack.index[k][l] = elements[e][std::size_t(k)];
+      }
+      std::memcpy(static_cast<void*>(&pack.rest), interleaved, sizeof interleaved);
+      std::memset(static_cast<void*>(&pack.tangent), 0, sizeof pack.tangent);
+    }
+  }
+
+  /// The same first point for all ends, where an element has one body.
+  template <class T>
+  static std::array<T*, arity> oneBody(T* first) {
+    std::array<T*, arity> ends;
+    ends.fill(first);
+    return ends;
+  }
+  template <class VecDeriv, class VecCoord>
+  void addForce(Law const& law, VecDeriv& f, VecCoord const& x, VecDeriv const& v) {
+    addForce(law, oneBody(f.data()), oneBody(x.data()), oneBody(v.data()));
+  }
+  template <class VecDeriv>
+  void addDForce(Law const& law, VecDeriv& df, VecDeriv const& dx, Real k, Real b) const {
+    addDForce(law, oneBody(df.data()), oneBody(dx.data()), k, b);
+  }
+  double energy(Law const& law, std::vector<Coord> const& x) const { return energy(law, oneBody(x.data())); }
+
+  void addForce(Law const& law, Derivs f, Coords x, ConstDerivs v) {
+    for (Pack& pack : packs) {
+      typename DL::Coord xs[arity];
+      typename DL::Deriv vs[arity], fs[arity];
+      gather(pack, x, xs);
+      if constexpr (Law::usesVelocity) gather(pack, v, vs);
+      law.force(pack.rest, xs, vs, fs, pack.tangent);
+      scatter(pack, fs, f);
+    }
+  }
+
+  void addDForce(Law const& law, Derivs df, ConstDerivs dx, Real k, Real b) const {
+    for (Pack const& pack : packs) {
+      typename DL::Deriv dxs[arity], dfs[arity];
+      gather(pack, dx, dxs);
+      law.dforce(pack.rest, pack.tangent, dxs, dfs, L(k), L(b));
+      scatter(pack, dfs, df);
+    }
+  }
+
+  double energy(Law const& law, Coords x) const {
+    double sum = 0;
+    for (Pack const& pack : packs) {
+      typename DL::Coord xs[arity];
+      gather(pack, x, xs);
+      const L e = law.energy(pack.rest, xs);
+      for (int l = 0; l < pack.active; ++l) sum += double(lane(e, l));
+    }
+    return sum;
+  }
+
+  /// Adds k K + b B to the matrix behind the sink. SideOf[i]: on which end of an interaction point i of an element is.
+  template <int... SideOf, class Sink>
+  void addToMatrix(Law const& law, Sink const& sink, Real k, Real b) {
+    using Matrix = typename Sink::MatrixType;
+    constexpr bool within = ((SideOf == 0) && ...);
+    if constexpr (Sink::direct && within && Matrix::blockSize == D::size && Sink::phase != AssemblyPhase::pattern) {
+      if constexpr (Sink::phase == AssemblyPhase::bind)
+        bind(sink);
+      else
+        addToSlots(law, sink.matrix, k, b);
+    } else if constexpr (Sink::phase != AssemblyPhase::bind) {
+      constexpr std::array<int, arity> side = [] {
+        if constexpr (sizeof...(SideOf) == arity) return std::array<int, arity>{SideOf...};
+        else return std::array<int, arity>{};
+      }();
+      for (Pack const& pack : packs)
+        forEachPair([&]<int I, int J>() {
+          Mat<L, D::size> block;
+          if constexpr (Sink::phase == AssemblyPhase::add) block = law.block(pack.rest, pack.tangent, I, J, L(k), L(b));
+          for (int l = 0; l < pack.active; ++l) {
+            Mat<Real, D::size> one = Mat<Real, D::size>::Zero();
+            if constexpr (Sink::phase == AssemblyPhase::add)
+              for (int c = 0; c < D::size * D::size; ++c) one(c) = lane(block(c), l);
+            sink.template add<side[I], side[J]>(pack.index[I][l], pack.index[J][l], one);
+            if constexpr (I != J)
+              sink.template add<side[J], side[I]>(pack.index[J][l], pack.index[I][l], one.transpose().eval());
+          }
+        });
+    }
+  }
+
+ private:
+  template <class Value>
+  static constexpr int realsOf = int(sizeof(Value) / sizeof(Real));
+
+  template <class Value, class LaneValue>
+  SINEW_INLINE static void gather(Pack const& pack, std::array<Value const*, arity> const& from, LaneValue (&to)[arity]) {
+    constexpr int n = realsOf<Value>;
+    for (int k = 0; k < arity; ++k) {
+      alignas(64) Real buffer[n][W];
+      for (int l = 0; l < W; ++l) {
+        Real const* const value = reinterpret_cast<Real const*>(from[std::size_t(k)] + pack.index[k][l]);
+        for (int c = 0; c < n; ++c) buffer[c][l] = value[c];
+      }
+      std::memcpy(static_cast<void*>(&to[k]), buffer, sizeof buffer);
+    }
+  }
+
+  SINEW_INLINE static void scatter(Pack const& pack, typename DL::Deriv const (&from)[arity], Derivs const& to) {
+    constexpr int n = realsOf<Deriv>;
+    for (int k = 0; k < arity; ++k) {
+      alignas(64) Real buffer[n][W];
+      std::memcpy(buffer, static_cast<void const*>(&from[k]), sizeof buffer);
+      for (int l = 0; l < pack.active; ++l) {
+        Real* const value = reinterpret_cast<Real*>(to[std::size_t(k)] + pack.index[k][l]);
+        for (int c = 0; c < n; ++c) value[c] += buffer[c][l];
+      }
+    }
+  }
+
+  // f<I, J>() for each pair of points I <= J
+  template <class F>
+  static void forEachPair(F&& f) {
+    [&]<int... P>(std::integer_sequence<int, P...>) {
+      (
+          [&] {
+            constexpr int i = P / arity, j = P % arity;
+            if constexpr (i <= j) f.template operator()<i, j>();
+          }(),
+          ...);
+    }(std::make_integer_sequence<int, arity * arity>{});
+  }
+  static constexpr int pairNumber(int i, int j) { return i * arity - i * (i - 1) / 2 + j - i; }
+
+  // to[0..N) += from[0..N), four at a time
+  template <int N, class Target>
+  SINEW_INLINE static void addTo(Target* to, Real const* from) {
+    constexpr int fours = std::is_same_v<Target, Real> ? N / 4 : 0;
+    typedef Real Four __attribute__((vector_size(4 * sizeof(Real)), aligned(alignof(Real)), may_alias));
+    for (int i = 0; i < fours; ++i)
+      *reinterpret_cast<Four*>(to + 4 * i) += *reinterpret_cast<Four const*>(from + 4 * i);
+    for (int i = 4 * fours; i < N; ++i) to[i] += Target(from[i]);
+  }
+
+  template <class Sink>
+  void bind(Sink const& sink) {
+    slots.assign(packs.size(), Slots{});
+    const int first = sink.first.offset / D::size;
+    for (std::size_t p = 0; p < packs.size(); ++p)
+      forEachPair([&]<int I, int J>() {
+        for (int l = 0; l < W; ++l) {
+          const int i = first + packs[p].index[I][l], j = first + packs[p].index[J][l];
+          slots[p].slot[pairNumber(I, J)][l] = sink.matrix.slot(std::min(i, j), std::max(i, j));
+          set(slots[p].transposed[pairNumber(I, J)], l, i > j);
+        }
+      });
+  }
+
+  template <class Matrix>
+  void addToSlots(Law const& law, Matrix& matrix, Real k, Real b) const {
+    constexpr int n = D::size;
+    for (std::size_t p = 0; p < packs.size(); ++p) {
+      Pack const& pack = packs[p];
+      forEachPair([&]<int I, int J>() {
+        const Mat<L, n> block = law.block(pack.rest, pack.tangent, I, J, L(k), L(b));
+        auto const& turned = slots[p].transposed[pairNumber(I, J)];
+        L rows[n * n];  // row-major, as the matrix has it
+        for (int r = 0; r < n; ++r)
+          for (int c = 0; c < n; ++c)
+            rows[r * n + c] = I == J || r == c ? block(r, c) : select(turned, L(block(c, r)), L(block(r, c)));
+        alignas(64) Real ofLane[W][(n * n + 3) / 4 * 4];
+        transpose<n * n>(rows, ofLane);
+        for (int l = 0; l < pack.active; ++l)
+          addTo<n * n>(matrix.block(slots[p].slot[pairNumber(I, J)][l]), ofLane[l]);
+      });
+    }
+  }
+};
+
+}  // namespace sinew

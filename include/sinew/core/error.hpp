@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <initializer_list>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sinew {
+
+/// Every failure that Sinew reports. what() reads "<where>: <what is wrong>; <what to do>".
+struct Error : std::runtime_error {
+  Error(std::string_view where, std::string_view message)
+      : std::runtime_error(where.empty() ? std::string(message)
+                                         : std::string(where) + ": " + std::string(message)) {}
+};
+
+namespace detail {
+
+template <class T>
+std::string to_text(T const& part) {
+  if constexpr (std::is_same_v<T, char>) {
+    return std::string(1, part);
+  } else if constexpr (std::is_integral_v<T>) {
+    return std::to_string(part);
+  } else if constexpr (std::is_floating_point_v<T>) {
+    char buffer[40];
+    const int n = __builtin_snprintf(buffer, sizeof buffer, "%.9g", double(part));
+    return std::string(buffer, std::size_t(n));
+  } else {
+    return std::string(std::string_view(part));
+  }
+}
+
+}  // namespace detail
+
+/// Joins words, numbers and characters into one message.
+template <class... Parts>
+std::string text(Parts const&... parts) {
+  std::string joined;
+  ((joined += detail::to_text(parts)), ...);
+  return joined;
+}
+
+/// Number of single-letter edits that turn `a` into `b` (Levenshtein 1966), letter case ignored.
+inline std::size_t edit_distance(std::string_view a, std::string_view b) {
+  auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; };
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i + 1;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t replace = diagonal + (lower(a[i]) != lower(b[j]));
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({row[j] + 1, row[j + 1] + 1, replace});
+    }
+  }
+  return row.back();
+}
+
+/// The known name nearest to a misspelt one; empty when none is near.
+template <class Names>
+std::string nearest_name(std::string_view word, Names const& known) {
+  std::string best;
+  std::size_t distance = std::max<std::size_t>(2, word.size() / 2) + 1;
+  for (std::string_view name : known)
+    if (const std::size_t d = edit_distance(word, name); d < distance) distance = d, best = name;
+  return best;
+}
+
+}  // namespace sinew

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/data_types.hpp>
+#include <sinew/core/error.hpp>
+
+#include <boost/hana/for_each.hpp>
+#include <boost/hana/tuple.hpp>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+namespace sinew {
+
+/// Values that a number may take. Numbers are finite in any case.
+struct Range {
+  double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
+  bool openLow = false, openHigh = false;
+
+  constexpr bool contains(double value) const {
+    return (openLow ? value > low : value >= low) && (openHigh ? value < high : value <= high);
+  }
+};
+
+namespace range {
+inline constexpr Range any{}, positive{.low = 0, .openLow = true}, nonNegative{.low = 0};
+constexpr Range atLeast(double low) { return {.low = low}; }
+constexpr Range open(double low, double high) { return {low, high, true, true}; }
+constexpr Range halfOpen(double low, double high) { return {low, high, false, true}; }
+constexpr Range closed(double low, double high) { return {low, high, false, false}; }
+}  // namespace range
+
+/// One value of a component that its user may set: the single declaration from which range checks, messages,
+/// scene files and reference pages are made. The default is what a default-constructed component holds.
+template <class Owner, class T>
+struct Field {
+  std::string_view name;
+  T Owner::*member;
+  std::string_view unit;
+  std::string_view documentation;
+  Range range;
+};
+
+template <class Owner, class T>
+constexpr Field<Owner, T> field(std::string_view name, T Owner::*member, std::string_view unit,
+                                std::string_view documentation, Range range = range::any) {
+  return {name, member, unit, documentation, range};
+}
+
+template <class... F>
+constexpr auto field_list(F... fields) {
+  return boost::hana::make_tuple(fields...);
+}
+
+template <class T>
+concept HasFields = requires { T::fields(); };
+
+/// f(field, value) for each field of a component or of a struct that is the value of one.
+template <class T, class F>
+constexpr void for_each_field(T& owner, F&& f) {
+  boost::hana::for_each(std::remove_const_t<T>::fields(), [&](auto const& fd) { f(fd, owner.*fd.member); });
+}
+
+/// "TetrahedronFEMForceField<Vec3d>".
+template <class C>
+std::string component_name() {
+  std::string name(C::className);
+  if constexpr (requires { typename C::In; typename C::Out; })
+    name += text('<', data_types_name<typename C::In>::value, ", ", data_types_name<typename C::Out>::value, '>');
+  else if constexpr (requires { typename C::DataTypes; })
+    name += text('<', data_types_name<typename C::DataTypes>::value, '>');
+  return name;
+}
+
+namespace detail {
+
+inline std::string range_text(Range r) {
+  const bool low = std::isfinite(r.low), high = std::isfinite(r.high);
+  std::string words;
+  if (low) words += text(r.openLow ? "greater than " : "at least ", r.low);
+  if (low && high) words += " and ";
+  if (high) words += text(r.openHigh ? "less than " : "at most ", r.high);
+  return words;
+}
+
+/// The first number inside a field's value that `bad` refuses, with the place where it stands ("[3].length").
+struct BadNumber {
+  bool found = false;
+  double value = 0;
+  std::string place{};
+};
+
+template <class T, class Bad>
+BadNumber find_number(T const& value, Bad const& bad) {
+  if constexpr (std::is_same_v<T, bool> || std::is_enum_v<T> || std::is_convertible_v<T, std::string_view>) {
+    return {};
+  } else if constexpr (std::is_arithmetic_v<T>) {
+    return {bad(double(value)), double(value), {}};
+  } else if constexpr (requires { value.has_value(); *value; }) {
+    return value ? find_number(*value, bad) : BadNumber{};
+  } else if constexpr (HasFields<T>) {
+    BadNumber first;
+    for_each_field(value, [&](auto const& fd, auto const& v) {
+      if (first.found) return;
+      first = find_number(v, [&](double d) { return bad(d) || !fd.range.contains(d); });
+      if (first.found) first.place = text('.', fd.name, first.place);
+    });
+    return first;
+  } else if constexpr (requires { value.center; value.orientation; }) {
+    BadNumber first = find_number(value.center, bad);
+    if (!first.found) first = find_number(value.orientation, bad);
+    return first;
+  } else if constexpr (requires { value.coeffs(); } && !requires { value.rows(); }) {
+    return find_number(value.coeffs().eval(), bad);
+  } else if constexpr (requires { value.rows(); value.coeff(0); }) {
+    for (Eigen::Index i = 0; i < value.size(); ++i)
+      if (bad(double(value.coeff(i)))) return {true, double(value.coeff(i)), {}};
+    return {};
+  } else if constexpr (requires { value.begin(); value.end(); }) {
+    std::size_t i = 0;
+    for (auto const& v : value) {
+      if (BadNumber b = find_number(v, bad); b.found) return {true, b.value, text('[', i, ']', b.place)};
+      ++i;
+    }
+    return {};
+  } else {
+    return {};
+  }
+}
+
+}  // namespace detail
+
+/// Throws Error unless every field of `component` is finite and in its declared range.
+template <class C>
+void check_fields(C const& component, std::string_view where) {
+  for_each_field(component, [&](auto const& fd, auto const& value) {
+    const auto bad = detail::find_number(value, [&](double d) { return !std::isfinite(d) || !fd.range.contains(d); });
+    if (!bad.found) return;
+    const std::string expected = detail::range_text(fd.range);
+    throw Error(where, text(component_name<C>(), ": ", fd.name, bad.place, " is ", bad.value, fd.unit.empty() ? "" : " ",
+                            fd.unit, ", but must be a finite number", expected.empty() ? "" : ", ", expected, " (",
+                            fd.documentation, "); correct this value"));
+  });
+}
+
+}  // namespace sinew

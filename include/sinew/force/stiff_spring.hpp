@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/component.hpp>
+#include <sinew/core/element_driver.hpp>
+#include <sinew/core/ends.hpp>
+
+#include <optional>
+#include <vector>
+
+namespace sinew {
+
+/// Linear spring with damping between two points.
+///   E = k/2 (l - L)^2,  l = |d|,  d = x1 - x0                                          [J]
+///   f0 = -f1 = F u,  F = k (l - L) + c d'.u,  u = d/l                                  [N]
+///   df0/dx1 = F/l (I - u u') + k u u',  df0/dv1 = c u u'
+/// The change of the damping force with u is left out of the tangent, which keeps it symmetric. Two points in one
+/// place have no direction, and no force.
+template <class D>
+struct SpringLaw {
+  using Real = typename D::Real;
+  using Coord = typename D::Coord;
+  using Deriv = typename D::Deriv;
+  static constexpr int arity = 2;
+  static constexpr bool usesVelocity = true;
+
+  struct Rest {
+    Real stiffness, damping, length;
+  };
+  struct Tangent {
+    Deriv direction;
+    Real tension;  // F/l
+  };
+
+  SINEW_HD Real energy(Rest const& rest, Coord const (&x)[2]) const {
+    using std::sqrt, sinew::sqrt;
+    const Real stretch = sqrt((x[1] - x[0]).squaredNorm()) - rest.length;
+    return Real(0.5) * rest.stiffness * stretch * stretch;
+  }
+
+  SINEW_HD void force(Rest const& rest, Coord const (&x)[2], Deriv const (&v)[2], Deriv (&f)[2], Tangent& tangent) const {
+    using std::sqrt, sinew::sqrt;
+    const Deriv d = x[1] - x[0];
+    const Real length = sqrt(d.squaredNorm());
+    const auto apart = length > Real(1e-9) * rest.length + Real(std::numeric_limits<lane_scalar<Real>>::min());
+    const Real inverse = select(apart, Real(1) / length, Real(0));
+    tangent.direction = d * inverse;
+    const Real force =
+        rest.stiffness * (length - rest.length) + rest.damping * (v[1] - v[0]).dot(tangent.direction);
+    tangent.tension = force * inverse;
+    f[0] = tangent.direction * force;
+    f[1] = -f[0];
+  }
+
+  SINEW_HD void dforce(Rest const& rest, Tangent const& tangent, Deriv const (&dx)[2], Deriv (&df)[2], Real k,
+                       Real b) const {
+    const Deriv d = dx[1] - dx[0];
+    const Real along = d.dot(tangent.direction);
+    df[0] = d * (k * tangent.tension) + tangent.direction * (axial(rest, tangent, k, b) * along);
+    df[1] = -df[0];
+  }
+
+  SINEW_INLINE Mat<Real, D::size> block(Rest const& rest, Tangent const& tangent, int i, int j, Real k, Real b) const {
+    const Real sign(i == j ? -1 : 1);
+    const Real diagonal = sign * k * tangent.tension, axis = sign * axial(rest, tangent, k, b);
+    Mat<Real, D::size> block;
+    for (int c = 0; c < D::size; ++c)
+      for (int r = 0; r < D::size; ++r) {
+        block(r, c) = axis * tangent.direction[r] * tangent.direction[c];
+        if (r == c) block(r, c) += diagonal;
+      }
+    return block;
+  }
+
+ private:
+  SINEW_INLINE static Real axial(Rest const& rest, Tangent const& tangent, Real k, Real b) {
+    return k * (rest.stiffness - tangent.tension) + b * rest.damping;
+  }
+};
+
+/// One spring of a StiffSpringForceField.
+struct Spring {
+  int first = 0, second = 0;
+  double stiffness = 100, damping = 0;
+  std::optional<double> length{};
+
+  static constexpr auto fields() {
+    return field_list(
+        field("first", &Spring::first, "", "point at the first end", range::nonNegative),
+        field("second", &Spring::second, "", "point at the second end", range::nonNegative),
+        field("stiffness", &Spring::stiffness, "N/m", "force per extension", range::nonNegative),
+        field("damping", &Spring::damping, "N s/m", "force per rate of extension", range::nonNegative),
+        field("length", &Spring::length, "m", "length without force; that of the rest positions when not given",
+              range::nonNegative));
+  }
+};
+
+/// Springs inside one body (`E` = Within), or between the states at two paths (`E` = Between<"a", "b/c">, at a common
+/// ancestor; `first` then counts points of the first).
+template <class D, class E = Within>
+struct StiffSpringForceField {
+  using Ends = E;
+  static constexpr bool between = !std::is_same_v<E, Within>;
+  using Role = std::conditional_t<between, role::InteractionForceField, role::ForceField>;
+  using DataTypes = D;
+  using Real = typename D::Real;
+  using VecCoord = typename D::VecCoord;
+  using VecDeriv = typename D::VecDeriv;
+  static constexpr std::string_view className = "StiffSpringForceField";
+
+  std::vector<Spring> springs{};
+
+  static constexpr auto fields() {
+    return field_list(field("springs", &StiffSpringForceField::springs, "",
+                            "the springs: two points, stiffness, damping, length"));
+  }
+
+  using Driver = ElementDriver<SpringLaw, D>;
+  using Law = typename Driver::Law;
+  Driver driver{};
+
+  void init(InitContext<D> const& context) { init(context, context); }
+  void init(InitContext<D> const& a, InitContext<D> const& b) {
+    std::vector<typename Driver::Indices> ends;
+    std::vector<typename Driver::Rest> rest;
+    for (std::size_t s = 0; s < springs.size(); ++s) {
+      Spring const& spring = springs[s];
+      auto check = [&](InitContext<D> const& end, int i) {
+        if (std::size_t(i) >= end.rest.size())
+          throw Error(a.where, text(component_name<StiffSpringForceField>(), ": springs[", s, "] refers to point ", i,
+                                    " of ", end.where, ", which has ", end.rest.size(),
+                                    " points, numbered from 0; correct the index"));
+      };
+      check(a, spring.first);
+      check(b, spring.second);
+      if (!between && spring.first == spring.second)
+        throw Error(a.where, text(component_name<StiffSpringForceField>(), ": springs[", s, "] joins point ",
+                                  spring.first, " to itself; give two points"));
+      const Real length = spring.length ? Real(*spring.length)
+                                        : (b.rest[std::size_t(spring.second)] - a.rest[std::size_t(spring.first)]).norm();
+      ends.push_back({spring.first, spring.second});
+      rest.push_back({Real(spring.stiffness), Real(spring.damping), length});
+    }
+    driver.init(ends, rest);
+  }
+
+  void addForce(MechanicalParams const&, VecDeriv& f, VecCoord const& x, VecDeriv const& v) {
+    driver.addForce(Law{}, f, x, v);
+  }
+  void addDForce(MechanicalParams const& p, VecDeriv& df, VecDeriv const& dx) const {
+    driver.addDForce(Law{}, df, dx, Real(p.k), Real(p.b));
+  }
+  double potentialEnergy(VecCoord const& x) const { return driver.energy(Law{}, x); }
+
+  void addForce(MechanicalParams const&, VecDeriv& f0, VecDeriv& f1, VecCoord const& x0, VecCoord const& x1,
+                VecDeriv const& v0, VecDeriv const& v1) {
+    driver.addForce(Law{}, {f0.data(), f1.data()}, {x0.data(), x1.data()}, {v0.data(), v1.data()});
+  }
+  void addDForce(MechanicalParams const& p, VecDeriv& df0, VecDeriv& df1, VecDeriv const& dx0, VecDeriv const& dx1) const {
+    driver.addDForce(Law{}, {df0.data(), df1.data()}, {dx0.data(), dx1.data()}, Real(p.k), Real(p.b));
+  }
+  double potentialEnergy(VecCoord const& x0, VecCoord const& x1) const {
+    return driver.energy(Law{}, {x0.data(), x1.data()});
+  }
+
+  template <class Sink>
+  void addToMatrix(MechanicalParams const& p, Sink const& sink) {
+    if constexpr (between)
+      driver.template addToMatrix<0, 1>(Law{}, sink, Real(p.k), Real(p.b));
+    else
+      driver.addToMatrix(Law{}, sink, Real(p.k), Real(p.b));
+  }
+};
+
+}  // namespace sinew

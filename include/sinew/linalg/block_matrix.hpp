@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/data_types.hpp>
+#include <sinew/core/error.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <vector>
+
+namespace sinew {
+
+/// Symmetric sparse matrix of dense B x B blocks in compressed rows, with a pattern that is fixed at init. Between
+/// setZero() and mirror() only the blocks on and above the diagonal are added to; mirror() then fills those below.
+/// Blocks are row-major. Rows and columns are counted in scalars where a name says `dof`, in blocks otherwise.
+template <class R, int B>
+struct CompressedRowSparseMatrix {
+  using Real = R;
+  using Block = Eigen::Matrix<Real, B, B, B == 1 ? Eigen::ColMajor : Eigen::RowMajor>;
+  static constexpr int blockSize = B;
+
+  std::vector<int> rowStart{}, columns{};
+  std::vector<Real> values{};                   // B*B a block, and one more so that kernels may read past the end
+  std::vector<int> diagonal{};                  // slot of the diagonal block of each row
+  std::vector<int> mirrored{};                  // slot of the block across the diagonal, for each slot
+  std::vector<std::vector<int>> pattern{};      // block columns of each row, while the pattern is gathered
+
+  int rows() const { return rowStart.empty() ? 0 : int(rowStart.size()) - 1; }
+  int dofs() const { return rows() * B; }
+
+  void startPattern(int dofs) {
+    pattern.assign(std::size_t((dofs + B - 1) / B), {});
+    for (std::size_t i = 0; i < pattern.size(); ++i) pattern[i].push_back(int(i));
+  }
+
+  /// Announces a block of h x w scalars at (dof row, dof column), and its mirror image.
+  void announce(int row, int column, int h, int w) {
+    for (int i = row / B; i <= (row + h - 1) / B; ++i)
+      for (int j = column / B; j <= (column + w - 1) / B; ++j) {
+        insert(pattern[std::size_t(i)], j);
+        insert(pattern[std::size_t(j)], i);
+      }
+  }
+
+  void finishPattern() {
+    rowStart.assign(1, 0);
+    columns.clear();
+    for (auto& row : pattern) {
+      compact(row);
+      columns.insert(columns.end(), row.begin(), row.end());
+      rowStart.push_back(int(columns.size()));
+    }
+    pattern = {};
+    values.assign(columns.size() * B * B + 1, Real(0));
+    diagonal.resize(std::size_t(rows()));
+    mirrored.resize(columns.size());
+    for (int i = 0; i < rows(); ++i)
+      for (int k = rowStart[std::size_t(i)]; k < rowStart[std::size_t(i) + 1]; ++k) {
+        mirrored[std::size_t(k)] = slot(columns[std::size_t(k)], i);
+        if (columns[std::size_t(k)] == i) diagonal[std::size_t(i)] = k;
+      }
+  }
+
+  void setZero() {
+    for (int i = 0; i < rows(); ++i) {
+      Real* const first = block(diagonal[std::size_t(i)]);
+      std::memset(first, 0, std::size_t(block(rowStart[std::size_t(i) + 1]) - first) * sizeof(Real));
+    }
+  }
+
+  void mirror() {
+    for (int i = 0; i < rows(); ++i)
+      for (int k = diagonal[std::size_t(i)] + 1; k < rowStart[std::size_t(i) + 1]; ++k) {
+        Real const* const upper = block(k);
+        Real* const lower = block(mirrored[std::size_t(k)]);
+        for (int r = 0; r < B; ++r)
+          for (int c = 0; c < B; ++c) lower[c * B + r] = upper[r * B + c];
+      }
+  }
+
+  /// Position of a block in `columns`, or -1 where the pattern has none.
+  int slot(int row, int column) const {
+    const auto first = columns.begin() + rowStart[std::size_t(row)], last = columns.begin() + rowStart[std::size_t(row) + 1];
+    const auto found = std::lower_bound(first, last, column);
+    return found != last && *found == column ? int(found - columns.begin()) : -1;
+  }
+  Real* block(int slot) { return values.data() + std::ptrdiff_t(slot) * (B * B); }
+  Real const* block(int slot) const { return values.data() + std::ptrdiff_t(slot) * (B * B); }
+
+  /// A(row.., column..) += K, in dofs; K of any fixed size. What falls below the diagonal is left to mirror().
+  template <class K>
+  void add(int row, int column, K const& k) {
+    constexpr int h = K::RowsAtCompileTime, w = K::ColsAtCompileTime;
+    for (int i = 0; i < h; ++i)
+      for (int j = 0; j < w; ++j) {
+        const int r = row + i, c = column + j;
+        if (r / B <= c / B) block(slot(r / B, c / B))[(r % B) * B + c % B] += Real(k(i, j));
+      }
+  }
+
+  /// Row and column `dof` become those of the identity; to be called after mirror().
+  void fix(int dof) {
+    const int r = dof / B, s = dof % B;
+    for (int k = rowStart[std::size_t(r)]; k < rowStart[std::size_t(r) + 1]; ++k) {
+      const int c = columns[std::size_t(k)];
+      Real *row = block(k), *column = block(mirrored[std::size_t(k)]);
+      for (int j = 0; j < B; ++j) row[s * B + j] = column[j * B + s] = 0;
+      if (c == r) row[s * B + s] = 1;
+    }
+  }
+
+  /// y = A x, both of dofs() scalars, with one more scalar of any value readable behind x.
+  void multiply(Real const* x, Real* y) const {
+    if constexpr (B == 3) {
+      multiply3(x, y);
+    } else {
+      for (int i = 0; i < rows(); ++i) {
+        Vec<Real, B> sum = Vec<Real, B>::Zero();
+        for (int k = rowStart[std::size_t(i)]; k < rowStart[std::size_t(i) + 1]; ++k)
+          sum.noalias() += Eigen::Map<Block const>(block(k)) * Eigen::Map<Vec<Real, B> const>(x + columns[std::size_t(k)] * B);
+        Eigen::Map<Vec<Real, B>>(y + i * B) = sum;
+      }
+    }
+  }
+
+ private:
+  // the rows are short, and the same block is announced by every element around an edge: compact before growing
+  static void insert(std::vector<int>& row, int column) {
+    if (row.size() == row.capacity() && row.size() >= 32) compact(row);
+    row.push_back(column);
+  }
+  static void compact(std::vector<int>& row) {
+    std::sort(row.begin(), row.end());
+    row.erase(std::unique(row.begin(), row.end()), row.end());
+  }
+
+  // Each row of a block is loaded as four scalars and multiplied with four of x; the fourth products, of what stands
+  // behind, gather in a lane that is never read. Two blocks at a time keep six independent sums in flight.
+  void multiply3(Real const* x, Real* y) const {
+    typedef Real Four __attribute__((vector_size(4 * sizeof(Real))));
+    typedef Real Unaligned __attribute__((vector_size(4 * sizeof(Real)), aligned(alignof(Real)), may_alias));
+    auto load = [](Real const* p) { return Four(*reinterpret_cast<Unaligned const*>(p)); };
+    auto sum = [](Four a) { return a[0] + a[1] + a[2]; };
+    const int n = rows();
+    int const* const column = columns.data();
+    for (int i = 0; i < n; ++i) {
+      Four a0{}, a1{}, a2{}, b0{}, b1{}, b2{};
+      int k = rowStart[std::size_t(i)];
+      const int end = rowStart[std::size_t(i) + 1];
+      Real const* v = block(k);
+      for (; k + 1 < end; k += 2, v += 18) {
+        const Four p = load(x + 3 * column[k]), q = load(x + 3 * column[k + 1]);
+        a0 += load(v) * p;
+        a1 += load(v + 3) * p;
+        a2 += load(v + 6) * p;
+        b0 += load(v + 9) * q;
+        b1 += load(v + 12) * q;
+        b2 += load(v + 15) * q;
+      }
+      if (k < end) {
+        const Four p = load(x + 3 * column[k]);
+        a0 += load(v) * p;
+        a1 += load(v + 3) * p;
+        a2 += load(v + 6) * p;
+      }
+      y[3 * i] = sum(a0 + b0), y[3 * i + 1] = sum(a1 + b1), y[3 * i + 2] = sum(a2 + b2);
+    }
+  }
+};
+
+using CompressedRowSparseMatrixMat3x3d = CompressedRowSparseMatrix<double, 3>;
+using CompressedRowSparseMatrixMat3x3f = CompressedRowSparseMatrix<float, 3>;
+using CompressedRowSparseMatrixd = CompressedRowSparseMatrix<double, 1>;
+using CompressedRowSparseMatrixf = CompressedRowSparseMatrix<float, 1>;
+
+}  // namespace sinew

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/component.hpp>
+
+namespace sinew {
+
+/// Each point of the child is the same point of the parent, in another precision perhaps. An empty child takes the
+/// size of its parent.
+template <class I, class O>
+struct IdentityMapping {
+  using Role = role::Mapping;
+  using In = I;
+  using Out = O;
+  static_assert(In::size == Out::size && In::rigid == Out::rigid, "IdentityMapping joins states of the same kind");
+  static constexpr std::string_view className = "IdentityMapping";
+
+  static constexpr auto fields() { return field_list(); }
+
+  void init(InitContext<In> const& parent, InitContext<Out> const& child, typename Out::VecCoord& positions) const {
+    if (positions.empty()) positions.resize(parent.rest.size());
+    if (positions.size() != parent.rest.size())
+      throw Error(text(child.where, ": ", component_name<IdentityMapping>()),
+                  text("the child has ", positions.size(), " points and its parent ", parent.rest.size(),
+                       "; give the child as many, or none"));
+  }
+
+  void apply(typename Out::VecCoord& out, typename In::VecCoord const& in) const {
+    for (std::size_t i = 0; i < in.size(); ++i) {
+      if constexpr (In::rigid) {
+        out[i].center = in[i].center.template cast<typename Out::Real>();
+        if constexpr (In::spatial == 3)
+          out[i].orientation.coeffs() = in[i].orientation.coeffs().template cast<typename Out::Real>();
+        else
+          out[i].orientation = typename Out::Real(in[i].orientation);
+      } else {
+        out[i] = in[i].template cast<typename Out::Real>();
+      }
+    }
+  }
+  void applyJ(typename Out::VecDeriv& out, typename In::VecDeriv const& in) const {
+    for (std::size_t i = 0; i < in.size(); ++i) out[i] = in[i].template cast<typename Out::Real>();
+  }
+  void applyJT(typename In::VecDeriv& in, typename Out::VecDeriv const& out) const {
+    for (std::size_t i = 0; i < in.size(); ++i) in[i] += out[i].template cast<typename In::Real>();
+  }
+  template <class F>
+  void forEachJacobianBlock(int point, F&& f) const {
+    f(point, Mat<typename Out::Real, Out::size>(Mat<typename Out::Real, Out::size>::Identity()));
+  }
+};
+
+}  // namespace sinew

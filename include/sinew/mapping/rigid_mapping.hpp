@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/component.hpp>
+
+#include <vector>
+
+namespace sinew {
+
+/// Points carried by rigid bodies:
+///   x = c + r,  r = R p      v = c' + w x r      f_c += f,  torque += r x f
+/// The positions given to the child are the p in body axes, or world positions with `globalToLocalCoords`. In the plane
+/// w x r = w (-r_y, r_x).
+template <class I, class O>
+struct RigidMapping {
+  using Role = role::Mapping;
+  using In = I;
+  using Out = O;
+  using Real = typename Out::Real;
+  static constexpr int N = Out::size, M = In::size;
+  static_assert(In::rigid && !Out::rigid && In::spatial == N, "RigidMapping carries points by rigid bodies of their space");
+  static constexpr std::string_view className = "RigidMapping";
+
+  std::vector<int> rigidIndices{0};
+  bool globalToLocalCoords = false;
+
+  static constexpr auto fields() {
+    return field_list(field("rigidIndexPerPoint", &RigidMapping::rigidIndices, "",
+                            "the body that carries each point; one entry for all points", range::nonNegative),
+                      field("globalToLocalCoords", &RigidMapping::globalToLocalCoords, "",
+                            "the positions of the child are given in the world, not in the body"));
+  }
+
+  typename Out::VecCoord local{};    // p
+  typename Out::VecCoord rotated{};  // r at the last apply
+
+  void init(InitContext<In> const& parent, InitContext<Out> const& child, typename Out::VecCoord& positions) {
+    const std::string where = text(child.where, ": ", component_name<RigidMapping>());
+    if (rigidIndices.size() != 1 && rigidIndices.size() != positions.size())
+      throw Error(where, text("rigidIndexPerPoint has ", rigidIndices.size(), " entries for ", positions.size(),
+                              " points; give one, or one for each point"));
+    for (const int i : rigidIndices)
+      if (std::size_t(i) >= parent.rest.size())
+        throw Error(where, text("rigidIndexPerPoint has ", i, ", but the parent has ", parent.rest.size(),
+                                " rigid bodies, numbered from 0; correct the index"));
+    local = positions;
+    if (globalToLocalCoords)
+      for (std::size_t i = 0; i < local.size(); ++i) {
+        auto const& body = parent.rest[body_of(i)];
+        local[i] = rotation(body).transpose() * (positions[i] - body.center.template cast<Real>());
+      }
+    rotated = local;
+  }
+
+  void apply(typename Out::VecCoord& out, typename In::VecCoord const& in) {
+    for (std::size_t i = 0; i < local.size(); ++i) {
+      auto const& body = in[body_of(i)];
+      rotated[i] = rotation(body) * local[i];
+      out[i] = body.center.template cast<Real>() + rotated[i];
+    }
+  }
+  void applyJ(typename Out::VecDeriv& out, typename In::VecDeriv const& in) const {
+    for (std::size_t i = 0; i < local.size(); ++i) out[i] = jacobian(i) * in[body_of(i)].template cast<Real>();
+  }
+  void applyJT(typename In::VecDeriv& in, typename Out::VecDeriv const& out) const {
+    for (std::size_t i = 0; i < local.size(); ++i)
+      in[body_of(i)] += (jacobian(i).transpose() * out[i]).template cast<typename In::Real>();
+  }
+  template <class F>
+  void forEachJacobianBlock(int point, F&& f) const {
+    f(int(body_of(std::size_t(point))), jacobian(std::size_t(point)));
+  }
+
+ private:
+  std::size_t body_of(std::size_t i) const {
+    return std::size_t(rigidIndices.size() == 1 ? rigidIndices[0] : rigidIndices[i]);
+  }
+  static Mat<Real, N> rotation(typename In::Coord const& body) {
+    if constexpr (N == 3) {
+      return body.orientation.toRotationMatrix().template cast<Real>();
+    } else {
+      const Real c = Real(std::cos(body.orientation)), s = Real(std::sin(body.orientation));
+      return (Mat<Real, 2>() << c, -s, s, c).finished();
+    }
+  }
+  // (I, -[r]x)
+  Mat<Real, N, M> jacobian(std::size_t i) const {
+    Vec<Real, N> const& r = rotated[i];
+    Mat<Real, N, M> j = Mat<Real, N, M>::Zero();
+    j.template leftCols<N>().setIdentity();
+    if constexpr (N == 3) {
+      j(0, 4) = r[2], j(0, 5) = -r[1];
+      j(1, 3) = -r[2], j(1, 5) = r[0];
+      j(2, 3) = r[1], j(2, 4) = -r[0];
+    } else {
+      j(0, 2) = -r[1], j(1, 2) = r[0];
+    }
+    return j;
+  }
+};
+
+}  // namespace sinew

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/component.hpp>
+
+#include <Eigen/LU>
+#include <vector>
+
+namespace sinew {
+
+/// Masses lumped at the points, one for all or one for each: the loops behind UniformMass and DiagonalMass.
+/// The mass of a point is a scalar, that of a rigid body also has an inertia I in body axes; R turns it to the world.
+template <class D>
+struct LumpedMass {
+  using Real = typename D::Real;
+  using Coord = typename D::Coord;
+  using Deriv = typename D::Deriv;
+  using VecCoord = typename D::VecCoord;
+  using VecDeriv = typename D::VecDeriv;
+  using MassType = typename D::MassType;
+  static constexpr int linear = D::spatial, angular = D::size - D::spatial;
+
+  std::vector<MassType> mass{}, inverse{};
+
+  void init(std::string const& where, std::vector<MassType> const& given) {
+    mass = given;
+    inverse.clear();
+    for (std::size_t i = 0; i < mass.size(); ++i) {
+      if constexpr (D::rigid) {
+        auto const& inertia = mass[i].inertia;
+        // positive definite: all leading minors positive
+        bool positive = inertia.allFinite() && inertia(0, 0) > 0 && inertia.determinant() > 0 &&
+                        (inertia - inertia.transpose()).norm() <= Real(1e-5) * inertia.norm();
+        if constexpr (angular == 3) positive = positive && inertia.template topLeftCorner<2, 2>().determinant() > 0;
+        if (!(mass[i].mass > 0) || !std::isfinite(mass[i].mass) || !positive)
+          throw Error(where, text("mass ", i, " is ", mass[i].mass,
+                                  " kg; the mass of a rigid body must be greater than 0, and its inertia symmetric and "
+                                  "positive definite"));
+        inverse.push_back({1 / mass[i].mass, inertia.inverse()});
+      } else {
+        if (!(mass[i] > 0) || !std::isfinite(mass[i]))
+          throw Error(where, text("the mass of point ", i, " is ", mass[i],
+                                  " kg, but must be greater than 0; correct it, or give the point an element or a mass"));
+        inverse.push_back(1 / mass[i]);
+      }
+    }
+  }
+
+  MassType const& at(std::size_t i) const { return mass.size() == 1 ? mass[0] : mass[i]; }
+  MassType const& inverseAt(std::size_t i) const { return inverse.size() == 1 ? inverse[0] : inverse[i]; }
+
+  /// f += m g, and the gyroscopic torque -w x (I w) of bodies that turn.
+  void addForce(MechanicalParams const& p, VecDeriv& f, VecCoord const& x, VecDeriv const& v) const {
+    const Vec<Real, linear> g = p.gravity.head<linear>().template cast<Real>();
+    for (std::size_t i = 0; i < f.size(); ++i) {
+      f[i].template head<linear>() += scalar(at(i)) * g;
+      if constexpr (angular == 3) {
+        const Vec<Real, 3> w = v[i].template tail<3>();
+        f[i].template tail<3>() -= w.cross(worldInertia(at(i), x[i]) * w);
+      }
+    }
+  }
+
+  /// f += factor M dx
+  void addMDx(VecDeriv& f, VecCoord const& x, VecDeriv const& dx, Real factor) const {
+    for (std::size_t i = 0; i < f.size(); ++i) f[i] += factor * multiply(at(i), x[i], dx[i]);
+  }
+  /// a = M^-1 f
+  void accFromF(VecDeriv& a, VecCoord const& x, VecDeriv const& f) const {
+    for (std::size_t i = 0; i < f.size(); ++i) a[i] = multiply(inverseAt(i), x[i], f[i]);
+  }
+  double kineticEnergy(VecCoord const& x, VecDeriv const& v) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < v.size(); ++i) sum += 0.5 * double(v[i].dot(multiply(at(i), x[i], v[i])));
+    return sum;
+  }
+  double totalMass(std::size_t points) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < points; ++i) sum += double(scalar(at(i)));
+    return sum;
+  }
+
+  /// The matrix gets factor M.
+  template <class Sink>
+  void addToMatrix(VecCoord const& x, Real factor, Sink const& sink) const {
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      Mat<Real, D::size> block = Mat<Real, D::size>::Zero();
+      block.template topLeftCorner<linear, linear>().diagonal().setConstant(factor * scalar(at(i)));
+      if constexpr (D::rigid)
+        block.template bottomRightCorner<angular, angular>() = factor * worldInertia(at(i), x[i]);
+      else
+        block.diagonal().setConstant(factor * at(i));
+      sink.add(int(i), int(i), block);
+    }
+  }
+
+  static Real scalar(MassType const& m) {
+    if constexpr (D::rigid)
+      return m.mass;
+    else
+      return m;
+  }
+
+ private:
+  static Deriv multiply(MassType const& m, Coord const& x, Deriv const& dx) {
+    if constexpr (D::rigid) {
+      Deriv r;
+      r.template head<linear>() = m.mass * dx.template head<linear>();
+      r.template tail<angular>() = worldInertia(m, x) * dx.template tail<angular>();
+      return r;
+    } else {
+      (void)x;
+      return m * dx;
+    }
+  }
+  static auto worldInertia(MassType const& m, Coord const& x) {
+    if constexpr (angular == 3) {
+      const Mat<Real, 3> r = x.orientation.toRotationMatrix();
+      return Mat<Real, 3>(r * m.inertia * r.transpose());
+    } else {
+      (void)x;
+      return m.inertia;
+    }
+  }
+};
+
+}  // namespace sinew

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/component.hpp>
+#include <sinew/core/ends.hpp>
+
+#include <boost/hana/at.hpp>
+#include <boost/hana/bool.hpp>
+#include <boost/hana/filter.hpp>
+#include <boost/hana/for_each.hpp>
+#include <boost/hana/tuple.hpp>
+#include <type_traits>
+#include <utility>
+
+namespace sinew {
+
+namespace hana = boost::hana;
+
+/// A component: a default-constructible class with a role, a name and fields.
+template <class C>
+concept Component = requires {
+  typename C::Role;
+  { C::className } -> std::convertible_to<std::string_view>;
+  C::fields();
+};
+
+/// A node of a typed scene: plain data, composed by node<"name">(...).
+template <FixedString Name, class Components, class Children>
+struct Node;
+
+template <FixedString Name, class... Cs, class... Ns>
+struct Node<Name, hana::tuple<Cs...>, hana::tuple<Ns...>> {
+  static constexpr auto name = Name;
+  static constexpr int childCount = int(sizeof...(Ns));
+
+  hana::tuple<Cs...> components;
+  hana::tuple<Ns...> children;
+
+  /// How many components have the role R, and where the first of them stands (-1: none).
+  template <class R>
+  static constexpr int count = (0 + ... + int(HasRole<Cs, R>));
+  template <class R>
+  static constexpr int indexOf = [] {
+    int i = 0, found = -1;
+    ((HasRole<Cs, R> && found < 0 ? void(found = i) : void(), ++i), ...);
+    return found;
+  }();
+  static constexpr int childIndex(std::string_view child) {
+    int i = 0, found = -1;
+    ((Ns::name.view() == child && found < 0 ? void(found = i) : void(), ++i), ...);
+    return found;
+  }
+  static constexpr bool childNamesDiffer() {
+    int i = 0;
+    return ((childIndex(Ns::name.view()) == i++) && ...);
+  }
+
+  template <class R>
+  auto& first() {
+    return hana::at_c<std::size_t(indexOf<R>)>(components);
+  }
+  template <class R>
+  auto const& first() const {
+    return hana::at_c<std::size_t(indexOf<R>)>(components);
+  }
+
+  /// The state, visual model, or component of class C of this node.
+  auto& state() { return first<role::State>(); }
+  auto const& state() const { return first<role::State>(); }
+  auto& visual() { return first<role::VisualModel>(); }
+  auto const& visual() const { return first<role::VisualModel>(); }
+  template <class C>
+  C& get() {
+    constexpr int i = [] {
+      int j = 0, found = -1;
+      ((std::is_same_v<Cs, C> && found < 0 ? void(found = j) : void(), ++j), ...);
+      return found;
+    }();
+    static_assert(i >= 0, "Sinew: this node has no component of the class asked for; compare it with the node<>() that made the scene.");
+    return hana::at_c<std::size_t(i)>(components);
+  }
+};
+
+template <class T>
+inline constexpr bool is_node = false;
+template <FixedString Name, class Components, class Children>
+inline constexpr bool is_node<Node<Name, Components, Children>> = true;
+
+/// Composes a node from components and child nodes, in any order; each keeps its order among its own kind.
+template <FixedString Name, class... Parts>
+auto node(Parts... parts) {
+  static_assert(((Component<Parts> || is_node<Parts>)&&...),
+                "Sinew: node<\"name\">(...) takes components and child nodes. One argument is neither: a component has "
+                "a Role, a className and fields().");
+  static_assert(Name.view().find('/') == std::string_view::npos && !Name.view().empty(),
+                "Sinew: the name of a node is not empty and has no '/', which separates names in a path.");
+  hana::tuple<Parts...> all(std::move(parts)...);
+  auto child = [](auto const& part) { return hana::bool_c<is_node<std::decay_t<decltype(part)>>>; };
+  auto component = [](auto const& part) { return hana::bool_c<!is_node<std::decay_t<decltype(part)>>>; };
+  auto components = hana::filter(std::move(all), component);  // moves out the components and leaves the children
+  auto children = hana::filter(std::move(all), child);
+  using Result = Node<Name, decltype(components), decltype(children)>;
+  static_assert(Result::childNamesDiffer(),
+                "Sinew: two children of a node have the same name; a path could not tell them apart. Rename one.");
+  return Result{std::move(components), std::move(children)};
+}
+
+}  // namespace sinew

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/component.hpp>
+#include <sinew/linalg/block_matrix.hpp>
+#include <sinew/solver/multi_vec.hpp>
+
+#include <cmath>
+#include <vector>
+
+namespace sinew {
+
+/// The matrix of a solver that never forms it: products go through the scene graph.
+struct GraphScattered {};
+
+/// Conjugate gradients (Hestenes, Stiefel 1952) from x = 0. `Matrix`: GraphScattered, or a CompressedRowSparseMatrix into
+/// which the system is assembled once a step.
+template <class Matrix = GraphScattered>
+struct CGLinearSolver {
+  using Role = role::LinearSolver;
+  static constexpr std::string_view className = "CGLinearSolver";
+  static constexpr bool matrixFree = std::is_same_v<Matrix, GraphScattered>;
+  static constexpr Auxiliary auxiliary{.derivs = matrixFree ? 3 : 0};
+
+  int iterations = 25;      // at most
+  double tolerance = 1e-5;  // ends at |b - A x| <= tolerance |b|
+  double threshold = 0;     // ends at |p.A p| <= threshold
+
+  static constexpr auto fields() {
+    using S = CGLinearSolver;
+    return field_list(
+        field("iterations", &S::iterations, "", "largest number of iterations", range::atLeast(1)),
+        field("tolerance", &S::tolerance, "", "relative residual at which to stop; 0 does all iterations", range::nonNegative),
+        field("threshold", &S::threshold, "", "smallest curvature p.A p with which to go on", range::nonNegative));
+  }
+
+  std::vector<double> residuals{};  // |b - A x| / |b| of the last solve: at the start, then after each iteration
+
+  using Vector = Eigen::Matrix<typename std::conditional_t<matrixFree, CompressedRowSparseMatrixd, Matrix>::Real, Eigen::Dynamic, 1>;
+  struct Nothing {};
+  struct Assembled {
+    Matrix matrix{};
+    Vector x{}, b{}, r{}, p{}, q{};
+  };
+  std::conditional_t<matrixFree, Nothing, Assembled> system{};
+
+  template <class Operations>
+  void init(Operations& operations) {
+    residuals.clear();
+    residuals.reserve(std::size_t(iterations) + 1);
+    if constexpr (!matrixFree) {
+      operations.initMatrix(system.matrix);
+      for (Vector* v : {&system.x, &system.b, &system.r, &system.p, &system.q}) v->setZero(system.matrix.dofs() + 1);  // the last stays 0: multiply reads it
+    }
+  }
+
+  template <class Operations>
+  void solve(Operations& operations, MatrixFactors factors, MultiVecDeriv<Operations>& x, MultiVecDeriv<Operations>& b) {
+    if constexpr (matrixFree) {
+      MultiVecDeriv r(operations), p(operations), q(operations);
+      x.clear();
+      r.eq(b);
+      p.eq(b);
+      iterate(
+          r.dot(r),
+          [&] {
+            q.clear();
+            operations.addMBKdx(q.id, p.id, factors);
+            operations.projectResponse(q.id);
+            return p.dot(q);
+          },
+          [&](double alpha) {
+            x.peq(p, alpha);
+            r.peq(q, -alpha);
+            return r.dot(r);
+          },
+          [&](double beta) {
+            p.teq(beta);
+            p.peq(r);
+          });
+    } else {
+      auto& s = system;
+      using Real = typename Matrix::Real;
+      operations.assemble(s.matrix, factors);
+      operations.gather(s.b, b.id);
+      s.x.setZero();
+      s.r = s.b;
+      s.p = s.b;
+      iterate(
+          double(s.r.squaredNorm()),
+          [&] {
+            s.matrix.multiply(s.p.data(), s.q.data());
+            return double(s.p.dot(s.q));
+          },
+          [&](double alpha) {
+            s.x += Real(alpha) * s.p;
+            s.r -= Real(alpha) * s.q;
+            return double(s.r.squaredNorm());
+          },
+          [&](double beta) { s.p = s.r + Real(beta) * s.p; });
+      operations.scatter(x.id, s.x);
+    }
+  }
+
+ private:
+  // multiply: q = A p, returns p.q;  advance: x += alpha p, r -= alpha q, returns r.r;  turn: p = r + beta p
+  template <class Multiply, class Advance, class Turn>
+  void iterate(double rho, Multiply&& multiply, Advance&& advance, Turn&& turn) {
+    const double start = rho;
+    residuals.clear();
+    residuals.push_back(1);
+    for (int i = 0; i < iterations; ++i) {
+      if (!(rho > tolerance * tolerance * start)) return;
+      const double curvature = multiply();
+      if (!(std::abs(curvature) > threshold)) return;
+      const double next = advance(rho / curvature);
+      turn(next / rho);
+      rho = next;
+      residuals.push_back(std::sqrt(rho / start));
+    }
+  }
+};
+
+}  // namespace sinew

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/component.hpp>
+#include <sinew/solver/multi_vec.hpp>
+
+namespace sinew {
+
+/// Euler's method, order 1. Symplectic: v += a dt, then x += v dt with the new velocity (Stoermer-Verlet's first order
+/// kin, energy stays bounded). Otherwise both use the old values.
+struct EulerExplicitSolver {
+  using Role = role::OdeSolver;
+  static constexpr std::string_view className = "EulerExplicitSolver";
+  static constexpr bool implicit = false;
+  static constexpr Auxiliary auxiliary{.derivs = 1};
+
+  bool symplectic = true;
+
+  static constexpr auto fields() {
+    return field_list(field("symplectic", &EulerExplicitSolver::symplectic, "", "move positions with the new velocity"));
+  }
+
+  template <class Operations>
+  void solve(Operations& operations, double dt) const {
+    MultiVecCoord pos(operations, vec_id::position);
+    MultiVecDeriv vel(operations, vec_id::velocity), force(operations, vec_id::force), acc(operations);
+    operations.computeForce(force.id, pos.id, vel.id);
+    operations.accFromF(acc.id, force.id, pos.id);
+    if (symplectic) {
+      vel.peq(acc, dt);
+      pos.peq(vel, dt);
+    } else {
+      pos.peq(vel, dt);
+      vel.peq(acc, dt);
+    }
+  }
+};
+
+}  // namespace sinew

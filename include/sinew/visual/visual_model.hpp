@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/component.hpp>
+
+#include <vector>
+
+namespace sinew {
+
+/// A surface to look at, whose vertices follow a mapping and take no part in the mechanics.
+struct VisualModel {
+  using Role = role::VisualModel;
+  using DataTypes = Vec3f;
+  using VecCoord = Vec3f::VecCoord;
+  static constexpr std::string_view className = "VisualModel";
+
+  Mesh mesh{};  // its positions are those at init
+
+  static constexpr auto fields() { return field_list(); }
+
+  VecCoord position{};
+
+  std::size_t size() const { return position.size(); }
+
+  void init(std::string const& where) {
+    check_mesh(text(where, ": VisualModel"), mesh);
+    position.clear();
+    for (auto const& p : mesh.positions) position.push_back(p.cast<float>());
+  }
+};
+
+}  // namespace sinew
