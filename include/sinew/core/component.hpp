@@ -58,6 +58,22 @@ struct MechanicalParams {
   double m = 0, b = 0, k = 0;
 };
 
+/// What a force field claims of itself (as `properties()`), and the law suite proves. The defaults are those of an
+/// elastic force between points of one body; a field that says nothing claims them all.
+struct ForceProperties {
+  bool internal = true;      // moving the body as a whole changes nothing, and the forces sum to zero
+  bool objective = true;     // the same for turning it, and torques
+  bool conservative = true;  // f = -dE/dx
+  bool exactTangent = true;  // addDForce is the derivative of addForce everywhere, not only in the undeformed body
+};
+template <class C>
+ForceProperties properties_of(C const& c) {
+  if constexpr (requires { c.properties(); })
+    return c.properties();
+  else
+    return {};
+}
+
 /// What an assembled or matrix-free system is made of: m M + b B + k K.
 struct MatrixFactors {
   double m = 0, b = 0, k = 0;

@@ -25,6 +25,11 @@ struct ConstantForceField {
                       field("forces", &F::forces, "N", "one force for all indices, or one for each"));
   }
 
+  // a constant torque in space has no energy: what it does depends on the path of the rotation
+  static constexpr ForceProperties properties() {
+    return {.internal = false, .objective = false, .conservative = !(D::rigid && D::spatial == 3)};
+  }
+
   VecCoord rest{};
 
   void init(InitContext<D> const& context) {
@@ -48,7 +53,7 @@ struct ConstantForceField {
   template <class Sink>
   void addToMatrix(MechanicalParams const&, Sink const&) const {}
 
-  /// E = -sum f.(x - x_rest)                                                             [J]
+  /// E = -sum f.(x - x_rest), torques by the rotation vector from rest                   [J]
   double potentialEnergy(VecCoord const& x) const {
     double energy = 0;
     for (std::size_t i = 0; i < indices.size(); ++i)

@@ -222,6 +222,11 @@ struct TetrahedronFEMForceField {
                       field("method", &F::method, "", "how the rotation of an element is found"));
   }
 
+  ForceProperties properties() const {
+    const bool small = method == RotationMethod::small;
+    return {.objective = !small, .conservative = small || method == RotationMethod::polar, .exactTangent = small};
+  }
+
   using Driver = ElementDriver<TetrahedronFEM, D>;
   using Law = typename Driver::Law;
   Driver driver{};

@@ -140,8 +140,8 @@ struct CompressedRowSparseMatrix {
   void multiply3(Real const* x, Real* y) const {
     typedef Real Four __attribute__((vector_size(4 * sizeof(Real))));
     typedef Real Unaligned __attribute__((vector_size(4 * sizeof(Real)), aligned(alignof(Real)), may_alias));
-    auto load = [](Real const* p) { return Four(*reinterpret_cast<Unaligned const*>(p)); };
-    auto sum = [](Four a) { return a[0] + a[1] + a[2]; };
+    auto load = [](Real const* p) -> Unaligned const& { return *reinterpret_cast<Unaligned const*>(p); };
+    auto sum = [](Four const& a) { return a[0] + a[1] + a[2]; };
     const int n = rows();
     int const* const column = columns.data();
     for (int i = 0; i < n; ++i) {

@@ -18,7 +18,7 @@ struct LumpedMass {
   using VecCoord = typename D::VecCoord;
   using VecDeriv = typename D::VecDeriv;
   using MassType = typename D::MassType;
-  static constexpr int linear = D::spatial, angular = D::size - D::spatial;
+  static constexpr int linear = D::spatial, angular = D::rigid ? D::size - D::spatial : 0;
 
   std::vector<MassType> mass{}, inverse{};
 

@@ -129,55 +129,81 @@ inline void stuff(BccLattice const& lattice, BccTetrahedron const& cell, std::ar
   }
 }
 
-/// Everything inside of the lattice, as tetrahedra in the order of the lattice; points in that order too.
-inline Mesh stuff(BccLattice const& lattice) {
-  Mesh mesh;
+/// The inside of all lattice tetrahedra, in the order of the lattice, numbered as above. `skinOnly` leaves
+/// out lattice tetrahedra that are inside with all corners, which no boundary face belongs to.
+inline std::vector<Tetrahedron> stuff(BccLattice const& lattice, bool skinOnly) {
+  std::vector<Tetrahedron> tetrahedra;
   lattice.for_inner_points([&](int p, auto const& steps) {
     if (p / (lattice.sx * lattice.sy) % 2 != 0) return;
     for (BccTetrahedron const& cell : bccTetrahedra) {
       std::array<int, 4> points{p};
-      for (std::size_t i = 1; i < 4; ++i) points[i] = p + steps[std::size_t(cell.edge[0][i])];
-      if (std::any_of(points.begin(), points.end(), [&](int i) { return lattice.label[std::size_t(i)] > 0; }))
-        stuff(lattice, cell, points, mesh.tetrahedra);
+      int inside = 0;
+      for (std::size_t i = 0; i < 4; ++i) {
+        if (i > 0) points[i] = p + steps[std::size_t(cell.edge[0][i])];
+        inside += lattice.label[std::size_t(points[i])] > 0;
+      }
+      if (inside > 0 && !(skinOnly && inside == 4)) stuff(lattice, cell, points, tetrahedra);
     }
   });
-  // a lattice point comes first, then the cut points of its edges
+  return tetrahedra;
+}
+
+/// The points that the elements use; these then refer to them. In the order of the lattice, each lattice
+/// point before the cut points of its edges.
+template <class Element>
+std::vector<Eigen::Vector3d> place_points(BccLattice const& lattice, std::vector<Element>& elements) {
   const int n = lattice.size();
+  std::vector<Eigen::Vector3d> positions;
   std::vector<Index> number(std::size_t(n) + lattice.cuts.size(), -1);
-  for (Tetrahedron const& t : mesh.tetrahedra)
-    for (const Index i : t) number[std::size_t(i)] = 0;
-  auto add = [&](int i, auto&& position) {
-    if (number[std::size_t(i)] < 0) return;
-    number[std::size_t(i)] = Index(mesh.positions.size());
-    mesh.positions.push_back(position());
+  for (Element const& element : elements)
+    for (const Index i : element) number[std::size_t(i)] = 0;
+  auto used = [&](int i) {
+    if (number[std::size_t(i)] < 0) return false;
+    number[std::size_t(i)] = Index(positions.size());
+    return true;
   };
   lattice.for_inner_points([&](int p, auto const&) {
     const int moved = lattice.snapped[std::size_t(p)];
-    add(p, [&] {
-      return moved < 0 ? lattice.lattice_position(p)
-                       : lattice.along(p, moved, lattice.cut_fraction(p, moved));
-    });
+    if (used(p))
+      positions.push_back(moved < 0 ? lattice.lattice_position(p)
+                                    : lattice.along(p, moved, lattice.cut_fraction(p, moved)));
     for (int d = 0; d < 7; ++d)
-      if (lattice.cutMask[std::size_t(p)] >> d & 1)
-        add(n + lattice.cut_number(p, d), [&] {
-          const double t = lattice.cut_fraction(p, d), alpha = bcc_alpha(d);
-          return lattice.along(p, d, std::clamp(t, alpha, 1 - alpha));
-        });
+      if ((lattice.cutMask[std::size_t(p)] >> d & 1) != 0 && used(n + lattice.cut_number(p, d))) {
+        const double alpha = bcc_alpha(d);
+        positions.push_back(lattice.along(p, d, std::clamp(lattice.cut_fraction(p, d), alpha, 1 - alpha)));
+      }
   });
-  for (Tetrahedron& t : mesh.tetrahedra)
-    for (Index& i : t) i = number[std::size_t(i)];
-  return mesh;
+  for (Element& element : elements)
+    for (Index& i : element) i = number[std::size_t(i)];
+  return positions;
 }
 
-/// The largest connected part of the body; an empty mesh when no lattice point is well inside.
+/// The lattice after its first two steps, with the largest connected part of the body only.
 template <ImplicitShape Shape>
-Mesh stuffed_mesh(std::string_view where, Shape const& shape, Eigen::Vector3d const& lo,
-                  Eigen::Vector3d const& hi, double spacing) {
+BccLattice warped_bcc_lattice(std::string_view where, Shape const& shape, Eigen::Vector3d const& lo,
+                              Eigen::Vector3d const& hi, double spacing) {
   BccLattice lattice = sample_bcc_lattice(where, shape, lo, hi, spacing);
   snap(lattice);
   unsnap_pinched(lattice);
   keep_largest_component(lattice);
-  return stuff(lattice);
+  return lattice;
+}
+
+/// The body as tetrahedra; none when no lattice point is well inside.
+template <ImplicitShape Shape>
+Mesh stuffed_mesh(std::string_view where, Shape const& shape, Eigen::Vector3d const& lo,
+                  Eigen::Vector3d const& hi, double spacing) {
+  const BccLattice lattice = warped_bcc_lattice(where, shape, lo, hi, spacing);
+  Mesh mesh;
+  mesh.tetrahedra = stuff(lattice, false);
+  mesh.positions = place_points(lattice, mesh.tetrahedra);
+  return mesh;
+}
+
+inline void check_not_empty(std::string_view where, std::size_t elements, double spacing) {
+  if (elements == 0)
+    throw Error(where, text("nothing of the shape is inside the box at a spacing of ", spacing,
+                            "; the shape must be negative inside. Check the box, or reduce the spacing"));
 }
 
 }  // namespace sinew::detail

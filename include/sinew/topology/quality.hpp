@@ -29,6 +29,7 @@ struct SurfaceQuality {
   double volume = 0;            // enclosed; positive where the triangles turn their front outwards
   int eulerCharacteristic = 0;  // points - edges + triangles: 2 for a sphere, 0 for a torus
   bool closed = false;          // every edge has two triangles, which pass it in opposite directions
+  bool manifold = false;        // closed, and the triangles around each point form a single ring
 };
 
 /// Signed volume of the tetrahedron, det(x1 - x0, x2 - x0, x3 - x0) / 6.
@@ -61,6 +62,32 @@ inline TetrahedronQuality quality(Mesh const& mesh) {
   }
   return result;
 }
+
+namespace detail {
+
+/// Whether the triangles of a closed surface form one ring around each point.
+inline bool has_single_rings(std::vector<Triangle> const& triangles, std::size_t points) {
+  const Adjacency around = elements_around(triangles, points);
+  for (std::size_t i = 0; i < points; ++i) {
+    auto follow = [&](Index from) {  // triangle (i, from, to)
+      for (const Index e : around[i]) {
+        Triangle const& t = triangles[std::size_t(e)];
+        for (std::size_t c = 0; c < 3; ++c)
+          if (t[c] == Index(i) && t[(c + 1) % 3] == from) return t[(c + 2) % 3];
+      }
+      return Index(-1);
+    };
+    if (around[i].empty()) continue;
+    Triangle const& first = triangles[std::size_t(around[i].front())];
+    const Index start = first[0] == Index(i) ? first[1] : first[1] == Index(i) ? first[2] : first[0];
+    std::size_t length = 0;
+    for (Index j = start; length <= around[i].size() && (length == 0 || j != start); ++length) j = follow(j);
+    if (length != around[i].size()) return false;
+  }
+  return true;
+}
+
+}  // namespace detail
 
 /// Extreme angles, area, enclosed volume and topology of the triangles of a mesh. Points that no triangle
 /// uses do not count. Throws Error when there are no triangles, or when one refers to a point that is
@@ -97,6 +124,7 @@ inline SurfaceQuality surface_quality(Mesh const& mesh) {
   std::sort(reversed.begin(), reversed.end());
   result.closed =
       directed == reversed && std::adjacent_find(directed.begin(), directed.end()) == directed.end();
+  result.manifold = result.closed && detail::has_single_rings(mesh.triangles, mesh.positions.size());
   result.eulerCharacteristic = int(std::count(used.begin(), used.end(), 1)) -
                                int(edges_of(mesh.triangles).size()) + int(mesh.triangles.size());
   return result;

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/error.hpp>
+#include <sinew/topology/mesh.hpp>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace sinew {
+
+namespace detail {
+
+/// Point (i, j, k) has number i + nx (j + ny k). The first and last planes lie exactly at lo and hi.
+inline Mesh grid_points(std::string_view where, int nx, int ny, int nz, Eigen::Vector3d const& lo,
+                        Eigen::Vector3d const& hi) {
+  constexpr double most = 268435456;  // 2^28
+  if (nx < 2 || ny < 2 || nz < 2)
+    throw Error(where, text("a grid of ", nx, " x ", ny, " x ", nz,
+                            " points has no cells; give at least 2 each way"));
+  if (double(nx) * ny * nz > most)
+    throw Error(where, text("a grid of ", nx, " x ", ny, " x ", nz, " points exceeds the limit of ", most,
+                            " points (2^28); make it coarser"));
+  if (!lo.allFinite() || !hi.allFinite() || !(lo.array() < hi.array()).all())
+    throw Error(where,
+                text("the box from (", lo[0], ", ", lo[1], ", ", lo[2], ") to (", hi[0], ", ", hi[1], ", ",
+                     hi[2], ") is empty; its second corner must exceed the first in x, y and z"));
+  Mesh mesh;
+  mesh.positions.reserve(std::size_t(nx) * std::size_t(ny) * std::size_t(nz));
+  const Eigen::Array3d last(nx - 1, ny - 1, nz - 1);
+  for (int k = 0; k < nz; ++k)
+    for (int j = 0; j < ny; ++j)
+      for (int i = 0; i < nx; ++i) {
+        const Eigen::Array3d t = Eigen::Array3d(i, j, k) / last;
+        mesh.positions.push_back((lo.array() * (1 - t) + hi.array() * t).matrix());
+      }
+  return mesh;
+}
+
+/// Calls body(corners, i + j + k) for each cell; corners in the order of VTK's hexahedron.
+template <class Body>
+void for_grid_cells(int nx, int ny, int nz, Body&& body) {
+  for (int k = 0; k + 1 < nz; ++k)
+    for (int j = 0; j + 1 < ny; ++j)
+      for (int i = 0; i + 1 < nx; ++i) {
+        const Index p = i + nx * (j + ny * k), up = nx * ny;
+        body(Hexahedron{p, p + 1, p + 1 + nx, p + nx, p + up, p + 1 + up, p + 1 + nx + up, p + nx + up},
+             i + j + k);
+      }
+}
+
+}  // namespace detail
+
+/// Hexahedra of a box, with nx x ny x nz points, the corners lo and hi included. x runs fastest.
+/// Throws Error when a direction has fewer than 2 points, all together more than 2^28, or the box is empty.
+inline Mesh regular_grid(int nx, int ny, int nz, Eigen::Vector3d const& lo, Eigen::Vector3d const& hi) {
+  Mesh mesh = detail::grid_points("regular_grid", nx, ny, nz, lo, hi);
+  detail::for_grid_cells(nx, ny, nz, [&](Hexahedron const& c, int) { mesh.hexahedra.push_back(c); });
+  return mesh;
+}
+
+/// The same box as positively oriented tetrahedra that match across cells: 6 a cell, all around the diagonal
+/// from its lowest to its highest corner (Kuhn 1960), or 5 a cell, a regular one in the middle, mirrored from
+/// cell to cell. Throws Error as regular_grid(), and on another number a cell.
+inline Mesh regular_grid_tetrahedra(int nx, int ny, int nz, Eigen::Vector3d const& lo,
+                                    Eigen::Vector3d const& hi, int perCell = 6) {
+  constexpr std::string_view where = "regular_grid_tetrahedra";
+  if (perCell != 5 && perCell != 6)
+    throw Error(where, text("a cell cannot be split into ", perCell, " tetrahedra; choose 5 or 6"));
+  Mesh mesh = detail::grid_points(where, nx, ny, nz, lo, hi);
+  constexpr int six[6][4] = {{0, 1, 2, 6}, {0, 2, 3, 6}, {0, 3, 7, 6},
+                             {0, 7, 4, 6}, {0, 4, 5, 6}, {0, 5, 1, 6}};
+  constexpr int five[2][5][4] = {{{0, 1, 2, 5}, {0, 2, 3, 7}, {0, 5, 7, 4}, {2, 7, 5, 6}, {0, 2, 7, 5}},
+                                 {{1, 2, 3, 6}, {0, 1, 3, 4}, {1, 6, 4, 5}, {3, 4, 6, 7}, {1, 3, 4, 6}}};
+  detail::for_grid_cells(nx, ny, nz, [&](Hexahedron const& c, int parity) {
+    auto add = [&](int const(&t)[4]) {
+      mesh.tetrahedra.push_back(
+          {c[std::size_t(t[0])], c[std::size_t(t[1])], c[std::size_t(t[2])], c[std::size_t(t[3])]});
+    };
+    if (perCell == 6) {
+      for (auto const& t : six) add(t);
+    } else {
+      for (auto const& t : five[parity % 2]) add(t);
+    }
+  });
+  return mesh;
+}
+
+/// Solid cylinder around the x, y or z axis (axis 0, 1, 2), from `lo` to `hi` on that axis, as positively
+/// oriented tetrahedra. Its cross section has `rings` concentric hexagons of triangles, stretched to circles;
+/// `layers` of them are stacked. The end planes are exactly at lo and hi, the lateral points on the radius
+/// (to rounding), so a lateral face is a chord: the volume is that of the inscribed prism, 3 n r^2 sin(pi /
+/// (3 n)) (hi - lo) for n rings. (layers + 1) (3 n (n + 1) + 1) points, 18 n^2 layers tetrahedra; points of
+/// ring 0 first, layer by layer. Throws Error when the radius or length is not positive, rings or layers < 1,
+/// axis not 0 to 2, above 2^28 points.
+inline Mesh cylinder_tetrahedra(int axis, double lo, double hi, double radius, int rings, int layers) {
+  constexpr std::string_view where = "cylinder_tetrahedra";
+  if (axis < 0 || axis > 2)
+    throw Error(where, text("axis ", axis, " does not exist; choose 0 (x), 1 (y) or 2 (z)"));
+  if (!(radius > 0) || !std::isfinite(radius))
+    throw Error(where, text("the radius is ", radius, "; it must be a positive length"));
+  if (!(lo < hi) || !std::isfinite(lo) || !std::isfinite(hi))
+    throw Error(where, text("the cylinder runs from ", lo, " to ", hi, "; the end must exceed the start"));
+  if (rings < 1 || layers < 1)
+    throw Error(where,
+                text(rings, " rings and ", layers, " layers were asked for; at least 1 of each is needed"));
+  if ((3.0 * rings * (rings + 1.0) + 1) * (layers + 1.0) > 268435456)
+    throw Error(where,
+                text(rings, " rings and ", layers, " layers need more than 2^28 points; make it coarser"));
+
+  // cross section: ring r has 6 r points, from number 3 r (r - 1) + 1 on
+  auto first = [](int r) { return r == 0 ? 0 : 3 * r * (r - 1) + 1; };
+  std::vector<Eigen::Vector2d> disk{Eigen::Vector2d::Zero()};
+  std::vector<Triangle> triangles;
+  for (int r = 1; r <= rings; ++r) {
+    auto inner = [&](int i) { return r == 1 ? 0 : first(r - 1) + i % (6 * (r - 1)); };
+    auto outer = [&](int i) { return first(r) + i % (6 * r); };
+    for (int i = 0; i < 6 * r; ++i) {
+      const double angle = std::numbers::pi * i / (3 * r), distance = radius * r / rings;
+      disk.push_back(distance * Eigen::Vector2d(std::cos(angle), std::sin(angle)));
+    }
+    for (int sector = 0; sector < 6; ++sector)
+      for (int i = 0; i < r; ++i) {
+        const int o = sector * r + i, n = sector * (r - 1) + i;
+        triangles.push_back({inner(n), outer(o), outer(o + 1)});
+        if (i + 1 < r) triangles.push_back({inner(n), outer(o + 1), inner(n + 1)});
+      }
+  }
+
+  Mesh mesh;
+  const auto points = Index(disk.size());
+  for (int k = 0; k <= layers; ++k)
+    for (Eigen::Vector2d const& p : disk) {
+      const double t = double(k) / layers;
+      Eigen::Vector3d x;
+      x[axis] = lo * (1 - t) + hi * t, x[(axis + 1) % 3] = p[0], x[(axis + 2) % 3] = p[1];
+      mesh.positions.push_back(x);
+    }
+  // a prism becomes 3 tetrahedra; each side's diagonal rises from its lower-numbered point, as seen from both
+  // sides
+  for (int k = 0; k < layers; ++k)
+    for (Triangle t : triangles) {
+      std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+      const Index down = k * points, up = down + points;
+      const auto [a, b, c] = t;
+      mesh.tetrahedra.push_back({a + down, b + down, c + down, (b < c ? c : b) + up});
+      if (b < c) {
+        mesh.tetrahedra.push_back({a + down, b + down, c + up, b + up});
+      } else {
+        mesh.tetrahedra.push_back({a + down, b + up, c + down, c + up});
+      }
+      mesh.tetrahedra.push_back({a + down, b + up, c + up, a + up});
+    }
+  return mesh;
+}
+
+}  // namespace sinew

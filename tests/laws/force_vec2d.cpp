@@ -1,0 +1,4 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "force_laws.hpp"
+
+TEST_CASE("every force field over Vec2d obeys the laws of forces") { laws::check_force_fields<sinew::Standard, sinew::Vec2d>(); }

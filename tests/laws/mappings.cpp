@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "mapping_laws.hpp"
+
+TEST_CASE("every mapping obeys the laws of mappings") {
+  int found = 0;
+  sinew::for_each_registered<sinew::Standard>([&]<class C>() {
+    if constexpr (sinew::HasRole<C, sinew::role::Mapping>) {
+      laws::MappingSuite<C>{}.run();
+      ++found;
+    }
+  });
+  CHECK(found > 0);
+}

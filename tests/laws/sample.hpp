@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+// Random bodies and random field values, from which the law suites make a sample of any component: its author writes
+// nothing for them.
+
+#include <sinew/registry.hpp>
+
+#include <random>
+
+namespace sample {
+
+using namespace sinew;
+
+struct Random {
+  std::mt19937 engine;
+  explicit Random(unsigned seed) : engine(seed) {}
+  double operator()(double low = -1, double high = 1) {
+    return low + (high - low) * (double(engine() >> 5) / double(1u << 27));
+  }
+  int index(int n) { return int(engine() % unsigned(n)); }
+};
+
+/// Points of a 3x3x3 grid, shaken, with five tetrahedra a cell.
+struct Body {
+  static constexpr int n = 27;
+  std::vector<Tetrahedron> tetrahedra;
+  std::vector<Eigen::Vector3d> points;
+
+  explicit Body(Random& random) {
+    for (int i = 0; i < n; ++i)
+      points.push_back(Eigen::Vector3d(i % 3, i / 3 % 3, i / 9) + 0.1 * Eigen::Vector3d(random(), random(), random()));
+    const int even[5][4] = {{0, 1, 2, 4}, {3, 2, 1, 7}, {5, 4, 7, 1}, {6, 7, 4, 2}, {1, 2, 4, 7}};
+    const int odd[5][4] = {{1, 3, 0, 5}, {2, 0, 3, 6}, {4, 5, 6, 0}, {7, 6, 5, 3}, {0, 3, 5, 6}};
+    for (int c = 0; c < 8; ++c) {
+      const int x = c % 2, y = c / 2 % 2, z = c / 4;
+      auto corner = [&](int k) { return (x + k % 2) + 3 * (y + k / 2 % 2) + 9 * (z + k / 4); };
+      for (auto const& t : (x + y + z) % 2 == 0 ? even : odd) {
+        Tetrahedron e{corner(t[0]), corner(t[1]), corner(t[2]), corner(t[3])};
+        Eigen::Matrix3d edges;
+        for (int k = 0; k < 3; ++k) edges.col(k) = points[std::size_t(e[std::size_t(k) + 1])] - points[std::size_t(e[0])];
+        if (edges.determinant() < 0) std::swap(e[2], e[3]);
+        tetrahedra.push_back(e);
+      }
+    }
+  }
+  TopologyView topology() const { return {.tetrahedra = tetrahedra}; }
+};
+
+template <class V>
+V vector(Random& random, double size = 1) {
+  V v;
+  for (int i = 0; i < v.size(); ++i) v[i] = typename V::Scalar(size * random());
+  return v;
+}
+
+template <class D>
+typename D::Coord coord(Random& random, double size = 1) {
+  typename D::Coord x = D::zero();
+  D::increment(x, vector<typename D::Deriv>(random, size));
+  return x;
+}
+
+/// Positions of the body's points in any DataTypes: where there are fewer coordinates, other random ones.
+template <class D>
+typename D::VecCoord positions(Body const& body, Random& random) {
+  typename D::VecCoord x;
+  for (auto const& p : body.points)
+    if constexpr (!D::rigid && D::size == 3)
+      x.push_back(p.cast<typename D::Real>());
+    else
+      x.push_back(coord<D>(random, 2));
+  return x;
+}
+
+template <class D>
+typename D::VecDeriv derivs(std::size_t n, Random& random, double size = 1) {
+  typename D::VecDeriv v(n);
+  for (auto& d : v) d = vector<typename D::Deriv>(random, size);
+  return v;
+}
+
+/// A random value of a field, in its range.
+template <class T>
+void randomise(T& value, Range range, Random& random) {
+  if constexpr (std::is_same_v<T, double> || std::is_same_v<T, float>) {
+    const double low = std::max(range.low, -2.0), high = std::min(range.high, low + 4);
+    value = T(low + (high - low) * random(0.1, 0.9));
+  } else if constexpr (std::is_same_v<T, int>) {
+    value = random.index(Body::n);
+  } else if constexpr (std::is_same_v<T, bool> || std::is_enum_v<T>) {
+  } else if constexpr (requires { value.has_value(); }) {
+    value.emplace();
+    randomise(*value, range, random);
+  } else if constexpr (HasFields<T>) {
+    for_each_field(value, [&](auto const& fd, auto& v) { randomise(v, fd.range, random); });
+  } else if constexpr (requires { value.inertia; }) {
+    value.mass = typename std::decay_t<decltype(value.mass)>(random(0.5, 2));
+    value.inertia.setRandom();
+    value.inertia = (value.inertia * value.inertia.transpose()).eval();
+    value.inertia.diagonal().array() += 1;
+  } else if constexpr (requires { value.coeff(0); }) {
+    value = vector<T>(random, 2);
+  } else if constexpr (requires { value.clear(); value.resize(1); }) {
+    using V = typename T::value_type;
+    // lists of numbers keep their single value; lists of indices and of structs become lists of seven
+    value.resize(std::is_same_v<V, int> || HasFields<V> ? 7 : 1);
+    for (auto& v : value) randomise(v, range, random);
+  }
+}
+
+/// f(component) for a random one with each value of each enum among its fields.
+template <class C, class F>
+void for_each_variant(Random& random, F&& f) {
+  C c{};
+  for_each_field(c, [&](auto const& fd, auto& value) { randomise(value, fd.range, random); });
+  if constexpr (requires { c.springs; })
+    for (auto& s : c.springs)
+      if (s.first == s.second) s.second = (s.first + 1) % Body::n;
+  bool any = false;
+  for_each_field(c, [&](auto const&, auto& value) {
+    using T = std::decay_t<decltype(value)>;
+    if constexpr (std::is_enum_v<T>) {
+      any = true;
+      for (std::size_t i = 0; i < enum_names(T{}).size(); ++i) {
+        value = T(i);
+        f(c);
+      }
+    }
+  });
+  if (!any) f(c);
+}
+
+}  // namespace sample

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "catch.hpp"
+
+#include <sinew/sinew.hpp>
+
+using namespace sinew;
+
+namespace {
+
+const Eigen::Matrix3d inertia = Eigen::Vector3d(1, 2, 3).asDiagonal();
+
+template <class Sim>
+Eigen::Vector3d angular_momentum(Sim& sim) {
+  auto const& s = sim.template at<"">().state();
+  const Eigen::Matrix3d r = s.position[0].orientation.toRotationMatrix();
+  return r * inertia * r.transpose() * s.velocity[0].template tail<3>();
+}
+
+template <class Solver>
+auto spinning(Solver solver) {
+  Vec<double, 6> v;
+  v << 0, 0, 0, 0.3, 2, 0.1;  // about the middle axis, where free rotation tumbles
+  Simulation sim{node<"root">(solver, MechanicalObject<Rigid3d>{.position = {{}}, .velocity = {v}},
+                              UniformMass<Rigid3d>{.vertexMass = RigidMass<double, 3>{2, inertia}})};
+  sim.init();
+  return sim;
+}
+
+}  // namespace
+
+TEST_CASE("a rigid body that spins free keeps its angular momentum and stays unit") {
+  auto sim = spinning(RungeKutta4Solver{});
+  const Eigen::Vector3d start = angular_momentum(sim);
+  const double energy = sim.kineticEnergy();
+  for (int i = 0; i < 2000; ++i) {
+    sim.animate(0.005);
+    REQUIRE(std::abs(sim.at<"">().state().position[0].orientation.norm() - 1) < 1e-14);
+  }
+  CHECK(sim.time() == Approx(10));
+  CHECK((angular_momentum(sim) - start).norm() < 1e-8 * start.norm());
+  CHECK(sim.kineticEnergy() == Approx(energy).epsilon(1e-8));
+  // and it did tumble: the middle axis has turned over
+  CHECK(sim.at<"">().state().velocity[0].norm() > 1);
+}
+
+TEST_CASE("rotations have the order of their solver") {
+  auto momentum_error = [](auto solver, int steps) {
+    auto sim = spinning(solver);
+    const Eigen::Vector3d start = angular_momentum(sim);
+    for (int i = 0; i < steps; ++i) sim.animate(2.0 / steps);
+    return (angular_momentum(sim) - start).norm();
+  };
+  CHECK(std::log2(momentum_error(RungeKutta4Solver{}, 50) / momentum_error(RungeKutta4Solver{}, 100)) >= 3.8);
+  CHECK(std::log2(momentum_error(RungeKutta2Solver{}, 200) / momentum_error(RungeKutta2Solver{}, 400)) >= 1.9);
+}
+
+TEST_CASE("a spinning symmetric top precesses as Euler says") {
+  // free symmetric body, I = (1, 1, 2): w_3 is constant, and (w_1, w_2) turns in body axes at (I3 - I1) / I1 w_3
+  Vec<double, 6> v;
+  v << 0, 0, 0, 1, 0, 3;
+  Simulation sim{node<"root">(
+      RungeKutta4Solver{}, MechanicalObject<Rigid3d>{.position = {{}}, .velocity = {v}},
+      UniformMass<Rigid3d>{.vertexMass = RigidMass<double, 3>{1, Eigen::Vector3d(1, 1, 2).asDiagonal().toDenseMatrix()}})};
+  sim.init();
+  const double end = 1.5;
+  for (int i = 0; i < 600; ++i) sim.animate(end / 600);
+  auto const& s = sim.at<"">().state();
+  const Eigen::Vector3d w = s.position[0].orientation.conjugate() * Eigen::Vector3d(s.velocity[0].tail<3>());
+  CHECK(w[0] == Approx(std::cos(3 * end)).margin(1e-8));
+  CHECK(w[1] == Approx(std::sin(3 * end)).margin(1e-8));
+  CHECK(w[2] == Approx(3).margin(1e-8));
+}
