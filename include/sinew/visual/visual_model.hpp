@@ -22,6 +22,13 @@ struct VisualModel {
 
   std::size_t size() const { return position.size(); }
 
+  /// The mesh with its vertices where they are now.
+  Mesh current() const {
+    Mesh now = mesh;
+    for (std::size_t i = 0; i < position.size(); ++i) now.positions[i] = position[i].cast<double>();
+    return now;
+  }
+
   void init(std::string const& where) {
     check_mesh(text(where, ": VisualModel"), mesh);
     position.clear();

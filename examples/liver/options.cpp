@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "options.hpp"
+
+#include <sinew/io/mesh_file.hpp>
+#include <sinew/topology/implicit_surface.hpp>
+#include <sinew/topology/isosurface_stuffing.hpp>
+#include <sinew/topology/surface_mesh.hpp>
+
+#include <CLI/CLI.hpp>
+
+namespace examples {
+
+bool read_options(int argc, char** argv, LiverOptions& options, int& status) {
+  CLI::App app{"A liver under gravity: corotational finite elements, implicit Euler, a smooth skin carried by "
+               "barycentric mapping. Writes a series of surfaces that ParaView opens."};
+  app.add_option("--tetrahedra", options.tetrahedra, "About how many elements to generate")->capture_default_str();
+  app.add_option("--mesh", options.mesh, "Tetrahedra from a file (.msh .vtk .vtu) in the place of the generated liver");
+  app.add_option("--young", options.youngModulus, "Young's modulus [Pa]")->capture_default_str();
+  app.add_option("--poisson", options.poissonRatio, "Poisson's ratio")->capture_default_str();
+  app.add_option("--density", options.density, "Mass density [kg/m^3] (default 1000; 1 with --mesh)");
+  app.add_option("--fixed", options.fixed, "Points held in place (default: where the liver hangs; 3 39 64 with --mesh)");
+  app.add_option("--time", options.time, "Seconds to simulate")->capture_default_str();
+  app.add_option("--dt", options.dt, "Seconds a step")->capture_default_str();
+  app.add_option("--iterations", options.iterations, "Conjugate-gradient iterations a step")->capture_default_str();
+  app.add_option("--every", options.every, "Steps from one picture to the next")->capture_default_str()->check(CLI::PositiveNumber);
+  app.add_option("--output", options.output, "Where to write: a path without extension; '' writes nothing")->capture_default_str();
+  try {
+    app.parse(argc, argv);
+  } catch (CLI::ParseError const& e) {
+    status = app.exit(e);
+    return false;
+  }
+  return true;
+}
+
+LiverBody make_body(LiverOptions& options) {
+  using namespace sinew;
+  LiverBody body;
+  if (options.mesh.empty()) {
+    const LiverShape shape;
+    body.volume = tetrahedralize_count(shape, shape.box_min(), shape.box_max(), options.tetrahedra);
+    body.skin = surface(shape, shape.box_min(), shape.box_max(), 0.006);
+    if (options.density == 0) options.density = 1000;
+    // the liver hangs from the diaphragm: the points on the upper back of the right lobe
+    if (options.fixed.empty())
+      for (std::size_t i = 0; i < body.volume.positions.size(); ++i)
+        if (auto const& p = body.volume.positions[i]; p.y() > 0.035 && p.z() < 0) options.fixed.push_back(int(i));
+  } else {
+    body.volume = io::read_mesh(options.mesh);
+    if (body.volume.tetrahedra.empty())
+      throw Error(options.mesh, "the file has no tetrahedra; the liver needs a volume mesh, not a surface");
+    body.skin = boundary_surface(body.volume);
+    if (options.density == 0) options.density = 1;
+    if (options.fixed.empty()) options.fixed = {3, 39, 64};
+  }
+  return body;
+}
+
+}  // namespace examples
