@@ -15,8 +15,10 @@ int main(int argc, char** argv) try {
   const examples::LiverBody body = examples::make_body(options);
   auto sim = examples::liver_scene(body, options);
   sim.init();
-  std::printf("liver: %zu points, %zu tetrahedra, skin of %zu vertices\n", body.volume.positions.size(),
-              body.volume.tetrahedra.size(), body.skin.positions.size());
+  std::printf("liver: %zu points, %zu tetrahedra, skin of %zu vertices\n",
+              body.volume.positions.size(),
+              body.volume.tetrahedra.size(),
+              body.skin.positions.size());
 
   std::optional<sinew::io::PvdSeries> series;
   if (!options.output.empty()) series.emplace(options.output);
@@ -35,8 +37,12 @@ int main(int argc, char** argv) try {
     if (i % options.every == 0) picture();
     progress.at(i);
   }
-  std::printf("%ld steps of %g s in %.3f s: %.0f steps/s, %.1f times real time\n", steps, options.dt, stepping.seconds(),
-              double(steps) / stepping.seconds(), double(steps) * options.dt / stepping.seconds());
+  std::printf("%ld steps of %g s in %.3f s: %.0f steps/s, %.1f times real time\n",
+              steps,
+              options.dt,
+              stepping.seconds(),
+              double(steps) / stepping.seconds(),
+              double(steps) * options.dt / stepping.seconds());
   if (series) std::printf("open %s.pvd in ParaView\n", options.output.c_str());
   return 0;
 } catch (sinew::Error const& error) {

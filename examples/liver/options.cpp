@@ -11,19 +11,27 @@
 namespace examples {
 
 bool read_options(int argc, char** argv, LiverOptions& options, int& status) {
-  CLI::App app{"A liver under gravity: corotational finite elements, implicit Euler, a smooth skin carried by "
-               "barycentric mapping. Writes a series of surfaces that ParaView opens."};
-  app.add_option("--tetrahedra", options.tetrahedra, "About how many elements to generate")->capture_default_str();
-  app.add_option("--mesh", options.mesh, "Tetrahedra from a file (.msh .vtk .vtu) in the place of the generated liver");
+  CLI::App app{
+      "A liver under gravity: corotational finite elements, implicit Euler, a smooth skin carried by "
+      "barycentric mapping. Writes a series of surfaces that ParaView opens."};
+  app.add_option("--tetrahedra", options.tetrahedra, "About how many elements to generate")
+      ->capture_default_str();
+  app.add_option(
+      "--mesh", options.mesh, "Tetrahedra from a file (.msh .vtk .vtu) in the place of the generated liver");
   app.add_option("--young", options.youngModulus, "Young's modulus [Pa]")->capture_default_str();
   app.add_option("--poisson", options.poissonRatio, "Poisson's ratio")->capture_default_str();
   app.add_option("--density", options.density, "Mass density [kg/m^3] (default 1000; 1 with --mesh)");
-  app.add_option("--fixed", options.fixed, "Points held in place (default: where the liver hangs; 3 39 64 with --mesh)");
+  app.add_option(
+      "--fixed", options.fixed, "Points held in place (default: where the liver hangs; 3 39 64 with --mesh)");
   app.add_option("--time", options.time, "Seconds to simulate")->capture_default_str();
   app.add_option("--dt", options.dt, "Seconds a step")->capture_default_str();
-  app.add_option("--iterations", options.iterations, "Conjugate-gradient iterations a step")->capture_default_str();
-  app.add_option("--every", options.every, "Steps from one picture to the next")->capture_default_str()->check(CLI::PositiveNumber);
-  app.add_option("--output", options.output, "Where to write: a path without extension; '' writes nothing")->capture_default_str();
+  app.add_option("--iterations", options.iterations, "Conjugate-gradient iterations a step")
+      ->capture_default_str();
+  app.add_option("--every", options.every, "Steps from one picture to the next")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  app.add_option("--output", options.output, "Where to write: a path without extension; '' writes nothing")
+      ->capture_default_str();
   try {
     app.parse(argc, argv);
   } catch (CLI::ParseError const& e) {
@@ -44,7 +52,8 @@ LiverBody make_body(LiverOptions& options) {
     // the liver hangs from the diaphragm: the points on the upper back of the right lobe
     if (options.fixed.empty())
       for (std::size_t i = 0; i < body.volume.positions.size(); ++i)
-        if (auto const& p = body.volume.positions[i]; p.y() > 0.035 && p.z() < 0) options.fixed.push_back(int(i));
+        if (auto const& p = body.volume.positions[i]; p.y() > 0.035 && p.z() < 0)
+          options.fixed.push_back(int(i));
   } else {
     body.volume = io::read_mesh(options.mesh);
     if (body.volume.tetrahedra.empty())

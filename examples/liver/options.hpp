@@ -23,8 +23,8 @@ struct LiverOptions {
 /// Reads the command line. False where the program should end, with `status`.
 bool read_options(int argc, char** argv, LiverOptions& options, int& status);
 
-/// The body and its skin: generated from sinew::LiverShape, or from options.mesh. Fills in density and fixed points
-/// where the options leave them open. Throws sinew::Error.
+/// The body and its skin: generated from sinew::LiverShape, or from options.mesh. Fills in density and fixed
+/// points where the options leave them open. Throws sinew::Error.
 struct LiverBody {
   sinew::Mesh volume, skin;
 };

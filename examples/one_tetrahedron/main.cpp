@@ -13,8 +13,10 @@ int main() try {
     if (i % 4 == 0) series.add(sim.time(), sim.at<"tetrahedron/skin">().visual().current());
     sim.animate(0.01);
   }
-  std::printf("one tetrahedron: %zu skin vertices followed 4 points for %.2f s; open out/one_tetrahedron.pvd\n",
-              sim.at<"tetrahedron/skin">().visual().size(), sim.time());
+  std::printf(
+      "one tetrahedron: %zu skin vertices followed 4 points for %.2f s; open out/one_tetrahedron.pvd\n",
+      sim.at<"tetrahedron/skin">().visual().size(),
+      sim.time());
   return 0;
 } catch (sinew::Error const& error) {
   std::fprintf(stderr, "one_tetrahedron: %s\n", error.what());

@@ -16,9 +16,11 @@ inline sinew::Mesh sphere(int levels) {
   for (int level = 0; level < levels; ++level) {
     std::map<Edge, Index> middles;
     auto middle = [&](Index a, Index b) {
-      const auto [found, isNew] = middles.try_emplace(Edge{std::min(a, b), std::max(a, b)}, Index(mesh.positions.size()));
+      const auto [found, isNew] =
+          middles.try_emplace(Edge{std::min(a, b), std::max(a, b)}, Index(mesh.positions.size()));
       if (isNew)
-        mesh.positions.push_back((mesh.positions[std::size_t(a)] + mesh.positions[std::size_t(b)]).normalized());
+        mesh.positions.push_back(
+            (mesh.positions[std::size_t(a)] + mesh.positions[std::size_t(b)]).normalized());
       return found->second;
     };
     std::vector<Triangle> finer;
@@ -40,15 +42,12 @@ inline auto one_tetrahedron() {
       Gravity{{0, -9.81, 0}},
       EulerImplicitSolver{.rayleighStiffness = 0.01, .rayleighMass = 0.1},
       CGLinearSolver<>{.iterations = 25, .tolerance = 1e-9},
-      node<"tetrahedron">(
-          TetrahedronTopology{{{0, 1, 2, 3}}},
-          MechanicalObject<Vec3d>{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
-          UniformMass<Vec3d>{.totalMass = 1},
-          TetrahedronFEMForceField<Vec3d>{.youngModulus = {500}, .poissonRatio = 0.3},
-          FixedConstraint<Vec3d>{.indices = {0}},
-          node<"skin">(
-              VisualModel{skin},
-              BarycentricMapping<Vec3d, Vec3f>{})))};
+      node<"tetrahedron">(TetrahedronTopology{{{0, 1, 2, 3}}},
+                          MechanicalObject<Vec3d>{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
+                          UniformMass<Vec3d>{.totalMass = 1},
+                          TetrahedronFEMForceField<Vec3d>{.youngModulus = {500}, .poissonRatio = 0.3},
+                          FixedConstraint<Vec3d>{.indices = {0}},
+                          node<"skin">(VisualModel{skin}, BarycentricMapping<Vec3d, Vec3f>{})))};
 }
 
 }  // namespace examples

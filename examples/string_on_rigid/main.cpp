@@ -25,8 +25,14 @@ void run(char const* name, Sim sim, double dt) {
     sim.animate(dt);
   }
   auto const& c = sim.template at<"brick">().state().position[0].center;
-  std::printf("%-8s dt %.4f s: after 3 s the brick is at (%.3f, %.3f, %.3f) m; open out/string_on_rigid_%s.pvd\n", name, dt,
-              c[0], c[1], c[2], name);
+  std::printf(
+      "%-8s dt %.4f s: after 3 s the brick is at (%.3f, %.3f, %.3f) m; open out/string_on_rigid_%s.pvd\n",
+      name,
+      dt,
+      c[0],
+      c[1],
+      c[2],
+      name);
 }
 
 }  // namespace
@@ -34,7 +40,10 @@ void run(char const* name, Sim sim, double dt) {
 int main() try {
   using namespace sinew;
   run("explicit", examples::string_on_rigid(EulerExplicitSolver{}), 0.0005);
-  run("implicit", examples::string_on_rigid(EulerImplicitSolver{}, CGLinearSolver<>{.iterations = 200, .tolerance = 1e-10}), 0.005);
+  run("implicit",
+      examples::string_on_rigid(EulerImplicitSolver{},
+                                CGLinearSolver<>{.iterations = 200, .tolerance = 1e-10}),
+      0.005);
   return 0;
 } catch (sinew::Error const& error) {
   std::fprintf(stderr, "string_on_rigid: %s\n", error.what());

@@ -24,7 +24,8 @@ TEST_CASE("liver: hangs in equilibrium once it has settled") {
   double fastest = 0;
   for (auto const& v : state.velocity) fastest = std::max(fastest, v.norm());
   CHECK(fastest < 1e-6);
-  // all forces at rest: elastic and weight cancel at the free points, and the fixed ones carry the weight of all
+  // all forces at rest: elastic and weight cancel at the free points, and the fixed ones carry the weight of
+  // all
   const auto scope = Scope<std::decay_t<decltype(sim.root())>, NoScope>{sim.root(), NoScope{}};
   MechanicalOperations<std::decay_t<decltype(scope)>> operations(scope);
   operations.computeForce(vec_id::force, vec_id::position, vec_id::velocity);

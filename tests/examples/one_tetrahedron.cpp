@@ -16,7 +16,8 @@ TEST_CASE("one tetrahedron: every skin vertex is the affine image of where it wa
   for (int c = 0; c < 3; ++c) f.col(c) = x[std::size_t(c) + 1] - x[0];
   CHECK((x[1] - Eigen::Vector3d(1, 0, 0)).norm() > 0.01);  // it moved
   for (std::size_t i = 0; i < before.positions.size(); ++i)
-    REQUIRE((after.positions[i] - (x[0] + f * before.positions[i])).norm() < 1e-6);  // float: 2^-24 of numbers near 1
+    REQUIRE((after.positions[i] - (x[0] + f * before.positions[i])).norm() <
+            1e-6);  // float: 2^-24 of numbers near 1
 }
 
 TEST_CASE("one tetrahedron: visual models are brought up to date when they are looked at") {

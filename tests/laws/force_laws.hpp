@@ -51,7 +51,8 @@ struct ForceSuite {
   using VecCoord = typename D::VecCoord;
   using VecDeriv = typename D::VecDeriv;
   static constexpr bool isDouble = sizeof(Real) == 8;
-  // differences over 2e-5 of values of order 1: rounding 1e-16 / 1e-5 = 1e-11, truncation 1e-10 of the third derivative
+  // differences over 2e-5 of values of order 1: rounding 1e-16 / 1e-5 = 1e-11, truncation 1e-10 of the third
+  // derivative
   static constexpr double differences = 1e-6;
   static constexpr double rounding = isDouble ? 1e-12 : 2e-4;
 
@@ -124,7 +125,8 @@ struct ForceSuite {
     const double h = 1e-5;
     for (int trial = 0; trial < 3; ++trial) {
       const VecDeriv dx = sample::derivs<D>(n, random);
-      const double slope = (c.potentialEnergy(moved(x, dx, h)) - c.potentialEnergy(moved(x, dx, -h))) / (2 * h);
+      const double slope =
+          (c.potentialEnergy(moved(x, dx, h)) - c.potentialEnergy(moved(x, dx, -h))) / (2 * h);
       const VecDeriv f = force(c, x, zero);
       CHECK(vec::dot(f, dx) == Approx(-slope).margin(differences * norm(f) * norm(dx)));
     }

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "force_laws.hpp"
 
-TEST_CASE("every force field over Rigid2d obeys the laws of forces") { laws::check_force_fields<sinew::Standard, sinew::Rigid2d>(); }
+TEST_CASE("every force field over Rigid2d obeys the laws of forces") {
+  laws::check_force_fields<sinew::Standard, sinew::Rigid2d>();
+}

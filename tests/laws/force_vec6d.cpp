@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "force_laws.hpp"
 
-TEST_CASE("every force field over Vec6d obeys the laws of forces") { laws::check_force_fields<sinew::Standard, sinew::Vec6d>(); }
+TEST_CASE("every force field over Vec6d obeys the laws of forces") {
+  laws::check_force_fields<sinew::Standard, sinew::Vec6d>();
+}

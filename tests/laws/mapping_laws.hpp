@@ -30,7 +30,9 @@ struct MappingSuite {
       typename Out::VecCoord child;
       for (std::size_t i = 0; i < points; ++i) child.push_back(sample::coord<Out>(random, 1.5));
       const typename Out::VecCoord childRest = child;
-      mapping.init(InitContext<In>{"parent", parentRest, body.topology()}, InitContext<Out>{"child", childRest, {}}, child);
+      mapping.init(InitContext<In>{"parent", parentRest, body.topology()},
+                   InitContext<Out>{"child", childRest, {}},
+                   child);
       typename In::VecCoord x = parentRest;
       vec::increment<In>(x, sample::derivs<In>(x.size(), random, 0.3), typename In::Real(1));
       mapping.apply(child, x);
@@ -66,7 +68,8 @@ struct MappingSuite {
     typename In::VecDeriv jtw(parents, In::Deriv::Zero());
     mapping.applyJ(ju, u);
     mapping.applyJT(jtw, w);
-    CHECK(vec::dot(ju, w) == Approx(vec::dot(u, jtw)).margin(rounding * double(vec::flat(ju).norm() * vec::flat(w).norm())));
+    CHECK(vec::dot(ju, w) ==
+          Approx(vec::dot(u, jtw)).margin(rounding * double(vec::flat(ju).norm() * vec::flat(w).norm())));
   }
 
   // the blocks that go into assembled matrices are those of J

@@ -18,7 +18,8 @@ void check_mass() {
   const sample::Body body{random};
   const auto x = sample::positions<D>(body, random);
   const std::size_t n = x.size();
-  const VecDeriv zero(n, D::Deriv::Zero()), u = sample::derivs<D>(n, random), w = sample::derivs<D>(n, random);
+  const VecDeriv zero(n, D::Deriv::Zero()), u = sample::derivs<D>(n, random),
+                                            w = sample::derivs<D>(n, random);
 
   C mass{};
   if constexpr (requires { mass.vertexMass.resize(n); }) {
@@ -60,7 +61,8 @@ void check_mass() {
   gravity.gravity = {1, 2, 3};
   mass.addForce(gravity, f, x, zero);
   VecDeriv falling = zero, weight = zero;
-  for (auto& d : falling) d.template head<D::spatial>() = gravity.gravity.head<D::spatial>().template cast<Real>();
+  for (auto& d : falling)
+    d.template head<D::spatial>() = gravity.gravity.head<D::spatial>().template cast<Real>();
   mass.addMDx(weight, x, falling, 1.0);
   CHECK(double((vec::flat(f) - vec::flat(weight)).norm()) <= 100 * rounding * double(vec::flat(f).norm()));
   if constexpr (D::rigid) {

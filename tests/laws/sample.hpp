@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-// Random bodies and random field values, from which the law suites make a sample of any component: its author writes
-// nothing for them.
+// Random bodies and random field values, from which the law suites make a sample of any component: its author
+// writes nothing for them.
 
 #include <sinew/registry.hpp>
 
@@ -29,7 +29,8 @@ struct Body {
 
   explicit Body(Random& random) {
     for (int i = 0; i < n; ++i)
-      points.push_back(Eigen::Vector3d(i % 3, i / 3 % 3, i / 9) + 0.1 * Eigen::Vector3d(random(), random(), random()));
+      points.push_back(Eigen::Vector3d(i % 3, i / 3 % 3, i / 9) +
+                       0.1 * Eigen::Vector3d(random(), random(), random()));
     const int even[5][4] = {{0, 1, 2, 4}, {3, 2, 1, 7}, {5, 4, 7, 1}, {6, 7, 4, 2}, {1, 2, 4, 7}};
     const int odd[5][4] = {{1, 3, 0, 5}, {2, 0, 3, 6}, {4, 5, 6, 0}, {7, 6, 5, 3}, {0, 3, 5, 6}};
     for (int c = 0; c < 8; ++c) {
@@ -38,7 +39,8 @@ struct Body {
       for (auto const& t : (x + y + z) % 2 == 0 ? even : odd) {
         Tetrahedron e{corner(t[0]), corner(t[1]), corner(t[2]), corner(t[3])};
         Eigen::Matrix3d edges;
-        for (int k = 0; k < 3; ++k) edges.col(k) = points[std::size_t(e[std::size_t(k) + 1])] - points[std::size_t(e[0])];
+        for (int k = 0; k < 3; ++k)
+          edges.col(k) = points[std::size_t(e[std::size_t(k) + 1])] - points[std::size_t(e[0])];
         if (edges.determinant() < 0) std::swap(e[2], e[3]);
         tetrahedra.push_back(e);
       }
@@ -101,7 +103,10 @@ void randomise(T& value, Range range, Random& random) {
     value.inertia.diagonal().array() += 1;
   } else if constexpr (requires { value.coeff(0); }) {
     value = vector<T>(random, 2);
-  } else if constexpr (requires { value.clear(); value.resize(1); }) {
+  } else if constexpr (requires {
+                         value.clear();
+                         value.resize(1);
+                       }) {
     using V = typename T::value_type;
     // lists of numbers keep their single value; lists of indices and of structs become lists of seven
     value.resize(std::is_same_v<V, int> || HasFields<V> ? 7 : 1);

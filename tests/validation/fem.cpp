@@ -16,9 +16,13 @@ using Matrix3d = CompressedRowSparseMatrixMat3x3d;
 
 template <class... Extra>
 auto body(Mesh const& mesh, TetrahedronFEMForceField<Vec3d> fem, EulerImplicitSolver ode, Extra... extra) {
-  return Simulation{node<"root">(ode, CGLinearSolver<Matrix3d>{.iterations = 3000, .tolerance = 1e-13},
-                                 TetrahedronTopology{mesh.tetrahedra}, MechanicalObject<Vec3d>{mesh.positions},
-                                 DiagonalMass<Vec3d>{.massDensity = 1000}, fem, extra...)};
+  return Simulation{node<"root">(ode,
+                                 CGLinearSolver<Matrix3d>{.iterations = 3000, .tolerance = 1e-13},
+                                 TetrahedronTopology{mesh.tetrahedra},
+                                 MechanicalObject<Vec3d>{mesh.positions},
+                                 DiagonalMass<Vec3d>{.massDensity = 1000},
+                                 fem,
+                                 extra...)};
 }
 
 Mesh shaken_block(int n) {  // n cells a side
@@ -26,7 +30,9 @@ Mesh shaken_block(int n) {  // n cells a side
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
     auto& p = mesh.positions[i];
     const bool inside = (p.array() > 1e-9).all() && (p.array() < 1 - 1e-9).all();
-    if (inside) p += 0.15 / n * Eigen::Vector3d(std::sin(3.0 * double(i)), std::cos(5.0 * double(i)), std::sin(7.0 * double(i)));
+    if (inside)
+      p += 0.15 / n *
+           Eigen::Vector3d(std::sin(3.0 * double(i)), std::cos(5.0 * double(i)), std::sin(7.0 * double(i)));
   }
   return mesh;
 }
@@ -45,10 +51,14 @@ TEST_CASE("patch test: points inside an affine boundary settle to the same affin
   REQUIRE(boundary.size() < mesh.positions.size());
   Eigen::Matrix3d f;
   f << 1.05, 0.02, -0.01, 0.03, 0.98, 0.02, 0.01, -0.02, 1.04;
-  // `large` takes another frame in each element, and is left out: it meets the test in the limit of small strain only
-  for (const RotationMethod method : {RotationMethod::small, RotationMethod::polar, RotationMethod::gradient}) {
-    auto sim = body(mesh, {.youngModulus = {1e4}, .poissonRatio = 0.3, .method = method},
-                    EulerImplicitSolver{.rayleighMass = 1}, FixedConstraint<Vec3d>{.indices = boundary});
+  // `large` takes another frame in each element, and is left out: it meets the test in the limit of small
+  // strain only
+  for (const RotationMethod method :
+       {RotationMethod::small, RotationMethod::polar, RotationMethod::gradient}) {
+    auto sim = body(mesh,
+                    {.youngModulus = {1e4}, .poissonRatio = 0.3, .method = method},
+                    EulerImplicitSolver{.rayleighMass = 1},
+                    FixedConstraint<Vec3d>{.indices = boundary});
     auto& state = sim.root().state();
     state.restPosition = mesh.positions;
     for (const int i : boundary) state.position[std::size_t(i)] = f * mesh.positions[std::size_t(i)];
@@ -71,17 +81,21 @@ TEST_CASE("a cylinder under traction stretches by p/E and thins by nu p/E") {
     Eigen::Vector3d x[3];
     for (std::size_t k = 0; k < 3; ++k) x[k] = mesh.positions[std::size_t(t[k])];
     for (const double end : {0.0, 2.0})
-      if (std::abs(x[0][2] - end) < 1e-12 && std::abs(x[1][2] - end) < 1e-12 && std::abs(x[2][2] - end) < 1e-12)
+      if (std::abs(x[0][2] - end) < 1e-12 && std::abs(x[1][2] - end) < 1e-12 &&
+          std::abs(x[2][2] - end) < 1e-12)
         for (const int i : t) {
           loaded.push_back(i);
-          loads.push_back(Eigen::Vector3d(0, 0, (end > 1 ? 1 : -1) * p * 0.5 * (x[1] - x[0]).cross(x[2] - x[0]).norm() / 3));
+          loads.push_back(Eigen::Vector3d(
+              0, 0, (end > 1 ? 1 : -1) * p * 0.5 * (x[1] - x[0]).cross(x[2] - x[0]).norm() / 3));
         }
   }
   REQUIRE(loaded.size() > 20);
   for (const RotationMethod method :
        {RotationMethod::small, RotationMethod::large, RotationMethod::polar, RotationMethod::gradient}) {
-    auto sim = body(mesh, {.youngModulus = {E}, .poissonRatio = nu, .method = method},
-                    EulerImplicitSolver{.rayleighMass = 1}, ConstantForceField<Vec3d>{.indices = loaded, .forces = loads});
+    auto sim = body(mesh,
+                    {.youngModulus = {E}, .poissonRatio = nu, .method = method},
+                    EulerImplicitSolver{.rayleighMass = 1},
+                    ConstantForceField<Vec3d>{.indices = loaded, .forces = loads});
     sim.init();
     for (int i = 0; i < 40; ++i) sim.animate(1);
     // lengths between pairs of points, which a drift of the free body does not change
@@ -115,7 +129,8 @@ TEST_CASE("a body settles under gravity to the solution of linear statics") {
   Eigen::VectorXd load = Eigen::VectorXd::Zero(3 * long(n));
   for (auto const& t : mesh.tetrahedra) {
     Eigen::Matrix3d edges;
-    for (int c = 0; c < 3; ++c) edges.col(c) = mesh.positions[std::size_t(t[std::size_t(c) + 1])] - mesh.positions[std::size_t(t[0])];
+    for (int c = 0; c < 3; ++c)
+      edges.col(c) = mesh.positions[std::size_t(t[std::size_t(c) + 1])] - mesh.positions[std::size_t(t[0])];
     const double volume = edges.determinant() / 6;
     Eigen::Matrix<double, 3, 4> grad;
     grad.rightCols<3>() = edges.inverse().transpose();
@@ -124,8 +139,9 @@ TEST_CASE("a body settles under gravity to the solution of linear statics") {
       load[3 * t[std::size_t(i)] + 1] -= 1000 * volume / 4 * g;
       for (int j = 0; j < 4; ++j)
         K.block<3, 3>(3 * t[std::size_t(i)], 3 * t[std::size_t(j)]) +=
-            volume * (lambda * grad.col(i) * grad.col(j).transpose() + mu * grad.col(j) * grad.col(i).transpose() +
-                      mu * grad.col(i).dot(grad.col(j)) * Eigen::Matrix3d::Identity());
+            volume *
+            (lambda * grad.col(i) * grad.col(j).transpose() + mu * grad.col(j) * grad.col(i).transpose() +
+             mu * grad.col(i).dot(grad.col(j)) * Eigen::Matrix3d::Identity());
     }
   }
   for (const int i : fixed)
@@ -137,13 +153,17 @@ TEST_CASE("a body settles under gravity to the solution of linear statics") {
     }
   const Eigen::VectorXd u = K.ldlt().solve(load);
 
-  auto sim = body(mesh, {.youngModulus = {E}, .poissonRatio = nu, .method = RotationMethod::small},
-                  EulerImplicitSolver{.rayleighMass = 1}, FixedConstraint<Vec3d>{.indices = fixed}, Gravity{{0, -g, 0}});
+  auto sim = body(mesh,
+                  {.youngModulus = {E}, .poissonRatio = nu, .method = RotationMethod::small},
+                  EulerImplicitSolver{.rayleighMass = 1},
+                  FixedConstraint<Vec3d>{.indices = fixed},
+                  Gravity{{0, -g, 0}});
   sim.init();
   for (int i = 0; i < 40; ++i) sim.animate(1);
   double error = 0;
   for (std::size_t i = 0; i < n; ++i)
-    error = std::max(error, (sim.root().state().position[i] - mesh.positions[i] - u.segment<3>(3 * long(i))).norm());
+    error = std::max(error,
+                     (sim.root().state().position[i] - mesh.positions[i] - u.segment<3>(3 * long(i))).norm());
   CHECK(u.cwiseAbs().maxCoeff() > 1e-3);
   CHECK(error < 1e-9 * u.norm());
 }
@@ -152,7 +172,8 @@ TEST_CASE("a body at rest stays at rest without gravity") {
   const Mesh mesh = shaken_block(3);
   for (const RotationMethod method :
        {RotationMethod::small, RotationMethod::large, RotationMethod::polar, RotationMethod::gradient}) {
-    auto sim = body(mesh, {.youngModulus = {3000}, .poissonRatio = 0.3, .method = method},
+    auto sim = body(mesh,
+                    {.youngModulus = {3000}, .poissonRatio = 0.3, .method = method},
                     EulerImplicitSolver{.rayleighStiffness = 0.1, .rayleighMass = 0.1});
     sim.init();
     for (int i = 0; i < 100; ++i) sim.animate(0.02);
@@ -163,12 +184,15 @@ TEST_CASE("a body at rest stays at rest without gravity") {
 
 TEST_CASE("a large rotation costs no elastic energy") {
   const Mesh mesh = shaken_block(2);
-  for (const RotationMethod method : {RotationMethod::large, RotationMethod::polar, RotationMethod::gradient}) {
-    auto sim = body(mesh, {.youngModulus = {3000}, .poissonRatio = 0.3, .method = method}, EulerImplicitSolver{});
+  for (const RotationMethod method :
+       {RotationMethod::large, RotationMethod::polar, RotationMethod::gradient}) {
+    auto sim =
+        body(mesh, {.youngModulus = {3000}, .poissonRatio = 0.3, .method = method}, EulerImplicitSolver{});
     sim.init();
     for (const double angle : {0.5, 1.6, 3.1}) {
       const Eigen::AngleAxisd turn(angle, Eigen::Vector3d(1, 2, -2) / 3);
-      for (std::size_t i = 0; i < mesh.positions.size(); ++i) sim.root().state().position[i] = turn * mesh.positions[i];
+      for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+        sim.root().state().position[i] = turn * mesh.positions[i];
       CHECK(sim.potentialEnergy() < 1e-24 * 3000);  // (rounding of the strain)^2 times the modulus
     }
   }
@@ -177,11 +201,16 @@ TEST_CASE("a large rotation costs no elastic energy") {
 TEST_CASE("momentum is constant under internal forces") {
   const Mesh mesh = shaken_block(2);
   auto run = [&](auto ode, auto... linear) {
-    auto sim = Simulation{node<"root">(ode, linear..., TetrahedronTopology{mesh.tetrahedra},
-                                       MechanicalObject<Vec3d>{mesh.positions}, UniformMass<Vec3d>{.vertexMass = 0.5},
-                                       TetrahedronFEMForceField<Vec3d>{.youngModulus = {300}, .poissonRatio = 0.3,
-                                                                       .method = RotationMethod::polar},
-                                       StiffSpringForceField<Vec3d>{.springs = {{.first = 0, .second = 20, .stiffness = 50, .damping = 1, .length = 0.1}}})};
+    auto sim = Simulation{node<"root">(
+        ode,
+        linear...,
+        TetrahedronTopology{mesh.tetrahedra},
+        MechanicalObject<Vec3d>{mesh.positions},
+        UniformMass<Vec3d>{.vertexMass = 0.5},
+        TetrahedronFEMForceField<Vec3d>{
+            .youngModulus = {300}, .poissonRatio = 0.3, .method = RotationMethod::polar},
+        StiffSpringForceField<Vec3d>{
+            .springs = {{.first = 0, .second = 20, .stiffness = 50, .damping = 1, .length = 0.1}}})};
     auto& s = sim.root().state();
     s.velocity.assign(mesh.positions.size(), Eigen::Vector3d(0.1, 0.2, 0.3));
     s.velocity[3] = {2, -1, 0};
@@ -198,12 +227,14 @@ TEST_CASE("momentum is constant under internal forces") {
     for (int i = 0; i < 200; ++i) sim.animate(0.002);
     return (momentum() - start).cwiseAbs().eval();
   };
-  // linear momentum to rounding; symplectic Euler keeps angular momentum too (forces act along the old positions,
-  // and x' = v adds nothing)
+  // linear momentum to rounding; symplectic Euler keeps angular momentum too (forces act along the old
+  // positions, and x' = v adds nothing)
   const auto explicitError = run(EulerExplicitSolver{});
   CHECK(explicitError.maxCoeff() < 1e-11);
   CHECK(run(RungeKutta4Solver{}).head<3>().maxCoeff() < 1e-11);
-  CHECK(run(EulerImplicitSolver{}, CGLinearSolver<>{.iterations = 500, .tolerance = 1e-14}).head<3>().maxCoeff() < 1e-10);
+  CHECK(run(EulerImplicitSolver{}, CGLinearSolver<>{.iterations = 500, .tolerance = 1e-14})
+            .head<3>()
+            .maxCoeff() < 1e-10);
 }
 
 TEST_CASE("matrix-free and assembled conjugate gradients agree") {
@@ -211,9 +242,13 @@ TEST_CASE("matrix-free and assembled conjugate gradients agree") {
   auto run = [&](auto cg) {
     cg.iterations = 25;
     cg.tolerance = 0;
-    Simulation sim{node<"root">(Gravity{{0, -9.81, 0}}, EulerImplicitSolver{.rayleighStiffness = 0.1, .rayleighMass = 0.1}, cg,
-                                TetrahedronTopology{mesh.tetrahedra}, MechanicalObject<Vec3d>{mesh.positions},
-                                DiagonalMass<Vec3d>{.massDensity = 1}, TetrahedronFEMForceField<Vec3d>{.youngModulus = {3000}, .poissonRatio = 0.3},
+    Simulation sim{node<"root">(Gravity{{0, -9.81, 0}},
+                                EulerImplicitSolver{.rayleighStiffness = 0.1, .rayleighMass = 0.1},
+                                cg,
+                                TetrahedronTopology{mesh.tetrahedra},
+                                MechanicalObject<Vec3d>{mesh.positions},
+                                DiagonalMass<Vec3d>{.massDensity = 1},
+                                TetrahedronFEMForceField<Vec3d>{.youngModulus = {3000}, .poissonRatio = 0.3},
                                 FixedConstraint<Vec3d>{.indices = {0, 1, 2}})};
     sim.init();
     for (int i = 0; i < 50; ++i) sim.animate(0.02);
@@ -222,7 +257,8 @@ TEST_CASE("matrix-free and assembled conjugate gradients agree") {
     CHECK(sim.root().template get<decltype(cg)>().residuals.back() < 0.1);
     return sim.root().state().position;
   };
-  const auto free = run(CGLinearSolver<>{}), assembled = run(CGLinearSolver<Matrix3d>{}), scalar = run(CGLinearSolver<CompressedRowSparseMatrixd>{});
+  const auto free = run(CGLinearSolver<>{}), assembled = run(CGLinearSolver<Matrix3d>{}),
+             scalar = run(CGLinearSolver<CompressedRowSparseMatrixd>{});
   for (std::size_t i = 0; i < free.size(); ++i) {
     CHECK((free[i] - assembled[i]).norm() < 1e-9);
     CHECK((free[i] - scalar[i]).norm() < 1e-9);

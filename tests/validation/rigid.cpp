@@ -20,7 +20,8 @@ template <class Solver>
 auto spinning(Solver solver) {
   Vec<double, 6> v;
   v << 0, 0, 0, 0.3, 2, 0.1;  // about the middle axis, where free rotation tumbles
-  Simulation sim{node<"root">(solver, MechanicalObject<Rigid3d>{.position = {{}}, .velocity = {v}},
+  Simulation sim{node<"root">(solver,
+                              MechanicalObject<Rigid3d>{.position = {{}}, .velocity = {v}},
                               UniformMass<Rigid3d>{.vertexMass = RigidMass<double, 3>{2, inertia}})};
   sim.init();
   return sim;
@@ -51,16 +52,20 @@ TEST_CASE("rotations have the order of their solver") {
     return (angular_momentum(sim) - start).norm();
   };
   CHECK(std::log2(momentum_error(RungeKutta4Solver{}, 50) / momentum_error(RungeKutta4Solver{}, 100)) >= 3.8);
-  CHECK(std::log2(momentum_error(RungeKutta2Solver{}, 200) / momentum_error(RungeKutta2Solver{}, 400)) >= 1.9);
+  CHECK(std::log2(momentum_error(RungeKutta2Solver{}, 200) / momentum_error(RungeKutta2Solver{}, 400)) >=
+        1.9);
 }
 
 TEST_CASE("a spinning symmetric top precesses as Euler says") {
-  // free symmetric body, I = (1, 1, 2): w_3 is constant, and (w_1, w_2) turns in body axes at (I3 - I1) / I1 w_3
+  // free symmetric body, I = (1, 1, 2): w_3 is constant, and (w_1, w_2) turns in body axes at (I3 - I1) / I1
+  // w_3
   Vec<double, 6> v;
   v << 0, 0, 0, 1, 0, 3;
-  Simulation sim{node<"root">(
-      RungeKutta4Solver{}, MechanicalObject<Rigid3d>{.position = {{}}, .velocity = {v}},
-      UniformMass<Rigid3d>{.vertexMass = RigidMass<double, 3>{1, Eigen::Vector3d(1, 1, 2).asDiagonal().toDenseMatrix()}})};
+  Simulation sim{
+      node<"root">(RungeKutta4Solver{},
+                   MechanicalObject<Rigid3d>{.position = {{}}, .velocity = {v}},
+                   UniformMass<Rigid3d>{.vertexMass = RigidMass<double, 3>{
+                                            1, Eigen::Vector3d(1, 1, 2).asDiagonal().toDenseMatrix()}})};
   sim.init();
   const double end = 1.5;
   for (int i = 0; i < 600; ++i) sim.animate(end / 600);

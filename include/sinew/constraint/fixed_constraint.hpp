@@ -18,7 +18,8 @@ struct FixedConstraint {
   std::vector<int> indices{};
 
   static constexpr auto fields() {
-    return field_list(field("indices", &FixedConstraint::indices, "", "points held in place", range::nonNegative));
+    return field_list(
+        field("indices", &FixedConstraint::indices, "", "points held in place", range::nonNegative));
   }
 
   void init(InitContext<D> const& context) {

@@ -7,8 +7,9 @@
 
 namespace sinew {
 
-/// The three traversals in which components meet the matrix of a solver: `pattern` and `bind` once at init, `add` in
-/// each step. Components call the same `add` in all of them; drivers find the places of their blocks in `bind`.
+/// The three traversals in which components meet the matrix of a solver: `pattern` and `bind` once at init,
+/// `add` in each step. Components call the same `add` in all of them; drivers find the places of their blocks
+/// in `bind`.
 enum class AssemblyPhase { pattern, bind, add };
 
 /// Jacobian of degrees of freedom that are the system's own.
@@ -48,8 +49,8 @@ struct MappedDofs {
   }
 };
 
-/// Adds element blocks K between points i and j to A as J_i' K J_j. `A` and `B` are the degrees of freedom of the
-/// two ends of an interaction; one body has the same twice.
+/// Adds element blocks K between points i and j to A as J_i' K J_j. `A` and `B` are the degrees of freedom of
+/// the two ends of an interaction; one body has the same twice.
 template <AssemblyPhase Phase, class Matrix, class A, class B = A>
 struct MatrixSink {
   static constexpr AssemblyPhase phase = Phase;

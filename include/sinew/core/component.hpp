@@ -15,10 +15,10 @@ namespace sinew {
 /// What a component is in its node. A component names its role (`using Role = role::Mass;`) and fulfils the
 /// concept of the same name below; it has no base class and knows no other component.
 namespace role {
-struct Context;               // a value inherited by the subtree, such as Gravity
-struct Topology;              // elements over the points of the node's state
-struct State;                 // degrees of freedom
-struct VisualModel;           // positions that follow by a mapping and take no part in mechanics
+struct Context;      // a value inherited by the subtree, such as Gravity
+struct Topology;     // elements over the points of the node's state
+struct State;        // degrees of freedom
+struct VisualModel;  // positions that follow by a mapping and take no part in mechanics
 struct Mass;
 struct ForceField;
 struct InteractionForceField;
@@ -26,7 +26,7 @@ struct ProjectiveConstraint;
 struct Mapping;
 struct OdeSolver;
 struct LinearSolver;
-struct StepCallback;          // called at the end of each step
+struct StepCallback;  // called at the end of each step
 }  // namespace role
 
 template <class C, class R>
@@ -41,8 +41,8 @@ struct TopologyView {
   std::span<Hexahedron const> hexahedra{};
 };
 
-/// What a component of a node is given at init: where it stands (for messages), the rest positions of the node's
-/// state, and the nearest topology.
+/// What a component of a node is given at init: where it stands (for messages), the rest positions of the
+/// node's state, and the nearest topology.
 template <class D>
 struct InitContext {
   std::string where;
@@ -58,13 +58,14 @@ struct MechanicalParams {
   double m = 0, b = 0, k = 0;
 };
 
-/// What a force field claims of itself (as `properties()`), and the law suite proves. The defaults are those of an
-/// elastic force between points of one body; a field that says nothing claims them all.
+/// What a force field claims of itself (as `properties()`), and the law suite proves. The defaults are those
+/// of an elastic force between points of one body; a field that says nothing claims them all.
 struct ForceProperties {
   bool internal = true;      // moving the body as a whole changes nothing, and the forces sum to zero
   bool objective = true;     // the same for turning it, and torques
   bool conservative = true;  // f = -dE/dx
-  bool exactTangent = true;  // addDForce is the derivative of addForce everywhere, not only in the undeformed body
+  bool exactTangent =
+      true;  // addDForce is the derivative of addForce everywhere, not only in the undeformed body
 };
 template <class C>
 ForceProperties properties_of(C const& c) {
@@ -91,51 +92,49 @@ concept State = HasRole<C, role::State> && requires(C s, CoordId x, DerivId v) {
 
 template <class C, class D = typename C::DataTypes>
 concept Mass = HasRole<C, role::Mass> &&
-               requires(C m, InitContext<D> c, MechanicalParams p, typename D::VecDeriv f, typename D::VecCoord x) {
-                 m.init(c);
-                 m.addForce(p, f, x, f);  // weight, and gyroscopic forces of rigids
-                 m.addMDx(f, x, f, 1.0);  // f += factor M dx
-                 m.accFromF(f, x, f);     // a = M^-1 f
-                 { m.kineticEnergy(x, f) } -> std::convertible_to<double>;
-               };
+    requires(C m, InitContext<D> c, MechanicalParams p, typename D::VecDeriv f, typename D::VecCoord x) {
+  m.init(c);
+  m.addForce(p, f, x, f);  // weight, and gyroscopic forces of rigids
+  m.addMDx(f, x, f, 1.0);  // f += factor M dx
+  m.accFromF(f, x, f);     // a = M^-1 f
+  { m.kineticEnergy(x, f) } -> std::convertible_to<double>;
+};
 
 template <class C, class D = typename C::DataTypes>
-concept ForceField =
-    HasRole<C, role::ForceField> &&
+concept ForceField = HasRole<C, role::ForceField> &&
     requires(C ff, InitContext<D> c, MechanicalParams p, typename D::VecDeriv f, typename D::VecCoord x) {
-      ff.init(c);
-      ff.addForce(p, f, x, f);
-      ff.addDForce(p, f, f);  // df += (k K + b B) dx at the last addForce
-      { ff.potentialEnergy(x) } -> std::convertible_to<double>;
-    };
+  ff.init(c);
+  ff.addForce(p, f, x, f);
+  ff.addDForce(p, f, f);  // df += (k K + b B) dx at the last addForce
+  { ff.potentialEnergy(x) } -> std::convertible_to<double>;
+};
 
 template <class C, class D = typename C::DataTypes>
-concept InteractionForceField =
-    HasRole<C, role::InteractionForceField> &&
+concept InteractionForceField = HasRole<C, role::InteractionForceField> &&
     requires(C ff, InitContext<D> c, MechanicalParams p, typename D::VecDeriv f, typename D::VecCoord x) {
-      typename C::Ends;
-      ff.init(c, c);
-      ff.addForce(p, f, f, x, x, f, f);
-      ff.addDForce(p, f, f, f, f);
-      { ff.potentialEnergy(x, x) } -> std::convertible_to<double>;
-    };
+  typename C::Ends;
+  ff.init(c, c);
+  ff.addForce(p, f, f, x, x, f, f);
+  ff.addDForce(p, f, f, f, f);
+  { ff.potentialEnergy(x, x) } -> std::convertible_to<double>;
+};
 
 template <class C, class D = typename C::DataTypes>
-concept ProjectiveConstraint =
-    HasRole<C, role::ProjectiveConstraint> && requires(C pc, InitContext<D> c, typename D::VecDeriv dx) {
-      pc.init(c);
-      pc.projectResponse(dx);  // remove forbidden displacements
-    };
+concept ProjectiveConstraint = HasRole<C, role::ProjectiveConstraint> &&
+    requires(C pc, InitContext<D> c, typename D::VecDeriv dx) {
+  pc.init(c);
+  pc.projectResponse(dx);  // remove forbidden displacements
+};
 
 template <class C, class In = typename C::In, class Out = typename C::Out>
 concept Mapping = HasRole<C, role::Mapping> &&
-                  requires(C m, InitContext<In> parent, InitContext<Out> child, typename In::VecCoord xi,
-                           typename In::VecDeriv vi, typename Out::VecCoord xo, typename Out::VecDeriv vo) {
-                    m.init(parent, child, xo);  // may fill an empty child
-                    m.apply(xo, xi);
-                    m.applyJ(vo, vi);   // vo = J vi at the last apply
-                    m.applyJT(vi, vo);  // vi += J' vo
-                  };
+    requires(C m, InitContext<In> parent, InitContext<Out> child, typename In::VecCoord xi,
+             typename In::VecDeriv vi, typename Out::VecCoord xo, typename Out::VecDeriv vo) {
+  m.init(parent, child, xo);  // may fill an empty child
+  m.apply(xo, xi);
+  m.applyJ(vo, vi);   // vo = J vi at the last apply
+  m.applyJT(vi, vo);  // vi += J' vo
+};
 
 template <class C>
 concept OdeSolver = HasRole<C, role::OdeSolver> && requires {

@@ -18,8 +18,8 @@ using Mat = Eigen::Matrix<Real, R, C>;
 template <class Real>
 using Quat = Eigen::Quaternion<Real, Eigen::DontAlign>;
 
-/// Position of a rigid body: centre [m] and unit quaternion from body to world axes. In the plane the quaternion
-/// is replaced by the angle [rad].
+/// Position of a rigid body: centre [m] and unit quaternion from body to world axes. In the plane the
+/// quaternion is replaced by the angle [rad].
 template <class Real>
 struct RigidCoord3 {
   Vec<Real, 3> center{Real(0), Real(0), Real(0)};
@@ -35,7 +35,8 @@ struct RigidCoord2 {
   bool operator==(RigidCoord2 const&) const = default;
 };
 
-/// Mass of a rigid body: mass [kg], and inertia about the centre in body axes [kg m^2] (a scalar in the plane).
+/// Mass of a rigid body: mass [kg], and inertia about the centre in body axes [kg m^2] (a scalar in the
+/// plane).
 template <class Real, int Dim>
 struct RigidMass {
   using Inertia = Mat<Real, Dim == 3 ? 3 : 1>;
@@ -139,7 +140,8 @@ struct RigidTypes<2, R> {
     x.orientation += dx[2];
   }
   static Deriv difference(Coord const& from, Coord const& to) {
-    return Deriv(to.center[0] - from.center[0], to.center[1] - from.center[1], to.orientation - from.orientation);
+    return Deriv(to.center[0] - from.center[0], to.center[1] - from.center[1],
+                 to.orientation - from.orientation);
   }
   static Deriv chart_rate(Deriv const&, Deriv const& v) { return v; }
   static bool finite(Coord const& x) { return x.center.allFinite() && std::isfinite(x.orientation); }

@@ -10,13 +10,14 @@
 
 namespace sinew {
 
-/// Runs an element law over all elements of a body on one core: packs W elements into lanes, gathers their points,
-/// calls the law, scatters what it returns. `Law<D>` knows one element and offers
+/// Runs an element law over all elements of a body on one core: packs W elements into lanes, gathers their
+/// points, calls the law, scatters what it returns. `Law<D>` knows one element and offers
 ///   arity, usesVelocity              how many points it has; whether force reads v
 ///   Rest, Tangent                    what force needs; what dforce and block need of the last force
 ///   energy, force, dforce, block     see StiffSpring and TetrahedronFEM for their arguments
 /// The tangent is symmetric: block(j, i) = block(i, j)', and only i <= j is asked for.
-/// `Rest` holds nothing but scalars (or Eigen objects of them), so that W of them interleave into one of lanes.
+/// `Rest` holds nothing but scalars (or Eigen objects of them), so that W of them interleave into one of
+/// lanes.
 template <template <class> class LawOf, class D, int W = native_width<typename D::Real>>
 struct ElementDriver {
   using Real = typename D::Real;
@@ -29,7 +30,8 @@ struct ElementDriver {
   static constexpr int arity = Law::arity;
   static constexpr int pairs = arity * (arity + 1) / 2;
   using Indices = std::array<int, arity>;
-  using Coords = std::array<Coord const*, arity>;  // first point of the state that each end of an element lives on
+  using Coords =
+      std::array<Coord const*, arity>;  // first point of the state that each end of an element lives on
   using ConstDerivs = std::array<Deriv const*, arity>;
   using Derivs = std::array<Deriv*, arity>;
 
@@ -39,8 +41,8 @@ struct ElementDriver {
     int index[arity][W];
     int active;
   };
-  // where the blocks of a pack stand in the matrix of the solver: slot of the one on or above the diagonal, and whether it
-  // is the transpose of the law's block(i, j)
+  // where the blocks of a pack stand in the matrix of the solver: slot of the one on or above the diagonal,
+  // and whether it is the transpose of the law's block(i, j)
   struct Slots {
     int slot[pairs][W];
     typename lane_mask<L>::type transposed[pairs];
@@ -50,7 +52,8 @@ struct ElementDriver {
 
   /// The last pack is filled up with copies of its last element, which are computed and never scattered.
   void init(std::vector<Indices> const& elements, std::vector<Rest> const& rest) {
-    static_assert(sizeof(typename Law::Rest) == W * sizeof(Rest), "a law's Rest holds only scalars of its Real");
+    static_assert(sizeof(typename Law::Rest) == W * sizeof(Rest),
+                  "a law's Rest holds only scalars of its Real");
     constexpr std::size_t reals = sizeof(Rest) / sizeof(Real);
     packs = std::vector<Pack>((elements.size() + W - 1) / W);
     slots.clear();
@@ -118,25 +121,30 @@ struct ElementDriver {
     return sum;
   }
 
-  /// Adds k K + b B to the matrix behind the sink. SideOf[i]: on which end of an interaction point i of an element is.
+  /// Adds k K + b B to the matrix behind the sink. SideOf[i]: on which end of an interaction point i of an
+  /// element is.
   template <int... SideOf, class Sink>
   void addToMatrix(Law const& law, Sink const& sink, Real k, Real b) {
     using Matrix = typename Sink::MatrixType;
     constexpr bool within = ((SideOf == 0) && ...);
-    if constexpr (Sink::direct && within && Matrix::blockSize == D::size && Sink::phase != AssemblyPhase::pattern) {
+    if constexpr (Sink::direct && within && Matrix::blockSize == D::size &&
+                  Sink::phase != AssemblyPhase::pattern) {
       if constexpr (Sink::phase == AssemblyPhase::bind)
         bind(sink);
       else
         addToSlots(law, sink.matrix, k, b);
     } else if constexpr (Sink::phase != AssemblyPhase::bind) {
       constexpr std::array<int, arity> side = [] {
-        if constexpr (sizeof...(SideOf) == arity) return std::array<int, arity>{SideOf...};
-        else return std::array<int, arity>{};
+        if constexpr (sizeof...(SideOf) == arity)
+          return std::array<int, arity>{SideOf...};
+        else
+          return std::array<int, arity>{};
       }();
       for (Pack const& pack : packs)
         forEachPair([&]<int I, int J>() {
           Mat<L, D::size> block;
-          if constexpr (Sink::phase == AssemblyPhase::add) block = law.block(pack.rest, pack.tangent, I, J, L(k), L(b));
+          if constexpr (Sink::phase == AssemblyPhase::add)
+            block = law.block(pack.rest, pack.tangent, I, J, L(k), L(b));
           for (int l = 0; l < pack.active; ++l) {
             Mat<Real, D::size> one = Mat<Real, D::size>::Zero();
             if constexpr (Sink::phase == AssemblyPhase::add)
@@ -154,7 +162,8 @@ struct ElementDriver {
   static constexpr int realsOf = int(sizeof(Value) / sizeof(Real));
 
   template <class Value, class LaneValue>
-  SINEW_INLINE static void gather(Pack const& pack, std::array<Value const*, arity> const& from, LaneValue (&to)[arity]) {
+  SINEW_INLINE static void gather(Pack const& pack, std::array<Value const*, arity> const& from,
+                                  LaneValue (&to)[arity]) {
     constexpr int n = realsOf<Value>;
     for (int k = 0; k < arity; ++k) {
       alignas(64) Real buffer[n][W];
@@ -166,7 +175,8 @@ struct ElementDriver {
     }
   }
 
-  SINEW_INLINE static void scatter(Pack const& pack, typename DL::Deriv const (&from)[arity], Derivs const& to) {
+  SINEW_INLINE static void scatter(Pack const& pack, typename DL::Deriv const (&from)[arity],
+                                   Derivs const& to) {
     constexpr int n = realsOf<Deriv>;
     for (int k = 0; k < arity; ++k) {
       alignas(64) Real buffer[n][W];
@@ -188,7 +198,8 @@ struct ElementDriver {
             if constexpr (i <= j) f.template operator()<i, j>();
           }(),
           ...);
-    }(std::make_integer_sequence<int, arity * arity>{});
+    }
+    (std::make_integer_sequence<int, arity * arity>{});
   }
   static constexpr int pairNumber(int i, int j) { return i * arity - i * (i - 1) / 2 + j - i; }
 

@@ -19,7 +19,8 @@ struct FixedString {
 /// A force field inside the body of its own node.
 struct Within {};
 
-/// The two ends of an interaction: paths from the node where the component sits to the nodes of the two states.
+/// The two ends of an interaction: paths from the node where the component sits to the nodes of the two
+/// states.
 template <FixedString First, FixedString Second>
 struct Between {
   static constexpr auto first = First;

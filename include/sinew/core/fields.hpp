@@ -55,7 +55,9 @@ constexpr auto field_list(F... fields) {
 }
 
 template <class T>
-concept HasFields = requires { T::fields(); };
+concept HasFields = requires {
+  T::fields();
+};
 
 /// f(field, value) for each field of a component or of a struct that is the value of one.
 template <class T, class F>
@@ -67,8 +69,12 @@ constexpr void for_each_field(T& owner, F&& f) {
 template <class C>
 std::string component_name() {
   std::string name(C::className);
-  if constexpr (requires { typename C::In; typename C::Out; })
-    name += text('<', data_types_name<typename C::In>::value, ", ", data_types_name<typename C::Out>::value, '>');
+  if constexpr (requires {
+                  typename C::In;
+                  typename C::Out;
+                })
+    name +=
+        text('<', data_types_name<typename C::In>::value, ", ", data_types_name<typename C::Out>::value, '>');
   else if constexpr (requires { typename C::DataTypes; })
     name += text('<', data_types_name<typename C::DataTypes>::value, '>');
   return name;
@@ -90,6 +96,9 @@ struct BadNumber {
   bool found = false;
   double value = 0;
   std::string place{};
+  // what the field of a struct inside the value demands, where it is one that refuses
+  Range range{};
+  std::string_view unit{}, documentation{};
 };
 
 template <class T, class Bad>
@@ -97,31 +106,49 @@ BadNumber find_number(T const& value, Bad const& bad) {
   if constexpr (std::is_same_v<T, bool> || std::is_enum_v<T> || std::is_convertible_v<T, std::string_view>) {
     return {};
   } else if constexpr (std::is_arithmetic_v<T>) {
-    return {bad(double(value)), double(value), {}};
-  } else if constexpr (requires { value.has_value(); *value; }) {
+    return {.found = bad(double(value)), .value = double(value)};
+  } else if constexpr (requires {
+                         value.has_value();
+                         *value;
+                       }) {
     return value ? find_number(*value, bad) : BadNumber{};
   } else if constexpr (HasFields<T>) {
     BadNumber first;
     for_each_field(value, [&](auto const& fd, auto const& v) {
       if (first.found) return;
       first = find_number(v, [&](double d) { return bad(d) || !fd.range.contains(d); });
+      if (first.found && first.place.empty())
+        first.range = fd.range, first.unit = fd.unit, first.documentation = fd.documentation;
       if (first.found) first.place = text('.', fd.name, first.place);
     });
     return first;
-  } else if constexpr (requires { value.center; value.orientation; }) {
+  } else if constexpr (requires {
+                         value.center;
+                         value.orientation;
+                       }) {
     BadNumber first = find_number(value.center, bad);
     if (!first.found) first = find_number(value.orientation, bad);
     return first;
-  } else if constexpr (requires { value.coeffs(); } && !requires { value.rows(); }) {
+  } else if constexpr (
+      requires { value.coeffs(); } && !requires { value.rows(); }) {
     return find_number(value.coeffs().eval(), bad);
-  } else if constexpr (requires { value.rows(); value.coeff(0); }) {
+  } else if constexpr (requires {
+                         value.rows();
+                         value.coeff(0);
+                       }) {
     for (Eigen::Index i = 0; i < value.size(); ++i)
-      if (bad(double(value.coeff(i)))) return {true, double(value.coeff(i)), {}};
+      if (bad(double(value.coeff(i)))) return {.found = true, .value = double(value.coeff(i))};
     return {};
-  } else if constexpr (requires { value.begin(); value.end(); }) {
+  } else if constexpr (requires {
+                         value.begin();
+                         value.end();
+                       }) {
     std::size_t i = 0;
     for (auto const& v : value) {
-      if (BadNumber b = find_number(v, bad); b.found) return {true, b.value, text('[', i, ']', b.place)};
+      if (BadNumber b = find_number(v, bad); b.found) {
+        b.place = text('[', i, ']', b.place);
+        return b;
+      }
       ++i;
     }
     return {};
@@ -136,12 +163,16 @@ BadNumber find_number(T const& value, Bad const& bad) {
 template <class C>
 void check_fields(C const& component, std::string_view where) {
   for_each_field(component, [&](auto const& fd, auto const& value) {
-    const auto bad = detail::find_number(value, [&](double d) { return !std::isfinite(d) || !fd.range.contains(d); });
+    const auto bad =
+        detail::find_number(value, [&](double d) { return !std::isfinite(d) || !fd.range.contains(d); });
     if (!bad.found) return;
-    const std::string expected = detail::range_text(fd.range);
-    throw Error(where, text(component_name<C>(), ": ", fd.name, bad.place, " is ", bad.value, fd.unit.empty() ? "" : " ",
-                            fd.unit, ", but must be a finite number", expected.empty() ? "" : ", ", expected, " (",
-                            fd.documentation, "); correct this value"));
+    const bool nested = !bad.documentation.empty();
+    const std::string expected = detail::range_text(nested ? bad.range : fd.range);
+    const std::string_view unit = nested ? bad.unit : fd.unit;
+    throw Error(
+        where, text(component_name<C>(), ": ", fd.name, bad.place, " is ", bad.value, unit.empty() ? "" : " ",
+                    unit, ", but must be a finite number", expected.empty() ? "" : ", ", expected, " (",
+                    nested ? bad.documentation : fd.documentation, "); correct this value"));
   });
 }
 

@@ -25,9 +25,9 @@ struct LaneMask {
   SINEW_INLINE friend LaneMask operator!(LaneMask a) { return {~a.bits}; }
 };
 
-/// W values of T that go through arithmetic together, on the compiler's vector extension: the scalar of an element
-/// law when the driver packs W elements. Chosen over std::experimental::simd, whose header alone adds 0.6 s to
-/// every translation unit.
+/// W values of T that go through arithmetic together, on the compiler's vector extension: the scalar of an
+/// element law when the driver packs W elements. Chosen over std::experimental::simd, whose header alone adds
+/// 0.6 s to every translation unit.
 template <class T, int W>
 struct Lanes {
   static_assert(std::is_floating_point_v<T> && W > 1 && (W & (W - 1)) == 0);
@@ -38,8 +38,7 @@ struct Lanes {
   Lanes() = default;
   SINEW_INLINE Lanes(Vector vector) : v(vector) {}
   template <class S>
-    requires std::is_arithmetic_v<S>
-  SINEW_INLINE Lanes(S s) : v(T(s) - Vector{}) {}
+  requires std::is_arithmetic_v<S> SINEW_INLINE Lanes(S s) : v(T(s) - Vector{}) {}
 
   SINEW_INLINE T operator[](int lane) const { return v[lane]; }
   SINEW_INLINE void set(int lane, T value) { v[lane] = value; }
@@ -67,10 +66,7 @@ SINEW_INLINE Lanes<T, W> select(LaneMask<T, W> mask, Lanes<T, W> a, Lanes<T, W> 
   return Lanes<T, W>(mask.bits ? a.v : b.v);
 }
 template <class T>
-  requires std::is_floating_point_v<T>
-SINEW_INLINE T select(bool mask, T a, T b) {
-  return mask ? a : b;
-}
+requires std::is_floating_point_v<T> SINEW_INLINE T select(bool mask, T a, T b) { return mask ? a : b; }
 
 template <class T, int W>
 SINEW_INLINE bool any(LaneMask<T, W> mask) {
@@ -90,15 +86,20 @@ template <class T, int W>
 SINEW_INLINE Lanes<T, W> sqrt(Lanes<T, W> a) {
   using R = Lanes<T, W>;
 #if defined(__AVX512F__)
-  if constexpr (W * sizeof(T) == 64 && sizeof(T) == 8) return R((typename R::Vector)_mm512_maskz_sqrt_pd(0xff, (__m512d)a.v));
-  if constexpr (W * sizeof(T) == 64 && sizeof(T) == 4) return R((typename R::Vector)_mm512_maskz_sqrt_ps(0xffff, (__m512)a.v));
+  if constexpr (W * sizeof(T) == 64 && sizeof(T) == 8)
+    return R((typename R::Vector)_mm512_maskz_sqrt_pd(0xff, (__m512d)a.v));
+  if constexpr (W * sizeof(T) == 64 && sizeof(T) == 4)
+    return R((typename R::Vector)_mm512_maskz_sqrt_ps(0xffff, (__m512)a.v));
 #endif
 #if defined(__AVX__)
-  if constexpr (W * sizeof(T) == 32 && sizeof(T) == 8) return R((typename R::Vector)_mm256_sqrt_pd((__m256d)a.v));
-  if constexpr (W * sizeof(T) == 32 && sizeof(T) == 4) return R((typename R::Vector)_mm256_sqrt_ps((__m256)a.v));
+  if constexpr (W * sizeof(T) == 32 && sizeof(T) == 8)
+    return R((typename R::Vector)_mm256_sqrt_pd((__m256d)a.v));
+  if constexpr (W * sizeof(T) == 32 && sizeof(T) == 4)
+    return R((typename R::Vector)_mm256_sqrt_ps((__m256)a.v));
 #endif
 #if defined(__SSE2__)
-  if constexpr (W * sizeof(T) == 16 && sizeof(T) == 8) return R((typename R::Vector)_mm_sqrt_pd((__m128d)a.v));
+  if constexpr (W * sizeof(T) == 16 && sizeof(T) == 8)
+    return R((typename R::Vector)_mm_sqrt_pd((__m128d)a.v));
   if constexpr (W * sizeof(T) == 16 && sizeof(T) == 4) return R((typename R::Vector)_mm_sqrt_ps((__m128)a.v));
 #endif
   R root;
@@ -133,10 +134,7 @@ template <class T>
 using lane_scalar = typename lane_traits<T>::Scalar;
 
 template <class T>
-  requires std::is_floating_point_v<T>
-SINEW_INLINE T lane(T a, int) {
-  return a;
-}
+requires std::is_floating_point_v<T> SINEW_INLINE T lane(T a, int) { return a; }
 template <class T, int W>
 SINEW_INLINE T lane(Lanes<T, W> a, int i) {
   return a.v[i];
@@ -154,13 +152,15 @@ constexpr auto interleave(std::integer_sequence<int, I...>) {
   return std::integer_sequence<int, ((I / Run % 2) * W + From + I / (2 * Run) * Run + I % Run)...>{};
 }
 template <int Run, int From, class T, int W>
-SINEW_INLINE typename Lanes<T, W>::Vector interleaved(typename Lanes<T, W>::Vector a, typename Lanes<T, W>::Vector b) {
+SINEW_INLINE typename Lanes<T, W>::Vector interleaved(typename Lanes<T, W>::Vector a,
+                                                      typename Lanes<T, W>::Vector b) {
   return shuffle(a, b, interleave<W, Run, From>(std::make_integer_sequence<int, W>{}));
 }
 
 }  // namespace detail
 
-/// out[l] = lane l of the N values `in`, filled up with zeros to a multiple of four: W short vectors from N of lanes.
+/// out[l] = lane l of the N values `in`, filled up with zeros to a multiple of four: W short vectors from N
+/// of lanes.
 template <int N, class T, int W>
 SINEW_INLINE void transpose(Lanes<T, W> const* in, T (&out)[W][(N + 3) / 4 * 4]) {
   constexpr int groups = (N + 3) / 4;
@@ -168,14 +168,18 @@ SINEW_INLINE void transpose(Lanes<T, W> const* in, T (&out)[W][(N + 3) / 4 * 4])
   if constexpr (W >= 4) {
     for (int g = 0; g < groups; ++g) {
       const V zero{};
-      const V a = in[4 * g].v, b = 4 * g + 1 < N ? in[4 * g + 1].v : zero, c = 4 * g + 2 < N ? in[4 * g + 2].v : zero,
-              d = 4 * g + 3 < N ? in[4 * g + 3].v : zero;
+      const V a = in[4 * g].v, b = 4 * g + 1 < N ? in[4 * g + 1].v : zero,
+              c = 4 * g + 2 < N ? in[4 * g + 2].v : zero, d = 4 * g + 3 < N ? in[4 * g + 3].v : zero;
       const V low0 = detail::interleaved<1, 0, T, W>(a, b), low1 = detail::interleaved<1, 0, T, W>(c, d);
-      const V high0 = detail::interleaved<1, W / 2, T, W>(a, b), high1 = detail::interleaved<1, W / 2, T, W>(c, d);
-      const V rows[4] = {detail::interleaved<2, 0, T, W>(low0, low1), detail::interleaved<2, W / 2, T, W>(low0, low1),
-                         detail::interleaved<2, 0, T, W>(high0, high1), detail::interleaved<2, W / 2, T, W>(high0, high1)};
+      const V high0 = detail::interleaved<1, W / 2, T, W>(a, b),
+              high1 = detail::interleaved<1, W / 2, T, W>(c, d);
+      const V rows[4] = {
+          detail::interleaved<2, 0, T, W>(low0, low1), detail::interleaved<2, W / 2, T, W>(low0, low1),
+          detail::interleaved<2, 0, T, W>(high0, high1), detail::interleaved<2, W / 2, T, W>(high0, high1)};
       for (int l = 0; l < W; ++l)
-        std::memcpy(&out[l][4 * g], reinterpret_cast<char const*>(&rows[l / (W / 4)]) + (l % (W / 4)) * 4 * sizeof(T), 4 * sizeof(T));
+        std::memcpy(&out[l][4 * g],
+                    reinterpret_cast<char const*>(&rows[l / (W / 4)]) + (l % (W / 4)) * 4 * sizeof(T),
+                    4 * sizeof(T));
     }
   } else {
     for (int l = 0; l < W; ++l)

@@ -35,12 +35,20 @@ struct ConstantForceField {
   void init(InitContext<D> const& context) {
     const std::string where = text(context.where, ": ", component_name<ConstantForceField>());
     if (forces.size() != 1 && forces.size() != indices.size())
-      throw Error(where, text("forces has ", forces.size(), " entries for ", indices.size(),
-                              " indices; give one force, or one for each index"));
+      throw Error(where,
+                  text("forces has ",
+                       forces.size(),
+                       " entries for ",
+                       indices.size(),
+                       " indices; give one force, or one for each index"));
     for (const int i : indices)
       if (std::size_t(i) >= context.rest.size())
-        throw Error(where, text("indices has ", i, ", but the state has ", context.rest.size(),
-                                " points, numbered from 0; correct the index"));
+        throw Error(where,
+                    text("indices has ",
+                         i,
+                         ", but the state has ",
+                         context.rest.size(),
+                         " points, numbered from 0; correct the index"));
     rest = context.rest;
   }
 
@@ -57,7 +65,8 @@ struct ConstantForceField {
   double potentialEnergy(VecCoord const& x) const {
     double energy = 0;
     for (std::size_t i = 0; i < indices.size(); ++i)
-      energy -= double(force(i).dot(D::difference(rest[std::size_t(indices[i])], x[std::size_t(indices[i])])));
+      energy -=
+          double(force(i).dot(D::difference(rest[std::size_t(indices[i])], x[std::size_t(indices[i])])));
     return energy;
   }
 };

@@ -14,8 +14,8 @@ namespace sinew {
 ///   E = k/2 (l - L)^2,  l = |d|,  d = x1 - x0                                          [J]
 ///   f0 = -f1 = F u,  F = k (l - L) + c d'.u,  u = d/l                                  [N]
 ///   df0/dx1 = F/l (I - u u') + k u u',  df0/dv1 = c u u'
-/// The change of the damping force with u is left out of the tangent, which keeps it symmetric. Two points in one
-/// place have no direction, and no force.
+/// The change of the damping force with u is left out of the tangent, which keeps it symmetric. Two points in
+/// one place have no direction, and no force.
 template <class D>
 struct SpringLaw {
   using Real = typename D::Real;
@@ -38,11 +38,13 @@ struct SpringLaw {
     return Real(0.5) * rest.stiffness * stretch * stretch;
   }
 
-  SINEW_HD void force(Rest const& rest, Coord const (&x)[2], Deriv const (&v)[2], Deriv (&f)[2], Tangent& tangent) const {
+  SINEW_HD void force(Rest const& rest, Coord const (&x)[2], Deriv const (&v)[2], Deriv (&f)[2],
+                      Tangent& tangent) const {
     using std::sqrt, sinew::sqrt;
     const Deriv d = x[1] - x[0];
     const Real length = sqrt(d.squaredNorm());
-    const auto apart = length > Real(1e-9) * rest.length + Real(std::numeric_limits<lane_scalar<Real>>::min());
+    const auto apart =
+        length > Real(1e-9) * rest.length + Real(std::numeric_limits<lane_scalar<Real>>::min());
     const Real inverse = select(apart, Real(1) / length, Real(0));
     tangent.direction = d * inverse;
     const Real force =
@@ -60,7 +62,8 @@ struct SpringLaw {
     df[1] = -df[0];
   }
 
-  SINEW_INLINE Mat<Real, D::size> block(Rest const& rest, Tangent const& tangent, int i, int j, Real k, Real b) const {
+  SINEW_INLINE Mat<Real, D::size> block(Rest const& rest, Tangent const& tangent, int i, int j, Real k,
+                                        Real b) const {
     const Real sign(i == j ? -1 : 1);
     const Real diagonal = sign * k * tangent.tension, axis = sign * axial(rest, tangent, k, b);
     Mat<Real, D::size> block;
@@ -90,13 +93,16 @@ struct Spring {
         field("second", &Spring::second, "", "point at the second end", range::nonNegative),
         field("stiffness", &Spring::stiffness, "N/m", "force per extension", range::nonNegative),
         field("damping", &Spring::damping, "N s/m", "force per rate of extension", range::nonNegative),
-        field("length", &Spring::length, "m", "length without force; that of the rest positions when not given",
+        field("length",
+              &Spring::length,
+              "m",
+              "length without force; that of the rest positions when not given",
               range::nonNegative));
   }
 };
 
-/// Springs inside one body (`E` = Within), or between the states at two paths (`E` = Between<"a", "b/c">, at a common
-/// ancestor; `first` then counts points of the first).
+/// Springs inside one body (`E` = Within), or between the states at two paths (`E` = Between<"a", "b/c">, at
+/// a common ancestor; `first` then counts points of the first).
 template <class D, class E = Within>
 struct StiffSpringForceField {
   using Ends = E;
@@ -111,7 +117,9 @@ struct StiffSpringForceField {
   std::vector<Spring> springs{};
 
   static constexpr auto fields() {
-    return field_list(field("springs", &StiffSpringForceField::springs, "",
+    return field_list(field("springs",
+                            &StiffSpringForceField::springs,
+                            "",
                             "the springs: two points, stiffness, damping, length"));
   }
 
@@ -127,17 +135,31 @@ struct StiffSpringForceField {
       Spring const& spring = springs[s];
       auto check = [&](InitContext<D> const& end, int i) {
         if (std::size_t(i) >= end.rest.size())
-          throw Error(a.where, text(component_name<StiffSpringForceField>(), ": springs[", s, "] refers to point ", i,
-                                    " of ", end.where, ", which has ", end.rest.size(),
-                                    " points, numbered from 0; correct the index"));
+          throw Error(a.where,
+                      text(component_name<StiffSpringForceField>(),
+                           ": springs[",
+                           s,
+                           "] refers to point ",
+                           i,
+                           " of ",
+                           end.where,
+                           ", which has ",
+                           end.rest.size(),
+                           " points, numbered from 0; correct the index"));
       };
       check(a, spring.first);
       check(b, spring.second);
       if (!between && spring.first == spring.second)
-        throw Error(a.where, text(component_name<StiffSpringForceField>(), ": springs[", s, "] joins point ",
-                                  spring.first, " to itself; give two points"));
-      const Real length = spring.length ? Real(*spring.length)
-                                        : (b.rest[std::size_t(spring.second)] - a.rest[std::size_t(spring.first)]).norm();
+        throw Error(a.where,
+                    text(component_name<StiffSpringForceField>(),
+                         ": springs[",
+                         s,
+                         "] joins point ",
+                         spring.first,
+                         " to itself; give two points"));
+      const Real length =
+          spring.length ? Real(*spring.length)
+                        : (b.rest[std::size_t(spring.second)] - a.rest[std::size_t(spring.first)]).norm();
       ends.push_back({spring.first, spring.second});
       rest.push_back({Real(spring.stiffness), Real(spring.damping), length});
     }
@@ -156,7 +178,8 @@ struct StiffSpringForceField {
                 VecDeriv const& v0, VecDeriv const& v1) {
     driver.addForce(Law{}, {f0.data(), f1.data()}, {x0.data(), x1.data()}, {v0.data(), v1.data()});
   }
-  void addDForce(MechanicalParams const& p, VecDeriv& df0, VecDeriv& df1, VecDeriv const& dx0, VecDeriv const& dx1) const {
+  void addDForce(MechanicalParams const& p, VecDeriv& df0, VecDeriv& df1, VecDeriv const& dx0,
+                 VecDeriv const& dx1) const {
     driver.addDForce(Law{}, {df0.data(), df1.data()}, {dx0.data(), dx1.data()}, Real(p.k), Real(p.b));
   }
   double potentialEnergy(VecCoord const& x0, VecCoord const& x1) const {

@@ -20,8 +20,8 @@ inline constexpr std::array<std::string_view, 4> enum_names(RotationMethod) {
   return {"small", "large", "polar", "gradient"};
 }
 
-/// Linear tetrahedron of an isotropic material, corotational (Mueller, Gross 2004). With h_k = R g_k, where g_k is the
-/// gradient of shape function k at rest, all is said in world axes:
+/// Linear tetrahedron of an isotropic material, corotational (Mueller, Gross 2004). With h_k = R g_k, where
+/// g_k is the gradient of shape function k at rest, all is said in world axes:
 ///   E = V (mu e:e + lambda/2 tr(e)^2),   e = sym(F R') - I = sym(sum_k x_k h_k') - I           [J]
 ///   f_k = -V s h_k,   s = 2 mu e + lambda tr(e) I                                              [N]
 ///   df_i/dx_j = -V (lambda h_i h_j' + mu h_j h_i' + mu h_i.h_j I)          with R held fixed
@@ -54,7 +54,8 @@ struct TetrahedronFEM {
     return rest.volumeMu * e.squaredNorm() + Real(0.5) * rest.volumeLambda * trace * trace;
   }
 
-  SINEW_HD void force(Rest const& rest, Coord const (&x)[4], Deriv const (&)[4], Deriv (&f)[4], Tangent& tangent) const {
+  SINEW_HD void force(Rest const& rest, Coord const (&x)[4], Deriv const (&)[4], Deriv (&f)[4],
+                      Tangent& tangent) const {
     tangent.h = rotation(rest, x) * rest.gradient;
     internalForce(rest, tangent.h, strain(x, tangent.h), Real(-1), f);
   }
@@ -118,7 +119,8 @@ struct TetrahedronFEM {
     return e;
   }
 
-  SINEW_INLINE static void internalForce(Rest const& rest, Mat3 const& h, Mat3 const& e, Real factor, Deriv (&f)[4]) {
+  SINEW_INLINE static void internalForce(Rest const& rest, Mat3 const& h, Mat3 const& e, Real factor,
+                                         Deriv (&f)[4]) {
     const Real mu2 = factor * Real(2) * rest.volumeMu;
     const Real pressure = factor * rest.volumeLambda * (e(0, 0) + e(1, 1) + e(2, 2));
     Mat3 s;
@@ -141,7 +143,9 @@ struct TetrahedronFEM {
   SINEW_INLINE static Vec3 cross(Vec3 const& a, Vec3 const& b) {
     return Vec3(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]);
   }
-  SINEW_INLINE static Real dot(Vec3 const& a, Vec3 const& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+  SINEW_INLINE static Real dot(Vec3 const& a, Vec3 const& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  }
 
   // right-handed frame: first axis along column 0, third normal to columns 0 and 1
   SINEW_INLINE static Mat3 gramSchmidt(Mat3 const& f) {
@@ -157,8 +161,9 @@ struct TetrahedronFEM {
     return r;
   }
 
-  /// argmax over rotations of tr(R' F): Newton steps w = (tr(M) I - M)^-1 a, M = sym(F R'), a = sum r_i x f_i, from the
-  /// Gram-Schmidt frame; where M is far from definite, the safe step a / |tr M| of Mueller et al. 2016.
+  /// argmax over rotations of tr(R' F): Newton steps w = (tr(M) I - M)^-1 a, M = sym(F R'), a = sum r_i x
+  /// f_i, from the Gram-Schmidt frame; where M is far from definite, the safe step a / |tr M| of Mueller et
+  /// al. 2016.
   SINEW_HD static Mat3 polar(Mat3 const& f) {
     using std::abs, sinew::abs;
     Mat3 r = gramSchmidt(f);
@@ -177,9 +182,11 @@ struct TetrahedronFEM {
       const Vec3 c1(c0[1], xx * zz - xz * xz, xy * xz - xx * yz);
       const Vec3 c2(c0[2], c1[2], xx * yy - xy * xy);
       const Real det = xx * c0[0] + xy * c0[1] + xz * c0[2];
-      const auto definite = (det > Real(1e-3) * abs(trace * trace * trace)) & (trace > Real(0)) & (c2[2] > Real(0));
+      const auto definite =
+          (det > Real(1e-3) * abs(trace * trace * trace)) & (trace > Real(0)) & (c2[2] > Real(0));
       const Real inverse = Real(1) / select(definite, det, Real(1));
-      const Real safe = Real(1) / (abs(trace) + Real(1e-9) * scale + Real(std::numeric_limits<lane_scalar<Real>>::min()));
+      const Real safe =
+          Real(1) / (abs(trace) + Real(1e-9) * scale + Real(std::numeric_limits<lane_scalar<Real>>::min()));
       Vec3 w;
       w[0] = select(definite, dot(c0, a) * inverse, a[0] * safe);
       w[1] = select(definite, dot(c1, a) * inverse, a[1] * safe);
@@ -215,16 +222,23 @@ struct TetrahedronFEMForceField {
 
   static constexpr auto fields() {
     using F = TetrahedronFEMForceField;
-    return field_list(field("youngModulus", &F::youngModulus, "Pa", "stiffness of the material: one value, or one a tetrahedron",
+    return field_list(field("youngModulus",
+                            &F::youngModulus,
+                            "Pa",
+                            "stiffness of the material: one value, or one a tetrahedron",
                             range::positive),
-                      field("poissonRatio", &F::poissonRatio, "", "lateral contraction over extension; 0.5 is incompressible",
+                      field("poissonRatio",
+                            &F::poissonRatio,
+                            "",
+                            "lateral contraction over extension; 0.5 is incompressible",
                             range::open(-1, 0.5)),
                       field("method", &F::method, "", "how the rotation of an element is found"));
   }
 
   ForceProperties properties() const {
     const bool small = method == RotationMethod::small;
-    return {.objective = !small, .conservative = small || method == RotationMethod::polar, .exactTangent = small};
+    return {
+        .objective = !small, .conservative = small || method == RotationMethod::polar, .exactTangent = small};
   }
 
   using Driver = ElementDriver<TetrahedronFEM, D>;
@@ -234,17 +248,23 @@ struct TetrahedronFEMForceField {
   void init(InitContext<D> const& context) {
     auto const& tetrahedra = context.topology.tetrahedra;
     const std::string where = text(context.where, ": ", component_name<TetrahedronFEMForceField>());
-    if (tetrahedra.empty()) throw Error(where, "the topology has no tetrahedron; give the node a topology with tetrahedra");
+    if (tetrahedra.empty())
+      throw Error(where, "the topology has no tetrahedron; give the node a topology with tetrahedra");
     if (youngModulus.size() != 1 && youngModulus.size() != tetrahedra.size())
-      throw Error(where, text("youngModulus has ", youngModulus.size(), " values for ", tetrahedra.size(),
-                              " tetrahedra; give one value, or one for each"));
+      throw Error(where,
+                  text("youngModulus has ",
+                       youngModulus.size(),
+                       " values for ",
+                       tetrahedra.size(),
+                       " tetrahedra; give one value, or one for each"));
     std::vector<typename Driver::Rest> rest;
     rest.reserve(tetrahedra.size());
     for (std::size_t e = 0; e < tetrahedra.size(); ++e) {
       typename D::Coord x[4];
       for (std::size_t k = 0; k < 4; ++k) x[k] = context.rest[std::size_t(tetrahedra[e][k])];
       const double E = youngModulus.size() == 1 ? youngModulus[0] : youngModulus[e];
-      const double lambda = E * poissonRatio / ((1 + poissonRatio) * (1 - 2 * poissonRatio)), mu = E / (2 * (1 + poissonRatio));
+      const double lambda = E * poissonRatio / ((1 + poissonRatio) * (1 - 2 * poissonRatio)),
+                   mu = E / (2 * (1 + poissonRatio));
       rest.push_back(TetrahedronFEM<D>::restOf(x, Real(mu), Real(lambda), method));
     }
     driver.init({tetrahedra.begin(), tetrahedra.end()}, rest);

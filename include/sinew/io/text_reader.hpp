@@ -22,8 +22,8 @@
 
 namespace sinew::io {
 
-/// The bytes of a whole file, without the mark (EF BB BF) that some programs put before UTF-8. Throws Error if
-/// the file is missing, empty, unreadable, or not a regular file (a folder, a pipe, a device).
+/// The bytes of a whole file, without the mark (EF BB BF) that some programs put before UTF-8. Throws Error
+/// if the file is missing, empty, unreadable, or not a regular file (a folder, a pipe, a device).
 inline std::string read_file(std::string const& path) {
   struct stat info;
   if (::stat(path.c_str(), &info) != 0) {
@@ -94,14 +94,15 @@ bool parse_number(std::string_view word, T& value) {
 class TextReader {
  public:
   TextReader(std::string_view path, std::string_view content, std::size_t firstLine = 1)
-      : path_(path), text_(content), line_(firstLine), wordLine_(firstLine) {}
+      : path_(path), text_(content), first_(firstLine), line_(firstLine), wordLine_(firstLine) {}
 
   /// The next word of any line; empty at the end.
   std::string_view word() {
     for (; at_ < text_.size() && space(text_[at_]); ++at_) line_ += text_[at_] == '\n';
-    return take();
+    return take(false);
   }
-  /// The next word of this line; empty at the end of the line. A backslash at the end of a line joins the next.
+  /// The next word of this line; empty at the end of the line. A backslash at the end of a line joins the
+  /// next.
   std::string_view wordOnLine() {
     for (;; ++at_) {
       if (const std::size_t n = joined(at_)) {
@@ -110,7 +111,7 @@ class TextReader {
         break;
       }
     }
-    return take();
+    return take(true);
   }
   /// The rest of this line, without what ends it; the next word is from the line after it.
   std::string_view restOfLine() {
@@ -142,11 +143,11 @@ class TextReader {
     if (!parse_number(word(), value)) throw expected(text(what, ", a whole number"));
     return value;
   }
-  /// The number of items that follow, each of at least `words` words; refused if they cannot be in the rest of
-  /// the text. So memory may be reserved for them.
+  /// The number of items that follow, each of at least `words` words; refused if they cannot be in the rest
+  /// of the text. So memory may be reserved for them.
   std::size_t count(std::string_view what, std::size_t words) {
     const std::int64_t n = integer(what);
-    const std::size_t room = (text_.size() - at_) / (2 * words) + 1;  // a word and the space before it
+    const std::size_t room = (text_.size() - at_) / (2 * words);  // a space before each word
     if (n < 0 || std::size_t(n) > room || n > std::numeric_limits<Index>::max())
       throw error(text(what, " is given as ", n, ", but no more than ", room, " fit into the ",
                        text_.size() - at_, " bytes that follow; correct the number, or get a complete file"));
@@ -166,18 +167,19 @@ class TextReader {
   /// The Error for a last word that is not `what`, or is missing.
   Error expected(std::string_view what) const {
     if (word_.empty() && atEnd())
-      return error(text("the data end where ", what,
-                        " is expected; the file is incomplete or a count in it is wrong: get a complete one"));
+      return error(
+          text("the data end where ", what,
+               " is expected; the file is incomplete or a count in it is wrong: get a complete one"));
     return error(text("expected ", what, ", found ", word_.empty() ? "the end of the line" : quoted(word_),
                       "; correct this line"));
   }
   /// Throws Error at the first byte of the text that no text file has.
   void rejectBinary() const {
-    const auto bad = std::find_if(text_.begin(), text_.end(),
-                                  [](char c) { return (c >= 0 && c < ' ' && !space(c)) || c == 0x7f; });
+    const auto bad = std::find_if(text_.begin(), text_.end(), [](char c) {
+      return (static_cast<unsigned char>(c) < ' ' && !space(c)) || c == 0x7f;
+    });
     if (bad == text_.end()) return;
-    const auto line = line_ + std::size_t(std::count(text_.begin() + std::ptrdiff_t(at_), std::max(bad, text_.begin() + std::ptrdiff_t(at_)), '\n'));
-    throw Error(text(path_, ':', line),
+    throw Error(text(path_, ':', first_ + std::size_t(std::count(text_.begin(), bad, '\n'))),
                 text("holds the byte ", int(*bad), ", which is not text; export the file as ASCII or UTF-8"));
   }
 
@@ -189,16 +191,16 @@ class TextReader {
     if (text_.substr(at, 2) == "\\\n") return 2;
     return text_.substr(at, 3) == "\\\r\n" ? 3 : 0;
   }
-  std::string_view take() {
+  std::string_view take(bool mayJoin) {
     const std::size_t begin = at_;
-    while (at_ < text_.size() && !space(text_[at_]) && !joined(at_)) ++at_;
+    while (at_ < text_.size() && !space(text_[at_]) && !(mayJoin && joined(at_))) ++at_;
     wordLine_ = line_;
     return word_ = text_.substr(begin, at_ - begin);
   }
 
   std::string path_;
   std::string_view text_;
-  std::size_t at_ = 0, line_, wordLine_;
+  std::size_t at_ = 0, first_, line_, wordLine_;
   std::string_view word_{};
 };
 

@@ -11,9 +11,10 @@
 
 namespace sinew {
 
-/// Symmetric sparse matrix of dense B x B blocks in compressed rows, with a pattern that is fixed at init. Between
-/// setZero() and mirror() only the blocks on and above the diagonal are added to; mirror() then fills those below.
-/// Blocks are row-major. Rows and columns are counted in scalars where a name says `dof`, in blocks otherwise.
+/// Symmetric sparse matrix of dense B x B blocks in compressed rows, with a pattern that is fixed at init.
+/// Between setZero() and mirror() only the blocks on and above the diagonal are added to; mirror() then fills
+/// those below. Blocks are row-major. Rows and columns are counted in scalars where a name says `dof`, in
+/// blocks otherwise.
 template <class R, int B>
 struct CompressedRowSparseMatrix {
   using Real = R;
@@ -21,10 +22,10 @@ struct CompressedRowSparseMatrix {
   static constexpr int blockSize = B;
 
   std::vector<int> rowStart{}, columns{};
-  std::vector<Real> values{};                   // B*B a block, and one more so that kernels may read past the end
-  std::vector<int> diagonal{};                  // slot of the diagonal block of each row
-  std::vector<int> mirrored{};                  // slot of the block across the diagonal, for each slot
-  std::vector<std::vector<int>> pattern{};      // block columns of each row, while the pattern is gathered
+  std::vector<Real> values{};               // B*B a block, and one more so that kernels may read past the end
+  std::vector<int> diagonal{};              // slot of the diagonal block of each row
+  std::vector<int> mirrored{};              // slot of the block across the diagonal, for each slot
+  std::vector<std::vector<int>> pattern{};  // block columns of each row, while the pattern is gathered
 
   int rows() const { return rowStart.empty() ? 0 : int(rowStart.size()) - 1; }
   int dofs() const { return rows() * B; }
@@ -81,21 +82,28 @@ struct CompressedRowSparseMatrix {
 
   /// Position of a block in `columns`, or -1 where the pattern has none.
   int slot(int row, int column) const {
-    const auto first = columns.begin() + rowStart[std::size_t(row)], last = columns.begin() + rowStart[std::size_t(row) + 1];
+    const auto first = columns.begin() + rowStart[std::size_t(row)],
+               last = columns.begin() + rowStart[std::size_t(row) + 1];
     const auto found = std::lower_bound(first, last, column);
     return found != last && *found == column ? int(found - columns.begin()) : -1;
   }
   Real* block(int slot) { return values.data() + std::ptrdiff_t(slot) * (B * B); }
   Real const* block(int slot) const { return values.data() + std::ptrdiff_t(slot) * (B * B); }
 
-  /// A(row.., column..) += K, in dofs; K of any fixed size. What falls below the diagonal is left to mirror().
+  /// A(row.., column..) += K, in dofs; K of any fixed size. What falls below the diagonal is left to
+  /// mirror().
   template <class K>
   void add(int row, int column, K const& k) {
     constexpr int h = K::RowsAtCompileTime, w = K::ColsAtCompileTime;
     for (int i = 0; i < h; ++i)
       for (int j = 0; j < w; ++j) {
         const int r = row + i, c = column + j;
-        if (r / B <= c / B) block(slot(r / B, c / B))[(r % B) * B + c % B] += Real(k(i, j));
+        if (r / B > c / B) continue;
+        const int s = slot(r / B, c / B);
+        if (s < 0)
+          throw Error("CompressedRowSparseMatrix",
+                      text("nothing was announced at row ", r, ", column ", c, " of the pattern"));
+        block(s)[(r % B) * B + c % B] += Real(k(i, j));
       }
   }
 
@@ -118,14 +126,16 @@ struct CompressedRowSparseMatrix {
       for (int i = 0; i < rows(); ++i) {
         Vec<Real, B> sum = Vec<Real, B>::Zero();
         for (int k = rowStart[std::size_t(i)]; k < rowStart[std::size_t(i) + 1]; ++k)
-          sum.noalias() += Eigen::Map<Block const>(block(k)) * Eigen::Map<Vec<Real, B> const>(x + columns[std::size_t(k)] * B);
+          sum.noalias() += Eigen::Map<Block const>(block(k)) *
+                           Eigen::Map<Vec<Real, B> const>(x + columns[std::size_t(k)] * B);
         Eigen::Map<Vec<Real, B>>(y + i * B) = sum;
       }
     }
   }
 
  private:
-  // the rows are short, and the same block is announced by every element around an edge: compact before growing
+  // the rows are short, and the same block is announced by every element around an edge: compact before
+  // growing
   static void insert(std::vector<int>& row, int column) {
     if (row.size() == row.capacity() && row.size() >= 32) compact(row);
     row.push_back(column);
@@ -135,8 +145,9 @@ struct CompressedRowSparseMatrix {
     row.erase(std::unique(row.begin(), row.end()), row.end());
   }
 
-  // Each row of a block is loaded as four scalars and multiplied with four of x; the fourth products, of what stands
-  // behind, gather in a lane that is never read. Two blocks at a time keep six independent sums in flight.
+  // Each row of a block is loaded as four scalars and multiplied with four of x; the fourth products, of what
+  // stands behind, gather in a lane that is never read. Two blocks at a time keep six independent sums in
+  // flight.
   void multiply3(Real const* x, Real* y) const {
     typedef Real Four __attribute__((vector_size(4 * sizeof(Real))));
     typedef Real Unaligned __attribute__((vector_size(4 * sizeof(Real)), aligned(alignof(Real)), may_alias));

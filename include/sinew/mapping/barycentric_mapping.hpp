@@ -9,8 +9,9 @@
 
 namespace sinew {
 
-/// Each point of the child is carried by the tetrahedron of the parent that contains it at rest, or by the nearest
-/// one: x = sum_k w_k x_k with the barycentric coordinates w. Affine motion of the parent is reproduced exactly.
+/// Each point of the child is carried by the tetrahedron of the parent that contains it at rest, or by the
+/// nearest one: x = sum_k w_k x_k with the barycentric coordinates w. Affine motion of the parent is
+/// reproduced exactly.
 template <class I, class O>
 struct BarycentricMapping {
   using Role = role::Mapping;
@@ -18,7 +19,8 @@ struct BarycentricMapping {
   using Out = O;
   using Real = typename Out::Real;
   using Weight = typename In::Real;
-  static_assert(!In::rigid && !Out::rigid && In::size == 3 && Out::size == 3, "BarycentricMapping joins points in space");
+  static_assert(!In::rigid && !Out::rigid && In::size == 3 && Out::size == 3,
+                "BarycentricMapping joins points in space");
   static constexpr std::string_view className = "BarycentricMapping";
   static constexpr bool needsParentTetrahedra = true;
 
@@ -34,7 +36,9 @@ struct BarycentricMapping {
     const std::string where = text(child.where, ": ", component_name<BarycentricMapping>());
     auto const& tetrahedra = parent.topology.tetrahedra;
     if (tetrahedra.empty())
-      throw Error(where, text("the topology of ", parent.where, " has no tetrahedra; give the parent a topology with some"));
+      throw Error(
+          where,
+          text("the topology of ", parent.where, " has no tetrahedra; give the parent a topology with some"));
     std::vector<Eigen::Vector3d> points;
     points.reserve(parent.rest.size());
     for (auto const& x : parent.rest) points.push_back(x.template cast<double>());
@@ -43,7 +47,8 @@ struct BarycentricMapping {
     carriers.reserve(positions.size());
     for (auto const& x : positions) {
       const auto [element, w] = locator.locate(x.template cast<double>());
-      carriers.push_back({tetrahedra[std::size_t(element)], {Weight(w[0]), Weight(w[1]), Weight(w[2]), Weight(w[3])}});
+      carriers.push_back(
+          {tetrahedra[std::size_t(element)], {Weight(w[0]), Weight(w[1]), Weight(w[2]), Weight(w[3])}});
     }
   }
 

@@ -5,23 +5,28 @@
 
 namespace sinew {
 
-/// Each point of the child is the same point of the parent, in another precision perhaps. An empty child takes the
-/// size of its parent.
+/// Each point of the child is the same point of the parent, in another precision perhaps. An empty child
+/// takes the size of its parent.
 template <class I, class O>
 struct IdentityMapping {
   using Role = role::Mapping;
   using In = I;
   using Out = O;
-  static_assert(In::size == Out::size && In::rigid == Out::rigid, "IdentityMapping joins states of the same kind");
+  static_assert(In::size == Out::size && In::rigid == Out::rigid,
+                "IdentityMapping joins states of the same kind");
   static constexpr std::string_view className = "IdentityMapping";
 
   static constexpr auto fields() { return field_list(); }
 
-  void init(InitContext<In> const& parent, InitContext<Out> const& child, typename Out::VecCoord& positions) const {
+  void init(InitContext<In> const& parent, InitContext<Out> const& child,
+            typename Out::VecCoord& positions) const {
     if (positions.empty()) positions.resize(parent.rest.size());
     if (positions.size() != parent.rest.size())
       throw Error(text(child.where, ": ", component_name<IdentityMapping>()),
-                  text("the child has ", positions.size(), " points and its parent ", parent.rest.size(),
+                  text("the child has ",
+                       positions.size(),
+                       " points and its parent ",
+                       parent.rest.size(),
                        "; give the child as many, or none"));
   }
 

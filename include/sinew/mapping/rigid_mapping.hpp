@@ -9,8 +9,8 @@ namespace sinew {
 
 /// Points carried by rigid bodies:
 ///   x = c + r,  r = R p      v = c' + w x r      f_c += f,  torque += r x f
-/// The positions given to the child are the p in body axes, or world positions with `globalToLocalCoords`. In the plane
-/// w x r = w (-r_y, r_x).
+/// The positions given to the child are the p in body axes, or world positions with `globalToLocalCoords`. In
+/// the plane w x r = w (-r_y, r_x).
 template <class I, class O>
 struct RigidMapping {
   using Role = role::Mapping;
@@ -18,16 +18,22 @@ struct RigidMapping {
   using Out = O;
   using Real = typename Out::Real;
   static constexpr int N = Out::size, M = In::size;
-  static_assert(In::rigid && !Out::rigid && In::spatial == N, "RigidMapping carries points by rigid bodies of their space");
+  static_assert(In::rigid && !Out::rigid && In::spatial == N,
+                "RigidMapping carries points by rigid bodies of their space");
   static constexpr std::string_view className = "RigidMapping";
 
   std::vector<int> rigidIndices{0};
   bool globalToLocalCoords = false;
 
   static constexpr auto fields() {
-    return field_list(field("rigidIndexPerPoint", &RigidMapping::rigidIndices, "",
-                            "the body that carries each point; one entry for all points", range::nonNegative),
-                      field("globalToLocalCoords", &RigidMapping::globalToLocalCoords, "",
+    return field_list(field("rigidIndexPerPoint",
+                            &RigidMapping::rigidIndices,
+                            "",
+                            "the body that carries each point; one entry for all points",
+                            range::nonNegative),
+                      field("globalToLocalCoords",
+                            &RigidMapping::globalToLocalCoords,
+                            "",
                             "the positions of the child are given in the world, not in the body"));
   }
 
@@ -37,12 +43,20 @@ struct RigidMapping {
   void init(InitContext<In> const& parent, InitContext<Out> const& child, typename Out::VecCoord& positions) {
     const std::string where = text(child.where, ": ", component_name<RigidMapping>());
     if (rigidIndices.size() != 1 && rigidIndices.size() != positions.size())
-      throw Error(where, text("rigidIndexPerPoint has ", rigidIndices.size(), " entries for ", positions.size(),
-                              " points; give one, or one for each point"));
+      throw Error(where,
+                  text("rigidIndexPerPoint has ",
+                       rigidIndices.size(),
+                       " entries for ",
+                       positions.size(),
+                       " points; give one, or one for each point"));
     for (const int i : rigidIndices)
       if (std::size_t(i) >= parent.rest.size())
-        throw Error(where, text("rigidIndexPerPoint has ", i, ", but the parent has ", parent.rest.size(),
-                                " rigid bodies, numbered from 0; correct the index"));
+        throw Error(where,
+                    text("rigidIndexPerPoint has ",
+                         i,
+                         ", but the parent has ",
+                         parent.rest.size(),
+                         " rigid bodies, numbered from 0; correct the index"));
     local = positions;
     if (globalToLocalCoords)
       for (std::size_t i = 0; i < local.size(); ++i) {
@@ -60,7 +74,8 @@ struct RigidMapping {
     }
   }
   void applyJ(typename Out::VecDeriv& out, typename In::VecDeriv const& in) const {
-    for (std::size_t i = 0; i < local.size(); ++i) out[i] = jacobian(i) * in[body_of(i)].template cast<Real>();
+    for (std::size_t i = 0; i < local.size(); ++i)
+      out[i] = jacobian(i) * in[body_of(i)].template cast<Real>();
   }
   void applyJT(typename In::VecDeriv& in, typename Out::VecDeriv const& out) const {
     for (std::size_t i = 0; i < local.size(); ++i)

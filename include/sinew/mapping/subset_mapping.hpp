@@ -13,26 +13,39 @@ struct SubsetMapping {
   using Role = role::Mapping;
   using In = I;
   using Out = O;
-  static_assert(!In::rigid && !Out::rigid && In::size == Out::size, "SubsetMapping joins points of as many coordinates");
+  static_assert(!In::rigid && !Out::rigid && In::size == Out::size,
+                "SubsetMapping joins points of as many coordinates");
   static constexpr std::string_view className = "SubsetMapping";
 
   std::vector<int> indices{};
 
   static constexpr auto fields() {
-    return field_list(field("indices", &SubsetMapping::indices, "", "point of the parent that each point of the child is",
+    return field_list(field("indices",
+                            &SubsetMapping::indices,
+                            "",
+                            "point of the parent that each point of the child is",
                             range::nonNegative));
   }
 
-  void init(InitContext<In> const& parent, InitContext<Out> const& child, typename Out::VecCoord& positions) const {
+  void init(InitContext<In> const& parent, InitContext<Out> const& child,
+            typename Out::VecCoord& positions) const {
     const std::string where = text(child.where, ": ", component_name<SubsetMapping>());
     for (const int i : indices)
       if (std::size_t(i) >= parent.rest.size())
-        throw Error(where, text("indices has ", i, ", but the parent has ", parent.rest.size(),
-                                " points, numbered from 0; correct the index"));
+        throw Error(where,
+                    text("indices has ",
+                         i,
+                         ", but the parent has ",
+                         parent.rest.size(),
+                         " points, numbered from 0; correct the index"));
     if (positions.empty()) positions.resize(indices.size());
     if (positions.size() != indices.size())
-      throw Error(where, text("the child has ", positions.size(), " points for ", indices.size(),
-                              " indices; give the child as many, or none"));
+      throw Error(where,
+                  text("the child has ",
+                       positions.size(),
+                       " points for ",
+                       indices.size(),
+                       " indices; give the child as many, or none"));
   }
 
   void apply(typename Out::VecCoord& out, typename In::VecCoord const& in) const { gather(out, in); }
@@ -43,7 +56,8 @@ struct SubsetMapping {
   }
   template <class F>
   void forEachJacobianBlock(int point, F&& f) const {
-    f(indices[std::size_t(point)], Mat<typename Out::Real, Out::size>(Mat<typename Out::Real, Out::size>::Identity()));
+    f(indices[std::size_t(point)],
+      Mat<typename Out::Real, Out::size>(Mat<typename Out::Real, Out::size>::Identity()));
   }
 
  private:

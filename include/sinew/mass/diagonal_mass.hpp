@@ -7,8 +7,8 @@
 
 namespace sinew {
 
-/// A mass for each point: given one by one, or from a density (or the total) over the tetrahedra of the topology,
-/// each of which gives a quarter of its mass to its points.
+/// A mass for each point: given one by one, or from a density (or the total) over the tetrahedra of the
+/// topology, each of which gives a quarter of its mass to its points.
 template <class D>
 struct DiagonalMass {
   using Role = role::Mass;
@@ -25,9 +25,10 @@ struct DiagonalMass {
 
   static constexpr auto fields() {
     using M = DiagonalMass;
-    return field_list(field("massDensity", &M::massDensity, "kg/m^3", "mass of a volume of the body", range::positive),
-                      field("totalMass", &M::totalMass, "kg", "mass of the body", range::positive),
-                      field("vertexMass", &M::vertexMass, "kg", "mass of each point", range::positive));
+    return field_list(
+        field("massDensity", &M::massDensity, "kg/m^3", "mass of a volume of the body", range::positive),
+        field("totalMass", &M::totalMass, "kg", "mass of the body", range::positive),
+        field("vertexMass", &M::vertexMass, "kg", "mass of each point", range::positive));
   }
 
   LumpedMass<D> lumped{};
@@ -39,18 +40,23 @@ struct DiagonalMass {
       throw Error(where, "give exactly one of massDensity, totalMass and vertexMass");
     if (!vertexMass.empty()) {
       if (vertexMass.size() != n)
-        throw Error(where, text("vertexMass has ", vertexMass.size(), " entries for ", n, " points; give one for each"));
+        throw Error(
+            where,
+            text("vertexMass has ", vertexMass.size(), " entries for ", n, " points; give one for each"));
       return lumped.init(where, vertexMass);
     }
     if constexpr (!D::rigid && D::spatial == 3) {
       if (context.topology.tetrahedra.empty())
-        throw Error(where, "a density needs the volume of tetrahedra; give the node a topology with tetrahedra, or vertexMass");
+        throw Error(where,
+                    "a density needs the volume of tetrahedra; give the node a topology with tetrahedra, or "
+                    "vertexMass");
       std::vector<double> volume(n, 0.0);
       double whole = 0;
       for (auto const& t : context.topology.tetrahedra) {
         Mat<double, 3> edges;
         for (int c = 0; c < 3; ++c)
-          edges.col(c) = (D::center(context.rest[std::size_t(t[std::size_t(c) + 1])]) - D::center(context.rest[std::size_t(t[0])]))
+          edges.col(c) = (D::center(context.rest[std::size_t(t[std::size_t(c) + 1])]) -
+                          D::center(context.rest[std::size_t(t[0])]))
                              .template cast<double>();
         const double v = std::abs(edges.determinant()) / 6;
         whole += v;

@@ -9,7 +9,8 @@
 namespace sinew {
 
 /// Masses lumped at the points, one for all or one for each: the loops behind UniformMass and DiagonalMass.
-/// The mass of a point is a scalar, that of a rigid body also has an inertia I in body axes; R turns it to the world.
+/// The mass of a point is a scalar, that of a rigid body also has an inertia I in body axes; R turns it to
+/// the world.
 template <class D>
 struct LumpedMass {
   using Real = typename D::Real;
@@ -31,16 +32,27 @@ struct LumpedMass {
         // positive definite: all leading minors positive
         bool positive = inertia.allFinite() && inertia(0, 0) > 0 && inertia.determinant() > 0 &&
                         (inertia - inertia.transpose()).norm() <= Real(1e-5) * inertia.norm();
-        if constexpr (angular == 3) positive = positive && inertia.template topLeftCorner<2, 2>().determinant() > 0;
+        if constexpr (angular == 3)
+          positive = positive && inertia.template topLeftCorner<2, 2>().determinant() > 0;
         if (!(mass[i].mass > 0) || !std::isfinite(mass[i].mass) || !positive)
-          throw Error(where, text("mass ", i, " is ", mass[i].mass,
-                                  " kg; the mass of a rigid body must be greater than 0, and its inertia symmetric and "
-                                  "positive definite"));
+          throw Error(
+              where,
+              text("mass ",
+                   i,
+                   " is ",
+                   mass[i].mass,
+                   " kg; the mass of a rigid body must be greater than 0, and its inertia symmetric and "
+                   "positive definite"));
         inverse.push_back({1 / mass[i].mass, inertia.inverse()});
       } else {
         if (!(mass[i] > 0) || !std::isfinite(mass[i]))
-          throw Error(where, text("the mass of point ", i, " is ", mass[i],
-                                  " kg, but must be greater than 0; correct it, or give the point an element or a mass"));
+          throw Error(
+              where,
+              text("the mass of point ",
+                   i,
+                   " is ",
+                   mass[i],
+                   " kg, but must be greater than 0; correct it, or give the point an element or a mass"));
         inverse.push_back(1 / mass[i]);
       }
     }

@@ -7,8 +7,8 @@
 
 namespace sinew {
 
-/// The same mass at every point: `vertexMass`, or `totalMass` shared out evenly. Rigid bodies have a mass and an
-/// inertia in body axes; `totalMass` scales both.
+/// The same mass at every point: `vertexMass`, or `totalMass` shared out evenly. Rigid bodies have a mass and
+/// an inertia in body axes; `totalMass` scales both.
 template <class D>
 struct UniformMass {
   using Role = role::Mass;
@@ -23,18 +23,21 @@ struct UniformMass {
   std::optional<double> totalMass{};
 
   static constexpr auto fields() {
-    return field_list(field("vertexMass", &UniformMass::vertexMass, "kg", "mass of each point", range::positive),
-                      field("totalMass", &UniformMass::totalMass, "kg", "mass of all points together", range::positive));
+    return field_list(
+        field("vertexMass", &UniformMass::vertexMass, "kg", "mass of each point", range::positive),
+        field("totalMass", &UniformMass::totalMass, "kg", "mass of all points together", range::positive));
   }
 
   LumpedMass<D> lumped{};
 
   void init(InitContext<D> const& context) {
     const std::string where = text(context.where, ": ", component_name<UniformMass>());
-    if (vertexMass && totalMass) throw Error(where, "vertexMass and totalMass are both given; give one of them");
+    if (vertexMass && totalMass)
+      throw Error(where, "vertexMass and totalMass are both given; give one of them");
     MassType mass = vertexMass.value_or(unit());
     if (totalMass) {
-      if (context.rest.empty()) throw Error(where, "the state has no points to share totalMass; give it positions");
+      if (context.rest.empty())
+        throw Error(where, "the state has no points to share totalMass; give it positions");
       const Real share = Real(*totalMass) / Real(context.rest.size());
       if constexpr (D::rigid)
         mass = {share, share * mass.inertia};

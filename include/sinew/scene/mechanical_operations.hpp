@@ -9,8 +9,9 @@
 
 namespace sinew {
 
-/// The few physical procedures of which integration schemes consist (Faure et al. 2007, section 2.1), over the subtree
-/// of `Root`, a scope. Vector operations act on independent states; mapped ones follow by propagation.
+/// The few physical procedures of which integration schemes consist (Faure et al. 2007, section 2.1), over
+/// the subtree of `Root`, a scope. Vector operations act on independent states; mapped ones follow by
+/// propagation.
 template <class Root>
 struct MechanicalOperations {
   Root const& root;
@@ -56,7 +57,8 @@ struct MechanicalOperations {
     forEachIndependent([&](auto& s) { sum += vec::dot(s[a], s[b]); });
     return sum;
   }
-  /// rate = time derivative of theta, where a position moved by theta has velocity v; v itself but for rigid bodies.
+  /// rate = time derivative of theta, where a position moved by theta has velocity v; v itself but for rigid
+  /// bodies.
   void chartRate(DerivId rate, DerivId theta, DerivId v) {
     forEachIndependent([&](auto& s) {
       using D = DataTypesOf<decltype(s)>;
@@ -173,7 +175,9 @@ struct MechanicalOperations {
       if constexpr (HasRole<C, role::ForceField>)
         sum += c.potentialEnergy(scope.template state<typename C::DataTypes>()[vec_id::position]);
       else if constexpr (HasRole<C, role::InteractionForceField>)
-        forEnds(c, scope, [&](auto& a, auto& b) { sum += c.potentialEnergy(a[vec_id::position], b[vec_id::position]); });
+        forEnds(c, scope, [&](auto& a, auto& b) {
+          sum += c.potentialEnergy(a[vec_id::position], b[vec_id::position]);
+        });
     });
     return sum;
   }
@@ -203,14 +207,17 @@ struct MechanicalOperations {
       using C = std::decay_t<decltype(c)>;
       if constexpr (HasRole<C, role::ProjectiveConstraint>)
         if (!scope.stateScope().mapped())
-          withSink<AssemblyPhase::add>(matrix, scope.stateScope(), scope.stateScope(), [&](auto const& sink) { c.projectMatrix(sink); });
+          withSink<AssemblyPhase::add>(matrix, scope.stateScope(), scope.stateScope(), [&](auto const& sink) {
+            c.projectMatrix(sink);
+          });
     });
   }
   /// Copies between state vectors and one vector of all independent degrees of freedom.
   template <class Vector>
   void gather(Vector& to, DerivId from) {
     forEachIndependent([&](auto& s) {
-      to.segment(s.dofOffset, vec::flat(s[from]).size()) = vec::flat(s[from]).template cast<typename Vector::Scalar>();
+      to.segment(s.dofOffset, vec::flat(s[from]).size()) =
+          vec::flat(s[from]).template cast<typename Vector::Scalar>();
     });
   }
   template <class Vector>
@@ -287,7 +294,8 @@ struct MechanicalOperations {
   static void withSink(Matrix& matrix, S0 const& a, S1 const& b, F&& f) {
     withDofs(a, [&](auto const& first) {
       withDofs(b, [&](auto const& second) {
-        f(MatrixSink<Phase, Matrix, std::decay_t<decltype(first)>, std::decay_t<decltype(second)>>{matrix, first, second});
+        f(MatrixSink<Phase, Matrix, std::decay_t<decltype(first)>, std::decay_t<decltype(second)>>{
+            matrix, first, second});
       });
     });
   }
@@ -298,13 +306,18 @@ struct MechanicalOperations {
     traverse(root, [&](auto& c, auto const& scope) {
       using C = std::decay_t<decltype(c)>;
       if constexpr (HasRole<C, role::ForceField>) {
-        withSink<Phase>(matrix, scope.stateScope(), scope.stateScope(), [&](auto const& sink) { c.addToMatrix(p, sink); });
+        withSink<Phase>(matrix, scope.stateScope(), scope.stateScope(), [&](auto const& sink) {
+          c.addToMatrix(p, sink);
+        });
       } else if constexpr (HasRole<C, role::Mass>) {
         auto& x = scope.template state<typename C::DataTypes>()[vec_id::position];
-        withSink<Phase>(matrix, scope.stateScope(), scope.stateScope(), [&](auto const& sink) { c.addToMatrix(p, x, sink); });
+        withSink<Phase>(matrix, scope.stateScope(), scope.stateScope(), [&](auto const& sink) {
+          c.addToMatrix(p, x, sink);
+        });
       } else if constexpr (HasRole<C, role::InteractionForceField>) {
         scope.withEnds(c, [&](auto const& a, auto const& b) {
-          withSink<Phase>(matrix, a.stateScope(), b.stateScope(), [&](auto const& sink) { c.addToMatrix(p, sink); });
+          withSink<Phase>(
+              matrix, a.stateScope(), b.stateScope(), [&](auto const& sink) { c.addToMatrix(p, sink); });
         });
       }
     });

@@ -76,7 +76,9 @@ struct Node<Name, hana::tuple<Cs...>, hana::tuple<Ns...>> {
       ((std::is_same_v<Cs, C> && found < 0 ? void(found = j) : void(), ++j), ...);
       return found;
     }();
-    static_assert(i >= 0, "Sinew: this node has no component of the class asked for; compare it with the node<>() that made the scene.");
+    static_assert(i >= 0,
+                  "Sinew: this node has no component of the class asked for; compare it with the node<>() "
+                  "that made the scene.");
     return hana::at_c<std::size_t(i)>(components);
   }
 };
@@ -89,19 +91,22 @@ inline constexpr bool is_node<Node<Name, Components, Children>> = true;
 /// Composes a node from components and child nodes, in any order; each keeps its order among its own kind.
 template <FixedString Name, class... Parts>
 auto node(Parts... parts) {
-  static_assert(((Component<Parts> || is_node<Parts>)&&...),
-                "Sinew: node<\"name\">(...) takes components and child nodes. One argument is neither: a component has "
-                "a Role, a className and fields().");
+  static_assert(
+      ((Component<Parts> || is_node<Parts>)&&...),
+      "Sinew: node<\"name\">(...) takes components and child nodes. One argument is neither: a component has "
+      "a Role, a className and fields().");
   static_assert(Name.view().find('/') == std::string_view::npos && !Name.view().empty(),
                 "Sinew: the name of a node is not empty and has no '/', which separates names in a path.");
   hana::tuple<Parts...> all(std::move(parts)...);
   auto child = [](auto const& part) { return hana::bool_c<is_node<std::decay_t<decltype(part)>>>; };
   auto component = [](auto const& part) { return hana::bool_c<!is_node<std::decay_t<decltype(part)>>>; };
-  auto components = hana::filter(std::move(all), component);  // moves out the components and leaves the children
+  auto components =
+      hana::filter(std::move(all), component);  // moves out the components and leaves the children
   auto children = hana::filter(std::move(all), child);
   using Result = Node<Name, decltype(components), decltype(children)>;
-  static_assert(Result::childNamesDiffer(),
-                "Sinew: two children of a node have the same name; a path could not tell them apart. Rename one.");
+  static_assert(
+      Result::childNamesDiffer(),
+      "Sinew: two children of a node have the same name; a path could not tell them apart. Rename one.");
   return Result{std::move(components), std::move(children)};
 }
 

@@ -31,8 +31,8 @@ constexpr auto rest_of_path() {
 }
 }  // namespace detail
 
-/// A node of a typed scene seen from the path that leads to it. All traversals, operations and checks know a tree
-/// through these members only; every choice here is made by the compiler.
+/// A node of a typed scene seen from the path that leads to it. All traversals, operations and checks know a
+/// tree through these members only; every choice here is made by the compiler.
 template <class N, class A>
 struct Scope {
   using NodeType = N;
@@ -50,7 +50,7 @@ struct Scope {
   std::string path() const { return above.path() + "/" + std::string(N::name.view()); }
 
   Eigen::Vector3d gravity() const {
-    if constexpr (N::template count<role::Context> > 0)
+    if constexpr (N::template count < role::Context >> 0)
       return node.template first<role::Context>().gravity;
     else
       return above.gravity();
@@ -58,7 +58,7 @@ struct Scope {
 
   /// The nearest topology upwards, of the nodes that share this node's points.
   TopologyView topology() const {
-    if constexpr (N::template count<role::Topology> > 0)
+    if constexpr (N::template count < role::Topology >> 0)
       return node.template first<role::Topology>().view();
     else if constexpr (ownsState)
       return {};
@@ -92,7 +92,9 @@ struct Scope {
   }
   template <class F>
   void forEachChild(F&& f) const {
-    hana::for_each(node.children, [&](auto& child) { f(Scope<std::decay_t<decltype(child)>, Scope>{child, *this}); });
+    hana::for_each(node.children, [&](auto& child) {
+      f(Scope<std::decay_t<decltype(child)>, Scope>{child, *this});
+    });
   }
   /// f(child state, parent state) for the mapping of this node, unless it carries a visual model.
   template <class C, class F>
@@ -115,31 +117,36 @@ struct Scope {
       return f(*this);
     } else {
       constexpr int i = N::childIndex(detail::first_name(Path.view()));
-      static_assert(i >= 0, "Sinew: no node has this path. Paths are names joined by '/', from the children of the root "
-                            "(or of the node of an interaction) on; look for a misspelt name.");
+      static_assert(
+          i >= 0,
+          "Sinew: no node has this path. Paths are names joined by '/', from the children of the root "
+          "(or of the node of an interaction) on; look for a misspelt name.");
       if constexpr (i >= 0) {
         auto& child = hana::at_c<std::size_t(i)>(node.children);
-        return Scope<std::decay_t<decltype(child)>, Scope>{child, *this}.template descend<detail::rest_of_path<Path>()>(f);
+        return Scope<std::decay_t<decltype(child)>, Scope>{child, *this}
+            .template descend<detail::rest_of_path<Path>()>(f);
       }
     }
   }
   /// f(scope of the first end, scope of the second) of an interaction in this node.
   template <class C, class F>
   void withEnds(C const&, F&& f) const {
-    descend<C::Ends::first>([&](auto const& a) { descend<C::Ends::second>([&](auto const& b) { f(a, b); }); });
+    descend<C::Ends::first>(
+        [&](auto const& a) { descend<C::Ends::second>([&](auto const& b) { f(a, b); }); });
   }
 
   /// f(linear solver) with the nearest one, from this node upwards.
   template <class F>
   void withLinearSolver(F&& f) const {
-    if constexpr (N::template count<role::LinearSolver> > 0)
+    if constexpr (N::template count < role::LinearSolver >> 0)
       f(node.template first<role::LinearSolver>());
     else
       above.withLinearSolver(f);
   }
 };
 
-/// down(component, scope) from the root to the leaves, up(component, scope) on the way back. Unrolled by the compiler.
+/// down(component, scope) from the root to the leaves, up(component, scope) on the way back. Unrolled by the
+/// compiler.
 template <class S, class Down, class Up>
 void traverse(S const& scope, Down&& down, Up&& up) {
   scope.forEachComponent([&](auto& component) { down(component, scope); });

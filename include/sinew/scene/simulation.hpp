@@ -7,15 +7,15 @@
 
 namespace sinew {
 
-/// A typed scene that runs: init(), then animate(dt) as often as wanted. After init a step neither allocates nor makes
-/// an indirect call. Copies of a simulation are independent of each other.
+/// A typed scene that runs: init(), then animate(dt) as often as wanted. After init a step neither allocates
+/// nor makes an indirect call. Copies of a simulation are independent of each other.
 template <class Root>
 class Simulation {
  public:
   explicit Simulation(Root root) : root_(std::move(root)) {}
 
-  /// Checks all fields, sizes all states, initialises all components. Throws Error, naming node, component and field;
-  /// the simulation then stays uninitialised.
+  /// Checks all fields, sizes all states, initialises all components. Throws Error, naming node, component
+  /// and field; the simulation then stays uninitialised.
   void init() {
     initialised_ = false;
     const auto scope = rootScope();
@@ -30,12 +30,13 @@ class Simulation {
     initialised_ = true;
   }
 
-  /// Advances the scene by dt seconds. Throws Error where dt is not a positive number, and where a state is no longer
-  /// finite after the step.
+  /// Advances the scene by dt seconds. Throws Error where dt is not a positive number, and where a state is
+  /// no longer finite after the step.
   void animate(double dt) {
     if (!initialised_) throw Error("Simulation::animate", "the scene is not initialised; call init() first");
     if (!(dt > 0) || !std::isfinite(dt))
-      throw Error("Simulation::animate", text("dt is ", dt, " s, but must be a finite number greater than 0"));
+      throw Error("Simulation::animate",
+                  text("dt is ", dt, " s, but must be a finite number greater than 0"));
     const auto scope = rootScope();
     integrate(scope, dt);
     time_ += dt;
@@ -65,16 +66,21 @@ class Simulation {
 
   double time() const { return time_; }
   long step() const { return step_; }
-  double kineticEnergy() { return over([](auto& o) { return o.kineticEnergy(); }); }
+  double kineticEnergy() {
+    return over([](auto& o) { return o.kineticEnergy(); });
+  }
   /// Energy of the force fields at the current positions, gravity left out [J].
-  double potentialEnergy() { return over([](auto& o) { return o.potentialEnergy(); }); }
+  double potentialEnergy() {
+    return over([](auto& o) { return o.potentialEnergy(); });
+  }
 
-  /// The node at a path from the root, resolved by the compiler: sim.at<"liver/skin">(). A visual model in it is brought
-  /// up to date; animate() leaves them behind, since they are looked at less often than the scene is stepped.
+  /// The node at a path from the root, resolved by the compiler: sim.at<"liver/skin">(). A visual model in it
+  /// is brought up to date; animate() leaves them behind, since they are looked at less often than the scene
+  /// is stepped.
   template <FixedString Path>
   auto& at() {
     auto& found = rootScope().template descend<Path>([](auto const& s) -> auto& { return s.node; });
-    if constexpr (std::decay_t<decltype(found)>::template count<role::VisualModel> > 0) updateVisual();
+    if constexpr (std::decay_t<decltype(found)>::template count < role::VisualModel >> 0) updateVisual();
     return found;
   }
   Root& root() { return root_; }
@@ -120,7 +126,9 @@ class Simulation {
       auto const& parent = scope.above.stateScope();
       auto& parentState = parent.node.state();
       auto place = [&](auto& child, auto& rest) {
-        mapping.init(parent.template context<typename M::In>(), {scope.path(), rest, scope.topology()}, child.position);
+        mapping.init(parent.template context<typename M::In>(),
+                     {scope.path(), rest, scope.topology()},
+                     child.position);
       };
       if constexpr (S::isVisual) {
         auto& visual = scope.node.visual();
@@ -147,17 +155,19 @@ class Simulation {
   static void initComponent(C& c, S const& scope) {
     if constexpr (HasRole<C, role::Topology>) {
       if constexpr (S::hasState) c.init(scope.template context<typename checks::StateOf<S>::DataTypes>());
-    } else if constexpr (HasRole<C, role::ForceField> || HasRole<C, role::Mass> || HasRole<C, role::ProjectiveConstraint>) {
+    } else if constexpr (HasRole<C, role::ForceField> || HasRole<C, role::Mass> ||
+                         HasRole<C, role::ProjectiveConstraint>) {
       c.init(scope.template context<typename C::DataTypes>());
     } else if constexpr (HasRole<C, role::InteractionForceField>) {
       using D = typename C::DataTypes;
-      scope.withEnds(c, [&](auto const& a, auto const& b) { c.init(a.template context<D>(), b.template context<D>()); });
+      scope.withEnds(
+          c, [&](auto const& a, auto const& b) { c.init(a.template context<D>(), b.template context<D>()); });
     }
   }
 
   template <class S>
   static void initSolvers(S const& scope) {
-    if constexpr (S::NodeType::template count<role::OdeSolver> > 0) {
+    if constexpr (S::NodeType::template count < role::OdeSolver >> 0) {
       MechanicalOperations<S> operations(scope);
       using Ode = std::decay_t<decltype(scope.node.template first<role::OdeSolver>())>;
       if constexpr (Ode::implicit)
@@ -174,7 +184,7 @@ class Simulation {
   // each ODE solver integrates its subtree and propagates; where there is none, the children are looked at
   template <class S>
   void integrate(S const& scope, double dt) {
-    if constexpr (S::NodeType::template count<role::OdeSolver> > 0) {
+    if constexpr (S::NodeType::template count < role::OdeSolver >> 0) {
       MechanicalOperations<S> operations(scope, time_, dt);
       scope.node.template first<role::OdeSolver>().solve(operations, dt);
       operations.propagate(vec_id::position, vec_id::velocity);
@@ -190,8 +200,11 @@ class Simulation {
     const int x = vec::find_not_finite<D>(state.position);
     if (x < 0) return;
     throw Error(text("step ", step_, " (time ", time_, " s), ", scope.path()),
-                text(component_name<C>(), ": the position of point ", x,
-                     " is not a finite number: the simulation diverged; take a smaller dt, an implicit solver, more damping "
+                text(component_name<C>(),
+                     ": the position of point ",
+                     x,
+                     " is not a finite number: the simulation diverged; take a smaller dt, an implicit "
+                     "solver, more damping "
                      "or a softer material"));
   }
 };

@@ -13,8 +13,8 @@ namespace sinew {
 /// The matrix of a solver that never forms it: products go through the scene graph.
 struct GraphScattered {};
 
-/// Conjugate gradients (Hestenes, Stiefel 1952) from x = 0. `Matrix`: GraphScattered, or a CompressedRowSparseMatrix into
-/// which the system is assembled once a step.
+/// Conjugate gradients (Hestenes, Stiefel 1952) from x = 0. `Matrix`: GraphScattered, or a
+/// CompressedRowSparseMatrix into which the system is assembled once a step.
 template <class Matrix = GraphScattered>
 struct CGLinearSolver {
   using Role = role::LinearSolver;
@@ -30,13 +30,24 @@ struct CGLinearSolver {
     using S = CGLinearSolver;
     return field_list(
         field("iterations", &S::iterations, "", "largest number of iterations", range::atLeast(1)),
-        field("tolerance", &S::tolerance, "", "relative residual at which to stop; 0 does all iterations", range::nonNegative),
-        field("threshold", &S::threshold, "", "smallest curvature p.A p with which to go on", range::nonNegative));
+        field("tolerance",
+              &S::tolerance,
+              "",
+              "relative residual at which to stop; 0 does all iterations",
+              range::nonNegative),
+        field("threshold",
+              &S::threshold,
+              "",
+              "smallest curvature p.A p with which to go on",
+              range::nonNegative));
   }
 
-  std::vector<double> residuals{};  // |b - A x| / |b| of the last solve: at the start, then after each iteration
+  std::vector<double>
+      residuals{};  // |b - A x| / |b| of the last solve: at the start, then after each iteration
 
-  using Vector = Eigen::Matrix<typename std::conditional_t<matrixFree, CompressedRowSparseMatrixd, Matrix>::Real, Eigen::Dynamic, 1>;
+  using Vector =
+      Eigen::Matrix<typename std::conditional_t<matrixFree, CompressedRowSparseMatrixd, Matrix>::Real,
+                    Eigen::Dynamic, 1>;
   struct Nothing {};
   struct Assembled {
     Matrix matrix{};
@@ -50,12 +61,14 @@ struct CGLinearSolver {
     residuals.reserve(std::size_t(iterations) + 1);
     if constexpr (!matrixFree) {
       operations.initMatrix(system.matrix);
-      for (Vector* v : {&system.x, &system.b, &system.r, &system.p, &system.q}) v->setZero(system.matrix.dofs() + 1);  // the last stays 0: multiply reads it
+      for (Vector* v : {&system.x, &system.b, &system.r, &system.p, &system.q})
+        v->setZero(system.matrix.dofs() + 1);  // the last stays 0: multiply reads it
     }
   }
 
   template <class Operations>
-  void solve(Operations& operations, MatrixFactors factors, MultiVecDeriv<Operations>& x, MultiVecDeriv<Operations>& b) {
+  void solve(Operations& operations, MatrixFactors factors, MultiVecDeriv<Operations>& x,
+             MultiVecDeriv<Operations>& b) {
     if constexpr (matrixFree) {
       MultiVecDeriv r(operations), p(operations), q(operations);
       x.clear();

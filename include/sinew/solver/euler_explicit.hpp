@@ -6,8 +6,8 @@
 
 namespace sinew {
 
-/// Euler's method, order 1. Symplectic: v += a dt, then x += v dt with the new velocity (Stoermer-Verlet's first order
-/// kin, energy stays bounded). Otherwise both use the old values.
+/// Euler's method, order 1. Symplectic: v += a dt, then x += v dt with the new velocity (Stoermer-Verlet's
+/// first order kin, energy stays bounded). Otherwise both use the old values.
 struct EulerExplicitSolver {
   using Role = role::OdeSolver;
   static constexpr std::string_view className = "EulerExplicitSolver";
@@ -17,7 +17,8 @@ struct EulerExplicitSolver {
   bool symplectic = true;
 
   static constexpr auto fields() {
-    return field_list(field("symplectic", &EulerExplicitSolver::symplectic, "", "move positions with the new velocity"));
+    return field_list(
+        field("symplectic", &EulerExplicitSolver::symplectic, "", "move positions with the new velocity"));
   }
 
   template <class Operations>

@@ -6,7 +6,8 @@
 
 namespace sinew {
 
-/// Implicit Euler, order 1, linearised once a step (Baraff, Witkin 1998), with Rayleigh damping. With K = df/dx, B = df/dv:
+/// Implicit Euler, order 1, linearised once a step (Baraff, Witkin 1998), with Rayleigh damping. With K =
+/// df/dx, B = df/dv:
 ///   ((1 + h rM) M - h B - h (h + rK) K) dv = h (f - rM M v + (h + rK) K v),   v += dv,   x += h v
 struct EulerImplicitSolver {
   using Role = role::OdeSolver;
@@ -19,14 +20,16 @@ struct EulerImplicitSolver {
 
   static constexpr auto fields() {
     using S = EulerImplicitSolver;
-    return field_list(field("rayleighStiffness", &S::rayleighStiffness, "s", "damping per stiffness", range::nonNegative),
-                      field("rayleighMass", &S::rayleighMass, "1/s", "damping per mass", range::nonNegative));
+    return field_list(
+        field("rayleighStiffness", &S::rayleighStiffness, "s", "damping per stiffness", range::nonNegative),
+        field("rayleighMass", &S::rayleighMass, "1/s", "damping per mass", range::nonNegative));
   }
 
   template <class Operations>
   void solve(Operations& operations, double h) const {
     MultiVecCoord pos(operations, vec_id::position);
-    MultiVecDeriv vel(operations, vec_id::velocity), force(operations, vec_id::force), dv(operations, vec_id::dx);
+    MultiVecDeriv vel(operations, vec_id::velocity), force(operations, vec_id::force),
+        dv(operations, vec_id::dx);
     MultiVecDeriv b(operations);
     operations.computeForce(force.id, pos.id, vel.id);
     b.eq(force);
@@ -34,7 +37,8 @@ struct EulerImplicitSolver {
     b.teq(h);
     operations.projectResponse(b.id);
     operations.root.withLinearSolver([&](auto& linear) {
-      linear.solve(operations, {.m = 1 + h * rayleighMass, .b = -h, .k = -h * (h + rayleighStiffness)}, dv, b);
+      linear.solve(
+          operations, {.m = 1 + h * rayleighMass, .b = -h, .k = -h * (h + rayleighStiffness)}, dv, b);
     });
     vel.peq(dv);
     pos.peq(vel, h);

@@ -20,7 +20,9 @@ struct RungeKutta2Solver {
     const double startTime = operations.time;
     MultiVecCoord pos(operations, vec_id::position);
     MultiVecDeriv vel(operations, vec_id::velocity);
-    auto computeAcc = [&](double t, auto& a, auto const& x, auto const& v) { operations.computeAcc(t, a, x, v); };
+    auto computeAcc = [&](double t, auto& a, auto const& x, auto const& v) {
+      operations.computeAcc(t, a, x, v);
+    };
 
     MultiVecDeriv acc(operations);
     MultiVecCoord newX(operations);

@@ -7,8 +7,9 @@
 
 namespace sinew {
 
-/// A vector of derivatives of all states below a solver, under one id. Solvers do mathematics with it and never see an
-/// entry. `MultiVecDeriv acc(operations)` takes an auxiliary vector for as long as it lives, without allocating.
+/// A vector of derivatives of all states below a solver, under one id. Solvers do mathematics with it and
+/// never see an entry. `MultiVecDeriv acc(operations)` takes an auxiliary vector for as long as it lives,
+/// without allocating.
 template <class Operations>
 struct MultiVecDeriv {
   Operations& operations;
@@ -24,9 +25,9 @@ struct MultiVecDeriv {
   MultiVecDeriv& operator=(MultiVecDeriv const& a) { return eq(a), *this; }
   void clear() { operations.clear(id); }
   void eq(MultiVecDeriv const& a) { operations.eq(id, a.id); }
-  void eq(MultiVecDeriv const& a, double f) { operations.eq(id, a.id, f); }      // = f a
+  void eq(MultiVecDeriv const& a, double f) { operations.eq(id, a.id, f); }        // = f a
   void peq(MultiVecDeriv const& a, double f = 1) { operations.peq(id, a.id, f); }  // += f a
-  void teq(double f) { operations.teq(id, f); }                                  // *= f
+  void teq(double f) { operations.teq(id, f); }                                    // *= f
   double dot(MultiVecDeriv const& a) const { return operations.dot(id, a.id); }
   double norm() const { return std::sqrt(dot(*this)); }
 

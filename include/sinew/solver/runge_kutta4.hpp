@@ -6,8 +6,8 @@
 
 namespace sinew {
 
-/// Classical Runge-Kutta method, order 4. Rotations are advanced in the chart of exponential coordinates (Munthe-Kaas
-/// 1999), so that the order holds for rigid bodies too; for points the chart is the identity.
+/// Classical Runge-Kutta method, order 4. Rotations are advanced in the chart of exponential coordinates
+/// (Munthe-Kaas 1999), so that the order holds for rigid bodies too; for points the chart is the identity.
 struct RungeKutta4Solver {
   using Role = role::OdeSolver;
   static constexpr std::string_view className = "RungeKutta4Solver";
@@ -21,7 +21,8 @@ struct RungeKutta4Solver {
     const double startTime = operations.time;
     MultiVecCoord pos(operations, vec_id::position), newX(operations);
     MultiVecDeriv vel(operations, vec_id::velocity), newV(operations);
-    MultiVecDeriv k(operations), acc(operations), theta(operations), sumK(operations), sumA(operations), startV(operations);
+    MultiVecDeriv k(operations), acc(operations), theta(operations), sumK(operations), sumA(operations),
+        startV(operations);
 
     // stage 1
     operations.computeAcc(startTime, acc, pos, vel);

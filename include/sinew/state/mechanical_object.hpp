@@ -8,8 +8,8 @@
 
 namespace sinew {
 
-/// Degrees of freedom of one body: its state vectors, found by their ids. Sized by `position`, or by the mapping
-/// of the node when `position` is empty.
+/// Degrees of freedom of one body: its state vectors, found by their ids. Sized by `position`, or by the
+/// mapping of the node when `position` is empty.
 template <class D>
 struct MechanicalObject {
   using Role = role::State;
@@ -44,16 +44,17 @@ struct MechanicalObject {
     const std::size_t n = position.size();
     auto same = [&](std::size_t given, std::string_view name) {
       if (given != 0 && given != n)
-        throw Error(where, text(component_name<MechanicalObject>(), ": ", name, " has ", given, " entries, position has ",
-                                n, "; give one for each, or none"));
+        throw Error(where, text(component_name<MechanicalObject>(), ": ", name, " has ", given,
+                                " entries, position has ", n, "; give one for each, or none"));
     };
     same(velocity.size(), "velocity");
     same(restPosition.size(), "rest_position");
     if constexpr (D::rigid && D::spatial == 3)
       for (std::size_t i = 0; i < n; ++i) {
         const auto norm = position[i].orientation.norm();
-        if (!(norm > 1e-6)) throw Error(where, text(component_name<MechanicalObject>(), ": the orientation of position ", i,
-                                                    " is zero; give a quaternion of length 1"));
+        if (!(norm > 1e-6))
+          throw Error(where, text(component_name<MechanicalObject>(), ": the orientation of position ", i,
+                                  " is zero; give a quaternion of length 1"));
         position[i].orientation.coeffs() /= norm;
       }
     if (velocity.empty()) velocity.assign(n, D::Deriv::Zero());
@@ -77,18 +78,26 @@ struct MechanicalObject {
 
   VecCoord& operator[](CoordId id) {
     switch (id.index) {
-      case vec_id::position.index: return position;
-      case vec_id::restPosition.index: return restPosition;
-      case vec_id::freePosition.index: return freePosition;
-      default: return auxiliaryCoords[std::size_t(id.index - CoordId::reserved)];
+      case vec_id::position.index:
+        return position;
+      case vec_id::restPosition.index:
+        return restPosition;
+      case vec_id::freePosition.index:
+        return freePosition;
+      default:
+        return auxiliaryCoords[std::size_t(id.index - CoordId::reserved)];
     }
   }
   VecDeriv& operator[](DerivId id) {
     switch (id.index) {
-      case vec_id::velocity.index: return velocity;
-      case vec_id::force.index: return force;
-      case vec_id::dx.index: return dx;
-      default: return auxiliaryDerivs[std::size_t(id.index - DerivId::reserved)];
+      case vec_id::velocity.index:
+        return velocity;
+      case vec_id::force.index:
+        return force;
+      case vec_id::dx.index:
+        return dx;
+      default:
+        return auxiliaryDerivs[std::size_t(id.index - DerivId::reserved)];
     }
   }
 };

@@ -12,8 +12,8 @@ namespace sinew::vec {
 template <class Deriv>
 auto flat(std::vector<Deriv>& v) {
   using Real = typename Deriv::Scalar;
-  return Eigen::Map<Eigen::Matrix<Real, Eigen::Dynamic, 1>>(v.empty() ? nullptr : v.data()->data(),
-                                                            Eigen::Index(v.size()) * Deriv::SizeAtCompileTime);
+  return Eigen::Map<Eigen::Matrix<Real, Eigen::Dynamic, 1>>(
+      v.empty() ? nullptr : v.data()->data(), Eigen::Index(v.size()) * Deriv::SizeAtCompileTime);
 }
 template <class Deriv>
 auto flat(std::vector<Deriv> const& v) {

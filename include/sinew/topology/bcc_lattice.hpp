@@ -48,8 +48,8 @@ constexpr int bcc_direction(int x, int y, int z) {
   return -1;
 }
 
-/// Parameters of the paper (section 3): a cut point nearer to an end of its edge than this fraction of the
-/// edge moves that end. These values bound the dihedral angles by 10.7 and 164.8 degrees.
+/// A cut point nearer to an end of its edge than this fraction of the edge moves that end: the paper's values
+/// for the best smallest angle. 0.25 on long edges could flatten a lattice tetrahedron altogether.
 constexpr double bcc_alpha(int direction) { return bcc_is_long(direction) ? 0.24999 : 0.41189; }
 
 /// The field at the points (2i + c, 2j + c, k) h/2, c = k mod 2, and where the edges between them cross the

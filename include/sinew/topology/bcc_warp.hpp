@@ -120,8 +120,8 @@ inline void snap(BccLattice& lattice) {
 }
 
 /// Moves points back to the lattice where the body, too thin for this spacing, would touch itself in a point
-/// or an edge, or would miss a flat tetrahedron. The angle bounds hold on: cut points of such a point's edges
-/// are kept outside the forbidden part of the edge, instead of moving the point.
+/// or an edge, or would miss a flat tetrahedron. The angle bounds hold on: instead of moving the point,
+/// place_points() keeps the cut points of its edges out of the forbidden part of the edge.
 inline void unsnap_pinched(BccLattice& lattice) {
   std::vector<int> moved;
   lattice.for_inner_points([&](int p, auto const&) {

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/error.hpp>
+#include <sinew/topology/mesh.hpp>
+
+#include <cstdint>
+#include <span>
+
+namespace sinew::io {
+
+/// Adds a triangle or a quad; of a polygon with more corners a fan of triangles around its first, which fits
+/// convex ones. Expects three points or more.
+inline void add_polygon(Mesh& mesh, std::span<Index const> p) {
+  if (p.size() == 4) {
+    mesh.quads.push_back({p[0], p[1], p[2], p[3]});
+  } else {
+    for (std::size_t i = 2; i < p.size(); ++i) mesh.triangles.push_back({p[0], p[i - 1], p[i]});
+  }
+}
+
+inline void add_polyline(Mesh& mesh, std::span<Index const> p) {
+  for (std::size_t i = 1; i < p.size(); ++i) mesh.edges.push_back({p[i - 1], p[i]});
+}
+
+/// The numbers of vtkCellType.h.
+namespace vtk_cell {
+enum : std::int64_t {
+  empty = 0,
+  vertex,
+  polyVertex,
+  line,
+  polyLine,
+  triangle,
+  triangleStrip,
+  polygon,
+  pixel,
+  quad,
+  tetrahedron,
+  voxel,
+  hexahedron,
+  wedge,
+  pyramid
+};
+}  // namespace vtk_cell
+
+/// Adds a cell of a VTK file to `mesh`; vertices are ignored. Returns what is wrong with the cell, or
+/// nothing.
+inline std::string add_vtk_cell(Mesh& mesh, std::int64_t type, std::span<Index const> p) {
+  struct Size {
+    std::size_t least, most;
+  };
+  constexpr std::size_t any = std::size_t(-1);
+  constexpr Size sizes[] = {{0, any}, {1, 1}, {0, any}, {2, 2}, {2, any}, {3, 3}, {3, any},
+                            {3, any}, {4, 4}, {4, 4},   {4, 4}, {8, 8},   {8, 8}};
+  if (type == vtk_cell::wedge || type == vtk_cell::pyramid)
+    return "is a wedge or pyramid, which are not read; mesh with tetrahedra or hexahedra only";
+  if (type < 0 || type > vtk_cell::hexahedron)
+    return text("is of VTK's cell type ", type,
+                ", which is not read; convert the mesh to linear triangles, quads, tetrahedra or hexahedra");
+  const Size size = sizes[type];
+  if (p.size() < size.least || p.size() > size.most)
+    return text("has ", p.size(), " points, but VTK's cell type ", type, " has ", size.least,
+                size.most == any ? " or more" : "", "; correct the cell");
+  switch (type) {
+    case vtk_cell::line:
+    case vtk_cell::polyLine:
+      add_polyline(mesh, p);
+      break;
+    case vtk_cell::triangle:
+    case vtk_cell::polygon:
+    case vtk_cell::quad:
+      add_polygon(mesh, p);
+      break;
+    case vtk_cell::triangleStrip:  // every second triangle is turned
+      for (std::size_t i = 2; i < p.size(); ++i)
+        mesh.triangles.push_back({p[i - 2], p[i - 1 + i % 2], p[i - i % 2]});
+      break;
+    case vtk_cell::pixel:
+      mesh.quads.push_back({p[0], p[1], p[3], p[2]});
+      break;
+    case vtk_cell::tetrahedron:
+      mesh.tetrahedra.push_back({p[0], p[1], p[2], p[3]});
+      break;
+    case vtk_cell::voxel:
+      mesh.hexahedra.push_back({p[0], p[1], p[3], p[2], p[4], p[5], p[7], p[6]});
+      break;
+    case vtk_cell::hexahedron:
+      mesh.hexahedra.push_back({p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7]});
+      break;
+    default:
+      break;
+  }
+  return {};
+}
+
+}  // namespace sinew::io

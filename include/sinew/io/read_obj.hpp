@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/io/cells.hpp>
+#include <sinew/io/text_reader.hpp>
+
+#include <optional>
+#include <vector>
+
+namespace sinew::io {
+
+namespace detail {
+
+/// Wavefront OBJ, as the appendix B1 of the Advanced Visualizer manual describes it.
+class ObjParser {
+ public:
+  ObjParser(std::string_view path, std::string_view content) : in_(path, content) {}
+
+  Mesh parse() {
+    in_.rejectBinary();
+    for (; !in_.atEnd(); in_.restOfLine()) {
+      const std::string_view key = word();
+      if (key == "v") {
+        vertex();
+      } else if (key == "f") {
+        if (corners() < 3) throw in_.error("a face has fewer than three points; write lines as \"l\"");
+        add_polygon(mesh_, corners_);
+      } else if (key == "l") {
+        if (corners() < 2) throw in_.error("a line has fewer than two points; add one or remove the line");
+        add_polyline(mesh_, corners_);
+      } else if (!key.empty() &&
+                 std::find(std::begin(ignored), std::end(ignored), key) == std::end(ignored)) {
+        throw in_.expected("v, f, l or another keyword of polygonal OBJ files");
+      }
+    }
+    if (mesh_.positions.empty()) throw in_.error("there are no vertices (lines \"v x y z\"); export a mesh");
+    if (last_) throw *last_;
+    return std::move(mesh_);
+  }
+
+ private:
+  // looks, groups and points, of which a Mesh knows nothing
+  static constexpr std::string_view ignored[] = {
+      "vt",     "vn",     "vp",     "o",     "g",        "s",        "p",   "mg",         "usemtl",
+      "mtllib", "usemap", "maplib", "bevel", "c_interp", "d_interp", "lod", "shadow_obj", "trace_obj"};
+
+  // next word of the line, up to a comment
+  std::string_view word() {
+    const std::string_view w = in_.wordOnLine();
+    return w.starts_with('#') ? std::string_view{} : w;
+  }
+  void vertex() {
+    Eigen::Vector3d p;
+    for (double& c : p) {
+      const std::string_view w = word();
+      if (w.empty() || !parse_number(w, c)) throw in_.expected("a coordinate");
+      if (!std::isfinite(c))
+        throw in_.error(text("the coordinate ", quoted(w), " is not a finite number; correct it"));
+    }
+    mesh_.positions.push_back(p);
+  }
+  // the points of a face or line: "7", "7/2", "7//3", "7/2/3"; a negative one counts back from the last
+  // vertex
+  std::size_t corners() {
+    corners_.clear();
+    for (std::string_view w = word(); !w.empty(); w = word()) {
+      std::int64_t i = 0;
+      if (!parse_number(w.substr(0, w.find('/')), i) || w.find_first_not_of("0123456789/+-") != w.npos)
+        throw in_.expected("the number of a vertex, such as 7 or 7/2/3");
+      const auto n = std::int64_t(mesh_.positions.size());
+      if (i == 0 || i < -n)
+        throw in_.error(text("vertex ", i,
+                             " does not exist: vertices are numbered from 1, or from -1 backwards; ",
+                             "correct the number"));
+      corners_.push_back(
+          Index(std::min<std::int64_t>(i > 0 ? i - 1 : n + i, std::numeric_limits<Index>::max())));
+    }
+    return corners_.size();
+  }
+
+  TextReader in_;
+  Mesh mesh_{};
+  std::vector<Index> corners_{};
+  std::optional<Error> last_{};
+};
+
+}  // namespace detail

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/topology/bcc_lattice.hpp>
+#include <sinew/topology/mesh.hpp>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+// The third step of isosurface stuffing: what is inside of each lattice tetrahedron, as tetrahedra.
+
+namespace sinew::detail {
+
+/// A lattice tetrahedron seen from its first corner: two long edges, 0-1 and 2-3, joined by four short ones.
+struct BccTetrahedron {
+  std::array<std::array<int, 4>, 4> edge{};  // direction from one corner to another; -1 to itself
+};
+
+/// The 12 tetrahedra whose long edge 0-1 leads in a positive axis direction from a point; taken at the points
+/// of even layers they fill space. All are positively oriented.
+constexpr std::array<BccTetrahedron, 12> make_bcc_tetrahedra() {
+  std::array<BccTetrahedron, 12> all{};
+  constexpr int ring[5][2] = {{1, 1}, {-1, 1}, {-1, -1}, {1, -1}, {1, 1}};  // counterclockwise about the axis
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (std::size_t r = 0; r < 4; ++r) {
+      std::array<std::array<int, 3>, 4> x{};
+      const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
+      x[1][axis] = 2, x[2][axis] = 1, x[3][axis] = 1;
+      x[2][u] = ring[r][0], x[2][v] = ring[r][1], x[3][u] = ring[r + 1][0], x[3][v] = ring[r + 1][1];
+      BccTetrahedron& t = all[4 * axis + r];
+      for (std::size_t i = 0; i < 4; ++i)
+        for (std::size_t j = 0; j < 4; ++j)
+          t.edge[i][j] = bcc_direction(x[j][0] - x[i][0], x[j][1] - x[i][1], x[j][2] - x[i][2]);
+    }
+  return all;
+}
+
+inline constexpr std::array<BccTetrahedron, 12> bccTetrahedra = make_bcc_tetrahedra();
+
+/// Whether an odd number of coordinates fall in this direction.
+constexpr bool falls_oddly(int direction) {
+  int count = 0;
+  for (const int x : bccDirections[std::size_t(direction)]) count += x < 0;
+  return count % 2 == 1;
+}
+
+/// Appends the inside of one lattice tetrahedron, whose corners are these lattice points. Where it is cut,
+/// prisms and pyramids become tetrahedra; neighbours split a common quad alike, for its diagonal follows from
+/// the quad alone: it ends at the cut point of the long edge, or else obeys the paper's parity rule. Lattice
+/// points keep their numbers, cut points have size() + cut number.
+inline void stuff(BccLattice const& lattice, BccTetrahedron const& cell, std::array<int, 4> const& points,
+                  std::vector<Tetrahedron>& out) {
+  auto label = [&](int corner) { return int(lattice.label[std::size_t(points[std::size_t(corner)])]); };
+  int a = 0, b = 1, c = 2, d = 3;
+  if (label(0) >= 0 && label(1) >= 0 && label(2) >= 0 && label(3) >= 0) {
+    out.push_back({points[0], points[1], points[2], points[3]});
+    return;
+  }
+  // order the corners by label: a >= b, c >= d, (a, b) >= (c, d); an odd number of swaps turns the results
+  // over
+  bool odd = false;
+  if (label(a) < label(b)) std::swap(a, b), odd = !odd;
+  if (label(c) < label(d)) std::swap(c, d), odd = !odd;
+  if (std::pair(label(a), label(b)) < std::pair(label(c), label(d))) std::swap(a, c), std::swap(b, d);
+
+  auto at = [&](int i) { return points[std::size_t(i)]; };
+  auto cut = [&](int i, int j) {
+    return lattice.size() + lattice.cut_number(at(i), cell.edge[std::size_t(i)][std::size_t(j)]);
+  };
+  auto emit = [&](int i, int j, int k, int l) {
+    if (odd) std::swap(k, l);
+    out.push_back({i, j, k, l});
+  };
+  // parity rule, for the quad a, b, cut bd, cut ad whose cut edges are short: the diagonal leaves from the
+  // one of a and b that exceeds d in an even number of coordinates
+  auto from_first = [&](int i, int j) { return !falls_oddly(cell.edge[std::size_t(i)][std::size_t(j)]); };
+  auto pyramid = [&](int apex) {
+    const int ad = cut(a, d), bd = cut(b, d);
+    if (from_first(a, d)) {
+      emit(at(a), at(b), apex, bd), emit(at(a), bd, apex, ad);
+    } else {
+      emit(at(a), at(b), apex, ad), emit(at(b), bd, apex, ad);
+    }
+  };
+
+  if (label(b) > 0) {
+    if (label(c) > 0) {  // + + + -
+      emit(at(a), at(b), at(c), cut(c, d));
+      pyramid(cut(c, d));
+    } else if (label(c) == 0) {  // + + 0 -
+      pyramid(at(c));
+    } else {  // + + - -
+      if (!from_first(a, c)) std::swap(c, d), odd = !odd;
+      const int ac = cut(a, c), ad = cut(a, d), bc = cut(b, c), bd = cut(b, d);
+      emit(at(a), ac, ad, bc), emit(at(a), at(b), bc, ad), emit(at(b), bd, bc, ad);
+    }
+  } else if (label(b) == 0) {
+    if (label(c) > 0) {  // + 0 + -
+      const int ad = cut(a, d), cd = cut(c, d);
+      emit(at(a), at(b), at(c), cd), emit(at(a), at(b), cd, ad);
+    } else if (label(c) == 0) {  // + 0 0 -
+      emit(at(a), at(b), at(c), cut(a, d));
+    } else {  // + 0 - -
+      emit(at(a), at(b), cut(a, c), cut(a, d));
+    }
+  } else {
+    const int ab = cut(a, b);
+    if (label(c) > 0) {  // + - + -
+      const int ad = cut(a, d), cb = cut(c, b), cd = cut(c, d);
+      emit(at(a), ab, cd, ad), emit(at(a), ab, at(c), cd), emit(at(c), cd, ab, cb);
+    } else if (label(c) == 0 && label(d) == 0) {  // + - 0 0
+      emit(at(a), ab, at(c), at(d));
+    } else if (label(c) == 0) {  // + - 0 -
+      emit(at(a), ab, at(c), cut(a, d));
+    } else {  // + - - -
+      emit(at(a), ab, cut(a, c), cut(a, d));
+    }
+  }
+}
+
+/// The inside of all lattice tetrahedra, in the order of the lattice, numbered as above. `skinOnly` leaves
+/// out lattice tetrahedra that are inside with all corners, which no boundary face belongs to.
+inline std::vector<Tetrahedron> stuff(BccLattice const& lattice, bool skinOnly) {
+  std::vector<Tetrahedron> tetrahedra;
+  lattice.for_inner_points([&](int p, auto const& steps) {
+    if (p / (lattice.sx * lattice.sy) % 2 != 0) return;
+    for (BccTetrahedron const& cell : bccTetrahedra) {
+      std::array<int, 4> points{p};
+      int inside = 0;
+      for (std::size_t i = 0; i < 4; ++i) {
+        if (i > 0) points[i] = p + steps[std::size_t(cell.edge[0][i])];
+        inside += lattice.label[std::size_t(points[i])] > 0;
+      }
+      if (inside > 0 && !(skinOnly && inside == 4)) stuff(lattice, cell, points, tetrahedra);
+    }
+  });
+  return tetrahedra;
+}
+
+/// The points that the elements use; these then refer to them. In the order of the lattice, each lattice
+/// point before the cut points of its edges.
+template <class Element>
+std::vector<Eigen::Vector3d> place_points(BccLattice const& lattice, std::vector<Element>& elements) {
+  const int n = lattice.size();
+  std::vector<Eigen::Vector3d> positions;
+  std::vector<Index> number(std::size_t(n) + lattice.cuts.size(), -1);
+  for (Element const& element : elements)
+    for (const Index i : element) number[std::size_t(i)] = 0;
+  auto used = [&](int i) {
+    if (number[std::size_t(i)] < 0) return false;
+    number[std::size_t(i)] = Index(positions.size());
+    return true;
+  };
+  lattice.for_inner_points([&](int p, auto const&) {
+    const int moved = lattice.snapped[std::size_t(p)];
+    if (used(p))
+      positions.push_back(moved < 0 ? lattice.lattice_position(p)
+                                    : lattice.along(p, moved, lattice.cut_fraction(p, moved)));
+    for (int d = 0; d < 7; ++d)
+      if ((lattice.cutMask[std::size_t(p)] >> d & 1) != 0 && used(n + lattice.cut_number(p, d))) {
+        const double alpha = bcc_alpha(d);
+        positions.push_back(lattice.along(p, d, std::clamp(lattice.cut_fraction(p, d), alpha, 1 - alpha)));
+      }
+  });
+  for (Element& element : elements)
+    for (Index& i : element) i = number[std::size_t(i)];
+  return positions;
+}
+
+}  // namespace sinew::detail

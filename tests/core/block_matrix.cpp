@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "catch.hpp"
+
+#include <sinew/linalg/block_matrix.hpp>
+
+using namespace sinew;
+
+namespace {
+
+// a chain of n points of three dofs with a few far links, against the same dense matrix
+template <class Matrix>
+void check_matrix(double rounding) {
+  using Real = typename Matrix::Real;
+  const int n = 12, dofs = 3 * n;
+  Matrix a;
+  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(dofs, dofs);
+  std::vector<std::array<int, 2>> links;
+  for (int i = 0; i + 1 < n; ++i) links.push_back({i, i + 1});
+  links.push_back({0, 7});
+  links.push_back({9, 2});
+  a.startPattern(dofs);
+  for (auto [i, j] : links) {
+    a.announce(3 * i, 3 * j, 3, 3);
+    a.announce(3 * i, 3 * i, 3, 3);
+  }
+  a.finishPattern();
+  auto fill = [&] {
+    a.setZero();
+    dense.setZero();
+    for (auto [i, j] : links) {
+      Eigen::Matrix3d k;
+      for (int c = 0; c < 9; ++c) k(c) = std::sin(i + 2.0 * j + 3 * c);
+      for (auto [r, s, block] : {std::tuple{i, j, k},
+                                 std::tuple{j, i, Eigen::Matrix3d(k.transpose())},
+                                 std::tuple{i, i, Eigen::Matrix3d(k * k.transpose())}}) {
+        a.add(3 * r, 3 * s, block);
+        dense.block<3, 3>(3 * r, 3 * s) += block;
+      }
+    }
+    a.mirror();
+  };
+  auto compare = [&] {
+    Eigen::Matrix<Real, Eigen::Dynamic, 1> x(a.dofs() + 1), y(a.dofs());
+    for (int i = 0; i < dofs; ++i) x[i] = Real(std::cos(7.0 * i));
+    x[dofs] = Real(1e30);  // read, and of no effect
+    a.multiply(x.data(), y.data());
+    const Eigen::VectorXd expected = dense * x.head(dofs).template cast<double>();
+    CHECK((y.template cast<double>() - expected).norm() < rounding * expected.norm());
+  };
+  fill();
+  compare();
+  fill();  // setZero leaves nothing behind
+  compare();
+  for (const int dof : {4, 21, 22}) {
+    a.fix(dof);
+    dense.row(dof).setZero();
+    dense.col(dof).setZero();
+    dense(dof, dof) = 1;
+  }
+  compare();
+}
+
+}  // namespace
+
+TEST_CASE("block matrices multiply as the dense one") {
+  check_matrix<CompressedRowSparseMatrix<double, 3>>(1e-14);
+  check_matrix<CompressedRowSparseMatrix<double, 1>>(1e-14);
+  check_matrix<CompressedRowSparseMatrix<double, 6>>(1e-14);
+  check_matrix<CompressedRowSparseMatrix<float, 3>>(1e-6);
+}
+
+TEST_CASE("a block outside the pattern has no slot") {
+  CompressedRowSparseMatrix<double, 3> a;
+  a.startPattern(9);
+  a.announce(0, 6, 3, 3);
+  a.finishPattern();
+  CHECK(a.slot(0, 2) >= 0);
+  CHECK(a.slot(2, 0) >= 0);
+  CHECK(a.slot(1, 1) >= 0);
+  CHECK(a.slot(0, 1) == -1);
+  CHECK_THROWS_AS(a.add(0, 3, Eigen::Matrix3d(Eigen::Matrix3d::Identity())), Error);
+}

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "catch.hpp"
+
+#include <sinew/core/error.hpp>
+
+using namespace sinew;
+
+TEST_CASE("text joins words, numbers and characters") {
+  CHECK(text("a ", 1, ' ', 2.5, ' ', std::string("b"), std::size_t(7)) == "a 1 2.5 b7");
+  CHECK(std::string(Error("here", "wrong").what()) == "here: wrong");
+  CHECK(std::string(Error("", "wrong").what()) == "wrong");
+}
+
+TEST_CASE("the nearest known name is suggested, and none when all are far") {
+  const std::vector<std::string> known{"youngModulus", "poissonRatio", "method"};
+  CHECK(edit_distance("kitten", "sitting") == 3);
+  CHECK(nearest_name("youngsModulus", known) == "youngModulus");
+  CHECK(nearest_name("POISSONRATIO", known) == "poissonRatio");
+  CHECK(nearest_name("xyz", known).empty());
+}
