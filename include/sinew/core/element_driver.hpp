@@ -40,6 +40,7 @@ struct ElementDriver {
     typename Law::Tangent tangent;
     int index[arity][W];
     int active;
+    bool hasLast;  // one of the points may be the last of its state: nothing may be read behind it
   };
   // where the blocks of a pack stand in the matrix of the solver: slot of the one on or above the diagonal,
   // and whether it is the transpose of the law's block(i, j)
@@ -57,6 +58,9 @@ struct ElementDriver {
     constexpr std::size_t reals = sizeof(Rest) / sizeof(Real);
     packs = std::vector<Pack>((elements.size() + W - 1) / W);
     slots.clear();
+    int last = 0;
+    for (auto const& element : elements)
+      for (const int i : element) last = std::max(last, i);
     for (std::size_t p = 0; p < packs.size(); ++p) {
       Pack& pack = packs[p];
       pack.active = int(std::min<std::size_t>(W, elements.size() - p * W));
@@ -66,7 +70,10 @@ struct ElementDriver {
         Real one[reals];
         std::memcpy(one, &rest[e], sizeof one);
         for (std::size_t r = 0; r < reals; ++r) interleaved[r * W + std::size_t(l)] = one[r];
-        for (int k = 0; k < arity; ++k) pack.index[k][l] = elements[e][std::size_t(k)];
+        for (int k = 0; k < arity; ++k) {
+          pack.index[k][l] = elements[e][std::size_t(k)];
+          pack.hasLast |= pack.index[k][l] == last;
+        }
       }
       std::memcpy(static_cast<void*>(&pack.rest), interleaved, sizeof interleaved);
       std::memset(static_cast<void*>(&pack.tangent), 0, sizeof pack.tangent);
@@ -165,6 +172,12 @@ struct ElementDriver {
   SINEW_INLINE static void gather(Pack const& pack, std::array<Value const*, arity> const& from,
                                   LaneValue (&to)[arity]) {
     constexpr int n = realsOf<Value>;
+    if constexpr (n == 3 && W >= 4)
+      if (!pack.hasLast) {
+        for (int k = 0; k < arity; ++k)
+          gather3(reinterpret_cast<Real const*>(from[std::size_t(k)]), pack.index[k], reinterpret_cast<L*>(&to[k]));
+        return;
+      }
     for (int k = 0; k < arity; ++k) {
       alignas(64) Real buffer[n][W];
       for (int l = 0; l < W; ++l) {
@@ -207,9 +220,14 @@ struct ElementDriver {
   template <int N, class Target>
   SINEW_INLINE static void addTo(Target* to, Real const* from) {
     constexpr int fours = std::is_same_v<Target, Real> ? N / 4 : 0;
-    typedef Real Four __attribute__((vector_size(4 * sizeof(Real)), aligned(alignof(Real)), may_alias));
-    for (int i = 0; i < fours; ++i)
-      *reinterpret_cast<Four*>(to + 4 * i) += *reinterpret_cast<Four const*>(from + 4 * i);
+    typedef Real Four __attribute__((vector_size(4 * sizeof(Real))));
+    for (int i = 0; i < fours; ++i) {
+      Four sum, more;
+      std::memcpy(&sum, to + 4 * i, sizeof sum);
+      std::memcpy(&more, from + 4 * i, sizeof more);
+      sum += more;
+      std::memcpy(to + 4 * i, &sum, sizeof sum);
+    }
     for (int i = 4 * fours; i < N; ++i) to[i] += Target(from[i]);
   }
 

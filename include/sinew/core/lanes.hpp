@@ -13,6 +13,42 @@
 
 namespace sinew {
 
+/// The type of one lane: double of Lanes<double, 8> and of double.
+template <class T>
+struct lane_traits {
+  using Scalar = T;
+  static constexpr int width = 1;
+};
+template <class T>
+using lane_scalar = typename lane_traits<T>::Scalar;
+template <class T>
+struct lane_mask {
+  using type = bool;
+};
+
+/// a where the mask holds, b elsewhere; for scalars, which are one lane, and for lanes.
+template <class T>
+requires std::is_floating_point_v<T> SINEW_INLINE T select(bool mask, T a, T b) { return mask ? a : b; }
+SINEW_INLINE bool any(bool mask) { return mask; }
+SINEW_INLINE void set(bool& mask, int, bool value) { mask = value; }
+template <class T>
+requires std::is_floating_point_v<T> SINEW_INLINE T lane(T a, int) { return a; }
+template <int N, class T>
+SINEW_INLINE void transpose(T const* in, T (&out)[1][(N + 3) / 4 * 4]) {
+  for (int c = 0; c < (N + 3) / 4 * 4; ++c) out[0][c] = c < N ? in[c] : T(0);
+}
+
+#if defined(__CUDACC__)
+// Device code has no vector registers, and a thread takes one element: nvcc sees of lanes only the names that
+// laws mention.
+template <class T, int W>
+struct Lanes;
+template <class T, int W>
+Lanes<T, W> sqrt(Lanes<T, W>);
+template <class T, int W>
+Lanes<T, W> abs(Lanes<T, W>);
+#else
+
 /// Mask that a comparison of lanes yields: all bits of a lane set where it holds. `bool` for plain scalars.
 template <class T, int W>
 struct LaneMask {
@@ -60,13 +96,10 @@ struct Lanes {
   SINEW_INLINE friend Mask operator!=(Lanes a, Lanes b) { return {a.v != b.v}; }
 };
 
-/// a where the mask holds, b elsewhere; for scalars and for lanes.
 template <class T, int W>
 SINEW_INLINE Lanes<T, W> select(LaneMask<T, W> mask, Lanes<T, W> a, Lanes<T, W> b) {
   return Lanes<T, W>(mask.bits ? a.v : b.v);
 }
-template <class T>
-requires std::is_floating_point_v<T> SINEW_INLINE T select(bool mask, T a, T b) { return mask ? a : b; }
 
 template <class T, int W>
 SINEW_INLINE bool any(LaneMask<T, W> mask) {
@@ -74,13 +107,11 @@ SINEW_INLINE bool any(LaneMask<T, W> mask) {
   for (int i = 0; i < W; ++i) set |= mask.bits[i] != 0;
   return set;
 }
-SINEW_INLINE bool any(bool mask) { return mask; }
 
 template <class T, int W>
 SINEW_INLINE void set(LaneMask<T, W>& mask, int lane, bool value) {
   mask.bits[lane] = value ? -1 : 0;
 }
-SINEW_INLINE void set(bool& mask, int, bool value) { mask = value; }
 
 template <class T, int W>
 SINEW_INLINE Lanes<T, W> sqrt(Lanes<T, W> a) {
@@ -111,30 +142,15 @@ SINEW_INLINE Lanes<T, W> abs(Lanes<T, W> a) {
   return select(a < Lanes<T, W>(0), -a, a);
 }
 
-/// The type of one lane: double of Lanes<double, 8> and of double.
-template <class T>
-struct lane_traits {
-  using Scalar = T;
-  static constexpr int width = 1;
-};
 template <class T, int W>
 struct lane_traits<Lanes<T, W>> {
   using Scalar = T;
   static constexpr int width = W;
 };
-template <class T>
-struct lane_mask {
-  using type = bool;
-};
 template <class T, int W>
 struct lane_mask<Lanes<T, W>> {
   using type = LaneMask<T, W>;
 };
-template <class T>
-using lane_scalar = typename lane_traits<T>::Scalar;
-
-template <class T>
-requires std::is_floating_point_v<T> SINEW_INLINE T lane(T a, int) { return a; }
 template <class T, int W>
 SINEW_INLINE T lane(Lanes<T, W> a, int i) {
   return a.v[i];
@@ -173,9 +189,10 @@ SINEW_INLINE void transpose(Lanes<T, W> const* in, T (&out)[W][(N + 3) / 4 * 4])
       const V low0 = detail::interleaved<1, 0, T, W>(a, b), low1 = detail::interleaved<1, 0, T, W>(c, d);
       const V high0 = detail::interleaved<1, W / 2, T, W>(a, b),
               high1 = detail::interleaved<1, W / 2, T, W>(c, d);
-      const V rows[4] = {
-          detail::interleaved<2, 0, T, W>(low0, low1), detail::interleaved<2, W / 2, T, W>(low0, low1),
-          detail::interleaved<2, 0, T, W>(high0, high1), detail::interleaved<2, W / 2, T, W>(high0, high1)};
+      const V rows[4] = {detail::interleaved<2, 0, T, W>(low0, low1),
+                         detail::interleaved<2, W / 2, T, W>(low0, low1),
+                         detail::interleaved<2, 0, T, W>(high0, high1),
+                         detail::interleaved<2, W / 2, T, W>(high0, high1)};
       for (int l = 0; l < W; ++l)
         std::memcpy(&out[l][4 * g],
                     reinterpret_cast<char const*>(&rows[l / (W / 4)]) + (l % (W / 4)) * 4 * sizeof(T),
@@ -186,9 +203,39 @@ SINEW_INLINE void transpose(Lanes<T, W> const* in, T (&out)[W][(N + 3) / 4 * 4])
       for (int c = 0; c < 4 * groups; ++c) out[l][c] = c < N ? in[c].v[l] : T(0);
   }
 }
-template <int N, class T>
-SINEW_INLINE void transpose(T const* in, T (&out)[1][(N + 3) / 4 * 4]) {
-  for (int c = 0; c < (N + 3) / 4 * 4; ++c) out[0][c] = c < N ? in[c] : T(0);
+
+#endif
+
+namespace detail {
+
+// indices of the runs of `Run` lanes in a then b that have number First, First + 2, ...: undoes `interleave`
+template <int W, int Run, int First, int... I>
+constexpr auto alternate(std::integer_sequence<int, I...>) {
+  return std::integer_sequence<int, (I / Run * 2 * Run + First * Run + I % Run)...>{};
+}
+template <int Run, int First, class T, int W>
+SINEW_INLINE typename Lanes<T, W>::Vector alternating(typename Lanes<T, W>::Vector const& a,
+                                                      typename Lanes<T, W>::Vector const& b) {
+  return shuffle(a, b, alternate<W, Run, First>(std::make_integer_sequence<int, W>{}));
+}
+
+}  // namespace detail
+
+/// to[c] = lanes of component c of W points, point l at from + 3 * index[l]. One scalar behind each point is read.
+template <class T, int W>
+  requires(W >= 4)
+SINEW_INLINE void gather3(T const* from, int const (&index)[W], Lanes<T, W>* to) {
+  using V = typename Lanes<T, W>::Vector;
+  constexpr int each = W / 4;  // points a vector holds, four scalars each
+  V rows[4];
+  for (int r = 0; r < 4; ++r)
+    for (int k = 0; k < each; ++k)
+      std::memcpy(reinterpret_cast<char*>(&rows[r]) + 4 * k * int(sizeof(T)), from + 3 * index[r * each + k], 4 * sizeof(T));
+  const V xy0 = detail::alternating<2, 0, T, W>(rows[0], rows[1]), zw0 = detail::alternating<2, 1, T, W>(rows[0], rows[1]);
+  const V xy1 = detail::alternating<2, 0, T, W>(rows[2], rows[3]), zw1 = detail::alternating<2, 1, T, W>(rows[2], rows[3]);
+  to[0].v = detail::alternating<1, 0, T, W>(xy0, xy1);
+  to[1].v = detail::alternating<1, 1, T, W>(xy0, xy1);
+  to[2].v = detail::alternating<1, 0, T, W>(zw0, zw1);
 }
 
 /// Bytes of the widest vector register that the compiler may use here.

@@ -51,17 +51,35 @@ inline std::string add_vtk_cell(Mesh& mesh, std::int64_t type, std::span<Index c
     std::size_t least, most;
   };
   constexpr std::size_t any = std::size_t(-1);
-  constexpr Size sizes[] = {{0, any}, {1, 1}, {0, any}, {2, 2}, {2, any}, {3, 3}, {3, any},
-                            {3, any}, {4, 4}, {4, 4},   {4, 4}, {8, 8},   {8, 8}};
+  constexpr Size sizes[] = {{0, any},
+                            {1, 1},
+                            {0, any},
+                            {2, 2},
+                            {2, any},
+                            {3, 3},
+                            {3, any},
+                            {3, any},
+                            {4, 4},
+                            {4, 4},
+                            {4, 4},
+                            {8, 8},
+                            {8, 8}};
   if (type == vtk_cell::wedge || type == vtk_cell::pyramid)
     return "is a wedge or pyramid, which are not read; mesh with tetrahedra or hexahedra only";
   if (type < 0 || type > vtk_cell::hexahedron)
-    return text("is of VTK's cell type ", type,
+    return text("is of VTK's cell type ",
+                type,
                 ", which is not read; convert the mesh to linear triangles, quads, tetrahedra or hexahedra");
   const Size size = sizes[type];
   if (p.size() < size.least || p.size() > size.most)
-    return text("has ", p.size(), " points, but VTK's cell type ", type, " has ", size.least,
-                size.most == any ? " or more" : "", "; correct the cell");
+    return text("has ",
+                p.size(),
+                " points, but VTK's cell type ",
+                type,
+                " has ",
+                size.least,
+                size.most == any ? " or more" : "",
+                "; correct the cell");
   switch (type) {
     case vtk_cell::line:
     case vtk_cell::polyLine:

@@ -46,6 +46,7 @@ class GmshParser {
   struct Node {
     std::int64_t number;
     Index index;
+    std::uint32_t line;
   };
 
   void format() {
@@ -55,7 +56,8 @@ class GmshParser {
     else if (version == 4.1)
       version_ = 4;
     else
-      throw in_.error(text("is of version ", version,
+      throw in_.error(text("is of version ",
+                           version,
                            " of Gmsh's format; save it as version 4.1 or 2.2 (gmsh -save -format msh41)"));
     if (in_.integer("0 for ASCII or 1 for binary") != 0)
       throw in_.error(
@@ -98,14 +100,15 @@ class GmshParser {
     if (nodes_.empty()) throw in_.error("holds no nodes; export a mesh");
     sortNodes();
   }
-  void number(std::int64_t tag) { nodes_.push_back({tag, Index(nodes_.size())}); }
+  void number(std::int64_t tag) { nodes_.push_back({tag, Index(nodes_.size()), std::uint32_t(in_.line())}); }
 
   void sortNodes() {
     auto less = [](Node const& a, Node const& b) { return a.number < b.number; };
     if (!std::is_sorted(nodes_.begin(), nodes_.end(), less)) std::sort(nodes_.begin(), nodes_.end(), less);
     for (std::size_t i = 1; i < nodes_.size(); ++i)
       if (nodes_[i].number == nodes_[i - 1].number)
-        throw in_.error(text("node number ", nodes_[i].number, " is given twice; number the nodes anew"));
+        throw in_.error(std::max(nodes_[i].line, nodes_[i - 1].line),
+                        text("node number ", nodes_[i].number, " is given twice; number the nodes anew"));
   }
 
   // $ELM, $Elements
@@ -165,12 +168,16 @@ class GmshParser {
         return 1;
       case 6:
       case 7:
-        throw in_.error(text("elements of type ", type, type == 6 ? " (prisms)" : " (pyramids)",
+        throw in_.error(text("elements of type ",
+                             type,
+                             type == 6 ? " (prisms)" : " (pyramids)",
                              " are not read; mesh with tetrahedra or hexahedra only"));
       default:
         break;
     }
-    throw in_.error(text("elements of type ", type, " are of second or higher order, or unknown; ",
+    throw in_.error(text("elements of type ",
+                         type,
+                         " are of second or higher order, or unknown; ",
                          "save a mesh of first order (in Gmsh, Mesh.ElementOrder = 1)"));
   }
   void element(std::int64_t type) {
@@ -200,17 +207,24 @@ class GmshParser {
     const std::int64_t tag = in_.integer("the number of a node");
     const std::uint64_t guess = std::uint64_t(tag) - std::uint64_t(nodes_.front().number);
     if (guess < nodes_.size() && nodes_[guess].number == tag) return nodes_[guess].index;
-    const auto at = std::lower_bound(nodes_.begin(), nodes_.end(), tag,
-                                     [](Node const& n, std::int64_t t) { return n.number < t; });
+    const auto at = std::lower_bound(
+        nodes_.begin(), nodes_.end(), tag, [](Node const& n, std::int64_t t) { return n.number < t; });
     if (at == nodes_.end() || at->number != tag)
-      throw in_.error(text("an element refers to node ", tag, ", but no node has this number; correct the ",
+      throw in_.error(text("an element refers to node ",
+                           tag,
+                           ", but no node has this number; correct the ",
                            "number or add the node"));
     return at->index;
   }
 
   void total(std::string_view what, std::size_t announced, std::size_t found) const {
     if (announced != found)
-      throw in_.error(text("there are ", found, ' ', what, " in the blocks, but ", announced,
+      throw in_.error(text("there are ",
+                           found,
+                           ' ',
+                           what,
+                           " in the blocks, but ",
+                           announced,
                            " are announced; correct the number, or get a complete file"));
   }
   static bool ends(std::string_view word, std::string const& section) {

@@ -4,7 +4,6 @@
 #include <sinew/io/cells.hpp>
 #include <sinew/io/text_reader.hpp>
 
-#include <optional>
 #include <vector>
 
 namespace sinew::io {
@@ -34,15 +33,36 @@ class ObjParser {
       }
     }
     if (mesh_.positions.empty()) throw in_.error("there are no vertices (lines \"v x y z\"); export a mesh");
-    if (last_) throw *last_;
+    if (greatest_ >= std::int64_t(mesh_.positions.size()))
+      throw in_.error(greatestLine_,
+                      text("vertex ",
+                           greatest_ + 1,
+                           " does not exist: there are ",
+                           mesh_.positions.size(),
+                           " vertices, numbered from 1; correct the number or add the vertex"));
     return std::move(mesh_);
   }
 
  private:
   // looks, groups and points, of which a Mesh knows nothing
-  static constexpr std::string_view ignored[] = {
-      "vt",     "vn",     "vp",     "o",     "g",        "s",        "p",   "mg",         "usemtl",
-      "mtllib", "usemap", "maplib", "bevel", "c_interp", "d_interp", "lod", "shadow_obj", "trace_obj"};
+  static constexpr std::string_view ignored[] = {"vt",
+                                                 "vn",
+                                                 "vp",
+                                                 "o",
+                                                 "g",
+                                                 "s",
+                                                 "p",
+                                                 "mg",
+                                                 "usemtl",
+                                                 "mtllib",
+                                                 "usemap",
+                                                 "maplib",
+                                                 "bevel",
+                                                 "c_interp",
+                                                 "d_interp",
+                                                 "lod",
+                                                 "shadow_obj",
+                                                 "trace_obj"};
 
   // next word of the line, up to a comment
   std::string_view word() {
@@ -69,7 +89,8 @@ class ObjParser {
         throw in_.expected("the number of a vertex, such as 7 or 7/2/3");
       const auto n = std::int64_t(mesh_.positions.size());
       if (i == 0 || i < -n)
-        throw in_.error(text("vertex ", i,
+        throw in_.error(text("vertex ",
+                             i,
                              " does not exist: vertices are numbered from 1, or from -1 backwards; ",
                              "correct the number"));
       corners_.push_back(
@@ -81,7 +102,23 @@ class ObjParser {
   TextReader in_;
   Mesh mesh_{};
   std::vector<Index> corners_{};
-  std::optional<Error> last_{};
+  std::int64_t greatest_ = -1;  // of all indices used
+  std::size_t greatestLine_ = 0;
 };
 
 }  // namespace detail
+
+/// The mesh in `content`, the text of an OBJ file; `path` is for messages. See read_obj().
+inline Mesh parse_obj(std::string_view path, std::string_view content) {
+  Mesh mesh = detail::ObjParser(path, content).parse();
+  check_mesh(path, mesh);
+  return mesh;
+}
+
+/// Reads the polygons of a Wavefront OBJ file: vertices (v), triangles, quads and larger polygons (f; the
+/// latter as fans of triangles, which fits convex ones), lines (l, as edges). Texture coordinates, normals,
+/// groups and materials are ignored. Throws Error with the line on other keywords, coordinates that are not
+/// finite, unknown vertices.
+inline Mesh read_obj(std::string const& path) { return parse_obj(path, read_file(path)); }
+
+}  // namespace sinew::io

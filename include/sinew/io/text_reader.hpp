@@ -31,8 +31,11 @@ inline std::string read_file(std::string const& path) {
     std::string looked;
     if (errno == ENOENT && !path.starts_with('/') && ::getcwd(folder, sizeof folder))
       looked = text(" (looked for from the folder ", static_cast<char const*>(folder), ")");
-    throw Error(path, text("cannot be read: ", static_cast<char const*>(std::strerror(errno)), looked,
-                           "; correct the name of the file"));
+    throw Error(path,
+                text("cannot be read: ",
+                     static_cast<char const*>(std::strerror(errno)),
+                     looked,
+                     "; correct the name of the file"));
   }
   if (S_ISDIR(info.st_mode)) throw Error(path, "is a folder; name a file in it");
   if (!S_ISREG(info.st_mode)) throw Error(path, "is not a regular file; copy its content into one");
@@ -40,8 +43,10 @@ inline std::string read_file(std::string const& path) {
   auto close = [](std::FILE* f) { std::fclose(f); };
   const std::unique_ptr<std::FILE, decltype(close)> file(std::fopen(path.c_str(), "rb"), close);
   if (!file)
-    throw Error(path, text("cannot be opened: ", static_cast<char const*>(std::strerror(errno)),
-                           "; ask for the right to read it"));
+    throw Error(path,
+                text("cannot be opened: ",
+                     static_cast<char const*>(std::strerror(errno)),
+                     "; ask for the right to read it"));
   std::string bytes(std::size_t(info.st_size) + 1, '\0');
   std::size_t filled = 0;
   while (const std::size_t n = std::fread(bytes.data() + filled, 1, bytes.size() - filled, file.get())) {
@@ -49,8 +54,10 @@ inline std::string read_file(std::string const& path) {
     if (filled == bytes.size()) bytes.resize(2 * bytes.size());
   }
   if (std::ferror(file.get()))
-    throw Error(path, text("cannot be read to its end: ", static_cast<char const*>(std::strerror(errno)),
-                           "; check the disk or the network"));
+    throw Error(path,
+                text("cannot be read to its end: ",
+                     static_cast<char const*>(std::strerror(errno)),
+                     "; check the disk or the network"));
   bytes.resize(filled);
   if (bytes.starts_with("\xEF\xBB\xBF")) bytes.erase(0, 3);
   if (bytes.empty()) throw Error(path, "is empty; export it again, or name another file");
@@ -98,7 +105,7 @@ class TextReader {
 
   /// The next word of any line; empty at the end.
   std::string_view word() {
-    for (; at_ < text_.size() && space(text_[at_]); ++at_) line_ += text_[at_] == '\n';
+    more();
     return take(false);
   }
   /// The next word of this line; empty at the end of the line. A backslash at the end of a line joins the
@@ -122,6 +129,11 @@ class TextReader {
     at_ = std::min(end + 1, text_.size());
     return rest;
   }
+  /// Skips white space; false at the end.
+  bool more() {
+    for (; at_ < text_.size() && space(text_[at_]); ++at_) line_ += text_[at_] == '\n';
+    return !atEnd();
+  }
   bool atEnd() const { return at_ >= text_.size(); }
 
   /// The next word as a finite number; `what` is for the message: "a coordinate".
@@ -129,7 +141,11 @@ class TextReader {
     double value = 0;
     if (!parse_number(word(), value)) throw expected(what);
     if (!std::isfinite(value))
-      throw error(text("expected ", what, ", found ", quoted(word_), ", which is not a finite number; ",
+      throw error(text("expected ",
+                       what,
+                       ", found ",
+                       quoted(word_),
+                       ", which is not a finite number; ",
                        "correct it, or find out why the program that wrote the file went wrong"));
     return value;
   }
@@ -149,28 +165,46 @@ class TextReader {
     const std::int64_t n = integer(what);
     const std::size_t room = (text_.size() - at_) / (2 * words);  // a space before each word
     if (n < 0 || std::size_t(n) > room || n > std::numeric_limits<Index>::max())
-      throw error(text(what, " is given as ", n, ", but no more than ", room, " fit into the ",
-                       text_.size() - at_, " bytes that follow; correct the number, or get a complete file"));
+      throw error(text(what,
+                       " is given as ",
+                       n,
+                       ", but no more than ",
+                       room,
+                       " fit into the ",
+                       text_.size() - at_,
+                       " bytes that follow; correct the number, or get a complete file"));
     return std::size_t(n);
   }
   /// The number of one of `points` points, counted from 0.
   Index index(std::size_t points) {
     const std::int64_t i = integer("the number of a point");
     if (i < 0 || std::uint64_t(i) >= points)
-      throw error(text("point ", i, " is not among the ", points,
+      throw error(text("point ",
+                       i,
+                       " is not among the ",
+                       points,
                        " points, numbered from 0; correct the number or add the point"));
     return Index(i);
   }
 
-  /// An Error at the line of the last word.
-  Error error(std::string_view message) const { return Error(text(path_, ':', wordLine_), message); }
+  /// The line of the last word, from 1.
+  std::size_t line() const { return wordLine_; }
+  /// An Error at a line, or at that of the last word.
+  Error error(std::size_t line, std::string_view message) const {
+    return Error(text(path_, ':', line), message);
+  }
+  Error error(std::string_view message) const { return error(wordLine_, message); }
   /// The Error for a last word that is not `what`, or is missing.
   Error expected(std::string_view what) const {
     if (word_.empty() && atEnd())
       return error(
-          text("the data end where ", what,
+          text("the data end where ",
+               what,
                " is expected; the file is incomplete or a count in it is wrong: get a complete one"));
-    return error(text("expected ", what, ", found ", word_.empty() ? "the end of the line" : quoted(word_),
+    return error(text("expected ",
+                      what,
+                      ", found ",
+                      word_.empty() ? "the end of the line" : quoted(word_),
                       "; correct this line"));
   }
   /// Throws Error at the first byte of the text that no text file has.
@@ -179,7 +213,7 @@ class TextReader {
       return (static_cast<unsigned char>(c) < ' ' && !space(c)) || c == 0x7f;
     });
     if (bad == text_.end()) return;
-    throw Error(text(path_, ':', first_ + std::size_t(std::count(text_.begin(), bad, '\n'))),
+    throw error(first_ + std::size_t(std::count(text_.begin(), bad, '\n')),
                 text("holds the byte ", int(*bad), ", which is not text; export the file as ASCII or UTF-8"));
   }
 

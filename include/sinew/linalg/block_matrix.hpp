@@ -95,6 +95,11 @@ struct CompressedRowSparseMatrix {
   template <class K>
   void add(int row, int column, K const& k) {
     constexpr int h = K::RowsAtCompileTime, w = K::ColsAtCompileTime;
+    if constexpr (h == B && w == B)
+      if (row == column && row % B == 0) {
+        Eigen::Map<Block>(block(diagonal[std::size_t(row / B)])) += k.template cast<Real>();
+        return;
+      }
     for (int i = 0; i < h; ++i)
       for (int j = 0; j < w; ++j) {
         const int r = row + i, c = column + j;
@@ -150,8 +155,11 @@ struct CompressedRowSparseMatrix {
   // flight.
   void multiply3(Real const* x, Real* y) const {
     typedef Real Four __attribute__((vector_size(4 * sizeof(Real))));
-    typedef Real Unaligned __attribute__((vector_size(4 * sizeof(Real)), aligned(alignof(Real)), may_alias));
-    auto load = [](Real const* p) -> Unaligned const& { return *reinterpret_cast<Unaligned const*>(p); };
+    auto addProduct = [](Four& sum, Real const* row, Four const& p) {
+      Four a;
+      std::memcpy(&a, row, sizeof a);
+      sum += a * p;
+    };
     auto sum = [](Four const& a) { return a[0] + a[1] + a[2]; };
     const int n = rows();
     int const* const column = columns.data();
@@ -161,19 +169,22 @@ struct CompressedRowSparseMatrix {
       const int end = rowStart[std::size_t(i) + 1];
       Real const* v = block(k);
       for (; k + 1 < end; k += 2, v += 18) {
-        const Four p = load(x + 3 * column[k]), q = load(x + 3 * column[k + 1]);
-        a0 += load(v) * p;
-        a1 += load(v + 3) * p;
-        a2 += load(v + 6) * p;
-        b0 += load(v + 9) * q;
-        b1 += load(v + 12) * q;
-        b2 += load(v + 15) * q;
+        Four p, q;
+        std::memcpy(&p, x + 3 * column[k], sizeof p);
+        std::memcpy(&q, x + 3 * column[k + 1], sizeof q);
+        addProduct(a0, v, p);
+        addProduct(a1, v + 3, p);
+        addProduct(a2, v + 6, p);
+        addProduct(b0, v + 9, q);
+        addProduct(b1, v + 12, q);
+        addProduct(b2, v + 15, q);
       }
       if (k < end) {
-        const Four p = load(x + 3 * column[k]);
-        a0 += load(v) * p;
-        a1 += load(v + 3) * p;
-        a2 += load(v + 6) * p;
+        Four p;
+        std::memcpy(&p, x + 3 * column[k], sizeof p);
+        addProduct(a0, v, p);
+        addProduct(a1, v + 3, p);
+        addProduct(a2, v + 6, p);
       }
       y[3 * i] = sum(a0 + b0), y[3 * i + 1] = sum(a1 + b1), y[3 * i + 2] = sum(a2 + b2);
     }

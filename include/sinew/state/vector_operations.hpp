@@ -54,13 +54,11 @@ double dot(V const& a, V const& b) {
   return double(flat(a).dot(flat(b)));
 }
 
-/// First entry that is not finite, or -1. The sum of v - v is 0 exactly when all are finite.
+/// First entry that is not finite, or -1. A finite sum has finite terms; a sum that overflows is looked at term by term.
 template <class D>
 int find_not_finite(typename D::VecCoord const& x) {
-  if constexpr (!D::rigid) {
-    const auto all = flat(x);
-    if ((all - all).sum() == 0) return -1;
-  }
+  if constexpr (!D::rigid)
+    if (std::isfinite(flat(x).sum())) return -1;
   for (std::size_t i = 0; i < x.size(); ++i)
     if (!D::finite(x[i])) return int(i);
   return -1;

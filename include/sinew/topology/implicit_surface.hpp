@@ -93,19 +93,19 @@ struct SmoothSubtraction {
 template <class A, class B>
 SmoothSubtraction(A, B, double) -> SmoothSubtraction<A, B>;
 
-/// A body like a human liver, in metres: 0.22 wide (x, right lobe at -x), 0.13 high (y, up), 0.12 deep (z,
-/// front), 1.4 litres. A large right lobe, a thin left lobe, a hollow underside, a notch in the front edge
-/// between the lobes. It is one piece without holes, so its surface has Euler characteristic 2.
+/// A body like a human liver, in metres: 0.22 wide (x, right lobe at -x), 0.12 high (y, up), 0.12 deep (z,
+/// front), 1.4 litres. A large right lobe, a thin left lobe, a hollow underside, a notch in the lower front
+/// edge between the lobes. It is one piece without holes, so its surface has Euler characteristic 2.
 struct LiverShape {
   /// Corners of a box around the body, with a margin of some millimetres.
-  static Eigen::Vector3d box_min() { return {-0.116, -0.072, -0.066}; }
-  static Eigen::Vector3d box_max() { return {0.116, 0.074, 0.066}; }
+  static Eigen::Vector3d box_min() { return {-0.116, -0.066, -0.066}; }
+  static Eigen::Vector3d box_max() { return {0.116, 0.071, 0.066}; }
 
   double operator()(Eigen::Vector3d const& p) const {
     const EllipsoidShape rightLobe{{-0.035, 0, 0}, {0.075, 0.065, 0.06}};
     const EllipsoidShape leftLobe{{0.045, 0.018, 0.006}, {0.065, 0.032, 0.042}};
-    const EllipsoidShape hollow{{0.002, -0.078, -0.012}, {0.06, 0.05, 0.05}};
-    const CapsuleShape notch{{0.026, -0.04, 0.075}, {0.022, 0.012, 0.06}, 0.011};
+    const EllipsoidShape hollow{{0.0, -0.076, -0.014}, {0.065, 0.05, 0.05}};
+    const CapsuleShape notch{{0.026, -0.05, 0.03}, {0.022, 0.004, 0.056}, 0.013};
     double f = smooth_minimum(rightLobe(p), leftLobe(p), 0.03);
     f = -smooth_minimum(-f, hollow(p), 0.015);
     return -smooth_minimum(-f, notch(p), 0.012);

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/platform.hpp>
+
+#include <cstddef>
+#include <cstring>
+
+namespace sinew::gpu::detail {
+
+/// Reads a `Value`, which holds nothing but scalars, from scalars that stand `stride` apart: neighbouring threads
+/// then read neighbouring addresses.
+template <class Value, class Real>
+SINEW_INLINE void load_strided(Value& value, Real const* from, std::ptrdiff_t stride) {
+  static_assert(sizeof(Value) % sizeof(Real) == 0, "a law's Rest and Tangent hold only scalars of its Real");
+  constexpr int reals = int(sizeof(Value) / sizeof(Real));
+  Real scalars[reals];
+  for (int r = 0; r < reals; ++r) scalars[r] = from[r * stride];
+  std::memcpy(static_cast<void*>(&value), scalars, sizeof scalars);
+}
+template <class Value, class Real>
+SINEW_INLINE void store_strided(Value const& value, Real* to, std::ptrdiff_t stride) {
+  constexpr int reals = int(sizeof(Value) / sizeof(Real));
+  Real scalars[reals];
+  std::memcpy(scalars, static_cast<void const*>(&value), sizeof scalars);
+  for (int r = 0; r < reals; ++r) to[r * stride] = scalars[r];
+}
+
+/// The elements of a driver as its threads see them. Point k of element e, and the force on it, is entry
+/// k * count + e of `index` and `part`.
+template <template <class> class LawOf, class D>
+struct DeviceElements {
+  using Real = typename D::Real;
+  using Deriv = typename D::Deriv;
+  using Rest = typename LawOf<D>::Rest;
+  using Tangent = typename LawOf<D>::Tangent;
+  static constexpr int arity = LawOf<D>::arity;
+  int count;
+  int const* index;
+  Real const* rest;
+  Real* tangent;
+  Deriv* part;
+
+  SINEW_INLINE Rest restOf(int e) const {
+    Rest value;
+    load_strided(value, rest + e, count);
+    return value;
+  }
+  SINEW_INLINE Tangent tangentOf(int e) const {
+    Tangent value;
+    load_strided(value, tangent + e, count);
+    return value;
+  }
+  template <class Value>
+  SINEW_INLINE void gather(int e, Value const* from, Value (&to)[arity]) const {
+    for (int k = 0; k < arity; ++k) to[k] = from[index[k * count + e]];
+  }
+  SINEW_INLINE void put(int e, Deriv const (&forces)[arity]) const {
+    for (int k = 0; k < arity; ++k) part[k * count + e] = forces[k];
+  }
+};
+
+template <template <class> class LawOf, class D>
+struct ElementForce {
+  LawOf<D> law;
+  DeviceElements<LawOf, D> elements;
+  typename D::Coord const* x;
+  typename D::Deriv const* v;
+
+  SINEW_HD void operator()(int e) const {
+    constexpr int arity = LawOf<D>::arity;
+    typename D::Coord xs[arity];
+    typename D::Deriv vs[arity], fs[arity];
+    typename LawOf<D>::Tangent tangent;
+    elements.gather(e, x, xs);
+    if constexpr (LawOf<D>::usesVelocity) elements.gather(e, v, vs);
+    law.force(elements.restOf(e), xs, vs, fs, tangent);
+    store_strided(tangent, elements.tangent + e, elements.count);
+    elements.put(e, fs);
+  }
+};
+
+template <template <class> class LawOf, class D>
+struct ElementDForce {
+  LawOf<D> law;
+  DeviceElements<LawOf, D> elements;
+  typename D::Deriv const* dx;
+  typename D::Real k, b;
+
+  SINEW_HD void operator()(int e) const {
+    constexpr int arity = LawOf<D>::arity;
+    typename D::Deriv dxs[arity], dfs[arity];
+    elements.gather(e, dx, dxs);
+    law.dforce(elements.restOf(e), elements.tangentOf(e), dxs, dfs, k, b);
+    elements.put(e, dfs);
+  }
+};
+
+/// sums[t] = energy of elements t, t + threads, t + 2 threads, ...
+template <template <class> class LawOf, class D>
+struct ElementEnergy {
+  LawOf<D> law;
+  DeviceElements<LawOf, D> elements;
+  typename D::Coord const* x;
+  int threads;
+  double* sums;
+
+  SINEW_HD void operator()(int t) const {
+    double sum = 0;
+    for (std::ptrdiff_t e = t; e < elements.count; e += threads) {
+      typename D::Coord xs[LawOf<D>::arity];
+      elements.gather(int(e), x, xs);
+      sum += double(law.energy(elements.restOf(int(e)), xs));
+    }
+    sums[t] = sum;
+  }
+};
+
+/// f[n] += the entries of node n, in the order of the list.
+template <class Deriv>
+struct NodeSum {
+  int const* first;
+  int const* entry;
+  Deriv const* part;
+  Deriv* f;
+
+  SINEW_HD void operator()(int n) const {
+    Deriv sum = f[n];
+    for (int i = first[n]; i < first[n + 1]; ++i) sum += part[entry[i]];
+    f[n] = sum;
+  }
+};
+
+}  // namespace sinew::gpu::detail

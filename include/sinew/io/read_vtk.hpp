@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/io/cells.hpp>
+#include <sinew/io/text_reader.hpp>
+
+#include <vector>
+
+namespace sinew::io {
+
+namespace detail {
+
+/// The legacy format of "VTK File Formats" (Kitware): versions 1 to 4, and 5 with its offsets.
+class VtkParser {
+ public:
+  VtkParser(std::string_view path, std::string_view content) : in_(path, content) {}
+
+  Mesh parse() {
+    header();
+    for (std::string key = next(); !key.empty(); key = next()) {
+      if (key == "points") {
+        points();
+      } else if (key == "cells" && grid_) {
+        if (!cells_.offsets.empty()) throw in_.error("is a second list of cells; keep one");
+        cells_ = cells();
+      } else if (key == "cell_types" && grid_) {
+        cellTypes();
+      } else if (key == "vertices" && !grid_) {
+        add(cells(), vtk_cell::polyVertex);
+      } else if (key == "lines" && !grid_) {
+        add(cells(), vtk_cell::polyLine);
+      } else if (key == "polygons" && !grid_) {
+        add(cells(), vtk_cell::polygon);
+      } else if (key == "triangle_strips" && !grid_) {
+        add(cells(), vtk_cell::triangleStrip);
+      } else if (key == "field") {
+        skipField();
+      } else if (key == "metadata") {
+        skipMetadata();
+      } else if (key == "point_data" || key == "cell_data") {
+        break;  // nothing of the mesh comes after it
+      } else {
+        throw in_.expected(grid_ ? "POINTS, CELLS or CELL_TYPES"
+                                 : "POINTS, VERTICES, LINES, POLYGONS or TRIANGLE_STRIPS");
+      }
+    }
+    if (mesh_.positions.empty()) throw in_.error("there are no POINTS; get a complete file");
+    if (grid_ && !hasTypes_)
+      throw in_.error("there are no CELLS with CELL_TYPES; the file is incomplete: get a complete one");
+    return std::move(mesh_);
+  }
+
+ private:
+  struct Cells {
+    std::vector<std::size_t> offsets{};  // one more than there are cells
+    std::vector<Index> points{};
+  };
+
+  // keywords do not depend on case
+  std::string next() { return lower_case(in_.word()); }
+
+  void header() {
+    if (!in_.restOfLine().starts_with("# vtk DataFile Version"))
+      throw in_.error("does not begin with \"# vtk DataFile Version\"; name a legacy VTK file (.vtk)");
+    in_.restOfLine();  // title
+    const std::string encoding = next();
+    if (encoding == "binary")
+      throw in_.error("is a binary VTK file; export it as ASCII (ParaView: Save Data, File Type: Ascii)");
+    if (encoding != "ascii") throw in_.expected("ASCII");
+    in_.rejectBinary();
+    if (next() != "dataset") throw in_.expected("DATASET");
+    const std::string kind = next();
+    grid_ = kind == "unstructured_grid";
+    if (!grid_ && kind != "polydata") throw in_.expected("UNSTRUCTURED_GRID or POLYDATA");
+  }
+
+  void points() {
+    if (!mesh_.positions.empty()) throw in_.error("is a second list of points; keep one");
+    const std::size_t n = in_.count("the number of points", 3);
+    in_.word();  // float, double...
+    for (std::size_t i = 0; i < n; ++i) mesh_.positions.push_back(in_.point());
+  }
+
+  // "n size", then for each cell the number of its points and they; or "n + 1, size", OFFSETS, CONNECTIVITY
+  Cells cells() {
+    Cells list;
+    const std::size_t n = in_.count("the number of cells", 1);
+    const std::size_t size = in_.count("the size of the list of cells", 1);
+    TextReader ahead = in_;
+    if (lower_case(ahead.word()) == "offsets") {
+      in_.word(), in_.word();  // OFFSETS, its type
+      for (std::size_t c = 0; c < n; ++c) {
+        const std::int64_t offset = in_.integer("an offset into CONNECTIVITY");
+        if (offset < (c == 0 ? 0 : std::int64_t(list.offsets.back())) || std::size_t(offset) > size ||
+            (c == 0 && offset))
+          throw in_.error(text("offsets rise from 0 to the ",
+                               size,
+                               " entries of CONNECTIVITY, found ",
+                               offset,
+                               "; correct it"));
+        list.offsets.push_back(std::size_t(offset));
+      }
+      if (list.offsets.empty()) list.offsets.push_back(0);
+      if (list.offsets.back() != size)
+        throw in_.error(text("the last offset is ",
+                             list.offsets.back(),
+                             ", but CONNECTIVITY has ",
+                             size,
+                             " entries; correct the file"));
+      if (next() != "connectivity") throw in_.expected("CONNECTIVITY");
+      in_.word();  // its type
+      for (std::size_t k = 0; k < size; ++k) list.points.push_back(point());
+    } else {
+      list.offsets.push_back(0);
+      for (std::size_t c = 0; c < n; ++c) {
+        const std::size_t k = in_.count("the number of points of a cell", 1);
+        for (std::size_t i = 0; i < k; ++i) list.points.push_back(point());
+        list.offsets.push_back(list.points.size());
+      }
+      if (n + list.points.size() != size)
+        throw in_.error(text("the list of cells has ",
+                             n + list.points.size(),
+                             " numbers, but ",
+                             size,
+                             " are announced; correct the number, or get a complete file"));
+    }
+    return list;
+  }
+  Index point() { return in_.index(mesh_.positions.size()); }
+
+  void cellTypes() {
+    const std::size_t n = in_.count("the number of cell types", 1);
+    if (hasTypes_ || cells_.offsets.size() != n + 1)
+      throw in_.error(text("there are ",
+                           n,
+                           " cell types, but the CELLS before them are ",
+                           cells_.offsets.size() - !cells_.offsets.empty(),
+                           "; correct the file"));
+    hasTypes_ = true;
+    for (std::size_t c = 0; c < n; ++c) add(cells_, c, in_.integer("a cell type"));
+  }
+  void add(Cells const& list, std::size_t c, std::int64_t type) {
+    const std::span<Index const> p{list.points.data() + list.offsets[c],
+                                   list.offsets[c + 1] - list.offsets[c]};
+    if (const std::string wrong = add_vtk_cell(mesh_, type, p); !wrong.empty())
+      throw in_.error(text("cell ", c, ' ', wrong));
+  }
+  void add(Cells const& list, std::int64_t type) {
+    for (std::size_t c = 0; c + 1 < list.offsets.size(); ++c) add(list, c, type);
+  }
+
+  // FIELD name n, then n arrays "name components tuples type" with their values
+  void skipField() {
+    in_.word();
+    const std::size_t arrays = in_.count("the number of arrays", 4);
+    for (std::size_t a = 0; a < arrays; ++a) {
+      if (next() == "metadata") skipMetadata(), in_.word();
+      const std::size_t components = in_.count("the number of components", 1);
+      const std::size_t tuples = in_.count("the number of tuples", 1);
+      const bool lines = next() == "string";  // each value is a line
+      if (lines) in_.restOfLine();
+      for (std::size_t k = 0; k < components; ++k)
+        for (std::size_t t = 0; t < tuples; ++t) {
+          if (!lines && in_.word().empty()) throw in_.expected("a value of a field");
+          if (lines && in_.atEnd()) throw in_.error("the data end inside a FIELD; get a complete file");
+          if (lines) in_.restOfLine();
+        }
+    }
+  }
+  // up to an empty line
+  void skipMetadata() {
+    in_.restOfLine();
+    while (!in_.atEnd() && !in_.restOfLine().empty()) {
+    }
+  }
+
+  TextReader in_;
+  Mesh mesh_{};
+  Cells cells_{};
+  bool grid_ = false, hasTypes_ = false;
+};
+
+}  // namespace detail
+
+/// The mesh in `content`, the text of a legacy VTK file; `path` is for messages. See read_vtk().
+inline Mesh parse_vtk(std::string_view path, std::string_view content) {
+  Mesh mesh = detail::VtkParser(path, content).parse();
+  check_mesh(path, mesh);
+  return mesh;
+}
+
+/// Reads an unstructured grid or polygonal data from a legacy VTK file (.vtk), ASCII, any version. Linear
+/// cells are read, vertices ignored, polygons with more than four corners cut into fans of triangles; data at
+/// points and cells are ignored. Throws Error with the line on binary files, other cells, coordinates that
+/// are not finite, points out of range, an incomplete file.
+inline Mesh read_vtk(std::string const& path) { return parse_vtk(path, read_file(path)); }
+
+}  // namespace sinew::io
