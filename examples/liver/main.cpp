@@ -3,7 +3,7 @@
 
 #include "support/progress.hpp"
 
-#include <sinew/io/pvd.hpp>
+#include <sinew/io/pvd_series.hpp>
 
 #include <cmath>
 #include <optional>

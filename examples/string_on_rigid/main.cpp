@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "scene.hpp"
 
-#include <sinew/io/pvd.hpp>
+#include <sinew/io/pvd_series.hpp>
 
 #include <cstdio>
 

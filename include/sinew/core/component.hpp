@@ -4,7 +4,7 @@
 #include <sinew/core/data_types.hpp>
 #include <sinew/core/fields.hpp>
 #include <sinew/core/vec_id.hpp>
-#include <sinew/topology/mesh.hpp>
+#include <sinew/core/mesh.hpp>
 
 #include <concepts>
 #include <span>

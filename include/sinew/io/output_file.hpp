@@ -25,6 +25,7 @@ void append_number(std::string& out, T value) {
 /// was at `path` stays until then. A device such as /dev/null is written to directly. Throws Error, and
 /// leaves no temporary file, if the folder is missing or may not be written, or the disk is full.
 inline void write_file(std::string const& path, std::string_view bytes) {
+  if (path.empty()) throw Error("write_file", "the path is empty; name a file");
   struct stat info;
   const bool exists = ::stat(path.c_str(), &info) == 0;
   if (exists && S_ISDIR(info.st_mode)) throw Error(path, "is a folder; name a file in it");

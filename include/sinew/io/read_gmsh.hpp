@@ -79,7 +79,7 @@ class GmshParser {
       }
     } else {
       const std::size_t blocks = in_.count("the number of blocks", 4);
-      const std::size_t n = in_.count("the number of nodes", 4);
+      const std::size_t n = in_.count("the number of nodes", 4), line = in_.line();
       in_.integer("the least number of a node"), in_.integer("the greatest number of a node");
       for (std::size_t b = 0; b < blocks; ++b) {
         const std::int64_t dimension = in_.integer("the dimension of an entity");
@@ -94,7 +94,7 @@ class GmshParser {
               in_.real("a parametric coordinate");
         }
       }
-      total("nodes", n, nodes_.size());
+      total("nodes", n, line, nodes_.size());
     }
     end(section);
     if (nodes_.empty()) throw in_.error("holds no nodes; export a mesh");
@@ -134,7 +134,7 @@ class GmshParser {
       }
     } else {
       const std::size_t blocks = in_.count("the number of blocks", 4);
-      const std::size_t n = in_.count("the number of elements", 2);
+      const std::size_t n = in_.count("the number of elements", 2), line = in_.line();
       in_.integer("the least number of an element"), in_.integer("the greatest number of an element");
       std::size_t found = 0;
       for (std::size_t b = 0; b < blocks; ++b) {
@@ -147,7 +147,7 @@ class GmshParser {
         }
         found += size;
       }
-      total("elements", n, found);
+      total("elements", n, line, found);
     }
     end(section);
   }
@@ -217,15 +217,11 @@ class GmshParser {
     return at->index;
   }
 
-  void total(std::string_view what, std::size_t announced, std::size_t found) const {
-    if (announced != found)
-      throw in_.error(text("there are ",
-                           found,
-                           ' ',
-                           what,
-                           " in the blocks, but ",
-                           announced,
-                           " are announced; correct the number, or get a complete file"));
+  void total(std::string_view what, std::size_t announced, std::size_t line, std::size_t found) const {
+    if (announced == found) return;
+    throw in_.error(line,
+                    text(announced, " ", what, " are announced, but the blocks hold ", found) +
+                        "; correct the number, or get a complete file");
   }
   static bool ends(std::string_view word, std::string const& section) {
     const std::string name = section.substr(1);

@@ -27,8 +27,7 @@ class ObjParser {
       } else if (key == "l") {
         if (corners() < 2) throw in_.error("a line has fewer than two points; add one or remove the line");
         add_polyline(mesh_, corners_);
-      } else if (!key.empty() &&
-                 std::find(std::begin(ignored), std::end(ignored), key) == std::end(ignored)) {
+      } else if (!key.empty() && !ignored(key)) {
         throw in_.expected("v, f, l or another keyword of polygonal OBJ files");
       }
     }
@@ -45,24 +44,11 @@ class ObjParser {
 
  private:
   // looks, groups and points, of which a Mesh knows nothing
-  static constexpr std::string_view ignored[] = {"vt",
-                                                 "vn",
-                                                 "vp",
-                                                 "o",
-                                                 "g",
-                                                 "s",
-                                                 "p",
-                                                 "mg",
-                                                 "usemtl",
-                                                 "mtllib",
-                                                 "usemap",
-                                                 "maplib",
-                                                 "bevel",
-                                                 "c_interp",
-                                                 "d_interp",
-                                                 "lod",
-                                                 "shadow_obj",
-                                                 "trace_obj"};
+  static bool ignored(std::string_view key) {
+    constexpr std::string_view keys =
+        " vt vn vp o g s p mg usemtl mtllib usemap maplib bevel c_interp d_interp lod shadow_obj trace_obj ";
+    return keys.find(text(' ', key, ' ')) != keys.npos;
+  }
 
   // next word of the line, up to a comment
   std::string_view word() {
@@ -93,8 +79,9 @@ class ObjParser {
                              i,
                              " does not exist: vertices are numbered from 1, or from -1 backwards; ",
                              "correct the number"));
-      corners_.push_back(
-          Index(std::min<std::int64_t>(i > 0 ? i - 1 : n + i, std::numeric_limits<Index>::max())));
+      const std::int64_t index = i > 0 ? i - 1 : n + i;
+      if (index > greatest_) greatest_ = index, greatestLine_ = in_.line();  // its vertex may come later
+      corners_.push_back(Index(std::min<std::int64_t>(index, std::numeric_limits<Index>::max())));
     }
     return corners_.size();
   }

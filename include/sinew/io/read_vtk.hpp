@@ -46,7 +46,8 @@ class VtkParser {
     }
     if (mesh_.positions.empty()) throw in_.error("there are no POINTS; get a complete file");
     if (grid_ && !hasTypes_)
-      throw in_.error("there are no CELLS with CELL_TYPES; the file is incomplete: get a complete one");
+      throw in_.error(
+          "an unstructured grid needs CELLS and CELL_TYPES, but a list is missing; get a complete file");
     return std::move(mesh_);
   }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/mesh.hpp>
 #include <sinew/io/output_file.hpp>
-#include <sinew/topology/mesh.hpp>
 
 #include <cstdint>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/mesh.hpp>
 #include <sinew/io/base64.hpp>
 #include <sinew/io/output_file.hpp>
-#include <sinew/topology/mesh.hpp>
 
 #include <bit>
 #include <vector>

@@ -74,12 +74,13 @@ inline Face sorted_face(Triangle t) {
 /// first; the edges are in lexicographic order. Throws Error on a negative index or an edge from a point to
 /// itself.
 inline std::vector<Edge> edges_of(std::vector<Triangle> const& triangles) {
-  return detail::unique_edges("triangle", triangles,
-                              std::array<detail::Corners, 3>{{{0, 1}, {1, 2}, {0, 2}}});
+  return detail::unique_edges(
+      "triangle", triangles, std::array<detail::Corners, 3>{{{0, 1}, {1, 2}, {0, 2}}});
 }
 inline std::vector<Edge> edges_of(std::vector<Tetrahedron> const& tetrahedra) {
   return detail::unique_edges(
-      "tetrahedron", tetrahedra,
+      "tetrahedron",
+      tetrahedra,
       std::array<detail::Corners, 6>{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}});
 }
 inline std::vector<Edge> edges_of(std::vector<Hexahedron> const& hexahedra) {
@@ -90,8 +91,8 @@ inline std::vector<Edge> edges_of(std::vector<Hexahedron> const& hexahedra) {
 
 /// The different sides of quads, as edges_of. (Quad and Tetrahedron are one type, hence the other name.)
 inline std::vector<Edge> edges_of_quads(std::vector<Quad> const& quads) {
-  return detail::unique_edges("quad", quads,
-                              std::array<detail::Corners, 4>{{{0, 1}, {1, 2}, {2, 3}, {3, 0}}});
+  return detail::unique_edges(
+      "quad", quads, std::array<detail::Corners, 4>{{{0, 1}, {1, 2}, {2, 3}, {3, 0}}});
 }
 
 /// The faces that belong to one tetrahedron only, their front outwards where the tetrahedra are positively
@@ -116,7 +117,14 @@ inline std::vector<Triangle> boundary_triangles(std::vector<Tetrahedron> const& 
     for (next = i + 1; next < faces.size() && faces[next].points == faces[i].points;) ++next;
     if (next - i > 2)
       throw Error(where,
-                  text("the face of points ", a, ", ", b, ", ", c, " belongs to ", next - i,
+                  text("the face of points ",
+                       a,
+                       ", ",
+                       b,
+                       ", ",
+                       c,
+                       " belongs to ",
+                       next - i,
                        " tetrahedra, which must overlap; at most 2 can share it. Remove the duplicates"));
     if (next - i == 1) boundary.push_back(faces[i].odd ? Triangle{a, c, b} : Triangle{a, b, c});
   }

@@ -108,16 +108,32 @@ inline BccLattice empty_bcc_lattice(std::string_view where, Eigen::Vector3d cons
                                     Eigen::Vector3d const& hi, double spacing) {
   if (!lo.allFinite() || !hi.allFinite() || !(lo.array() < hi.array()).all())
     throw Error(where,
-                text("the box from (", lo[0], ", ", lo[1], ", ", lo[2], ") to (", hi[0], ", ", hi[1], ", ",
-                     hi[2], ") is empty; its second corner must exceed the first in x, y and z"));
+                text("the box from (",
+                     lo[0],
+                     ", ",
+                     lo[1],
+                     ", ",
+                     lo[2],
+                     ") to (",
+                     hi[0],
+                     ", ",
+                     hi[1],
+                     ", ",
+                     hi[2],
+                     ") is empty; its second corner must exceed the first in x, y and z"));
   if (!(spacing > 0) || !std::isfinite(spacing))
     throw Error(where, text("the spacing is ", spacing, "; it must be a positive length"));
   const Eigen::Array3d cells = ((hi - lo).array() / spacing - 1e-9).ceil().max(1);
   const double points = (cells[0] + 7) * (cells[1] + 7) * (2 * cells[2] + 13);
   if (!(points <= BccLattice::maxPoints))
     throw Error(where,
-                text("a spacing of ", spacing, " needs ", points, " lattice points in this box; at most ",
-                     BccLattice::maxPoints, " (2^28) are possible. Enlarge the spacing or shrink the box"));
+                text("a spacing of ",
+                     spacing,
+                     " needs ",
+                     points,
+                     " lattice points in this box; at most ",
+                     BccLattice::maxPoints,
+                     " (2^28) are possible. Enlarge the spacing or shrink the box"));
   BccLattice lattice;
   lattice.spacing = spacing;
   lattice.sx = int(cells[0]) + 7;
@@ -137,8 +153,16 @@ template <class Shape>
 double finite_value(std::string_view where, Shape const& shape, Eigen::Vector3d const& p) {
   const double f = double(shape(p));
   if (!std::isfinite(f))
-    throw Error(where, text("the shape gives ", f, " at (", p[0], ", ", p[1], ", ", p[2],
-                            "); it must give a finite number everywhere in and near the box"));
+    throw Error(where,
+                text("the shape gives ",
+                     f,
+                     " at (",
+                     p[0],
+                     ", ",
+                     p[1],
+                     ", ",
+                     p[2],
+                     "); it must give a finite number everywhere in and near the box"));
   return f;
 }
 
@@ -187,8 +211,14 @@ BccLattice sample_bcc_lattice(std::string_view where, Shape const& shape, Eigen:
     if (!(f < 0)) return;
     lattice.label[std::size_t(p)] = 1;
     if (((lo - x).cwiseMax(x - hi).array() > tolerance).any())
-      throw Error(where, text("the body leaves the box: the shape is negative at (", x[0], ", ", x[1], ", ",
-                              x[2], "); enlarge the box, or intersect the shape with it"));
+      throw Error(where,
+                  text("the body leaves the box: the shape is negative at (",
+                       x[0],
+                       ", ",
+                       x[1],
+                       ", ",
+                       x[2],
+                       "); enlarge the box, or intersect the shape with it"));
   });
   lattice.for_inner_points([&](int p, auto const& steps) {
     lattice.cutStart[std::size_t(p)] = std::int32_t(lattice.cuts.size());
@@ -196,8 +226,12 @@ BccLattice sample_bcc_lattice(std::string_view where, Shape const& shape, Eigen:
       const int q = p + steps[std::size_t(d)];
       if (lattice.label[std::size_t(p)] == lattice.label[std::size_t(q)]) continue;
       lattice.cutMask[std::size_t(p)] = std::uint8_t(lattice.cutMask[std::size_t(p)] | (1u << d));
-      lattice.cuts.push_back(find_cut(where, shape, lattice.lattice_position(p), lattice.lattice_position(q),
-                                      lattice.value[std::size_t(p)], lattice.value[std::size_t(q)]));
+      lattice.cuts.push_back(find_cut(where,
+                                      shape,
+                                      lattice.lattice_position(p),
+                                      lattice.lattice_position(q),
+                                      lattice.value[std::size_t(p)],
+                                      lattice.value[std::size_t(q)]));
     }
   });
   return lattice;

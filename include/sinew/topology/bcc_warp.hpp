@@ -3,6 +3,7 @@
 
 #include <sinew/topology/bcc_lattice.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -92,15 +93,16 @@ inline bool is_manifold_at(BccLattice const& lattice, int p) {
   return curves <= 1;
 }
 
-/// Whether p is a corner of a lattice tetrahedron with all corners on the surface. It would be left out.
-inline bool in_flat_tetrahedron(BccLattice const& lattice, int p) {
+/// Whether p, on the surface, borders on nothing outside but on lattice tetrahedra with all corners on the
+/// surface, which are left out: they would be a cavity.
+inline bool borders_flat_cavity(BccLattice const& lattice, int p) {
   auto const& steps = lattice.steps_of(p);
-  for (auto const& [u, v, w] : bccLink.triangles)
-    if (lattice.label[std::size_t(p + steps[std::size_t(u)])] == 0 &&
-        lattice.label[std::size_t(p + steps[std::size_t(v)])] == 0 &&
-        lattice.label[std::size_t(p + steps[std::size_t(w)])] == 0)
-      return true;
-  return false;
+  auto label = [&](int direction) { return lattice.label[std::size_t(p + steps[std::size_t(direction)])]; };
+  for (int d = 0; d < 14; ++d)
+    if (label(d) < 0) return false;
+  return std::any_of(bccLink.triangles.begin(), bccLink.triangles.end(), [&](auto const& t) {
+    return label(t[0]) == 0 && label(t[1]) == 0 && label(t[2]) == 0;
+  });
 }
 
 /// Moves each point that a cut point violates (see bcc_alpha) to the nearest such cut point. The edges of a
@@ -120,8 +122,8 @@ inline void snap(BccLattice& lattice) {
 }
 
 /// Moves points back to the lattice where the body, too thin for this spacing, would touch itself in a point
-/// or an edge, or would miss a flat tetrahedron. The angle bounds hold on: instead of moving the point,
-/// place_points() keeps the cut points of its edges out of the forbidden part of the edge.
+/// or an edge, and inside points next to flat cavities. The angle bounds hold on: instead of moving the
+/// point, place_points() keeps the cut points of its edges out of the forbidden part of the edge.
 inline void unsnap_pinched(BccLattice& lattice) {
   std::vector<int> moved;
   lattice.for_inner_points([&](int p, auto const&) {
@@ -132,7 +134,7 @@ inline void unsnap_pinched(BccLattice& lattice) {
     for (const int p : moved) {
       const bool inside = lattice.value[std::size_t(p)] < 0;
       if (lattice.label[std::size_t(p)] != 0) continue;
-      if (is_manifold_at(lattice, p) && !(inside && in_flat_tetrahedron(lattice, p))) continue;
+      if (is_manifold_at(lattice, p) && !(inside && borders_flat_cavity(lattice, p))) continue;
       lattice.label[std::size_t(p)] = inside ? 1 : -1;
       lattice.snapped[std::size_t(p)] = -1;
       again = true;
@@ -140,21 +142,32 @@ inline void unsnap_pinched(BccLattice& lattice) {
   }
 }
 
-/// Turns all inside points outside, except for those of the largest connected group. Tetrahedra of one group
-/// are joined by faces, those of different groups at most by edges.
+/// Turns all inside points outside, except for those of the largest group whose tetrahedra are joined by
+/// faces: inside points that share an edge, or see each other through a face with three corners on the
+/// surface.
 inline void keep_largest_component(BccLattice& lattice) {
   std::vector<int> stack;
+  auto label = [&](int p) -> signed char& { return lattice.label[std::size_t(p)]; };
   auto flood = [&](int seed, signed char from, signed char to) {
     int count = 0;
-    lattice.label[std::size_t(seed)] = to;
-    for (stack.push_back(seed); !stack.empty(); ++count) {
+    auto reach = [&](int p) {
+      if (label(p) == from) label(p) = to, stack.push_back(p);
+    };
+    for (reach(seed); !stack.empty(); ++count) {
       const int p = stack.back();
       stack.pop_back();
-      for (const int step : lattice.steps_of(p))
-        if (lattice.label[std::size_t(p + step)] == from) {
-          lattice.label[std::size_t(p + step)] = to;
-          stack.push_back(p + step);
-        }
+      auto const& steps = lattice.steps_of(p);
+      bool nearSurface = false;
+      for (const int step : steps) reach(p + step), nearSurface = nearSurface || label(p + step) == 0;
+      if (!nearSurface) continue;
+      for (auto const& [u, v, w] : bccLink.triangles) {
+        const int a = p + steps[std::size_t(u)], b = p + steps[std::size_t(v)], c = p + steps[std::size_t(w)];
+        if (label(a) != 0 || label(b) != 0 || label(c) != 0) continue;
+        // the neighbour beyond that face has the corner a + b - p, where short edges join a and b to p
+        const int i = bcc_is_long(u) ? v : u, j = bcc_is_long(w) ? v : w;
+        const int first = p + steps[std::size_t(i)];
+        reach(first + lattice.steps_of(first)[std::size_t(j)]);
+      }
     }
     return count;
   };
@@ -164,8 +177,7 @@ inline void keep_largest_component(BccLattice& lattice) {
     if (const int count = flood(p, 1, 2); count > largest) largest = count, seed = p;
   });
   if (seed >= 0) flood(seed, 2, 1);
-  for (signed char& label : lattice.label)
-    if (label == 2) label = -1;
+  std::replace(lattice.label.begin(), lattice.label.end(), (signed char)(2), (signed char)(-1));
 }
 
 }  // namespace sinew::detail

@@ -43,12 +43,14 @@ inline double tetrahedron_volume(Eigen::Vector3d const& x0, Eigen::Vector3d cons
 inline TetrahedronQuality quality(Mesh const& mesh) {
   if (mesh.tetrahedra.empty()) throw Error("quality", "the mesh has no tetrahedra; give a volume mesh");
   check_mesh("quality", mesh);
-  constexpr int edges[6][4] = {{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2},
-                               {1, 2, 0, 3}, {1, 3, 2, 0}, {2, 3, 0, 1}};
+  constexpr int edges[6][4] = {
+      {0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2}, {1, 2, 0, 3}, {1, 3, 2, 0}, {2, 3, 0, 1}};
   TetrahedronQuality result;
   for (Tetrahedron const& t : mesh.tetrahedra) {
-    const Eigen::Vector3d x[4] = {mesh.positions[std::size_t(t[0])], mesh.positions[std::size_t(t[1])],
-                                  mesh.positions[std::size_t(t[2])], mesh.positions[std::size_t(t[3])]};
+    const Eigen::Vector3d x[4] = {mesh.positions[std::size_t(t[0])],
+                                  mesh.positions[std::size_t(t[1])],
+                                  mesh.positions[std::size_t(t[2])],
+                                  mesh.positions[std::size_t(t[3])]};
     const double volume = tetrahedron_volume(x[0], x[1], x[2], x[3]);
     result.minVolume = std::min(result.minVolume, volume);
     result.volume += volume;

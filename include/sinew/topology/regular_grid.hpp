@@ -23,15 +23,35 @@ inline Mesh grid_points(std::string_view where, int nx, int ny, int nz, Eigen::V
                         Eigen::Vector3d const& hi) {
   constexpr double most = 268435456;  // 2^28
   if (nx < 2 || ny < 2 || nz < 2)
-    throw Error(where, text("a grid of ", nx, " x ", ny, " x ", nz,
-                            " points has no cells; give at least 2 each way"));
+    throw Error(
+        where,
+        text("a grid of ", nx, " x ", ny, " x ", nz, " points has no cells; give at least 2 each way"));
   if (double(nx) * ny * nz > most)
-    throw Error(where, text("a grid of ", nx, " x ", ny, " x ", nz, " points exceeds the limit of ", most,
-                            " points (2^28); make it coarser"));
+    throw Error(where,
+                text("a grid of ",
+                     nx,
+                     " x ",
+                     ny,
+                     " x ",
+                     nz,
+                     " points exceeds the limit of ",
+                     most,
+                     " points (2^28); make it coarser"));
   if (!lo.allFinite() || !hi.allFinite() || !(lo.array() < hi.array()).all())
     throw Error(where,
-                text("the box from (", lo[0], ", ", lo[1], ", ", lo[2], ") to (", hi[0], ", ", hi[1], ", ",
-                     hi[2], ") is empty; its second corner must exceed the first in x, y and z"));
+                text("the box from (",
+                     lo[0],
+                     ", ",
+                     lo[1],
+                     ", ",
+                     lo[2],
+                     ") to (",
+                     hi[0],
+                     ", ",
+                     hi[1],
+                     ", ",
+                     hi[2],
+                     ") is empty; its second corner must exceed the first in x, y and z"));
   Mesh mesh;
   mesh.positions.reserve(std::size_t(nx) * std::size_t(ny) * std::size_t(nz));
   const Eigen::Array3d last(nx - 1, ny - 1, nz - 1);
@@ -75,8 +95,8 @@ inline Mesh regular_grid_tetrahedra(int nx, int ny, int nz, Eigen::Vector3d cons
   if (perCell != 5 && perCell != 6)
     throw Error(where, text("a cell cannot be split into ", perCell, " tetrahedra; choose 5 or 6"));
   Mesh mesh = detail::grid_points(where, nx, ny, nz, lo, hi);
-  constexpr int six[6][4] = {{0, 1, 2, 6}, {0, 2, 3, 6}, {0, 3, 7, 6},
-                             {0, 7, 4, 6}, {0, 4, 5, 6}, {0, 5, 1, 6}};
+  constexpr int six[6][4] = {
+      {0, 1, 2, 6}, {0, 2, 3, 6}, {0, 3, 7, 6}, {0, 7, 4, 6}, {0, 4, 5, 6}, {0, 5, 1, 6}};
   constexpr int five[2][5][4] = {{{0, 1, 2, 5}, {0, 2, 3, 7}, {0, 5, 7, 4}, {2, 7, 5, 6}, {0, 2, 7, 5}},
                                  {{1, 2, 3, 6}, {0, 1, 3, 4}, {1, 6, 4, 5}, {3, 4, 6, 7}, {1, 3, 4, 6}}};
   detail::for_grid_cells(nx, ny, nz, [&](Hexahedron const& c, int parity) {

@@ -107,8 +107,8 @@ Mesh surface(Shape const& shape, Eigen::Vector3d const& lo, Eigen::Vector3d cons
   mesh.triangles = boundary_triangles(detail::stuff(lattice, true));
   // towards the tetrahedra left out there are faces with inside points; the boundary has none
   std::erase_if(mesh.triangles, [&](Triangle const& t) {
-    return std::any_of(t.begin(), t.end(),
-                       [&](Index i) { return i < lattice.size() && lattice.label[std::size_t(i)] > 0; });
+    return std::any_of(
+        t.begin(), t.end(), [&](Index i) { return i < lattice.size() && lattice.label[std::size_t(i)] > 0; });
   });
   detail::check_not_empty(where, mesh.triangles.size(), spacing);
   mesh.positions = detail::place_points(lattice, mesh.triangles);

@@ -5,10 +5,13 @@
 #include <sinew/gpu/element_kernels.hpp>
 #include <sinew/gpu/execution.hpp>
 
+#include <thrust/copy.h>
 #include <thrust/device_vector.h>
 
+#include <algorithm>
 #include <array>
 #include <limits>
+#include <string_view>
 #include <vector>
 
 namespace sinew::gpu {

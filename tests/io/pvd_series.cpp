@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSL-1.0
+#include <sinew/io/pvd_series.hpp>
+#include <sinew/io/read_vtu.hpp>
+
+#include "files.hpp"
+#include "samples.hpp"
+
+using namespace sinew;
+using files::check_says;
+using files::error_of;
+
+namespace {
+
+// times and files of a .pvd file
+std::vector<std::pair<double, std::string>> listed(std::string const& path) {
+  pugi::xml_document document;
+  REQUIRE(document.load_file(path.c_str()));
+  CHECK(document.child("VTKFile").attribute("type").value() == std::string("Collection"));
+  std::vector<std::pair<double, std::string>> list;
+  for (auto const set : document.child("VTKFile").child("Collection").children("DataSet"))
+    list.emplace_back(set.attribute("timestep").as_double(), set.attribute("file").value());
+  return list;
+}
+
+}  // namespace
+
+TEST_CASE("PvdSeries is complete after each call") {
+  const files::TempFolder folder;
+  io::PvdSeries series(folder / "out/deep/liver & co");
+  CHECK(std::filesystem::is_directory(folder / "out/deep"));
+  CHECK(series.path() == folder / "out/deep/liver & co.pvd");
+  CHECK(series.size() == 0);
+  std::vector<std::pair<double, std::string>> expected;
+  Mesh mesh = samples::mesh();
+  for (int i = 0; i < 3; ++i) {
+    mesh.positions[0].x() = 0.1 * i;
+    series.add(0.02 * i, mesh, {{"index", 1, {0, 1, 2, 3, 4}}});
+    expected.emplace_back(0.02 * i, "liver & co_000" + std::to_string(i) + ".vtu");
+    CHECK(listed(series.path()) == expected);
+    CHECK(series.size() == expected.size());
+    CHECK(io::read_vtu(folder / "out/deep/" + expected.back().second) == mesh);
+  }
+}
+
+TEST_CASE("PvdSeries stays as it was when a state cannot be added") {
+  const files::TempFolder folder;
+  io::PvdSeries series(folder / "a.pvd");
+  CHECK(series.path() == folder / "a.pvd");
+  Mesh mesh = samples::mesh();
+  series.add(0, mesh);
+  check_says(error_of([&] { series.add(std::numeric_limits<double>::quiet_NaN(), mesh); }),
+             series.path(),
+             "time nan");
+  mesh.positions[2].z() = std::numeric_limits<double>::infinity();
+  check_says(error_of([&] { series.add(1, mesh); }), folder / "a_0001.vtu", "point 2");
+  CHECK(series.size() == 1);
+  CHECK(folder.count() == 2);
+  series.add(2, samples::mesh());
+  CHECK(listed(series.path()) ==
+        std::vector<std::pair<double, std::string>>{{0, "a_0000.vtu"}, {2, "a_0001.vtu"}});
+}
+
+TEST_CASE("PvdSeries needs a name and a folder") {
+  const files::TempFolder folder;
+  check_says(error_of([&] { io::PvdSeries(folder / ""); }), folder / "", "names no file");
+  CHECK(error_of([] { io::PvdSeries(""); }).find("names no file") != std::string::npos);
+  const std::string file = folder.write("file", "x");
+  check_says(error_of([&] { io::PvdSeries(file + "/liver"); }), file, "cannot be created as a folder");
+}
