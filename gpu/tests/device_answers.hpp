@@ -56,8 +56,8 @@ typename D::VecCoord fall_on_device(Fall<D> const& fall) {
   auto raw = [](auto& vector) { return thrust::raw_pointer_cast(vector.data()); };
   for (int step = 0; step < Fall<D>::steps; ++step) {
     driver.addForce({}, f, x, v);
-    gpu::for_each_index(
-        x.size(), EulerStep<D>{Real(Fall<D>::dt), Real(Fall<D>::gravity), raw(f), raw(v), raw(x)});
+    gpu::for_each_index(x.size(),
+                        EulerStep<D>{Real(Fall<D>::dt), Real(Fall<D>::gravity), raw(f), raw(v), raw(x)});
   }
   return to_host(x);
 }

@@ -92,15 +92,22 @@ TEST_CASE("a Thrust driver says what is wrong with its input") {
     }
     return "nothing";
   };
-  CHECK(message([&] { driver.init({{0, 1}, {1, 2}}, {rest, rest}, 2); }) ==
+  CHECK(message([&] {
+          driver.init({{0, 1}, {1, 2}}, {rest, rest}, 2);
+        }) ==
         "ThrustElementDriver::init: element 1 refers to node 2, but there are 2 nodes, numbered from 0; "
         "correct the index");
-  CHECK(message([&] { driver.init({{-1, 1}}, {rest}, 2); }) ==
+  CHECK(message([&] {
+          driver.init({{-1, 1}}, {rest}, 2);
+        }) ==
         "ThrustElementDriver::init: element 0 refers to node -1, but there are 2 nodes, numbered from 0; "
         "correct the index");
-  CHECK(message([&] { driver.init({{0, 1}}, {rest, rest}, 2); }) ==
-        "ThrustElementDriver::init: 2 rest data were given for 1 elements; give one for each element");
-  CHECK(message([&] { driver.init({{0, 1}}, {rest}, std::size_t(1) << 31); }) ==
+  CHECK(message([&] {
+          driver.init({{0, 1}}, {rest, rest}, 2);
+        }) == "ThrustElementDriver::init: 2 rest data were given for 1 elements; give one for each element");
+  CHECK(message([&] {
+          driver.init({{0, 1}}, {rest}, std::size_t(1) << 31);
+        }) ==
         "ThrustElementDriver::init: 1 elements over 2147483648 nodes exceed the 2^31 - 1 numbers of an int; "
         "split the body");
   CHECK(driver.size() == 0);
@@ -114,6 +121,7 @@ TEST_CASE("a Thrust driver says what is wrong with its input") {
   CHECK(message([&] { driver.addForce({}, f2, three, two); }).find("x has 3 entries") != std::string::npos);
   CHECK(message([&] { driver.addForce({}, f2, two, three); }).find("v has 3 entries") != std::string::npos);
   CHECK(message([&] { driver.addDForce({}, f3, two, 1, 0); }).find("df has 3 entries") != std::string::npos);
-  CHECK(message([&] { driver.addDForce({}, f2, three, 1, 0); }).find("dx has 3 entries") != std::string::npos);
+  CHECK(message([&] { driver.addDForce({}, f2, three, 1, 0); }).find("dx has 3 entries") !=
+        std::string::npos);
   CHECK(message([&] { driver.energy({}, three); }).find("x has 3 entries") != std::string::npos);
 }

@@ -82,7 +82,8 @@ Body<TetrahedronFEM, D> tetrahedra(RotationMethod method) {
   }
   // the last element: point 3 through the plane of the others
   Tetrahedron const& last = body.elements.back();
-  const typename D::Coord middle = (at(body.x, last, 0) + at(body.x, last, 1) + at(body.x, last, 2)) / Real(3);
+  const typename D::Coord middle =
+      (at(body.x, last, 0) + at(body.x, last, 1) + at(body.x, last, 2)) / Real(3);
   body.x[std::size_t(last[3])] = Real(2) * middle - at(body.x, last, 3);
   return body;
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-// Bodies to test drivers with, and what the CPU makes of them. Compiled once, without Thrust, for all backends.
+// Bodies to test drivers with, and what the CPU makes of them. Compiled once, without Thrust, for all
+// backends.
 
 #include <sinew/force/stiff_spring.hpp>
 #include <sinew/force/tetrahedron_fem.hpp>
@@ -19,7 +20,8 @@ struct Body {
   typename D::VecDeriv v{}, dx{};
 };
 
-/// Springs between random pairs of random points. Nodes 0 and 1 are in one place; the last node has no spring.
+/// Springs between random pairs of random points. Nodes 0 and 1 are in one place; the last node has no
+/// spring.
 template <class D>
 Body<SpringLaw, D> spring_network(int nodes, int springs);
 
@@ -46,8 +48,8 @@ HostAnswers<D> on_host(Body<SpringLaw, D> const& body);
 template <class D>
 HostAnswers<D> on_host(Body<TetrahedronFEM, D> const& body, RotationMethod method);
 
-/// A falling block of springs that twangs; its points have unit mass. `after`: where a Simulation has its points
-/// after 100 steps of symplectic Euler.
+/// A falling block of springs that twangs; its points have unit mass. `after`: where a Simulation has its
+/// points after 100 steps of symplectic Euler.
 template <class D>
 struct Fall {
   static constexpr double dt = 0.005, gravity = -9.81;  // [s], [m/s^2] along y

@@ -72,7 +72,7 @@ TEST_CASE("read_gmsh names the line of an error") {
              "f.msh:9",
              "6 nodes are announced, but the blocks hold 5");
   check_says(error_with(samples::gmsh4, "5 5 1 9", "5 4 1 9"),
-             "f.msh:35",
+             "f.msh:26",
              "4 elements are announced, but the blocks hold 5");
   check_says(error_with(samples::gmsh1, "$ELM\n", "$NOD\n"), "f.msh:9", "second section");
   check_says(error_with(samples::gmsh2, "$PhysicalNames\n1", "$Elements\n1"), "f.msh:4", "before the nodes");
@@ -84,12 +84,12 @@ TEST_CASE("read_gmsh takes no memory on a number's word") {
     check_says(
         error_with(samples::gmsh1, "$NOD\n5", std::string("$NOD\n") + n), "f.msh:2", "correct the number");
     check_says(error_with(samples::gmsh2, "$Elements\n5", std::string("$Elements\n") + n),
-               "f.msh:16",
+               "f.msh:17",
                "correct the number");
     check_says(
         error_with(samples::gmsh4, "3 1 4 1", std::string("3 1 4 ") + n), "f.msh:35", "correct the number");
     check_says(
-        error_with(samples::gmsh2, "4 3 2", std::string("4 3 ") + n), "f.msh:20", "correct the number");
+        error_with(samples::gmsh2, "4 3 2", std::string("4 3 ") + n), "f.msh:21", "correct the number");
   }
   CHECK_FALSE(error_with(samples::gmsh1, "$NOD\n5", "$NOD\n0").empty());
 }

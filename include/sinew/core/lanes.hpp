@@ -30,6 +30,7 @@ struct lane_mask {
 template <class T>
 requires std::is_floating_point_v<T> SINEW_INLINE T select(bool mask, T a, T b) { return mask ? a : b; }
 SINEW_INLINE bool any(bool mask) { return mask; }
+SINEW_INLINE bool both(bool a, bool b) { return a && b; }
 SINEW_INLINE void set(bool& mask, int, bool value) { mask = value; }
 template <class T>
 requires std::is_floating_point_v<T> SINEW_INLINE T lane(T a, int) { return a; }
@@ -106,6 +107,11 @@ SINEW_INLINE bool any(LaneMask<T, W> mask) {
   bool set = false;
   for (int i = 0; i < W; ++i) set |= mask.bits[i] != 0;
   return set;
+}
+
+template <class T, int W>
+SINEW_INLINE LaneMask<T, W> both(LaneMask<T, W> a, LaneMask<T, W> b) {
+  return a & b;
 }
 
 template <class T, int W>

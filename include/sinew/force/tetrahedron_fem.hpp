@@ -183,7 +183,7 @@ struct TetrahedronFEM {
       const Vec3 c2(c0[2], c1[2], xx * yy - xy * xy);
       const Real det = xx * c0[0] + xy * c0[1] + xz * c0[2];
       const auto definite =
-          (det > Real(1e-3) * abs(trace * trace * trace)) & (trace > Real(0)) & (c2[2] > Real(0));
+          both(det > Real(1e-3) * abs(trace * trace * trace), both(trace > Real(0), c2[2] > Real(0)));
       const Real inverse = Real(1) / select(definite, det, Real(1));
       const Real safe =
           Real(1) / (abs(trace) + Real(1e-9) * scale + Real(std::numeric_limits<lane_scalar<Real>>::min()));

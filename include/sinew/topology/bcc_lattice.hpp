@@ -24,20 +24,11 @@
 namespace sinew::detail {
 
 /// Edges from a lattice point in units of h/2. Direction d + 7 is opposite to d; 0 to 6 lead to later points.
-constexpr std::array<std::array<int, 3>, 14> bccDirections = {{{2, 0, 0},
-                                                               {0, 2, 0},
-                                                               {0, 0, 2},
-                                                               {1, 1, 1},
-                                                               {-1, 1, 1},
-                                                               {1, -1, 1},
-                                                               {-1, -1, 1},
-                                                               {-2, 0, 0},
-                                                               {0, -2, 0},
-                                                               {0, 0, -2},
-                                                               {-1, -1, -1},
-                                                               {1, -1, -1},
-                                                               {-1, 1, -1},
-                                                               {1, 1, -1}}};
+// clang-format off
+constexpr std::array<std::array<int, 3>, 14> bccDirections = {
+    {{2, 0, 0},  {0, 2, 0},  {0, 0, 2},  {1, 1, 1},    {-1, 1, 1},  {1, -1, 1},  {-1, -1, 1},
+     {-2, 0, 0}, {0, -2, 0}, {0, 0, -2}, {-1, -1, -1}, {1, -1, -1}, {-1, 1, -1}, {1, 1, -1}}};
+// clang-format on
 
 constexpr bool bcc_is_long(int direction) { return direction % 7 < 3; }
 
@@ -52,24 +43,29 @@ constexpr int bcc_direction(int x, int y, int z) {
 /// for the best smallest angle. 0.25 on long edges could flatten a lattice tetrahedron altogether.
 constexpr double bcc_alpha(int direction) { return bcc_is_long(direction) ? 0.24999 : 0.41189; }
 
+/// Where f vanishes on the edge in a direction < 7 from a lattice point: 0 at the point, 1 at its other end.
+struct BccCut {
+  double fraction = 0;
+  std::int32_t point = 0, direction = 0;
+};
+
 /// The field at the points (2i + c, 2j + c, k) h/2, c = k mod 2, and where the edges between them cross the
-/// surface. 18 bytes a point and 8 a cut edge.
+/// surface. 15 bytes a point and 16 a cut edge.
 struct BccLattice {
   /// 2^28: point numbers and those of the cut edges, 7 a point at most, fit an int.
   static constexpr double maxPoints = 268435456;
 
   Eigen::Vector3d origin{Eigen::Vector3d::Zero()};
-  double spacing = 0;              // h
-  int sx = 0, sy = 0, layers = 0;  // number of i, j, k
-  std::array<std::array<int, 14>, 2>
-      steps{};  // from a point of an even or odd layer to its neighbours' numbers
+  double spacing = 0;                          // h
+  int sx = 0, sy = 0, layers = 0;              // number of i, j, k
+  std::array<std::array<int, 14>, 2> steps{};  // to the neighbours of points in even and odd layers
 
   std::vector<double> value{};         // f
   std::vector<signed char> label{};    // 1 inside, -1 outside, 0 on the surface, for it moved there
   std::vector<signed char> snapped{};  // direction of the edge along which it moved to the cut point, else -1
   std::vector<std::uint8_t> cutMask{};   // bit d: f changes sign on the edge in direction d < 7
   std::vector<std::int32_t> cutStart{};  // number of the first such edge of this point
-  std::vector<double> cuts{};            // where on the edge f vanishes, from 0 at its earlier point to 1
+  std::vector<BccCut> cuts{};
 
   int size() const { return sx * sy * layers; }
   std::array<int, 14> const& steps_of(int p) const { return steps[std::size_t(p / (sx * sy) % 2)]; }
@@ -86,12 +82,28 @@ struct BccLattice {
   }
   /// Where the surface cuts that edge, from 0 at p to 1 at its other end.
   double cut_fraction(int p, int direction) const {
-    const double t = cuts[std::size_t(cut_number(p, direction))];
+    const double t = cuts[std::size_t(cut_number(p, direction))].fraction;
     return direction < 7 ? t : 1 - t;
   }
   Eigen::Vector3d along(int p, int direction, double fraction) const {
     auto const& [x, y, z] = bccDirections[std::size_t(direction)];
     return lattice_position(p) + fraction * spacing / 2 * Eigen::Vector3d(x, y, z);
+  }
+  /// Position of a mesh point: of lattice point `number`, wherever it moved to, or of cut point number -
+  /// size(). The latter keeps its distance from the ends of its edge, even where no end moved for it.
+  Eigen::Vector3d position(int number) const {
+    if (number < size()) {
+      const int moved = snapped[std::size_t(number)];
+      return moved < 0 ? lattice_position(number) : along(number, moved, cut_fraction(number, moved));
+    }
+    BccCut const& cut = cuts[std::size_t(number - size())];
+    const double alpha = bcc_alpha(cut.direction);
+    return along(cut.point, cut.direction, std::clamp(cut.fraction, alpha, 1 - alpha));
+  }
+  /// Moves a point back from the surface to the lattice.
+  void unsnap(int p) {
+    label[std::size_t(p)] = value[std::size_t(p)] < 0 ? 1 : -1;
+    snapped[std::size_t(p)] = -1;
   }
   /// Calls body(p, steps) for the points of the box and one cell around it, in order. Two further cells of
   /// padding, all outside and never evaluated, spare the body bounds checks on neighbours of neighbours.
@@ -226,12 +238,13 @@ BccLattice sample_bcc_lattice(std::string_view where, Shape const& shape, Eigen:
       const int q = p + steps[std::size_t(d)];
       if (lattice.label[std::size_t(p)] == lattice.label[std::size_t(q)]) continue;
       lattice.cutMask[std::size_t(p)] = std::uint8_t(lattice.cutMask[std::size_t(p)] | (1u << d));
-      lattice.cuts.push_back(find_cut(where,
-                                      shape,
-                                      lattice.lattice_position(p),
-                                      lattice.lattice_position(q),
-                                      lattice.value[std::size_t(p)],
-                                      lattice.value[std::size_t(q)]));
+      const double t = find_cut(where,
+                                shape,
+                                lattice.lattice_position(p),
+                                lattice.lattice_position(q),
+                                lattice.value[std::size_t(p)],
+                                lattice.value[std::size_t(q)]);
+      lattice.cuts.push_back({t, p, d});
     }
   });
   return lattice;

@@ -9,8 +9,8 @@
 #include <vector>
 
 // The second step of isosurface stuffing: lattice points too near to the surface move onto it. What the paper
-// leaves to the resolution of the lattice is repaired here, so that the boundary of the body is always a
-// closed manifold.
+// leaves to the resolution of the lattice is repaired, so that the boundary of the body is a closed manifold
+// always.
 
 namespace sinew::detail {
 
@@ -122,8 +122,7 @@ inline void snap(BccLattice& lattice) {
 }
 
 /// Moves points back to the lattice where the body, too thin for this spacing, would touch itself in a point
-/// or an edge, and inside points next to flat cavities. The angle bounds hold on: instead of moving the
-/// point, place_points() keeps the cut points of its edges out of the forbidden part of the edge.
+/// or an edge, and inside points next to flat cavities.
 inline void unsnap_pinched(BccLattice& lattice) {
   std::vector<int> moved;
   lattice.for_inner_points([&](int p, auto const&) {
@@ -135,8 +134,7 @@ inline void unsnap_pinched(BccLattice& lattice) {
       const bool inside = lattice.value[std::size_t(p)] < 0;
       if (lattice.label[std::size_t(p)] != 0) continue;
       if (is_manifold_at(lattice, p) && !(inside && borders_flat_cavity(lattice, p))) continue;
-      lattice.label[std::size_t(p)] = inside ? 1 : -1;
-      lattice.snapped[std::size_t(p)] = -1;
+      lattice.unsnap(p);
       again = true;
     }
   }

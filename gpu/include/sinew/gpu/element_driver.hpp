@@ -17,9 +17,9 @@
 namespace sinew::gpu {
 
 /// Runs an element law over all elements of a body on Thrust's device, one thread an element, with the law's
-/// code for plain scalars that the CPU driver uses too. In gather form: the elements first write the forces on
-/// their points to a buffer; each node then sums its entries of it, elements in ascending order. No atomics: the
-/// same input gives the same bits, in every run and with any number of threads.
+/// code for plain scalars that the CPU driver uses too. In gather form: the elements first write the forces
+/// on their points to a buffer; each node then sums its entries of it, elements in ascending order. No
+/// atomics: the same input gives the same bits, in every run and with any number of threads.
 template <template <class> class LawOf, class D>
 class ThrustElementDriver {
  public:
@@ -35,8 +35,8 @@ class ThrustElementDriver {
   using DeviceDerivs = thrust::device_vector<Deriv>;
 
   /// Copies the elements, their rest data and the lists of elements around each node to the device. Throws
-  /// Error on a point outside 0 .. nodeCount - 1, on another number of rest data than of elements, and on more
-  /// than 2^31 - 1 ends of elements.
+  /// Error on a point outside 0 .. nodeCount - 1, on another number of rest data than of elements, and on
+  /// more than 2^31 - 1 ends of elements.
   void init(std::vector<Indices> const& elements, std::vector<Rest> const& rest, std::size_t nodeCount) {
     check(elements, rest, nodeCount);
     const std::size_t count = elements.size();
@@ -70,8 +70,8 @@ class ThrustElementDriver {
     energy_.assign(std::min(count, energyThreads), 0.0);
   }
 
-  /// f += the law's forces at (x, v); keeps what addDForce needs. Throws Error unless f, x and v have one entry
-  /// a node.
+  /// f += the law's forces at (x, v); keeps what addDForce needs. Throws Error unless f, x and v have one
+  /// entry a node.
   void addForce(Law const& law, DeviceDerivs& f, DeviceCoords const& x, DeviceDerivs const& v) {
     checkSize("addForce", "f", f.size());
     checkSize("addForce", "x", x.size());
@@ -80,8 +80,8 @@ class ThrustElementDriver {
     sumAtNodes(f);
   }
 
-  /// df += (k K + b B) dx with the tangents of the last addForce. Throws Error unless df and dx have one entry a
-  /// node.
+  /// df += (k K + b B) dx with the tangents of the last addForce. Throws Error unless df and dx have one
+  /// entry a node.
   void addDForce(Law const& law, DeviceDerivs& df, DeviceDerivs const& dx, Real k, Real b) {
     checkSize("addDForce", "df", df.size());
     checkSize("addDForce", "dx", dx.size());
@@ -93,9 +93,10 @@ class ThrustElementDriver {
   /// t + 4096, ..., the host their sums. Throws Error unless x has one entry a node.
   double energy(Law const& law, DeviceCoords const& x) {
     checkSize("energy", "x", x.size());
-    for_each_index(energy_.size(),
-                   detail::ElementEnergy<LawOf, D>{law, elements(), raw(x), int(energyThreads),
-                                                   thrust::raw_pointer_cast(energy_.data())});
+    for_each_index(
+        energy_.size(),
+        detail::ElementEnergy<LawOf, D>{
+            law, elements(), raw(x), int(energyThreads), thrust::raw_pointer_cast(energy_.data())});
     std::vector<double> sums(energy_.size());
     thrust::copy(energy_.begin(), energy_.end(), sums.begin());
     double sum = 0;
@@ -119,12 +120,16 @@ class ThrustElementDriver {
     return thrust::raw_pointer_cast(v.data());
   }
   detail::DeviceElements<LawOf, D> elements() {
-    return {int(count_), raw(index_), raw(rest_), thrust::raw_pointer_cast(tangent_.data()),
+    return {int(count_),
+            raw(index_),
+            raw(rest_),
+            thrust::raw_pointer_cast(tangent_.data()),
             thrust::raw_pointer_cast(part_.data())};
   }
   void sumAtNodes(DeviceDerivs& f) {
-    for_each_index(nodeCount_, detail::NodeSum<Deriv>{raw(first_), raw(entry_), raw(part_),
-                                                      thrust::raw_pointer_cast(f.data())});
+    for_each_index(
+        nodeCount_,
+        detail::NodeSum<Deriv>{raw(first_), raw(entry_), raw(part_), thrust::raw_pointer_cast(f.data())});
   }
 
   static void check(std::vector<Indices> const& elements, std::vector<Rest> const& rest,
@@ -132,21 +137,37 @@ class ThrustElementDriver {
     const char* const where = "ThrustElementDriver::init";
     constexpr std::size_t most = std::numeric_limits<int>::max();
     if (rest.size() != elements.size())
-      throw Error(where, text(rest.size(), " rest data were given for ", elements.size(),
-                              " elements; give one for each element"));
+      throw Error(where,
+                  text(rest.size(),
+                       " rest data were given for ",
+                       elements.size(),
+                       " elements; give one for each element"));
     if (elements.size() > most / arity || nodeCount >= most)
-      throw Error(where, text(elements.size(), " elements over ", nodeCount,
-                              " nodes exceed the 2^31 - 1 numbers of an int; split the body"));
+      throw Error(where,
+                  text(elements.size(),
+                       " elements over ",
+                       nodeCount,
+                       " nodes exceed the 2^31 - 1 numbers of an int; split the body"));
     for (std::size_t e = 0; e < elements.size(); ++e)
       for (const int i : elements[e])
         if (i < 0 || std::size_t(i) >= nodeCount)
-          throw Error(where, text("element ", e, " refers to node ", i, ", but there are ", nodeCount,
-                                  " nodes, numbered from 0; correct the index"));
+          throw Error(where,
+                      text("element ",
+                           e,
+                           " refers to node ",
+                           i,
+                           ", but there are ",
+                           nodeCount,
+                           " nodes, numbered from 0; correct the index"));
   }
   void checkSize(std::string_view function, std::string_view name, std::size_t size) const {
     if (size != nodeCount_)
       throw Error(text("ThrustElementDriver::", function),
-                  text(name, " has ", size, " entries, but init was given ", nodeCount_,
+                  text(name,
+                       " has ",
+                       size,
+                       " entries, but init was given ",
+                       nodeCount_,
                        " nodes; pass vectors with one entry a node"));
   }
 };

@@ -8,8 +8,8 @@
 
 namespace sinew::gpu::detail {
 
-/// Reads a `Value`, which holds nothing but scalars, from scalars that stand `stride` apart: neighbouring threads
-/// then read neighbouring addresses.
+/// Reads a `Value`, which holds nothing but scalars, from scalars that stand `stride` apart: neighbouring
+/// threads then read neighbouring addresses.
 template <class Value, class Real>
 SINEW_INLINE void load_strided(Value& value, Real const* from, std::ptrdiff_t stride) {
   static_assert(sizeof(Value) % sizeof(Real) == 0, "a law's Rest and Tangent hold only scalars of its Real");

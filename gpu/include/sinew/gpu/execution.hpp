@@ -15,9 +15,9 @@
 
 namespace sinew::gpu {
 
-/// Where Sinew's device work runs: Thrust's device system, which is chosen by -DTHRUST_DEVICE_SYSTEM (CUDA under
-/// nvcc; CPP or OMP elsewhere). On CUDA work is queued, runs in order, and is waited for by the first copy to
-/// the host.
+/// Where Sinew's device work runs: Thrust's device system, which is chosen by -DTHRUST_DEVICE_SYSTEM (CUDA
+/// under nvcc; CPP or OMP elsewhere). On CUDA work is queued, runs in order, and is waited for by the first
+/// copy to the host.
 inline auto queue() {
 #if THRUST_DEVICE_SYSTEM == THRUST_DEVICE_SYSTEM_CUDA
   return thrust::cuda::par_nosync;
