@@ -93,6 +93,6 @@ double relative_difference(Answer<D> const& a, Answer<D> const& b) {
 
 /// What relative differences may reach by the order of sums and the fusing of multiply and add.
 template <class Real>
-constexpr double rounding = sizeof(Real) == 8 ? 1e-13 : 2e-5;
+constexpr double rounding = sizeof(Real) == 8 ? 2e-14 : 2e-6;
 
 }  // namespace gpu_test

@@ -148,3 +148,20 @@ TEST_CASE("a surface point is a manifold point when its link shows one curve") {
   CHECK_FALSE(set([&](int d) { return bcc_is_long(d) && x(d) != 0 ? -1 : 1; }));  // a tunnel
   CHECK(set([&](int d) { return bcc_is_long(d) ? 0 : x(d) > 0 ? 1 : -1; }));  // through 4 of 6 surface points
 }
+
+TEST_CASE("inside points that see each other through a face on the surface belong to one component") {
+  OneCell one;
+  auto at = [&](int p) -> signed char& { return one.lattice.label[std::size_t(p)]; };
+  auto step = [&](int p, int x, int y, int z) {
+    return p + one.lattice.steps_of(p)[std::size_t(bcc_direction(x, y, z))];
+  };
+  // p and its mirror image in the face of three of its neighbours
+  const int a = step(one.p, 2, 0, 0), b = step(one.p, 1, 1, 1), c = step(one.p, 1, 1, -1);
+  const int beyond = step(b, 1, 1, -1), apart = step(step(one.p, 0, 0, -2), 0, 0, -2);
+  at(a) = at(b) = at(c) = 0;
+  at(one.p) = at(beyond) = at(apart) = 1;
+  keep_largest_component(one.lattice);
+  CHECK(at(one.p) == 1);
+  CHECK(at(beyond) == 1);
+  CHECK(at(apart) == -1);
+}

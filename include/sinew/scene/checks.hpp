@@ -5,25 +5,28 @@
 
 namespace sinew::checks {
 
-// What a scope of a typed scene says about itself, types only. `void` stands for "none".
+// What a typed scene must fulfil, on types alone. Each check asserts with one sentence and returns whether it
+// holds, so that Simulation can leave out what would only repeat the mistake in other words.
 
+/// The nearest scope from S upwards that owns a state; NoScope where none does.
 template <class S>
-struct state_of {
-  using type = void;
-};
+constexpr auto find_owner() {
+  if constexpr (!S::hasState)
+    return std::type_identity<NoScope>{};
+  else if constexpr (S::ownsState)
+    return std::type_identity<S>{};
+  else
+    return find_owner<typename S::Above>();
+}
 template <class S>
-requires(S::hasState) struct state_of<S> {
-  template <class T>
-  static auto find() {
-    if constexpr (T::ownsState)
-      return std::type_identity<std::decay_t<decltype(std::declval<typename T::NodeType&>().state())>>{};
-    else
-      return find<typename T::Above>();
-  }
-  using type = typename decltype(find<S>())::type;
-};
+using Owner = typename decltype(find_owner<S>())::type;
+
+template <class N, class R>
+using FirstOf = std::decay_t<decltype(std::declval<N&>().template first<R>())>;
+
+/// DataTypes of the state on which components of S act.
 template <class S>
-using StateOf = typename state_of<S>::type;
+using DataTypesAt = typename FirstOf<typename Owner<S>::NodeType, role::State>::DataTypes;
 
 template <class S>
 constexpr bool has_linear_solver() {
@@ -41,7 +44,7 @@ constexpr bool has_tetrahedra() {
   } else {
     using N = typename S::NodeType;
     if constexpr (N::template count < role::Topology >> 0) return requires {
-        std::decay_t<decltype(std::declval<N&>().template first<role::Topology>())>::hasTetrahedra;
+        FirstOf<N, role::Topology>::hasTetrahedra;
       };
     else if constexpr (S::ownsState)
       return false;
@@ -49,137 +52,187 @@ constexpr bool has_tetrahedra() {
       return has_tetrahedra<typename S::Above>();
   }
 }
-/// The scope that owns the nearest state, from S upwards.
-template <class S>
-constexpr auto owner() {
-  if constexpr (S::ownsState)
-    return std::type_identity<S>{};
-  else
-    return owner<typename S::Above>();
-}
-
-// Each check is a function of its own, so that the compiler's note names the component and the node.
 
 template <class C, class S>
-constexpr void acts_on_state() {
+constexpr bool acts_on_state() {
   static_assert(S::hasState,
                 "Sinew: a force field, mass or constraint has no state to act on. Put it into a node with a "
-                "MechanicalObject, or below one.");
-  if constexpr (S::hasState)
-    static_assert(std::is_same_v<typename C::DataTypes, typename StateOf<S>::DataTypes>,
+                "MechanicalObject, "
+                "or below one.");
+  if constexpr (!S::hasState) {
+    return false;
+  } else {
+    constexpr bool same = std::is_same_v<typename C::DataTypes, DataTypesAt<S>>;
+    static_assert(same,
                   "Sinew: a component and the MechanicalObject it acts on have different DataTypes. Give "
-                  "both the same, "
-                  "such as Vec3d.");
-  if constexpr (requires { C::needsTetrahedra; })
-    static_assert(has_tetrahedra<S>(),
+                  "both the same, such "
+                  "as Vec3d.");
+    constexpr bool tetrahedra = !requires { C::needsTetrahedra; }
+    || has_tetrahedra<S>();
+    static_assert(tetrahedra,
                   "Sinew: a component needs tetrahedra, and its node has no topology with tetrahedra. Add a "
                   "TetrahedronTopology to the node.");
-}
-
-template <class C, class S>
-constexpr void mapping() {
-  using Above = typename S::Above;
-  constexpr bool child = S::ownsState || S::isVisual;
-  static_assert(child,
-                "Sinew: a mapping has no child: its node has neither a MechanicalObject nor a VisualModel.");
-  static_assert(Above::hasState, "Sinew: a mapping has no parent: no node above it has a MechanicalObject.");
-  if constexpr (Above::hasState)
-    static_assert(std::is_same_v<typename C::In, typename StateOf<Above>::DataTypes>,
-                  "Sinew: the In of a mapping differs from the DataTypes of its parent, the MechanicalObject "
-                  "above it.");
-  if constexpr (S::ownsState)
-    static_assert(
-        std::is_same_v<typename C::Out, typename StateOf<S>::DataTypes>,
-        "Sinew: the Out of a mapping differs from the DataTypes of the MechanicalObject in its node.");
-  else if constexpr (S::isVisual)
-    static_assert(std::is_same_v<typename C::Out, Vec3f>,
-                  "Sinew: a mapping to a VisualModel has Out = Vec3f.");
-  if constexpr (Above::hasState && requires { C::needsParentTetrahedra; }) {
-    using Owner = typename decltype(owner<Above>())::type;
-    static_assert(has_tetrahedra<Owner>(),
-                  "Sinew: a mapping needs tetrahedra, and its parent has no topology with tetrahedra.");
+    return same && tetrahedra;
   }
 }
 
-template <class S>
-constexpr bool mapped_state() {
-  return decltype(owner<S>())::type::isMapped;
+template <class C, class S>
+constexpr bool mapping() {
+  constexpr bool child = S::ownsState || S::isVisual, parent = S::Above::hasState;
+  static_assert(child,
+                "Sinew: a mapping has no child: its node has neither a MechanicalObject nor a VisualModel.");
+  static_assert(parent, "Sinew: a mapping has no parent: no node above it has a MechanicalObject.");
+  if constexpr (!child || !parent) {
+    return false;
+  } else {
+    constexpr bool in = std::is_same_v<typename C::In, DataTypesAt<typename S::Above>>;
+    static_assert(in,
+                  "Sinew: the In of a mapping differs from the DataTypes of its parent, the MechanicalObject "
+                  "above it.");
+    constexpr bool out = [] {
+      if constexpr (S::ownsState)
+        return std::is_same_v<typename C::Out, DataTypesAt<S>>;
+      else
+        return std::is_same_v<typename C::Out, Vec3f>;
+    }();
+    static_assert(out,
+                  "Sinew: the Out of a mapping differs from the DataTypes of its child, the MechanicalObject "
+                  "in its node (Vec3f "
+                  "for a VisualModel).");
+    constexpr bool tetrahedra = !requires { C::needsParentTetrahedra; }
+    || has_tetrahedra<Owner<typename S::Above>>();
+    static_assert(tetrahedra,
+                  "Sinew: a mapping needs tetrahedra, and its parent has no topology with tetrahedra.");
+    return in && out && tetrahedra;
+  }
+}
+
+/// The scope at a path below S; NoScope where there is none.
+template <class S, FixedString Path>
+constexpr auto find_path() {
+  if constexpr (Path.view().empty()) {
+    return std::type_identity<S>{};
+  } else {
+    constexpr int i = S::NodeType::childIndex(detail::first_name(Path.view()));
+    if constexpr (i < 0)
+      return std::type_identity<NoScope>{};
+    else
+      return find_path<Scope<typename S::NodeType::template Child<std::size_t(i)>, S>,
+                       detail::rest_of_path<Path>()>();
+  }
+}
+template <class S, FixedString Path>
+using AtPath = typename decltype(find_path<S, Path>())::type;
+
+template <class C, class End>
+constexpr bool interaction_end() {
+  constexpr bool found = !std::is_same_v<End, NoScope>;
+  static_assert(found,
+                "Sinew: an end of an interaction is no node. Its paths are names joined by '/', from the "
+                "children of the node of "
+                "the interaction on; look for a misspelt name.");
+  if constexpr (!found) {
+    return false;
+  } else {
+    static_assert(End::hasState, "Sinew: an end of an interaction is a node without a MechanicalObject.");
+    if constexpr (!End::hasState) {
+      return false;
+    } else {
+      constexpr bool same = std::is_same_v<typename C::DataTypes, DataTypesAt<End>>;
+      static_assert(
+          same,
+          "Sinew: an interaction and the MechanicalObject at one of its ends have different DataTypes.");
+      return same;
+    }
+  }
 }
 
 template <class C, class S>
-constexpr void component() {
+constexpr bool component() {
   using R = typename C::Role;
   if constexpr (std::is_same_v<R, role::State>) {
     static_assert(
         State<C>,
         "Sinew: a component with role::State does not fulfil the concept State of core/component.hpp.");
+    return State<C>;
   } else if constexpr (std::is_same_v<R, role::ForceField>) {
-    acts_on_state<C, S>();
     static_assert(ForceField<C>,
                   "Sinew: a component with role::ForceField does not fulfil the concept ForceField of "
                   "core/component.hpp.");
+    return ForceField<C> && acts_on_state<C, S>();
   } else if constexpr (std::is_same_v<R, role::Mass>) {
-    acts_on_state<C, S>();
     static_assert(
         Mass<C>,
         "Sinew: a component with role::Mass does not fulfil the concept Mass of core/component.hpp.");
+    return Mass<C> && acts_on_state<C, S>();
   } else if constexpr (std::is_same_v<R, role::ProjectiveConstraint>) {
-    acts_on_state<C, S>();
     static_assert(ProjectiveConstraint<C>,
-                  "Sinew: a component with role::ProjectiveConstraint does not fulfil the concept of "
+                  "Sinew: a component with role::ProjectiveConstraint does not fulfil that concept of "
                   "core/component.hpp.");
-    if constexpr (S::hasState)
-      static_assert(!mapped_state<S>(),
-                    "Sinew: a projective constraint acts on a mapped state, which follows its parent. "
-                    "Constrain the parent instead.");
+    constexpr bool independent = !Owner<S>::isMapped;
+    static_assert(independent,
+                  "Sinew: a projective constraint acts on a mapped state, which follows its parent. "
+                  "Constrain the parent instead.");
+    return ProjectiveConstraint<C> && independent && acts_on_state<C, S>();
+  } else if constexpr (std::is_same_v<R, role::InteractionForceField>) {
+    static_assert(InteractionForceField<C>,
+                  "Sinew: a component with role::InteractionForceField does not fulfil that concept of "
+                  "core/component.hpp.");
+    return InteractionForceField<C> && interaction_end<C, AtPath<S, C::Ends::first>>() &&
+           interaction_end<C, AtPath<S, C::Ends::second>>();
   } else if constexpr (std::is_same_v<R, role::Mapping>) {
-    mapping<C, S>();
     static_assert(
         Mapping<C>,
         "Sinew: a component with role::Mapping does not fulfil the concept Mapping of core/component.hpp.");
+    return Mapping<C> && mapping<C, S>();
   } else if constexpr (std::is_same_v<R, role::OdeSolver>) {
     static_assert(OdeSolver<C>,
                   "Sinew: a component with role::OdeSolver does not fulfil the concept OdeSolver of "
                   "core/component.hpp.");
-    if constexpr (C::implicit)
-      static_assert(has_linear_solver<S>(),
-                    "Sinew: an implicit solver has no linear solver. Add one, such as "
-                    "CGLinearSolver<>, to its node or above.");
+    constexpr bool linear = !C::implicit || has_linear_solver<S>();
+    static_assert(linear,
+                  "Sinew: an implicit solver has no linear solver. Add one, such as CGLinearSolver<>, to its "
+                  "node or above.");
+    return OdeSolver<C> && linear;
+  } else {
+    return true;
   }
 }
 
-template <class C, class S>
-constexpr void interaction(S const& scope) {
-  static_assert(InteractionForceField<C>,
-                "Sinew: a component with role::InteractionForceField does not fulfil the concept of "
-                "core/component.hpp.");
-  auto end = []<class E>(E const&) {
-    static_assert(E::hasState, "Sinew: an end of an interaction is a node without a MechanicalObject.");
-    if constexpr (E::hasState)
-      static_assert(
-          std::is_same_v<typename C::DataTypes, typename StateOf<E>::DataTypes>,
-          "Sinew: an interaction and the MechanicalObject at one of its ends have different DataTypes.");
-  };
-  scope.template descend<C::Ends::first>(end);
-  scope.template descend<C::Ends::second>(end);
-}
+template <class N>
+struct Parts;
+template <FixedString Name, class... Cs, class... Ns>
+struct Parts<Node<Name, hana::tuple<Cs...>, hana::tuple<Ns...>>> {
+  template <class S>
+  static constexpr bool components() {
+    return (true & ... & component<Cs, S>());
+  }
+  template <class S, template <class> class Check>
+  static constexpr bool children() {
+    return (true & ... & Check<Scope<Ns, S>>::value);
+  }
+};
 
-/// Proves the scene below a scope: every static_assert of this file for every node.
+/// Proves the scene below a scope.
 template <class S>
-void scene(S const& scope) {
+struct Scene {
   using N = typename S::NodeType;
-  static_assert(N::template count<role::State> + N::template count<role::VisualModel> <= 1,
+  template <class R>
+  static constexpr bool atMostOne = N::template count<R> <= 1;
+  static constexpr bool oneState = N::template count<role::State> + N::template count<role::VisualModel> <= 1;
+  static_assert(oneState,
                 "Sinew: a node has two states. Give each MechanicalObject or VisualModel a node of its own.");
-  static_assert(N::template count<role::Mapping> <= 1,
-                "Sinew: a node has two mappings; its state can follow one parent.");
-  static_assert(N::template count<role::Mass> <= 1, "Sinew: a node has two masses. Keep one.");
-  static_assert(N::template count<role::OdeSolver> <= 1, "Sinew: a node has two ODE solvers. Keep one.");
-  scope.forEachComponent([&](auto& c) {
-    using C = std::decay_t<decltype(c)>;
-    component<C, S>();
-    if constexpr (HasRole<C, role::InteractionForceField>) interaction<C>(scope);
-  });
-  scope.forEachChild([](auto const& child) { scene(child); });
-}
+  static_assert(atMostOne<role::Mapping>, "Sinew: a node has two mappings; its state can follow one parent.");
+  static_assert(atMostOne<role::Mass>, "Sinew: a node has two masses. Keep one.");
+  static_assert(atMostOne<role::OdeSolver>, "Sinew: a node has two ODE solvers. Keep one.");
+  static constexpr bool single =
+      oneState && atMostOne<role::Mapping> && atMostOne<role::Mass> && atMostOne<role::OdeSolver>;
+  static constexpr bool value = [] {
+    if constexpr (!single)
+      return false;
+    else
+      return bool(Parts<N>::template components<S>() & Parts<N>::template children<S, Scene>());
+  }();
+};
 
 }  // namespace sinew::checks

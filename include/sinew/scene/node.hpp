@@ -36,6 +36,9 @@ struct Node<Name, hana::tuple<Cs...>, hana::tuple<Ns...>> {
   hana::tuple<Cs...> components;
   hana::tuple<Ns...> children;
 
+  template <std::size_t I>
+  using Child = std::decay_t<decltype(hana::at_c<I>(std::declval<hana::tuple<Ns...>&>()))>;
+
   /// How many components have the role R, and where the first of them stands (-1: none).
   template <class R>
   static constexpr int count = (0 + ... + int(HasRole<Cs, R>));
@@ -97,17 +100,19 @@ auto node(Parts... parts) {
       "a Role, a className and fields().");
   static_assert(Name.view().find('/') == std::string_view::npos && !Name.view().empty(),
                 "Sinew: the name of a node is not empty and has no '/', which separates names in a path.");
-  hana::tuple<Parts...> all(std::move(parts)...);
-  auto child = [](auto const& part) { return hana::bool_c<is_node<std::decay_t<decltype(part)>>>; };
-  auto component = [](auto const& part) { return hana::bool_c<!is_node<std::decay_t<decltype(part)>>>; };
-  auto components =
-      hana::filter(std::move(all), component);  // moves out the components and leaves the children
-  auto children = hana::filter(std::move(all), child);
-  using Result = Node<Name, decltype(components), decltype(children)>;
-  static_assert(
-      Result::childNamesDiffer(),
-      "Sinew: two children of a node have the same name; a path could not tell them apart. Rename one.");
-  return Result{std::move(components), std::move(children)};
+  if constexpr (((Component<Parts> || is_node<Parts>)&&...)) {
+    hana::tuple<Parts...> all(std::move(parts)...);
+    auto child = [](auto const& part) { return hana::bool_c<is_node<std::decay_t<decltype(part)>>>; };
+    auto component = [](auto const& part) { return hana::bool_c<!is_node<std::decay_t<decltype(part)>>>; };
+    auto components =
+        hana::filter(std::move(all), component);  // moves out the components and leaves the children
+    auto children = hana::filter(std::move(all), child);
+    using Result = Node<Name, decltype(components), decltype(children)>;
+    static_assert(
+        Result::childNamesDiffer(),
+        "Sinew: two children of a node have the same name; a path could not tell them apart. Rename one.");
+    return Result{std::move(components), std::move(children)};
+  }
 }
 
 }  // namespace sinew

@@ -10,7 +10,7 @@ namespace sinew {
 
 /// What is above the root of a scene.
 struct NoScope {
-  static constexpr bool hasState = false;
+  static constexpr bool hasState = false, isMapped = false;
   static std::string path() { return ""; }
   static Eigen::Vector3d gravity() { return Eigen::Vector3d::Zero(); }
   static TopologyView topology() { return {}; }
@@ -110,22 +110,16 @@ struct Scope {
       ifIndependent(node.state());
   }
 
-  /// f(scope) for the node at a path from here.
+  /// f(scope) for the node at a path from here, which exists.
   template <FixedString Path, class F>
   decltype(auto) descend(F&& f) const {
     if constexpr (Path.view().empty()) {
       return f(*this);
     } else {
       constexpr int i = N::childIndex(detail::first_name(Path.view()));
-      static_assert(
-          i >= 0,
-          "Sinew: no node has this path. Paths are names joined by '/', from the children of the root "
-          "(or of the node of an interaction) on; look for a misspelt name.");
-      if constexpr (i >= 0) {
-        auto& child = hana::at_c<std::size_t(i)>(node.children);
-        return Scope<std::decay_t<decltype(child)>, Scope>{child, *this}
-            .template descend<detail::rest_of_path<Path>()>(f);
-      }
+      auto& child = hana::at_c<std::size_t(i)>(node.children);
+      return Scope<std::decay_t<decltype(child)>, Scope>{child, *this}
+          .template descend<detail::rest_of_path<Path>()>(f);
     }
   }
   /// f(scope of the first end, scope of the second) of an interaction in this node.

@@ -12,22 +12,27 @@ namespace sinew {
 template <class Root>
 class Simulation {
  public:
+  /// The scene fulfils scene/checks.hpp. Where it does not, an assertion has said why, and the rest stays
+  /// away.
+  static constexpr bool proved = checks::Scene<Scope<Root, NoScope>>::value;
+
   explicit Simulation(Root root) : root_(std::move(root)) {}
 
   /// Checks all fields, sizes all states, initialises all components. Throws Error, naming node, component
   /// and field; the simulation then stays uninitialised.
   void init() {
-    initialised_ = false;
-    const auto scope = rootScope();
-    checks::scene(scope);
-    traverse(scope, [](auto& c, auto const& s) { check_fields(c, s.path()); });
-    initStates(scope);
-    traverse(scope, [](auto& c, auto const& s) { initComponent(c, s); });
-    initSolvers(scope);
-    time_ = 0;
-    step_ = 0;
-    propagate();
-    initialised_ = true;
+    if constexpr (proved) {
+      initialised_ = false;
+      const auto scope = rootScope();
+      traverse(scope, [](auto& c, auto const& s) { check_fields(c, s.path()); });
+      initStates(scope);
+      traverse(scope, [](auto& c, auto const& s) { initComponent(c, s); });
+      initSolvers(scope);
+      time_ = 0;
+      step_ = 0;
+      propagate();
+      initialised_ = true;
+    }
   }
 
   /// Advances the scene by dt seconds. Throws Error where dt is not a positive number, and where a state is
@@ -37,22 +42,14 @@ class Simulation {
     if (!(dt > 0) || !std::isfinite(dt))
       throw Error("Simulation::animate",
                   text("dt is ", dt, " s, but must be a finite number greater than 0"));
-    const auto scope = rootScope();
-    integrate(scope, dt);
-    time_ += dt;
-    ++step_;
-    visualsAreCurrent_ = false;
-    traverse(scope, [&](auto& c, auto const& s) {
-      using C = std::decay_t<decltype(c)>;
-      if constexpr (HasRole<C, role::State>) checkFinite(c, s);
-      if constexpr (HasRole<C, role::StepCallback>) {
-        const StepInfo info{step_, time_, dt};
-        if constexpr (std::is_invocable_v<decltype(c.call)&, StepInfo const&, decltype(s.node)>)
-          c.call(info, s.node);
-        else
-          c.call(info);
-      }
-    });
+    if constexpr (proved) {
+      const auto scope = rootScope();
+      integrate(scope, dt);
+      time_ += dt;
+      ++step_;
+      visualsAreCurrent_ = false;
+      traverse(scope, [&](auto& c, auto const& s) { endStep(c, s, dt); });
+    }
   }
 
   /// Back to positions and velocities as they were after init, at time 0.
@@ -79,9 +76,18 @@ class Simulation {
   /// is stepped.
   template <FixedString Path>
   auto& at() {
-    auto& found = rootScope().template descend<Path>([](auto const& s) -> auto& { return s.node; });
-    if constexpr (std::decay_t<decltype(found)>::template count < role::VisualModel >> 0) updateVisual();
-    return found;
+    using Found = checks::AtPath<Scope<Root, NoScope>, Path>;
+    constexpr bool found = !std::is_same_v<Found, NoScope>;
+    static_assert(found,
+                  "Sinew: no node has this path. Paths are names joined by '/', from the children of the "
+                  "root on; look for a "
+                  "misspelt name.");
+    if constexpr (!found) {
+      return root_;
+    } else {
+      if constexpr (Found::isVisual && proved) updateVisual();
+      return rootScope().template descend<Path>([](auto const& s) -> auto& { return s.node; });
+    }
   }
   Root& root() { return root_; }
 
@@ -154,7 +160,7 @@ class Simulation {
   template <class C, class S>
   static void initComponent(C& c, S const& scope) {
     if constexpr (HasRole<C, role::Topology>) {
-      if constexpr (S::hasState) c.init(scope.template context<typename checks::StateOf<S>::DataTypes>());
+      if constexpr (S::hasState) c.init(scope.template context<checks::DataTypesAt<S>>());
     } else if constexpr (HasRole<C, role::ForceField> || HasRole<C, role::Mass> ||
                          HasRole<C, role::ProjectiveConstraint>) {
       c.init(scope.template context<typename C::DataTypes>());
@@ -190,6 +196,18 @@ class Simulation {
       operations.propagate(vec_id::position, vec_id::velocity);
     } else {
       scope.forEachChild([&](auto const& child) { integrate(child, dt); });
+    }
+  }
+
+  template <class C, class S>
+  void endStep(C& c, S const& scope, double dt) const {
+    if constexpr (HasRole<C, role::State>) checkFinite(c, scope);
+    if constexpr (HasRole<C, role::StepCallback>) {
+      const StepInfo info{step_, time_, dt};
+      if constexpr (std::is_invocable_v<decltype(c.call)&, StepInfo const&, decltype(scope.node)>)
+        c.call(info, scope.node);
+      else
+        c.call(info);
     }
   }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <sinew/core/error.hpp>
-#include <sinew/topology/mesh.hpp>
+#include <sinew/core/mesh.hpp>
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <sinew/topology/bcc_lattice.hpp>
-#include <sinew/topology/mesh.hpp>
+#include <sinew/core/mesh.hpp>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>

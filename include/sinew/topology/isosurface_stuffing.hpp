@@ -6,7 +6,7 @@
 #include <sinew/topology/bcc_stencils.hpp>
 #include <sinew/topology/bcc_warp.hpp>
 #include <sinew/topology/implicit_surface.hpp>
-#include <sinew/topology/mesh.hpp>
+#include <sinew/core/mesh.hpp>
 
 #include <Eigen/Core>
 #include <algorithm>

@@ -3,7 +3,7 @@
 
 #include <sinew/core/error.hpp>
 #include <sinew/topology/adjacency.hpp>
-#include <sinew/topology/mesh.hpp>
+#include <sinew/core/mesh.hpp>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>

@@ -5,7 +5,7 @@
 #include <sinew/topology/bcc_lattice.hpp>
 #include <sinew/topology/implicit_surface.hpp>
 #include <sinew/topology/isosurface_stuffing.hpp>
-#include <sinew/topology/mesh.hpp>
+#include <sinew/core/mesh.hpp>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>

@@ -12,6 +12,7 @@
 #include <array>
 #include <limits>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace sinew::gpu {
@@ -59,15 +60,17 @@ class ThrustElementDriver {
     for (std::size_t e = 0; e < count; ++e)
       detail::store_strided(rest[e], scalars.data() + e, std::ptrdiff_t(count));
 
-    count_ = count;
-    nodeCount_ = nodeCount;
-    index_ = index;
-    first_ = first;
-    entry_ = entry;
-    rest_ = scalars;
-    tangent_.assign(sizeof(Tangent) / sizeof(Real) * count, Real(0));
-    part_.assign(arity * count, Deriv::Zero());
-    energy_.assign(std::min(count, energyThreads), 0.0);
+    ThrustElementDriver loaded;
+    loaded.count_ = count;
+    loaded.nodeCount_ = nodeCount;
+    loaded.index_ = index;
+    loaded.first_ = first;
+    loaded.entry_ = entry;
+    loaded.rest_ = scalars;
+    loaded.tangent_.assign(sizeof(Tangent) / sizeof(Real) * count, Real(0));
+    loaded.part_.assign(arity * count, Deriv::Zero());
+    loaded.energy_.assign(std::min(count, energyThreads), 0.0);
+    *this = std::move(loaded);  // all or, where memory runs out, nothing
   }
 
   /// f += the law's forces at (x, v); keeps what addDForce needs. Throws Error unless f, x and v have one
@@ -95,8 +98,7 @@ class ThrustElementDriver {
     checkSize("energy", "x", x.size());
     for_each_index(
         energy_.size(),
-        detail::ElementEnergy<LawOf, D>{
-            law, elements(), raw(x), int(energyThreads), thrust::raw_pointer_cast(energy_.data())});
+        detail::ElementEnergy<LawOf, D>{law, elements(), raw(x), int(energyThreads), raw(energy_)});
     std::vector<double> sums(energy_.size());
     thrust::copy(energy_.begin(), energy_.end(), sums.begin());
     double sum = 0;
@@ -119,17 +121,15 @@ class ThrustElementDriver {
   static T const* raw(thrust::device_vector<T> const& v) {
     return thrust::raw_pointer_cast(v.data());
   }
+  template <class T>
+  static T* raw(thrust::device_vector<T>& v) {
+    return thrust::raw_pointer_cast(v.data());
+  }
   detail::DeviceElements<LawOf, D> elements() {
-    return {int(count_),
-            raw(index_),
-            raw(rest_),
-            thrust::raw_pointer_cast(tangent_.data()),
-            thrust::raw_pointer_cast(part_.data())};
+    return {int(count_), raw(index_), raw(rest_), raw(tangent_), raw(part_)};
   }
   void sumAtNodes(DeviceDerivs& f) {
-    for_each_index(
-        nodeCount_,
-        detail::NodeSum<Deriv>{raw(first_), raw(entry_), raw(part_), thrust::raw_pointer_cast(f.data())});
+    for_each_index(nodeCount_, detail::NodeSum<Deriv>{raw(first_), raw(entry_), raw(part_), raw(f)});
   }
 
   static void check(std::vector<Indices> const& elements, std::vector<Rest> const& rest,

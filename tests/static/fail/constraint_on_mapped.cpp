@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSL-1.0
+// expect: Sinew: a projective constraint acts on a mapped state
+#include <sinew/sinew.hpp>
+
+using namespace sinew;
+
+int main() {
+  Simulation sim{node<"root">(
+      EulerExplicitSolver{},
+      MechanicalObject<Vec3d>{},
+      UniformMass<Vec3d>{},
+      node<"a">(MechanicalObject<Vec3d>{}, IdentityMapping<Vec3d, Vec3d>{}, FixedConstraint<Vec3d>{}))};
+  sim.init();
+  sim.animate(0.1);
+}

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: BSL-1.0
+// expect: Sinew: an implicit solver has no linear solver.
+#include <sinew/sinew.hpp>
+
+using namespace sinew;
+
+int main() {
+  Simulation sim{node<"root">(EulerImplicitSolver{}, MechanicalObject<Vec3d>{}, UniformMass<Vec3d>{})};
+  sim.init();
+  sim.animate(0.1);
+}

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSL-1.0
+// expect: Sinew: an end of an interaction is no node.
+#include <sinew/sinew.hpp>
+
+using namespace sinew;
+
+int main() {
+  Simulation sim{node<"root">(EulerExplicitSolver{},
+                              node<"a">(MechanicalObject<Vec3d>{}, UniformMass<Vec3d>{}),
+                              StiffSpringForceField<Vec3d, Between<"a", "b">>{})};
+  sim.init();
+  sim.animate(0.1);
+}

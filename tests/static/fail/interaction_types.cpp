@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSL-1.0
+// expect: Sinew: an interaction and the MechanicalObject at one of its ends have different DataTypes.
+#include <sinew/sinew.hpp>
+
+using namespace sinew;
+
+int main() {
+  Simulation sim{node<"root">(EulerExplicitSolver{},
+                              node<"a">(MechanicalObject<Vec3d>{}, UniformMass<Vec3d>{}),
+                              node<"b">(MechanicalObject<Vec3f>{}),
+                              StiffSpringForceField<Vec3d, Between<"a", "b">>{})};
+  sim.init();
+  sim.animate(0.1);
+}

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSL-1.0
+// expect: Sinew: the Out of a mapping differs
+#include <sinew/sinew.hpp>
+
+using namespace sinew;
+
+int main() {
+  Simulation sim{node<"root">(EulerExplicitSolver{},
+                              MechanicalObject<Vec3d>{},
+                              UniformMass<Vec3d>{},
+                              node<"a">(VisualModel{}, IdentityMapping<Vec3d, Vec3d>{}))};
+  sim.init();
+  sim.animate(0.1);
+}

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSL-1.0
+// expect: Sinew: a mapping has no parent
+#include <sinew/sinew.hpp>
+
+using namespace sinew;
+
+int main() {
+  Simulation sim{
+      node<"root">(EulerExplicitSolver{}, MechanicalObject<Vec3d>{}, IdentityMapping<Vec3d, Vec3d>{})};
+  sim.init();
+  sim.animate(0.1);
+}

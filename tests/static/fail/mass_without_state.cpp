@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: BSL-1.0
+// expect: Sinew: a force field, mass or constraint has no state to act on.
+#include <sinew/sinew.hpp>
+
+using namespace sinew;
+
+int main() {
+  Simulation sim{node<"root">(EulerExplicitSolver{}, UniformMass<Vec3d>{})};
+  sim.init();
+  sim.animate(0.1);
+}

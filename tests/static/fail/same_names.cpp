@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSL-1.0
+// expect: Sinew: two children of a node have the same name
+#include <sinew/sinew.hpp>
+
+using namespace sinew;
+
+int main() {
+  Simulation sim{node<"root">(
+      EulerExplicitSolver{}, node<"a">(MechanicalObject<Vec3d>{}), node<"a">(MechanicalObject<Vec3d>{}))};
+  sim.init();
+  sim.animate(0.1);
+}

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSL-1.0
+// expect: Sinew: a node has two mappings
+#include <sinew/sinew.hpp>
+
+using namespace sinew;
+
+int main() {
+  Simulation sim{node<"root">(
+      EulerExplicitSolver{},
+      MechanicalObject<Vec3d>{},
+      UniformMass<Vec3d>{},
+      node<"a">(MechanicalObject<Vec3d>{}, IdentityMapping<Vec3d, Vec3d>{}, SubsetMapping<Vec3d, Vec3d>{}))};
+  sim.init();
+  sim.animate(0.1);
+}

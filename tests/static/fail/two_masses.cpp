@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSL-1.0
+// expect: Sinew: a node has two masses.
+#include <sinew/sinew.hpp>
+
+using namespace sinew;
+
+int main() {
+  Simulation sim{node<"root">(
+      EulerExplicitSolver{}, MechanicalObject<Vec3d>{}, UniformMass<Vec3d>{}, UniformMass<Vec3d>{})};
+  sim.init();
+  sim.animate(0.1);
+}

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: BSL-1.0
+// expect: Sinew: a node has two states.
+#include <sinew/sinew.hpp>
+
+using namespace sinew;
+
+int main() {
+  Simulation sim{node<"root">(EulerExplicitSolver{}, MechanicalObject<Vec3d>{}, MechanicalObject<Vec3f>{})};
+  sim.init();
+  sim.animate(0.1);
+}

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSL-1.0
+// Counts every allocation, by operator new or malloc, while scenes step after init.
+#include "catch.hpp"
+#include "one_tetrahedron/scene.hpp"
+#include "string_on_rigid/scene.hpp"
+
+#include <sinew/topology/regular_grid.hpp>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+namespace {
+std::atomic<long> allocations{0};
+}
+
+extern "C" {
+void* __libc_malloc(std::size_t);
+void* __libc_calloc(std::size_t, std::size_t);
+void* __libc_realloc(void*, std::size_t);
+void* __libc_memalign(std::size_t, std::size_t);
+
+// operator new of the standard library ends in these
+void* malloc(std::size_t size) { return ++allocations, __libc_malloc(size); }
+void* calloc(std::size_t n, std::size_t size) { return ++allocations, __libc_calloc(n, size); }
+void* realloc(void* p, std::size_t size) { return ++allocations, __libc_realloc(p, size); }
+void* aligned_alloc(std::size_t alignment, std::size_t size) {
+  return ++allocations, __libc_memalign(alignment, size);
+}
+int posix_memalign(void** p, std::size_t alignment, std::size_t size) {
+  ++allocations;
+  *p = __libc_memalign(alignment, size);
+  return *p ? 0 : 12;
+}
+}
+
+using namespace sinew;
+
+namespace {
+
+template <class Sim>
+long allocations_of(Sim sim) {
+  sim.init();
+  const long before = allocations;
+  for (int i = 0; i < 100; ++i) sim.animate(0.001);
+  sim.updateVisual();
+  return allocations - before;
+}
+
+template <class Matrix>
+auto block(Matrix) {
+  const Mesh mesh = regular_grid_tetrahedra(4, 4, 4, {0, 0, 0}, {1, 1, 1});
+  return Simulation{node<"root">(Gravity{},
+                                 EulerImplicitSolver{},
+                                 CGLinearSolver<Matrix>{},
+                                 TetrahedronTopology{mesh.tetrahedra},
+                                 MechanicalObject<Vec3d>{mesh.positions},
+                                 DiagonalMass<Vec3d>{.massDensity = 1000},
+                                 TetrahedronFEMForceField<Vec3d>{},
+                                 FixedConstraint<Vec3d>{.indices = {0, 1, 2}})};
+}
+
+}  // namespace
+
+TEST_CASE("the counter counts") {
+  const long before = allocations;
+  std::vector<double> some(100);
+  some.push_back(1);
+  void* volatile p = std::malloc(10);
+  std::free(p);
+  CHECK(allocations - before >= 3);
+}
+
+TEST_CASE("no step after init allocates, not even the first") {
+  CHECK(allocations_of(examples::string_on_rigid(EulerExplicitSolver{})) == 0);
+  CHECK(allocations_of(examples::string_on_rigid(RungeKutta2Solver{})) == 0);
+  CHECK(allocations_of(examples::string_on_rigid(RungeKutta4Solver{})) == 0);
+  CHECK(allocations_of(examples::string_on_rigid(EulerImplicitSolver{}, CGLinearSolver<>{})) == 0);
+  CHECK(allocations_of(examples::string_on_rigid(EulerImplicitSolver{},
+                                                 CGLinearSolver<CompressedRowSparseMatrixMat3x3d>{})) == 0);
+  CHECK(allocations_of(examples::one_tetrahedron()) == 0);
+  CHECK(allocations_of(block(GraphScattered{})) == 0);
+  CHECK(allocations_of(block(CompressedRowSparseMatrixMat3x3d{})) == 0);
+}

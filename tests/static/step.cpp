@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSL-1.0
+// One step of a scene with springs, a rigid, a mapping, an interaction and an implicit solver, and nothing
+// else: what the compiler makes of it is searched for indirect calls.
+#include <sinew/sinew.hpp>
+
+using namespace sinew;
+
+namespace {
+auto scene() {
+  return node<"root">(
+      Gravity{},
+      EulerImplicitSolver{},
+      CGLinearSolver<CompressedRowSparseMatrixMat3x3d>{},
+      StiffSpringForceField<Vec3d, Between<"string", "brick/corner">>{},
+      node<"string">(MechanicalObject<Vec3d>{},
+                     UniformMass<Vec3d>{},
+                     StiffSpringForceField<Vec3d>{},
+                     FixedConstraint<Vec3d>{}),
+      node<"brick">(MechanicalObject<Rigid3d>{},
+                    UniformMass<Rigid3d>{},
+                    node<"corner">(MechanicalObject<Vec3d>{}, RigidMapping<Rigid3d, Vec3d>{})));
+}
+}  // namespace
+
+void step(Simulation<decltype(scene())>& sim);
+void step(Simulation<decltype(scene())>& sim) { sim.animate(0.01); }
