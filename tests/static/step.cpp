@@ -5,8 +5,7 @@
 
 using namespace sinew;
 
-namespace {
-auto scene() {
+inline auto scene() {
   return node<"root">(
       Gravity{},
       EulerImplicitSolver{},
@@ -20,7 +19,6 @@ auto scene() {
                     UniformMass<Rigid3d>{},
                     node<"corner">(MechanicalObject<Vec3d>{}, RigidMapping<Rigid3d, Vec3d>{})));
 }
-}  // namespace
 
 void step(Simulation<decltype(scene())>& sim);
 void step(Simulation<decltype(scene())>& sim) { sim.animate(0.01); }

@@ -205,11 +205,11 @@ template <FixedString Name, class... Cs, class... Ns>
 struct Parts<Node<Name, hana::tuple<Cs...>, hana::tuple<Ns...>>> {
   template <class S>
   static constexpr bool components() {
-    return (true & ... & component<Cs, S>());
+    return (true && ... && component<Cs, S>());
   }
   template <class S, template <class> class Check>
   static constexpr bool children() {
-    return (true & ... & Check<Scope<Ns, S>>::value);
+    return (true && ... && Check<Scope<Ns, S>>::value);
   }
 };
 
@@ -231,7 +231,7 @@ struct Scene {
     if constexpr (!single)
       return false;
     else
-      return bool(Parts<N>::template components<S>() & Parts<N>::template children<S, Scene>());
+      return Parts<N>::template components<S>() && Parts<N>::template children<S, Scene>();
   }();
 };
 
