@@ -32,7 +32,7 @@ def compile_once(compiler, flags, source):
     return usage.ru_utime + usage.ru_stime, time.monotonic() - start, usage.ru_maxrss / 1024
 
 
-def table(rounds=5):
+def table(rounds=3):
     rows = []
     print(f"\ncompiling at -O2 (median of {rounds}: processor seconds, wall seconds, peak memory)")
     with tempfile.TemporaryDirectory() as folder:

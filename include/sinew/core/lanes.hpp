@@ -210,8 +210,6 @@ SINEW_INLINE void transpose(Lanes<T, W> const* in, T (&out)[W][(N + 3) / 4 * 4])
   }
 }
 
-#endif
-
 namespace detail {
 
 // indices of the runs of `Run` lanes in a then b that have number First, First + 2, ...: undoes `interleave`
@@ -243,6 +241,8 @@ SINEW_INLINE void gather3(T const* from, int const (&index)[W], Lanes<T, W>* to)
   to[1].v = detail::alternating<1, 1, T, W>(xy0, xy1);
   to[2].v = detail::alternating<1, 0, T, W>(zw0, zw1);
 }
+
+#endif
 
 /// Bytes of the widest vector register that the compiler may use here.
 inline constexpr int vector_bytes =

@@ -199,40 +199,35 @@ constexpr bool component() {
   }
 }
 
-template <class N>
-struct Parts;
-template <FixedString Name, class... Cs, class... Ns>
-struct Parts<Node<Name, hana::tuple<Cs...>, hana::tuple<Ns...>>> {
-  template <class S>
-  static constexpr bool components() {
-    return (true && ... && component<Cs, S>());
-  }
-  template <class S, template <class> class Check>
-  static constexpr bool children() {
-    return (true && ... && Check<Scope<Ns, S>>::value);
-  }
-};
+template <class S>
+constexpr bool one_of_each() {
+  using N = typename S::NodeType;
+  constexpr bool state = N::template count<role::State> + N::template count<role::VisualModel> <= 1;
+  constexpr bool mapping = N::template count<role::Mapping> <= 1, mass = N::template count<role::Mass> <= 1,
+                 solver = N::template count<role::OdeSolver> <= 1;
+  static_assert(state,
+                "Sinew: a node has two states. Give each MechanicalObject or VisualModel a node of its own.");
+  static_assert(mapping, "Sinew: a node has two mappings; its state can follow one parent.");
+  static_assert(mass, "Sinew: a node has two masses. Keep one.");
+  static_assert(solver, "Sinew: a node has two ODE solvers. Keep one.");
+  return state && mapping && mass && solver;
+}
 
 /// Proves the scene below a scope.
 template <class S>
-struct Scene {
-  using N = typename S::NodeType;
-  template <class R>
-  static constexpr bool atMostOne = N::template count<R> <= 1;
-  static constexpr bool oneState = N::template count<role::State> + N::template count<role::VisualModel> <= 1;
-  static_assert(oneState,
-                "Sinew: a node has two states. Give each MechanicalObject or VisualModel a node of its own.");
-  static_assert(atMostOne<role::Mapping>, "Sinew: a node has two mappings; its state can follow one parent.");
-  static_assert(atMostOne<role::Mass>, "Sinew: a node has two masses. Keep one.");
-  static_assert(atMostOne<role::OdeSolver>, "Sinew: a node has two ODE solvers. Keep one.");
-  static constexpr bool single =
-      oneState && atMostOne<role::Mapping> && atMostOne<role::Mass> && atMostOne<role::OdeSolver>;
-  static constexpr bool value = [] {
-    if constexpr (!single)
-      return false;
-    else
-      return Parts<N>::template components<S>() && Parts<N>::template children<S, Scene>();
-  }();
-};
+constexpr bool scene();
+
+template <class S, FixedString Name, class... Cs, class... Ns>
+constexpr bool parts(std::type_identity<Node<Name, hana::tuple<Cs...>, hana::tuple<Ns...>>>) {
+  return (true && ... && component<Cs, S>()) && (true && ... && scene<Scope<Ns, S>>());
+}
+
+template <class S>
+constexpr bool scene() {
+  if constexpr (!one_of_each<S>())
+    return false;
+  else
+    return parts<S>(std::type_identity<typename S::NodeType>{});
+}
 
 }  // namespace sinew::checks

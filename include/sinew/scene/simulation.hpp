@@ -14,7 +14,7 @@ class Simulation {
  public:
   /// The scene fulfils scene/checks.hpp. Where it does not, an assertion has said why, and the rest stays
   /// away.
-  static constexpr bool proved = checks::Scene<Scope<Root, NoScope>>::value;
+  static constexpr bool proved = checks::scene<Scope<Root, NoScope>>();
 
   explicit Simulation(Root root) : root_(std::move(root)) {}
 
