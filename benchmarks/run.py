@@ -27,7 +27,10 @@ def fail(message):
 
 
 def output(*command):
-    done = subprocess.run([str(c) for c in command], capture_output=True, text=True)
+    try:
+        done = subprocess.run([str(c) for c in command], capture_output=True, text=True)
+    except FileNotFoundError:
+        fail(f"there is no {command[0]}; build the benchmarks with ./dev bench, or name their folder with --build")
     if done.returncode != 0:
         fail(f"{' '.join(str(c) for c in command)} failed:\n{done.stderr}")
     return done.stdout

@@ -47,7 +47,7 @@ struct Scope {
 
   static constexpr bool mapped() { return isMapped; }
   static constexpr bool visual() { return isVisual; }
-  std::string path() const { return above.path() + "/" + std::string(N::name.view()); }
+  std::string path() const { return text(above.path(), '/', N::name.view()); }
 
   Eigen::Vector3d gravity() const {
     if constexpr (N::template count < role::Context >> 0)
