@@ -18,7 +18,7 @@
 #include <sinew/solver/cg_linear_solver.hpp>
 #include <sinew/solver/euler_explicit.hpp>
 #include <sinew/solver/euler_implicit.hpp>
-#include <sinew/solver/midpoint.hpp>
+#include <sinew/solver/runge_kutta2.hpp>
 #include <sinew/solver/runge_kutta4.hpp>
 #include <sinew/state/mechanical_object.hpp>
 #include <sinew/topology/tetrahedron_topology.hpp>

@@ -5,12 +5,6 @@
 
 namespace sinew {
 
-/// The step that has just ended.
-struct StepInfo {
-  long step;
-  double time, dt;
-};
-
 /// Calls f(StepInfo) or f(StepInfo, node) at the end of each step. A component, so that the call is direct.
 template <class F>
 struct StepCallback {

@@ -75,6 +75,12 @@ ForceProperties properties_of(C const& c) {
     return {};
 }
 
+/// The step that has just ended.
+struct StepInfo {
+  long step;
+  double time, dt;
+};
+
 /// What an assembled or matrix-free system is made of: m M + b B + k K.
 struct MatrixFactors {
   double m = 0, b = 0, k = 0;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <sinew/control/step_callback.hpp>
 #include <sinew/scene/checks.hpp>
 #include <sinew/scene/mechanical_operations.hpp>
 
