@@ -38,6 +38,14 @@ bool read_options(int argc, char** argv, LiverOptions& options, int& status) {
     status = app.exit(e);
     return false;
   }
+  const double steps = options.time / options.dt;
+  if (!(options.dt > 0) || !(options.time > 0) || !(steps < 1e9))
+    throw sinew::Error("--time and --dt",
+                       sinew::text("are ",
+                                   options.time,
+                                   " s and ",
+                                   options.dt,
+                                   " s, but must be greater than 0 and make less than 1e9 steps"));
   return true;
 }
 
