@@ -3,9 +3,10 @@
 
 #include <sinew/core/data_types.hpp>
 #include <sinew/core/fields.hpp>
-#include <sinew/core/vec_id.hpp>
 #include <sinew/core/mesh.hpp>
+#include <sinew/core/vec_id.hpp>
 
+#include <array>
 #include <concepts>
 #include <span>
 #include <string>
@@ -27,18 +28,22 @@ struct Mapping;
 struct OdeSolver;
 struct LinearSolver;
 struct StepCallback;  // called at the end of each step
+struct Engine;        // makes its outputs from its fields before the scene starts: loaders, selections
 }  // namespace role
 
 template <class C, class R>
 concept HasRole = std::same_as<typename C::Role, R>;
 
-/// Elements over the points of one node, as components see them at init. Empty where there is no topology.
+/// Elements over the points of one node, as components see them at init. Empty where there is no topology. A
+/// topology that has to be made first offers generate(where), which init calls before all else.
 struct TopologyView {
+  std::span<Eigen::Vector3d const> positions{};  // for a state that is given none
   std::span<Edge const> edges{};
   std::span<Triangle const> triangles{};
   std::span<Quad const> quads{};
   std::span<Tetrahedron const> tetrahedra{};
   std::span<Hexahedron const> hexahedra{};
+  std::array<int, 3> grid{0, 0, 0};  // points of a regular grid along x, y, z; zeros where there is none
 };
 
 /// What a component of a node is given at init: where it stands (for messages), the rest positions of the
@@ -130,6 +135,8 @@ concept ProjectiveConstraint = HasRole<C, role::ProjectiveConstraint> &&
     requires(C pc, InitContext<D> c, typename D::VecDeriv dx) {
   pc.init(c);
   pc.projectResponse(dx);  // remove forbidden displacements
+  // and, where points move on a prescribed path or stay on a surface, at the time t at the end of a step:
+  //   pc.projectPosition(t, x);  pc.projectVelocity(t, v);
 };
 
 template <class C, class In = typename C::In, class Out = typename C::Out>
@@ -140,6 +147,14 @@ concept Mapping = HasRole<C, role::Mapping> &&
   m.apply(xo, xi);
   m.applyJ(vo, vi);   // vo = J vi at the last apply
   m.applyJT(vi, vo);  // vi += J' vo
+};
+
+/// Files to read and points to select, turned into data of other components before the scene starts:
+/// update(where) makes what outputs() lists, as fields() does, from the fields.
+template <class C>
+concept Engine = HasRole<C, role::Engine> && requires(C e, std::string where) {
+  C::outputs();
+  e.update(where);
 };
 
 template <class C>

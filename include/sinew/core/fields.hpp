@@ -6,6 +6,8 @@
 
 #include <boost/hana/for_each.hpp>
 #include <boost/hana/tuple.hpp>
+
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -32,6 +34,12 @@ constexpr Range halfOpen(double low, double high) { return {low, high, false, tr
 constexpr Range closed(double low, double high) { return {low, high, false, false}; }
 }  // namespace range
 
+/// A field that names a file of data; scene files give it relative to themselves or to a data folder.
+struct DataFile {
+  std::string path{};
+  bool operator==(DataFile const&) const = default;
+};
+
 /// One value of a component that its user may set: the single declaration from which range checks, messages,
 /// scene files and reference pages are made. The default is what a default-constructed component holds.
 template <class Owner, class T>
@@ -41,12 +49,30 @@ struct Field {
   std::string_view unit;
   std::string_view documentation;
   Range range;
+  std::string_view aliases{};  // other names in scene files, apart by blanks
+
+  /// The same field, known to scene files by other names too: those of older and newer SOFA.
+  constexpr Field also(std::string_view names) const {
+    Field known = *this;
+    known.aliases = names;
+    return known;
+  }
 };
+
+/// f(name) for each of the names that blanks separate in a list.
+template <class F>
+constexpr void for_each_name(std::string_view list, F&& f) {
+  while (!list.empty()) {
+    const std::size_t end = std::min(list.find(' '), list.size());
+    if (end > 0) f(list.substr(0, end));
+    list.remove_prefix(std::min(end + 1, list.size()));
+  }
+}
 
 template <class Owner, class T>
 constexpr Field<Owner, T> field(std::string_view name, T Owner::*member, std::string_view unit,
                                 std::string_view documentation, Range range = range::any) {
-  return {name, member, unit, documentation, range};
+  return {name, member, unit, documentation, range, {}};
 }
 
 template <class... F>
@@ -58,6 +84,15 @@ template <class T>
 concept HasFields = requires {
   T::fields();
 };
+
+/// The classes by which scene files know a component beside its className, apart by blanks.
+template <class C>
+constexpr std::string_view class_aliases() {
+  if constexpr (requires { C::aliases; })
+    return C::aliases;
+  else
+    return {};
+}
 
 /// f(field, value) for each field of a component or of a struct that is the value of one.
 template <class T, class F>
@@ -169,10 +204,21 @@ void check_fields(C const& component, std::string_view where) {
     const bool nested = !bad.documentation.empty();
     const std::string expected = detail::range_text(nested ? bad.range : fd.range);
     const std::string_view unit = nested ? bad.unit : fd.unit;
-    throw Error(
-        where, text(component_name<C>(), ": ", fd.name, bad.place, " is ", bad.value, unit.empty() ? "" : " ",
-                    unit, ", but must be a finite number", expected.empty() ? "" : ", ", expected, " (",
-                    nested ? bad.documentation : fd.documentation, "); correct this value"));
+    throw Error(where,
+                text(component_name<C>(),
+                     ": ",
+                     fd.name,
+                     bad.place,
+                     " is ",
+                     bad.value,
+                     unit.empty() ? "" : " ",
+                     unit,
+                     ", but must be a finite number",
+                     expected.empty() ? "" : ", ",
+                     expected,
+                     " (",
+                     nested ? bad.documentation : fd.documentation,
+                     "); correct this value"));
   });
 }
 
