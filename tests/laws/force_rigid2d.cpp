@@ -2,5 +2,5 @@
 #include "force_laws.hpp"
 
 TEST_CASE("every force field over Rigid2d obeys the laws of forces") {
-  laws::check_force_fields<sinew::Standard, sinew::Rigid2d>();
+  laws::check_force_fields<sinew::Extended, sinew::Rigid2d>();
 }

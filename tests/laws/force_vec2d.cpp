@@ -2,5 +2,5 @@
 #include "force_laws.hpp"
 
 TEST_CASE("every force field over Vec2d obeys the laws of forces") {
-  laws::check_force_fields<sinew::Standard, sinew::Vec2d>();
+  laws::check_force_fields<sinew::Extended, sinew::Vec2d>();
 }

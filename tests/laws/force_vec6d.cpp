@@ -2,5 +2,5 @@
 #include "force_laws.hpp"
 
 TEST_CASE("every force field over Vec6d obeys the laws of forces") {
-  laws::check_force_fields<sinew::Standard, sinew::Vec6d>();
+  laws::check_force_fields<sinew::Extended, sinew::Vec6d>();
 }

@@ -26,7 +26,10 @@ struct FixedConstraint {
     for (const int i : indices)
       if (std::size_t(i) >= context.rest.size())
         throw Error(text(context.where, ": ", component_name<FixedConstraint>()),
-                    text("indices has ", i, ", but the state has ", context.rest.size(),
+                    text("indices has ",
+                         i,
+                         ", but the state has ",
+                         context.rest.size(),
                          " points, numbered from 0; correct the index"));
   }
 

@@ -99,4 +99,10 @@ struct MatrixSink {
   }
 };
 
+/// The sink for two kinds of degrees of freedom; other kinds than the above have overloads of their own.
+template <AssemblyPhase Phase, class Matrix, class A, class B>
+MatrixSink<Phase, Matrix, A, B> make_sink(Matrix& matrix, A const& first, B const& second) {
+  return {matrix, first, second};
+}
+
 }  // namespace sinew

@@ -5,6 +5,7 @@
 #include <sinew/core/platform.hpp>
 
 #include <Eigen/Geometry>
+#include <numbers>
 #include <string_view>
 #include <vector>
 
@@ -17,6 +18,14 @@ using Mat = Eigen::Matrix<Real, R, C>;
 /// Not over-aligned, so that a rigid position is seven scalars without a gap.
 template <class Real>
 using Quat = Eigen::Quaternion<Real, Eigen::DontAlign>;
+
+/// The rotation by Euler angles [degree] about the fixed axes x, then y, then z: SOFA's `rotation`.
+inline Eigen::Quaterniond euler_angles(Eigen::Vector3d const& degrees) {
+  const Eigen::Vector3d a = degrees * (std::numbers::pi / 180);
+  return Eigen::AngleAxisd(a[2], Eigen::Vector3d::UnitZ()) *
+         Eigen::AngleAxisd(a[1], Eigen::Vector3d::UnitY()) *
+         Eigen::AngleAxisd(a[0], Eigen::Vector3d::UnitX());
+}
 
 /// Position of a rigid body: centre [m] and unit quaternion from body to world axes. In the plane the
 /// quaternion is replaced by the angle [rad].
@@ -61,6 +70,7 @@ struct VecTypes {
 
   SINEW_INLINE static Coord zero() { return Coord::Zero(); }
   SINEW_INLINE static Vec<R, spatial> center(Coord const& x) { return x.template head<spatial>(); }
+  SINEW_INLINE static void setCenter(Coord& x, Vec<R, spatial> const& c) { x.template head<spatial>() = c; }
   SINEW_INLINE static void increment(Coord& x, Deriv const& dx) { x += dx; }
   /// dx with increment(from, dx) = to.
   SINEW_INLINE static Deriv difference(Coord const& from, Coord const& to) { return to - from; }
@@ -88,6 +98,7 @@ struct RigidTypes<3, R> {
 
   static Coord zero() { return {}; }
   SINEW_INLINE static Vec<R, 3> center(Coord const& x) { return x.center; }
+  SINEW_INLINE static void setCenter(Coord& x, Vec<R, 3> const& c) { x.center = c; }
   /// q <- exp(w) q, with the rotation vector w in world axes; the unit length is restored.
   static void increment(Coord& x, Deriv const& dx) {
     using std::sqrt, std::cos, std::sin;
@@ -135,13 +146,14 @@ struct RigidTypes<2, R> {
 
   static Coord zero() { return {}; }
   SINEW_INLINE static Vec<R, 2> center(Coord const& x) { return x.center; }
+  SINEW_INLINE static void setCenter(Coord& x, Vec<R, 2> const& c) { x.center = c; }
   static void increment(Coord& x, Deriv const& dx) {
     x.center += dx.template head<2>();
     x.orientation += dx[2];
   }
   static Deriv difference(Coord const& from, Coord const& to) {
-    return Deriv(to.center[0] - from.center[0], to.center[1] - from.center[1],
-                 to.orientation - from.orientation);
+    return Deriv(
+        to.center[0] - from.center[0], to.center[1] - from.center[1], to.orientation - from.orientation);
   }
   static Deriv chart_rate(Deriv const&, Deriv const& v) { return v; }
   static bool finite(Coord const& x) { return x.center.allFinite() && std::isfinite(x.orientation); }

@@ -175,7 +175,9 @@ struct ElementDriver {
     if constexpr (n == 3 && W >= 4)
       if (!pack.hasLast) {
         for (int k = 0; k < arity; ++k)
-          gather3(reinterpret_cast<Real const*>(from[std::size_t(k)]), pack.index[k], reinterpret_cast<L*>(&to[k]));
+          gather3(reinterpret_cast<Real const*>(from[std::size_t(k)]),
+                  pack.index[k],
+                  reinterpret_cast<L*>(&to[k]));
         return;
       }
     for (int k = 0; k < arity; ++k) {

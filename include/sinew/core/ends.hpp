@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <string>
 #include <string_view>
 
 namespace sinew {
@@ -17,7 +18,9 @@ struct FixedString {
 };
 
 /// A force field inside the body of its own node.
-struct Within {};
+struct Within {
+  static std::string name() { return "Within"; }
+};
 
 /// The two ends of an interaction: paths from the node where the component sits to the nodes of the two
 /// states.
@@ -25,6 +28,21 @@ template <FixedString First, FixedString Second>
 struct Between {
   static constexpr auto first = First;
   static constexpr auto second = Second;
+  static std::string name() {
+    return std::string("Between<\"")
+        .append(First.view())
+        .append("\", \"")
+        .append(Second.view())
+        .append("\">");
+  }
+};
+
+/// Two ends found at run time: paths of nodes from the node of the component on ("", "liver/skin",
+/// "../liver",
+/// "/liver").
+struct Linked {
+  std::string object1{}, object2{};
+  static std::string name() { return "Linked"; }
 };
 
 }  // namespace sinew

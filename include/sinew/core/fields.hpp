@@ -100,6 +100,12 @@ constexpr void for_each_field(T& owner, F&& f) {
   boost::hana::for_each(std::remove_const_t<T>::fields(), [&](auto const& fd) { f(fd, owner.*fd.member); });
 }
 
+/// f(field) for each field of a class.
+template <class T, class F>
+constexpr void for_each_field_of(F&& f) {
+  boost::hana::for_each(T::fields(), f);
+}
+
 /// "TetrahedronFEMForceField<Vec3d>".
 template <class C>
 std::string component_name() {
@@ -110,6 +116,13 @@ std::string component_name() {
                 })
     name +=
         text('<', data_types_name<typename C::In>::value, ", ", data_types_name<typename C::Out>::value, '>');
+  else if constexpr (requires { C::templateName; })
+    name += text('<', C::templateName, '>');
+  else if constexpr (requires {
+                       typename C::Ends;
+                       requires C::between;
+                     })
+    name += text('<', data_types_name<typename C::DataTypes>::value, ", ", C::Ends::name(), '>');
   else if constexpr (requires { typename C::DataTypes; })
     name += text('<', data_types_name<typename C::DataTypes>::value, '>');
   return name;

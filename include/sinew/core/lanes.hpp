@@ -225,18 +225,22 @@ SINEW_INLINE typename Lanes<T, W>::Vector alternating(typename Lanes<T, W>::Vect
 
 }  // namespace detail
 
-/// to[c] = lanes of component c of W points, point l at from + 3 * index[l]. One scalar behind each point is read.
+/// to[c] = lanes of component c of W points, point l at from + 3 * index[l]. One scalar behind each point is
+/// read.
 template <class T, int W>
-  requires(W >= 4)
-SINEW_INLINE void gather3(T const* from, int const (&index)[W], Lanes<T, W>* to) {
+requires(W >= 4) SINEW_INLINE void gather3(T const* from, int const (&index)[W], Lanes<T, W>* to) {
   using V = typename Lanes<T, W>::Vector;
   constexpr int each = W / 4;  // points a vector holds, four scalars each
   V rows[4];
   for (int r = 0; r < 4; ++r)
     for (int k = 0; k < each; ++k)
-      std::memcpy(reinterpret_cast<char*>(&rows[r]) + 4 * k * int(sizeof(T)), from + 3 * index[r * each + k], 4 * sizeof(T));
-  const V xy0 = detail::alternating<2, 0, T, W>(rows[0], rows[1]), zw0 = detail::alternating<2, 1, T, W>(rows[0], rows[1]);
-  const V xy1 = detail::alternating<2, 0, T, W>(rows[2], rows[3]), zw1 = detail::alternating<2, 1, T, W>(rows[2], rows[3]);
+      std::memcpy(reinterpret_cast<char*>(&rows[r]) + 4 * k * int(sizeof(T)),
+                  from + 3 * index[r * each + k],
+                  4 * sizeof(T));
+  const V xy0 = detail::alternating<2, 0, T, W>(rows[0], rows[1]),
+          zw0 = detail::alternating<2, 1, T, W>(rows[0], rows[1]);
+  const V xy1 = detail::alternating<2, 0, T, W>(rows[2], rows[3]),
+          zw1 = detail::alternating<2, 1, T, W>(rows[2], rows[3]);
   to[0].v = detail::alternating<1, 0, T, W>(xy0, xy1);
   to[1].v = detail::alternating<1, 1, T, W>(xy0, xy1);
   to[2].v = detail::alternating<1, 0, T, W>(zw0, zw1);

@@ -37,8 +37,15 @@ void check_indices(std::string_view where, std::string_view kind, Elements const
   for (std::size_t e = 0; e < elements.size(); ++e)
     for (const Index i : elements[e])
       if (i < 0 || std::size_t(i) >= points)
-        throw Error(where, text(kind, ' ', e, " refers to point ", i, ", but there are ", points,
-                                " points, numbered from 0; correct the index or add the point"));
+        throw Error(where,
+                    text(kind,
+                         ' ',
+                         e,
+                         " refers to point ",
+                         i,
+                         ", but there are ",
+                         points,
+                         " points, numbered from 0; correct the index or add the point"));
 }
 }  // namespace detail
 

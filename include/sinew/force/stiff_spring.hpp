@@ -102,7 +102,7 @@ struct Spring {
 };
 
 /// Springs inside one body (`E` = Within), or between the states at two paths (`E` = Between<"a", "b/c">, at
-/// a common ancestor; `first` then counts points of the first).
+/// a common ancestor; `E` = Linked in a runtime tree); `first` then counts points of the first.
 template <class D, class E = Within>
 struct StiffSpringForceField {
   using Ends = E;
@@ -115,12 +115,14 @@ struct StiffSpringForceField {
   static constexpr std::string_view className = "StiffSpringForceField";
 
   std::vector<Spring> springs{};
+  [[no_unique_address]] E ends{};
 
   static constexpr auto fields() {
     return field_list(field("springs",
                             &StiffSpringForceField::springs,
                             "",
-                            "the springs: two points, stiffness, damping, length"));
+                            "the springs: two points, stiffness, damping, length")
+                          .also("spring"));
   }
 
   using Driver = ElementDriver<SpringLaw, D>;
@@ -183,7 +185,7 @@ struct StiffSpringForceField {
     driver.addDForce(Law{}, {df0.data(), df1.data()}, {dx0.data(), dx1.data()}, Real(p.k), Real(p.b));
   }
   double potentialEnergy(VecCoord const& x0, VecCoord const& x1) const {
-    return driver.energy(Law{}, {x0.data(), x1.data()});
+    return driver.energy(Law{}, typename Driver::Coords{x0.data(), x1.data()});
   }
 
   template <class Sink>

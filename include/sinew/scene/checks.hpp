@@ -117,7 +117,7 @@ constexpr auto find_path() {
     if constexpr (i < 0)
       return std::type_identity<NoScope>{};
     else
-      return find_path<Scope<typename S::NodeType::template Child<std::size_t(i)>, S>,
+      return find_path<typename ScopeOf<typename S::NodeType::template Child<std::size_t(i)>, S>::type,
                        detail::rest_of_path<Path>()>();
   }
 }
@@ -219,12 +219,14 @@ constexpr bool scene();
 
 template <class S, FixedString Name, class... Cs, class... Ns>
 constexpr bool parts(std::type_identity<Node<Name, hana::tuple<Cs...>, hana::tuple<Ns...>>>) {
-  return (true && ... && component<Cs, S>()) && (true && ... && scene<Scope<Ns, S>>());
+  return (true && ... && component<Cs, S>()) && (true && ... && scene<typename ScopeOf<Ns, S>::type>());
 }
 
 template <class S>
 constexpr bool scene() {
-  if constexpr (!one_of_each<S>())
+  if constexpr (requires { S::provedAtInit; })
+    return true;
+  else if constexpr (!one_of_each<S>())
     return false;
   else
     return parts<S>(std::type_identity<typename S::NodeType>{});

@@ -83,35 +83,29 @@ struct MechanicalOperations {
   void computeForce(DerivId f, CoordId x, DerivId v) {
     const MechanicalParams p{.time = time, .dt = dt};
     forEachState([&](auto& s) { vec::clear(s[f]); });
-    traverse(
-        root,
-        [&](auto& c, auto const& scope) {
-          using C = std::decay_t<decltype(c)>;
-          if constexpr (HasRole<C, role::ForceField>) {
-            auto& s = scope.template state<typename C::DataTypes>();
-            c.addForce(p, s[f], s[x], s[v]);
-          } else if constexpr (HasRole<C, role::Mass>) {
-            auto& s = scope.template state<typename C::DataTypes>();
-            MechanicalParams weight = p;
-            weight.gravity = scope.gravity();
-            c.addForce(weight, s[f], s[x], s[v]);
-          } else if constexpr (HasRole<C, role::InteractionForceField>) {
-            forEnds(c, scope, [&](auto& a, auto& b) { c.addForce(p, a[f], b[f], a[x], b[x], a[v], b[v]); });
-          }
-        },
-        [&](auto& c, auto const& scope) { accumulate(c, scope, f); });
+    traverse(root,
+             on<role::ForceField, role::Mass, role::InteractionForceField>([&](auto& c, auto const& scope) {
+               using C = std::decay_t<decltype(c)>;
+               if constexpr (HasRole<C, role::InteractionForceField>) {
+                 forEnds(
+                     c, scope, [&](auto& a, auto& b) { c.addForce(p, a[f], b[f], a[x], b[x], a[v], b[v]); });
+               } else {
+                 auto& s = stateOf(c, scope);
+                 MechanicalParams params = p;
+                 if constexpr (HasRole<C, role::Mass>) params.gravity = scope.gravity();
+                 c.addForce(params, s[f], s[x], s[v]);
+               }
+             }),
+             accumulate(f));
   }
 
   /// a = P M^-1 f
   void accFromF(DerivId a, DerivId f, CoordId x) {
-    traverse(root, [&](auto& c, auto const& scope) {
-      using C = std::decay_t<decltype(c)>;
-      if constexpr (HasRole<C, role::Mass>)
-        if (!scope.stateScope().mapped()) {
-          auto& s = scope.template state<typename C::DataTypes>();
-          c.accFromF(s[a], s[x], s[f]);
-        }
-    });
+    traverse(root, on<role::Mass>([&](auto& c, auto const& scope) {
+               if (scope.stateScope().mapped()) return;
+               auto& s = stateOf(c, scope);
+               c.accFromF(s[a], s[x], s[f]);
+             }));
     projectResponse(a);
   }
 
@@ -126,11 +120,17 @@ struct MechanicalOperations {
 
   /// Removes forbidden displacements.
   void projectResponse(DerivId dx) {
-    traverse(root, [&](auto& c, auto const& scope) {
-      using C = std::decay_t<decltype(c)>;
-      if constexpr (HasRole<C, role::ProjectiveConstraint>)
-        c.projectResponse(scope.template state<typename C::DataTypes>()[dx]);
-    });
+    traverse(root, on<role::ProjectiveConstraint>([&](auto& c, auto const& scope) {
+               c.projectResponse(stateOf(c, scope)[dx]);
+             }));
+  }
+  /// Puts constrained points where they have to be at time t, with the velocity they have there.
+  void projectPositionAndVelocity(double t, CoordId x, DerivId v) {
+    traverse(root, on<role::ProjectiveConstraint>([&](auto& c, auto const& scope) {
+               [[maybe_unused]] auto& s = stateOf(c, scope);
+               if constexpr (requires { c.projectPosition(t, s[x]); }) c.projectPosition(t, s[x]);
+               if constexpr (requires { c.projectVelocity(t, s[v]); }) c.projectVelocity(t, s[v]);
+             }));
   }
 
   /// r += (m M + b B + k K) dx, through all mappings.
@@ -138,47 +138,43 @@ struct MechanicalOperations {
     const MechanicalParams p{.time = time, .dt = dt, .m = factors.m, .b = factors.b, .k = factors.k};
     propagate(dx);
     forEachMapped([&](auto& s) { vec::clear(s[r]); });
-    traverse(
-        root,
-        [&](auto& c, auto const& scope) {
-          using C = std::decay_t<decltype(c)>;
-          if constexpr (HasRole<C, role::ForceField>) {
-            auto& s = scope.template state<typename C::DataTypes>();
-            if (p.k != 0 || p.b != 0) c.addDForce(p, s[r], s[dx]);
-          } else if constexpr (HasRole<C, role::Mass>) {
-            auto& s = scope.template state<typename C::DataTypes>();
-            if (p.m != 0) c.addMDx(s[r], s[vec_id::position], s[dx], p.m);
-          } else if constexpr (HasRole<C, role::InteractionForceField>) {
-            if (p.k != 0 || p.b != 0)
-              forEnds(c, scope, [&](auto& a, auto& b) { c.addDForce(p, a[r], b[r], a[dx], b[dx]); });
-          }
-        },
-        [&](auto& c, auto const& scope) { accumulate(c, scope, r); });
+    traverse(root,
+             on<role::ForceField, role::Mass, role::InteractionForceField>([&](auto& c, auto const& scope) {
+               using C = std::decay_t<decltype(c)>;
+               if constexpr (HasRole<C, role::Mass>) {
+                 auto& s = stateOf(c, scope);
+                 if (p.m != 0) c.addMDx(s[r], s[vec_id::position], s[dx], p.m);
+               } else if (p.k != 0 || p.b != 0) {
+                 if constexpr (HasRole<C, role::InteractionForceField>) {
+                   forEnds(c, scope, [&](auto& a, auto& b) { c.addDForce(p, a[r], b[r], a[dx], b[dx]); });
+                 } else {
+                   auto& s = stateOf(c, scope);
+                   c.addDForce(p, s[r], s[dx]);
+                 }
+               }
+             }),
+             accumulate(r));
   }
 
   double kineticEnergy() {
     double sum = 0;
-    traverse(root, [&](auto& c, auto const& scope) {
-      using C = std::decay_t<decltype(c)>;
-      if constexpr (HasRole<C, role::Mass>) {
-        auto& s = scope.template state<typename C::DataTypes>();
-        sum += c.kineticEnergy(s[vec_id::position], s[vec_id::velocity]);
-      }
-    });
+    traverse(root, on<role::Mass>([&](auto& c, auto const& scope) {
+               auto& s = stateOf(c, scope);
+               sum += c.kineticEnergy(s[vec_id::position], s[vec_id::velocity]);
+             }));
     return sum;
   }
   /// Energy of the force fields, without gravity [J].
   double potentialEnergy() {
     double sum = 0;
-    traverse(root, [&](auto& c, auto const& scope) {
-      using C = std::decay_t<decltype(c)>;
-      if constexpr (HasRole<C, role::ForceField>)
-        sum += c.potentialEnergy(scope.template state<typename C::DataTypes>()[vec_id::position]);
-      else if constexpr (HasRole<C, role::InteractionForceField>)
-        forEnds(c, scope, [&](auto& a, auto& b) {
-          sum += c.potentialEnergy(a[vec_id::position], b[vec_id::position]);
-        });
-    });
+    traverse(root, on<role::ForceField, role::InteractionForceField>([&](auto& c, auto const& scope) {
+               if constexpr (HasRole<std::decay_t<decltype(c)>, role::ForceField>)
+                 sum += c.potentialEnergy(stateOf(c, scope)[vec_id::position]);
+               else
+                 forEnds(c, scope, [&](auto& a, auto& b) {
+                   sum += c.potentialEnergy(a[vec_id::position], b[vec_id::position]);
+                 });
+             }));
     return sum;
   }
 
@@ -203,14 +199,11 @@ struct MechanicalOperations {
     matrix.setZero();
     assemblePhase<AssemblyPhase::add>(matrix, factors);
     matrix.mirror();
-    traverse(root, [&](auto& c, auto const& scope) {
-      using C = std::decay_t<decltype(c)>;
-      if constexpr (HasRole<C, role::ProjectiveConstraint>)
-        if (!scope.stateScope().mapped())
-          withSink<AssemblyPhase::add>(matrix, scope.stateScope(), scope.stateScope(), [&](auto const& sink) {
-            c.projectMatrix(sink);
-          });
-    });
+    traverse(root, on<role::ProjectiveConstraint>([&](auto& c, auto const& scope) {
+               if (scope.stateScope().mapped()) return;
+               const DirectDofs<std::decay_t<decltype(c)>::DataTypes::size> dofs{stateOf(c, scope).dofOffset};
+               c.projectMatrix(make_sink<AssemblyPhase::add>(matrix, dofs, dofs));
+             }));
   }
   /// Copies between state vectors and one vector of all independent degrees of freedom.
   template <class Vector>
@@ -232,16 +225,13 @@ struct MechanicalOperations {
 
   template <class F>
   void forEachState(F&& f) {
-    traverse(root, [&](auto& c, auto const&) {
-      if constexpr (HasRole<std::decay_t<decltype(c)>, role::State>) f(c);
-    });
+    traverse(root, on<role::State>([&](auto& c, auto const&) { f(c); }));
   }
   template <class F>
   void forEachIndependent(F&& f) {
-    traverse(root, [&](auto& c, auto const& scope) {
-      if constexpr (HasRole<std::decay_t<decltype(c)>, role::State>)
-        if (!scope.mapped()) f(c);
-    });
+    traverse(root, on<role::State>([&](auto& c, auto const& scope) {
+               if (!scope.mapped()) f(c);
+             }));
   }
 
  private:
@@ -251,27 +241,37 @@ struct MechanicalOperations {
   static auto real(State const&, double f) {
     return typename State::DataTypes::Real(f);
   }
+  /// The state on which a component acts.
+  template <class C, class S>
+  static auto& stateOf(C const&, S const& scope) {
+    return scope.template state<typename C::DataTypes>();
+  }
 
   template <class F>
   void forEachMapped(F&& f) {
-    traverse(root, [&](auto& c, auto const& scope) {
-      if constexpr (HasRole<std::decay_t<decltype(c)>, role::State>)
-        if (scope.mapped()) f(c);
-    });
+    traverse(root, on<role::State>([&](auto& c, auto const& scope) {
+               if (scope.mapped()) f(c);
+             }));
   }
   // f(mapping, child state, parent state), parents first, visual models left out
   template <class F>
   void forEachMapping(F&& f) {
-    traverse(root, [&](auto& c, auto const& scope) {
-      using C = std::decay_t<decltype(c)>;
-      if constexpr (HasRole<C, role::Mapping>)
-        scope.forMechanicalMapping(c, [&](auto& child, auto& parent) { f(c, child, parent); });
+    traverse(root, on<role::Mapping>([&](auto& mapping, auto const& scope) {
+               withMechanicalChild(mapping, scope, f);
+             }));
+  }
+  template <class M, class S, class F>
+  static void withMechanicalChild(M& mapping, S const& scope, F&& f) {
+    scope.withMapped(mapping, [&](auto& child, auto& parent) {
+      if constexpr (HasRole<std::decay_t<decltype(child)>, role::State>) f(mapping, child, parent);
     });
   }
-  template <class C, class S>
-  void accumulate(C& c, S const& scope, DerivId f) {
-    if constexpr (HasRole<C, role::Mapping>)
-      scope.forMechanicalMapping(c, [&](auto& child, auto& parent) { c.applyJT(parent[f], child[f]); });
+  // on the way up, f of mapped states is added to that of their parents
+  auto accumulate(DerivId f) const {
+    return on<role::Mapping>([f](auto& mapping, auto const& scope) {
+      withMechanicalChild(
+          mapping, scope, [f](auto& m, auto& child, auto& parent) { m.applyJT(parent[f], child[f]); });
+    });
   }
   template <class C, class S, class F>
   void forEnds(C const& c, S const& scope, F&& f) {
@@ -279,48 +279,30 @@ struct MechanicalOperations {
     scope.withEnds(c, [&](auto const& a, auto const& b) { f(a.template state<D>(), b.template state<D>()); });
   }
 
-  // f(degrees of freedom of the state of this scope in the system)
-  template <class S, class F>
-  static void withDofs(S const& owner, F&& f) {
-    owner.withMappingOrState(
-        [&](auto& mapping, auto const& parent) {
-          withDofs(parent, [&](auto const& above) {
-            f(MappedDofs<std::decay_t<decltype(mapping)>, std::decay_t<decltype(above)>>{mapping, above});
-          });
-        },
-        [&](auto& state) { f(DirectDofs<DataTypesOf<decltype(state)>::size>{state.dofOffset}); });
-  }
-  template <AssemblyPhase Phase, class Matrix, class S0, class S1, class F>
-  static void withSink(Matrix& matrix, S0 const& a, S1 const& b, F&& f) {
-    withDofs(a, [&](auto const& first) {
-      withDofs(b, [&](auto const& second) {
-        f(MatrixSink<Phase, Matrix, std::decay_t<decltype(first)>, std::decay_t<decltype(second)>>{
-            matrix, first, second});
-      });
-    });
-  }
-
   template <AssemblyPhase Phase, class Matrix>
   void assemblePhase(Matrix& matrix, MatrixFactors factors) {
     const MechanicalParams p{.time = time, .dt = dt, .m = factors.m, .b = factors.b, .k = factors.k};
-    traverse(root, [&](auto& c, auto const& scope) {
-      using C = std::decay_t<decltype(c)>;
-      if constexpr (HasRole<C, role::ForceField>) {
-        withSink<Phase>(matrix, scope.stateScope(), scope.stateScope(), [&](auto const& sink) {
-          c.addToMatrix(p, sink);
-        });
-      } else if constexpr (HasRole<C, role::Mass>) {
-        auto& x = scope.template state<typename C::DataTypes>()[vec_id::position];
-        withSink<Phase>(matrix, scope.stateScope(), scope.stateScope(), [&](auto const& sink) {
-          c.addToMatrix(p, x, sink);
-        });
-      } else if constexpr (HasRole<C, role::InteractionForceField>) {
-        scope.withEnds(c, [&](auto const& a, auto const& b) {
-          withSink<Phase>(
-              matrix, a.stateScope(), b.stateScope(), [&](auto const& sink) { c.addToMatrix(p, sink); });
-        });
-      }
-    });
+    traverse(
+        root, on<role::ForceField, role::Mass, role::InteractionForceField>([&](auto& c, auto const& scope) {
+          using C = std::decay_t<decltype(c)>;
+          using D = typename C::DataTypes;
+          auto withSink = [&](auto const& a, auto const& b, auto&& f) {
+            a.template withDofs<D>([&](auto const& first) {
+              b.template withDofs<D>([&](auto const& second) { f(make_sink<Phase>(matrix, first, second)); });
+            });
+          };
+          if constexpr (HasRole<C, role::ForceField>)
+            scope.template withDofs<D>(
+                [&](auto const& dofs) { c.addToMatrix(p, make_sink<Phase>(matrix, dofs, dofs)); });
+          else if constexpr (HasRole<C, role::Mass>)
+            scope.template withDofs<D>([&](auto const& dofs) {
+              c.addToMatrix(p, stateOf(c, scope)[vec_id::position], make_sink<Phase>(matrix, dofs, dofs));
+            });
+          else
+            scope.withEnds(c, [&](auto const& a, auto const& b) {
+              withSink(a, b, [&](auto const& sink) { c.addToMatrix(p, sink); });
+            });
+        }));
   }
 };
 

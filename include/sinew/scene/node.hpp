@@ -24,6 +24,21 @@ concept Component = requires {
   C::fields();
 };
 
+/// A function of components, called for those that have one of the roles only.
+template <class F, class... Roles>
+struct RoleVisitor {
+  F f;
+};
+template <class... Roles, class F>
+RoleVisitor<F, Roles...> on(F f) {
+  return {std::move(f)};
+}
+/// Stands for all roles: on<AnyRole>(f).
+struct AnyRole;
+template <class C, class... Roles>
+inline constexpr bool has_any_role =
+    ((std::is_same_v<typename C::Role, Roles> || std::is_same_v<Roles, AnyRole>) || ...);
+
 /// A node of a typed scene: plain data, composed by node<"name">(...).
 template <FixedString Name, class Components, class Children>
 struct Node;
@@ -53,9 +68,28 @@ struct Node<Name, hana::tuple<Cs...>, hana::tuple<Ns...>> {
     ((Ns::name.view() == child && found < 0 ? void(found = i) : void(), ++i), ...);
     return found;
   }
+  /// The child of a name.
+  template <FixedString Child>
+  auto& child() {
+    static_assert(childIndex(Child.view()) >= 0, "Sinew: this node has no child of that name.");
+    return hana::at_c<std::size_t(childIndex(Child.view()))>(children);
+  }
   static constexpr bool childNamesDiffer() {
     int i = 0;
     return ((childIndex(Ns::name.view()) == i++) && ...);
+  }
+
+  /// f(component) for those with one of the roles of a RoleVisitor, in their order.
+  template <class... Roles, class F>
+  void forEachComponent(RoleVisitor<F, Roles...>& visitor) {
+    [&]<std::size_t... I>(std::index_sequence<I...>) {
+      (
+          [&] {
+            if constexpr (has_any_role<Cs, Roles...>) visitor.f(hana::at_c<I>(components));
+          }(),
+          ...);
+    }
+    (std::index_sequence_for<Cs...>{});
   }
 
   template <class R>
@@ -86,6 +120,7 @@ struct Node<Name, hana::tuple<Cs...>, hana::tuple<Ns...>> {
   }
 };
 
+/// What may be a child of a typed node: typed nodes, and the runtime nodes of runtime/node.hpp.
 template <class T>
 inline constexpr bool is_node = false;
 template <FixedString Name, class Components, class Children>

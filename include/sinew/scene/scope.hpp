@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/assembly.hpp>
 #include <sinew/scene/node.hpp>
 
 #include <string>
@@ -31,8 +32,17 @@ constexpr auto rest_of_path() {
 }
 }  // namespace detail
 
-/// A node of a typed scene seen from the path that leads to it. All traversals, operations and checks know a
-/// tree through these members only; every choice here is made by the compiler.
+template <class N, class A>
+struct Scope;
+
+/// The scope of a child of a typed node; other kinds of nodes specialise it.
+template <class N, class A>
+struct ScopeOf {
+  using type = Scope<N, A>;
+};
+
+/// A node of a typed scene seen from the path that leads to it. All traversals, operations and solvers know a
+/// tree through these members only (RuntimeScope has the same); every choice here is made by the compiler.
 template <class N, class A>
 struct Scope {
   using NodeType = N;
@@ -45,12 +55,15 @@ struct Scope {
   static constexpr bool isMapped = N::template count<role::Mapping> > 0;
   static constexpr bool isVisual = N::template count<role::VisualModel> > 0;
 
+  /// The node has a component of this role, whatever happens at run time.
+  template <class R>
+  static constexpr bool always = N::template count<R> > 0;
+
   static constexpr bool mapped() { return isMapped; }
-  static constexpr bool visual() { return isVisual; }
   std::string path() const { return text(above.path(), '/', N::name.view()); }
 
   Eigen::Vector3d gravity() const {
-    if constexpr (N::template count < role::Context >> 0)
+    if constexpr (always<role::Context>)
       return node.template first<role::Context>().gravity;
     else
       return above.gravity();
@@ -58,7 +71,7 @@ struct Scope {
 
   /// The nearest topology upwards, of the nodes that share this node's points.
   TopologyView topology() const {
-    if constexpr (N::template count < role::Topology >> 0)
+    if constexpr (always<role::Topology>)
       return node.template first<role::Topology>().view();
     else if constexpr (ownsState)
       return {};
@@ -78,36 +91,72 @@ struct Scope {
     return stateScope().node.template first<role::State>();
   }
   template <class D>
-  auto& parentState() const {
-    return above.stateScope().node.template first<role::State>();
-  }
-  template <class D>
   InitContext<D> context() const {
     return {path(), state<D>().restPosition, topology()};
   }
-
+  template <class D>
+  auto parentContext() const {
+    return above.stateScope().template context<D>();
+  }
+  /// f(context) for the state on which components of this node act, if there is one.
   template <class F>
-  void forEachComponent(F&& f) const {
-    hana::for_each(node.components, f);
+  void withContext(F&& f) const {
+    if constexpr (hasState)
+      f(context<typename std::decay_t<decltype(stateScope().node.state())>::DataTypes>());
+  }
+
+  template <class F, class... Roles>
+  void forEachComponent(RoleVisitor<F, Roles...>& visitor) const {
+    node.forEachComponent(visitor);
   }
   template <class F>
   void forEachChild(F&& f) const {
     hana::for_each(node.children, [&](auto& child) {
-      f(Scope<std::decay_t<decltype(child)>, Scope>{child, *this});
+      f(typename ScopeOf<std::decay_t<decltype(child)>, Scope>::type{child, *this});
     });
   }
-  /// f(child state, parent state) for the mapping of this node, unless it carries a visual model.
-  template <class C, class F>
-  void forMechanicalMapping(C const&, F&& f) const {
-    if constexpr (ownsState) f(node.state(), above.stateScope().node.state());
+  /// What the compiler could not prove is checked at init: that of runtime nodes.
+  void check() const {
+    forEachChild([](auto const& child) { child.check(); });
   }
-  /// The state that this scope owns depends on another through a mapping, or it is independent.
-  template <class IfMapped, class IfIndependent>
-  void withMappingOrState(IfMapped&& ifMapped, IfIndependent&& ifIndependent) const {
-    if constexpr (isMapped)
-      ifMapped(node.template first<role::Mapping>(), above.stateScope());
+  /// Runs a part of init that concerns one component, unless that is initialised already (`again`) and
+  /// nothing around it has changed. settled() ends the init.
+  template <class C, class F>
+  void ifNew(C const&, bool again, F&& f) const {
+    if (!again) f();
+  }
+  /// Adds the place of a component to what goes wrong; the path has been said here.
+  template <class C, class F>
+  void located(C const&, F&& f) const {
+    f();
+  }
+  void settled() const {
+    forEachChild([](auto const& child) { child.settled(); });
+  }
+
+  /// f(child, parent state) for the mapping of this node; the child is a state or a visual model.
+  template <class M, class F>
+  void withMapped(M const&, F&& f) const {
+    if constexpr (ownsState)
+      f(node.state(), above.stateScope().node.state());
     else
-      ifIndependent(node.state());
+      f(node.visual(), above.stateScope().node.state());
+  }
+
+  /// f(degrees of freedom of the state of this scope in an assembled system).
+  template <class D, class F>
+  void withDofs(F&& f) const {
+    if constexpr (!ownsState) {
+      above.template withDofs<D>(f);
+    } else if constexpr (isMapped) {
+      auto& mapping = node.template first<role::Mapping>();
+      using M = std::decay_t<decltype(mapping)>;
+      above.stateScope().template withDofs<typename M::In>([&](auto const& dofs) {
+        f(MappedDofs<M, std::decay_t<decltype(dofs)>>{mapping, dofs});
+      });
+    } else {
+      f(DirectDofs<D::size>{node.state().dofOffset});
+    }
   }
 
   /// f(scope) for the node at a path from here, which exists.
@@ -118,7 +167,7 @@ struct Scope {
     } else {
       constexpr int i = N::childIndex(detail::first_name(Path.view()));
       auto& child = hana::at_c<std::size_t(i)>(node.children);
-      return Scope<std::decay_t<decltype(child)>, Scope>{child, *this}
+      return typename ScopeOf<std::decay_t<decltype(child)>, Scope>::type{child, *this}
           .template descend<detail::rest_of_path<Path>()>(f);
     }
   }
@@ -132,25 +181,30 @@ struct Scope {
   /// f(linear solver) with the nearest one, from this node upwards.
   template <class F>
   void withLinearSolver(F&& f) const {
-    if constexpr (N::template count < role::LinearSolver >> 0)
+    if constexpr (always<role::LinearSolver>)
       f(node.template first<role::LinearSolver>());
     else
       above.withLinearSolver(f);
   }
 };
 
-/// down(component, scope) from the root to the leaves, up(component, scope) on the way back. Unrolled by the
-/// compiler.
-template <class S, class Down, class Up>
-void traverse(S const& scope, Down&& down, Up&& up) {
-  scope.forEachComponent([&](auto& component) { down(component, scope); });
+/// down(component, scope) from the root to the leaves, up(component, scope) on the way back, each for the
+/// components with one of its roles: traverse(scope, on<role::Mass>([](auto& mass, auto const& scope)
+/// {...})).
+template <class S, class Down, class... DownRoles, class Up, class... UpRoles>
+void traverse(S const& scope, RoleVisitor<Down, DownRoles...> const& down,
+              RoleVisitor<Up, UpRoles...> const& up) {
+  auto visitDown = on<DownRoles...>([&](auto& component) { down.f(component, scope); });
+  scope.forEachComponent(visitDown);
   scope.forEachChild([&](auto const& child) { traverse(child, down, up); });
-  scope.forEachComponent([&](auto& component) { up(component, scope); });
+  auto visitUp = on<UpRoles...>([&](auto& component) { up.f(component, scope); });
+  scope.forEachComponent(visitUp);
 }
 
-template <class S, class Down>
-void traverse(S const& scope, Down&& down) {
-  scope.forEachComponent([&](auto& component) { down(component, scope); });
+template <class S, class Down, class... Roles>
+void traverse(S const& scope, RoleVisitor<Down, Roles...> const& down) {
+  auto visit = on<Roles...>([&](auto& component) { down.f(component, scope); });
+  scope.forEachComponent(visit);
   scope.forEachChild([&](auto const& child) { traverse(child, down); });
 }
 

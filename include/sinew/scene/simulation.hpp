@@ -7,75 +7,46 @@
 namespace sinew {
 
 /// A typed scene that runs: init(), then animate(dt) as often as wanted. After init a step neither allocates
-/// nor makes an indirect call. Copies of a simulation are independent of each other.
+/// nor makes an indirect call. Copies of a simulation are independent of each other. A runtime tree runs in
+/// the same way (runtime/node.hpp).
 template <class Root>
 class Simulation {
  public:
+  using RootScope = typename ScopeOf<Root, NoScope>::type;
   /// The scene fulfils scene/checks.hpp. Where it does not, an assertion has said why, and the rest stays
   /// away.
-  static constexpr bool proved = checks::scene<Scope<Root, NoScope>>();
+  static constexpr bool proved = checks::scene<RootScope>();
 
   explicit Simulation(Root root) : root_(std::move(root)) {}
 
   /// Checks all fields, sizes all states, initialises all components. Throws Error, naming node, component
   /// and field; the simulation then stays uninitialised.
-  void init() {
-    if constexpr (proved) {
-      initialised_ = false;
-      const auto scope = rootScope();
-      traverse(scope, [](auto& c, auto const& s) { check_fields(c, s.path()); });
-      initStates(scope);
-      traverse(scope, [](auto& c, auto const& s) { initComponent(c, s); });
-      initSolvers(scope);
-      time_ = 0;
-      step_ = 0;
-      propagate();
-      initialised_ = true;
-    }
-  }
+  void init();
 
   /// Advances the scene by dt seconds. Throws Error where dt is not a positive number, and where a state is
   /// no longer finite after the step.
-  void animate(double dt) {
-    if (!initialised_) throw Error("Simulation::animate", "the scene is not initialised; call init() first");
-    if (!(dt > 0) || !std::isfinite(dt))
-      throw Error("Simulation::animate",
-                  text("dt is ", dt, " s, but must be a finite number greater than 0"));
-    if constexpr (proved) {
-      const auto scope = rootScope();
-      integrate(scope, dt);
-      time_ += dt;
-      ++step_;
-      visualsAreCurrent_ = false;
-      traverse(scope, [&](auto& c, auto const& s) { endStep(c, s, dt); });
-    }
-  }
+  void animate(double dt);
 
   /// Back to positions and velocities as they were after init, at time 0.
-  void reset() {
-    if (!initialised_) throw Error("Simulation::reset", "the scene is not initialised; call init() first");
-    MechanicalOperations<decltype(rootScope())>(rootScope()).forEachState([](auto& s) { s.reset(); });
-    time_ = 0;
-    step_ = 0;
-    propagate();
-  }
+  void reset();
 
   double time() const { return time_; }
   long step() const { return step_; }
-  double kineticEnergy() {
-    return over([](auto& o) { return o.kineticEnergy(); });
+  /// Goes on counting from another time and step: those of a checkpoint.
+  void continueFrom(double time, long step) {
+    time_ = time;
+    step_ = step;
   }
+  double kineticEnergy();
   /// Energy of the force fields at the current positions, gravity left out [J].
-  double potentialEnergy() {
-    return over([](auto& o) { return o.potentialEnergy(); });
-  }
+  double potentialEnergy();
 
   /// The node at a path from the root, resolved by the compiler: sim.at<"liver/skin">(). A visual model in it
   /// is brought up to date; animate() leaves them behind, since they are looked at less often than the scene
   /// is stepped.
   template <FixedString Path>
   auto& at() {
-    using Found = checks::AtPath<Scope<Root, NoScope>, Path>;
+    using Found = checks::AtPath<RootScope, Path>;
     constexpr bool found = !std::is_same_v<Found, NoScope>;
     static_assert(found,
                   "Sinew: no node has this path. Paths are names joined by '/', from the children of the "
@@ -91,14 +62,19 @@ class Simulation {
   Root& root() { return root_; }
 
   /// Visual models follow their mappings.
-  void updateVisual() {
-    if (visualsAreCurrent_) return;
-    traverse(rootScope(), [](auto& c, auto const& scope) {
-      using C = std::decay_t<decltype(c)>;
-      if constexpr (HasRole<C, role::Mapping> && std::decay_t<decltype(scope)>::isVisual)
-        c.apply(scope.node.visual().position, scope.template parentState<typename C::In>().position);
-    });
-    visualsAreCurrent_ = true;
+  void updateVisual();
+
+  /// Changes the scene in the middle of the simulation: edit(root) is given a copy, in which runtime nodes
+  /// come, go and move. What is new is initialised, and the copy takes the place of the scene; where edit or
+  /// the new scene is wrong, Error is thrown and nothing has changed.
+  template <class F>
+  void change(F&& edit) {
+    if (!initialised_) throw Error("Simulation::change", "the scene is not initialised; call init() first");
+    Root next(root_);
+    edit(next);
+    initScene(scopeOf(next), true);
+    root_ = std::move(next);
+    propagate();
   }
 
  private:
@@ -108,58 +84,56 @@ class Simulation {
   bool initialised_ = false, visualsAreCurrent_ = false;
   static constexpr NoScope above_{};
 
-  Scope<Root, NoScope> rootScope() { return {root_, above_}; }
+  static RootScope scopeOf(Root& root) { return {root, above_}; }
+  RootScope rootScope() { return scopeOf(root_); }
 
   template <class F>
   auto over(F&& f) {
     const auto scope = rootScope();
-    MechanicalOperations<std::decay_t<decltype(scope)>> operations(scope, time_);
+    MechanicalOperations<RootScope> operations(scope, time_);
     return f(operations);
   }
 
-  void propagate() {
-    over([](auto& o) { return o.propagate(vec_id::position, vec_id::velocity), 0; });
-    visualsAreCurrent_ = false;
-  }
+  void propagate();
 
-  // parents before children, since a mapping sizes and places the state of its node
-  template <class S>
-  static void initStates(S const& scope) {
-    if constexpr (S::isMapped) {
-      auto& mapping = scope.node.template first<role::Mapping>();
-      using M = std::decay_t<decltype(mapping)>;
-      auto const& parent = scope.above.stateScope();
-      auto& parentState = parent.node.state();
-      auto place = [&](auto& child, auto& rest) {
-        mapping.init(parent.template context<typename M::In>(),
-                     {scope.path(), rest, scope.topology()},
-                     child.position);
-      };
-      if constexpr (S::isVisual) {
-        auto& visual = scope.node.visual();
-        visual.init(scope.path());
-        place(visual, visual.position);
-        mapping.apply(visual.position, parentState.position);
-      } else {
-        auto& child = scope.node.state();
-        place(child, child.position);
-        child.restPosition.assign(child.position.size(), M::Out::zero());
-        mapping.apply(child.restPosition, parentState.restPosition);
-        mapping.apply(child.position, parentState.position);
-        child.init(scope.path());
-      }
-    } else if constexpr (S::ownsState) {
-      scope.node.state().init(scope.path());
-    } else if constexpr (S::isVisual) {
-      scope.node.visual().init(scope.path());
+  // topologies are made first; then states, parents before children; then what acts on them
+  static void initScene(RootScope const& scope, bool again);
+
+  // a mapping sizes and places the state of its node
+  template <class C, class S>
+  static void initState(C& c, S const& scope) {
+    if constexpr (HasRole<C, role::Mapping>) {
+      scope.withMapped(c, [&](auto& child, auto& parent) {
+        using Child = std::decay_t<decltype(child)>;
+        auto place = [&](auto& rest) {
+          c.init(scope.template parentContext<typename C::In>(),
+                 {scope.path(), rest, scope.topology()},
+                 child.position);
+        };
+        if constexpr (HasRole<Child, role::VisualModel>) {
+          child.init(scope.path());
+          place(child.position);
+          c.apply(child.position, parent.position);
+        } else {
+          child.place(scope.path(), scope.topology().positions);
+          child.takeGiven();
+          place(child.position);
+          child.restPosition.assign(child.position.size(), C::Out::zero());
+          c.apply(child.restPosition, parent.restPosition);
+          c.apply(child.position, parent.position);
+          child.init(scope.path());
+        }
+      });
+    } else if (!scope.mapped()) {
+      if constexpr (HasRole<C, role::State>) c.place(scope.path(), scope.topology().positions);
+      c.init(scope.path());
     }
-    scope.forEachChild([](auto const& child) { initStates(child); });
   }
 
   template <class C, class S>
   static void initComponent(C& c, S const& scope) {
     if constexpr (HasRole<C, role::Topology>) {
-      if constexpr (S::hasState) c.init(scope.template context<checks::DataTypesAt<S>>());
+      scope.withContext([&](auto const& context) { c.init(context); });
     } else if constexpr (HasRole<C, role::ForceField> || HasRole<C, role::Mass> ||
                          HasRole<C, role::ProjectiveConstraint>) {
       c.init(scope.template context<typename C::DataTypes>());
@@ -172,36 +146,44 @@ class Simulation {
 
   template <class S>
   static void initSolvers(S const& scope) {
-    if constexpr (S::NodeType::template count < role::OdeSolver >> 0) {
-      MechanicalOperations<S> operations(scope);
-      using Ode = std::decay_t<decltype(scope.node.template first<role::OdeSolver>())>;
-      if constexpr (Ode::implicit)
-        scope.withLinearSolver([&](auto& linear) {
-          operations.reserve(Ode::auxiliary + std::decay_t<decltype(linear)>::auxiliary);
-          linear.init(operations);
-        });
-      else
-        operations.reserve(Ode::auxiliary);
-    }
+    auto visit = on<role::OdeSolver>([&](auto& ode) {
+      using Ode = std::decay_t<decltype(ode)>;
+      scope.located(ode, [&] {
+        MechanicalOperations<S> operations(scope);
+        if constexpr (Ode::implicit)
+          scope.withLinearSolver([&](auto& linear) {
+            operations.reserve(Ode::auxiliary + std::decay_t<decltype(linear)>::auxiliary);
+            linear.init(operations);
+          });
+        else
+          operations.reserve(Ode::auxiliary);
+      });
+    });
+    scope.forEachComponent(visit);
     scope.forEachChild([](auto const& child) { initSolvers(child); });
   }
 
   // each ODE solver integrates its subtree and propagates; where there is none, the children are looked at
   template <class S>
   void integrate(S const& scope, double dt) {
-    if constexpr (S::NodeType::template count < role::OdeSolver >> 0) {
+    bool solved = false;
+    auto visit = on<role::OdeSolver>([&](auto& ode) {
       MechanicalOperations<S> operations(scope, time_, dt);
-      scope.node.template first<role::OdeSolver>().solve(operations, dt);
+      ode.solve(operations, dt);
+      operations.projectPositionAndVelocity(time_ + dt, vec_id::position, vec_id::velocity);
       operations.propagate(vec_id::position, vec_id::velocity);
-    } else {
-      scope.forEachChild([&](auto const& child) { integrate(child, dt); });
-    }
+      solved = true;
+    });
+    scope.forEachComponent(visit);
+    if constexpr (!S::template always<role::OdeSolver>)
+      if (!solved) scope.forEachChild([&](auto const& child) { integrate(child, dt); });
   }
 
   template <class C, class S>
   void endStep(C& c, S const& scope, double dt) const {
-    if constexpr (HasRole<C, role::State>) checkFinite(c, scope);
-    if constexpr (HasRole<C, role::StepCallback>) {
+    if constexpr (HasRole<C, role::State>) {
+      if (!scope.mapped()) checkFinite(c, scope);
+    } else {
       const StepInfo info{step_, time_, dt};
       if constexpr (std::is_invocable_v<decltype(c.call)&, StepInfo const&, decltype(scope.node)>)
         c.call(info, scope.node);
@@ -213,7 +195,6 @@ class Simulation {
   template <class C, class S>
   void checkFinite(C const& state, S const& scope) const {
     using D = typename C::DataTypes;
-    if constexpr (S::isMapped) return;
     const int x = vec::find_not_finite<D>(state.position);
     if (x < 0) return;
     throw Error(text("step ", step_, " (time ", time_, " s), ", scope.path()),
@@ -225,5 +206,90 @@ class Simulation {
                      "or a softer material"));
   }
 };
+
+// Outside the class, so that a program may have them instantiated in one place: runtime/precompiled.hpp.
+
+template <class Root>
+void Simulation<Root>::init() {
+  if constexpr (proved) {
+    initialised_ = false;
+    initScene(rootScope(), false);
+    time_ = 0;
+    step_ = 0;
+    propagate();
+    initialised_ = true;
+  }
+}
+
+template <class Root>
+void Simulation<Root>::animate(double dt) {
+  if (!initialised_) throw Error("Simulation::animate", "the scene is not initialised; call init() first");
+  if (!(dt > 0) || !std::isfinite(dt))
+    throw Error("Simulation::animate", text("dt is ", dt, " s, but must be a finite number greater than 0"));
+  if constexpr (proved) {
+    const auto scope = rootScope();
+    integrate(scope, dt);
+    time_ += dt;
+    ++step_;
+    visualsAreCurrent_ = false;
+    traverse(scope, on<role::State, role::StepCallback>([&](auto& c, auto const& s) { endStep(c, s, dt); }));
+  }
+}
+
+template <class Root>
+void Simulation<Root>::reset() {
+  if (!initialised_) throw Error("Simulation::reset", "the scene is not initialised; call init() first");
+  traverse(rootScope(), on<role::State>([](auto& s, auto const&) { s.reset(); }));
+  time_ = 0;
+  step_ = 0;
+  propagate();
+}
+
+template <class Root>
+double Simulation<Root>::kineticEnergy() {
+  return over([](auto& o) { return o.kineticEnergy(); });
+}
+
+template <class Root>
+double Simulation<Root>::potentialEnergy() {
+  return over([](auto& o) { return o.potentialEnergy(); });
+}
+
+template <class Root>
+void Simulation<Root>::updateVisual() {
+  if (visualsAreCurrent_) return;
+  traverse(rootScope(), on<role::Mapping>([](auto& mapping, auto const& scope) {
+             scope.withMapped(mapping, [&](auto& child, auto& parent) {
+               if constexpr (HasRole<std::decay_t<decltype(child)>, role::VisualModel>)
+                 mapping.apply(child.position, parent.position);
+             });
+           }));
+  visualsAreCurrent_ = true;
+}
+
+template <class Root>
+void Simulation<Root>::initScene(RootScope const& scope, bool again) {
+  scope.check();
+  traverse(scope, on<AnyRole>([again](auto& c, auto const& s) {
+             s.ifNew(c, again, [&] { check_fields(c, s.path()); });
+           }));
+  traverse(scope, on<role::Topology>([again](auto& c, auto const& s) {
+             if constexpr (requires { c.generate(s.path()); })
+               s.ifNew(c, again, [&] { c.generate(s.path()); });
+           }));
+  traverse(scope, on<role::Mapping, role::State, role::VisualModel>([again](auto& c, auto const& s) {
+             s.ifNew(c, again, [&] { initState(c, s); });
+           }));
+  traverse(scope,
+           on<AnyRole>([again](auto& c, auto const& s) { s.ifNew(c, again, [&] { initComponent(c, s); }); }));
+  initSolvers(scope);
+  scope.settled();
+}
+
+template <class Root>
+void Simulation<Root>::propagate() {
+  over([](auto& o) { return o.propagate(vec_id::position, vec_id::velocity), 0; });
+  visualsAreCurrent_ = false;
+}
 
 }  // namespace sinew

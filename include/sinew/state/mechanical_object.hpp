@@ -4,6 +4,7 @@
 #include <sinew/core/component.hpp>
 #include <sinew/state/vector_operations.hpp>
 
+#include <span>
 #include <vector>
 
 namespace sinew {
@@ -21,12 +22,19 @@ struct MechanicalObject {
   VecCoord position{};      // current positions [m]; those given are the initial ones
   VecDeriv velocity{};      // current velocities [m/s]; zero when not given
   VecCoord restPosition{};  // undeformed positions [m]; the initial ones when not given
+  // moves the positions given, at init: scaled first, then turned by Euler angles about x, y, z, then shifted
+  Eigen::Vector3d translation{0, 0, 0}, rotation{0, 0, 0}, scale3d{1, 1, 1};
 
   static constexpr auto fields() {
     using M = MechanicalObject;
-    return field_list(field("position", &M::position, "m", "positions at the start"),
-                      field("velocity", &M::velocity, "m/s", "velocities at the start"),
-                      field("rest_position", &M::restPosition, "m", "undeformed positions"));
+    return field_list(
+        field("position", &M::position, "m", "positions at the start"),
+        field("velocity", &M::velocity, "m/s", "velocities at the start"),
+        field("rest_position", &M::restPosition, "m", "undeformed positions"),
+        field("translation", &M::translation, "m", "moves all positions at the start"),
+        field(
+            "rotation", &M::rotation, "degree", "turns all positions at the start, about x, then y, then z"),
+        field("scale3d", &M::scale3d, "", "stretches all positions at the start").also("scale"));
   }
 
   // after init
@@ -36,16 +44,60 @@ struct MechanicalObject {
   std::vector<VecDeriv> auxiliaryDerivs{};
   VecCoord resetPosition{};
   VecDeriv resetVelocity{};
+  VecCoord given{};    // positions that the mapping of a mapped state was given
   int dofOffset = -1;  // first scalar of this state in the assembled system of its solver
 
   std::size_t size() const { return position.size(); }
+
+  /// Takes the points of a topology where no positions are given, and moves them as the fields say, once.
+  void place(std::string const& where, std::span<Eigen::Vector3d const> points) {
+    if (position.empty())
+      for (auto const& p : points) {
+        position.push_back(D::zero());
+        D::setCenter(position.back(), p.head<D::spatial>().template cast<typename D::Real>());
+      }
+    const Eigen::Vector3d none = Eigen::Vector3d::Zero(), whole = Eigen::Vector3d::Ones();
+    if (translation == none && rotation == none && scale3d == whole) return;
+    if constexpr (D::spatial == 3) {
+      const Eigen::Quaterniond turn = euler_angles(rotation);
+      for (VecCoord* all : {&position, &restPosition})
+        for (auto& x : *all) {
+          const Eigen::Vector3d p =
+              turn * scale3d.cwiseProduct(D::center(x).template cast<double>()) + translation;
+          D::setCenter(x, p.template cast<typename D::Real>());
+          if constexpr (D::rigid) x.orientation = turn.template cast<typename D::Real>() * x.orientation;
+        }
+      translation = rotation = none;
+      scale3d = whole;
+    } else {
+      throw Error(
+          where,
+          text(component_name<MechanicalObject>(),
+               ": translation, rotation and scale3d are for points in space; move the positions instead"));
+    }
+  }
+
+  /// A mapped state starts from what it was given, however often it is initialised.
+  void takeGiven() {
+    if (given.empty())
+      given = position;
+    else
+      position = given;
+  }
 
   void init(std::string const& where) {
     const std::size_t n = position.size();
     auto same = [&](std::size_t given, std::string_view name) {
       if (given != 0 && given != n)
-        throw Error(where, text(component_name<MechanicalObject>(), ": ", name, " has ", given,
-                                " entries, position has ", n, "; give one for each, or none"));
+        throw Error(where,
+                    text(component_name<MechanicalObject>(),
+                         ": ",
+                         name,
+                         " has ",
+                         given,
+                         " entries, position has ",
+                         n,
+                         "; give one for each, or none"));
     };
     same(velocity.size(), "velocity");
     same(restPosition.size(), "rest_position");
@@ -53,8 +105,11 @@ struct MechanicalObject {
       for (std::size_t i = 0; i < n; ++i) {
         const auto norm = position[i].orientation.norm();
         if (!(norm > 1e-6))
-          throw Error(where, text(component_name<MechanicalObject>(), ": the orientation of position ", i,
-                                  " is zero; give a quaternion of length 1"));
+          throw Error(where,
+                      text(component_name<MechanicalObject>(),
+                           ": the orientation of position ",
+                           i,
+                           " is zero; give a quaternion of length 1"));
         position[i].orientation.coeffs() /= norm;
       }
     if (velocity.empty()) velocity.assign(n, D::Deriv::Zero());

@@ -54,7 +54,8 @@ double dot(V const& a, V const& b) {
   return double(flat(a).dot(flat(b)));
 }
 
-/// First entry that is not finite, or -1. A finite sum has finite terms; a sum that overflows is looked at term by term.
+/// First entry that is not finite, or -1. A finite sum has finite terms; a sum that overflows is looked at
+/// term by term.
 template <class D>
 int find_not_finite(typename D::VecCoord const& x) {
   if constexpr (!D::rigid)

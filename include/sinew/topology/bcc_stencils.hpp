@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <sinew/topology/bcc_lattice.hpp>
 #include <sinew/core/mesh.hpp>
+#include <sinew/topology/bcc_lattice.hpp>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>

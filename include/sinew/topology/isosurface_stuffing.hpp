@@ -2,11 +2,11 @@
 #pragma once
 
 #include <sinew/core/error.hpp>
+#include <sinew/core/mesh.hpp>
 #include <sinew/topology/bcc_lattice.hpp>
 #include <sinew/topology/bcc_stencils.hpp>
 #include <sinew/topology/bcc_warp.hpp>
 #include <sinew/topology/implicit_surface.hpp>
-#include <sinew/core/mesh.hpp>
 
 #include <Eigen/Core>
 #include <algorithm>

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <sinew/core/error.hpp>
-#include <sinew/topology/adjacency.hpp>
 #include <sinew/core/mesh.hpp>
+#include <sinew/topology/adjacency.hpp>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/mesh.hpp>
 #include <sinew/topology/adjacency.hpp>
 #include <sinew/topology/bcc_lattice.hpp>
 #include <sinew/topology/implicit_surface.hpp>
 #include <sinew/topology/isosurface_stuffing.hpp>
-#include <sinew/core/mesh.hpp>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>

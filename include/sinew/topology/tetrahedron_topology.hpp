@@ -40,8 +40,9 @@ struct TetrahedronTopology {
         if (!(std::abs(volume) > 1e-14 * longest * longest * longest))
           throw Error(where, text("tetrahedron ", e, " has no volume; move or merge its points"));
         if (volume < 0)
-          throw Error(where, text("tetrahedron ", e, " is inside out (volume ", volume,
-                                  " m^3); swap two of its points"));
+          throw Error(
+              where,
+              text("tetrahedron ", e, " is inside out (volume ", volume, " m^3); swap two of its points"));
       }
   }
 };

@@ -12,7 +12,8 @@ struct VisualModel {
   using Role = role::VisualModel;
   using DataTypes = Vec3f;
   using VecCoord = Vec3f::VecCoord;
-  static constexpr std::string_view className = "VisualModel";
+  static constexpr std::string_view className = "VisualModel",
+                                    aliases = "OglModel VisualModelImpl OglTetrahedralModel";
 
   Mesh mesh{};  // its positions are those at init
 

@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: BSL-1.0
+#include <sinew/runtime/precompiled.hpp>
+
+namespace sinew {
+template std::vector<ClassInfo> make_class_table<Standard>();
+template ReadScene<Standard> read_scene<Standard>(std::string const&, ReadSceneOptions const&);
+template ReadScene<Standard> parse_scene<Standard>(std::string const&, std::string, ReadSceneOptions const&);
+}  // namespace sinew

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/component.hpp>
+
+#include <array>
+#include <cstddef>
+#include <type_traits>
+
+namespace sinew {
+
+/// A list of component types, closed: what the law suites prove, and what scenes at run time may be made of.
+/// A list of one's own extends another: struct Mine : Registry<Standard, MyForce<Vec3d>> {}. A class of its
+/// own, as here, keeps the names short that compilers and debuggers make of it.
+template <class... Entries>
+struct Registry {
+  using Listed = Registry;
+};
+
+namespace detail {
+
+template <class... Cs>
+struct TypeList {};
+template <class... Lists>
+struct Concatenated;
+template <>
+struct Concatenated<> {
+  using type = TypeList<>;
+};
+template <class... A>
+struct Concatenated<TypeList<A...>> {
+  using type = TypeList<A...>;
+};
+template <class... A, class... B, class... Rest>
+struct Concatenated<TypeList<A...>, TypeList<B...>, Rest...> {
+  using type = typename Concatenated<TypeList<A..., B...>, Rest...>::type;
+};
+template <class Entry>
+struct Flat {
+  using type = TypeList<Entry>;
+};
+template <class... Entries>
+struct Flat<Registry<Entries...>> {
+  using type = typename Concatenated<typename Flat<Entries>::type...>::type;
+};
+template <class List>
+requires requires { typename List::Listed; }
+struct Flat<List> {
+  using type = typename Flat<typename List::Listed>::type;
+};
+
+template <class... Cs, class F>
+constexpr void for_each_type(TypeList<Cs...>, F&& f) {
+  (f.template operator()<Cs>(), ...);
+}
+template <class... Cs>
+constexpr std::size_t count_types(TypeList<Cs...>) {
+  return sizeof...(Cs);
+}
+template <class C, class... Cs>
+constexpr int index_of_type(TypeList<Cs...>) {
+  int i = 0, found = -1;
+  ((std::is_same_v<C, Cs> && found < 0 ? void(found = i) : void(), ++i), ...);
+  return found;
+}
+
+}  // namespace detail
+
+/// f.operator()<C>() for each component of a registry and of those inside it.
+template <class R, class F>
+constexpr void for_each_registered(F&& f) {
+  detail::for_each_type(typename detail::Flat<R>::type{}, f);
+}
+template <class R>
+inline constexpr std::size_t registered_count = detail::count_types(typename detail::Flat<R>::type{});
+/// Place of C in a registry; -1 where it is not in it.
+template <class R, class C>
+inline constexpr int registered_index = detail::index_of_type<C>(typename detail::Flat<R>::type{});
+
+}  // namespace sinew

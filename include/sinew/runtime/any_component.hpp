@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/registry.hpp>
+#include <sinew/scene/node.hpp>
+
+#include <array>
+#include <string>
+#include <utility>
+
+namespace sinew {
+
+namespace detail {
+
+/// What can be done with a component of whatever class in a registry, by its place in it.
+struct ComponentOperations {
+  void* (*make)();
+  void* (*copy)(void const*);
+  void (*destroy)(void*);
+  std::string (*name)();
+};
+template <class C>
+constexpr ComponentOperations component_operations() {
+  return {[]() -> void* { return new C{}; },
+          [](void const* c) -> void* { return new C(*static_cast<C const*>(c)); },
+          [](void* c) { delete static_cast<C*>(c); },
+          [] { return component_name<C>(); }};
+}
+template <class... Cs>
+constexpr auto all_component_operations(TypeList<Cs...>) {
+  return std::array{component_operations<Cs>()...};
+}
+
+// the functions of F for the classes with one of the roles; null for the others
+template <class F, class... Roles, class... Cs>
+constexpr auto role_table(TypeList<Cs...>) {
+  using Function = void (*)(void*, F&);
+  return std::array<Function, sizeof...(Cs)>{[]() -> Function {
+    if constexpr (has_any_role<Cs, Roles...>)
+      return [](void* c, F& f) { f(*static_cast<Cs*>(c)); };
+    else
+      return nullptr;
+  }()...};
+}
+
+}  // namespace detail
+
+/// A component of one of the classes of a registry R: a closed variant, whose value keeps its address.
+template <class R>
+class AnyComponent {
+ public:
+  using List = typename detail::Flat<R>::type;
+
+  template <class C>
+  static AnyComponent of(C component) {
+    static_assert(registered_index<R, C> >= 0,
+                  "Sinew: a component is not in the registry of the runtime tree. Add it: Registry<Standard, "
+                  "MyForce<Vec3d>>.");
+    return {registered_index<R, C>, new C(std::move(component))};
+  }
+  /// A default one of the class at a place of the registry.
+  static AnyComponent make(int type) { return {type, operations[std::size_t(type)].make()}; }
+
+  AnyComponent(AnyComponent const& other)
+      : type_(other.type_), value_(operations[other.index()].copy(other.value_)) {}
+  AnyComponent(AnyComponent&& other) noexcept
+      : type_(other.type_), value_(std::exchange(other.value_, nullptr)) {}
+  AnyComponent& operator=(AnyComponent other) noexcept {
+    std::swap(type_, other.type_);
+    std::swap(value_, other.value_);
+    return *this;
+  }
+  ~AnyComponent() {
+    if (value_) operations[index()].destroy(value_);
+  }
+
+  int type() const { return type_; }
+  void* address() const { return value_; }
+  /// "UniformMass<Vec3d>".
+  std::string name() const { return operations[index()].name(); }
+
+  template <class C>
+  C* getIf() const {
+    return type_ == registered_index<R, C> ? static_cast<C*>(value_) : nullptr;
+  }
+  /// f(component), if its class has one of the roles; says whether.
+  template <class... Roles, class F>
+  bool visit(F&& f) const {
+    static constexpr auto table = detail::role_table<std::remove_reference_t<F>, Roles...>(List{});
+    const auto call = table[index()];
+    if (call) call(value_, f);
+    return call != nullptr;
+  }
+  template <class Role>
+  bool is() const {
+    return roles<Role>[index()];
+  }
+
+ private:
+  int type_;
+  void* value_;
+  static constexpr auto operations = detail::all_component_operations(List{});
+  template <class Role>
+  static constexpr auto roles = []<class... Cs>(detail::TypeList<Cs...>) {
+    return std::array<bool, sizeof...(Cs)>{std::is_same_v<typename Cs::Role, Role>...};
+  }(List{});
+
+  AnyComponent(int type, void* value) : type_(type), value_(value) {}
+  std::size_t index() const { return std::size_t(type_); }
+};
+
+/// The class of states over D in a registry.
+template <class R, class D>
+struct StateOf {
+  template <class... Cs>
+  static constexpr auto find(detail::TypeList<Cs...> list) {
+    constexpr int which = [] {
+      int i = 0, found = -1;
+      (
+          [&] {
+            if constexpr (HasRole<Cs, role::State>)
+              if constexpr (std::is_same_v<typename Cs::DataTypes, D>) found = i;
+            ++i;
+          }(),
+          ...);
+      return found;
+    }();
+    static_assert(which >= 0,
+                  "Sinew: the registry has no MechanicalObject for the DataTypes of one of its components.");
+    return pick<which>(list);
+  }
+  template <int I, class... Cs>
+  static constexpr auto pick(detail::TypeList<Cs...>) {
+    return std::type_identity<std::tuple_element_t<std::size_t(I), std::tuple<Cs...>>>{};
+  }
+  using type = typename decltype(find(typename detail::Flat<R>::type{}))::type;
+};
+
+}  // namespace sinew

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/runtime/scope.hpp>
+
+namespace sinew {
+
+/// The node at a path that links use, from a node on: names, "." and "..", from the top where it starts with
+/// '/'. Null where there is none.
+template <class R>
+RuntimeNode<R>* resolve_path(RuntimeNode<R>& from, std::string_view path) {
+  RuntimeNode<R>* at = &from;
+  if (path.starts_with('/')) at = &from.top();
+  while (!path.empty()) {
+    const std::string_view name = path.substr(0, path.find('/'));
+    path.remove_prefix(std::min(name.size() + 1, path.size()));
+    if (name == "..")
+      at = at->parent();
+    else if (!name.empty() && name != ".")
+      at = at->find_node(name);
+    if (!at) return nullptr;
+  }
+  return at;
+}
+
+namespace detail {
+
+/// Name of the DataTypes of the state on which components of a scope act; empty where there is none.
+template <class R>
+std::string_view data_types_at(RuntimeScope<R> const& scope) {
+  const RuntimeScope<R> owner = scope.stateScope();
+  if (owner.atMount) return owner.mount().dataTypes;
+  std::string_view name;
+  if (owner.node.state())
+    owner.node.state()->component.template visit<role::State>(
+        [&](auto const& s) { name = data_types_name<typename std::decay_t<decltype(s)>::DataTypes>::value; });
+  return name;
+}
+
+template <class R>
+struct RuntimeChecker {
+  RuntimeScope<R> const& scope;
+  RuntimeEntry<R>& entry;
+
+  [[noreturn]] void fail(std::string_view message) const {
+    const std::string where = text(scope.path(), ": ", entry.component.name());
+    if (entry.origin.empty()) throw Error(where, message);
+    throw Error(entry.origin, text(where, ": ", message));
+  }
+
+  template <class D>
+  void state(RuntimeScope<R> const& at, std::string_view who, std::string_view none) const {
+    const std::string_view found = data_types_at(at), wanted = data_types_name<D>::value;
+    if (found.empty()) fail(none);
+    if (found != wanted)
+      fail(text(
+          "is over ", wanted, ", but ", who, " is a state over ", found, "; give both the same template"));
+  }
+
+  template <class C>
+  void operator()(C& c) const {
+    if constexpr (HasRole<C, role::ForceField> || HasRole<C, role::Mass> ||
+                  HasRole<C, role::ProjectiveConstraint>) {
+      state<typename C::DataTypes>(
+          scope,
+          "what it acts on",
+          "has no state to act on; put it into a node with a MechanicalObject, or below one");
+      if (HasRole<C, role::ProjectiveConstraint> && scope.stateScope().mapped())
+        fail("acts on a mapped state, which follows its parent; constrain the parent instead");
+    } else if constexpr (HasRole<C, role::Mapping>) {
+      mapping<C>();
+    } else if constexpr (HasRole<C, role::InteractionForceField>) {
+      ends(c);
+    } else if constexpr (HasRole<C, role::OdeSolver>) {
+      if constexpr (C::implicit) {
+        bool found = false;
+        scope.withLinearSolver([&](auto&) { found = true; });
+        if (!found)
+          fail("is implicit and finds no linear solver; add one, such as CGLinearSolver, to its node");
+      }
+    }
+  }
+
+  template <class M>
+  void mapping() const {
+    if (!scope.node.state() && !scope.node.visual())
+      fail("has no child: its node has neither a MechanicalObject nor a VisualModel; add one");
+    state<typename M::In>(
+        scope.above(), "its parent", "has no parent: no node above has a MechanicalObject; add one");
+    if (scope.node.state())
+      state<typename M::Out>(scope, "its child", "");
+    else if (!std::is_same_v<typename M::Out, Vec3f>)
+      fail(text("maps to ",
+                data_types_name<typename M::Out>::value,
+                ", but a VisualModel is of Vec3f; map to Vec3f"));
+  }
+
+  template <class C>
+  void ends(C& c) const {
+    if constexpr (requires { c.ends.object1; }) {
+      const std::string* paths[] = {&c.ends.object1, &c.ends.object2};
+      for (std::size_t k = 0; k < 2; ++k) {
+        entry.ends[k] = resolve_path(scope.node, *paths[k]);
+        if (!entry.ends[k])
+          fail(text("object",
+                    k + 1,
+                    ": there is no node at '",
+                    *paths[k],
+                    "'; give the path from its node to that end"));
+        state<typename C::DataTypes>(
+            RuntimeScope<R>(*entry.ends[k]),
+            text("object", k + 1),
+            text("object", k + 1, ": the node at '", *paths[k], "' has no MechanicalObject"));
+      }
+    } else {
+      fail("joins two states by compile-time paths, which a runtime tree has not; use ends of type Linked");
+    }
+  }
+};
+
+}  // namespace detail
+
+/// What checks.hpp of scene/ proves of a typed node, for one runtime node. Throws Error.
+template <class R>
+void runtime_checks(RuntimeScope<R> const& scope) {
+  auto& node = scope.node;
+  RuntimeEntry<R>* first[5]{};
+  for (auto& entry : node.components()) {
+    auto one = [&]<class Role>(int slot, std::string_view what) {
+      if (!entry.component.template is<Role>()) return;
+      if (first[slot])
+        detail::RuntimeChecker<R>{scope, entry}.fail(text("is the second ",
+                                                          what,
+                                                          " of its node, beside ",
+                                                          first[slot]->component.name(),
+                                                          "; keep one, or give it a node of its own"));
+      first[slot] = &entry;
+    };
+    one.template operator()<role::State>(0, "state");
+    one.template operator()<role::VisualModel>(0, "state");
+    one.template operator()<role::Mapping>(1, "mapping");
+    one.template operator()<role::Mass>(2, "mass");
+    one.template operator()<role::OdeSolver>(3, "ODE solver");
+    one.template operator()<role::Topology>(4, "topology");
+  }
+  for (std::size_t i = 0; i < node.children().size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (node.children()[i]->name == node.children()[j]->name)
+        throw Error(scope.path(),
+                    text("has two children named '", node.children()[i]->name, "'; rename one"));
+  for (auto& entry : node.components())
+    entry.component.template visit<AnyRole>(detail::RuntimeChecker<R>{scope, entry});
+}
+
+}  // namespace sinew

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/assembly.hpp>
+#include <sinew/core/error.hpp>
+
+namespace sinew {
+
+/// Called with each block of the Jacobian of a point: the first degree of freedom, the number of columns (0
+/// for the identity), and the entries column by column.
+struct JacobianVisitor {
+  void* self;
+  void (*call)(void* self, int dof, int columns, double const* entries);
+};
+
+namespace detail {
+
+template <class F>
+JacobianVisitor jacobian_visitor(F& f) {
+  return {&f, [](void* self, int dof, int columns, double const* entries) {
+            (*static_cast<F*>(self))(dof, columns, entries);
+          }};
+}
+template <class J>
+void emit(JacobianVisitor const& visitor, int dof, J const& j) {
+  if constexpr (std::is_same_v<J, IdentityJacobian>) {
+    visitor.call(visitor.self, dof, 0, nullptr);
+  } else {
+    const Eigen::Matrix<double, J::RowsAtCompileTime, J::ColsAtCompileTime> entries =
+        j.template cast<double>();
+    visitor.call(visitor.self, dof, int(entries.cols()), entries.data());
+  }
+}
+
+// f(Jacobian of N rows), of the type that typed trees have in its place
+template <class Real, int N, class F>
+void with_jacobian(int columns, double const* entries, F&& f) {
+  auto fixed = [&]<int C>() {
+    f(Mat<Real, N, C>(Eigen::Map<Mat<double, N, C> const>(entries).template cast<Real>()));
+  };
+  switch (columns) {
+    case 0:
+      return f(IdentityJacobian{});
+    case 1:
+      return fixed.template operator()<1>();
+    case 2:
+      return fixed.template operator()<2>();
+    case 3:
+      return fixed.template operator()<3>();
+    default:
+      return fixed.template operator()<6>();
+  }
+}
+
+// where a block goes, whatever the matrix
+struct BlockTarget {
+  void* matrix;
+  void (*announce)(void*, int row, int column, int h, int w);
+  void (*addDouble)(void*, int row, int column, int h, int w, double const*);
+  void (*addFloat)(void*, int row, int column, int h, int w, float const*);
+};
+template <class Matrix>
+BlockTarget block_target(Matrix& matrix) {
+  auto add = []<class Real>(void* m, int row, int column, int h, int w, Real const* k) {
+    static_cast<Matrix*>(m)->add(row, column, Eigen::Map<Eigen::Matrix<Real, -1, -1> const>(k, h, w));
+  };
+  return {&matrix,
+          [](void* m, int row, int column, int h, int w) {
+            static_cast<Matrix*>(m)->announce(row, column, h, w);
+          },
+          add,
+          add};
+}
+
+// row.. += Ji' K Jj
+template <AssemblyPhase Phase, class Real, int N>
+void place_block(BlockTarget const& target, int row, int column, int columnsI, double const* ji, int columnsJ,
+                 double const* jj, Mat<Real, N> const& k) {
+  auto put = [&](auto const& block) {
+    if constexpr (Phase == AssemblyPhase::add) {
+      if constexpr (sizeof(Real) == 8)
+        target.addDouble(target.matrix, row, column, int(block.rows()), int(block.cols()), block.data());
+      else
+        target.addFloat(target.matrix, row, column, int(block.rows()), int(block.cols()), block.data());
+    }
+  };
+  if constexpr (Phase == AssemblyPhase::pattern) {
+    target.announce(target.matrix, row, column, columnsI == 0 ? N : columnsI, columnsJ == 0 ? N : columnsJ);
+  } else {
+    with_jacobian<Real, N>(columnsI, ji, [&](auto const& left) {
+      with_jacobian<Real, N>(columnsJ, jj, [&](auto const& right) {
+        using Left = std::decay_t<decltype(left)>;
+        using Right = std::decay_t<decltype(right)>;
+        if constexpr (std::is_same_v<Left, IdentityJacobian> && std::is_same_v<Right, IdentityJacobian>)
+          put(k);
+        else if constexpr (std::is_same_v<Left, IdentityJacobian>)
+          put((k * right).eval());
+        else if constexpr (std::is_same_v<Right, IdentityJacobian>)
+          put((left.transpose() * k).eval());
+        else
+          put((left.transpose() * k * right).eval());
+      });
+    });
+  }
+}
+
+}  // namespace detail
+
+/// Degrees of freedom of a state that is found at run time: mapped, through however many mappings, or not.
+struct ErasedDofs {
+  void const* self;
+  void (*expand)(void const* self, int point, JacobianVisitor const&);
+  int offset = 0, size = 0;  // of an independent state, whose `expand` is null
+};
+
+/// What MatrixSink is to typed trees, with the Jacobians found at run time and the matrix out of sight: one
+/// instantiation serves all mappings and matrices, and computes the same bits.
+template <AssemblyPhase Phase>
+struct ErasedSink {
+  struct NoMatrix {
+    static constexpr int blockSize = 0;
+  };
+  using MatrixType = NoMatrix;
+  static constexpr AssemblyPhase phase = Phase;
+  static constexpr bool direct = false;
+  detail::BlockTarget target;
+  ErasedDofs first, second;
+
+  template <int SideI = 0, int SideJ = 0, class K>
+  void add(int i, int j, K const& k) const {
+    if constexpr (Phase != AssemblyPhase::bind) {
+      using Real = typename K::Scalar;
+      constexpr int n = K::RowsAtCompileTime;
+      const Mat<Real, n> block = k;
+      expand(SideI == 0 ? first : second, i, [&](int row, int columnsI, double const* ji) {
+        expand(SideJ == 0 ? first : second, j, [&](int column, int columnsJ, double const* jj) {
+          detail::place_block<Phase, Real, n>(target, row, column, columnsI, ji, columnsJ, jj, block);
+        });
+      });
+    }
+  }
+  // constraints act on independent states
+  void fix(int) const {}
+
+ private:
+  template <class F>
+  static void expand(ErasedDofs const& dofs, int point, F&& f) {
+    if (dofs.expand)
+      dofs.expand(dofs.self, point, detail::jacobian_visitor(f));
+    else
+      f(dofs.offset + point * dofs.size, 0, nullptr);
+  }
+};
+
+namespace detail {
+inline ErasedDofs erased(ErasedDofs const& dofs) { return dofs; }
+template <int N>
+ErasedDofs erased(DirectDofs<N> const& dofs) {
+  return {nullptr, nullptr, dofs.offset, N};
+}
+// a chain of typed mappings, as one end of an interaction may have
+template <class M, class P>
+ErasedDofs erased(MappedDofs<M, P> const& dofs) {
+  return {&dofs, [](void const* self, int point, JacobianVisitor const& visitor) {
+            static_cast<MappedDofs<M, P> const*>(self)->expand(
+                point, [&](int dof, auto const& j) { emit(visitor, dof, j); });
+          }};
+}
+}  // namespace detail
+
+/// Degrees of freedom of an independent state of a runtime tree. Only what has to be fast is instantiated for
+/// each matrix: adding blocks of its own size.
+template <int N>
+struct RuntimeDofs {
+  DirectDofs<N> direct;
+};
+namespace detail {
+template <int N>
+ErasedDofs erased(RuntimeDofs<N> const& dofs) {
+  return erased(dofs.direct);
+}
+}  // namespace detail
+
+template <AssemblyPhase Phase, class Matrix, class A, class B>
+requires(std::is_same_v<A, ErasedDofs> ||
+         std::is_same_v<B, ErasedDofs>) ErasedSink<Phase> make_sink(Matrix& matrix, A const& first,
+                                                                    B const& second) {
+  return {detail::block_target(matrix), detail::erased(first), detail::erased(second)};
+}
+
+template <AssemblyPhase Phase, class Matrix, int N>
+auto make_sink(Matrix& matrix, RuntimeDofs<N> const& first, RuntimeDofs<N> const& second) {
+  if constexpr (Phase != AssemblyPhase::pattern && Matrix::blockSize == N)
+    return make_sink<Phase>(matrix, first.direct, second.direct);
+  else
+    return ErasedSink<Phase>{detail::block_target(matrix), detail::erased(first), detail::erased(second)};
+}
+
+}  // namespace sinew

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/runtime/any_component.hpp>
+
+#include <map>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+namespace sinew {
+
+template <class R>
+class RuntimeNode;
+
+/// What a runtime tree knows of the typed node that it hangs below, if any: filled in at each traversal.
+struct Mount {
+  void const* scope = nullptr;
+  std::string (*path)(void const*) = nullptr;
+  Eigen::Vector3d (*gravity)(void const*) = nullptr;
+  TopologyView (*topology)(void const*) = nullptr;
+  void (*expand)(void const*, int point, struct JacobianVisitor const&) = nullptr;
+  std::string_view dataTypes{};  // of the state above; empty: none
+  void* state = nullptr;
+  bool mapped = false;
+};
+
+/// One component of a runtime node, and what is known of it besides.
+template <class R>
+struct RuntimeEntry {
+  AnyComponent<R> component;
+  std::string name;      // by which paths and links find it
+  std::string origin{};  // where it was written, for messages: "liver.scn:12:3"
+  std::map<std::string, std::string, std::less<>>
+      links{};  // fields whose values a scene file took from elsewhere
+
+  // after init
+  bool initialised = false;
+  std::vector<void const*> surroundings{};  // states, mappings and topologies it was initialised with
+  std::array<RuntimeNode<R>*, 2> ends{nullptr, nullptr};  // of an interaction
+};
+
+/// A node of a scene that is composed while the program runs: components of the classes of a registry R, and
+/// children, added and removed at will before the scene starts; afterwards through change() of
+/// runtime/change.hpp. Simulation runs it as it runs typed nodes.
+template <class R>
+class RuntimeNode {
+ public:
+  using Entry = RuntimeEntry<R>;
+  std::string name;
+  Mount mount{};
+
+  explicit RuntimeNode(std::string n = "root") : name(std::move(n)) {}
+  RuntimeNode(RuntimeNode const& other) : name(other.name), mount(other.mount), entries_(other.entries_) {
+    for (auto const& child : other.children_) children_.push_back(std::make_unique<RuntimeNode>(*child));
+    adopt();
+    for (auto& entry : entries_) entry.ends = {nullptr, nullptr};
+  }
+  RuntimeNode(RuntimeNode&& other) noexcept
+      : name(std::move(other.name)),
+        mount(other.mount),
+        entries_(std::move(other.entries_)),
+        children_(std::move(other.children_)) {
+    adopt();
+  }
+  RuntimeNode& operator=(RuntimeNode other) noexcept {
+    name.swap(other.name);
+    mount = other.mount;
+    entries_.swap(other.entries_);
+    children_.swap(other.children_);
+    adopt();
+    return *this;
+  }
+
+  // components
+
+  /// Adds a component under a name, by default that of its class, and returns it.
+  template <class C>
+  C& add(C component, std::string componentName = {}) {
+    if (componentName.empty()) componentName = std::string(C::className);
+    Entry& entry = add(Entry{AnyComponent<R>::of(std::move(component)), std::move(componentName)});
+    return *static_cast<C*>(entry.component.address());
+  }
+  Entry& add(Entry entry) {
+    entries_.push_back(std::move(entry));
+    refresh();
+    return entries_.back();
+  }
+  void remove(std::string_view componentName) {
+    std::erase_if(entries_, [&](Entry const& entry) { return entry.name == componentName; });
+    refresh();
+  }
+  std::vector<Entry> const& components() const { return entries_; }
+  std::vector<Entry>& components() { return entries_; }
+  /// The component of a name; null where there is none.
+  Entry* find(std::string_view componentName) {
+    for (auto& entry : entries_)
+      if (entry.name == componentName) return &entry;
+    return nullptr;
+  }
+  /// The first component of class C; null where there is none.
+  template <class C>
+  C* get() const {
+    for (auto const& entry : entries_)
+      if (C* c = entry.component.template getIf<C>()) return c;
+    return nullptr;
+  }
+  /// The entry whose component is at an address.
+  Entry& entryOf(void const* component) {
+    for (auto& entry : entries_)
+      if (entry.component.address() == component) return entry;
+    throw Error(path(), "a component is not in this node; this is a mistake in Sinew");
+  }
+
+  // children
+
+  RuntimeNode& addChild(RuntimeNode child) {
+    children_.push_back(std::make_unique<RuntimeNode>(std::move(child)));
+    children_.back()->parent_ = this;
+    return *children_.back();
+  }
+  RuntimeNode& addChild(std::string childName) { return addChild(RuntimeNode(std::move(childName))); }
+  /// Takes a child out of this node.
+  RuntimeNode takeChild(RuntimeNode& child) {
+    for (auto c = children_.begin(); c != children_.end(); ++c)
+      if (c->get() == &child) {
+        RuntimeNode taken(std::move(**c));
+        children_.erase(c);
+        taken.parent_ = nullptr;
+        return taken;
+      }
+    throw Error(path(), text("'", child.name, "' is no child of this node"));
+  }
+  std::vector<std::unique_ptr<RuntimeNode>> const& children() const { return children_; }
+  RuntimeNode* parent() const { return parent_; }
+  RuntimeNode& top() { return parent_ ? parent_->top() : *this; }
+
+  /// The node at a path from here ("liver/skin"; "" is this node); null where there is none.
+  RuntimeNode* find_node(std::string_view at) {
+    if (at.empty()) return this;
+    const std::size_t slash = std::min(at.find('/'), at.size());
+    for (auto const& child : children_)
+      if (child->name == at.substr(0, slash))
+        return child->find_node(at.substr(std::min(slash + 1, at.size())));
+    return nullptr;
+  }
+  /// "root/liver/skin".
+  std::string path() const { return parent_ ? text(parent_->path(), '/', name) : text('/', name); }
+
+  // what steps ask for, found once
+
+  Entry* state() const { return state_; }
+  Entry* mapping() const { return mapping_; }
+  Entry* visual() const { return visual_; }
+  Entry* topology() const { return topology_; }
+
+ private:
+  std::vector<Entry> entries_{};
+  std::vector<std::unique_ptr<RuntimeNode>> children_{};
+  RuntimeNode* parent_ = nullptr;
+  Entry *state_ = nullptr, *mapping_ = nullptr, *visual_ = nullptr, *topology_ = nullptr;
+
+  void adopt() {
+    for (auto& child : children_) child->parent_ = this;
+    refresh();
+  }
+  void refresh() {
+    auto first = [&]<class Role>() -> Entry* {
+      for (auto& entry : entries_)
+        if (entry.component.template is<Role>()) return &entry;
+      return nullptr;
+    };
+    state_ = first.template operator()<role::State>();
+    mapping_ = first.template operator()<role::Mapping>();
+    visual_ = first.template operator()<role::VisualModel>();
+    topology_ = first.template operator()<role::Topology>();
+  }
+};
+
+template <class R>
+inline constexpr bool is_node<RuntimeNode<R>> = true;
+
+}  // namespace sinew

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+// Runtime scenes of the standard registry, instantiated once in the library sinew::standard of the CMake
+// project, so that a program which links it compiles in seconds. Without it, include
+// sinew/runtime/runtime.hpp.
+#include <sinew/runtime/read_scene.hpp>
+#include <sinew/runtime/runtime.hpp>
+
+namespace sinew {
+
+using StandardSimulation = Simulation<RuntimeNode<Standard>>;
+
+extern template class Simulation<RuntimeNode<Standard>>;
+extern template std::vector<ClassInfo> make_class_table<Standard>();
+extern template ReadScene<Standard> read_scene<Standard>(std::string const&, ReadSceneOptions const&);
+extern template ReadScene<Standard> parse_scene<Standard>(std::string const&, std::string,
+                                                          ReadSceneOptions const&);
+
+}  // namespace sinew

@@ -1,0 +1,906 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/force/gravity.hpp>
+#include <sinew/runtime/class_table.hpp>
+#include <sinew/runtime/dialect.hpp>
+#include <sinew/runtime/node.hpp>
+#include <sinew/runtime/xml_document.hpp>
+
+#include <map>
+#include <memory>
+#include <set>
+
+namespace sinew {
+
+struct ReadSceneOptions {
+  std::vector<std::string> dataPaths{};  // where files are looked for that are not beside the scene
+  bool lenient = false;                  // an unknown class is a warning
+  std::vector<std::pair<std::string, std::string>> set{};  // "liver/fem.youngModulus" and its value
+};
+
+/// A scene file as a runtime tree, and what was noticed on the way.
+template <class R>
+struct ReadScene {
+  RuntimeNode<R> root;
+  double dt = 0.01;
+  double time = 0;  // of a checkpoint
+  long step = 0;
+  std::vector<std::string> ignored{};   // classes and attributes without a meaning here, each once
+  std::vector<std::string> warnings{};  // what is not simulated, and what was repaired
+  std::vector<std::string> files{};     // data files that were read
+};
+
+/// All that is wrong with a scene file, one message a line, each with file, line and column.
+struct SceneError : Error {
+  std::vector<std::string> messages;
+  explicit SceneError(std::vector<std::string> all) : Error("", joined(all)), messages(std::move(all)) {}
+
+ private:
+  static std::string joined(std::vector<std::string> const& all) {
+    std::string lines;
+    for (auto const& m : all) lines += text(lines.empty() ? "" : "\n", m);
+    return lines;
+  }
+};
+
+namespace detail {
+
+/// Builds a runtime tree from the elements of a scene file, in SOFA's dialect. Links between components are
+/// followed when a value is asked for, so that the order in the file does not matter.
+template <class R>
+class SceneReader {
+ public:
+  SceneReader(ReadSceneOptions const& options)
+      : options_(options), xml_(options.dataPaths), table_(make_class_table<R>()) {}
+
+  ReadScene<R> read(std::string const& path) { return build(xml_.read(path)); }
+  ReadScene<R> parse(std::string const& path, std::string content) {
+    return build(xml_.parse(path, std::move(content)));
+  }
+
+ private:
+  struct Place;
+  enum class Progress { fresh, busy, done };
+  struct Item {
+    Place* place;
+    XmlElement* element;
+    std::string tag, name;
+    std::vector<ClassInfo const*> candidates{};
+    ClassInfo const* info = nullptr;
+    std::unique_ptr<AnyComponent<R>> component{};
+    Progress progress = Progress::fresh;
+    std::map<std::string, std::string, std::less<>> links{};
+    std::array<std::string, 2> ends{};
+    bool failed = false;
+
+    void* address() const { return component->address(); }
+  };
+  struct Place {
+    XmlElement* element;
+    std::string name;
+    Place* parent = nullptr;
+    std::vector<std::unique_ptr<Place>> children{};
+    std::vector<std::unique_ptr<Item>> items{};
+    std::string state{};  // DataTypes of the state of this node; empty: none
+    bool visual = false;
+
+    Item* find(std::string_view itemName) const {
+      for (auto const& item : items)
+        if (item->name == itemName) return item.get();
+      for (auto const& item : items)
+        if (item->tag == itemName || (item->info && item->info->name == itemName)) return item.get();
+      return nullptr;
+    }
+    Place* child(std::string_view childName) const {
+      for (auto const& c : children)
+        if (c->name == childName) return c.get();
+      return nullptr;
+    }
+    Item* ofRole(RoleKind role) const {
+      for (auto const& item : items)
+        if (item->info && item->info->role == role) return item.get();
+      return nullptr;
+    }
+    /// The nearest node upwards, from this one on, that has a state.
+    Place const* owner() const { return !state.empty() ? this : parent ? parent->owner() : nullptr; }
+    std::string path() const { return parent ? text(parent->path(), '/', name) : text('/', name); }
+  };
+
+  ReadSceneOptions const& options_;
+  XmlReader xml_;
+  std::vector<ClassInfo> table_;
+  std::vector<std::string> errors_{};
+  std::set<std::string, std::less<>> ignored_{}, warnings_{};
+  std::vector<std::string> files_{};
+  std::vector<std::unique_ptr<XmlElement>> made_{};  // elements that stand for what an attribute asks for
+
+  void complain(std::string const& place, std::string_view what) {
+    errors_.push_back(text(place, ": ", what));
+  }
+  void complain(XmlElement const& at, std::string_view what) {
+    complain(at.place(), text('<', at.tag, ">: ", what));
+  }
+
+  ReadScene<R> build(XmlElement root) {
+    if (root.tag != "Node")
+      throw SceneError(
+          {text(root.place(), ": <", root.tag, ">: the outermost element of a scene is <Node>")});
+    for (auto const& [path, value] : options_.set) override_(root, path, value);
+    Place top{&root, nameOf(root, "root"), nullptr};
+    collect(top);
+    throwErrors();
+    splitVisuals(top);
+    decideStates(top);
+    decideClasses(top);
+    forEachItem(top, [&](Item& item) {
+      if (item.info) prepare(item);
+    });
+    forEachItem(top, [&](Item& item) {
+      if (item.info) resolve(item);
+    });
+    ReadScene<R> scene{RuntimeNode<R>(top.name)};
+    readNode(top, scene);
+    fill(top, scene.root);
+    throwErrors();
+    scene.ignored.assign(ignored_.begin(), ignored_.end());
+    scene.warnings.assign(warnings_.begin(), warnings_.end());
+    scene.files = files_;
+    return scene;
+  }
+  void throwErrors() {
+    if (!errors_.empty()) throw SceneError(errors_);
+  }
+  template <class F>
+  void forEachItem(Place& place, F&& f) {
+    for (std::size_t i = 0; i < place.items.size(); ++i) f(*place.items[i]);
+    for (auto& child : place.children) forEachItem(*child, f);
+  }
+
+  static std::string nameOf(XmlElement const& element, std::string_view otherwise) {
+    auto const* name = element.attribute("name");
+    std::string given = name && !name->value.empty() ? name->value : std::string(otherwise);
+    for (char& c : given)
+      if (c == '/' || c == ' ') c = '_';
+    return given;
+  }
+
+  // --set path.attribute=value
+  void override_(XmlElement& root, std::string const& path, std::string const& value) {
+    const std::size_t dot = path.rfind('.');
+    if (dot == path.npos)
+      throw SceneError({text("--set ", path, ": name an attribute, as in liver/fem.youngModulus=1000")});
+    XmlElement* at = &root;
+    std::string_view rest = std::string_view(path).substr(0, dot);
+    while (!rest.empty()) {
+      const std::string_view step = rest.substr(0, rest.find('/'));
+      rest.remove_prefix(std::min(step.size() + 1, rest.size()));
+      XmlElement* next = nullptr;
+      std::vector<std::string> known;
+      for (auto& child : at->children) {
+        known.push_back(nameOf(child, child.tag));
+        if (!next && (known.back() == step || (child.tag != "Node" && child.tag == step))) next = &child;
+      }
+      if (!next && at == &root && step == nameOf(root, "root")) continue;
+      if (!next) {
+        const std::string nearest = nearest_name(step, known);
+        throw SceneError({text("--set ",
+                               path,
+                               ": there is no '",
+                               step,
+                               "' in '",
+                               nameOf(*at, at->tag),
+                               "'",
+                               nearest.empty() ? std::string("; name a node or a component")
+                                               : text("; did you mean '", nearest, "'?"))});
+      }
+      at = next;
+    }
+    at->set(std::string_view(path).substr(dot + 1), value);
+  }
+
+  // nodes and components, of whatever class
+
+  void collect(Place& place) {
+    std::map<std::string, int> names;
+    for (auto& child : place.element->children) {
+      if (child.tag == "Node") {
+        auto const* active = child.attribute("activated");
+        if (active && (active->value == "0" || active->value == "false")) {
+          ignored_.insert(text("Node ", nameOf(child, "Node"), " (activated is 0)"));
+          continue;
+        }
+        std::string name = nameOf(child, "Node");
+        if (const int n = names[name]++) {
+          const std::string renamed = text(name, '_', n + 1);
+          if (child.attribute("name"))
+            warnings_.insert(text(
+                child.place(), ": a second node is named '", name, "'; it is called '", renamed, "' here"));
+          name = renamed;
+        }
+        place.children.push_back(std::make_unique<Place>(Place{&child, name, &place}));
+        collect(*place.children.back());
+      } else if (auto item = makeItem(place, child)) {
+        place.items.push_back(std::move(item));
+      }
+    }
+  }
+
+  std::unique_ptr<Item> makeItem(Place& place, XmlElement& element) {
+    std::string tag = element.tag;
+    if (tag == "Object")
+      if (auto const* type = element.attribute("type")) tag = type->value;
+    auto item = std::make_unique<Item>(Item{&place, &element, tag, nameOf(element, tag)});
+    for (auto const& info : table_)
+      if (info.known(tag)) item->candidates.push_back(&info);
+    if (!item->candidates.empty()) return item;
+    if (dialect::class_without_meaning(tag)) {
+      ignored_.insert(tag);
+    } else if (dialect::has(dialect::notYet, tag)) {
+      warnings_.insert(
+          text(tag, ": collision and constraint solving are not simulated; the component is ignored"));
+    } else {
+      const std::string message = text("there is no component <", tag, ">", suggestion(tag, classNames()));
+      if (options_.lenient)
+        warnings_.insert(text(element.place(), ": ", message, " It is left out."));
+      else
+        complain(element.place(), message);
+    }
+    return nullptr;
+  }
+  std::vector<std::string_view> classNames() const {
+    std::vector<std::string_view> names;
+    for (auto const& info : table_) {
+      names.push_back(info.name);
+      for_each_name(info.aliases, [&](std::string_view alias) { names.push_back(alias); });
+    }
+    return names;
+  }
+  template <class Names>
+  static std::string suggestion(std::string_view word, Names const& known) {
+    const std::string nearest = nearest_name(word, known);
+    return nearest.empty() ? "; correct the name, or remove it" : text("; did you mean '", nearest, "'?");
+  }
+
+  // In SOFA a node may have a state and visual models; here each visual model gets a node of its own below.
+  void splitVisuals(Place& place) {
+    auto is = [](Item const& item, RoleKind role) { return item.candidates[0]->role == role; };
+    const bool hasState = std::any_of(
+        place.items.begin(), place.items.end(), [&](auto const& i) { return is(*i, RoleKind::state); });
+    std::size_t visuals = 0;
+    for (auto const& i : place.items) visuals += is(*i, RoleKind::visualModel);
+    for (auto& child : place.children) splitVisuals(*child);
+    if (visuals == 0 || (visuals == 1 && !hasState)) return;
+    std::vector<std::unique_ptr<Item>> stay;
+    std::vector<Place*> moved;
+    for (auto& item : place.items)
+      if (is(*item, RoleKind::visualModel) && (hasState || !moved.empty())) {
+        std::string name = item->name;
+        while (place.child(name)) name += '_';
+        made_.push_back(std::make_unique<XmlElement>(
+            XmlElement{.tag = "Node", .file = item->element->file, .offset = item->element->offset}));
+        auto own = std::make_unique<Place>(Place{made_.back().get(),
+                                                 name,
+                                                 hasState       ? &place
+                                                 : place.parent ? &place
+                                                                : &place});
+        item->place = own.get();
+        own->items.push_back(std::move(item));
+        moved.push_back(own.get());
+        place.children.push_back(std::move(own));
+      } else {
+        if (is(*item, RoleKind::visualModel)) moved.push_back(nullptr);
+        stay.push_back(std::move(item));
+      }
+    // a mapping follows the visual model that is its output
+    place.items.clear();
+    for (auto& item : stay) {
+      Place* to = nullptr;
+      if (is(*item, RoleKind::mapping))
+        if (auto const* output = item->element->attribute("output"))
+          for (Place* own : moved)
+            if (own && (output->value == text('@', own->items[0]->name) ||
+                        output->value == text("@./", own->items[0]->name)))
+              to = own;
+      if (to) {
+        item->place = to;
+        to->items.push_back(std::move(item));
+      } else {
+        place.items.push_back(std::move(item));
+      }
+    }
+  }
+
+  // which instantiation
+
+  std::string templateOf(Item const& item) const {
+    auto const* given = item.element->attribute("template");
+    return given ? canonical_template(given->value) : "";
+  }
+
+  void decideStates(Place& place) {
+    for (auto& item : place.items) {
+      const RoleKind role = item->candidates[0]->role;
+      if (role == RoleKind::state) {
+        const std::string wanted = templateOf(*item).empty() ? "Vec3d" : templateOf(*item);
+        item->info = withTypes(*item, wanted);
+        if (item->info && place.state.empty()) place.state = wanted;
+      } else if (role == RoleKind::visualModel) {
+        item->info = item->candidates[0];
+        place.visual = true;
+      }
+    }
+    for (auto& child : place.children) decideStates(*child);
+  }
+
+  ClassInfo const* withTypes(Item& item, std::string_view types, std::string_view why = "") {
+    std::string known;
+    for (auto const* info : item.candidates) {
+      if (info->dataTypes == types) return info;
+      if (known.find(info->dataTypes) == known.npos)
+        known += text(known.empty() ? "" : ", ", info->dataTypes);
+    }
+    item.failed = true;
+    auto const* given = item.element->attribute("template");
+    complain(given ? item.element->place(*given) : item.element->place(),
+             text('<', item.tag, "> is not there over ", types, why, "; it is over ", known));
+    return nullptr;
+  }
+
+  void decideClasses(Place& place) {
+    for (auto& item : place.items)
+      if (!item->info && !item->failed) item->info = decide(*item);
+    for (auto& child : place.children) decideClasses(*child);
+  }
+
+  ClassInfo const* decide(Item& item) {
+    ClassInfo const& first = *item.candidates[0];
+    Place const* const owner = item.place->owner();
+    const std::string given = templateOf(item);
+    switch (first.role) {
+      case RoleKind::mapping: {
+        Place const* const parent = item.place->parent ? item.place->parent->owner() : nullptr;
+        if (!parent)
+          return complain(
+                     *item.element,
+                     "has no parent: no node above has a MechanicalObject; add one, or remove the mapping"),
+                 nullptr;
+        if (item.place->state.empty() && !item.place->visual)
+          return complain(*item.element,
+                          "has no child: its node has neither a MechanicalObject nor an OglModel; add one"),
+                 nullptr;
+        const std::string out = item.place->state.empty() ? "Vec3f" : item.place->state;
+        return withTypes(
+            item,
+            text(parent->state, ',', out),
+            text(", from the state of '", parent->name, "' to that of '", item.place->name, "'"));
+      }
+      case RoleKind::linearSolver: {
+        for (std::string_view wanted : {std::string_view(given),
+                                        std::string_view("GraphScattered"),
+                                        std::string_view("CompressedRowSparseMatrixd")})
+          for (auto const* info : item.candidates)
+            if (info->dataTypes == wanted && !wanted.empty()) return info;
+        return &first;
+      }
+      case RoleKind::mass:
+      case RoleKind::forceField:
+      case RoleKind::interactionForceField:
+      case RoleKind::projectiveConstraint: {
+        Place const* acted = owner;
+        const bool joins = endsDiffer(item);
+        if (joins && item.ends[0].empty() && item.ends[1].empty()) return nullptr;
+        if (joins) acted = followNode(item, *item.element->attribute("object1"));
+        std::erase_if(item.candidates, [&](ClassInfo const* info) { return info->joins != joins; });
+        if (item.candidates.empty())
+          return complain(*item.element,
+                          joins ? "does not join two objects; remove object1 and object2"
+                                : "joins two objects; give object1 and object2"),
+                 nullptr;
+        if (!acted)
+          return complain(*item.element,
+                          "has no state to act on; put it into a node with a MechanicalObject, or below one"),
+                 nullptr;
+        if (!given.empty() && given.find(',') == given.npos && given != acted->state && joins == false &&
+            first.role != RoleKind::mass && !sameKind(given, acted->state))
+          return complain(item.element->place(*item.element->attribute("template")),
+                          text('<',
+                               item.tag,
+                               "> has the template ",
+                               given,
+                               ", but the state it acts on, in '",
+                               acted->name,
+                               "', is over ",
+                               acted->state,
+                               "; give both the same")),
+                 nullptr;
+        return withTypes(item, acted->state, text(", as the state it acts on, in '", acted->name, "'"));
+      }
+      case RoleKind::engine:
+        if (first.dataTypes.empty()) return &first;
+        return withTypes(item, !given.empty() ? given : owner ? owner->state : "Vec3d");
+      default:
+        return &first;
+    }
+  }
+  // "Vec3d" for a state over Vec3f is taken for SOFA's default precision
+  static bool sameKind(std::string_view a, std::string_view b) {
+    return a.substr(0, a.size() - 1) == b.substr(0, b.size() - 1);
+  }
+
+  // an interaction joins two bodies, unless both its ends are the state of its own node
+  bool endsDiffer(Item& item) {
+    auto const *a = item.element->attribute("object1"), *b = item.element->attribute("object2");
+    if (!a || !b ||
+        std::none_of(item.candidates.begin(), item.candidates.end(), [](auto const* c) { return c->joins; }))
+      return false;
+    Place const *first = followNode(item, *a), *second = followNode(item, *b);
+    if (!first || !second) return true;
+    if (first == second && first == item.place->owner()) return false;
+    item.ends = {first->path(), second->path()};
+    for (auto& end : item.ends) end = end.substr(std::min(end.find('/', 1), end.size()));
+    for (auto& end : item.ends)
+      if (end.empty()) end = "/";
+    return true;
+  }
+
+  // links
+
+  struct Target {
+    Item* item = nullptr;
+    Place* place = nullptr;
+    std::string data{};
+  };
+
+  /// The node that an attribute's link leads to, or whose component it leads to.
+  Place* followNode(Item& item, XmlAttribute const& attribute) {
+    try {
+      const Target target = follow(item, attribute.value);
+      Place* place = target.item ? target.item->place : target.place;
+      if (!place->owner())
+        throw Error("", text("leads to '", place->name, "', which has no MechanicalObject; link to a state"));
+      while (place->state.empty()) place = place->parent;
+      return place;
+    } catch (Error const& error) {
+      complain(item.element->place(attribute),
+               text('<', item.tag, ">: ", attribute.name, ": ", error.what()));
+      return nullptr;
+    }
+  }
+
+  /// "@name", "@../x/y", "@/x/y", "@[-1].position", "@name.position". Throws Error where it leads nowhere.
+  Target follow(Item& item, std::string_view link) {
+    Words words(link);
+    std::string_view path = words.end() ? std::string_view() : words.next();
+    if (!path.starts_with('@')) throw Error("", text(shown(link), " is no link; a link starts with @"));
+    path.remove_prefix(1);
+    Target target;
+    const std::size_t slash = path.rfind('/') == path.npos ? 0 : path.rfind('/') + 1;
+    if (const std::string_view last = path.substr(slash); last != "." && last != "..")
+      if (const std::size_t dot = last.rfind('.'); dot != last.npos) {
+        target.data = std::string(last.substr(dot + 1));
+        path = path.substr(0, slash + dot);
+      }
+    if (path.starts_with('[')) {
+      const std::size_t close = path.find(']');
+      const int offset = read_number<int>(path.substr(1, std::min(close, path.size()) - 1));
+      const auto& items = item.place->items;
+      for (std::size_t i = 0; i < items.size(); ++i)
+        if (items[i].get() == &item) {
+          const long at = long(i) + offset;
+          if (at < 0 || at >= long(items.size()))
+            throw Error("",
+                        text(shown(link), " leads outside the node; it has ", items.size(), " components"));
+          target.item = items[std::size_t(at)].get();
+        }
+      if (!target.item) throw Error("", text(shown(link), " leads nowhere"));
+      return target;
+    }
+    Place* from = item.place;
+    const bool based = path.starts_with('/') || path.starts_with("./") || path.starts_with("../") ||
+                       path == "." || path == ".." || path.empty();
+    if (path.starts_with('/')) {
+      while (from->parent) from = from->parent;
+      path.remove_prefix(1);
+    }
+    while (from) {
+      if (walk(*from, path, target)) return target;
+      from = based ? nullptr : from->parent;
+    }
+    std::vector<std::string> known;
+    for (Place* at = item.place; at; at = at->parent) {
+      for (auto const& other : at->items) known.push_back(other->name);
+      for (auto const& child : at->children) known.push_back(child->name);
+    }
+    const std::string_view last = path.substr(path.rfind('/') == path.npos ? 0 : path.rfind('/') + 1);
+    throw Error("", text(shown(link), " leads nowhere", suggestion(last, known)));
+  }
+  static bool walk(Place& from, std::string_view path, Target& target) {
+    Place* at = &from;
+    while (!path.empty()) {
+      const std::string_view step = path.substr(0, path.find('/'));
+      path.remove_prefix(std::min(step.size() + 1, path.size()));
+      if (step == "..") {
+        at = at->parent;
+      } else if (!step.empty() && step != ".") {
+        Place* const child = at->child(step);
+        Item* const named = at->find(step);
+        if (path.empty() && named && (!child || named->name == step)) return target.item = named, true;
+        if (!child && !at->parent && step == at->name) continue;
+        at = child;
+      }
+      if (!at) return false;
+    }
+    target.place = at;
+    return true;
+  }
+
+  /// The words of a field of a component, which is made for that if it is not yet.
+  std::string valueOf(Target target) {
+    if (!target.item) {
+      if (!target.place->ofRole(RoleKind::state))
+        throw Error("", text("leads to the node '", target.place->name, "'; link to a component"));
+      target.item = target.place->ofRole(RoleKind::state);
+    }
+    Item& item = *target.item;
+    if (!item.info) throw Error("", text("leads to ", item.name, ", which is wrong itself"));
+    resolve(item);
+    FieldInfo const* field = item.info->field(target.data);
+    // the result of an engine goes before a field of the same name
+    for (auto const& f : item.info->fields)
+      if (!f.isInput && f.known(target.data)) field = &f;
+    if (!field) {
+      std::vector<std::string_view> names;
+      for (auto const& f : item.info->fields) names.push_back(f.name);
+      throw Error("",
+                  text("'",
+                       item.name,
+                       "' (",
+                       item.info->name,
+                       ") has no '",
+                       target.data,
+                       "'",
+                       suggestion(target.data, names)));
+    }
+    if (item.info->role == RoleKind::state) return stateValue(item, *field);
+    return field->write(item.address());
+  }
+
+  // a state takes its points from the topology of its node, and rests where it starts, at init; here it has
+  // to be known before
+  std::string stateValue(Item& item, FieldInfo const& field) {
+    AnyComponent<R> copy(*item.component);
+    std::vector<Eigen::Vector3d> points;
+    if (Item* topology = item.place->ofRole(RoleKind::topology)) {
+      resolve(*topology);
+      if (FieldInfo const* position = topology->info->field("position"))
+        read_value(position->write(topology->address()), points);
+    }
+    std::string words;
+    copy.template visit<role::State>([&](auto& state) {
+      if constexpr (requires { state.place("", points); }) state.place("", points);
+      words = field.write(&state);
+      if (words.empty() && field.name == "rest_position") words = item.info->field("position")->write(&state);
+    });
+    return words;
+  }
+
+  // values
+
+  void prepare(Item& item) {
+    item.component = std::make_unique<AnyComponent<R>>(AnyComponent<R>::make(item.info->type));
+  }
+
+  static bool isLink(std::string_view value) {
+    const std::size_t first = value.find_first_not_of(" \t\r\n");
+    return first != value.npos && value[first] == '@';
+  }
+
+  void resolve(Item& item) {
+    if (item.progress == Progress::done || item.failed) return;
+    if (item.progress == Progress::busy)
+      throw Error("", text("leads in a circle back to '", item.name, "'; break it"));
+    item.progress = Progress::busy;
+    expandFile(item);
+    std::set<std::string_view> given;
+    for (auto const& a : item.element->attributes) attribute(item, a, given);
+    if (auto const* src = item.element->attribute("src")) source(item, *src, given);
+    if (item.info->role == RoleKind::engine) surroundings(item, given);
+    if (item.info->role == RoleKind::state) onePoint(item, given);
+    locate(item, [&] {
+      item.component->template visit<role::Engine>([&](auto& engine) { engine.update(item.info->cppName); });
+      item.component->template visit<role::Topology>([&](auto& topology) {
+        if constexpr (requires { topology.generate(""); }) topology.generate(item.info->cppName);
+      });
+      item.component->template visit<role::InteractionForceField>([&](auto& joint) {
+        if constexpr (requires { joint.ends.object1; })
+          joint.ends.object1 = item.ends[0], joint.ends.object2 = item.ends[1];
+      });
+    });
+    if (item.info->role == RoleKind::mapping) ends(item);
+    item.progress = Progress::done;
+  }
+  template <class F>
+  void locate(Item& item, F&& f) {
+    if (item.failed) return;
+    try {
+      f();
+    } catch (Error const& error) {
+      item.failed = true;
+      complain(*item.element, error.what());
+    }
+  }
+
+  void attribute(Item& item, XmlAttribute const& a, std::set<std::string_view>& given) {
+    static constexpr std::array own = std::to_array<std::string_view>({"name", "template", "src", "type"});
+    if (dialect::has(own, a.name) && !(a.name == "type" && item.element->tag != "Object")) return;
+    if (a.name == "object1" || a.name == "object2") return;
+    if (item.info->role == RoleKind::mapping && (a.name == "input" || a.name == "output")) return;
+    FieldInfo const* field = nullptr;
+    for (auto const& f : item.info->fields)
+      if (f.isInput && f.known(a.name)) field = &f;
+    if (!field) {
+      if (dialect::attribute_without_meaning(a.name)) return;
+      if (dialect::has(dialect::attributesNotYet, a.name))
+        return void(ignored_.insert(text(item.tag, '.', a.name)));
+      std::vector<std::string_view> names;
+      for (auto const& f : item.info->fields)
+        if (f.isInput) {
+          names.push_back(f.name);
+          for_each_name(f.aliases, [&](std::string_view alias) { names.push_back(alias); });
+        }
+      item.failed = true;
+      complain(item.element->place(a),
+               text('<', item.tag, "> has no attribute '", a.name, "'", suggestion(a.name, names)));
+      return;
+    }
+    given.insert(field->name);
+    try {
+      std::string linked;
+      if (isLink(a.value)) {
+        linked = valueOf(follow(item, a.value));
+        item.links[std::string(field->name)] = a.value;
+      }
+      setField(item, *field, isLink(a.value) ? std::string_view(linked) : std::string_view(a.value), a.name);
+    } catch (Error const& error) {
+      item.failed = true;
+      complain(item.element->place(a), text('<', item.tag, ">: ", a.name, ": ", error.what()));
+    }
+  }
+
+  void setField(Item& item, FieldInfo const& field, std::string_view words, std::string_view written) {
+    std::string value(words);
+    // one number stretches alike in all directions
+    if (field.name == "scale3d" && written == "scale") {
+      Words again(words);
+      if (!again.end()) {
+        const std::string one(again.next());
+        if (again.end()) value = text(one, ' ', one, ' ', one);
+      }
+    }
+    if (field.isFile) {
+      value =
+          xml_.find(std::string(Words(value).rest()), item.element->file ? item.element->file->folder : "");
+      files_.push_back(value);
+    }
+    field.read(item.address(), value);
+  }
+
+  // src="@loader": all that the loader offers under the name of a field that is not given
+  void source(Item& item, XmlAttribute const& src, std::set<std::string_view>& given) {
+    try {
+      const Target target = follow(item, src.value);
+      if (!target.item || !target.item->info)
+        throw Error("", text(shown(src.value), " leads to no loader; link to a component"));
+      for (auto const& field : item.info->fields) {
+        if (!field.isInput || given.count(field.name)) continue;
+        bool offered = false;
+        for (auto const& other : target.item->info->fields)
+          if (other.known(field.name) && (!other.isInput || target.item->info->role != RoleKind::engine))
+            offered = true;
+        if (!offered) continue;
+        const std::string words = valueOf({target.item, nullptr, std::string(field.name)});
+        if (words.empty()) continue;
+        field.read(item.address(), words);
+        item.links[std::string(field.name)] = text(src.value, '.', field.name);
+        given.insert(field.name);
+      }
+    } catch (Error const& error) {
+      item.failed = true;
+      complain(item.element->place(src), text('<', item.tag, ">: src: ", error.what()));
+    }
+  }
+
+  // what a selection is not told, it takes from the state and the topology around it
+  void surroundings(Item& item, std::set<std::string_view>& given) {
+    for (auto const& field : item.info->fields) {
+      if (!field.isInput || given.count(field.name)) continue;
+      for (Place* at = item.place; at; at = at->parent) {
+        Item* from = nullptr;
+        std::string data(field.name);
+        if (field.name == "position" && !item.info->dataTypes.empty()) {
+          from = at->ofRole(RoleKind::state);
+          data = "rest_position";
+          if (!from) from = at->ofRole(RoleKind::topology), data = "position";
+        } else if (dialect::has(topologyLists, field.name)) {
+          from = at->ofRole(RoleKind::topology);
+        }
+        if (!from || !from->info->field(data)) continue;
+        locate(item, [&] {
+          field.read(item.address(), valueOf({from, nullptr, data}));
+          item.links[std::string(field.name)] = text('@', from->name, '.', data);
+        });
+        break;
+      }
+    }
+  }
+  static constexpr auto topologyLists =
+      std::to_array<std::string_view>({"edges", "triangles", "quads", "tetrahedra", "hexahedra"});
+
+  // a state of its own that is given no points has one, at the origin
+  void onePoint(Item& item, std::set<std::string_view> const& given) {
+    if (given.count("position") || item.place->ofRole(RoleKind::mapping) ||
+        item.place->ofRole(RoleKind::topology))
+      return;
+    item.component->template visit<role::State>(
+        [&](auto& state) { state.position.push_back(std::decay_t<decltype(state)>::DataTypes::zero()); });
+  }
+
+  // a file that a visual model or a topology names is read by a loader of its own
+  void expandFile(Item& item) {
+    if (item.info->field("filename") || item.info->field("fileTopology")) return;
+    auto& attributes = item.element->attributes;
+    auto named = std::find_if(attributes.begin(), attributes.end(), [](XmlAttribute const& a) {
+      return a.name == "filename" || a.name == "fileMesh" || a.name == "fileTopology";
+    });
+    if (named == attributes.end()) return;
+    const XmlAttribute file = *named;
+    const std::string ending = io::lower_case(
+        std::string_view(file.value).substr(std::min(file.value.rfind('.'), file.value.size())));
+    const std::string_view loader = ending == ".obj"                       ? "MeshOBJLoader"
+                                    : ending == ".msh"                     ? "MeshGmshLoader"
+                                    : ending == ".stl"                     ? "MeshSTLLoader"
+                                    : ending == ".vtk" || ending == ".vtu" ? "MeshVTKLoader"
+                                                                           : "";
+    made_.push_back(std::make_unique<XmlElement>(
+        XmlElement{.tag = std::string(loader), .file = item.element->file, .offset = item.element->offset}));
+    XmlElement& element = *made_.back();
+    element.attributes = {{"name", text(item.name, "_loader"), file.offset},
+                          {"filename", file.value, file.offset}};
+    attributes.erase(named);
+    // a surface is moved where it is read
+    for (auto a = attributes.begin(); a != attributes.end();)
+      if (a->name == "translation" || a->name == "rotation" || a->name == "scale" || a->name == "scale3d") {
+        element.attributes.push_back(*a);
+        a = attributes.erase(a);
+      } else {
+        ++a;
+      }
+    if (loader.empty()) {
+      item.failed = true;
+      return complain(item.element->place(file),
+                      text('<',
+                           item.tag,
+                           ">: ",
+                           file.name,
+                           ": ",
+                           shown(file.value),
+                           " has no ending that is known; meshes are .obj .msh .vtk .vtu .stl"));
+    }
+    auto made = makeItem(*item.place, element);
+    if (!made) return void(item.failed = true);
+    made->info = made->candidates[0];
+    prepare(*made);
+    item.element->set("src", text('@', made->name));
+    auto& items = item.place->items;
+    items.insert(std::find_if(items.begin(), items.end(), [&](auto const& i) { return i.get() == &item; }),
+                 std::move(made));
+  }
+
+  // input and output of a mapping say what the tree says: the state above, and that of its node
+  void ends(Item& item) {
+    for (std::string_view name : {"input", "output"}) {
+      auto const* a = item.element->attribute(name);
+      if (!a || !isLink(a->value)) continue;
+      try {
+        const Target target = follow(item, a->value);
+        Place const* const place = target.item ? target.item->place : target.place;
+        if (name == "output") {
+          if (place != item.place && !(place->parent == item.place || item.place->parent == place))
+            throw Error("",
+                        text("leads to the node '",
+                             place->name,
+                             "', but a mapping moves what is in its own node; move it there"));
+        } else if (place->owner() != (item.place->parent ? item.place->parent->owner() : nullptr) &&
+                   place != item.place) {
+          throw Error("",
+                      text("leads to '",
+                           place->name,
+                           "', but a mapping follows the nearest state above its node; put the node below '",
+                           place->name,
+                           "'"));
+        }
+      } catch (Error const& error) {
+        complain(item.element->place(*a), text('<', item.tag, ">: ", a->name, ": ", error.what()));
+      }
+    }
+  }
+
+  // the tree
+
+  void readNode(Place const& place, ReadScene<R>& scene) {
+    auto number = [&](std::string_view name, auto& to) {
+      auto const* a = place.element->attribute(name);
+      if (!a) return;
+      try {
+        read_value(a->value, to);
+      } catch (Error const& error) {
+        complain(place.element->place(*a), text("<Node>: ", name, ": ", error.what()));
+      }
+    };
+    number("dt", scene.dt);
+    number("time", scene.time);
+    number("step", scene.step);
+    if (!(scene.dt > 0) || !std::isfinite(scene.dt))
+      complain(place.element->place(),
+               text("<Node>: dt is ", scene.dt, " s, but must be a finite number greater than 0"));
+  }
+
+  void fill(Place& place, RuntimeNode<R>& node) {
+    auto const* gravity = place.element->attribute("gravity");
+    if (gravity || !place.parent) {
+      Gravity value;
+      try {
+        if (gravity) read_value(gravity->value, value.gravity);
+      } catch (Error const& error) {
+        complain(place.element->place(*gravity), text("<Node>: gravity: ", error.what()));
+      }
+      if (!place.ofRole(RoleKind::context)) {
+        node.add(value);
+        node.components().back().origin = place.element->place();
+      }
+    }
+    static constexpr std::array known =
+        std::to_array<std::string_view>({"name", "gravity", "dt", "activated", "step", "type"});
+    for (auto const& a : place.element->attributes)
+      if (!dialect::has(known, a.name) && !dialect::has(dialect::nodeAttributesWithoutMeaning, a.name) &&
+          !a.name.starts_with("show"))
+        complain(place.element->place(a),
+                 text("<Node> has no attribute '", a.name, "'", suggestion(a.name, known)));
+    for (auto& item : place.items)
+      if (item->component && !item->failed) {
+        RuntimeEntry<R> entry{
+            std::move(*item->component), item->name, item->element->place(), std::move(item->links)};
+        node.add(std::move(entry));
+      }
+    for (auto& child : place.children) fill(*child, node.addChild(child->name));
+  }
+};
+
+}  // namespace detail
+
+/// Reads a scene in SOFA's XML dialect, of the classes of the registry R. Throws SceneError with all that is
+/// wrong with the file; nothing is returned then.
+template <class R>
+ReadScene<R> read_scene(std::string const& path, ReadSceneOptions const& options = {}) {
+  try {
+    return detail::SceneReader<R>(options).read(path);
+  } catch (SceneError const&) {
+    throw;
+  } catch (Error const& error) {
+    throw SceneError({error.what()});
+  }
+}
+/// The same from the content of a file.
+template <class R>
+ReadScene<R> parse_scene(std::string const& path, std::string content, ReadSceneOptions const& options = {}) {
+  try {
+    return detail::SceneReader<R>(options).parse(path, std::move(content));
+  } catch (SceneError const&) {
+    throw;
+  } catch (Error const& error) {
+    throw SceneError({error.what()});
+  }
+}
+
+}  // namespace sinew

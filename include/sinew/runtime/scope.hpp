@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/runtime/erased_assembly.hpp>
+#include <sinew/runtime/node.hpp>
+#include <sinew/scene/scope.hpp>
+
+namespace sinew {
+
+template <class R>
+struct RuntimeScope;
+template <class R>
+void runtime_checks(RuntimeScope<R> const& scope);
+
+/// A node of a runtime tree as traversals, operations and solvers see it: the members of Scope, with every
+/// choice made when asked. `atMount`: the place in a typed scene that the top node hangs below.
+template <class R>
+struct RuntimeScope {
+  using NodeType = RuntimeNode<R>;
+  static constexpr bool provedAtInit = true, isVisual = false;
+  NodeType& node;
+  bool atMount = false;
+
+  RuntimeScope(NodeType& n, bool above = false) : node(n), atMount(above) {}
+  RuntimeScope(NodeType& top, NoScope const&) : node(top) { top.mount = {}; }
+  template <class N, class A>
+  RuntimeScope(NodeType& top, Scope<N, A> const& typed) : node(top) {
+    using S = Scope<N, A>;
+    top.mount = {&typed,
+                 [](void const* s) { return static_cast<S const*>(s)->path(); },
+                 [](void const* s) { return static_cast<S const*>(s)->gravity(); },
+                 [](void const* s) { return static_cast<S const*>(s)->topology(); },
+                 nullptr};
+    if constexpr (S::hasState) {
+      auto& state = typed.stateScope().node.state();
+      using D = typename std::decay_t<decltype(state)>::DataTypes;
+      top.mount.state = &state;
+      top.mount.dataTypes = data_types_name<D>::value;
+      top.mount.mapped = typed.stateScope().mapped();
+      top.mount.expand = [](void const* s, int point, JacobianVisitor const& visitor) {
+        static_cast<S const*>(s)->template withDofs<D>([&](auto const& dofs) {
+          dofs.expand(point, [&](int dof, auto const& j) { detail::emit(visitor, dof, j); });
+        });
+      };
+    }
+  }
+
+  template <class Role>
+  static constexpr bool always = false;
+  Mount const& mount() const { return node.mount; }
+
+  RuntimeScope above() const {
+    return node.parent() ? RuntimeScope(*node.parent()) : RuntimeScope(node, true);
+  }
+  bool ownsState() const { return atMount ? mount().state != nullptr : node.state() != nullptr; }
+  bool hasState() const { return ownsState() || (!atMount && above().hasState()); }
+  bool mapped() const { return atMount ? mount().mapped : node.mapping() != nullptr; }
+
+  std::string path() const {
+    if (!atMount) return text(above().path(), '/', node.name);
+    return mount().scope ? mount().path(mount().scope) : "";
+  }
+  Eigen::Vector3d gravity() const {
+    if (atMount)
+      return mount().scope ? mount().gravity(mount().scope) : Eigen::Vector3d(Eigen::Vector3d::Zero());
+    for (auto const& entry : node.components()) {
+      Eigen::Vector3d value;
+      if (entry.component.template visit<role::Context>([&](auto const& c) { value = c.gravity; }))
+        return value;
+    }
+    return above().gravity();
+  }
+  TopologyView topology() const {
+    if (atMount) return mount().scope ? mount().topology(mount().scope) : TopologyView{};
+    if (node.topology()) {
+      TopologyView view;
+      node.topology()->component.template visit<role::Topology>([&](auto const& t) { view = t.view(); });
+      return view;
+    }
+    return node.state() ? TopologyView{} : above().topology();
+  }
+
+  RuntimeScope stateScope() const { return ownsState() || atMount ? *this : above().stateScope(); }
+  template <class D>
+  auto& state() const {
+    using S = typename StateOf<R, D>::type;
+    const RuntimeScope owner = stateScope();
+    return *static_cast<S*>(owner.atMount ? owner.mount().state : owner.node.state()->component.address());
+  }
+  template <class D>
+  InitContext<D> context() const {
+    return {path(), state<D>().restPosition, topology()};
+  }
+  template <class D>
+  InitContext<D> parentContext() const {
+    return above().stateScope().template context<D>();
+  }
+  template <class F>
+  void withContext(F&& f) const {
+    const RuntimeScope owner = stateScope();
+    if (!owner.atMount && owner.node.state())
+      owner.node.state()->component.template visit<role::State>(
+          [&](auto& s) { f(context<typename std::decay_t<decltype(s)>::DataTypes>()); });
+  }
+
+  template <class F, class... Roles>
+  void forEachComponent(RoleVisitor<F, Roles...>& visitor) const {
+    for (auto& entry : node.components()) entry.component.template visit<Roles...>(visitor.f);
+  }
+  template <class F>
+  void forEachChild(F&& f) const {
+    for (auto const& child : node.children()) f(RuntimeScope(*child));
+  }
+
+  template <class C, class F>
+  void located(C const& c, F&& f) const {
+    auto const& entry = node.entryOf(&c);
+    try {
+      f();
+    } catch (Error const& error) {
+      if (entry.origin.empty()) throw;
+      throw Error(entry.origin, error.what());
+    }
+  }
+  template <class C, class F>
+  void ifNew(C const& c, bool /*again*/, F&& f) const {
+    auto const& entry = node.entryOf(&c);
+    if (!entry.initialised || entry.surroundings != surroundings(entry)) located(c, f);
+  }
+  void check() const {
+    runtime_checks(*this);
+    forEachChild([](RuntimeScope const& child) { child.check(); });
+  }
+  template <FixedString Path, class F>
+  decltype(auto) descend(F&& f) const {
+    static_assert(Path.view().empty(),
+                  "Sinew: below a runtime node paths are found at run time: find_node(path).");
+    return f(*this);
+  }
+  void settled() const {
+    for (auto& entry : node.components()) {
+      entry.initialised = true;
+      entry.surroundings = surroundings(entry);
+    }
+    forEachChild([](RuntimeScope const& child) { child.settled(); });
+  }
+  /// The states, mappings and topologies on which what a component computes at init depends.
+  std::vector<void const*> surroundings(RuntimeEntry<R> const& entry) const {
+    std::vector<void const*> all;
+    if (entry.component.template is<role::State>() && !mapped()) return all;
+    addSurroundings(all);
+    for (auto* end : entry.ends)
+      if (end) RuntimeScope(*end).addSurroundings(all);
+    return all;
+  }
+
+  template <class M, class F>
+  void withMapped(M const&, F&& f) const {
+    auto& parent = above().template state<typename M::In>();
+    if (node.state())
+      f(state<typename M::Out>(), parent);
+    else if constexpr (std::is_same_v<typename M::Out, Vec3f>)
+      if (node.visual())
+        node.visual()->component.template visit<role::VisualModel>([&](auto& visual) { f(visual, parent); });
+  }
+
+  template <class D, class F>
+  void withDofs(F&& f) const {
+    const RuntimeScope owner = stateScope();
+    if (owner.mapped())
+      f(ErasedDofs{&owner, [](void const* self, int point, JacobianVisitor const& visitor) {
+                     static_cast<RuntimeScope const*>(self)->expand(point, visitor);
+                   }});
+    else
+      f(RuntimeDofs<D::size>{{owner.template state<D>().dofOffset}});
+  }
+
+  template <class C, class F>
+  void withEnds(C const& c, F&& f) const {
+    auto const& entry = node.entryOf(&c);
+    f(RuntimeScope(*entry.ends[0]), RuntimeScope(*entry.ends[1]));
+  }
+
+  template <class F>
+  void withLinearSolver(F&& f) const {
+    if (atMount) return;
+    for (auto& entry : node.components())
+      if (entry.component.template visit<role::LinearSolver>(f)) return;
+    above().withLinearSolver(f);
+  }
+
+ private:
+  void addSurroundings(std::vector<void const*>& all) const {
+    const RuntimeScope owner = stateScope();
+    all.push_back(owner.atMount        ? owner.mount().state
+                  : owner.node.state() ? owner.node.state()->component.address()
+                                       : nullptr);
+    all.push_back(topologyAddress());
+    if (!atMount && node.mapping()) {
+      all.push_back(node.mapping()->component.address());
+      above().addSurroundings(all);
+    } else if (!owner.atMount && owner.node.mapping() && &owner.node != &node) {
+      owner.addSurroundings(all);
+    }
+  }
+
+  void const* topologyAddress() const {
+    if (atMount) return nullptr;
+    if (node.topology()) return node.topology()->component.address();
+    return node.state() ? nullptr : above().topologyAddress();
+  }
+
+  // the Jacobian of a point of this scope's state with respect to the independent states above it
+  void expand(int point, JacobianVisitor const& visitor) const {
+    if (atMount) return mount().expand(mount().scope, point, visitor);
+    if (!mapped()) {
+      node.state()->component.template visit<role::State>([&](auto const& s) {
+        visitor.call(
+            visitor.self, s.dofOffset + point * std::decay_t<decltype(s)>::DataTypes::size, 0, nullptr);
+      });
+      return;
+    }
+    node.mapping()->component.template visit<role::Mapping>([&](auto const& mapping) {
+      using M = std::decay_t<decltype(mapping)>;
+      const RuntimeScope parent = above().stateScope();
+      mapping.forEachJacobianBlock(point, [&](int pointAbove, auto const& j) {
+        auto chain = [&](int dof, int columns, double const* entries) {
+          detail::with_jacobian<typename M::Out::Real, M::In::size>(
+              columns, entries, [&](auto const& jAbove) { detail::emit(visitor, dof, (j * jAbove).eval()); });
+        };
+        parent.expand(pointAbove, detail::jacobian_visitor(chain));
+      });
+    });
+  }
+};
+
+template <class R, class A>
+struct ScopeOf<RuntimeNode<R>, A> {
+  using type = RuntimeScope<R>;
+};
+
+/// A place in a typed scene for what comes and goes: a runtime node with a name for the compiler.
+template <FixedString Name, class R>
+struct RuntimePlace : RuntimeNode<R> {
+  static constexpr auto name = Name;
+  RuntimePlace() : RuntimeNode<R>(std::string(Name.view())) {}
+};
+template <FixedString Name, class R>
+inline constexpr bool is_node<RuntimePlace<Name, R>> = true;
+template <FixedString Name, class R, class A>
+struct ScopeOf<RuntimePlace<Name, R>, A> {
+  using type = RuntimeScope<R>;
+};
+
+}  // namespace sinew

@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/fields.hpp>
+
+#include <charconv>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+namespace sinew {
+
+/// Words of an attribute, apart by white space.
+class Words {
+ public:
+  explicit Words(std::string_view text) : rest_(text) { skip(); }
+  bool end() const { return rest_.empty(); }
+  std::string_view next() {
+    const std::size_t n = std::min(rest_.find_first_of(" \t\r\n"), rest_.size());
+    const std::string_view word = rest_.substr(0, n);
+    rest_.remove_prefix(n);
+    skip();
+    return word;
+  }
+  std::string_view peek() const { return rest_.substr(0, rest_.find_first_of(" \t\r\n")); }
+  std::string_view rest() const {
+    std::string_view all = rest_;
+    while (!all.empty() && std::string_view(" \t\r\n").find(all.back()) != all.npos) all.remove_suffix(1);
+    return all;
+  }
+
+ private:
+  std::string_view rest_;
+  void skip() { rest_.remove_prefix(std::min(rest_.find_first_not_of(" \t\r\n"), rest_.size())); }
+};
+
+namespace detail {
+
+inline std::string shown(std::string_view word) {
+  std::string clean(word.substr(0, 40));
+  for (char& c : clean)
+    if (c < ' ' || c > '~') c = '?';
+  return text("'", clean, word.size() > 40 ? "...'" : "'");
+}
+
+template <class T>
+T read_number(std::string_view word) {
+  const std::string_view digits = word.starts_with('+') ? word.substr(1) : word;
+  T value{};
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (error == std::errc::result_out_of_range) {
+    // what is nearer to zero than the smallest number is zero
+    if constexpr (std::is_floating_point_v<T>)
+      if (digits.find_first_of("123456789") != digits.npos && digits.find("e-") != digits.npos) return T(0);
+    throw Error("", text(shown(word), " is out of range; give a smaller number"));
+  }
+  if (error != std::errc{} || end != digits.data() + digits.size() || digits.empty())
+    throw Error(
+        "",
+        text(shown(word), std::is_integral_v<T> ? " is no whole number" : " is no number", "; correct it"));
+  return value;
+}
+
+template <class T>
+concept DynamicList = requires(T list) {
+  list.clear();
+  list.push_back(list.front());
+}
+&&!std::is_same_v<T, std::string>;
+
+template <class T>
+inline constexpr bool is_eigen = std::is_base_of_v<Eigen::MatrixBase<T>, T>;
+
+inline std::string_view need_word(Words& words, std::string_view what) {
+  if (words.end()) throw Error("", text("ends where ", what, " is expected; give all values"));
+  return words.next();
+}
+
+/// "3", "1-5" or "1-9-2": a whole number, or those from the first to the second in steps of the third.
+inline void read_range(std::string_view word, std::vector<int>& to) {
+  constexpr std::size_t most = std::size_t(1) << 26;
+  const std::size_t dash = word.find('-', 1);
+  const int first = read_number<int>(word.substr(0, dash));
+  int last = first, step = 1;
+  if (dash != word.npos) {
+    std::string_view tail = word.substr(dash + 1);
+    const std::size_t second = tail.find('-', 1);
+    last = read_number<int>(tail.substr(0, second));
+    if (second != tail.npos) step = read_number<int>(tail.substr(second + 1));
+    if (step == 0 || (last - double(first)) * step < 0)
+      throw Error("", text("the range ", shown(word), " leads nowhere; write first-last or first-last-step"));
+  }
+  const double count = (double(last) - first) / step + 1;
+  if (double(to.size()) + count > double(most))
+    throw Error("",
+                text("the range ", shown(word), " makes a list of more than ", most, " numbers; shorten it"));
+  for (long i = 0, n = long(count); i < n; ++i) to.push_back(int(first + i * step));
+}
+
+template <class T>
+void read_words(Words& words, T& value);
+
+template <class Real, int Dim>
+void read_rigid_mass(Words& words, RigidMass<Real, Dim>& value) {
+  std::vector<Real> numbers;
+  while (!words.end()) numbers.push_back(read_number<Real>(words.next()));
+  constexpr std::size_t n = Dim == 3 ? 9 : 1;
+  value = {};
+  if (numbers.size() != 1 && numbers.size() != n + 1 && numbers.size() != n + 2)
+    throw Error("",
+                text("a rigid mass is a mass, or mass, volume and the ",
+                     n,
+                     " entries of the inertia divided by the mass, or mass and ",
+                     n,
+                     " entries of the inertia; here are ",
+                     numbers.size(),
+                     " numbers"));
+  value.mass = numbers[0];
+  const bool perMass = numbers.size() == n + 2;  // SOFA's form
+  if (numbers.size() == 1)
+    value.inertia *= value.mass;
+  else
+    for (std::size_t i = 0; i < n; ++i)
+      value.inertia(Eigen::Index(i / (Dim == 3 ? 3 : 1)), Eigen::Index(i % (Dim == 3 ? 3 : 1))) =
+          perMass ? numbers[i + 2] * value.mass : numbers[i + 1];
+}
+
+template <class T>
+void read_words(Words& words, T& value) {
+  if constexpr (std::is_same_v<T, bool>) {
+    const std::string_view word = need_word(words, "true or false");
+    if (word == "1" || word == "true" || word == "True" || word == "TRUE")
+      value = true;
+    else if (word == "0" || word == "false" || word == "False" || word == "FALSE")
+      value = false;
+    else
+      throw Error("", text(shown(word), " is neither true nor false; write 1 or 0"));
+  } else if constexpr (std::is_enum_v<T>) {
+    const std::string_view word = need_word(words, "a word");
+    constexpr auto names = enum_names(T{});
+    for (std::size_t i = 0; i < names.size(); ++i)
+      if (names[i] == word) return void(value = T(i));
+    std::string known;
+    for (auto name : names) known += text(known.empty() ? "" : ", ", name);
+    const std::string nearest = nearest_name(word, names);
+    throw Error(
+        "",
+        text(shown(word),
+             " is not one of ",
+             known,
+             nearest.empty() ? std::string("; choose one") : text("; did you mean '", nearest, "'?")));
+  } else if constexpr (std::is_arithmetic_v<T>) {
+    value = read_number<T>(need_word(words, "a number"));
+  } else if constexpr (std::is_same_v<T, std::string>) {
+    value = std::string(words.rest());
+    while (!words.end()) words.next();
+  } else if constexpr (std::is_same_v<T, DataFile>) {
+    read_words(words, value.path);
+  } else if constexpr (requires { value.has_value(); }) {
+    if (words.peek() == "auto") {
+      words.next();
+      value.reset();
+    } else {
+      value.emplace();
+      read_words(words, *value);
+    }
+  } else if constexpr (requires { value.inertia; }) {
+    read_rigid_mass(words, value);
+  } else if constexpr (HasFields<T>) {
+    value = T{};
+    for_each_field(value, [&](auto const&, auto& part) { read_words(words, part); });
+  } else if constexpr (requires {
+                         value.center;
+                         value.orientation;
+                       }) {
+    read_words(words, value.center);
+    if constexpr (requires { value.orientation.coeffs(); }) {
+      auto coefficients = value.orientation.coeffs().eval();
+      read_words(words, coefficients);
+      value.orientation.coeffs() = coefficients;
+    } else {
+      read_words(words, value.orientation);
+    }
+  } else if constexpr (is_eigen<T>) {
+    for (Eigen::Index i = 0; i < value.size(); ++i) {
+      typename T::Scalar number;
+      read_words(words, number);
+      value(i / value.cols(), i % value.cols()) = number;
+    }
+  } else if constexpr (std::is_same_v<T, std::vector<int>>) {
+    value.clear();
+    while (!words.end()) read_range(words.next(), value);
+  } else if constexpr (std::is_same_v<T, std::vector<bool>>) {
+    value.clear();
+    while (!words.end()) {
+      bool one = false;
+      read_words(words, one);
+      value.push_back(one);
+    }
+  } else if constexpr (DynamicList<T>) {
+    value.clear();
+    while (!words.end()) read_words(words, value.emplace_back());
+  } else {
+    for (auto& one : value) read_words(words, one);  // std::array
+  }
+}
+
+inline void append_number(std::string& to, double value) {
+  char buffer[40];
+  to.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr);
+}
+inline void append_number(std::string& to, float value) {
+  char buffer[40];
+  to.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr);
+}
+
+template <class T>
+void write_words(std::string& to, T const& value) {
+  auto blank = [&] {
+    if (!to.empty()) to += ' ';
+  };
+  if constexpr (std::is_same_v<T, bool>) {
+    blank();
+    to += value ? '1' : '0';
+  } else if constexpr (std::is_enum_v<T>) {
+    blank();
+    to += enum_names(T{})[std::size_t(value)];
+  } else if constexpr (std::is_floating_point_v<T>) {
+    blank();
+    append_number(to, value);
+  } else if constexpr (std::is_arithmetic_v<T>) {
+    blank();
+    to += std::to_string(value);
+  } else if constexpr (std::is_same_v<T, std::string>) {
+    blank();
+    to += value;
+  } else if constexpr (std::is_same_v<T, DataFile>) {
+    write_words(to, value.path);
+  } else if constexpr (requires { value.has_value(); }) {
+    if (value)
+      write_words(to, *value);
+    else
+      write_words(to, std::string("auto"));
+  } else if constexpr (requires { value.inertia; }) {
+    write_words(to, value.mass);
+    write_words(to, value.inertia);
+  } else if constexpr (HasFields<T>) {
+    for_each_field(value, [&](auto const&, auto const& part) { write_words(to, part); });
+  } else if constexpr (requires {
+                         value.center;
+                         value.orientation;
+                       }) {
+    write_words(to, value.center);
+    if constexpr (requires { value.orientation.coeffs(); })
+      write_words(to, value.orientation.coeffs().eval());
+    else
+      write_words(to, value.orientation);
+  } else if constexpr (is_eigen<T>) {
+    for (Eigen::Index i = 0; i < value.size(); ++i)
+      write_words(to, typename T::Scalar(value(i / value.cols(), i % value.cols())));
+  } else if constexpr (std::is_same_v<T, std::vector<bool>>) {
+    for (const bool one : value) write_words(to, one);
+  } else {
+    for (auto const& one : value) write_words(to, one);
+  }
+}
+
+}  // namespace detail
+
+/// Reads a field's value from the words of an attribute; lists of whole numbers may have ranges. Throws Error
+/// that says what is wrong with which word, and leaves value as it was.
+template <class T>
+void read_value(std::string_view text_, T& value) {
+  Words words(text_);
+  T read{};
+  if constexpr (detail::is_eigen<T>) {
+    // a single 0 is zero in all coordinates
+    Words again(text_);
+    if (!again.end() && again.next() == "0" && again.end()) {
+      value.setZero();
+      return;
+    }
+  }
+  if constexpr (requires { value.has_value(); }) read = value;
+  detail::read_words(words, read);
+  if (!words.end())
+    throw Error(
+        "",
+        text("goes on with ", detail::shown(words.next()), " where it should end; remove what is too much"));
+  value = std::move(read);
+}
+
+/// The words from which read_value makes the same bits again.
+template <class T>
+std::string write_value(T const& value) {
+  std::string words;
+  detail::write_words(words, value);
+  return words;
+}
+
+}  // namespace sinew
