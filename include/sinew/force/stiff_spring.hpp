@@ -106,6 +106,8 @@ struct Spring {
 template <class D, class E = Within>
 struct StiffSpringForceField {
   using Ends = E;
+  template <class Other>
+  using WithEnds = StiffSpringForceField<D, Other>;
   static constexpr bool between = !std::is_same_v<E, Within>;
   using Role = std::conditional_t<between, role::InteractionForceField, role::ForceField>;
   using DataTypes = D;

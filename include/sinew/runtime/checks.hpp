@@ -3,25 +3,9 @@
 
 #include <sinew/runtime/scope.hpp>
 
-namespace sinew {
+#include <set>
 
-/// The node at a path that links use, from a node on: names, "." and "..", from the top where it starts with
-/// '/'. Null where there is none.
-template <class R>
-RuntimeNode<R>* resolve_path(RuntimeNode<R>& from, std::string_view path) {
-  RuntimeNode<R>* at = &from;
-  if (path.starts_with('/')) at = &from.top();
-  while (!path.empty()) {
-    const std::string_view name = path.substr(0, path.find('/'));
-    path.remove_prefix(std::min(name.size() + 1, path.size()));
-    if (name == "..")
-      at = at->parent();
-    else if (!name.empty() && name != ".")
-      at = at->find_node(name);
-    if (!at) return nullptr;
-  }
-  return at;
-}
+namespace sinew {
 
 namespace detail {
 
@@ -100,7 +84,7 @@ struct RuntimeChecker {
     if constexpr (requires { c.ends.object1; }) {
       const std::string* paths[] = {&c.ends.object1, &c.ends.object2};
       for (std::size_t k = 0; k < 2; ++k) {
-        entry.ends[k] = resolve_path(scope.node, *paths[k]);
+        entry.ends[k] = scope.node.resolve(*paths[k]);
         if (!entry.ends[k])
           fail(text("object",
                     k + 1,
@@ -129,11 +113,13 @@ void runtime_checks(RuntimeScope<R> const& scope) {
     auto one = [&]<class Role>(int slot, std::string_view what) {
       if (!entry.component.template is<Role>()) return;
       if (first[slot])
-        detail::RuntimeChecker<R>{scope, entry}.fail(text("is the second ",
-                                                          what,
-                                                          " of its node, beside ",
-                                                          first[slot]->component.name(),
-                                                          "; keep one, or give it a node of its own"));
+        return scope.collect([&] {
+          detail::RuntimeChecker<R>{scope, entry}.fail(text("is the second ",
+                                                            what,
+                                                            " of its node, beside ",
+                                                            first[slot]->component.name(),
+                                                            "; keep one, or give it a node of its own"));
+        });
       first[slot] = &entry;
     };
     one.template operator()<role::State>(0, "state");
@@ -143,13 +129,13 @@ void runtime_checks(RuntimeScope<R> const& scope) {
     one.template operator()<role::OdeSolver>(3, "ODE solver");
     one.template operator()<role::Topology>(4, "topology");
   }
-  for (std::size_t i = 0; i < node.children().size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      if (node.children()[i]->name == node.children()[j]->name)
-        throw Error(scope.path(),
-                    text("has two children named '", node.children()[i]->name, "'; rename one"));
+  std::set<std::string_view> names;
+  for (auto const& child : node.children())
+    if (!names.insert(child->name).second)
+      scope.collect(
+          [&] { throw Error(scope.path(), text("has two children named '", child->name, "'; rename one")); });
   for (auto& entry : node.components())
-    entry.component.template visit<AnyRole>(detail::RuntimeChecker<R>{scope, entry});
+    scope.collect([&] { entry.component.template visit<AnyRole>(detail::RuntimeChecker<R>{scope, entry}); });
 }
 
 }  // namespace sinew

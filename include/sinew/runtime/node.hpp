@@ -37,7 +37,7 @@ struct RuntimeEntry {
   // after init
   bool initialised = false;
   std::vector<void const*> surroundings{};  // states, mappings and topologies it was initialised with
-  std::array<RuntimeNode<R>*, 2> ends{nullptr, nullptr};  // of an interaction
+  std::array<RuntimeNode<R>*, 2> ends{nullptr, nullptr};  // of an interaction, found when first asked for
 };
 
 /// A node of a scene that is composed while the program runs: components of the classes of a registry R, and
@@ -49,12 +49,12 @@ class RuntimeNode {
   using Entry = RuntimeEntry<R>;
   std::string name;
   Mount mount{};
+  std::vector<std::string> errors{};  // of the top node: what init has found wrong so far
 
   explicit RuntimeNode(std::string n = "root") : name(std::move(n)) {}
   RuntimeNode(RuntimeNode const& other) : name(other.name), mount(other.mount), entries_(other.entries_) {
     for (auto const& child : other.children_) children_.push_back(std::make_unique<RuntimeNode>(*child));
     adopt();
-    for (auto& entry : entries_) entry.ends = {nullptr, nullptr};
   }
   RuntimeNode(RuntimeNode&& other) noexcept
       : name(std::move(other.name)),
@@ -144,6 +144,20 @@ class RuntimeNode {
         return child->find_node(at.substr(std::min(slash + 1, at.size())));
     return nullptr;
   }
+  /// The node at a path that links use: names, "." and "..", from the top where it starts with '/'. Null
+  /// where there is none.
+  RuntimeNode* resolve(std::string_view at) {
+    RuntimeNode* found = at.starts_with('/') ? &top() : this;
+    while (found && !at.empty()) {
+      const std::string_view step = at.substr(0, at.find('/'));
+      at.remove_prefix(std::min(step.size() + 1, at.size()));
+      if (step == "..")
+        found = found->parent_;
+      else if (!step.empty() && step != ".")
+        found = found->find_node(step);
+    }
+    return found;
+  }
   /// "root/liver/skin".
   std::string path() const { return parent_ ? text(parent_->path(), '/', name) : text('/', name); }
 
@@ -162,7 +176,12 @@ class RuntimeNode {
 
   void adopt() {
     for (auto& child : children_) child->parent_ = this;
+    forgetEnds();
     refresh();
+  }
+  void forgetEnds() {
+    for (auto& entry : entries_) entry.ends = {nullptr, nullptr};
+    for (auto& child : children_) child->forgetEnds();
   }
   void refresh() {
     auto first = [&]<class Role>() -> Entry* {

@@ -123,9 +123,27 @@ struct RuntimeScope {
     }
   }
   template <class C, class F>
-  void ifNew(C const& c, bool /*again*/, F&& f) const {
+  void ifNew(C const& c, bool again, F&& f) const {
     auto const& entry = node.entryOf(&c);
-    if (!entry.initialised || entry.surroundings != surroundings(entry)) located(c, f);
+    if (again && entry.initialised && entry.surroundings == surroundings(entry)) return;
+    collect([&] { located(c, f); });
+  }
+  /// Goes on after an error, so that all can be said at once; raise() throws them.
+  template <class F>
+  void collect(F&& f) const {
+    try {
+      f();
+    } catch (Error const& error) {
+      node.top().errors.push_back(error.what());
+    }
+  }
+  void raise() const {
+    auto& errors = node.top().errors;
+    if (errors.empty()) return;
+    std::string lines;
+    for (auto const& e : errors) lines += text(lines.empty() ? "" : "\n", e);
+    errors.clear();
+    throw Error("", lines);
   }
   void check() const {
     runtime_checks(*this);
@@ -177,7 +195,9 @@ struct RuntimeScope {
 
   template <class C, class F>
   void withEnds(C const& c, F&& f) const {
-    auto const& entry = node.entryOf(&c);
+    auto& entry = node.entryOf(&c);
+    if constexpr (requires { c.ends.object1; })
+      if (!entry.ends[0]) entry.ends = {node.resolve(c.ends.object1), node.resolve(c.ends.object2)};
     f(RuntimeScope(*entry.ends[0]), RuntimeScope(*entry.ends[1]));
   }
 

@@ -112,9 +112,6 @@ class XmlReader {
     if (!result)
       throw Error(file->place(std::size_t(result.offset)),
                   text("is no well-formed XML: ", result.description(), "; correct the file"));
-    if (std::distance(document.children().begin(), document.children().end()) == 0 ||
-        !document.document_element())
-      throw Error(file->place(0), "has no element; a scene has one, <Node>");
     including_.push_back(path);
     XmlElement root;
     convert(document.document_element(), buffer.data(), file, root, 0);

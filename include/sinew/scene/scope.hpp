@@ -130,6 +130,10 @@ struct Scope {
   void located(C const&, F&& f) const {
     f();
   }
+  /// Throws what init of runtime nodes has found wrong so far, all at once.
+  void raise() const {
+    forEachChild([](auto const& child) { child.raise(); });
+  }
   void settled() const {
     forEachChild([](auto const& child) { child.settled(); });
   }

@@ -71,6 +71,7 @@ class Simulation {
   void change(F&& edit) {
     if (!initialised_) throw Error("Simulation::change", "the scene is not initialised; call init() first");
     Root next(root_);
+    scopeOf(next).settled();
     edit(next);
     initScene(scopeOf(next), true);
     root_ = std::move(next);
@@ -270,19 +271,24 @@ void Simulation<Root>::updateVisual() {
 template <class Root>
 void Simulation<Root>::initScene(RootScope const& scope, bool again) {
   scope.check();
+  scope.raise();
   traverse(scope, on<AnyRole>([again](auto& c, auto const& s) {
              s.ifNew(c, again, [&] { check_fields(c, s.path()); });
            }));
+  scope.raise();
   traverse(scope, on<role::Topology>([again](auto& c, auto const& s) {
              if constexpr (requires { c.generate(s.path()); })
                s.ifNew(c, again, [&] { c.generate(s.path()); });
            }));
   traverse(scope, on<role::Mapping, role::State, role::VisualModel>([again](auto& c, auto const& s) {
              s.ifNew(c, again, [&] { initState(c, s); });
+             s.raise();  // what follows a wrong state has nothing to stand on
            }));
   traverse(scope,
            on<AnyRole>([again](auto& c, auto const& s) { s.ifNew(c, again, [&] { initComponent(c, s); }); }));
+  scope.raise();
   initSolvers(scope);
+  scope.raise();
   scope.settled();
 }
 

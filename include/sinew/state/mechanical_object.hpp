@@ -4,6 +4,7 @@
 #include <sinew/core/component.hpp>
 #include <sinew/state/vector_operations.hpp>
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -22,6 +23,9 @@ struct MechanicalObject {
   VecCoord position{};      // current positions [m]; those given are the initial ones
   VecDeriv velocity{};      // current velocities [m/s]; zero when not given
   VecCoord restPosition{};  // undeformed positions [m]; the initial ones when not given
+  // where reset() goes; the start when not given
+  VecCoord resetPosition{};
+  VecDeriv resetVelocity{};
   // moves the positions given, at init: scaled first, then turned by Euler angles about x, y, z, then shifted
   Eigen::Vector3d translation{0, 0, 0}, rotation{0, 0, 0}, scale3d{1, 1, 1};
 
@@ -31,6 +35,14 @@ struct MechanicalObject {
         field("position", &M::position, "m", "positions at the start"),
         field("velocity", &M::velocity, "m/s", "velocities at the start"),
         field("rest_position", &M::restPosition, "m", "undeformed positions"),
+        field("reset_position",
+              &M::resetPosition,
+              "m",
+              "positions to which a reset goes; those at the start when not given"),
+        field("reset_velocity",
+              &M::resetVelocity,
+              "m/s",
+              "velocities to which a reset goes; those at the start when not given"),
         field("translation", &M::translation, "m", "moves all positions at the start"),
         field(
             "rotation", &M::rotation, "degree", "turns all positions at the start, about x, then y, then z"),
@@ -42,10 +54,8 @@ struct MechanicalObject {
   VecCoord freePosition{};
   std::vector<VecCoord> auxiliaryCoords{};
   std::vector<VecDeriv> auxiliaryDerivs{};
-  VecCoord resetPosition{};
-  VecDeriv resetVelocity{};
-  VecCoord given{};    // positions that the mapping of a mapped state was given
-  int dofOffset = -1;  // first scalar of this state in the assembled system of its solver
+  std::optional<VecCoord> given{};  // positions that the mapping of a mapped state was given
+  int dofOffset = -1;               // first scalar of this state in the assembled system of its solver
 
   std::size_t size() const { return position.size(); }
 
@@ -79,10 +89,14 @@ struct MechanicalObject {
 
   /// A mapped state starts from what it was given, however often it is initialised.
   void takeGiven() {
-    if (given.empty())
+    if (!given) {
       given = position;
-    else
-      position = given;
+      return;
+    }
+    position = *given;
+    velocity.clear();
+    resetPosition.clear();
+    resetVelocity.clear();
   }
 
   void init(std::string const& where) {
@@ -101,6 +115,8 @@ struct MechanicalObject {
     };
     same(velocity.size(), "velocity");
     same(restPosition.size(), "rest_position");
+    same(resetPosition.size(), "reset_position");
+    same(resetVelocity.size(), "reset_velocity");
     if constexpr (D::rigid && D::spatial == 3)
       for (std::size_t i = 0; i < n; ++i) {
         const auto norm = position[i].orientation.norm();
@@ -110,15 +126,17 @@ struct MechanicalObject {
                            ": the orientation of position ",
                            i,
                            " is zero; give a quaternion of length 1"));
-        position[i].orientation.coeffs() /= norm;
+        // one that a simulation has left unit stays bit by bit what it was
+        if (std::abs(norm - 1) > 4 * std::numeric_limits<typename D::Real>::epsilon())
+          position[i].orientation.coeffs() /= norm;
       }
     if (velocity.empty()) velocity.assign(n, D::Deriv::Zero());
     if (restPosition.empty()) restPosition = position;
     force.assign(n, D::Deriv::Zero());
     dx.assign(n, D::Deriv::Zero());
     freePosition = position;
-    resetPosition = position;
-    resetVelocity = velocity;
+    if (resetPosition.empty()) resetPosition = position;
+    if (resetVelocity.empty()) resetVelocity = velocity;
   }
 
   void reserve(Auxiliary needed) {

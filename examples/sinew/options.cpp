@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "options.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <cmath>
+
+namespace cli {
+
+namespace {
+
+constexpr char const* exitCodes =
+    "Exit status: 0 all went well; 1 the scene or its data is wrong; 2 the command line is wrong;\n"
+    "3 the simulation diverged; 4 a file could not be written; 130 interrupted by Ctrl-C, with all files "
+    "complete.\n"
+    "Mistakes in a scene are reported on standard error as file:line:column: message.";
+
+// "path.attribute=value"
+Settings settings_of(std::vector<std::string> const& words, std::string const& option) {
+  Settings settings;
+  for (auto const& word : words) {
+    const std::size_t equals = word.find('=');
+    if (equals == word.npos || word.substr(0, equals).find('.') == word.npos)
+      throw CLI::ValidationError(
+          option,
+          "'" + word + "' is not of the form path.attribute=value, as in liver/fem.youngModulus=1000");
+    settings.emplace_back(word.substr(0, equals), word.substr(equals + 1));
+  }
+  return settings;
+}
+
+std::string seconds(std::string const& word) {
+  try {
+    std::size_t end = 0;
+    const double value = std::stod(word, &end);
+    if (end == word.size() && std::isfinite(value) && value > 0) return {};
+  } catch (std::exception const&) {
+  }
+  return "'" + word + "' is not a number of seconds greater than 0";
+}
+CLI::Validator positive_seconds() { return CLI::Validator(seconds, "SECONDS"); }
+CLI::Validator at_least(long low) { return CLI::Validator(CLI::Range(low, 1000000000000L)).description("N"); }
+
+struct SceneWords {
+  std::vector<std::string> set{};
+  void addTo(CLI::App& app, SceneOptions& scene, bool withDt) {
+    app.add_option(
+           "--set", set, "Replace a value of the scene, as in liver/fem.youngModulus=1000; repeatable")
+        ->type_name("PATH.ATTRIBUTE=VALUE")
+        ->allow_extra_args(false);
+    app.add_option("--data", scene.data, "Folder where files are looked for that the scene names; repeatable")
+        ->type_name("DIR")
+        ->check(CLI::ExistingDirectory.description(""))
+        ->allow_extra_args(false);
+    app.add_flag("--lenient", scene.lenient, "Leave out components of unknown classes, with a warning");
+    if (withDt)
+      app.add_option("--dt", scene.dt, "Seconds a step takes (default: dt of the scene)")
+          ->type_name("SECONDS")
+          ->check(positive_seconds().description(""));
+  }
+};
+
+void add_duration(CLI::App& app, Duration& duration) {
+  auto* steps = app.add_option("--steps", duration.steps, "How many steps to simulate (default 100)")
+                    ->type_name("N")
+                    ->check(at_least(0).description(""));
+  auto* time = app.add_option("--time", duration.time, "How many seconds to simulate, instead of --steps")
+                   ->type_name("SECONDS")
+                   ->check(positive_seconds().description(""));
+  steps->excludes(time);
+}
+
+void add_output(CLI::App& app, bool& quiet, bool& json) {
+  auto* q = app.add_flag("--quiet", quiet, "Print errors only");
+  auto* j = app.add_flag("--json", json, "Print the result as one JSON object");
+  q->excludes(j);
+}
+Output output_of(bool quiet, bool json) {
+  return json ? Output::json : quiet ? Output::quiet : Output::words;
+}
+
+}  // namespace
+
+Options read_options(int argc, char** argv, int& status) {
+  Options o;
+  CLI::App app{
+      "sinew simulates scenes that are written in SOFA's XML: soft tissue, springs, rigid bodies.\n"
+      "Try:  sinew run scene.scn --vtk out   and open the .pvd files in 'out' with ParaView.\n"
+      "'sinew COMMAND --help' explains a command."};
+  app.name("sinew");
+  app.set_version_flag("--version", "sinew " SINEW_VERSION);
+  app.require_subcommand(1);
+  app.footer(exitCodes);
+  app.failure_message(CLI::FailureMessage::simple);
+
+  SceneWords runWords, checkWords, bakeWords, bothWords;
+  bool quiet = false, json = false, compareQuiet = false, compareJson = false;
+
+  auto* run = app.add_subcommand("run", "Simulate a scene");
+  run->footer(
+      "A file that --save wrote is a scene too: running it goes on from there, bit by bit.\n"
+      "Example:  sinew run liver.scn --time 2 --vtk out --every 5 --set Liver/FEM.youngModulus=5000");
+  run->add_option("scene", o.run.scene.path, "Scene file")->type_name("FILE")->required();
+  add_duration(*run, o.run.duration);
+  runWords.addTo(*run, o.run.scene, true);
+  run->add_option("--vtk",
+                  o.run.vtk,
+                  "Folder for pictures: a .pvd series, which ParaView opens, of each visual model and of "
+                  "each body without one")
+      ->type_name("DIR");
+  run->add_option(
+         "--record", o.run.record, "File for positions and velocities of all bodies over time, as text")
+      ->type_name("FILE");
+  run->add_option("--every", o.run.every, "Steps from one picture and recorded state to the next (default 1)")
+      ->type_name("K")
+      ->check(at_least(1).description(""));
+  run->add_option("--save", o.run.save, "File for the scene as it is at the end, to go on from")
+      ->type_name("FILE");
+  add_output(*run, quiet, json);
+
+  auto* check = app.add_subcommand("check", "Find all mistakes in a scene, without simulating it");
+  check->footer("Example:  sinew check liver.scn");
+  check->add_option("scene", o.check.scene.path, "Scene file")->type_name("FILE")->required();
+  checkWords.addTo(*check, o.check.scene, false);
+  check->add_flag("--quiet", o.check.quiet, "Print errors only");
+
+  auto* list = app.add_subcommand("list", "Show the components that scenes may have, or explain one");
+  list->footer(
+      "Examples:  sinew list   sinew list TetrahedronFEMForceField   sinew list --markdown reference.md");
+  auto* component = list->add_option("component", o.list.component, "Class to explain, by one of its names")
+                        ->type_name("NAME");
+  list->add_option("--markdown", o.list.markdown, "File for the reference of all components, as Markdown")
+      ->type_name("FILE")
+      ->excludes(component);
+
+  auto* bake = app.add_subcommand("bake", "Write a scene as C++, which runs faster than its file");
+  bake->footer("Example:  sinew bake liver.scn -o liver.hpp");
+  bake->add_option("scene", o.bake.scene.path, "Scene file")->type_name("FILE")->required();
+  bake->add_option("-o,--output", o.bake.output, "Header to write")->type_name("FILE")->required();
+  bake->add_option("--name", o.bake.name, "Name of the function that makes the scene (default: scene)")
+      ->type_name("NAME");
+  bake->add_flag("--embed", o.bake.embed, "Put the content of data files into the header");
+  bakeWords.addTo(*bake, o.bake.scene, false);
+
+  auto* compare = app.add_subcommand("compare", "Run two scenes, or two variants of one, and compare them");
+  compare->footer(
+      "Bodies of the same path are compared; a file of 'sinew run --record' may stand for a scene.\n"
+      "Examples:  sinew compare a.scn b.scn --time 1\n"
+      "           sinew compare liver.scn --set-b Liver/FEM.method=polar\n"
+      "           sinew compare liver.scn --set-b root.dt=0.001");
+  compare->add_option("a", o.compare.a.path, "First scene file")->type_name("FILE")->required();
+  compare->add_option("b", o.compare.b.path, "Second scene file (default: the first)")->type_name("FILE");
+  add_duration(*compare, o.compare.duration);
+  bothWords.addTo(*compare, o.compare.a, true);
+  std::vector<std::string> setA, setB;
+  compare->add_option("--set-a", setA, "The same as --set, for the first scene only")
+      ->type_name("PATH.ATTRIBUTE=VALUE")
+      ->allow_extra_args(false);
+  compare->add_option("--set-b", setB, "The same as --set, for the second scene only")
+      ->type_name("PATH.ATTRIBUTE=VALUE")
+      ->allow_extra_args(false);
+  compare
+      ->add_option(
+          "--every", o.compare.every, "Steps from one comparison of positions to the next (default 1)")
+      ->type_name("K")
+      ->check(at_least(1).description(""));
+  compare
+      ->add_option(
+          "--rounds", o.compare.rounds, "How often to run both, for the time a step takes (default 3)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000).description(""));
+  add_output(*compare, compareQuiet, compareJson);
+
+  try {
+    app.parse(argc, argv);
+    o.run.scene.set = settings_of(runWords.set, "--set");
+    o.check.scene.set = settings_of(checkWords.set, "--set");
+    o.bake.scene.set = settings_of(bakeWords.set, "--set");
+    CompareOptions& c = o.compare;
+    const bool twoScenes = !c.b.path.empty();
+    c.b.lenient = c.a.lenient;
+    c.b.data = c.a.data;
+    c.b.dt = c.a.dt;
+    c.a.set = c.b.set = settings_of(bothWords.set, "--set");
+    for (auto& s : settings_of(setA, "--set-a")) c.a.set.push_back(std::move(s));
+    for (auto& s : settings_of(setB, "--set-b")) c.b.set.push_back(std::move(s));
+    if (compare->parsed() && !twoScenes) {
+      if (setA.empty() && setB.empty())
+        throw CLI::ValidationError("compare", "give a second scene, or --set-a or --set-b");
+      c.b.path = c.a.path;
+    }
+  } catch (CLI::ParseError const& e) {
+    status = app.exit(e) == 0 ? ok : badUsage;
+    return {};
+  }
+  o.run.output = output_of(quiet, json);
+  o.compare.output = output_of(compareQuiet, compareJson);
+  auto given = [](CLI::App* command) { return command->count("--steps") + command->count("--time") > 0; };
+  o.run.duration.given = given(run);
+  o.compare.duration.given = given(compare);
+  o.command = run->parsed()     ? Command::run
+              : check->parsed() ? Command::check
+              : list->parsed()  ? Command::list
+              : bake->parsed()  ? Command::bake
+                                : Command::compare;
+  return o;
+}
+
+}  // namespace cli

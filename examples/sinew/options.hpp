@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace cli {
+
+/// What the program's exit status says.
+enum Exit { ok = 0, badScene = 1, badUsage = 2, diverged = 3, notWritten = 4, interrupted = 130 };
+
+using Settings = std::vector<std::pair<std::string, std::string>>;  // "liver/fem.youngModulus" and its value
+
+struct SceneOptions {
+  std::string path{};
+  Settings set{};
+  std::vector<std::string> data{};
+  bool lenient = false;
+  double dt = 0;  // 0: the scene's
+};
+
+/// How far to simulate: so many steps, or so many seconds where `time` is not 0.
+struct Duration {
+  long steps = 100;
+  double time = 0;
+  bool given = false;
+};
+
+enum class Output { words, quiet, json };
+
+struct RunOptions {
+  SceneOptions scene{};
+  Duration duration{};
+  std::string vtk{}, record{}, save{};
+  long every = 1;
+  Output output = Output::words;
+};
+struct CheckOptions {
+  SceneOptions scene{};
+  bool quiet = false;
+};
+struct ListOptions {
+  std::string component{}, markdown{};
+};
+struct BakeOptions {
+  SceneOptions scene{};
+  std::string output{}, name = "scene";
+  bool embed = false;
+};
+struct CompareOptions {
+  SceneOptions a{}, b{};
+  Duration duration{};
+  long every = 1;
+  int rounds = 3;
+  Output output = Output::words;
+};
+
+enum class Command { none, run, check, list, bake, compare };
+struct Options {
+  Command command = Command::none;
+  RunOptions run{};
+  CheckOptions check{};
+  ListOptions list{};
+  BakeOptions bake{};
+  CompareOptions compare{};
+};
+
+/// Reads the command line. Where that ends the program, as --help and mistakes do, the command is none and
+/// `status` the exit status.
+Options read_options(int argc, char** argv, int& status);
+
+// the commands; each returns the exit status, or throws Failure (scene.hpp)
+int run(RunOptions const& options);
+int check(CheckOptions const& options);
+int list(ListOptions const& options);
+int bake(BakeOptions const& options);
+int compare(CompareOptions const& options);
+
+}  // namespace cli

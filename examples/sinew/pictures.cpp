@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "pictures.hpp"
+
+#include <algorithm>
+
+namespace cli {
+
+namespace {
+
+// "liver_skin" for the node /root/liver/skin: a name that every file system takes
+std::string file_name(Node const& node) {
+  std::string name = node.parent() ? node.path() : node.name;
+  if (node.parent()) name = name.substr(std::min(name.find('/', 1) + 1, name.size()));
+  for (char& c : name) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                       c == '-' || c == '.' || static_cast<unsigned char>(c) >= 0x80;
+    if (!plain) c = '_';
+  }
+  if (name.empty() || name.starts_with('.')) name.insert(0, "_");
+  return name;
+}
+
+template <class T>
+std::vector<T> copy(std::span<T const> elements) {
+  return {elements.begin(), elements.end()};
+}
+
+// the elements of the highest dimension: those below are faces and edges of them
+void take_elements(sinew::TopologyView const& topology, sinew::Mesh& mesh) {
+  mesh.tetrahedra = copy(topology.tetrahedra);
+  mesh.hexahedra = copy(topology.hexahedra);
+  if (!mesh.tetrahedra.empty() || !mesh.hexahedra.empty()) return;
+  mesh.triangles = copy(topology.triangles);
+  mesh.quads = copy(topology.quads);
+  if (!mesh.triangles.empty() || !mesh.quads.empty()) return;
+  mesh.edges = copy(topology.edges);
+}
+
+bool has_elements(sinew::TopologyView const& t) {
+  return !t.edges.empty() || !t.triangles.empty() || !t.quads.empty() || !t.tetrahedra.empty() ||
+         !t.hexahedra.empty();
+}
+
+}  // namespace
+
+Pictures::Pictures(std::string folder, Node& top) : folder_(std::move(folder)) { collect(top); }
+
+// says whether something is shown of the node or below
+bool Pictures::collect(Node& node) {
+  if (node.visual()) {
+    include(node, true);
+    for (auto const& child : node.children()) collect(*child);
+    return true;
+  }
+  bool below = false;
+  const std::size_t place = series_.size();
+  for (auto const& child : node.children()) below = collect(*child) || below;
+  // a mapped state without elements is a help for others, and is not looked at
+  const bool elements = has_elements(sinew::RuntimeScope<sinew::Standard>(node).topology());
+  if (!node.state() || below || (node.mapping() && !elements)) return below;
+  include(node, false);
+  std::rotate(series_.begin() + std::ptrdiff_t(place), series_.end() - 1, series_.end());
+  return true;
+}
+
+void Pictures::include(Node& node, bool visual) {
+  const std::string name = sinew::text(folder_, folder_.ends_with('/') ? "" : "/", file_name(node));
+  std::string stem = name;
+  auto taken = [&](Series const& s) { return s.files.path() == stem + ".pvd"; };
+  for (int n = 2; std::any_of(series_.begin(), series_.end(), taken); ++n) stem = sinew::text(name, '_', n);
+  series_.push_back({&node, visual, sinew::io::PvdSeries(stem + ".pvd")});
+}
+
+void Pictures::add(sinew::StandardSimulation& simulation) {
+  simulation.updateVisual();
+  for (auto& series : series_) {
+    sinew::Mesh mesh;
+    sinew::io::PointData data;
+    if (series.visual) {
+      series.node->visual()->component.visit<sinew::role::VisualModel>(
+          [&](auto const& visual) { mesh = visual.current(); });
+    } else {
+      take_elements(sinew::RuntimeScope<sinew::Standard>(*series.node).topology(), mesh);
+      series.node->state()->component.visit<sinew::role::State>([&](auto const& state) {
+        using D = typename std::decay_t<decltype(state)>::DataTypes;
+        sinew::io::PointArray velocity{"velocity", 3};
+        for (std::size_t i = 0; i < state.size(); ++i) {
+          Eigen::Vector3d x = Eigen::Vector3d::Zero(), v = x;
+          x.head<D::spatial>() = D::center(state.position[i]).template cast<double>();
+          v.head<D::spatial>() = state.velocity[i].template head<D::spatial>().template cast<double>();
+          mesh.positions.push_back(x);
+          velocity.values.insert(velocity.values.end(), v.begin(), v.end());
+        }
+        data.push_back(std::move(velocity));
+      });
+    }
+    series.files.add(simulation.time(), mesh, data);
+  }
+}
+
+std::vector<std::string> Pictures::paths() const {
+  std::vector<std::string> all;
+  for (auto const& series : series_) all.push_back(series.files.path());
+  return all;
+}
+
+}  // namespace cli

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "json.hpp"
+#include "pictures.hpp"
+
+#include "support/progress.hpp"
+
+#include <sinew/runtime/record.hpp>
+#include <sinew/runtime/save_scene.hpp>
+
+#include <cmath>
+#include <cstdio>
+#include <optional>
+
+namespace cli {
+
+namespace {
+
+// what a run writes while it goes
+class Outputs {
+ public:
+  Outputs(RunOptions const& options, Scene& scene) : options_(options), scene_(scene) {
+    writing([&] {
+      if (!options.vtk.empty()) {
+        sinew::io::make_folders(options.vtk);
+        pictures_.emplace(options.vtk, scene.simulation.root());
+      }
+      if (!options.record.empty()) record_.emplace(options.record);
+      if (!options.save.empty()) mayWrite(options.save);
+    });
+  }
+  void add() {
+    auto& simulation = scene_.simulation;
+    writing([&] {
+      if (pictures_) pictures_->add(simulation);
+      if (record_) record_->add(sinew::capture(simulation.root(), simulation.step(), simulation.time()));
+    });
+  }
+  /// Completes all files and says which they are.
+  std::vector<std::string> finish(bool good) {
+    std::vector<std::string> files;
+    writing([&] {
+      if (pictures_) files = pictures_->paths();
+      if (record_) record_->finish(), files.push_back(options_.record);
+      // what diverged is nothing to go on from
+      if (good && !options_.save.empty()) {
+        sinew::save_scene(scene_.simulation, scene_.dt, options_.save);
+        files.push_back(options_.save);
+      }
+    });
+    return files;
+  }
+
+ private:
+  RunOptions const& options_;
+  Scene& scene_;
+  std::optional<Pictures> pictures_{};
+  std::optional<sinew::RecordWriter> record_{};
+
+  // finds out before a long run, not after it
+  static void mayWrite(std::string const& path) {
+    struct stat info;
+    const std::string folder = path.substr(0, path.rfind('/') + 1);
+    if (::stat(path.c_str(), &info) == 0 && S_ISDIR(info.st_mode))
+      throw sinew::Error(path, "is a folder; name a file in it");
+    if (::stat(folder.empty() ? "." : folder.c_str(), &info) != 0)
+      throw sinew::Error(path,
+                         sinew::text("cannot be written: there is no folder ", folder, "; create it first"));
+  }
+};
+
+}  // namespace
+
+int run(RunOptions const& options) {
+  Scene scene = load(options.scene);
+  auto& simulation = scene.simulation;
+  const Count size = count(simulation.root());
+  const long steps = steps_of(options.duration, scene.dt);
+  const bool words = options.output == Output::words;
+  if (words) {
+    print_notes(scene.ignored, scene.warnings);
+    std::printf("%s: %s\n", options.scene.path.c_str(), size.words().c_str());
+    if (!options.duration.given)
+      std::printf("%ld steps of %g s; --steps or --time simulates more\n", steps, scene.dt);
+    std::fflush(stdout);
+  }
+
+  Outputs outputs(options, scene);
+  outputs.add();
+  examples::Progress progress(std::max(steps, 1L));
+  examples::Stopwatch stepping;
+  std::optional<Failure> failure;
+  catch_interrupt();
+  long done = 0;
+  while (done < steps && !was_interrupted() && !failure) {
+    stepping.start();
+    try {
+      scene.animate();
+    } catch (Failure const& f) {
+      failure = f;
+    }
+    stepping.stop();
+    if (failure) break;
+    ++done;
+    if (done % options.every == 0) outputs.add();
+    if (words) progress.at(done);
+  }
+  const bool stopped = done < steps && !failure;
+  if (words && done < steps && isatty(2)) std::fprintf(stderr, "\n");
+  const auto files = outputs.finish(!failure);
+
+  const double seconds = stepping.seconds();
+  const double rate = done > 0 ? double(done) / seconds : std::nan("");
+  double kinetic = std::nan(""), potential = kinetic;
+  if (!failure) kinetic = simulation.kineticEnergy(), potential = simulation.potentialEnergy();
+  if (options.output == Output::json) {
+    Json json;
+    json.set("scene", options.scene.path)
+        .set("nodes", size.nodes)
+        .set("components", size.components)
+        .set("degreesOfFreedom", size.degreesOfFreedom)
+        .set("dt", scene.dt)
+        .set("steps", done)
+        .set("time", simulation.time())
+        .set("seconds", seconds)
+        .set("stepsPerSecond", rate)
+        .set("realTimeFactor", rate * scene.dt)
+        .set("kineticEnergy", kinetic)
+        .set("potentialEnergy", potential)
+        .set("ignored", scene.ignored)
+        .set("warnings", scene.warnings)
+        .set("files", files)
+        .set("interrupted", stopped)
+        .set("errors", failure ? failure->messages : std::vector<std::string>{});
+    std::printf("%s\n", json.text().c_str());
+  } else if (words) {
+    if (done > 0)
+      std::printf("%ld steps of %g s in %.3f s: %.0f steps/s, %.3g times real time\n",
+                  done,
+                  scene.dt,
+                  seconds,
+                  rate,
+                  rate * scene.dt);
+    if (!failure)
+      std::printf("at %g s: kinetic energy %.6g J, energy of the force fields %.6g J\n",
+                  simulation.time(),
+                  kinetic,
+                  potential);
+    for (auto const& file : files) std::printf("wrote %s\n", file.c_str());
+    if (stopped) std::printf("interrupted; all files are complete\n");
+  }
+  if (failure) throw *failure;
+  return stopped ? interrupted : ok;
+}
+
+}  // namespace cli

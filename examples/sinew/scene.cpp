@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "scene.hpp"
+
+#include <sinew/runtime/save_scene.hpp>
+
+#include <csignal>
+
+namespace cli {
+
+using sinew::text;
+
+namespace {
+
+volatile std::sig_atomic_t pressed = 0;
+
+void count_below(Node const& node, Count& count) {
+  ++count.nodes;
+  for (auto const& entry : node.components()) {
+    count.components += !entry.component.is<sinew::role::Context>();
+    if (!node.mapping())
+      entry.component.visit<sinew::role::State>([&](auto const& state) {
+        count.degreesOfFreedom += state.size() * std::decay_t<decltype(state)>::DataTypes::size;
+      });
+  }
+  for (auto const& child : node.children()) count_below(*child, count);
+}
+
+// whether a message begins with "file:line:column: "
+bool has_place(std::string_view message) {
+  auto number = [&](std::size_t from) {
+    const std::size_t end = message.find_first_not_of("0123456789", from);
+    return end != message.npos && end > from && message[end] == ':' ? end + 1 : message.npos;
+  };
+  for (std::size_t colon = message.find(':'); colon != message.npos; colon = message.find(':', colon + 1))
+    if (const std::size_t line = number(colon + 1); line != message.npos)
+      if (number(line) != message.npos) return true;
+  return false;
+}
+
+}  // namespace
+
+std::string Count::words() const {
+  auto amount = [](std::size_t n, std::string_view one, std::string_view many) {
+    return text(n, ' ', n == 1 ? one : many);
+  };
+  return text(amount(nodes, "node", "nodes"),
+              ", ",
+              amount(components, "component", "components"),
+              ", ",
+              amount(degreesOfFreedom, "degree of freedom", "degrees of freedom"));
+}
+
+Count count(Node const& top) {
+  Count count;
+  count_below(top, count);
+  return count;
+}
+
+std::string located(std::string const& path, std::string const& message) {
+  return has_place(message) || message.starts_with(path + ':') ? message : text(path, ": ", message);
+}
+
+sinew::ReadScene<sinew::Standard> read(SceneOptions const& options) {
+  try {
+    auto scene =
+        sinew::read_scene<sinew::Standard>(options.path, {options.data, options.lenient, options.set});
+    if (options.dt > 0) scene.dt = options.dt;
+    return scene;
+  } catch (sinew::SceneError const& error) {
+    // a path of --set that leads nowhere is no mistake of the scene
+    const bool isUsage = !error.messages.empty() && error.messages[0].starts_with("--set");
+    Failure failure{isUsage ? badUsage : badScene, error.messages};
+    if (!isUsage)
+      for (auto& message : failure.messages) message = located(options.path, message);
+    throw failure;
+  }
+}
+
+Scene start(sinew::ReadScene<sinew::Standard> scene, SceneOptions const& options) {
+  try {
+    const double dt = scene.dt;
+    auto ignored = std::move(scene.ignored), warnings = std::move(scene.warnings);
+    return {sinew::start(std::move(scene)), dt, std::move(ignored), std::move(warnings), options.path};
+  } catch (sinew::Error const& error) {
+    throw Failure{badScene, {located(options.path, error.what())}};
+  }
+}
+
+Scene load(SceneOptions const& options) { return start(read(options), options); }
+
+void Scene::animate() {
+  try {
+    simulation.animate(dt);
+  } catch (sinew::Error const& error) {
+    throw Failure{diverged, {located(path, error.what())}};
+  }
+}
+
+void print_notes(std::vector<std::string> const& ignored, std::vector<std::string> const& warnings) {
+  std::string all;
+  for (auto const& name : ignored) all += text(all.empty() ? "" : ", ", name);
+  if (!all.empty()) std::fprintf(stderr, "ignored, without a meaning here: %s\n", all.c_str());
+  for (auto const& warning : warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
+}
+
+long steps_of(Duration const& duration, double dt) {
+  if (duration.time == 0) return duration.steps;
+  const double steps = duration.time / dt;
+  if (!(steps < 1e12))
+    throw Failure{
+        badUsage,
+        {text("--time: ", duration.time, " s in steps of ", dt, " s are too many steps; take a larger dt")}};
+  return std::max(1L, std::lround(steps));
+}
+
+void catch_interrupt() {
+  struct sigaction action {};
+  action.sa_handler = [](int) { pressed = 1; };
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+bool was_interrupted() { return pressed != 0; }
+
+}  // namespace cli

@@ -1,0 +1,565 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/runtime/cpp_layout.hpp>
+#include <sinew/runtime/read_scene.hpp>
+#include <sinew/runtime/runtime.hpp>
+#include <sinew/scene/simulation.hpp>
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <set>
+#include <typeinfo>
+
+namespace sinew {
+
+struct BakeOptions {
+  bool embed = false;                   // all data stands in the text; no file is read at run time
+  std::string name = "scene";           // of the function
+  std::string data{};                   // default folder of data files; that of the scene file when empty
+  std::vector<std::string> includes{};  // headers of components that sinew.hpp has not
+};
+
+namespace detail {
+
+/// What C++ text needs of a field, beside its FieldInfo.
+struct FieldCode {
+  std::string member;                                            // "restPosition", "mesh.positions"
+  std::type_info const* type;                                    // of its value
+  std::string (*cpp)(void const* component);                     // an initialiser
+  std::string (*list)(void const* component, std::string name);  // a function that returns it; or null
+};
+struct ClassCode {
+  std::vector<FieldCode> fields;  // as those of ClassInfo
+  bool generates = false;         // a topology that has to be made before it is looked at
+  std::string cppName{};          // "CGLinearSolver<GraphScattered>"
+};
+
+/// The name of a member, as the compiler spells it.
+template <auto Member>
+std::string member_name(std::string_view fieldName) {
+  std::string_view whole = __PRETTY_FUNCTION__;
+  whole = whole.substr(0, whole.find_first_of(";]"));
+  if (const std::size_t at = whole.rfind("::"); at != whole.npos)
+    if (is_identifier(whole.substr(at + 2))) return std::string(whole.substr(at + 2));
+  return camel_case(fieldName);
+}
+
+template <class T>
+std::string initialiser(T const& value) {
+  std::string cpp = cpp_value(value);
+  // an optional takes what it holds as one argument
+  if constexpr (requires { value.has_value(); })
+    if (value && cpp.starts_with('{')) cpp = text('{', cpp, '}');
+  return safe_cpp(cpp);
+}
+
+// Numbers stand in constant arrays, which compile fast however long they are.
+template <class List>
+std::string list_function(List const& list, std::string const& name) {
+  using E = typename List::value_type;
+  auto number = []<class S>(std::type_identity<S>) -> std::string_view {
+    return std::is_same_v<S, bool> ? "bool" : std::is_same_v<S, int> ? "int" : sizeof(S) == 8 ? "double" : "float";
+  };
+  const std::string all = safe_cpp(cpp_value(list));
+  std::string lines = text("inline auto ", name, "() {\n");
+  auto statement = [&](std::string const& cpp) { lines += text("  ", fit(cpp, 2, 2, 1), ";\n"); };
+  auto array = [&](std::string_view type, std::string_view extent) {
+    statement(text("static constexpr ", type, " values[]", extent, " = ", all));
+  };
+  auto copy = [&](std::string_view type) {
+    statement(text("return std::vector<", type, ">(std::begin(values), std::end(values))"));
+  };
+  if constexpr (std::is_arithmetic_v<E>) {
+    const std::string_view type = number(std::type_identity<E>{});
+    array(type, "");
+    copy(type);
+  } else if constexpr (is_eigen<E>) {
+    if constexpr (E::ColsAtCompileTime == 1 && E::SizeAtCompileTime > 1) {
+      const std::string_view real = number(std::type_identity<typename E::Scalar>{});
+      const std::string type = text("Vec<", real, ", ", int(E::SizeAtCompileTime), '>');
+      array(real, text('[', int(E::SizeAtCompileTime), ']'));
+      statement(text("std::vector<", type, "> list"));
+      statement(text("for (auto const& v : values) list.push_back(Eigen::Map<", type, " const>(v))"));
+      statement("return list");
+    } else {
+      return {};
+    }
+  } else if constexpr (requires { std::tuple_size<E>::value; } && !HasFields<E>) {
+    const std::string type =
+        text("std::array<", number(std::type_identity<typename E::value_type>{}), ", ", std::tuple_size_v<E>, '>');
+    array(type, "");
+    copy(type);
+  } else {
+    statement(text("return std::vector<", type_name<E>(), '>', all));
+  }
+  return lines + "}\n";
+}
+
+template <class C, auto... Path>
+FieldCode field_code(std::string member) {
+  using T = std::decay_t<decltype((std::declval<C const&>().* ... .* Path))>;
+  FieldCode code{std::move(member), &typeid(T), nullptr, nullptr};
+  code.cpp = [](void const* c) { return initialiser((*static_cast<C const*>(c).* ... .* Path)); };
+  if constexpr (DynamicList<T>)
+    code.list = [](void const* c, std::string name) {
+      return list_function((*static_cast<C const*>(c).* ... .* Path), name);
+    };
+  return code;
+}
+
+template <class C>
+ClassCode class_code() {
+  ClassCode code;
+  code.generates = requires(C c) { c.generate(""); };
+  code.cppName = HasRole<C, role::VisualModel> ? std::string(C::className) : component_name<C>();
+  // of a template whose arguments its name leaves out
+  std::string type(type_name<C>());
+  for (std::size_t at = 0; (at = type.find("sinew::", at)) != type.npos;) type.erase(at, 7);
+  if (type.starts_with(text(C::className, '<')) && code.cppName.find('<') == code.cppName.npos) code.cppName = type;
+  auto add = [&]<class List, std::size_t... I>(List, std::index_sequence<I...>) {
+    [[maybe_unused]] auto one = [&]<std::size_t J>() {
+      constexpr auto fd = boost::hana::at_c<J>(List::get());
+      code.fields.push_back(field_code<C, fd.member>(member_name<fd.member>(fd.name)));
+    };
+    (one.template operator()<I>(), ...);
+  };
+  struct Inputs {
+    static constexpr auto get() { return C::fields(); }
+  };
+  add(Inputs{}, std::make_index_sequence<decltype(boost::hana::length(Inputs::get()))::value>{});
+  if constexpr (requires { C::outputs(); }) {
+    struct Outputs {
+      static constexpr auto get() { return C::outputs(); }
+    };
+    add(Outputs{}, std::make_index_sequence<decltype(boost::hana::length(Outputs::get()))::value>{});
+  }
+  if constexpr (requires(C c) { c.mesh.positions; }) {
+    code.fields.push_back(field_code<C, &C::mesh, &Mesh::positions>("mesh.positions"));
+    code.fields.push_back(field_code<C, &C::mesh, &Mesh::edges>("mesh.edges"));
+    code.fields.push_back(field_code<C, &C::mesh, &Mesh::triangles>("mesh.triangles"));
+    code.fields.push_back(field_code<C, &C::mesh, &Mesh::quads>("mesh.quads"));
+  }
+  return code;
+}
+
+/// Writes the typed scene of a runtime tree. Components whose data others take by links, and engines, become local
+/// variables, written before what needs them.
+template <class R>
+class Baker {
+  using Node = RuntimeNode<R>;
+  using Entry = RuntimeEntry<R>;
+
+ public:
+  Baker(ReadScene<R>& scene, std::string const& path, BakeOptions const& options)
+      : scene_(scene), path_(path), options_(options), table_(make_class_table<R>()) {
+    for_each_registered<R>([&]<class C>() { code_.push_back(class_code<C>()); });
+    namespace fs = std::filesystem;
+    folder_ = fs::absolute(fs::path(path)).lexically_normal().parent_path();
+  }
+
+  std::string write() {
+    checkName();
+    // what does not start is no scene; it is said in the words that a run would use
+    Simulation<Node>{scene_.root}.init();
+    placeInteractions(scene_.root);
+    // a component may be linked to before it is known that it has to be a variable
+    for (std::size_t known = variables_.size() + 1; known != variables_.size();) {
+      known = variables_.size();
+      start();
+      tree_.clear();
+      writeNode(scene_.root, 2, 2 + std::string_view("return Simulation{").size(), 2);
+    }
+    return whole();
+  }
+
+ private:
+  struct Source {
+    Node* node;
+    Entry* entry;
+    std::size_t field;
+  };
+  struct Moved {
+    Node* from;
+    Entry* entry;
+  };
+
+  ReadScene<R>& scene_;
+  std::string const& path_;
+  BakeOptions const& options_;
+  std::vector<ClassInfo> table_;
+  std::vector<ClassCode> code_{};
+  std::filesystem::path folder_{};
+  std::set<Entry const*> variables_{};                  // components that are local variables
+  std::map<Node const*, std::vector<Moved>> moved_{};   // interactions, by the node that they move to
+  std::set<Entry const*> leaving_{};
+  // of one pass
+  std::map<Entry const*, std::string> names_{};
+  std::map<std::string, std::string> functions_{};  // of a list, by what it returns
+  std::set<std::string, std::less<>> taken_{};
+  std::string locals_{}, lists_{}, tree_{};
+  bool readsFiles_ = false;
+
+  ClassInfo const& infoOf(Entry const& entry) const { return table_[std::size_t(entry.component.type())]; }
+  ClassCode const& codeOf(Entry const& entry) const { return code_[std::size_t(entry.component.type())]; }
+
+  void checkName() {
+    bool taken = !is_identifier(options_.name);
+    for (auto name : reservedNames) taken = taken || name == options_.name;
+    for (auto const& info : table_) taken = taken || info.cppName.substr(0, info.cppName.find('<')) == options_.name;
+    if (taken)
+      throw Error("bake",
+                  text(shown(options_.name),
+                       " cannot name the function of a scene; give a C++ name that nothing else has, such as scene"));
+  }
+  void start() {
+    names_.clear(), functions_.clear(), taken_.clear();
+    locals_.clear(), lists_.clear();
+    readsFiles_ = false;
+    for (auto name : reservedNames) taken_.emplace(name);
+    taken_.insert(options_.name);
+  }
+  std::string unique(std::string const& name) {
+    std::string free = name;
+    for (int n = 2; !taken_.insert(free).second; ++n) free = text(name, n);
+    return free;
+  }
+  static std::string raised(std::string name) {
+    if (!name.empty() && name[0] >= 'a' && name[0] <= 'z') name[0] = char(name[0] - 'a' + 'A');
+    return name;
+  }
+
+  // interactions: a typed one stands above both its ends
+
+  void placeInteractions(Node& node) {
+    for (auto& entry : node.components()) {
+      const auto ends = endsOf(node, entry);
+      if (!ends[0]) continue;
+      Node* above = &node;
+      for (Node* end : ends)
+        while (!isBelow(*end, *above)) above = above->parent();
+      if (above == &node) continue;
+      for (Node* at = &node; at != above; at = at->parent())
+        for (auto const& other : at->components())
+          if (infoOf(other).role == RoleKind::odeSolver)
+            throw Error(entry.origin.empty() ? node.path() : entry.origin,
+                        text(node.path(),
+                             ": ",
+                             entry.component.name(),
+                             " joins '",
+                             ends[0]->path(),
+                             "' and '",
+                             ends[1]->path(),
+                             "', but stands below ",
+                             at->path(),
+                             ", whose solver does not move both; no typed scene can say that; put it with a solver "
+                             "into a node above both"));
+      moved_[above].push_back({&node, &entry});
+      leaving_.insert(&entry);
+    }
+    for (auto const& child : node.children()) placeInteractions(*child);
+  }
+  std::array<Node*, 2> endsOf(Node& node, Entry const& entry) const {
+    std::array<Node*, 2> ends{nullptr, nullptr};
+    entry.component.template visit<role::InteractionForceField>([&](auto const& joint) {
+      if constexpr (requires { joint.ends.object1; })
+        ends = {node.resolve(joint.ends.object1), node.resolve(joint.ends.object2)};
+    });
+    return ends;
+  }
+  static bool isBelow(Node const& node, Node const& above) {
+    for (Node const* at = &node; at; at = at->parent())
+      if (at == &above) return true;
+    return false;
+  }
+  static std::string pathFrom(Node const& above, Node const& node) {
+    std::string path;
+    for (Node const* at = &node; at != &above; at = at->parent())
+      path = path.empty() ? at->name : text(at->name, '/', path);
+    return path;
+  }
+
+  // where linked values come from
+
+  Entry* named(Node& node, std::string_view name) const {
+    if (Entry* entry = node.find(name)) return entry;
+    for (auto& entry : node.components())
+      if (infoOf(entry).known(name)) return &entry;
+    return nullptr;
+  }
+  // the component that a link leads to, and the name behind its dot; as read_scene follows links
+  std::pair<Node*, Entry*> follow(Node& from, Entry const& entry, std::string_view link, std::string& data) const {
+    Words words(link);
+    std::string_view path = words.end() ? std::string_view() : words.next();
+    if (!path.starts_with('@')) return {};
+    path.remove_prefix(1);
+    const std::size_t slash = path.rfind('/') == path.npos ? 0 : path.rfind('/') + 1;
+    if (const std::string_view last = path.substr(slash); last != "." && last != "..")
+      if (const std::size_t dot = last.rfind('.'); dot != last.npos) {
+        data = std::string(last.substr(dot + 1));
+        path = path.substr(0, slash + dot);
+      }
+    if (path.starts_with('[')) {
+      const long at = long(&entry - from.components().data()) +
+                      read_number<int>(path.substr(1, std::min(path.find(']'), path.size()) - 1));
+      if (at < 0 || at >= long(from.components().size())) return {};
+      return {&from, &from.components()[std::size_t(at)]};
+    }
+    const bool based = path.starts_with('/') || path.starts_with("./") || path.starts_with("../") || path == "." ||
+                       path == ".." || path.empty();
+    for (Node* at = path.starts_with('/') ? &from.top() : &from; at; at = based ? nullptr : at->parent())
+      if (const auto found = walk(*at, path); found.second) return found;
+    return {};
+  }
+  std::pair<Node*, Entry*> walk(Node& from, std::string_view path) const {
+    Node* at = &from;
+    while (!path.empty()) {
+      const std::string_view step = path.substr(0, path.find('/'));
+      path.remove_prefix(std::min(step.size() + 1, path.size()));
+      if (step == "..") {
+        at = at->parent();
+      } else if (!step.empty() && step != ".") {
+        if (Entry* entry = named(*at, step); entry && path.empty()) return {at, entry};
+        Node* const child = at->find_node(step);
+        if (!child && !at->parent() && step == at->name) continue;
+        at = child;
+      }
+      if (!at) return {};
+    }
+    return {at, at->state()};
+  }
+
+  /// The first of the chain of links that ends at this field which holds the same value in the same type.
+  std::optional<Source> source(Node& node, Entry& entry, std::size_t field, std::size_t depth = 0) const {
+    ClassInfo const& info = infoOf(entry);
+    const auto link = entry.links.find(info.fields[field].name);
+    if (options_.embed || link == entry.links.end() || depth > 1000) return {};
+    std::string data;
+    const auto [at, from] = follow(node, entry, link->second, data);
+    if (!from) return {};
+    const std::string value = info.fields[field].write(entry.component.address());
+    std::vector<std::pair<Entry*, std::string>> places{{from, data}};
+    // a state takes its points from the topology of its node, and rests where it starts
+    if (infoOf(*from).role == RoleKind::state) {
+      places.push_back({from, "position"});
+      if (at->topology()) places.push_back({at->topology(), "position"});
+    }
+    for (auto const& [place, name] : places) {
+      auto const& fields = infoOf(*place).fields;
+      std::optional<std::size_t> found;
+      for (std::size_t f = 0; f < fields.size(); ++f)
+        if (fields[f].known(name) && (!found || !fields[f].isInput)) found = f;
+      if (!found || *codeOf(*place).fields[*found].type != *codeOf(entry).fields[field].type ||
+          fields[*found].write(place->component.address()) != value)
+        continue;
+      if (fields[*found].isInput)
+        if (auto deeper = source(*at, *place, *found, depth + 1)) return deeper;
+      return Source{at, place, *found};
+    }
+    return {};
+  }
+
+  // values
+
+  /// The name of the variable that holds a component; it is written first.
+  std::string variable(Node& node, Entry& entry) {
+    variables_.insert(&entry);
+    if (auto known = names_.find(&entry); known != names_.end()) return known->second;
+    const std::string cpp = component(node, entry);
+    std::string name = camel_case(entry.name);
+    if (name.empty()) name = camel_case(infoOf(entry).name);
+    name = unique(name);
+    names_[&entry] = name;
+    const std::size_t brace = cpp.find('{');
+    locals_ += text(
+        "  ", fit(text(cpp.substr(0, brace), ' ', name, cpp.substr(brace)), 2, 2, 1), ";\n");
+    const std::string where = cpp_literal(text(node.path(), ": ", entry.name));
+    if (infoOf(entry).role == RoleKind::engine)
+      locals_ += text("  ", fit(text(name, ".update(", where, ")"), 2, 2, 1), ";\n");
+    else if (codeOf(entry).generates)
+      locals_ += text("  ", fit(text(name, ".generate(", where, ")"), 2, 2, 1), ";\n");
+    return name;
+  }
+
+  std::string value(Node& node, Entry& entry, std::size_t field) {
+    ClassInfo const& info = infoOf(entry);
+    FieldCode const& code = codeOf(entry).fields[field];
+    if (auto from = source(node, entry, field))
+      return text(variable(*from->node, *from->entry), '.', codeOf(*from->entry).fields[from->field].member);
+    if (info.fields[field].isFile) return file(node, entry, info.fields[field].write(entry.component.address()));
+    const std::string cpp = code.cpp(entry.component.address());
+    if (cpp.size() < 1000 || !code.list) return cpp;
+    const std::string wanted = code.list(entry.component.address(), "");
+    if (wanted.empty()) return cpp;
+    auto known = functions_.find(wanted);
+    if (known == functions_.end()) {
+      const std::size_t dot = code.member.find('.');
+      const std::string member = code.member.substr(dot == code.member.npos ? 0 : dot + 1);
+      const std::string name =
+          unique(text(options_.name, raised(camel_case(node.name)), raised(member)));
+      known = functions_.emplace(wanted, name).first;
+      lists_ += code.list(entry.component.address(), name) + '\n';
+    }
+    return known->second + "()";
+  }
+
+  std::string file(Node& node, Entry& entry, std::string const& path) {
+    namespace fs = std::filesystem;
+    if (options_.embed)
+      throw Error(entry.origin.empty() ? node.path() : entry.origin,
+                  text(infoOf(entry).name,
+                       " reads the file ",
+                       shown(path),
+                       " when the scene starts, which --embed cannot avoid; read it by a loader and link to that "
+                       "(src=\"@loader\"), or bake without --embed"));
+    const std::string relative =
+        fs::absolute(fs::path(path)).lexically_normal().lexically_relative(folder_).generic_string();
+    if (relative.empty()) return text('{', cpp_literal(path), '}');
+    readsFiles_ = true;
+    return text("{data + ", cpp_literal(text('/', relative)), '}');
+  }
+
+  /// "UniformMass<Vec3d>{.totalMass = 2}".
+  std::string component(Node& node, Entry& entry, Node const* above = nullptr) {
+    ClassInfo const& info = infoOf(entry);
+    std::string members, mesh;
+    for (std::size_t f = 0; f < info.fields.size(); ++f) {
+      FieldInfo const& field = info.fields[f];
+      if (!field.isInput || field.write(entry.component.address()) == field.defaultValue) continue;
+      const std::string& member = codeOf(entry).fields[f].member;
+      const bool ofMesh = member.starts_with("mesh.");
+      std::string& to = ofMesh ? mesh : members;
+      to += text(to.empty() ? "" : ", ", '.', member.substr(ofMesh ? 5 : 0), " = ", value(node, entry, f));
+    }
+    if (!mesh.empty()) members = text(".mesh = {", mesh, '}', members.empty() ? "" : ", ", members);
+    return text(className(node, entry, above), '{', members, '}');
+  }
+  std::string className(Node& node, Entry& entry, Node const* above) const {
+    std::string name = codeOf(entry).cppName;
+    const auto ends = endsOf(node, entry);
+    if (!ends[0]) return name;
+    constexpr std::string_view linked = ", Linked>";
+    if (!name.ends_with(linked))
+      throw Error(node.path(), text(name, " joins two nodes in a way that a typed scene has not; remove it"));
+    Node const& from = above ? *above : node;
+    name.resize(name.size() - linked.size());
+    return text(name,
+                ", Between<",
+                cpp_literal(pathFrom(from, *ends[0])),
+                ", ",
+                cpp_literal(pathFrom(from, *ends[1])),
+                ">>");
+  }
+
+  // the tree
+
+  // `used`: columns before the node on its line; `tail`: what follows it there
+  void writeNode(Node& node, std::size_t indent, std::size_t used, std::size_t tail) {
+    if (node.name.empty() || node.name.find('/') != node.name.npos)
+      throw Error(node.path(), "the name of a node of a typed scene is not empty and has no '/'; rename it");
+    struct Part {
+      std::string comment, cpp;
+    };
+    std::vector<Part> parts;
+    for (auto& entry : node.components()) {
+      if (infoOf(entry).role == RoleKind::engine || leaving_.count(&entry)) continue;
+      parts.push_back({"", variables_.count(&entry) ? variable(node, entry) : component(node, entry)});
+    }
+    for (auto const& [from, entry] : moved_[&node])
+      parts.push_back({text("moved here from ",
+                            cpp_literal(from->path()),
+                            ": a typed interaction stands above its ends. The order of sums may change, and with it "
+                            "the last bits."),
+                       component(*from, *entry, &node)});
+    const std::string head = text("node<", cpp_literal(node.name), ">(");
+    tree_ += head;
+    std::size_t width = used + head.size() + 1 + tail;
+    bool flat = node.children().empty();
+    for (auto const& part : parts) {
+      width += part.cpp.size() + 2;
+      flat = flat && part.comment.empty();
+    }
+    flat = flat && width <= lineWidth + 2;
+    const std::string pad = flat ? "" : text('\n', std::string(indent + 4, ' '));
+    std::size_t left = parts.size() + node.children().size();
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      --left;
+      comment(parts[i].comment, indent + 4);
+      tree_ += flat ? (i ? " " : "") : pad;
+      tree_ += flat ? parts[i].cpp : fit(parts[i].cpp, indent + 4, indent + 4, left ? 1 : tail + 1);
+      if (left) tree_ += ',';
+    }
+    for (auto const& child : node.children()) {
+      --left;
+      tree_ += pad;
+      writeNode(*child, indent + 4, indent + 4, left ? 1 : tail + 1);
+      if (left) tree_ += ',';
+    }
+    tree_ += ')';
+  }
+  void comment(std::string_view words, std::size_t indent) {
+    while (!words.empty()) {
+      const std::size_t room = lineWidth - indent - 3;
+      std::size_t cut = words.size() <= room ? words.size() : words.rfind(' ', room);
+      if (cut == words.npos) cut = std::min(words.find(' '), words.size());
+      tree_ += text('\n', std::string(indent, ' '), "// ", words.substr(0, cut));
+      words.remove_prefix(std::min(cut + 1, words.size()));
+    }
+  }
+
+  std::string whole() const {
+    namespace fs = std::filesystem;
+    const bool first = options_.name == "scene";
+    auto constant = [&](std::string_view type, std::string_view name, std::string const& value) {
+      const std::string own = first ? std::string(name) : text(options_.name, raised(std::string(name)));
+      return text("constexpr ", type, ' ', own, " = ", value, ";");
+    };
+    std::string cpp = text("// The scene ",
+                           cpp_literal(fs::path(path_).filename().string()),
+                           ", baked by Sinew: change the scene file and bake it again.\n#pragma once\n\n");
+    cpp += "#include <sinew/sinew.hpp>\n";
+    std::set<std::string> more(options_.includes.begin(), options_.includes.end());
+    if (locals_.find("MeshVTKLoader") != locals_.npos) more.insert("sinew/engine/mesh_vtk_loader.hpp");
+    for (auto const& include : more) cpp += text("#include <", include, ">\n");
+    cpp += "\n#include <array>\n#include <string>\n#include <vector>\n\nnamespace baked {\n\nusing namespace sinew;\n\n";
+    cpp += constant("double", "dt", safe_cpp(write_value(scene_.dt))) + "  // [s]\n";
+    if (scene_.step > 0 && std::isfinite(scene_.time)) {
+      cpp += "// a checkpoint: after init(), continueFrom() these\n";
+      cpp += constant("double", "startTime", safe_cpp(write_value(scene_.time))) + "  // [s]\n";
+      cpp += constant("long", "startStep", std::to_string(scene_.step)) + '\n';
+    }
+    cpp += '\n' + lists_;
+    std::string data = options_.data.empty() ? folder_.generic_string() : options_.data;
+    if (readsFiles_) cpp += "/// The scene; data files lie in the folder `data`.\n";
+    cpp += fit(text("inline auto ",
+                    options_.name,
+                    readsFiles_ ? text("(std::string const& data = ", cpp_literal(data), ')') : std::string("()")),
+               0,
+               0,
+               2);
+    cpp += text(" {\n", locals_, "  return Simulation{", tree_, "};\n}\n\n}  // namespace baked\n");
+    return cpp;
+  }
+};
+
+}  // namespace detail
+
+/// The C++ of a scene that was read from a path: a header with a function that returns it as a typed scene, which
+/// gives the same results bit by bit. Throws Error where no typed scene says the same.
+template <class R>
+std::string bake_text(ReadScene<R> scene, std::string const& path, BakeOptions const& options = {}) {
+  return detail::Baker<R>(scene, path, options).write();
+}
+
+/// The same of a scene file, in SOFA's XML dialect, of the classes of the registry R. Throws Error.
+template <class R>
+std::string bake_scene(std::string const& path, ReadSceneOptions const& read, BakeOptions const& options = {}) {
+  return bake_text<R>(read_scene<R>(path, read), path, options);
+}
+inline std::string bake_scene(std::string const& path, ReadSceneOptions const& read = {},
+                              BakeOptions const& options = {}) {
+  return bake_scene<Standard>(path, read, options);
+}
+
+}  // namespace sinew

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/io/output_file.hpp>
+#include <sinew/runtime/class_table.hpp>
+#include <sinew/runtime/node.hpp>
+#include <sinew/runtime/read_scene.hpp>
+#include <sinew/scene/simulation.hpp>
+
+#include <pugixml.hpp>
+#include <sstream>
+
+namespace sinew {
+
+namespace detail {
+
+/// Writes runtime nodes as elements of SOFA's dialect, with the values as they are now.
+template <class R>
+class SceneWriter {
+ public:
+  std::string write(RuntimeNode<R> const& root, double dt, double time, long step) {
+    pugi::xml_document document;
+    document.append_child(pugi::node_comment)
+        .set_value(" written by Sinew: the scene as it was, with all data in it ");
+    pugi::xml_node node = document.append_child("Node");
+    node.append_attribute("name") = root.name.c_str();
+    set(node, "dt", write_value(dt));
+    if (step > 0) {
+      set(node, "time", write_value(time));
+      set(node, "step", std::to_string(step));
+    }
+    fill(node, root);
+    std::ostringstream bytes;
+    document.save(bytes, "  ");
+    return bytes.str();
+  }
+
+ private:
+  std::vector<ClassInfo> table_ = make_class_table<R>();
+
+  static void set(pugi::xml_node& node, std::string_view name, std::string const& value) {
+    node.append_attribute(std::string(name).c_str()) = value.c_str();
+  }
+
+  void fill(pugi::xml_node& to, RuntimeNode<R> const& node) {
+    const bool mapped = node.mapping() != nullptr;
+    for (auto const& entry : node.components()) {
+      ClassInfo const& info = table_[std::size_t(entry.component.type())];
+      if (info.role == RoleKind::engine) continue;  // what it made is in the fields of others
+      if (info.role == RoleKind::context) {
+        set(to, "gravity", info.field("gravity")->write(entry.component.address()));
+        continue;
+      }
+      pugi::xml_node element = to.append_child(std::string(info.name).c_str());
+      set(element, "name", entry.name);
+      if (!info.dataTypes.empty()) set(element, "template", info.dataTypes);
+      const AnyComponent<R> component =
+          info.role == RoleKind::state ? stateToWrite(entry.component, mapped) : entry.component;
+      for (auto const& field : info.fields) {
+        if (!field.isInput) continue;
+        const std::string value =
+            field.isFile ? absolute(field.write(component.address())) : field.write(component.address());
+        if (value != field.defaultValue) set(element, field.name, value);
+      }
+      if (info.joins)
+        component.template visit<role::InteractionForceField>([&](auto const& joint) {
+          if constexpr (requires { joint.ends.object1; }) {
+            set(element, "object1", text('@', joint.ends.object1));
+            set(element, "object2", text('@', joint.ends.object2));
+          }
+        });
+    }
+    for (auto const& child : node.children()) {
+      pugi::xml_node element = to.append_child("Node");
+      set(element, "name", child->name);
+      fill(element, *child);
+    }
+  }
+
+  // a mapped state is what its mapping makes of what it was given
+  static AnyComponent<R> stateToWrite(AnyComponent<R> copy, bool mapped) {
+    copy.template visit<role::State>([&](auto& state) {
+      if (mapped) {
+        auto given = state.given.value_or(state.position);
+        state = {};
+        state.position = std::move(given);
+      } else {
+        if (state.resetPosition == state.position) state.resetPosition.clear();
+        if (state.resetVelocity == state.velocity) state.resetVelocity.clear();
+        if (state.restPosition == state.position) state.restPosition.clear();
+      }
+    });
+    return copy;
+  }
+  static std::string absolute(std::string const& path) {
+    char whole[PATH_MAX];
+    return !path.empty() && ::realpath(path.c_str(), whole) ? std::string(whole) : path;
+  }
+};
+
+}  // namespace detail
+
+/// The scene as XML: positions and velocities as they are, time and step, and in the place of loaders and
+/// selections the data that they made. A checkpoint: read_scene() and start() go on from it bit by bit.
+template <class R>
+std::string scene_text(Simulation<RuntimeNode<R>>& simulation, double dt) {
+  return detail::SceneWriter<R>().write(simulation.root(), dt, simulation.time(), simulation.step());
+}
+/// Writes that to a file, whole or not at all. Throws Error.
+template <class R>
+void save_scene(Simulation<RuntimeNode<R>>& simulation, double dt, std::string const& path) {
+  io::write_file(path, scene_text(simulation, dt));
+}
+
+/// An initialised simulation of a scene that was read, at the time at which it was saved. Throws Error.
+template <class R>
+Simulation<RuntimeNode<R>> start(ReadScene<R> scene) {
+  Simulation<RuntimeNode<R>> simulation(std::move(scene.root));
+  simulation.init();
+  simulation.continueFrom(scene.time, scene.step);
+  return simulation;
+}
+
+}  // namespace sinew

@@ -1,0 +1,388 @@
+# Runs the program `sinew` (SINEW) in the folder WORK: what it prints, which files it leaves, its exit status.
+# The cases are at the end; examples/CMakeLists.txt names them.
+
+file(REMOVE_RECURSE ${WORK})
+file(MAKE_DIRECTORY ${WORK})
+
+function(fail)
+  list(JOIN ARGV "" message)
+  message(FATAL_ERROR "${last}: ${message}\n-- output:\n${output}\n-- errors:\n${errors}")
+endfunction()
+
+# sinew(STATUS arguments...): runs it; leaves `output` and `errors`
+macro(sinew status)
+  set(last "sinew ${ARGN}")
+  execute_process(COMMAND ${SINEW} ${ARGN} WORKING_DIRECTORY ${WORK} RESULT_VARIABLE result OUTPUT_VARIABLE output
+                  ERROR_VARIABLE errors)
+  if(NOT result STREQUAL "${status}")
+    fail("exit status ${result}, not ${status}")
+  endif()
+endmacro()
+macro(expect_output regex)
+  if(NOT output MATCHES "${regex}")
+    fail("standard output does not match '${regex}'")
+  endif()
+endmacro()
+macro(expect_error regex)
+  if(NOT errors MATCHES "${regex}")
+    fail("standard error does not match '${regex}'")
+  endif()
+endmacro()
+macro(expect_silence)
+  if(NOT output STREQUAL "" OR NOT errors STREQUAL "")
+    fail("is not silent")
+  endif()
+endmacro()
+# exactly these files are in WORK, and none with a temporary name
+function(expect_files)
+  file(GLOB_RECURSE found RELATIVE ${WORK} ${WORK}/*)
+  list(REMOVE_ITEM found one.scn)
+  list(SORT found)
+  set(wanted ${ARGN})
+  list(SORT wanted)
+  if(NOT found STREQUAL "${wanted}")
+    fail("the files are '${found}', not '${wanted}'")
+  endif()
+endfunction()
+# the value of a member of the JSON object in `output`; Python reads it too, where there is one
+find_program(PYTHON python3)
+macro(json variable)
+  if(CMAKE_VERSION VERSION_GREATER_EQUAL 3.19)
+    string(JSON ${variable} ERROR_VARIABLE wrong GET "${output}" ${ARGN})
+    if(wrong)
+      fail("JSON: ${wrong}")
+    endif()
+  endif()
+  if(PYTHON)
+    file(WRITE ${WORK}/output.json "${output}")
+    execute_process(COMMAND ${PYTHON} -m json.tool ${WORK}/output.json RESULT_VARIABLE result OUTPUT_QUIET)
+    file(REMOVE ${WORK}/output.json)
+    if(NOT result EQUAL 0)
+      fail("Python cannot read the JSON")
+    endif()
+  endif()
+endmacro()
+macro(expect_equal a b)
+  if(NOT "${a}" STREQUAL "${b}")
+    fail("'${a}' is not '${b}'")
+  endif()
+endmacro()
+
+# a tetrahedron that hangs from a corner, with a skin of one triangle
+function(write_scene file stiffness)
+  file(WRITE ${WORK}/${file} "<Node name=\"root\" gravity=\"0 -9.81 0\" dt=\"0.02\">
+  <RequiredPlugin name=\"Sofa.Component\"/>
+  <Node name=\"body\">
+    <EulerImplicitSolver rayleighStiffness=\"0.1\" rayleighMass=\"0.1\"/>
+    <CGLinearSolver iterations=\"25\" tolerance=\"1e-9\" threshold=\"1e-9\"/>
+    <TetrahedronTopology tetrahedra=\"0 1 2 3\"/>
+    <MechanicalObject name=\"dofs\" position=\"0 0 0 1 0 0 0 1 0 0 0 1\"/>
+    <UniformMass totalMass=\"1\"/>
+    <TetrahedronFEMForceField name=\"fem\" youngModulus=\"${stiffness}\" poissonRatio=\"0.3\"/>
+    <FixedConstraint indices=\"0\"/>
+    <Node name=\"skin\">
+      <OglModel name=\"visual\" position=\"0.1 0.1 0.1 0.2 0.1 0.1 0.1 0.2 0.1\" triangles=\"0 1 2\"/>
+      <BarycentricMapping/>
+    </Node>
+  </Node>
+</Node>
+")
+endfunction()
+# a free fall: after n steps of dt by symplectic Euler the speed is -g n dt, bit by bit -1 n dt here
+set(fall "<Node name=\"root\" gravity=\"0 -1 0\" dt=\"0.5\"><EulerExplicitSolver/><Node name=\"ball\">
+  <MechanicalObject position=\"0 0 0\"/><UniformMass vertexMass=\"2\"/></Node></Node>")
+write_scene(one.scn 3000)
+
+if(CASE STREQUAL "usage")
+  sinew(0 --help)
+  foreach(word run check list bake compare "Exit status")
+    expect_output("${word}")
+  endforeach()
+  sinew(0 --version)
+  expect_output("^sinew [0-9.]+\n$")
+  foreach(command run check list bake compare)
+    sinew(0 ${command} --help)
+    expect_output("Examples?:  sinew ${command}")
+  endforeach()
+  sinew(2)
+  expect_error("--help")
+  sinew(2 walk)
+  sinew(2 run)
+  expect_error("scene is required")
+  sinew(2 run one.scn --fast)
+  expect_error("--fast")
+  expect_files()
+
+elseif(CASE STREQUAL "run")
+  sinew(0 run one.scn)
+  expect_output("one.scn: 3 nodes, 9 components, 12 degrees of freedom")
+  expect_output("100 steps of 0.02 s")
+  expect_output("steps/s, .* times real time")
+  expect_output("kinetic energy")
+  expect_error("^ignored, without a meaning here: RequiredPlugin\n$")
+  sinew(0 run one.scn --quiet --steps 0)
+  expect_silence()
+  sinew(0 run one.scn --json --time 0.1 --dt 0.01)
+  expect_equal("${errors}" "")
+  json(steps steps)
+  expect_equal(${steps} 10)
+  json(ignored ignored 0)
+  expect_equal(${ignored} RequiredPlugin)
+  # a name that JSON has to escape
+  file(WRITE "${WORK}/a \"b\".scn" "${fall}")
+  sinew(0 run "a \"b\".scn" --json --steps 4)
+  json(energy kineticEnergy)
+  expect_equal(${energy} 4) # 2 kg at 2 m/s
+  sinew(0 run one.scn --set body/fem.youngModulus=10 --set body/dofs.translation=0\ 5\ 0 --json)
+  json(soft potentialEnergy)
+  sinew(0 run one.scn --json)
+  json(stiff potentialEnergy)
+  if(soft STREQUAL stiff)
+    fail("--set changes nothing")
+  endif()
+
+elseif(CASE STREQUAL "run-outputs")
+  sinew(0 run one.scn --steps 4 --every 2 --vtk out/pictures --record states.txt --save end.scn --quiet)
+  expect_silence()
+  set(series body_skin.pvd body_skin_0000.vtu body_skin_0001.vtu body_skin_0002.vtu)
+  list(TRANSFORM series PREPEND out/pictures/)
+  expect_files(end.scn states.txt ${series})
+  file(READ ${WORK}/out/pictures/body_skin.pvd pvd)
+  if(NOT pvd MATCHES "timestep=\"0\".*timestep=\"0.04\".*timestep=\"0.08\"")
+    fail("the series has wrong times: ${pvd}")
+  endif()
+  file(READ ${WORK}/states.txt record)
+  if(NOT record MATCHES "^sinew record 1\nframe 0 time 0\nstate Vec3d 4 /body\n0 0 0 0 0 0\n1 0 0 .*\nend 3\n$")
+    fail("the record is wrong: ${record}")
+  endif()
+  # without a skin, the elements; without elements, the points
+  file(WRITE ${WORK}/fall.scn "${fall}")
+  sinew(0 run fall.scn --steps 2 --vtk fall --record fall.txt)
+  if(NOT EXISTS ${WORK}/fall/ball.pvd OR NOT EXISTS ${WORK}/fall/ball_0002.vtu)
+    fail("no picture of a body without a skin")
+  endif()
+  file(READ ${WORK}/fall.txt record)
+  string(CONCAT wanted "sinew record 1\nframe 0 time 0\nstate Vec3d 1 /ball\n0 0 0 0 0 0\n"
+         "frame 1 time 0.5\nstate Vec3d 1 /ball\n0 -0.25 0 0 -0.5 0\n"
+         "frame 2 time 1\nstate Vec3d 1 /ball\n0 -0.75 0 0 -1 0\nend 3\n")
+  expect_equal("${record}" "${wanted}")
+
+elseif(CASE STREQUAL "run-wrong")
+  sinew(1 run no.scn)
+  expect_error("no.scn: cannot be read")
+  file(WRITE ${WORK}/cut.scn "<Node>\n  <Node name='a'>\n")
+  sinew(1 run cut.scn)
+  expect_error("cut.scn:[0-9]+:[0-9]+: is no well-formed XML")
+  file(WRITE ${WORK}/unknown.scn "<Node>\n  <MecanicalObject/>\n  <UniformMas/>\n</Node>")
+  sinew(1 run unknown.scn)
+  expect_error("unknown.scn:2:3: .*did you mean 'MechanicalObject'.*unknown.scn:3:3: .*'UniformMass'")
+  sinew(0 run unknown.scn --lenient --steps 1)
+  expect_error("warning: unknown.scn:2:3: ")
+  sinew(2 run one.scn --set bodi/fem.youngModulus=1)
+  expect_error("--set .*did you mean 'body'")
+  sinew(2 run one.scn --set youngModulus)
+  expect_error("path.attribute=value")
+  sinew(1 run one.scn --set body/fem.youngModulus=-1)
+  expect_error("one.scn:9:5: .*youngModulus.* is -1 Pa")
+  sinew(1 run one.scn --set body/fem.youngModulus=soft)
+  expect_error("one.scn:9:42: .*youngModulus: 'soft' is no number")
+  foreach(dt 0 -1 nan inf x)
+    sinew(2 run one.scn --dt ${dt})
+    expect_error("--dt")
+  endforeach()
+  sinew(2 run one.scn --time 0)
+  sinew(2 run one.scn --steps -1)
+  sinew(2 run one.scn --steps 1 --time 1)
+  sinew(2 run one.scn --every 0)
+  sinew(2 run one.scn --quiet --json)
+  sinew(2 run one.scn --data no/such/folder)
+  sinew(2 run one.scn --time 1e300)
+  expect_error("--time")
+  # nothing is simulated where what comes out cannot be written, and nothing is left behind
+  file(REMOVE ${WORK}/cut.scn ${WORK}/unknown.scn)
+  file(MAKE_DIRECTORY ${WORK}/folder)
+  foreach(option --record --save)
+    sinew(4 run one.scn ${option} no/such/folder/file)
+    expect_error("no/such/folder/file: cannot be written")
+    sinew(4 run one.scn ${option} folder)
+    expect_error("folder: is a folder")
+  endforeach()
+  sinew(4 run one.scn --vtk one.scn)
+  expect_error("one.scn: cannot be created")
+  expect_files()
+
+elseif(CASE STREQUAL "run-diverges")
+  # explicit Euler far above its stable step
+  file(WRITE ${WORK}/stiff.scn "<Node dt='1'><EulerExplicitSolver/><Node name='body'>
+    <MechanicalObject position='0 0 0 2 0 0'/><UniformMass vertexMass='1'/>
+    <StiffSpringForceField spring='0 1 1e6 0 1'/></Node></Node>")
+  sinew(3 run stiff.scn --record states.txt --save end.scn --steps 1000)
+  expect_error("stiff.scn: step [0-9]+ .*/body: .*diverged")
+  file(READ ${WORK}/states.txt record)
+  if(NOT record MATCHES "\nend [0-9]+\n$" OR record MATCHES "nan" OR EXISTS ${WORK}/end.scn)
+    fail("the files are wrong")
+  endif()
+  sinew(3 run stiff.scn --json --steps 1000)
+  json(error errors 0)
+  sinew(3 compare one.scn stiff.scn --dt 1)
+  expect_error("b: stiff.scn: step ")
+
+elseif(CASE STREQUAL "run-interrupted")
+  find_program(TIMEOUT timeout)
+  if(NOT TIMEOUT)
+    message("no program timeout: skipped")
+    return()
+  endif()
+  set(program ${SINEW})
+  set(SINEW ${TIMEOUT} --preserve-status -s INT 1 ${program})
+  sinew(130 run one.scn --steps 1000000000 --every 100000 --record states.txt --vtk out --save end.scn)
+  expect_output("interrupted; all files are complete")
+  file(STRINGS ${WORK}/states.txt last REGEX "^end ")
+  if(NOT last)
+    fail("the record is not complete")
+  endif()
+  file(GLOB left ${WORK}/*.tmp* ${WORK}/out/*.tmp*)
+  expect_equal("${left}" "")
+  set(SINEW ${program})
+  sinew(0 check end.scn)
+
+elseif(CASE STREQUAL "checkpoint")
+  # 6 steps are 2 and 4 more, bit by bit
+  sinew(0 run one.scn --steps 6 --every 6 --record whole.txt --save whole.scn)
+  sinew(0 run one.scn --steps 2 --save middle.scn)
+  sinew(0 run middle.scn --steps 4 --every 4 --record rest.txt --save rest.scn)
+  file(READ ${WORK}/whole.scn whole)
+  file(READ ${WORK}/rest.scn rest)
+  expect_equal("${rest}" "${whole}")
+  file(STRINGS ${WORK}/whole.txt whole)
+  file(STRINGS ${WORK}/rest.txt rest)
+  list(SUBLIST whole 7 -1 whole)
+  list(SUBLIST rest 7 -1 rest)
+  expect_equal("${rest}" "${whole}")
+
+elseif(CASE STREQUAL "check")
+  sinew(0 check one.scn)
+  expect_output("^one.scn: ok: 3 nodes, 9 components, 12 degrees of freedom\n$")
+  sinew(0 check one.scn --quiet)
+  expect_silence()
+  expect_files()
+
+elseif(CASE STREQUAL "check-wrong")
+  sinew(1 check no.scn)
+  file(WRITE ${WORK}/wrong.scn "<Node dt='0'>
+  <Node name='a'>
+    <MechanicalObject position='0 0 x'/>
+    <UniformMass vertexMas='1'/>
+    <Foo/>
+  </Node>
+</Node>")
+  sinew(1 check wrong.scn)
+  foreach(place 1:1 3:23 4:18 5:5) # all of them
+    expect_error("wrong.scn:${place}: ")
+  endforeach()
+  # values out of range, all of them
+  file(WRITE ${WORK}/range.scn "<Node>
+  <EulerImplicitSolver rayleighMass='-1'/>
+  <CGLinearSolver iterations='0'/>
+</Node>")
+  sinew(1 check range.scn)
+  expect_error("range.scn:2:3: .*rayleighMass.*\nrange.scn:3:3: .*iterations")
+  # what only shows at init
+  file(WRITE ${WORK}/init.scn "<Node>
+  <MechanicalObject position='0 0 0'/>
+  <UniformMass/>
+  <FixedConstraint indices='7'/>
+</Node>")
+  sinew(1 check init.scn)
+  expect_error("init.scn:4:3: .*7")
+  file(WRITE ${WORK}/solver.scn "<Node>
+  <EulerImplicitSolver/>
+</Node>")
+  sinew(1 check solver.scn)
+  expect_error("solver.scn.*linear solver")
+
+elseif(CASE STREQUAL "list")
+  sinew(0 list)
+  expect_output("Masses\n.*UniformMass +Vec3d .*Rigid3d")
+  expect_output("ODE solvers\n.*EulerImplicitSolver")
+  sinew(0 list TetrahedronFEMForceField)
+  foreach(words "force field" "youngModulus" "unit +Pa" "range +greater than -1 and less than 0.5" "default +5000"
+                "small, large, polar, gradient")
+    expect_output("${words}")
+  endforeach()
+  sinew(0 list OglModel) # an alias
+  expect_output("^VisualModel")
+  sinew(2 list UniformMas)
+  expect_error("did you mean 'UniformMass'")
+  sinew(2 list Qwertyuiop)
+  expect_error("'sinew list' shows all")
+  sinew(4 list --markdown no/such/folder/page.md)
+
+elseif(CASE STREQUAL "page")
+  # the reference page in docs/ is what the program writes
+  sinew(0 list --markdown page.md)
+  file(READ ${WORK}/page.md written)
+  file(READ ${PAGE} committed)
+  if(NOT written STREQUAL committed)
+    fail("docs/components.md is not up to date; write it with: sinew list --markdown docs/components.md")
+  endif()
+
+elseif(CASE STREQUAL "bake")
+  sinew(0 bake one.scn -o one.hpp)
+  file(READ ${WORK}/one.hpp header)
+  if(NOT header MATCHES "#pragma once.*TetrahedronFEMForceField<Vec3d>")
+    fail("the header is wrong: ${header}")
+  endif()
+  file(REMOVE ${WORK}/one.hpp)
+  sinew(2 bake one.scn)
+  sinew(1 bake no.scn -o one.hpp)
+  expect_error("no.scn: cannot be read")
+  sinew(1 bake one.scn -o one.hpp --set body/fem.poissonRatio=1)
+  sinew(4 bake one.scn -o no/such/folder/one.hpp)
+  expect_files()
+
+elseif(CASE STREQUAL "compare")
+  # the same twice, then something else
+  sinew(0 compare one.scn one.scn --steps 10)
+  expect_output("/body +4 +0 +0 ")
+  expect_output("time a step")
+  sinew(0 compare one.scn --set-b body/fem.youngModulus=300 --steps 10 --every 5 --json)
+  json(frames frames)
+  expect_equal(${frames} 3)
+  json(rms bodies 0 rms)
+  if(NOT rms GREATER 0)
+    fail("softer is not different")
+  endif()
+  # two step lengths of a free fall: x = -g t (t + dt) / 2, so they are g t (dt - dt') / 2 apart at t
+  file(WRITE ${WORK}/fall.scn "${fall}")
+  sinew(0 compare fall.scn --set-b root.dt=0.25 --time 2 --json)
+  json(distance bodies 0 max)
+  expect_equal(${distance} 0.25)
+  # a record stands for its scene
+  sinew(0 run one.scn --steps 10 --every 5 --record states.txt --quiet)
+  sinew(0 compare states.txt one.scn --json)
+  json(distance bodies 0 max)
+  expect_equal(${distance} 0)
+  json(frames frames)
+  expect_equal(${frames} 3)
+  # bodies that only one has, or of another size
+  sinew(0 compare fall.scn one.scn --dt 0.1 --steps 1)
+  expect_output("/ball +only in a\n/body +only in b\n")
+
+elseif(CASE STREQUAL "compare-wrong")
+  sinew(2 compare one.scn)
+  expect_error("--set-b")
+  sinew(1 compare one.scn no.scn)
+  sinew(2 compare one.scn --set-b root.dt=0.013 --steps 10)
+  expect_error("0.013")
+  sinew(2 compare one.scn --set-b nobody/fem.youngModulus=1)
+  expect_error("nobody")
+  sinew(2 compare one.scn --set-a youngModulus)
+  sinew(2 compare one.scn one.scn --rounds 0)
+  file(WRITE ${WORK}/bad.txt "sinew record 1\nframe 0 time 0\nstate Vec3d 999999999 /body\n0 0\n")
+  sinew(1 compare bad.txt one.scn)
+  expect_error("bad.txt:3: the number of points")
+
+else()
+  message(FATAL_ERROR "there is no case ${CASE}")
+endif()
