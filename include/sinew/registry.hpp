@@ -29,13 +29,30 @@ constexpr void for_each_registered(F&& f) {
 
 /// Components over one DataTypes of points, of rigids, and over none.
 template <class D>
-using PointComponents = Registry<MechanicalObject<D>, UniformMass<D>, DiagonalMass<D>,
-                                 StiffSpringForceField<D>, ConstantForceField<D>, FixedConstraint<D>>;
+using PointSprings =
+    Registry<StiffSpringForceField<D>, MeshSpringForceField<D>, RegularGridSpringForceField<D>>;
 template <class D>
-using SpatialComponents = Registry<PointComponents<D>, TetrahedronFEMForceField<D>>;
+using RigidLoads = Registry<ConstantForceField<D>, LinearForceField<D>, RestShapeSpringsForceField<D>,
+                            PlaneForceField<D>, UniformVelocityDampingForceField<D>>;
+template <class D>
+using PointLoads = Registry<RigidLoads<D>, SphereForceField<D>>;
+template <class D>
+using ElementForces = Registry<TetrahedronFEMForceField<D>, HexahedronFEMForceField<D>,
+                               TriangleFEMForceField<D>, SurfacePressureForceField<D>>;
+template <class D>
+using PointConstraints =
+    Registry<FixedConstraint<D>, PartialFixedConstraint<D>, FixedPlaneConstraint<D>,
+             LinearMovementConstraint<D>, AffineMovementConstraint<D>, LinearVelocityConstraint<D>,
+             OscillatorConstraint<D>, ProjectToPlaneConstraint<D>, ProjectToLineConstraint<D>,
+             ProjectToPointConstraint<D>, ProjectDirectionConstraint<D>>;
+template <class D>
+using PointComponents = Registry<MechanicalObject<D>, UniformMass<D>, DiagonalMass<D>, MeshMatrixMass<D>,
+                                 PointSprings<D>, PointLoads<D>, PointConstraints<D>>;
+template <class D>
+using SpatialComponents = Registry<PointComponents<D>, ElementForces<D>>;
 template <class D>
 using RigidComponents =
-    Registry<MechanicalObject<D>, UniformMass<D>, DiagonalMass<D>, ConstantForceField<D>, FixedConstraint<D>>;
+    Registry<MechanicalObject<D>, UniformMass<D>, DiagonalMass<D>, RigidLoads<D>, PointConstraints<D>>;
 template <class Rigid, class Point, class OtherPoint>
 using RigidMappings =
     Registry<IdentityMapping<Rigid, Rigid>, RigidMapping<Rigid, Point>, RigidMapping<Rigid, OtherPoint>>;
@@ -54,14 +71,32 @@ using StandardMappings =
              PointMappings<Vec6d, Vec6d>, RigidMappings<Rigid3d, Vec3d, Vec3f>,
              RigidMappings<Rigid3f, Vec3f, Vec3d>, RigidMappings<Rigid2d, Vec2d, Vec2f>,
              RigidMappings<Rigid2f, Vec2f, Vec2d>>;
+template <template <class> class Solver>
+using AssembledSolvers =
+    Registry<Solver<CompressedRowSparseMatrixMat3x3d>, Solver<CompressedRowSparseMatrixMat3x3f>,
+             Solver<CompressedRowSparseMatrixd>, Solver<CompressedRowSparseMatrixf>>;
 using StandardSolvers =
-    Registry<EulerExplicitSolver, RungeKutta2Solver, RungeKutta4Solver, EulerImplicitSolver, CGLinearSolver<>,
-             CGLinearSolver<CompressedRowSparseMatrixMat3x3d>,
-             CGLinearSolver<CompressedRowSparseMatrixMat3x3f>, CGLinearSolver<CompressedRowSparseMatrixd>,
-             CGLinearSolver<CompressedRowSparseMatrixf>>;
+    Registry<EulerExplicitSolver, CentralDifferenceSolver, RungeKutta2Solver, RungeKutta4Solver,
+             RungeKutta45Solver, EulerImplicitSolver, NewmarkImplicitSolver, VariationalSymplecticSolver,
+             BDFOdeSolver, StaticSolver, CGLinearSolver<>, AssembledSolvers<CGLinearSolver>,
+             MinResLinearSolver<>, AssembledSolvers<MinResLinearSolver>, ShewchukPCGLinearSolver<>,
+             AssembledSolvers<ShewchukPCGLinearSolver>, AssembledSolvers<SparseLDLSolver>,
+             AssembledSolvers<CholeskySolver>>;
+template <class D>
+using Regions = Registry<BoxROI<D>, SphereROI<D>>;
+template <class D>
+using SpatialEngines = Registry<Regions<D>, PlaneROI<D>, TransformEngine<D>>;
+// MeshVTKLoader is not among them: it needs pugixml
+using StandardEngines =
+    Registry<MeshGmshLoader, MeshOBJLoader, MeshSTLLoader, SphereLoader, SpatialEngines<Vec3d>,
+             SpatialEngines<Vec3f>, SpatialEngines<Rigid3d>, SpatialEngines<Rigid3f>, Regions<Vec1d>,
+             Regions<Vec1f>, Regions<Vec2d>, Regions<Vec2f>, Regions<Vec6d>, Regions<Vec6f>, Regions<Rigid2d>,
+             Regions<Rigid2f>>;
+using StandardTopologies =
+    Registry<TetrahedronTopology, MeshTopology, RegularGridTopology, SparseGridTopology>;
 
 /// Every component that Sinew brings.
-using Standard =
-    Registry<Gravity, TetrahedronTopology, VisualModel, StandardForces, StandardMappings, StandardSolvers>;
+using Standard = Registry<Gravity, StandardTopologies, VisualModel, StandardEngines, StandardForces,
+                          StandardMappings, StandardSolvers>;
 
 }  // namespace sinew
