@@ -166,9 +166,9 @@ Options read_options(int argc, char** argv, int& status) {
       ->check(at_least(1).description(""));
   compare
       ->add_option(
-          "--rounds", o.compare.rounds, "How often to run both, for the time a step takes (default 3)")
+          "--rounds", o.compare.rounds, "How often to run both again, for the time a step takes (default 3)")
       ->type_name("N")
-      ->check(CLI::Range(1, 1000).description(""));
+      ->check(CLI::Range(0, 1000).description(""));
   add_output(*compare, compareQuiet, compareJson);
 
   try {

@@ -2,20 +2,37 @@
 #pragma once
 
 #include <sinew/core/registry.hpp>
+#include <sinew/engine/mesh_vtk_loader.hpp>
 #include <sinew/sinew.hpp>
 
 namespace sinew {
 
 /// Components over one DataTypes of points, of rigids, and over none.
 template <class D>
-using PointComponents =
-    Registry<MechanicalObject<D>, UniformMass<D>, DiagonalMass<D>, StiffSpringForceField<D>,
-             StiffSpringForceField<D, Linked>, ConstantForceField<D>, FixedConstraint<D>>;
+using PointSprings = Registry<StiffSpringForceField<D>, StiffSpringForceField<D, Linked>, MeshSpringForceField<D>,
+                              RegularGridSpringForceField<D>>;
 template <class D>
-using SpatialComponents = Registry<PointComponents<D>, TetrahedronFEMForceField<D>>;
+using RigidLoads = Registry<ConstantForceField<D>, LinearForceField<D>, RestShapeSpringsForceField<D>,
+                            PlaneForceField<D>, UniformVelocityDampingForceField<D>>;
+template <class D>
+using PointLoads = Registry<RigidLoads<D>, SphereForceField<D>>;
+template <class D>
+using ElementForces = Registry<TetrahedronFEMForceField<D>, HexahedronFEMForceField<D>,
+                               TriangleFEMForceField<D>, SurfacePressureForceField<D>>;
+template <class D>
+using PointConstraints =
+    Registry<FixedConstraint<D>, PartialFixedConstraint<D>, FixedPlaneConstraint<D>,
+             LinearMovementConstraint<D>, AffineMovementConstraint<D>, LinearVelocityConstraint<D>,
+             OscillatorConstraint<D>, ProjectToPlaneConstraint<D>, ProjectToLineConstraint<D>,
+             ProjectToPointConstraint<D>, ProjectDirectionConstraint<D>>;
+template <class D>
+using PointComponents = Registry<MechanicalObject<D>, UniformMass<D>, DiagonalMass<D>, MeshMatrixMass<D>,
+                                 PointSprings<D>, PointLoads<D>, PointConstraints<D>>;
+template <class D>
+using SpatialComponents = Registry<PointComponents<D>, ElementForces<D>>;
 template <class D>
 using RigidComponents =
-    Registry<MechanicalObject<D>, UniformMass<D>, DiagonalMass<D>, ConstantForceField<D>, FixedConstraint<D>>;
+    Registry<MechanicalObject<D>, UniformMass<D>, DiagonalMass<D>, RigidLoads<D>, PointConstraints<D>>;
 template <class Rigid, class Point, class OtherPoint>
 using RigidMappings =
     Registry<IdentityMapping<Rigid, Rigid>, RigidMapping<Rigid, Point>, RigidMapping<Rigid, OtherPoint>>;
@@ -24,30 +41,51 @@ using PointMappings = Registry<IdentityMapping<In, Out>, SubsetMapping<In, Out>>
 template <class In, class Out>
 using SpatialMappings = Registry<PointMappings<In, Out>, BarycentricMapping<In, Out>>;
 
-using StandardForces = Registry<SpatialComponents<Vec3d>, SpatialComponents<Vec3f>, PointComponents<Vec1d>,
-                                PointComponents<Vec2d>, PointComponents<Vec6d>, RigidComponents<Rigid2d>,
-                                RigidComponents<Rigid3d>, RigidComponents<Rigid3f>>;
+// what scenes in single precision need
+template <class D>
+using FloatComponents =
+    Registry<MechanicalObject<D>, UniformMass<D>, DiagonalMass<D>, StiffSpringForceField<D>, MeshSpringForceField<D>,
+             TetrahedronFEMForceField<D>, HexahedronFEMForceField<D>, ConstantForceField<D>, FixedConstraint<D>>;
+template <class D>
+using FloatRigids = Registry<MechanicalObject<D>, UniformMass<D>, ConstantForceField<D>, FixedConstraint<D>>;
+
+using StandardForces =
+    Registry<SpatialComponents<Vec3d>, PointComponents<Vec1d>, PointComponents<Vec2d>, PointComponents<Vec6d>,
+             RigidComponents<Rigid2d>, RigidComponents<Rigid3d>, FloatComponents<Vec3f>, FloatRigids<Rigid3f>>;
 using StandardMappings =
     Registry<SpatialMappings<Vec3d, Vec3d>, SpatialMappings<Vec3d, Vec3f>, SpatialMappings<Vec3f, Vec3f>,
              SpatialMappings<Vec3f, Vec3d>, PointMappings<Vec1d, Vec1d>, PointMappings<Vec2d, Vec2d>,
              PointMappings<Vec6d, Vec6d>, RigidMappings<Rigid3d, Vec3d, Vec3f>,
-             RigidMappings<Rigid3f, Vec3f, Vec3d>, RigidMapping<Rigid2d, Vec2d>,
-             IdentityMapping<Rigid2d, Rigid2d>>;
+             RigidMappings<Rigid3f, Vec3f, Vec3d>, IdentityMapping<Rigid2d, Rigid2d>, RigidMapping<Rigid2d, Vec2d>>;
+template <template <class> class Solver>
+using AssembledSolvers = Registry<Solver<CompressedRowSparseMatrixMat3x3d>, Solver<CompressedRowSparseMatrixd>>;
 using StandardSolvers =
-    Registry<EulerExplicitSolver, RungeKutta2Solver, RungeKutta4Solver, EulerImplicitSolver, CGLinearSolver<>,
-             CGLinearSolver<CompressedRowSparseMatrixMat3x3d>,
-             CGLinearSolver<CompressedRowSparseMatrixMat3x3f>, CGLinearSolver<CompressedRowSparseMatrixd>,
-             CGLinearSolver<CompressedRowSparseMatrixf>>;
+    Registry<EulerExplicitSolver, CentralDifferenceSolver, RungeKutta2Solver, RungeKutta4Solver,
+             RungeKutta45Solver, EulerImplicitSolver, NewmarkImplicitSolver, VariationalSymplecticSolver,
+             BDFOdeSolver, StaticSolver, CGLinearSolver<>, AssembledSolvers<CGLinearSolver>,
+             CGLinearSolver<CompressedRowSparseMatrixMat3x3f>, MinResLinearSolver<>,
+             AssembledSolvers<MinResLinearSolver>, ShewchukPCGLinearSolver<>, AssembledSolvers<ShewchukPCGLinearSolver>,
+             AssembledSolvers<SparseLDLSolver>, AssembledSolvers<CholeskySolver>>;
+template <class D>
+using Regions = Registry<BoxROI<D>, SphereROI<D>>;
+template <class D>
+using SpatialEngines = Registry<Regions<D>, PlaneROI<D>, TransformEngine<D>>;
+using StandardEngines =
+    Registry<MeshGmshLoader, MeshOBJLoader, MeshSTLLoader, MeshVTKLoader, SphereLoader, SpatialEngines<Vec3d>,
+             SpatialEngines<Vec3f>, SpatialEngines<Rigid3d>, Regions<Vec1d>, Regions<Vec2d>, Regions<Vec6d>,
+             Regions<Rigid2d>>;
+using StandardTopologies =
+    Registry<TetrahedronTopology, MeshTopology, RegularGridTopology, SparseGridTopology>;
 
 /// Every component that Sinew brings, over the DataTypes that scenes use.
-struct Standard
-    : Registry<Gravity, TetrahedronTopology, VisualModel, StandardForces, StandardMappings, StandardSolvers> {
-};
+struct Standard : Registry<Gravity, StandardTopologies, VisualModel, StandardEngines, StandardForces,
+                           StandardMappings, StandardSolvers> {};
 
 /// The same over the rarer DataTypes too: what the law suites prove.
 struct Extended
-    : Registry<Standard, PointComponents<Vec1f>, PointComponents<Vec2f>, PointComponents<Vec6f>,
-               RigidComponents<Rigid2f>, RigidMapping<Rigid2d, Vec2f>, RigidMapping<Rigid2f, Vec2f>,
-               RigidMapping<Rigid2f, Vec2d>, IdentityMapping<Rigid2f, Rigid2f>> {};
+    : Registry<Standard, SpatialComponents<Vec3f>, PointComponents<Vec1f>, PointComponents<Vec2f>,
+               PointComponents<Vec6f>, RigidComponents<Rigid2f>, RigidComponents<Rigid3f>,
+               IdentityMapping<Rigid2f, Rigid2f>, RigidMapping<Rigid2d, Vec2f>, RigidMapping<Rigid2f, Vec2f>,
+               RigidMapping<Rigid2f, Vec2d>> {};
 
 }  // namespace sinew

@@ -35,6 +35,8 @@ std::vector<Case> cases() {
           {io::parse_vtk, samples::vtkGrid3},
           {io::parse_vtk, samples::vtkGrid5},
           {io::parse_vtk, samples::vtkPoly},
+          {io::parse_stl, samples::stl},
+          {io::parse_stl, samples::stl_binary()},
           {io::parse_vtu, samples::vtuAscii},
           {io::parse_vtu, inside},
           {io::parse_vtu, raw}};

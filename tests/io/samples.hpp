@@ -3,6 +3,10 @@
 
 #include <sinew/core/mesh.hpp>
 
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <cstring>
 #include <string>
 
 // One mesh, a tetrahedron on one triangle of a square with an edge and a quad, in every format that is read.
@@ -208,5 +212,48 @@ inline const std::string vtuAscii = R"(<?xml version="1.0"?>
   </UnstructuredGrid>
 </VTKFile>
 )";
+
+// triangles alone, each with its own points
+inline const std::string stl = R"(solid a thing
+facet normal 0 0 1
+  outer loop
+    vertex 0 0 0
+    vertex 1 0 0
+    vertex 1 1 0
+  endloop
+endfacet
+facet normal 0 0 1
+  outer loop
+    vertex -0 0e5 0.0
+    vertex 1 1 0
+    vertex 0 1 0
+  endloop
+endfacet
+FACET NORMAL nan nan nan OUTER LOOP
+    VERTEX 0 0 0 VERTEX 1 1 0 VERTEX .25 5e-1 -1.5
+ENDLOOP ENDFACET
+endsolid a thing
+)";
+inline const std::vector<sinew::Triangle> stlTriangles{{0, 1, 2}, {0, 2, 3}, {0, 2, 4}};
+
+/// The same as a binary file.
+inline std::string stl_binary() {
+  std::string bytes(80, ' ');
+  auto add = [&bytes](auto value) {
+    char raw[sizeof value];
+    std::memcpy(raw, &value, sizeof value);
+    if constexpr (std::endian::native == std::endian::big) std::reverse(raw, raw + sizeof value);
+    bytes.append(raw, sizeof value);
+  };
+  const sinew::Mesh m = mesh();
+  add(std::uint32_t(stlTriangles.size()));
+  for (auto const& t : stlTriangles) {
+    for (int c = 0; c < 3; ++c) add(0.0f);
+    for (const int i : t)
+      for (const double c : m.positions[std::size_t(i)]) add(float(c));
+    add(std::uint16_t(7));
+  }
+  return bytes;
+}
 
 }  // namespace samples

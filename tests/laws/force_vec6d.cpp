@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "force_laws.hpp"
 
-TEST_CASE("every force field over Vec6d obeys the laws of forces") {
-  laws::check_force_fields<sinew::Extended, sinew::Vec6d>();
-}
+using namespace sinew;
+using D = Vec6d;
+
+// the other groups have files of their own, so that each builds in seconds
+static_assert(laws::count_force_fields<Extended, D>() ==
+                  laws::count_force_fields<Registry<PointSprings<D>, PointLoads<D>>, D>(),
+              "a force field over Vec6d is in no group that the laws are run on");
+
+TEST_CASE("springs over Vec6d obey the laws of forces") { laws::check_force_fields<PointSprings<D>, D>(); }

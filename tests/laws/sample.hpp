@@ -5,6 +5,7 @@
 // writes nothing for them.
 
 #include <sinew/registry.hpp>
+#include <sinew/topology/adjacency.hpp>
 
 #include <random>
 
@@ -21,10 +22,13 @@ struct Random {
   int index(int n) { return int(engine() % unsigned(n)); }
 };
 
-/// Points of a 3x3x3 grid, shaken, with five tetrahedra a cell.
+/// Points of a 3x3x3 grid, shaken, with a hexahedron and five tetrahedra a cell, and the surface of both.
 struct Body {
   static constexpr int n = 27;
+  std::vector<Triangle> triangles;
+  std::vector<Quad> quads;
   std::vector<Tetrahedron> tetrahedra;
+  std::vector<Hexahedron> hexahedra;
   std::vector<Eigen::Vector3d> points;
 
   explicit Body(Random& random) {
@@ -44,9 +48,26 @@ struct Body {
         if (edges.determinant() < 0) std::swap(e[2], e[3]);
         tetrahedra.push_back(e);
       }
+      hexahedra.push_back(
+          {corner(0), corner(1), corner(3), corner(2), corner(4), corner(5), corner(7), corner(6)});
+      for (int axis = 0; axis < 3; ++axis)
+        for (int high = 0; high < 2; ++high) {
+          if ((axis == 0 ? x : axis == 1 ? y : z) != high) continue;  // outer faces, seen from outside
+          const int u = 1 << (axis + 1) % 3, v = 1 << (axis + 2) % 3, base = high << axis;
+          Quad q{corner(base), corner(base + u), corner(base + u + v), corner(base + v)};
+          if (!high) std::swap(q[1], q[3]);
+          quads.push_back(q);
+        }
     }
+    triangles = boundary_triangles(tetrahedra);
   }
-  TopologyView topology() const { return {.tetrahedra = tetrahedra}; }
+  TopologyView topology() const {
+    return {.triangles = triangles,
+            .quads = quads,
+            .tetrahedra = tetrahedra,
+            .hexahedra = hexahedra,
+            .grid = {3, 3, 3}};
+  }
 };
 
 template <class V>
@@ -114,7 +135,7 @@ void randomise(T& value, Range range, Random& random) {
   }
 }
 
-/// f(component) for a random one with each value of each enum among its fields.
+/// f(component) for a random one with each value of each enum and each bool among its fields.
 template <class C, class F>
 void for_each_variant(Random& random, F&& f) {
   C c{};
@@ -122,6 +143,28 @@ void for_each_variant(Random& random, F&& f) {
   if constexpr (requires { c.springs; })
     for (auto& s : c.springs)
       if (s.first == s.second) s.second = (s.first + 1) % Body::n;
+  // a pressure is proved on a closed surface, where it has an energy: all of that of the body
+  if constexpr (requires { c.triangleIndices; }) {
+    c.triangleIndices.clear(), c.quadIndices.clear();
+    c.min.reset(), c.max.reset();
+  }
+  // movements over the times 0 to 2; a velocity turns a body about one axis, as its orientation has it
+  if constexpr (requires { c.keyTimes; }) {
+    auto fill = [&](auto& values, bool oneAxis) {
+      using V = typename std::decay_t<decltype(values)>::value_type;
+      values = {vector<V>(random), vector<V>(random), vector<V>(random)};
+      if constexpr (C::DataTypes::rigid && C::DataTypes::spatial == 3)
+        for (std::size_t k = 1; oneAxis && k < 3; ++k)
+          values[k].template tail<3>() = values[0].template tail<3>() * typename V::Scalar(k + 1);
+    };
+    c.keyTimes = {0, 1, 2};
+    if constexpr (requires { c.movements; }) fill(c.movements, false);
+    if constexpr (requires { c.velocities; }) fill(c.velocities, true);
+    if constexpr (requires { c.coordinates; }) c.coordinates.assign(1, 0);
+  }
+  if constexpr (requires { c.endConstraintTime; }) c.beginConstraintTime = 0, c.endConstraintTime = 2;
+  if constexpr (requires { c.dmax; }) c.dmin = 0, c.dmax = 1;
+  if constexpr (requires { c.fixedDirections; }) c.fixedDirections.back() = c.fixedDirections.size() == 1;
   bool any = false;
   for_each_field(c, [&](auto const&, auto& value) {
     using T = std::decay_t<decltype(value)>;
@@ -129,6 +172,12 @@ void for_each_variant(Random& random, F&& f) {
       any = true;
       for (std::size_t i = 0; i < enum_names(T{}).size(); ++i) {
         value = T(i);
+        f(c);
+      }
+    } else if constexpr (std::is_same_v<T, bool>) {
+      any = true;
+      for (const bool b : {true, false}) {
+        value = b;
         f(c);
       }
     }

@@ -66,9 +66,22 @@ struct MatrixSink {
       side<SideJ>().expand(j, [&](int column, auto const& jj) { place(row, column, ji, jj, k); });
     });
   }
+  /// Row and column of each coordinate of a point become those of the identity.
   void fix(int point) const {
     if constexpr (Phase == AssemblyPhase::add && A::direct)
       for (int c = 0; c < A::size; ++c) matrix.fix(first.offset + point * A::size + c);
+  }
+  /// The same for the coordinates c of a point where mask[c] is not 0.
+  template <class Mask>
+  void fix(int point, Mask const& mask) const {
+    if constexpr (Phase == AssemblyPhase::add && A::direct)
+      for (int c = 0; c < A::size; ++c)
+        if (mask[std::size_t(c)]) matrix.fix(first.offset + point * A::size + c);
+  }
+  /// A = P A P + (I - P) with a symmetric projector P of the coordinates of a point.
+  template <class P>
+  void project(int point, P const& p) const {
+    if constexpr (Phase == AssemblyPhase::add && A::direct) matrix.project(first.offset + point * A::size, p);
   }
   template <int Side>
   auto const& side() const {

@@ -3,26 +3,37 @@
 
 #include <sinew/core/component.hpp>
 
+#include <optional>
 #include <vector>
 
 namespace sinew {
 
-/// The same force at all times on chosen points: one force for all of `indices`, or one for each.
+/// The same force at all times on chosen points, on all where none are chosen. It is given by the first of
+/// these that is there: `forces`, one for all points or one for each; `force`, on each point; `totalForce`,
+/// shared evenly between the points.
 template <class D>
 struct ConstantForceField {
   using Role = role::ForceField;
   using DataTypes = D;
+  using Real = typename D::Real;
+  using Deriv = typename D::Deriv;
   using VecCoord = typename D::VecCoord;
   using VecDeriv = typename D::VecDeriv;
   static constexpr std::string_view className = "ConstantForceField";
 
   std::vector<int> indices{};
   VecDeriv forces{};
+  std::optional<Deriv> force{}, totalForce{};
 
   static constexpr auto fields() {
     using F = ConstantForceField;
-    return field_list(field("indices", &F::indices, "", "points that the forces act on", range::nonNegative),
-                      field("forces", &F::forces, "N", "one force for all indices, or one for each"));
+    return field_list(
+        field("indices", &F::indices, "", "points that the forces act on; none for all", range::nonNegative)
+            .also("points"),
+        field("forces", &F::forces, "N", "one force for all indices, or one for each"),
+        field("force", &F::force, "N", "force on each point, where forces is not given"),
+        field(
+            "totalForce", &F::totalForce, "N", "force that the points share evenly, where neither is given"));
   }
 
   // a constant torque in space has no energy: what it does depends on the path of the rotation
@@ -31,15 +42,19 @@ struct ConstantForceField {
   }
 
   VecCoord rest{};
+  std::size_t size = 0;  // points that a force acts on
 
   void init(InitContext<D> const& context) {
     const std::string where = text(context.where, ": ", component_name<ConstantForceField>());
-    if (forces.size() != 1 && forces.size() != indices.size())
+    size = indices.empty() ? context.rest.size() : indices.size();
+    if (forces.empty() && !force && !totalForce)
+      throw Error(where, "there is no force; give one of forces, force and totalForce");
+    if (!forces.empty() && forces.size() != 1 && forces.size() != size)
       throw Error(where,
                   text("forces has ",
                        forces.size(),
                        " entries for ",
-                       indices.size(),
+                       size,
                        " indices; give one force, or one for each index"));
     for (const int i : indices)
       if (std::size_t(i) >= context.rest.size())
@@ -52,10 +67,15 @@ struct ConstantForceField {
     rest = context.rest;
   }
 
-  typename D::Deriv const& force(std::size_t i) const { return forces.size() == 1 ? forces[0] : forces[i]; }
+  std::size_t point(std::size_t i) const { return indices.empty() ? i : std::size_t(indices[i]); }
+  /// Force on point(i).
+  Deriv load(std::size_t i) const {
+    if (!forces.empty()) return forces.size() == 1 ? forces[0] : forces[i];
+    return force ? *force : Deriv(*totalForce / Real(size));
+  }
 
   void addForce(MechanicalParams const&, VecDeriv& f, VecCoord const&, VecDeriv const&) const {
-    for (std::size_t i = 0; i < indices.size(); ++i) f[std::size_t(indices[i])] += force(i);
+    for (std::size_t i = 0; i < size; ++i) f[point(i)] += load(i);
   }
   void addDForce(MechanicalParams const&, VecDeriv&, VecDeriv const&) const {}
   template <class Sink>
@@ -64,9 +84,8 @@ struct ConstantForceField {
   /// E = -sum f.(x - x_rest), torques by the rotation vector from rest                   [J]
   double potentialEnergy(VecCoord const& x) const {
     double energy = 0;
-    for (std::size_t i = 0; i < indices.size(); ++i)
-      energy -=
-          double(force(i).dot(D::difference(rest[std::size_t(indices[i])], x[std::size_t(indices[i])])));
+    for (std::size_t i = 0; i < size; ++i)
+      energy -= double(load(i).dot(D::difference(rest[point(i)], x[point(i)])));
     return energy;
   }
 };

@@ -3,6 +3,8 @@
 
 #include <sinew/core/component.hpp>
 #include <sinew/core/element_driver.hpp>
+#include <sinew/topology/element_checks.hpp>
+#include <sinew/topology/hexahedra.hpp>
 
 #include <array>
 #include <string_view>
@@ -205,7 +207,7 @@ struct TetrahedronFEM {
   }
 };
 
-/// Corotational linear tetrahedra.
+/// Corotational linear tetrahedra: those of the topology, or six in each of its hexahedra where it has none.
 template <class D>
 struct TetrahedronFEMForceField {
   using Role = role::ForceField;
@@ -246,10 +248,17 @@ struct TetrahedronFEMForceField {
   Driver driver{};
 
   void init(InitContext<D> const& context) {
-    auto const& tetrahedra = context.topology.tetrahedra;
     const std::string where = text(context.where, ": ", component_name<TetrahedronFEMForceField>());
+    auto tetrahedra = context.topology.tetrahedra;
+    std::vector<Tetrahedron> split;
+    if (tetrahedra.empty()) {
+      tetrahedra = split = hexahedra_to_tetrahedra(context.topology.hexahedra);
+      check_tetrahedra<D>(text(where, ": its hexahedra, six tetrahedra each"), tetrahedra, context.rest);
+    }
     if (tetrahedra.empty())
-      throw Error(where, "the topology has no tetrahedron; give the node a topology with tetrahedra");
+      throw Error(where,
+                  "the topology has no tetrahedron; give the node a topology with tetrahedra or hexahedra");
+    detail::check_indices(where, "tetrahedron", tetrahedra, context.rest.size());
     if (youngModulus.size() != 1 && youngModulus.size() != tetrahedra.size())
       throw Error(where,
                   text("youngModulus has ",

@@ -123,6 +123,39 @@ struct CompressedRowSparseMatrix {
     }
   }
 
+  /// A = P A P + (I - P) on the dofs from `dof` on, with a symmetric projector P of any fixed size; to be
+  /// called after mirror(). The dofs are those of one point, and share their pattern.
+  template <class P>
+  void project(int dof, P const& p) {
+    constexpr int n = P::RowsAtCompileTime;
+    const Mat<Real, n> projector = p.template cast<Real>();
+    Mat<Real, n> own = Mat<Real, n>::Zero();
+    const int r = dof / B;
+    for (int k = rowStart[std::size_t(r)]; k < rowStart[std::size_t(r) + 1]; ++k)
+      for (int j = 0; j < B; ++j) {
+        const int c = columns[std::size_t(k)] * B + j;
+        Vec<Real, n> a = Vec<Real, n>::Zero();
+        for (int i = 0; i < n; ++i)
+          if (Real const* const entry = find(dof + i, c)) a[i] = *entry;
+        if (c >= dof && c < dof + n) {
+          own.col(c - dof) = a;
+          continue;
+        }
+        a = (projector * a).eval();
+        for (int i = 0; i < n; ++i) {
+          put(dof + i, c, a[i]);
+          put(c, dof + i, a[i]);
+        }
+      }
+    // columns of the own dofs that stand in blocks behind that of the first
+    for (int c = (r + 1) * B; c < dof + n; ++c)
+      for (int i = 0; i < n; ++i)
+        if (Real const* const entry = find(dof + i, c)) own(i, c - dof) = *entry;
+    own = (projector * own * projector + Mat<Real, n>::Identity() - projector).eval();
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j) put(dof + i, dof + j, own(i, j));
+  }
+
   /// y = A x, both of dofs() scalars, with one more scalar of any value readable behind x.
   void multiply(Real const* x, Real* y) const {
     if constexpr (B == 3) {
@@ -139,6 +172,19 @@ struct CompressedRowSparseMatrix {
   }
 
  private:
+  Real* find(int row, int column) {
+    const int s = slot(row / B, column / B);
+    return s < 0 ? nullptr : block(s) + (row % B) * B + column % B;
+  }
+  // what the pattern has no place for is zero, but for what two points in one block would mix
+  void put(int row, int column, Real value) {
+    if (Real* const entry = find(row, column))
+      *entry = value;
+    else if (value != Real(0))
+      throw Error("CompressedRowSparseMatrix",
+                  text("nothing was announced at row ", row, ", column ", column, " of the pattern"));
+  }
+
   // the rows are short, and the same block is announced by every element around an edge: compact before
   // growing
   static void insert(std::vector<int>& row, int column) {

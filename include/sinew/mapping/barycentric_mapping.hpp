@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/core/component.hpp>
+#include <sinew/topology/element_checks.hpp>
 #include <sinew/topology/point_location.hpp>
 
 #include <array>
@@ -9,9 +10,11 @@
 
 namespace sinew {
 
-/// Each point of the child is carried by the tetrahedron of the parent that contains it at rest, or by the
-/// nearest one: x = sum_k w_k x_k with the barycentric coordinates w. Affine motion of the parent is
-/// reproduced exactly.
+/// Each point of the child is carried by the element of the parent that contains it at rest, or by the
+/// nearest one: x = sum_k w_k x_k. The weights are barycentric coordinates in tetrahedra and triangles,
+/// multilinear ones in hexahedra, quads and edges. Volumes carry where the parent has some, else surfaces,
+/// else edges; on the latter two the child follows its projection. Affine motion of the parent is reproduced
+/// exactly.
 template <class I, class O>
 struct BarycentricMapping {
   using Role = role::Mapping;
@@ -27,46 +30,97 @@ struct BarycentricMapping {
   static constexpr auto fields() { return field_list(); }
 
   struct Carrier {
-    Tetrahedron points;
+    std::array<Index, 4> points;
     std::array<Weight, 4> weights;
   };
-  std::vector<Carrier> carriers{};
+  std::vector<Carrier> carriers{};  // one a point; those with fewer than four points end in weights of zero
+  std::vector<Carrier> others{};    // the other four points of hexahedra; empty where there is none
 
   void init(InitContext<In> const& parent, InitContext<Out> const& child, typename Out::VecCoord& positions) {
     const std::string where = text(child.where, ": ", component_name<BarycentricMapping>());
-    auto const& tetrahedra = parent.topology.tetrahedra;
-    if (tetrahedra.empty())
-      throw Error(
-          where,
-          text("the topology of ", parent.where, " has no tetrahedra; give the parent a topology with some"));
+    TopologyView const& topology = parent.topology;
+    check_element_indices(text(where, ": ", parent.where), topology, parent.rest.size());
     std::vector<Eigen::Vector3d> points;
     points.reserve(parent.rest.size());
     for (auto const& x : parent.rest) points.push_back(x.template cast<double>());
-    const TetrahedronLocator locator(points, tetrahedra);
-    carriers.clear();
-    carriers.reserve(positions.size());
-    for (auto const& x : positions) {
-      const auto [element, w] = locator.locate(x.template cast<double>());
-      carriers.push_back(
-          {tetrahedra[std::size_t(element)], {Weight(w[0]), Weight(w[1]), Weight(w[2]), Weight(w[3])}});
+
+    std::vector<Choice> choices(positions.size());
+    auto offer = [&]<class Fit>(std::type_identity<Fit>, auto const& elements) {
+      const ElementLocator<Fit> locator(points, elements);
+      for (std::size_t i = 0; i < choices.size() && !elements.empty(); ++i)
+        if (choices[i].score < 0)
+          choices[i].consider(locator.locate(positions[i].template cast<double>()), elements);
+    };
+    if (!topology.tetrahedra.empty() || !topology.hexahedra.empty()) {
+      offer(std::type_identity<TetrahedronFit>{}, topology.tetrahedra);
+      offer(std::type_identity<MultilinearFit<3>>{}, topology.hexahedra);
+    } else if (!topology.triangles.empty() || !topology.quads.empty()) {
+      offer(std::type_identity<TriangleFit>{}, topology.triangles);
+      offer(std::type_identity<MultilinearFit<2>>{}, topology.quads);
+    } else if (!topology.edges.empty()) {
+      offer(std::type_identity<MultilinearFit<1>>{}, topology.edges);
+    } else {
+      throw Error(
+          where,
+          text("the topology of ", parent.where, " has no elements; give the parent a topology with some"));
+    }
+
+    carriers.assign(choices.size(), {});
+    others.assign(topology.hexahedra.empty() ? 0 : choices.size(), {});
+    for (std::size_t i = 0; i < choices.size(); ++i) {
+      if (choices[i].score == Choice{}.score)
+        throw Error(
+            where,
+            text(
+                "the elements of ", parent.where, " are all flat and carry no point; move its points apart"));
+      for (std::size_t k = 0; k < 8; ++k)
+        if (k < 4 || !others.empty()) {
+          Carrier& carrier = (k < 4 ? carriers : others)[i];
+          carrier.points[k % 4] = choices[i].points[k];
+          carrier.weights[k % 4] = Weight(choices[i].weights[k]);
+        }
     }
   }
 
   void apply(typename Out::VecCoord& out, typename In::VecCoord const& in) const { interpolate(out, in); }
   void applyJ(typename Out::VecDeriv& out, typename In::VecDeriv const& in) const { interpolate(out, in); }
   void applyJT(typename In::VecDeriv& in, typename Out::VecDeriv const& out) const {
-    for (std::size_t i = 0; i < carriers.size(); ++i)
-      for (std::size_t k = 0; k < 4; ++k)
-        in[std::size_t(carriers[i].points[k])] += carriers[i].weights[k] * out[i].template cast<Weight>();
+    for (auto const* list : {&carriers, &others})
+      for (std::size_t i = 0; i < list->size(); ++i)
+        for (std::size_t k = 0; k < 4; ++k)
+          in[std::size_t((*list)[i].points[k])] += (*list)[i].weights[k] * out[i].template cast<Weight>();
   }
   template <class F>
   void forEachJacobianBlock(int point, F&& f) const {
-    Carrier const& carrier = carriers[std::size_t(point)];
-    for (std::size_t k = 0; k < 4; ++k)
-      f(carrier.points[k], Mat<Real, 3>(Mat<Real, 3>::Identity() * Real(carrier.weights[k])));
+    for (auto const* list : {&carriers, &others})
+      for (std::size_t k = 0; k < 4 && !list->empty(); ++k) {
+        Carrier const& carrier = (*list)[std::size_t(point)];
+        if (carrier.weights[k] != 0)
+          f(carrier.points[k], Mat<Real, 3>(Mat<Real, 3>::Identity() * Real(carrier.weights[k])));
+      }
   }
 
  private:
+  // the best element so far for one point; elements with fewer points repeat their first with no weight
+  struct Choice {
+    double score = -std::numeric_limits<double>::infinity();
+    std::array<Index, 8> points{};
+    std::array<double, 8> weights{};
+
+    template <class Located, class Elements>
+    void consider(Located const& located, Elements const& elements) {
+      if (!(located.fit.score > score)) return;
+      auto const& element = elements[std::size_t(located.element)];
+      score = located.fit.score;
+      points.fill(element[0]);
+      weights.fill(0);
+      for (std::size_t k = 0; k < element.size(); ++k) {
+        points[k] = element[k];
+        weights[k] = located.fit.weights[Eigen::Index(k)];
+      }
+    }
+  };
+
   void interpolate(typename Out::VecDeriv& out, typename In::VecDeriv const& in) const {
     for (std::size_t i = 0; i < carriers.size(); ++i) {
       Carrier const& c = carriers[i];
@@ -74,6 +128,9 @@ struct BarycentricMapping {
                 c.weights[2] * in[std::size_t(c.points[2])] + c.weights[3] * in[std::size_t(c.points[3])])
                    .template cast<Real>();
     }
+    for (std::size_t i = 0; i < others.size(); ++i)
+      for (std::size_t k = 0; k < 4; ++k)
+        out[i] += (others[i].weights[k] * in[std::size_t(others[i].points[k])]).template cast<Real>();
   }
 };
 

@@ -2,13 +2,17 @@
 #pragma once
 
 #include <sinew/mass/lumped_mass.hpp>
+#include <sinew/topology/element_checks.hpp>
+#include <sinew/topology/hexahedra.hpp>
 
 #include <optional>
 
 namespace sinew {
 
-/// A mass for each point: given one by one, or from a density (or the total) over the tetrahedra of the
-/// topology, each of which gives a quarter of its mass to its points.
+/// A mass for each point: given one by one, or from a density (or the total) over the elements of the
+/// topology, which share theirs out among their points. Elements are the tetrahedra and hexahedra; where
+/// there are none, the triangles and quads (and the density is that of an area); else the edges (that of a
+/// length).
 template <class D>
 struct DiagonalMass {
   using Role = role::Mass;
@@ -26,9 +30,13 @@ struct DiagonalMass {
   static constexpr auto fields() {
     using M = DiagonalMass;
     return field_list(
-        field("massDensity", &M::massDensity, "kg/m^3", "mass of a volume of the body", range::positive),
-        field("totalMass", &M::totalMass, "kg", "mass of the body", range::positive),
-        field("vertexMass", &M::vertexMass, "kg", "mass of each point", range::positive));
+        field("massDensity",
+              &M::massDensity,
+              "kg/m^3",
+              "mass of a volume of the body, [kg/m^2] of a surface, [kg/m] of a wire",
+              range::positive),
+        field("totalMass", &M::totalMass, "kg", "mass of the body", range::positive).also("totalmass"),
+        field("vertexMass", &M::vertexMass, "kg", "mass of each point", range::positive).also("mass"));
   }
 
   LumpedMass<D> lumped{};
@@ -45,29 +53,16 @@ struct DiagonalMass {
             text("vertexMass has ", vertexMass.size(), " entries for ", n, " points; give one for each"));
       return lumped.init(where, vertexMass);
     }
-    if constexpr (!D::rigid && D::spatial == 3) {
-      if (context.topology.tetrahedra.empty())
-        throw Error(where,
-                    "a density needs the volume of tetrahedra; give the node a topology with tetrahedra, or "
-                    "vertexMass");
-      std::vector<double> volume(n, 0.0);
+    if constexpr (!D::rigid) {
+      const std::vector<double> share = sizes(context, where);
       double whole = 0;
-      for (auto const& t : context.topology.tetrahedra) {
-        Mat<double, 3> edges;
-        for (int c = 0; c < 3; ++c)
-          edges.col(c) = (D::center(context.rest[std::size_t(t[std::size_t(c) + 1])]) -
-                          D::center(context.rest[std::size_t(t[0])]))
-                             .template cast<double>();
-        const double v = std::abs(edges.determinant()) / 6;
-        whole += v;
-        for (const Index i : t) volume[std::size_t(i)] += v / 4;
-      }
+      for (const double v : share) whole += v;
       const double density = massDensity ? *massDensity : *totalMass / whole;
       std::vector<MassType> masses(n);
-      for (std::size_t i = 0; i < n; ++i) masses[i] = MassType(density * volume[i]);
+      for (std::size_t i = 0; i < n; ++i) masses[i] = MassType(density * share[i]);
       lumped.init(where, masses);
     } else {
-      throw Error(where, "a density is for points in space; give vertexMass");
+      throw Error(where, "a density is for points; give vertexMass");
     }
   }
 
@@ -82,6 +77,55 @@ struct DiagonalMass {
   template <class Sink>
   void addToMatrix(MechanicalParams const& p, VecCoord const& x, Sink const& sink) const {
     lumped.addToMatrix(x, Real(p.m), sink);
+  }
+
+ private:
+  // the volume, area or length that each point stands for: the integral of its shape function
+  static std::vector<double> sizes(InitContext<D> const& context, std::string const& where) {
+    std::vector<Eigen::Vector3d> x(context.rest.size(), Eigen::Vector3d::Zero());
+    for (std::size_t i = 0; i < x.size(); ++i)
+      x[i].head<D::spatial>() = D::center(context.rest[i]).template cast<double>();
+    auto at = [&x](Index i) -> Eigen::Vector3d const& { return x[std::size_t(i)]; };
+    std::vector<double> size(x.size(), 0.0);
+    auto share = [&size](auto const& element, double whole) {
+      for (const Index i : element) size[std::size_t(i)] += whole / double(element.size());
+    };
+    TopologyView const& t = context.topology;
+    check_element_indices(where, t, x.size());
+    if (!t.tetrahedra.empty() || !t.hexahedra.empty()) {
+      for (auto const& e : t.tetrahedra) {
+        const Eigen::Vector3d a = at(e[1]) - at(e[0]), b = at(e[2]) - at(e[0]), c = at(e[3]) - at(e[0]);
+        share(e, std::abs(a.dot(b.cross(c))) / 6);
+      }
+      for (auto const& e : t.hexahedra) addHexahedron(e, x, size);
+    } else if (!t.triangles.empty() || !t.quads.empty()) {
+      // the triangles of a grid are the halves of its quads
+      if (t.grid[0] == 0 || t.quads.empty())
+        for (auto const& e : t.triangles)
+          share(e, (at(e[1]) - at(e[0])).cross(at(e[2]) - at(e[0])).norm() / 2);
+      for (auto const& e : t.quads) share(e, (at(e[2]) - at(e[0])).cross(at(e[3]) - at(e[1])).norm() / 2);
+    } else if (!t.edges.empty()) {
+      for (auto const& e : t.edges) share(e, (at(e[1]) - at(e[0])).norm());
+    } else {
+      throw Error(
+          where,
+          "a density needs elements; give the node a topology with tetrahedra or others, or vertexMass");
+    }
+    return size;
+  }
+
+  // two Gauss points a direction integrate shape function times det J exactly: both are polynomials of degree
+  // three at most in each coordinate
+  static void addHexahedron(Hexahedron const& e, std::vector<Eigen::Vector3d> const& x,
+                            std::vector<double>& size) {
+    Eigen::Matrix<double, 3, 8> corners;
+    for (int k = 0; k < 8; ++k) corners.col(k) = x[std::size_t(e[std::size_t(k)])];
+    const double g[2] = {0.5 - std::sqrt(1.0 / 12), 0.5 + std::sqrt(1.0 / 12)};
+    for (int q = 0; q < 8; ++q) {
+      const MultilinearShape<3> shape({g[q & 1], g[q >> 1 & 1], g[q >> 2]});
+      const double volume = std::abs((corners * shape.derivatives).determinant()) / 8;
+      for (int k = 0; k < 8; ++k) size[std::size_t(e[std::size_t(k)])] += volume * shape.weights[k];
+    }
   }
 };
 

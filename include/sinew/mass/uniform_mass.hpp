@@ -24,8 +24,10 @@ struct UniformMass {
 
   static constexpr auto fields() {
     return field_list(
-        field("vertexMass", &UniformMass::vertexMass, "kg", "mass of each point", range::positive),
-        field("totalMass", &UniformMass::totalMass, "kg", "mass of all points together", range::positive));
+        field("vertexMass", &UniformMass::vertexMass, "kg", "mass of each point", range::positive)
+            .also("mass vertexmass"),
+        field("totalMass", &UniformMass::totalMass, "kg", "mass of all points together", range::positive)
+            .also("totalmass"));
   }
 
   LumpedMass<D> lumped{};

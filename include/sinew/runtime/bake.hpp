@@ -60,7 +60,10 @@ template <class List>
 std::string list_function(List const& list, std::string const& name) {
   using E = typename List::value_type;
   auto number = []<class S>(std::type_identity<S>) -> std::string_view {
-    return std::is_same_v<S, bool> ? "bool" : std::is_same_v<S, int> ? "int" : sizeof(S) == 8 ? "double" : "float";
+    return std::is_same_v<S, bool>  ? "bool"
+           : std::is_same_v<S, int> ? "int"
+           : sizeof(S) == 8         ? "double"
+                                    : "float";
   };
   const std::string all = safe_cpp(cpp_value(list));
   std::string lines = text("inline auto ", name, "() {\n");
@@ -87,8 +90,8 @@ std::string list_function(List const& list, std::string const& name) {
       return {};
     }
   } else if constexpr (requires { std::tuple_size<E>::value; } && !HasFields<E>) {
-    const std::string type =
-        text("std::array<", number(std::type_identity<typename E::value_type>{}), ", ", std::tuple_size_v<E>, '>');
+    const std::string type = text(
+        "std::array<", number(std::type_identity<typename E::value_type>{}), ", ", std::tuple_size_v<E>, '>');
     array(type, "");
     copy(type);
   } else {
@@ -99,12 +102,12 @@ std::string list_function(List const& list, std::string const& name) {
 
 template <class C, auto... Path>
 FieldCode field_code(std::string member) {
-  using T = std::decay_t<decltype((std::declval<C const&>().* ... .* Path))>;
+  using T = std::decay_t<decltype((std::declval<C const&>().*....*Path))>;
   FieldCode code{std::move(member), &typeid(T), nullptr, nullptr};
-  code.cpp = [](void const* c) { return initialiser((*static_cast<C const*>(c).* ... .* Path)); };
+  code.cpp = [](void const* c) { return initialiser((*static_cast<C const*>(c).*....*Path)); };
   if constexpr (DynamicList<T>)
     code.list = [](void const* c, std::string name) {
-      return list_function((*static_cast<C const*>(c).* ... .* Path), name);
+      return list_function((*static_cast<C const*>(c).*....*Path), name);
     };
   return code;
 }
@@ -117,7 +120,8 @@ ClassCode class_code() {
   // of a template whose arguments its name leaves out
   std::string type(type_name<C>());
   for (std::size_t at = 0; (at = type.find("sinew::", at)) != type.npos;) type.erase(at, 7);
-  if (type.starts_with(text(C::className, '<')) && code.cppName.find('<') == code.cppName.npos) code.cppName = type;
+  if (type.starts_with(text(C::className, '<')) && code.cppName.find('<') == code.cppName.npos)
+    code.cppName = type;
   auto add = [&]<class List, std::size_t... I>(List, std::index_sequence<I...>) {
     [[maybe_unused]] auto one = [&]<std::size_t J>() {
       constexpr auto fd = boost::hana::at_c<J>(List::get());
@@ -144,8 +148,8 @@ ClassCode class_code() {
   return code;
 }
 
-/// Writes the typed scene of a runtime tree. Components whose data others take by links, and engines, become local
-/// variables, written before what needs them.
+/// Writes the typed scene of a runtime tree. Components whose data others take by links, and engines, become
+/// local variables, written before what needs them.
 template <class R>
 class Baker {
   using Node = RuntimeNode<R>;
@@ -191,8 +195,8 @@ class Baker {
   std::vector<ClassInfo> table_;
   std::vector<ClassCode> code_{};
   std::filesystem::path folder_{};
-  std::set<Entry const*> variables_{};                  // components that are local variables
-  std::map<Node const*, std::vector<Moved>> moved_{};   // interactions, by the node that they move to
+  std::set<Entry const*> variables_{};                 // components that are local variables
+  std::map<Node const*, std::vector<Moved>> moved_{};  // interactions, by the node that they move to
   std::set<Entry const*> leaving_{};
   // of one pass
   std::map<Entry const*, std::string> names_{};
@@ -207,11 +211,13 @@ class Baker {
   void checkName() {
     bool taken = !is_identifier(options_.name);
     for (auto name : reservedNames) taken = taken || name == options_.name;
-    for (auto const& info : table_) taken = taken || info.cppName.substr(0, info.cppName.find('<')) == options_.name;
+    for (auto const& info : table_)
+      taken = taken || info.cppName.substr(0, info.cppName.find('<')) == options_.name;
     if (taken)
-      throw Error("bake",
-                  text(shown(options_.name),
-                       " cannot name the function of a scene; give a C++ name that nothing else has, such as scene"));
+      throw Error(
+          "bake",
+          text(shown(options_.name),
+               " cannot name the function of a scene; give a C++ name that nothing else has, such as scene"));
   }
   void start() {
     names_.clear(), functions_.clear(), taken_.clear();
@@ -243,18 +249,19 @@ class Baker {
       for (Node* at = &node; at != above; at = at->parent())
         for (auto const& other : at->components())
           if (infoOf(other).role == RoleKind::odeSolver)
-            throw Error(entry.origin.empty() ? node.path() : entry.origin,
-                        text(node.path(),
-                             ": ",
-                             entry.component.name(),
-                             " joins '",
-                             ends[0]->path(),
-                             "' and '",
-                             ends[1]->path(),
-                             "', but stands below ",
-                             at->path(),
-                             ", whose solver does not move both; no typed scene can say that; put it with a solver "
-                             "into a node above both"));
+            throw Error(
+                entry.origin.empty() ? node.path() : entry.origin,
+                text(node.path(),
+                     ": ",
+                     entry.component.name(),
+                     " joins '",
+                     ends[0]->path(),
+                     "' and '",
+                     ends[1]->path(),
+                     "', but stands below ",
+                     at->path(),
+                     ", whose solver does not move both; no typed scene can say that; put it with a solver "
+                     "into a node above both"));
       moved_[above].push_back({&node, &entry});
       leaving_.insert(&entry);
     }
@@ -289,7 +296,8 @@ class Baker {
     return nullptr;
   }
   // the component that a link leads to, and the name behind its dot; as read_scene follows links
-  std::pair<Node*, Entry*> follow(Node& from, Entry const& entry, std::string_view link, std::string& data) const {
+  std::pair<Node*, Entry*> follow(Node& from, Entry const& entry, std::string_view link,
+                                  std::string& data) const {
     Words words(link);
     std::string_view path = words.end() ? std::string_view() : words.next();
     if (!path.starts_with('@')) return {};
@@ -306,8 +314,8 @@ class Baker {
       if (at < 0 || at >= long(from.components().size())) return {};
       return {&from, &from.components()[std::size_t(at)]};
     }
-    const bool based = path.starts_with('/') || path.starts_with("./") || path.starts_with("../") || path == "." ||
-                       path == ".." || path.empty();
+    const bool based = path.starts_with('/') || path.starts_with("./") || path.starts_with("../") ||
+                       path == "." || path == ".." || path.empty();
     for (Node* at = path.starts_with('/') ? &from.top() : &from; at; at = based ? nullptr : at->parent())
       if (const auto found = walk(*at, path); found.second) return found;
     return {};
@@ -372,8 +380,7 @@ class Baker {
     name = unique(name);
     names_[&entry] = name;
     const std::size_t brace = cpp.find('{');
-    locals_ += text(
-        "  ", fit(text(cpp.substr(0, brace), ' ', name, cpp.substr(brace)), 2, 2, 1), ";\n");
+    locals_ += text("  ", fit(text(cpp.substr(0, brace), ' ', name, cpp.substr(brace)), 2, 2, 1), ";\n");
     const std::string where = cpp_literal(text(node.path(), ": ", entry.name));
     if (infoOf(entry).role == RoleKind::engine)
       locals_ += text("  ", fit(text(name, ".update(", where, ")"), 2, 2, 1), ";\n");
@@ -387,7 +394,8 @@ class Baker {
     FieldCode const& code = codeOf(entry).fields[field];
     if (auto from = source(node, entry, field))
       return text(variable(*from->node, *from->entry), '.', codeOf(*from->entry).fields[from->field].member);
-    if (info.fields[field].isFile) return file(node, entry, info.fields[field].write(entry.component.address()));
+    if (info.fields[field].isFile)
+      return file(node, entry, info.fields[field].write(entry.component.address()));
     const std::string cpp = code.cpp(entry.component.address());
     if (cpp.size() < 1000 || !code.list) return cpp;
     const std::string wanted = code.list(entry.component.address(), "");
@@ -396,8 +404,7 @@ class Baker {
     if (known == functions_.end()) {
       const std::size_t dot = code.member.find('.');
       const std::string member = code.member.substr(dot == code.member.npos ? 0 : dot + 1);
-      const std::string name =
-          unique(text(options_.name, raised(camel_case(node.name)), raised(member)));
+      const std::string name = unique(text(options_.name, raised(camel_case(node.name)), raised(member)));
       known = functions_.emplace(wanted, name).first;
       lists_ += code.list(entry.component.address(), name) + '\n';
     }
@@ -407,12 +414,13 @@ class Baker {
   std::string file(Node& node, Entry& entry, std::string const& path) {
     namespace fs = std::filesystem;
     if (options_.embed)
-      throw Error(entry.origin.empty() ? node.path() : entry.origin,
-                  text(infoOf(entry).name,
-                       " reads the file ",
-                       shown(path),
-                       " when the scene starts, which --embed cannot avoid; read it by a loader and link to that "
-                       "(src=\"@loader\"), or bake without --embed"));
+      throw Error(
+          entry.origin.empty() ? node.path() : entry.origin,
+          text(infoOf(entry).name,
+               " reads the file ",
+               shown(path),
+               " when the scene starts, which --embed cannot avoid; read it by a loader and link to that "
+               "(src=\"@loader\"), or bake without --embed"));
     const std::string relative =
         fs::absolute(fs::path(path)).lexically_normal().lexically_relative(folder_).generic_string();
     if (relative.empty()) return text('{', cpp_literal(path), '}');
@@ -467,11 +475,12 @@ class Baker {
       parts.push_back({"", variables_.count(&entry) ? variable(node, entry) : component(node, entry)});
     }
     for (auto const& [from, entry] : moved_[&node])
-      parts.push_back({text("moved here from ",
-                            cpp_literal(from->path()),
-                            ": a typed interaction stands above its ends. The order of sums may change, and with it "
-                            "the last bits."),
-                       component(*from, *entry, &node)});
+      parts.push_back(
+          {text("moved here from ",
+                cpp_literal(from->path()),
+                ": a typed interaction stands above its ends. The order of sums may change, and with it "
+                "the last bits."),
+           component(*from, *entry, &node)});
     const std::string head = text("node<", cpp_literal(node.name), ">(");
     tree_ += head;
     std::size_t width = used + head.size() + 1 + tail;
@@ -522,7 +531,9 @@ class Baker {
     std::set<std::string> more(options_.includes.begin(), options_.includes.end());
     if (locals_.find("MeshVTKLoader") != locals_.npos) more.insert("sinew/engine/mesh_vtk_loader.hpp");
     for (auto const& include : more) cpp += text("#include <", include, ">\n");
-    cpp += "\n#include <array>\n#include <string>\n#include <vector>\n\nnamespace baked {\n\nusing namespace sinew;\n\n";
+    cpp +=
+        "\n#include <array>\n#include <string>\n#include <vector>\n\nnamespace baked {\n\nusing namespace "
+        "sinew;\n\n";
     cpp += constant("double", "dt", safe_cpp(write_value(scene_.dt))) + "  // [s]\n";
     if (scene_.step > 0 && std::isfinite(scene_.time)) {
       cpp += "// a checkpoint: after init(), continueFrom() these\n";
@@ -532,12 +543,13 @@ class Baker {
     cpp += '\n' + lists_;
     std::string data = options_.data.empty() ? folder_.generic_string() : options_.data;
     if (readsFiles_) cpp += "/// The scene; data files lie in the folder `data`.\n";
-    cpp += fit(text("inline auto ",
-                    options_.name,
-                    readsFiles_ ? text("(std::string const& data = ", cpp_literal(data), ')') : std::string("()")),
-               0,
-               0,
-               2);
+    cpp += fit(
+        text("inline auto ",
+             options_.name,
+             readsFiles_ ? text("(std::string const& data = ", cpp_literal(data), ')') : std::string("()")),
+        0,
+        0,
+        2);
     cpp += text(" {\n", locals_, "  return Simulation{", tree_, "};\n}\n\n}  // namespace baked\n");
     return cpp;
   }
@@ -545,8 +557,8 @@ class Baker {
 
 }  // namespace detail
 
-/// The C++ of a scene that was read from a path: a header with a function that returns it as a typed scene, which
-/// gives the same results bit by bit. Throws Error where no typed scene says the same.
+/// The C++ of a scene that was read from a path: a header with a function that returns it as a typed scene,
+/// which gives the same results bit by bit. Throws Error where no typed scene says the same.
 template <class R>
 std::string bake_text(ReadScene<R> scene, std::string const& path, BakeOptions const& options = {}) {
   return detail::Baker<R>(scene, path, options).write();
@@ -554,7 +566,8 @@ std::string bake_text(ReadScene<R> scene, std::string const& path, BakeOptions c
 
 /// The same of a scene file, in SOFA's XML dialect, of the classes of the registry R. Throws Error.
 template <class R>
-std::string bake_scene(std::string const& path, ReadSceneOptions const& read, BakeOptions const& options = {}) {
+std::string bake_scene(std::string const& path, ReadSceneOptions const& read,
+                       BakeOptions const& options = {}) {
   return bake_text<R>(read_scene<R>(path, read), path, options);
 }
 inline std::string bake_scene(std::string const& path, ReadSceneOptions const& read = {},

@@ -34,7 +34,8 @@ inline bool hidden_character(std::string_view text_, std::size_t i, std::size_t&
   }
   bytes = 3;
   return three.size() == 3 && c == 0xE2 &&
-         ((three[1] == '\x80' && (three[2] == '\x8E' || three[2] == '\x8F' || std::uint8_t(three[2]) >= 0xA8)) ||
+         ((three[1] == '\x80' &&
+           (three[2] == '\x8E' || three[2] == '\x8F' || std::uint8_t(three[2]) >= 0xA8)) ||
           (three[1] == '\x81' && std::uint8_t(three[2]) >= 0xA6));
 }
 
@@ -64,7 +65,8 @@ inline std::string safe_cpp(std::string_view cpp) {
         --k;
       }
     } else if (cpp[i] >= '0' && cpp[i] <= '9') {
-      while (end < cpp.size() && (is(cpp[end], ".") || ((cpp[end] == '-' || cpp[end] == '+') && cpp[end - 1] == 'e')))
+      while (end < cpp.size() &&
+             (is(cpp[end], ".") || ((cpp[end] == '-' || cpp[end] == '+') && cpp[end - 1] == 'e')))
         ++end;
       const std::string_view number = cpp.substr(i, end - i);
       safe += number;
@@ -108,24 +110,24 @@ inline bool is_identifier(std::string_view name) {
   return true;
 }
 
-/// Words that no variable of baked text is named by: those of C++, macros of common systems, and what the text
-/// itself needs.
+/// Words that no variable of baked text is named by: those of C++, macros of common systems, and what the
+/// text itself needs.
 inline constexpr auto reservedNames = std::to_array<std::string_view>(
-    {"alignas",   "alignof",   "and",       "and_eq",    "asm",       "atomic_cancel", "auto",     "bitand",
-     "bitor",     "bool",      "break",     "case",      "catch",     "char",          "char8_t",  "char16_t",
-     "char32_t",  "class",     "compl",     "concept",   "const",     "consteval",     "constexpr", "constinit",
-     "continue",  "co_await",  "co_return", "co_yield",  "decltype",  "default",       "delete",   "do",
-     "double",    "else",      "enum",      "explicit",  "export",    "extern",        "false",    "float",
-     "for",       "friend",    "goto",      "if",        "inline",    "int",           "long",     "mutable",
-     "namespace", "new",       "noexcept",  "not",       "not_eq",    "nullptr",       "operator", "or",
-     "or_eq",     "private",   "protected", "public",    "register",  "requires",      "return",   "short",
-     "signed",    "sizeof",    "static",    "struct",    "switch",    "template",      "this",     "throw",
-     "true",      "try",       "typedef",   "typeid",    "typename",  "union",         "unsigned", "using",
-     "virtual",   "void",      "volatile",  "wchar_t",   "while",     "xor",           "xor_eq",   "final",
-     "override",  "import",    "module",    "linux",     "unix",      "i386",          "errno",    "stdin",
-     "stdout",    "stderr",    "assert",    "offsetof",  "std",       "sinew",         "baked",    "hana",
-     "boost",     "node",      "data",      "dt",        "main",      "Eigen",         "Simulation", "Between",
-     "Vec",       "Mesh",      "NULL",      "EOF",       "INFINITY",  "NAN",           "list",     "values"});
+    {"alignas",   "alignof",  "and",       "and_eq",   "asm",      "atomic_cancel", "auto",       "bitand",
+     "bitor",     "bool",     "break",     "case",     "catch",    "char",          "char8_t",    "char16_t",
+     "char32_t",  "class",    "compl",     "concept",  "const",    "consteval",     "constexpr",  "constinit",
+     "continue",  "co_await", "co_return", "co_yield", "decltype", "default",       "delete",     "do",
+     "double",    "else",     "enum",      "explicit", "export",   "extern",        "false",      "float",
+     "for",       "friend",   "goto",      "if",       "inline",   "int",           "long",       "mutable",
+     "namespace", "new",      "noexcept",  "not",      "not_eq",   "nullptr",       "operator",   "or",
+     "or_eq",     "private",  "protected", "public",   "register", "requires",      "return",     "short",
+     "signed",    "sizeof",   "static",    "struct",   "switch",   "template",      "this",       "throw",
+     "true",      "try",      "typedef",   "typeid",   "typename", "union",         "unsigned",   "using",
+     "virtual",   "void",     "volatile",  "wchar_t",  "while",    "xor",           "xor_eq",     "final",
+     "override",  "import",   "module",    "linux",    "unix",     "i386",          "errno",      "stdin",
+     "stdout",    "stderr",   "assert",    "offsetof", "std",      "sinew",         "baked",      "hana",
+     "boost",     "node",     "data",      "dt",       "main",     "Eigen",         "Simulation", "Between",
+     "Vec",       "Mesh",     "NULL",      "EOF",      "INFINITY", "NAN",           "list",       "values"});
 
 /// The parts between the commas of a list, brackets and literals respected.
 inline std::vector<std::string_view> split_list(std::string_view cpp) {
@@ -170,8 +172,8 @@ inline std::size_t last_group(std::string_view cpp) {
   return open;
 }
 
-/// Breaks an expression into lines: arguments and designated members one a line, numbers as many as fit. `indent`:
-/// of the line on which it starts; `used`: columns of that line before it; `tail`: what follows it.
+/// Breaks an expression into lines: arguments and designated members one a line, numbers as many as fit.
+/// `indent`: of the line on which it starts; `used`: columns of that line before it; `tail`: what follows it.
 inline std::string fit(std::string_view cpp, std::size_t indent, std::size_t used, std::size_t tail) {
   const std::size_t open = last_group(cpp);
   if (used + cpp.size() + tail <= lineWidth || open == cpp.npos) return std::string(cpp);

@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <sinew/core/component.hpp>
-#include <sinew/linalg/block_matrix.hpp>
-#include <sinew/solver/multi_vec.hpp>
+#include <sinew/solver/linear_system.hpp>
 
 #include <cmath>
 #include <vector>
 
 namespace sinew {
-
-/// The matrix of a solver that never forms it: products go through the scene graph.
-struct GraphScattered {};
 
 /// Conjugate gradients (Hestenes, Stiefel 1952) from x = 0. `Matrix`: GraphScattered, or a
 /// CompressedRowSparseMatrix into which the system is assembled once a step.
@@ -19,6 +14,7 @@ template <class Matrix = GraphScattered>
 struct CGLinearSolver {
   using Role = role::LinearSolver;
   static constexpr std::string_view className = "CGLinearSolver";
+  static constexpr std::string_view aliases = "CGSolver ConjugateGradient";
   static constexpr bool matrixFree = std::is_same_v<Matrix, GraphScattered>;
   static constexpr Auxiliary auxiliary{.derivs = matrixFree ? 3 : 0};
 

@@ -11,6 +11,8 @@ namespace sinew {
 struct EulerExplicitSolver {
   using Role = role::OdeSolver;
   static constexpr std::string_view className = "EulerExplicitSolver";
+  static constexpr std::string_view aliases =
+      "EulerSolver Euler EulerExplicit ExplicitEuler ExplicitEulerSolver";
   static constexpr bool implicit = false;
   static constexpr Auxiliary auxiliary{.derivs = 1};
 

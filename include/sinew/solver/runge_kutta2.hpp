@@ -10,6 +10,7 @@ namespace sinew {
 struct RungeKutta2Solver {
   using Role = role::OdeSolver;
   static constexpr std::string_view className = "RungeKutta2Solver";
+  static constexpr std::string_view aliases = "RungeKutta2";
   static constexpr bool implicit = false;
   static constexpr Auxiliary auxiliary{.coords = 1, .derivs = 2};
 

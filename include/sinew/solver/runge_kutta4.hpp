@@ -11,6 +11,7 @@ namespace sinew {
 struct RungeKutta4Solver {
   using Role = role::OdeSolver;
   static constexpr std::string_view className = "RungeKutta4Solver";
+  static constexpr std::string_view aliases = "RungeKutta4";
   static constexpr bool implicit = false;
   static constexpr Auxiliary auxiliary{.coords = 1, .derivs = 7};
 

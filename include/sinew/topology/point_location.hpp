@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <sinew/core/mesh.hpp>
+#include <sinew/topology/element_fit.hpp>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,38 +11,33 @@
 
 namespace sinew {
 
-/// Finds the tetrahedron around a point, through a uniform grid of cells of about one element each.
-struct TetrahedronLocator {
+/// Finds the element around a point or nearest to it, through a uniform grid of cells of about one element
+/// each.
+template <class Fit>
+struct ElementLocator {
   struct Located {
-    int element;
-    Eigen::Vector4d weights;  // barycentric coordinates, which sum to 1; some negative outside
+    int element = -1;  // none, where all are flat
+    decltype(std::declval<Fit const&>().fit(Eigen::Vector3d())) fit{-std::numeric_limits<double>::infinity(),
+                                                                    {}};
   };
 
-  TetrahedronLocator(std::span<Eigen::Vector3d const> points, std::span<Tetrahedron const> tetrahedra) {
+  ElementLocator(std::span<Eigen::Vector3d const> points, std::span<typename Fit::Points const> list) {
+    if (list.empty()) return;
     low.setConstant(std::numeric_limits<double>::infinity());
     Eigen::Vector3d high = -low;
-    for (auto const& t : tetrahedra) {
-      Element e;
-      e.origin = points[std::size_t(t[0])];
-      Eigen::Matrix3d edges;
-      for (int c = 0; c < 3; ++c) edges.col(c) = points[std::size_t(t[std::size_t(c) + 1])] - e.origin;
-      e.inverse = edges.inverse();
-      e.size = std::cbrt(std::abs(edges.determinant()));
-      e.low = e.high = e.origin;
-      for (const Index i : t) {
-        e.low = e.low.cwiseMin(points[std::size_t(i)]);
-        e.high = e.high.cwiseMax(points[std::size_t(i)]);
-      }
-      low = low.cwiseMin(e.low);
-      high = high.cwiseMax(e.high);
-      elements.push_back(e);
+    elements.reserve(list.size());
+    for (auto const& e : list) {
+      elements.emplace_back(points, e);
+      low = low.cwiseMin(elements.back().low);
+      high = high.cwiseMax(elements.back().high);
     }
-    const Eigen::Vector3d extent = (high - low).cwiseMax(1e-12 * (high - low).maxCoeff() + 1e-300);
-    cell = std::cbrt(extent.prod() / double(elements.size()));
-    for (int c = 0; c < 3; ++c) {
-      cell = std::max(cell, extent[c] / 512);
-      count[c] = 1;
-    }
+    // the directions in which a sheet or a string has no extent do not count
+    const Eigen::Vector3d extent = (high - low).cwiseMax(1e-300);
+    double room = 1;
+    int directions = 0;
+    for (int c = 0; c < 3; ++c)
+      if (extent[c] > 1e-3 * extent.maxCoeff()) room *= extent[c], ++directions;
+    cell = std::max(std::pow(room / double(elements.size()), 1.0 / directions), extent.maxCoeff() / 512);
     for (int c = 0; c < 3; ++c) count[c] = std::clamp(int(extent[c] / cell) + 1, 1, 513);
 
     // two passes: count, then fill, so that cell c holds members[start[c]] ... in the order of the elements
@@ -64,41 +58,46 @@ struct TetrahedronLocator {
     }
   }
 
-  /// The element that contains p; outside all, the one whose smallest barycentric coordinate, as a length, is
-  /// least negative among the elements in the nearest cells.
+  /// The element that contains p; outside all, the nearest one. Where the score of a kind of element is no
+  /// distance, the best of those in the nearest cells.
   Located locate(Eigen::Vector3d const& p) const {
-    const Eigen::Vector3i home = cellOf(p);
-    Located best{-1, {}};
-    double bestScore = -std::numeric_limits<double>::infinity();
-    auto visit = [&](std::size_t c) {
+    Located best;
+    if (elements.empty()) return best;
+    auto visit = [&](int i, int j, int k) {
+      const Eigen::Vector3d corner = low + cell * Eigen::Vector3d(i, j, k);
+      const double far =
+          (corner - p).cwiseMax(p - corner - Eigen::Vector3d::Constant(cell)).cwiseMax(0.0).squaredNorm();
+      if (Fit::isDistance && far > best.fit.score * best.fit.score) return;
+      const std::size_t c = number(i, j, k);
       for (int m = start[c]; m < start[c + 1]; ++m) {
-        Element const& e = elements[std::size_t(members[std::size_t(m)])];
-        const Eigen::Vector3d w = e.inverse * (p - e.origin);
-        const Eigen::Vector4d weights(1 - w.sum(), w[0], w[1], w[2]);
-        const double least = weights.minCoeff(), score = least < 0 ? least * e.size : 0;
-        const int element = members[std::size_t(m)];
-        if (score > bestScore || (score == bestScore && element < best.element))
-          bestScore = score, best = {element, weights};
+        const int e = members[std::size_t(m)];
+        Fit const& element = elements[std::size_t(e)];
+        if (Fit::isDistance && element.squaredDistance(p) > best.fit.score * best.fit.score) continue;
+        const auto fit = element.fit(p);
+        if (fit.score > best.fit.score || (fit.score == best.fit.score && e < best.element)) best = {e, fit};
       }
     };
-    // rings of cells, one more than the first that has any element
+    // shells of cells around that of p. All that is behind the shell r is r cells from the cell of p, or from
+    // the nearest one of the grid, and the angle there is obtuse
+    const Eigen::Vector3i home = cellOf(p);
+    const Eigen::Vector3d size = cell * count.cast<double>();
+    const double away = (low - p).cwiseMax(p - low - size).cwiseMax(0.0).squaredNorm();
     int last = count.maxCoeff();
-    for (int ring = 0; ring <= last; ++ring) {
-      forCells((home.array() - ring).matrix(), (home.array() + ring).matrix(), visit);
-      if (bestScore == 0) break;
-      if (best.element >= 0 && last == count.maxCoeff()) last = std::min(last, ring + 1);
+    for (int r = 0; r <= last; ++r) {
+      forShell(home, r, visit);
+      if (best.fit.score == 0) break;
+      if constexpr (Fit::isDistance) {
+        if (best.fit.score * best.fit.score <= away + r * cell * r * cell) break;
+      } else {
+        if (best.element >= 0 && last == count.maxCoeff()) last = std::min(last, r + 1);
+      }
     }
     return best;
   }
 
  private:
-  struct Element {
-    Eigen::Vector3d origin, low, high;
-    Eigen::Matrix3d inverse;
-    double size;
-  };
-  std::vector<Element> elements{};
-  Eigen::Vector3d low;
+  std::vector<Fit> elements{};
+  Eigen::Vector3d low{0, 0, 0};
   double cell = 1;
   Eigen::Vector3i count{1, 1, 1};
   std::vector<int> start{}, members{};
@@ -114,9 +113,26 @@ struct TetrahedronLocator {
     b = b.cwiseMin(count - Eigen::Vector3i::Ones());
     for (int z = a[2]; z <= b[2]; ++z)
       for (int y = a[1]; y <= b[1]; ++y)
-        for (int x = a[0]; x <= b[0]; ++x)
-          f((std::size_t(z) * std::size_t(count[1]) + std::size_t(y)) * std::size_t(count[0]) +
-            std::size_t(x));
+        for (int x = a[0]; x <= b[0]; ++x) f(number(x, y, z));
+  }
+  // the cells that are r away from `home` in some direction and not more in any
+  template <class F>
+  void forShell(Eigen::Vector3i const& home, int r, F&& f) const {
+    const Eigen::Vector3i a = (home.array() - r).cwiseMax(0).matrix();
+    const Eigen::Vector3i b = (home.array() + r).matrix().cwiseMin(count - Eigen::Vector3i::Ones());
+    for (int z = a[2]; z <= b[2]; ++z)
+      for (int y = a[1]; y <= b[1]; ++y) {
+        const bool whole = r == 0 || std::abs(z - home[2]) == r || std::abs(y - home[1]) == r;
+        if (whole) {
+          for (int x = a[0]; x <= b[0]; ++x) f(x, y, z);
+        } else {
+          if (home[0] - r >= 0) f(home[0] - r, y, z);
+          if (home[0] + r < count[0]) f(home[0] + r, y, z);
+        }
+      }
+  }
+  std::size_t number(int x, int y, int z) const {
+    return (std::size_t(z) * std::size_t(count[1]) + std::size_t(y)) * std::size_t(count[0]) + std::size_t(x);
   }
 };
 

@@ -18,26 +18,20 @@ namespace sinew {
 
 namespace detail {
 
-/// Point (i, j, k) has number i + nx (j + ny k). The first and last planes lie exactly at lo and hi.
-inline Mesh grid_points(std::string_view where, int nx, int ny, int nz, Eigen::Vector3d const& lo,
-                        Eigen::Vector3d const& hi) {
-  constexpr double most = 268435456;  // 2^28
-  if (nx < 2 || ny < 2 || nz < 2)
-    throw Error(
-        where,
-        text("a grid of ", nx, " x ", ny, " x ", nz, " points has no cells; give at least 2 each way"));
-  if (double(nx) * ny * nz > most)
+/// Throws Error unless a grid has `least` points or more in each direction, 2^mostLog2 altogether at most,
+/// and a box that is not empty in directions of several points.
+inline void check_grid(std::string_view where, std::array<int, 3> const& n, Eigen::Vector3d const& lo,
+                       Eigen::Vector3d const& hi, int least, int mostLog2) {
+  const std::string grid = text("a grid of ", n[0], " x ", n[1], " x ", n[2], " points ");
+  if (std::min({n[0], n[1], n[2]}) < least)
+    throw Error(where, text(grid, "has no cells; give at least ", least, " each way"));
+  const double most = std::ldexp(1.0, mostLog2);
+  if (double(n[0]) * n[1] * n[2] > most)
     throw Error(where,
-                text("a grid of ",
-                     nx,
-                     " x ",
-                     ny,
-                     " x ",
-                     nz,
-                     " points exceeds the limit of ",
-                     most,
-                     " points (2^28); make it coarser"));
-  if (!lo.allFinite() || !hi.allFinite() || !(lo.array() < hi.array()).all())
+                text(grid, "exceeds the limit of ", most, " points (2^", mostLog2, "); make it coarser"));
+  bool room = lo.allFinite() && hi.allFinite();
+  for (int c = 0; c < 3; ++c) room = room && (n[std::size_t(c)] > 1 ? lo[c] < hi[c] : lo[c] <= hi[c]);
+  if (!room)
     throw Error(where,
                 text("the box from (",
                      lo[0],
@@ -52,16 +46,42 @@ inline Mesh grid_points(std::string_view where, int nx, int ny, int nz, Eigen::V
                      ", ",
                      hi[2],
                      ") is empty; its second corner must exceed the first in x, y and z"));
+}
+
+/// n coordinates evenly from lo to hi, which are met exactly; one is at lo.
+inline std::vector<double> grid_coordinates(int n, double lo, double hi) {
+  std::vector<double> coordinates;
+  for (int i = 0; i < n; ++i) {
+    const double t = n > 1 ? double(i) / (n - 1) : 0;
+    coordinates.push_back(lo * (1 - t) + hi * t);
+  }
+  return coordinates;
+}
+
+/// Points from lo to hi. Point (i, j, k) has number i + nx (j + ny k). Throws Error as check_grid().
+inline Mesh grid_points(std::string_view where, std::array<int, 3> const& n, Eigen::Vector3d const& lo,
+                        Eigen::Vector3d const& hi, int least = 2, int mostLog2 = 28) {
+  check_grid(where, n, lo, hi, least, mostLog2);
   Mesh mesh;
-  mesh.positions.reserve(std::size_t(nx) * std::size_t(ny) * std::size_t(nz));
-  const Eigen::Array3d last(nx - 1, ny - 1, nz - 1);
-  for (int k = 0; k < nz; ++k)
-    for (int j = 0; j < ny; ++j)
-      for (int i = 0; i < nx; ++i) {
-        const Eigen::Array3d t = Eigen::Array3d(i, j, k) / last;
-        mesh.positions.push_back((lo.array() * (1 - t) + hi.array() * t).matrix());
-      }
+  mesh.positions.reserve(std::size_t(n[0]) * std::size_t(n[1]) * std::size_t(n[2]));
+  const auto xs = grid_coordinates(n[0], lo[0], hi[0]), ys = grid_coordinates(n[1], lo[1], hi[1]),
+             zs = grid_coordinates(n[2], lo[2], hi[2]);
+  for (const double z : zs)
+    for (const double y : ys)
+      for (const double x : xs) mesh.positions.push_back({x, y, z});
   return mesh;
+}
+
+/// Points each way of a grid of cubic cells from lo that covers the box; its far corner becomes `hi`. A whole
+/// number of cells, to rounding, stays so.
+inline std::array<int, 3> cubic_cells(double width, Eigen::Vector3d const& lo, Eigen::Vector3d& hi) {
+  std::array<int, 3> points{};
+  for (int c = 0; c < 3; ++c) {
+    const double cells = std::ceil((hi[c] - lo[c]) / width - 1e-9);
+    points[std::size_t(c)] = int(std::clamp(cells, 0.0, 1e9)) + 1;
+    if (cells >= 0) hi[c] = lo[c] + cells * width;
+  }
+  return points;
 }
 
 /// Calls body(corners, i + j + k) for each cell; corners in the order of VTK's hexahedron.
@@ -76,12 +96,42 @@ void for_grid_cells(int nx, int ny, int nz, Body&& body) {
       }
 }
 
+/// Calls body(point, step along a, step along b) for each square of a grid across the axes a < b: the xy
+/// planes first, then xz, then yz; x runs fastest.
+template <class Body>
+void for_grid_squares(std::array<int, 3> const& n, Body&& body) {
+  const std::array<Index, 3> step{1, n[0], n[0] * n[1]};
+  for (const auto [a, b] : {std::array<std::size_t, 2>{0, 1}, {0, 2}, {1, 2}}) {
+    std::array<int, 3> cells = n;
+    --cells[a], --cells[b];
+    for (int k = 0; k < cells[2]; ++k)
+      for (int j = 0; j < cells[1]; ++j)
+        for (int i = 0; i < cells[0]; ++i) body(i + j * step[1] + k * step[2], step[a], step[b]);
+  }
+}
+
+/// Calls body(point, next point) for each line between neighbours: those along x first, then y, then z.
+template <class Body>
+void for_grid_lines(std::array<int, 3> const& n, Body&& body) {
+  const std::array<Index, 3> step{1, n[0], n[0] * n[1]};
+  for (std::size_t a = 0; a < 3; ++a) {
+    std::array<int, 3> lines = n;
+    --lines[a];
+    for (int k = 0; k < lines[2]; ++k)
+      for (int j = 0; j < lines[1]; ++j)
+        for (int i = 0; i < lines[0]; ++i) {
+          const Index p = i + j * step[1] + k * step[2];
+          body(p, p + step[a]);
+        }
+  }
+}
+
 }  // namespace detail
 
 /// Hexahedra of a box, with nx x ny x nz points, the corners lo and hi included. x runs fastest.
 /// Throws Error when a direction has fewer than 2 points, all together more than 2^28, or the box is empty.
 inline Mesh regular_grid(int nx, int ny, int nz, Eigen::Vector3d const& lo, Eigen::Vector3d const& hi) {
-  Mesh mesh = detail::grid_points("regular_grid", nx, ny, nz, lo, hi);
+  Mesh mesh = detail::grid_points("regular_grid", {nx, ny, nz}, lo, hi);
   detail::for_grid_cells(nx, ny, nz, [&](Hexahedron const& c, int) { mesh.hexahedra.push_back(c); });
   return mesh;
 }
@@ -94,7 +144,7 @@ inline Mesh regular_grid_tetrahedra(int nx, int ny, int nz, Eigen::Vector3d cons
   constexpr std::string_view where = "regular_grid_tetrahedra";
   if (perCell != 5 && perCell != 6)
     throw Error(where, text("a cell cannot be split into ", perCell, " tetrahedra; choose 5 or 6"));
-  Mesh mesh = detail::grid_points(where, nx, ny, nz, lo, hi);
+  Mesh mesh = detail::grid_points(where, {nx, ny, nz}, lo, hi);
   constexpr int six[6][4] = {
       {0, 1, 2, 6}, {0, 2, 3, 6}, {0, 3, 7, 6}, {0, 7, 4, 6}, {0, 4, 5, 6}, {0, 5, 1, 6}};
   constexpr int five[2][5][4] = {{{0, 1, 2, 5}, {0, 2, 3, 7}, {0, 5, 7, 4}, {2, 7, 5, 6}, {0, 2, 7, 5}},

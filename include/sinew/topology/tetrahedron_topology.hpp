@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <sinew/core/component.hpp>
+#include <sinew/topology/element_checks.hpp>
 
-#include <Eigen/LU>
 #include <vector>
 
 namespace sinew {
@@ -19,31 +18,18 @@ struct TetrahedronTopology {
 
   static constexpr auto fields() {
     return field_list(
-        field("tetrahedra", &TetrahedronTopology::tetrahedra, "", "four points each", range::nonNegative));
+        field("tetrahedra", &TetrahedronTopology::tetrahedra, "", "four points each", range::nonNegative)
+            .also("tetras"));
   }
+
+  static constexpr auto outputs() { return fields(); }
 
   TopologyView view() const { return {.tetrahedra = tetrahedra}; }
 
   /// Throws Error at an index out of range, and at an element that is flat or inside out.
   template <class D>
   void init(InitContext<D> const& context) const {
-    const std::string where = text(context.where, ": TetrahedronTopology");
-    detail::check_indices(where, "tetrahedron", tetrahedra, context.rest.size());
-    if constexpr (D::spatial == 3)
-      for (std::size_t e = 0; e < tetrahedra.size(); ++e) {
-        Mat<double, 3> edges;
-        for (int c = 0; c < 3; ++c)
-          edges.col(c) = (D::center(context.rest[std::size_t(tetrahedra[e][std::size_t(c) + 1])]) -
-                          D::center(context.rest[std::size_t(tetrahedra[e][0])]))
-                             .template cast<double>();
-        const double volume = edges.determinant() / 6, longest = edges.colwise().norm().maxCoeff();
-        if (!(std::abs(volume) > 1e-14 * longest * longest * longest))
-          throw Error(where, text("tetrahedron ", e, " has no volume; move or merge its points"));
-        if (volume < 0)
-          throw Error(
-              where,
-              text("tetrahedron ", e, " is inside out (volume ", volume, " m^3); swap two of its points"));
-      }
+    check_tetrahedra<D>(text(context.where, ": TetrahedronTopology"), tetrahedra, context.rest);
   }
 };
 

@@ -4,9 +4,19 @@
 //   BAKED_NAME    springs, the function in it
 //   BAKED_DT      its time step: springsDt
 //   BAKED_SCENE   "/path/springs.scn"
+//   BAKED_ENGINES where it needs the registry of point_engine.hpp
 #include "catch.hpp"
 
+#ifdef BAKED_ENGINES
+#include "runtime/bake/point_engine.hpp"
+
+#include <sinew/runtime/read_scene.hpp>
+#include <sinew/runtime/runtime.hpp>
+using Registered = sinew::Tested;
+#else
 #include <sinew/runtime/precompiled.hpp>
+using Registered = sinew::Standard;
+#endif
 
 #include BAKED_HEADER
 
@@ -26,7 +36,7 @@ struct Counts {
 
 // the same nodes with the same components, and states of the same bits
 template <class N>
-void compare(N const& typed, RuntimeNode<Standard> const& runtime, Counts& counts) {
+void compare(N const& typed, RuntimeNode<Registered> const& runtime, Counts& counts) {
   INFO(runtime.path());
   ++counts.nodes;
   CHECK(N::name.view() == runtime.name);
@@ -50,10 +60,11 @@ void compare(N const& typed, RuntimeNode<Standard> const& runtime, Counts& count
     }
   });
   std::size_t i = 0;
-  hana::for_each(typed.children, [&](auto const& child) { compare(child, *runtime.children()[i++], counts); });
+  hana::for_each(typed.children,
+                 [&](auto const& child) { compare(child, *runtime.children()[i++], counts); });
 }
 
-Counts count(RuntimeNode<Standard> const& node, std::vector<ClassInfo> const& table) {
+Counts count(RuntimeNode<Registered> const& node, std::vector<ClassInfo> const& table) {
   Counts counts{.nodes = 1};
   for (auto const& entry : node.components()) {
     const RoleKind role = table[std::size_t(entry.component.type())].role;
@@ -73,10 +84,10 @@ Counts count(RuntimeNode<Standard> const& node, std::vector<ClassInfo> const& ta
 
 TEST_CASE("a baked scene and its file give the same bits") {
   auto baked_ = baked::BAKED_NAME();
-  auto read = read_scene<Standard>(BAKED_SCENE, {});
+  auto read = read_scene<Registered>(BAKED_SCENE, {});
   CHECK(read.dt == baked::BAKED_DT);
   const double dt = read.dt;
-  Simulation<RuntimeNode<Standard>> run{std::move(read.root)};
+  Simulation<RuntimeNode<Registered>> run{std::move(read.root)};
   baked_.init();
   run.init();
   for (int step = 0; step < 300; ++step) {
@@ -87,7 +98,7 @@ TEST_CASE("a baked scene and its file give the same bits") {
   run.updateVisual();
   Counts counts;
   compare(baked_.root(), run.root(), counts);
-  const Counts all = count(run.root(), make_class_table<Standard>());
+  const Counts all = count(run.root(), make_class_table<Registered>());
   CHECK(counts.nodes == all.nodes);
   CHECK(counts.components == all.components);
   CHECK(counts.states == all.states);

@@ -52,7 +52,9 @@ struct HighPoints {
   // after update
   std::vector<int> indices{};
 
-  static constexpr auto outputs() { return field_list(field("indices", &HighPoints::indices, "", "those above")); }
+  static constexpr auto outputs() {
+    return field_list(field("indices", &HighPoints::indices, "", "those above"));
+  }
 
   void update(std::string_view) {
     indices.clear();
@@ -62,8 +64,9 @@ struct HighPoints {
 };
 
 /// A small registry, that builds in seconds.
-struct Tested : Registry<Gravity, EulerExplicitSolver, TetrahedronTopology, MechanicalObject<Vec3d>, UniformMass<Vec3d>,
-                         FixedConstraint<Vec3d>, MechanicalObject<Vec3f>, FixedConstraint<Vec3f>, PointFileLoader,
-                         HighPoints<Vec3d>> {};
+struct Tested
+    : Registry<Gravity, EulerExplicitSolver, TetrahedronTopology, MechanicalObject<Vec3d>, UniformMass<Vec3d>,
+               FixedConstraint<Vec3d>, StiffSpringForceField<Vec3d>, MechanicalObject<Vec3f>,
+               FixedConstraint<Vec3f>, PointFileLoader, HighPoints<Vec3d>> {};
 
 }  // namespace sinew

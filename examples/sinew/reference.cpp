@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "reference.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace cli {
+
+using sinew::text;
+
+std::vector<std::string> Entry::dataTypes() const {
+  std::vector<std::string> all;
+  for (auto const* v : variants)
+    if (!v->dataTypes.empty() && std::find(all.begin(), all.end(), v->dataTypes) == all.end())
+      all.push_back(v->dataTypes);
+  return all;
+}
+bool Entry::joins() const {
+  return std::any_of(variants.begin(), variants.end(), [](auto const* v) { return v->joins; });
+}
+std::vector<std::string_view> Entry::fieldNames(bool inputs) const {
+  std::vector<std::string_view> names;
+  for (auto const* v : variants)
+    for (auto const& f : v->fields)
+      if (f.isInput == inputs && std::find(names.begin(), names.end(), f.name) == names.end())
+        names.push_back(f.name);
+  return names;
+}
+
+std::vector<Entry> entries_of(std::vector<sinew::ClassInfo> const& table) {
+  std::vector<Entry> entries;
+  for (auto const& info : table) {
+    auto same = [&](Entry const& e) { return e.first().name == info.name; };
+    auto at = std::find_if(entries.begin(), entries.end(), same);
+    if (at == entries.end()) at = entries.insert(entries.end(), Entry{});
+    at->variants.push_back(&info);
+  }
+  std::stable_sort(entries.begin(), entries.end(), [](Entry const& a, Entry const& b) {
+    return a.first().role != b.first().role ? a.first().role < b.first().role
+                                            : a.first().name < b.first().name;
+  });
+  return entries;
+}
+
+RoleWords words_of(sinew::RoleKind role) {
+  static constexpr auto all = std::to_array<RoleWords>(
+      {{"Surroundings", "What holds for a node and all below it."},
+       {"Topologies", "Elements over the points of the state of the node."},
+       {"States", "Positions and velocities of one body; at most one a node."},
+       {"Visual models", "Surfaces that follow a mapping, to look at."},
+       {"Masses", "At most one a node; for the state of the node, or the nearest above."},
+       {"Force fields", "Act on the state of the node, or the nearest above."},
+       {"Forces between two bodies", "Act between the states of two nodes, object1 and object2."},
+       {"Constraints", "Take forbidden motions away; on a state that is not mapped."},
+       {"Mappings", "Make the state or the visual model of the node follow the state above."},
+       {"ODE solvers", "Integrate the node and all below it in time."},
+       {"Linear solvers", "Solve the systems of an implicit ODE solver."},
+       {"Callbacks", "Called at the end of each step."},
+       {"Loaders, selections and other engines",
+        "Make data, once, from files or other data; others link to it, as in "
+        "position=\"@loader.position\"."}});
+  static_assert(all.size() == enum_names(sinew::RoleKind{}).size());
+  return all[std::size_t(role)];
+}
+
+namespace {
+
+// "list of 4 whole numbers" for "list of 4 of whole number"
+std::string polished(std::string kind) {
+  auto replace = [&](std::string_view from, std::string_view to) {
+    for (std::size_t at = kind.find(from); at != kind.npos; at = kind.find(from, at + to.size()))
+      kind.replace(at, from.size(), to);
+  };
+  replace("list of number", "numbers");
+  replace("list of whole number", "whole numbers");
+  replace("list of 1 numbers", "numbers");
+  replace(" of whole number", " whole numbers");
+  replace(" of number", " numbers");
+  return kind;
+}
+
+void gather(Variants& to, std::string const& words, std::string const& over) {
+  for (auto& [known, where] : to)
+    if (known == words) {
+      if (where.find(over) == where.npos) where += text(", ", over);
+      return;
+    }
+  to.emplace_back(words, over);
+}
+}  // namespace
+
+FieldWords words_of(Entry const& entry, std::string_view name, bool input) {
+  FieldWords words;
+  for (auto const* v : entry.variants)
+    for (auto const& f : v->fields) {
+      if (f.name != name || f.isInput != input) continue;
+      // Vec3d speaks for all
+      if (!words.field || v->dataTypes == "Vec3d") words.field = &f;
+      gather(words.kinds, polished(f.kind), v->dataTypes);
+      gather(words.defaults, f.defaultValue, v->dataTypes);
+    }
+  words.unit = words.field->unit;
+  words.range = sinew::detail::range_text(words.field->range);
+  return words;
+}
+std::string joined(std::vector<std::string> const& words, std::string_view between) {
+  std::string all;
+  for (auto const& word : words) all += text(all.empty() ? "" : between, word);
+  return all;
+}
+
+}  // namespace cli

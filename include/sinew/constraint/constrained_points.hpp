@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/component.hpp>
+
+#include <algorithm>
+#include <vector>
+
+namespace sinew {
+
+// What projective constraints share.
+
+/// "node: component", for messages.
+template <class C>
+std::string place_of(InitContext<typename C::DataTypes> const& context) {
+  return text(context.where, ": ", component_name<C>());
+}
+
+/// Throws Error unless all indices are points of the state.
+template <class C>
+void check_points(InitContext<typename C::DataTypes> const& context, std::vector<int> const& indices) {
+  for (const int i : indices)
+    if (i < 0 || std::size_t(i) >= context.rest.size())
+      throw Error(place_of<C>(context),
+                  text("indices has ",
+                       i,
+                       ", but the state has ",
+                       context.rest.size(),
+                       " points, numbered from 0; correct the index"));
+}
+
+/// Throws Error unless times rise and have one value each.
+template <class C>
+void check_key_times(InitContext<typename C::DataTypes> const& context, std::vector<double> const& times,
+                     std::size_t values, std::string_view name) {
+  const std::string where = place_of<C>(context);
+  if (times.empty()) throw Error(where, "keyTimes is empty; give at least one time");
+  if (times.size() != values)
+    throw Error(
+        where,
+        text("there are ", times.size(), " keyTimes and ", values, ' ', name, "; give one for each time"));
+  for (std::size_t k = 1; k < times.size(); ++k)
+    if (!(times[k] > times[k - 1]))
+      throw Error(where,
+                  text("keyTimes[",
+                       k,
+                       "] is ",
+                       times[k],
+                       " s, not after keyTimes[",
+                       k - 1,
+                       "]; put them in rising order"));
+}
+
+/// The interval between two key times that holds a time, and how far in it the time is, from 0 to 1. Needs
+/// two times or more; a time outside gets the nearest interval.
+struct KeyInterval {
+  std::size_t first;
+  double part, length;
+};
+inline KeyInterval key_interval(std::vector<double> const& times, double time) {
+  const auto after = std::upper_bound(times.begin(), times.end(), time) - times.begin();
+  const auto first = std::size_t(std::clamp<std::ptrdiff_t>(after - 1, 0, std::ptrdiff_t(times.size()) - 2));
+  const double length = times[first + 1] - times[first];
+  return {first, (time - times[first]) / length, length};
+}
+
+template <class D>
+void set_center(typename D::Coord& x, Vec<typename D::Real, D::spatial> const& center) {
+  if constexpr (D::rigid)
+    x.center = center;
+  else
+    x.template head<D::spatial>() = center;
+}
+
+/// The projector of all coordinates of a point from that of its place.
+template <class D>
+Mat<typename D::Real, D::size> projector_of_place(Mat<double, D::spatial> const& place) {
+  using Real = typename D::Real;
+  Mat<Real, D::size> all = Mat<Real, D::size>::Identity();
+  all.template topLeftCorner<D::spatial, D::spatial>() = place.template cast<Real>();
+  return all;
+}
+
+/// A direction of length 1; throws Error where it is zero.
+template <class C, class V>
+V unit(InitContext<typename C::DataTypes> const& context, std::string_view name, V const& direction) {
+  if (!(direction.norm() > 0)) throw Error(place_of<C>(context), text(name, " is zero; give a direction"));
+  return direction.normalized();
+}
+
+}  // namespace sinew

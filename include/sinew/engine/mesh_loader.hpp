@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/component.hpp>
+#include <sinew/core/euler.hpp>
+#include <sinew/io/read_gmsh.hpp>
+#include <sinew/io/read_obj.hpp>
+#include <sinew/io/read_stl.hpp>
+#include <sinew/topology/adjacency.hpp>
+#include <sinew/topology/hexahedra.hpp>
+
+#include <set>
+
+namespace sinew {
+
+namespace detail {
+
+/// Appends those sides of the elements that the list has not yet, in whatever order of their points.
+template <class Side, class Element, std::size_t N>
+void add_sides(std::vector<Side>& list, std::vector<Element> const& elements,
+               std::size_t const (&sides)[N][std::tuple_size_v<Side>]) {
+  std::set<Side> known;
+  auto isNew = [&](Side side) {
+    std::sort(side.begin(), side.end());
+    return known.insert(side).second;
+  };
+  for (Side const& side : list) isNew(side);
+  for (Element const& element : elements)
+    for (auto const& corners : sides) {
+      Side side;
+      for (std::size_t k = 0; k < side.size(); ++k) side[k] = element[corners[k]];
+      if (isNew(side)) list.push_back(side);
+    }
+}
+
+/// Unit normals at the points: the directions of the sums of unit normals of the triangles and corners of
+/// quads around; zero where there is none.
+inline std::vector<Eigen::Vector3d> point_normals(Mesh const& mesh) {
+  std::vector<Eigen::Vector3d> normals(mesh.positions.size(), Eigen::Vector3d::Zero());
+  auto add = [&](Index at, Index before, Index i, Index after) {
+    auto x = [&](Index k) { return mesh.positions[std::size_t(k)]; };
+    normals[std::size_t(at)] += (x(after) - x(i)).cross(x(before) - x(i)).stableNormalized();
+  };
+  for (auto const& t : mesh.triangles)
+    for (const Index i : t) add(i, t[2], t[0], t[1]);
+  for (auto const& q : mesh.quads)
+    for (std::size_t k = 0; k < 4; ++k) add(q[k], q[(k + 3) % 4], q[k], q[(k + 1) % 4]);
+  for (auto& n : normals) n.stableNormalize();
+  return normals;
+}
+
+/// Turns all elements so that a mirrored mesh keeps its fronts outside.
+inline void turn_elements(Mesh& mesh) {
+  for (auto& t : mesh.tetrahedra) std::swap(t[2], t[3]);
+  for (auto& h : mesh.hexahedra) std::swap_ranges(h.begin(), h.begin() + 4, h.begin() + 4);
+  for (auto& t : mesh.triangles) std::reverse(t.begin(), t.end());
+  for (auto& q : mesh.quads) std::reverse(q.begin(), q.end());
+}
+
+}  // namespace detail
+
+/// A mesh from a file of the Format, which has a className and read(path), at the place and size that the
+/// scene wants. Throws Error when the file cannot be read; what was loaded before then stays.
+template <class Format>
+struct MeshLoader {
+  using Role = role::Engine;
+  static constexpr std::string_view className = Format::className;
+
+  DataFile filename{};
+  Eigen::Vector3d translation{0, 0, 0}, rotation{0, 0, 0}, scale3d{1, 1, 1};
+  double scale = 1;
+  bool flipNormals = false, triangulate = false, createSubelements = false, onlyAttachedPoints = false;
+
+  static constexpr auto fields() {
+    using L = MeshLoader;
+    return field_list(
+        field("filename", &L::filename, "", "the file to read"),
+        field("translation", &L::translation, "m", "moves the mesh, last of all"),
+        field("rotation", &L::rotation, "degrees", "turns the mesh about the axes x, y and z, in this order"),
+        field("scale3d", &L::scale3d, "", "sizes along the axes x, y and z, applied first"),
+        field("scale", &L::scale, "", "size, beside scale3d"),
+        field("flipNormals", &L::flipNormals, "", "whether triangles and quads are turned over"),
+        field("triangulate", &L::triangulate, "", "whether each quad becomes two triangles"),
+        field("createSubelements",
+              &L::createSubelements,
+              "",
+              "whether the faces of volumes and the edges of faces are added, where they are missing"),
+        field("onlyAttachedPoints",
+              &L::onlyAttachedPoints,
+              "",
+              "whether points that no element uses are left out"));
+  }
+
+  // after update
+  std::vector<Eigen::Vector3d> position{}, normals{};
+  std::vector<Edge> edges{};
+  std::vector<Triangle> triangles{};
+  std::vector<Quad> quads{};
+  std::vector<Tetrahedron> tetrahedra{};
+  std::vector<Hexahedron> hexahedra{};
+
+  static constexpr auto outputs() {
+    using L = MeshLoader;
+    return field_list(
+        field("position", &L::position, "m", "points").also("points"),
+        field("normals", &L::normals, "", "unit normals of the surface at the points; zero off it"),
+        field("edges", &L::edges, "", "two points each").also("lines"),
+        field("triangles", &L::triangles, "", "three points each"),
+        field("quads", &L::quads, "", "four points each, in turn"),
+        field("tetrahedra", &L::tetrahedra, "", "four points each").also("tetras"),
+        field("hexahedra", &L::hexahedra, "", "eight points each, in VTK's order").also("hexas"));
+  }
+
+  void update(std::string_view where) {
+    check_fields(*this, where);
+    const std::string at = text(where, ": ", className);
+    if (filename.path.empty()) throw Error(at, "filename is empty; name the file to read");
+    const Eigen::Vector3d size = scale * scale3d;
+    if ((size.array() == 0).any())
+      throw Error(at, "scale or scale3d is 0, which would make the mesh flat; give another size");
+    Mesh mesh;
+    try {
+      mesh = Format::read(filename.path);
+    } catch (Error const& error) {
+      throw Error(at, error.what());
+    }
+
+    if (triangulate) {
+      for (auto const& q : mesh.quads) {
+        mesh.triangles.push_back({q[0], q[1], q[2]});
+        mesh.triangles.push_back({q[0], q[2], q[3]});
+      }
+      mesh.quads.clear();
+    }
+    if (size.prod() < 0) detail::turn_elements(mesh);
+    if (flipNormals) {
+      for (auto& t : mesh.triangles) std::reverse(t.begin(), t.end());
+      for (auto& q : mesh.quads) std::reverse(q.begin(), q.end());
+    }
+    if (createSubelements) {
+      constexpr std::size_t ofTetrahedron[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+      constexpr std::size_t ofTriangle[3][2] = {{0, 1}, {1, 2}, {2, 0}};
+      constexpr std::size_t ofQuad[4][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}};
+      detail::add_sides(mesh.quads, mesh.hexahedra, hexahedronFaces);
+      detail::add_sides(mesh.triangles, mesh.tetrahedra, ofTetrahedron);
+      detail::add_sides(mesh.edges, mesh.quads, ofQuad);
+      detail::add_sides(mesh.edges, mesh.triangles, ofTriangle);
+    }
+    if (onlyAttachedPoints) remove_unused_points(mesh);
+    const Eigen::Affine3d placed = placement(translation, rotation, size);
+    for (auto& p : mesh.positions) p = placed * p;
+
+    normals = detail::point_normals(mesh);
+    position = std::move(mesh.positions);
+    edges = std::move(mesh.edges);
+    triangles = std::move(mesh.triangles);
+    quads = std::move(mesh.quads);
+    tetrahedra = std::move(mesh.tetrahedra);
+    hexahedra = std::move(mesh.hexahedra);
+  }
+};
+
+namespace detail {
+struct GmshFormat {
+  static constexpr std::string_view className = "MeshGmshLoader";
+  static Mesh read(std::string const& path) { return io::read_gmsh(path); }
+};
+struct ObjFormat {
+  static constexpr std::string_view className = "MeshOBJLoader";
+  static Mesh read(std::string const& path) { return io::read_obj(path); }
+};
+struct StlFormat {
+  static constexpr std::string_view className = "MeshSTLLoader";
+  static Mesh read(std::string const& path) { return io::read_stl(path); }
+};
+}  // namespace detail
+
+using MeshGmshLoader = MeshLoader<detail::GmshFormat>;
+using MeshOBJLoader = MeshLoader<detail::ObjFormat>;
+using MeshSTLLoader = MeshLoader<detail::StlFormat>;
+
+}  // namespace sinew

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/component.hpp>
+
+#include <Eigen/LU>
+#include <vector>
+
+namespace sinew {
+
+// What the regions of interest share. A region chooses among its points, and among its elements: with
+// `strict` those of which it holds all points, else those of which it holds the mean of the points.
+
+/// The fields of a region: first its own, which say where it is.
+template <class R, class... Own>
+constexpr auto roi_fields(Own... own) {
+  return field_list(
+      own...,
+      field("position", &R::position, "m", "points to choose from").also("rest_position"),
+      field("edges", &R::edges, "", "edges to choose from", range::nonNegative),
+      field("triangles", &R::triangles, "", "triangles to choose from", range::nonNegative),
+      field("quads", &R::quads, "", "quads to choose from", range::nonNegative).also("quad"),
+      field("tetrahedra", &R::tetrahedra, "", "tetrahedra to choose from", range::nonNegative).also("tetras"),
+      field("hexahedra", &R::hexahedra, "", "hexahedra to choose from", range::nonNegative).also("hexas"),
+      field("strict",
+            &R::strict,
+            "",
+            "whether an element must be inside with all its points, or only with their mean"),
+      field("computeEdges", &R::computeEdges, "", "whether edges are chosen"),
+      field("computeTriangles", &R::computeTriangles, "", "whether triangles are chosen"),
+      field("computeQuad", &R::computeQuad, "", "whether quads are chosen"),
+      field("computeTetrahedra", &R::computeTetrahedra, "", "whether tetrahedra are chosen"),
+      field("computeHexahedra", &R::computeHexahedra, "", "whether hexahedra are chosen"));
+}
+
+template <class R>
+constexpr auto roi_outputs() {
+  return field_list(field("indices", &R::indices, "", "the points inside").also("pointIndices"),
+                    field("edgeIndices", &R::edgeIndices, "", "the edges inside"),
+                    field("triangleIndices", &R::triangleIndices, "", "the triangles inside"),
+                    field("quadIndices", &R::quadIndices, "", "the quads inside"),
+                    field("tetrahedronIndices", &R::tetrahedronIndices, "", "the tetrahedra inside"),
+                    field("hexahedronIndices", &R::hexahedronIndices, "", "the hexahedra inside"),
+                    field("pointsInROI", &R::pointsInROI, "m", "positions of the points inside"),
+                    field("edgesInROI", &R::edgesInROI, "", "points of the edges inside"),
+                    field("trianglesInROI", &R::trianglesInROI, "", "points of the triangles inside"),
+                    field("quadInROI", &R::quadInROI, "", "points of the quads inside").also("quadsInROI"),
+                    field("tetrahedraInROI", &R::tetrahedraInROI, "", "points of the tetrahedra inside"),
+                    field("hexahedraInROI", &R::hexahedraInROI, "", "points of the hexahedra inside"),
+                    field("indicesOut", &R::indicesOut, "", "the points outside"),
+                    field("nbIndices", &R::nbIndices, "", "number of points inside"));
+}
+
+/// Fills the outputs of a region: inside(place) tells of a place [m] whether the region holds it. Throws
+/// Error when there are no points, or an element refers to a missing one; the outputs then stay.
+template <class R, class Inside>
+void select_in_roi(R& roi, std::string const& where, Inside const& inside) {
+  using D = typename R::DataTypes;
+  using Place = Vec<double, D::spatial>;
+  const std::size_t n = roi.position.size();
+  if (n == 0) throw Error(where, "position is empty; link it to the points of a loader, topology or state");
+  detail::check_indices(where, "edge", roi.edges, n);
+  detail::check_indices(where, "triangle", roi.triangles, n);
+  detail::check_indices(where, "quad", roi.quads, n);
+  detail::check_indices(where, "tetrahedron", roi.tetrahedra, n);
+  detail::check_indices(where, "hexahedron", roi.hexahedra, n);
+
+  auto place = [&](std::size_t i) -> Place { return D::center(roi.position[i]).template cast<double>(); };
+  std::vector<bool> in(n);
+  roi.indices.clear(), roi.indicesOut.clear(), roi.pointsInROI.clear();
+  for (std::size_t i = 0; i < n; ++i) {
+    in[i] = inside(place(i));
+    (in[i] ? roi.indices : roi.indicesOut).push_back(int(i));
+    if (in[i]) roi.pointsInROI.push_back(roi.position[i]);
+  }
+  roi.nbIndices = int(roi.indices.size());
+
+  auto choose = [&](bool wanted, auto const& elements, std::vector<int>& numbers, auto& chosen) {
+    numbers.clear(), chosen.clear();
+    for (std::size_t e = 0; wanted && e < elements.size(); ++e) {
+      bool all = true;
+      Place mean = Place::Zero();
+      for (const Index i : elements[e]) {
+        all = all && in[std::size_t(i)];
+        mean += place(std::size_t(i)) / double(elements[e].size());
+      }
+      if (roi.strict ? !all : !inside(mean)) continue;
+      numbers.push_back(int(e));
+      chosen.push_back(elements[e]);
+    }
+  };
+  choose(roi.computeEdges, roi.edges, roi.edgeIndices, roi.edgesInROI);
+  choose(roi.computeTriangles, roi.triangles, roi.triangleIndices, roi.trianglesInROI);
+  choose(roi.computeQuad, roi.quads, roi.quadIndices, roi.quadInROI);
+  choose(roi.computeTetrahedra, roi.tetrahedra, roi.tetrahedronIndices, roi.tetrahedraInROI);
+  choose(roi.computeHexahedra, roi.hexahedra, roi.hexahedronIndices, roi.hexahedraInROI);
+}
+
+/// A parallelogram with corners p0, p1, p2 and p0 + p2 - p1, thickened by half its depth on both sides: ten
+/// numbers, those of the points and the depth [m]. A billionth of a side is allowed for rounding.
+struct OrientedBox {
+  Eigen::Vector3d p0;
+  Eigen::Matrix3d inverse;
+
+  OrientedBox(std::string const& where, Vec<double, 10> const& box) : p0(box.head<3>()) {
+    Eigen::Matrix3d sides;
+    sides << box.segment<3>(3) - p0, box.segment<3>(6) - box.segment<3>(3), Eigen::Vector3d::Zero();
+    const Eigen::Vector3d normal = sides.col(0).cross(sides.col(1));
+    if (!(normal.norm() > 1e-12 * sides.col(0).norm() * sides.col(1).norm()))
+      throw Error(where,
+                  "the three points of a box are on a line, or two are in one place; give a parallelogram");
+    if (!(box[9] > 0))
+      throw Error(where, text("the depth of a box is ", box[9], ", but must be greater than 0"));
+    sides.col(2) = normal.normalized() * box[9];
+    inverse = sides.inverse();
+  }
+  bool contains(Eigen::Vector3d const& p) const {
+    const Eigen::Array3d t = inverse * (p - p0) + Eigen::Vector3d(0, 0, 0.5);
+    return (t >= -1e-9).all() && (t <= 1 + 1e-9).all();
+  }
+};
+
+}  // namespace sinew

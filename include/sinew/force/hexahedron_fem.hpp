@@ -1,0 +1,347 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/component.hpp>
+#include <sinew/core/element_driver.hpp>
+#include <sinew/force/rotations.hpp>
+
+#include <Eigen/LU>
+#include <array>
+#include <cmath>
+#include <string_view>
+#include <vector>
+
+namespace sinew {
+
+/// How the rotation of a corotational hexahedron is found from A, its Jacobian in the centre, the mean edges.
+///   large  frame on the first two columns of A (Nesme, Payan, Faure 2005), as SOFA's "large"
+///   polar  rotation nearest to A A_rest^-1
+///   small  none: linear elasticity
+enum class HexahedronMethod { large, polar, small };
+inline constexpr std::array<std::string_view, 3> enum_names(HexahedronMethod) {
+  return {"large", "polar", "small"};
+}
+
+/// Trilinear hexahedron of an isotropic material, corotational, with 2 x 2 x 2 Gauss points. With F the
+/// deformation gradient in a Gauss point and R the rotation of the element:
+///   E = sum_g w_g (mu e:e + lambda/2 tr(e)^2),   e = sym(R'F) - I                                [J]
+///   f_i = -R sum_g w_g s grad N_i,   s = 2 mu e + lambda tr(e) I                                 [N]
+/// The tangent holds R fixed.
+///
+/// F = [c_0 c_1 c_2] J^-1, where column c_k is the derivative by the k-th coordinate of the reference cube: a
+/// mean of the four edges of that direction, with the weights (1 +- 1/sqrt 3)/2 across. So no product with a
+/// matrix of 24 x 24 is made, and 91 scalars of an element are kept in the place of the 300 of its stiffness.
+template <class D>
+struct HexahedronFEM {
+  using Real = typename D::Real;
+  using Coord = typename D::Coord;
+  using Deriv = typename D::Deriv;
+  using Vec3 = Vec<Real, 3>;
+  using Mat3 = Mat<Real, 3>;
+  static constexpr int arity = 8;
+  static constexpr bool usesVelocity = false;
+
+  struct Rest {
+    Mat3 inverse[8];  // J^-1 in each Gauss point, in the axes of the rest frame of the method [1/m]
+    Real weight[8];   // det J [m^3]
+    Mat3 center;      // J^-1 in the centre, for `polar`
+    Real mu, lambda;  // [Pa]
+  };
+  struct Tangent {
+    Mat3 rotation;
+  };
+
+  HexahedronMethod method = HexahedronMethod::large;
+
+  SINEW_HD Real energy(Rest const& rest, Coord const (&x)[8]) const {
+    Vec3 y[8], column[3][4];
+    turnBack(rotation(rest, x), x, y);
+    columns(y, column);
+    Real sum(0);
+    for (int g = 0; g < 8; ++g) {
+      const Mat3 e = strain(rest, column, g, Real(1));
+      const Real trace = e(0, 0) + e(1, 1) + e(2, 2);
+      Real square(0);
+      for (int i = 0; i < 9; ++i) square += e(i) * e(i);
+      sum += rest.weight[g] * (rest.mu * square + Real(0.5) * rest.lambda * trace * trace);
+    }
+    return sum;
+  }
+
+  SINEW_HD void force(Rest const& rest, Coord const (&x)[8], Deriv const (&)[8], Deriv (&f)[8],
+                      Tangent& tangent) const {
+    tangent.rotation = rotation(rest, x);
+    internalForce(rest, tangent.rotation, x, Real(1), Real(-1), f);
+  }
+
+  SINEW_HD void dforce(Rest const& rest, Tangent const& tangent, Deriv const (&dx)[8], Deriv (&df)[8], Real k,
+                       Real /*b*/) const {
+    internalForce(rest, tangent.rotation, dx, Real(0), -k, df);
+  }
+
+  /// -k R sum_g w (lambda h_i h_j' + mu h_j h_i' + mu h_i.h_j I) R',  h_i = grad N_i
+  SINEW_HD Mat3 block(Rest const& rest, Tangent const& tangent, int i, int j, Real k, Real /*b*/) const {
+    Mat3 m, turned, block;  // m = sum_g w h_i h_j'
+    for (int c = 0; c < 9; ++c) m(c) = Real(0);
+    for (int g = 0; g < 8; ++g) {
+      const Vec3 hi = gradient(rest, g, i) * rest.weight[g], hj = gradient(rest, g, j);
+      for (int c = 0; c < 3; ++c)
+        for (int r = 0; r < 3; ++r) m(r, c) += hi[r] * hj[c];
+    }
+    const Real trace = rest.mu * (m(0, 0) + m(1, 1) + m(2, 2));
+    Mat3 s;
+    for (int c = 0; c < 3; ++c)
+      for (int r = 0; r < 3; ++r) {
+        s(r, c) = -k * (rest.lambda * m(r, c) + rest.mu * m(c, r));
+        if (r == c) s(r, c) -= k * trace;
+      }
+    Mat3 const& q = tangent.rotation;
+    for (int c = 0; c < 3; ++c)
+      for (int r = 0; r < 3; ++r) turned(r, c) = s(r, 0) * q(c, 0) + s(r, 1) * q(c, 1) + s(r, 2) * q(c, 2);
+    for (int c = 0; c < 3; ++c)
+      for (int r = 0; r < 3; ++r)
+        block(r, c) = q(r, 0) * turned(0, c) + q(r, 1) * turned(1, c) + q(r, 2) * turned(2, c);
+    return block;
+  }
+
+  /// Rest data of the element with rest positions x; a weight that is not positive tells of a bad shape.
+  static Rest restOf(Coord const (&x)[8], Real mu, Real lambda, HexahedronMethod method) {
+    Mat3 frame = Mat3::Identity();
+    if (method == HexahedronMethod::large) {
+      const Mat3 a = jacobian(x);
+      frame = frame_of(Vec3(a.col(0)), Vec3(a.col(1)));
+    }
+    Vec3 y[8], column[3][4];
+    turnBack(frame, x, y);
+    columns(y, column);
+    Rest rest;
+    for (int g = 0; g < 8; ++g) {
+      Mat3 j;
+      for (int k = 0; k < 3; ++k) j.col(k) = column[k][columnOf(k, g)];
+      rest.inverse[g] = j.inverse();
+      rest.weight[g] = j.determinant();
+    }
+    rest.center = jacobian(x).inverse();
+    rest.mu = mu;
+    rest.lambda = lambda;
+    return rest;
+  }
+
+ private:
+  // Corners and Gauss points by three bits, of x, y and z; u and v are the other two directions than k.
+  static constexpr int corner(int bits) {
+    constexpr int vtk[8] = {0, 1, 3, 2, 4, 5, 7, 6};
+    return vtk[bits];
+  }
+  static constexpr int across(int k, int which) { return which == 0 ? (k == 0 ? 1 : 0) : (k == 2 ? 1 : 2); }
+  // end of the edge number uv of direction k
+  static constexpr int end(int k, int uv, int high) {
+    return corner((uv & 1) << across(k, 0) | (uv >> 1) << across(k, 1) | high << k);
+  }
+  static constexpr int columnOf(int k, int g) {
+    return (g >> across(k, 0) & 1) | (g >> across(k, 1) & 1) << 1;
+  }
+
+  // from values on the four edges of a direction to those in the Gauss points across, or the transpose of it
+  SINEW_INLINE static void mix(Vec3 (&d)[4]) {
+    const Real a(0.78867513459481288225), b(0.21132486540518711775);  // (1 +- 1/sqrt 3)/2
+    for (int i = 0; i < 3; ++i) {
+      const Real p = a * d[0][i] + b * d[1][i], q = b * d[0][i] + a * d[1][i];
+      const Real r = a * d[2][i] + b * d[3][i], s = b * d[2][i] + a * d[3][i];
+      d[0][i] = a * p + b * r, d[1][i] = a * q + b * s, d[2][i] = b * p + a * r, d[3][i] = b * q + a * s;
+    }
+  }
+  SINEW_INLINE static void columns(Vec3 const (&y)[8], Vec3 (&column)[3][4]) {
+    for (int k = 0; k < 3; ++k) {
+      for (int uv = 0; uv < 4; ++uv) column[k][uv] = (y[end(k, uv, 1)] - y[end(k, uv, 0)]) * Real(0.5);
+      mix(column[k]);
+    }
+  }
+  // Jacobian in the centre
+  SINEW_INLINE static Mat3 jacobian(Coord const (&x)[8]) {
+    Mat3 a;
+    for (int k = 0; k < 3; ++k) {
+      Vec3 sum = x[end(k, 0, 1)] - x[end(k, 0, 0)];
+      for (int uv = 1; uv < 4; ++uv) sum += x[end(k, uv, 1)] - x[end(k, uv, 0)];
+      a.col(k) = sum * Real(0.125);
+    }
+    return a;
+  }
+  // y = R'(x - x_0)
+  SINEW_INLINE static void turnBack(Mat3 const& r, Coord const (&x)[8], Vec3 (&y)[8]) {
+    for (int i = 0; i < 8; ++i) {
+      const Vec3 d = x[i] - x[0];
+      for (int c = 0; c < 3; ++c) y[i][c] = r(0, c) * d[0] + r(1, c) * d[1] + r(2, c) * d[2];
+    }
+  }
+
+  SINEW_INLINE static Mat3 strain(Rest const& rest, Vec3 const (&column)[3][4], int g, Real one) {
+    Mat3 const& inverse = rest.inverse[g];
+    Vec3 const &c0 = column[0][columnOf(0, g)], &c1 = column[1][columnOf(1, g)],
+               &c2 = column[2][columnOf(2, g)];
+    Mat3 f, e;
+    for (int j = 0; j < 3; ++j)
+      for (int i = 0; i < 3; ++i)
+        f(i, j) = c0[i] * inverse(0, j) + c1[i] * inverse(1, j) + c2[i] * inverse(2, j);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j <= i; ++j)
+        e(i, j) = e(j, i) = i == j ? f(i, i) - one : Real(0.5) * (f(i, j) + f(j, i));
+    return e;
+  }
+
+  // f = factor R sum_g w s grad N at the strain of positions (one = 1) or displacements (one = 0)
+  SINEW_HD static void internalForce(Rest const& rest, Mat3 const& r, Coord const (&x)[8], Real one,
+                                     Real factor, Deriv (&f)[8]) {
+    Vec3 y[8], column[3][4], pull[3][4];
+    turnBack(r, x, y);
+    columns(y, column);
+    for (int k = 0; k < 3; ++k)
+      for (int uv = 0; uv < 4; ++uv)
+        for (int i = 0; i < 3; ++i) pull[k][uv][i] = Real(0);
+    for (int g = 0; g < 8; ++g) {
+      const Mat3 e = strain(rest, column, g, one);
+      const Real weight = factor * rest.weight[g], mu2 = Real(2) * rest.mu * weight,
+                 pressure = rest.lambda * weight * (e(0, 0) + e(1, 1) + e(2, 2));
+      Mat3 s;
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j <= i; ++j) s(i, j) = s(j, i) = i == j ? mu2 * e(i, i) + pressure : mu2 * e(i, j);
+      Mat3 const& inverse = rest.inverse[g];
+      for (int k = 0; k < 3; ++k)
+        for (int i = 0; i < 3; ++i)
+          pull[k][columnOf(k, g)][i] +=
+              s(i, 0) * inverse(k, 0) + s(i, 1) * inverse(k, 1) + s(i, 2) * inverse(k, 2);
+    }
+    for (int i = 0; i < 8; ++i)
+      for (int c = 0; c < 3; ++c) y[i][c] = Real(0);
+    for (int k = 0; k < 3; ++k) {
+      mix(pull[k]);
+      for (int uv = 0; uv < 4; ++uv) {
+        const Vec3 half = pull[k][uv] * Real(0.5);
+        y[end(k, uv, 1)] += half;
+        y[end(k, uv, 0)] -= half;
+      }
+    }
+    for (int i = 0; i < 8; ++i)
+      for (int c = 0; c < 3; ++c) f[i][c] = r(c, 0) * y[i][0] + r(c, 1) * y[i][1] + r(c, 2) * y[i][2];
+  }
+
+  // gradient of shape function i in Gauss point g
+  SINEW_INLINE static Vec3 gradient(Rest const& rest, int g, int i) {
+    Vec3 slope;                         // by the coordinates of the reference cube
+    const int bits = i ^ (i >> 1 & 1);  // of VTK's corner i
+    const int differ = g ^ bits;        // directions in which corner and Gauss point are on different sides
+    for (int k = 0; k < 3; ++k) {
+      const double a = 0.78867513459481288225, b = 0.21132486540518711775;
+      slope[k] = Real(((bits >> k & 1) ? 0.5 : -0.5) * ((differ >> across(k, 0) & 1) ? b : a) *
+                      ((differ >> across(k, 1) & 1) ? b : a));
+    }
+    Mat3 const& inverse = rest.inverse[g];
+    Vec3 h;
+    for (int j = 0; j < 3; ++j)
+      h[j] = slope[0] * inverse(0, j) + slope[1] * inverse(1, j) + slope[2] * inverse(2, j);
+    return h;
+  }
+
+  // rotation from the rest frame of the method to the world
+  SINEW_INLINE Mat3 rotation(Rest const& rest, Coord const (&x)[8]) const {
+    Mat3 r;
+    if (method == HexahedronMethod::small) {
+      for (int c = 0; c < 9; ++c) r(c) = Real(c % 4 == 0 ? 1 : 0);
+      return r;
+    }
+    const Mat3 a = jacobian(x);
+    if (method == HexahedronMethod::large) return frame_of(Vec3(a.col(0)), Vec3(a.col(1)));
+    for (int j = 0; j < 3; ++j)
+      for (int i = 0; i < 3; ++i)
+        r(i, j) = a(i, 0) * rest.center(0, j) + a(i, 1) * rest.center(1, j) + a(i, 2) * rest.center(2, j);
+    return nearest_rotation(r);
+  }
+};
+
+/// Corotational linear hexahedra.
+template <class D>
+struct HexahedronFEMForceField {
+  using Role = role::ForceField;
+  using DataTypes = D;
+  using Real = typename D::Real;
+  using VecCoord = typename D::VecCoord;
+  using VecDeriv = typename D::VecDeriv;
+  static constexpr std::string_view className = "HexahedronFEMForceField";
+
+  std::vector<double> youngModulus{5000};  // one for all hexahedra, or one for each
+  double poissonRatio = 0.45;
+  HexahedronMethod method = HexahedronMethod::large;
+
+  static constexpr auto fields() {
+    using F = HexahedronFEMForceField;
+    return field_list(field("youngModulus",
+                            &F::youngModulus,
+                            "Pa",
+                            "stiffness of the material: one value, or one a hexahedron",
+                            range::positive),
+                      field("poissonRatio",
+                            &F::poissonRatio,
+                            "",
+                            "lateral contraction over extension; 0.5 is incompressible",
+                            range::open(-1, 0.5)),
+                      field("method", &F::method, "", "how the rotation of an element is found"));
+  }
+
+  ForceProperties properties() const {
+    const bool small = method == HexahedronMethod::small;
+    return {.objective = !small, .conservative = small, .exactTangent = small};
+  }
+
+  using Driver = ElementDriver<HexahedronFEM, D>;
+  using Law = typename Driver::Law;
+  Driver driver{};
+
+  void init(InitContext<D> const& context) {
+    auto const& hexahedra = context.topology.hexahedra;
+    const std::string where = text(context.where, ": ", component_name<HexahedronFEMForceField>());
+    if (hexahedra.empty())
+      throw Error(where, "the topology has no hexahedron; give the node a topology with hexahedra");
+    detail::check_indices(where, "hexahedron", hexahedra, context.rest.size());
+    if (youngModulus.size() != 1 && youngModulus.size() != hexahedra.size())
+      throw Error(where,
+                  text("youngModulus has ",
+                       youngModulus.size(),
+                       " values for ",
+                       hexahedra.size(),
+                       " hexahedra; give one value, or one for each"));
+    std::vector<typename Driver::Rest> rest;
+    rest.reserve(hexahedra.size());
+    for (std::size_t e = 0; e < hexahedra.size(); ++e) {
+      typename D::Coord x[8];
+      for (std::size_t k = 0; k < 8; ++k) x[k] = context.rest[std::size_t(hexahedra[e][k])];
+      const double E = youngModulus.size() == 1 ? youngModulus[0] : youngModulus[e];
+      const double lambda = E * poissonRatio / ((1 + poissonRatio) * (1 - 2 * poissonRatio)),
+                   mu = E / (2 * (1 + poissonRatio));
+      rest.push_back(HexahedronFEM<D>::restOf(x, Real(mu), Real(lambda), method));
+      const Real longest = (x[6] - x[0]).norm();
+      for (const Real w : rest.back().weight)
+        if (!(w > Real(1e-12) * longest * longest * longest))
+          throw Error(
+              where,
+              text("hexahedron ",
+                   e,
+                   " is flat, inside out or twisted; its corners are the four of one face in a circle, "
+                   "then those opposite of them, each face turning as seen from inside"));
+    }
+    driver.init({hexahedra.begin(), hexahedra.end()}, rest);
+  }
+
+  void addForce(MechanicalParams const&, VecDeriv& f, VecCoord const& x, VecDeriv const& v) {
+    driver.addForce(Law{method}, f, x, v);
+  }
+  void addDForce(MechanicalParams const& p, VecDeriv& df, VecDeriv const& dx) const {
+    driver.addDForce(Law{method}, df, dx, Real(p.k), Real(p.b));
+  }
+  double potentialEnergy(VecCoord const& x) const { return driver.energy(Law{method}, x); }
+  template <class Sink>
+  void addToMatrix(MechanicalParams const& p, Sink const& sink) {
+    driver.addToMatrix(Law{method}, sink, Real(p.k), Real(p.b));
+  }
+};
+
+}  // namespace sinew

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/component.hpp>
+#include <sinew/force/spring_network.hpp>
+
+#include <optional>
+#include <vector>
+
+namespace sinew {
+
+/// Springs between all pairs of points of each element of the topology, one kind after the other from edges
+/// to hexahedra; two points get one spring, of the first kind that joins them. Edges, triangles and quads
+/// that the topology does not list are those of its higher elements, as in SOFA's containers. A stiffness is
+/// a force per relative extension [N]: a spring of length L has stiffness / L [N/m].
+template <class D>
+struct MeshSpringForceField {
+  using Role = role::ForceField;
+  using DataTypes = D;
+  using Real = typename D::Real;
+  using VecCoord = typename D::VecCoord;
+  using VecDeriv = typename D::VecDeriv;
+  static constexpr std::string_view className = "MeshSpringForceField";
+
+  double stiffness = 0, damping = 0;
+  std::optional<double> linesStiffness{}, linesDamping{}, trianglesStiffness{}, trianglesDamping{},
+      quadsStiffness{}, quadsDamping{}, tetrahedraStiffness{}, tetrahedraDamping{}, cubesStiffness{},
+      cubesDamping{};
+  bool noCompression = false;
+
+  static constexpr auto fields() {
+    using F = MeshSpringForceField;
+    constexpr Range r = range::nonNegative;
+    constexpr std::string_view unit = "N", rate = "N s";
+    return field_list(
+        field("stiffness",
+              &F::stiffness,
+              unit,
+              "force per relative extension, of all kinds without their own",
+              r),
+        field("damping", &F::damping, rate, "force per rate of relative extension, likewise", r),
+        field("linesStiffness", &F::linesStiffness, unit, "stiffness along edges", r),
+        field("linesDamping", &F::linesDamping, rate, "damping along edges", r),
+        field("trianglesStiffness", &F::trianglesStiffness, unit, "stiffness within triangles", r),
+        field("trianglesDamping", &F::trianglesDamping, rate, "damping within triangles", r),
+        field("quadsStiffness", &F::quadsStiffness, unit, "stiffness within quads", r),
+        field("quadsDamping", &F::quadsDamping, rate, "damping within quads", r),
+        field("tetrahedraStiffness", &F::tetrahedraStiffness, unit, "stiffness within tetrahedra", r)
+            .also("tetrasStiffness"),
+        field("tetrahedraDamping", &F::tetrahedraDamping, rate, "damping within tetrahedra", r)
+            .also("tetrasDamping"),
+        field("cubesStiffness", &F::cubesStiffness, unit, "stiffness within hexahedra", r),
+        field("cubesDamping", &F::cubesDamping, rate, "damping within hexahedra", r),
+        field("noCompression", &F::noCompression, "", "springs act only when they are longer than at rest")
+            .also("elongationOnly"));
+  }
+
+  using Driver = typename SpringNetwork<D>::Driver;
+  using Law = typename Driver::Law;
+  Driver driver{};
+
+  /// The settings of the law, for lanes or one element at a time.
+  template <class L>
+  L law() const {
+    return {noCompression};
+  }
+
+  void init(InitContext<D> const& context) {
+    const std::string where = text(context.where, ": ", component_name<MeshSpringForceField>());
+    TopologyView const& t = context.topology;
+    detail::check_indices(where, "edge", t.edges, context.rest.size());
+    detail::check_indices(where, "triangle", t.triangles, context.rest.size());
+    detail::check_indices(where, "quad", t.quads, context.rest.size());
+    detail::check_indices(where, "tetrahedron", t.tetrahedra, context.rest.size());
+    detail::check_indices(where, "hexahedron", t.hexahedra, context.rest.size());
+
+    SpringNetwork<D> springs(context.rest);
+    const double ks = linesStiffness.value_or(stiffness), kd = linesDamping.value_or(damping);
+    if (!t.edges.empty()) {
+      springs.addAll(t.edges, ks, kd);
+    } else {
+      springs.addAll(t.triangles, ks, kd);
+      springs.addSome(t.quads, quad_edges, ks, kd);
+      springs.addAll(t.tetrahedra, ks, kd);
+      springs.addSome(t.hexahedra, hexahedron_edges, ks, kd);
+    }
+    // the edges of the triangles of tetrahedra are those of the tetrahedra
+    const double ts = trianglesStiffness.value_or(stiffness), td = trianglesDamping.value_or(damping);
+    if (!t.triangles.empty())
+      springs.addAll(t.triangles, ts, td);
+    else
+      springs.addAll(t.tetrahedra, ts, td);
+    const double qs = quadsStiffness.value_or(stiffness), qd = quadsDamping.value_or(damping);
+    if (!t.quads.empty()) {
+      springs.addAll(t.quads, qs, qd);
+    } else {
+      springs.addSome(t.hexahedra, hexahedron_edges, qs, qd);
+      springs.addSome(t.hexahedra, hexahedron_face_diagonals, qs, qd);
+    }
+    springs.addAll(
+        t.tetrahedra, tetrahedraStiffness.value_or(stiffness), tetrahedraDamping.value_or(damping));
+    springs.addAll(t.hexahedra, cubesStiffness.value_or(stiffness), cubesDamping.value_or(damping));
+    if (springs.empty())
+      throw Error(where,
+                  "there is no spring; give the node a topology with edges or higher elements, and set a "
+                  "stiffness or damping of their kind");
+    springs.init(driver);
+  }
+
+  void addForce(MechanicalParams const&, VecDeriv& f, VecCoord const& x, VecDeriv const& v) {
+    driver.addForce(law<Law>(), f, x, v);
+  }
+  void addDForce(MechanicalParams const& p, VecDeriv& df, VecDeriv const& dx) const {
+    driver.addDForce(law<Law>(), df, dx, Real(p.k), Real(p.b));
+  }
+  double potentialEnergy(VecCoord const& x) const { return driver.energy(law<Law>(), x); }
+  template <class Sink>
+  void addToMatrix(MechanicalParams const& p, Sink const& sink) {
+    driver.addToMatrix(law<Law>(), sink, Real(p.k), Real(p.b));
+  }
+};
+
+}  // namespace sinew

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/component.hpp>
+#include <sinew/core/element_driver.hpp>
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace sinew {
+
+/// Spring from a point to a fixed place; of a rigid body, also from its orientation to a fixed one.
+///   E = k/2 |d|^2 + k_a/2 |t|^2                                                               [J]
+///   f = -k d,  torque = -k_a t,   d = x - x_rest,  t = rotation vector of q q_rest^-1         [N], [N m]
+/// In space the derivative of t by a turn of the body is J = I + [t]x/2 + s [t]x [t]x with
+/// s = (1 - |t|/2 cot(|t|/2)) / |t|^2; its symmetric part is the tangent.
+template <class D>
+struct RestShapeSpring {
+  using Real = typename D::Real;
+  using Coord = typename D::Coord;
+  using Deriv = typename D::Deriv;
+  static constexpr int arity = 1;
+  static constexpr bool usesVelocity = false;
+  static constexpr bool turns = D::rigid && D::spatial == 3;
+
+  struct Rest {
+    std::conditional_t<D::rigid, Coord, std::array<Real, D::size>> place;
+    Real stiffness, angularStiffness;
+  };
+  struct Nothing {};
+  struct Turned {
+    Mat<Real, 3> derivative;  // symmetric part of J
+  };
+  using Tangent = std::conditional_t<turns, Turned, Nothing>;
+
+  SINEW_HD Real energy(Rest const& rest, Coord const (&x)[1]) const {
+    const Deriv d = displacement(rest, x[0]);
+    return Real(0.5) * d.dot(scaled(rest, d));
+  }
+
+  SINEW_HD void force(Rest const& rest, Coord const (&x)[1], Deriv const (&)[1], Deriv (&f)[1],
+                      Tangent& tangent) const {
+    const Deriv d = displacement(rest, x[0]);
+    f[0] = -scaled(rest, d);
+    if constexpr (turns) {
+      const Vec<Real, 3> t = d.template tail<3>();
+      const Real square = t.squaredNorm(), half = std::sqrt(square) / 2;
+      const Real s = half < Real(1e-3) ? Real(1) / 12 + square / 720 : (1 - half / std::tan(half)) / square;
+      tangent.derivative = (1 - s * square) * Mat<Real, 3>::Identity() + s * t * t.transpose();
+    }
+  }
+
+  SINEW_HD void dforce(Rest const& rest, Tangent const& tangent, Deriv const (&dx)[1], Deriv (&df)[1], Real k,
+                       Real /*b*/) const {
+    Deriv d = dx[0] * (-k);
+    if constexpr (turns) d.template tail<3>() = (tangent.derivative * d.template tail<3>()).eval();
+    df[0] = scaled(rest, d);
+  }
+
+  SINEW_INLINE Mat<Real, D::size> block(Rest const& rest, Tangent const& tangent, int, int, Real k,
+                                        Real /*b*/) const {
+    Deriv diagonal;
+    for (int c = 0; c < D::size; ++c) diagonal[c] = -k;
+    diagonal = scaled(rest, diagonal);
+    Mat<Real, D::size> block;
+    for (int c = 0; c < D::size; ++c)
+      for (int r = 0; r < D::size; ++r) block(r, c) = r == c ? diagonal[r] : Real(0);
+    if constexpr (turns)
+      block.template bottomRightCorner<3, 3>() = -k * rest.angularStiffness * tangent.derivative;
+    return block;
+  }
+
+ private:
+  SINEW_INLINE static Deriv displacement(Rest const& rest, Coord const& x) {
+    if constexpr (D::rigid) {
+      return D::difference(rest.place, x);
+    } else {
+      Deriv d;
+      for (int c = 0; c < D::size; ++c) d[c] = x[c] - rest.place[std::size_t(c)];
+      return d;
+    }
+  }
+  SINEW_INLINE static Deriv scaled(Rest const& rest, Deriv d) {
+    for (int c = 0; c < D::size; ++c)
+      d[c] = d[c] * (D::rigid && c >= D::spatial ? rest.angularStiffness : rest.stiffness);
+    return d;
+  }
+};
+
+/// Springs that hold points at their rest positions.
+template <class D>
+struct RestShapeSpringsForceField {
+  using Role = role::ForceField;
+  using DataTypes = D;
+  using Real = typename D::Real;
+  using VecCoord = typename D::VecCoord;
+  using VecDeriv = typename D::VecDeriv;
+  static constexpr std::string_view className = "RestShapeSpringsForceField";
+  static constexpr std::string_view aliases = "FixedWeakConstraint";
+
+  std::vector<int> points{};
+  std::vector<double> stiffness{100}, angularStiffness{100};
+
+  static constexpr auto fields() {
+    using F = RestShapeSpringsForceField;
+    return field_list(
+        field("points", &F::points, "", "points that are held; none for all of them", range::nonNegative)
+            .also("indices"),
+        field("stiffness",
+              &F::stiffness,
+              "N/m",
+              "force per distance from rest: one value, or one a point",
+              range::nonNegative),
+        field("angularStiffness",
+              &F::angularStiffness,
+              "N m/rad",
+              "torque per angle from rest of rigid bodies: one value, or one a point",
+              range::nonNegative));
+  }
+
+  static constexpr ForceProperties properties() {
+    return {.internal = false, .objective = false, .exactTangent = !RestShapeSpring<D>::turns};
+  }
+
+  // the rotation vector of a body takes trigonometry, which lanes do not have
+  using Driver = ElementDriver<RestShapeSpring, D, D::rigid ? 1 : native_width<Real>>;
+  using Law = typename Driver::Law;
+  Driver driver{};
+
+  void init(InitContext<D> const& context) {
+    const std::string where = text(context.where, ": ", component_name<RestShapeSpringsForceField>());
+    const std::size_t n = points.empty() ? context.rest.size() : points.size();
+    auto value = [&](std::string_view name, std::vector<double> const& list, std::size_t i) {
+      if (list.size() != 1 && list.size() != n)
+        throw Error(
+            where,
+            text(name, " has ", list.size(), " values for ", n, " points; give one value, or one for each"));
+      return Real(list.size() == 1 ? list[0] : list[i]);
+    };
+    std::vector<typename Driver::Indices> indices;
+    std::vector<typename Driver::Rest> rest;
+    for (std::size_t i = 0; i < n; ++i) {
+      const int p = points.empty() ? int(i) : points[i];
+      if (std::size_t(p) >= context.rest.size())
+        throw Error(where,
+                    text("points has ",
+                         p,
+                         ", but the state has ",
+                         context.rest.size(),
+                         " points, numbered from 0; correct the index"));
+      indices.push_back({p});
+      rest.emplace_back();
+      if constexpr (D::rigid)
+        rest.back().place = context.rest[std::size_t(p)];
+      else
+        for (int c = 0; c < D::size; ++c) rest.back().place[std::size_t(c)] = context.rest[std::size_t(p)][c];
+      rest.back().stiffness = value("stiffness", stiffness, i);
+      rest.back().angularStiffness = D::rigid ? value("angularStiffness", angularStiffness, i) : Real(0);
+    }
+    driver.init(indices, rest);
+  }
+
+  void addForce(MechanicalParams const&, VecDeriv& f, VecCoord const& x, VecDeriv const& v) {
+    driver.addForce(Law{}, f, x, v);
+  }
+  void addDForce(MechanicalParams const& p, VecDeriv& df, VecDeriv const& dx) const {
+    driver.addDForce(Law{}, df, dx, Real(p.k), Real(p.b));
+  }
+  double potentialEnergy(VecCoord const& x) const { return driver.energy(Law{}, x); }
+  template <class Sink>
+  void addToMatrix(MechanicalParams const& p, Sink const& sink) {
+    driver.addToMatrix(Law{}, sink, Real(p.k), Real(p.b));
+  }
+};
+
+}  // namespace sinew

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/component.hpp>
+#include <sinew/core/element_driver.hpp>
+
+#include <limits>
+#include <vector>
+
+namespace sinew {
+
+/// Penalty force of a sphere on a point inside it, at depth h = r - l > 0 (of any sign with bilateral), where
+/// l is the distance from the centre and u the direction away from it.
+///   E = k/2 h^2,  f = k h u - c |h| v                                                          [J], [N]
+///   df/dx = k h/l (I - u u') - k u u',  df/dv = -c |h| I
+/// The change of the damping with the depth is left out of the tangent, which keeps it symmetric. A point in
+/// the centre has no direction, and is damped only.
+template <class D>
+struct SpherePenalty {
+  using Real = typename D::Real;
+  using Coord = typename D::Coord;
+  using Deriv = typename D::Deriv;
+  using Place = Vec<Real, D::spatial>;
+  static constexpr int arity = 1;
+  static constexpr bool usesVelocity = true;
+
+  Place center = Place::Zero();
+  Real radius{1};
+  bool bilateral = false;
+
+  struct Rest {
+    Real stiffness, damping;
+  };
+  struct Tangent {
+    Real direction[D::spatial];       // u
+    Real stiffness, across, damping;  // k, k h/l, c |h|; 0 for a point that is not touched
+  };
+
+  SINEW_HD Real energy(Rest const& rest, Coord const (&x)[1]) const {
+    using std::sqrt, sinew::sqrt;
+    const Place away = from(x[0]);
+    const Real h = radius - sqrt(square(away));
+    return select(touches(h), Real(0.5) * rest.stiffness * h * h, Real(0));
+  }
+
+  SINEW_HD void force(Rest const& rest, Coord const (&x)[1], Deriv const (&v)[1], Deriv (&f)[1],
+                      Tangent& tangent) const {
+    using std::sqrt, sinew::sqrt;
+    const Place away = from(x[0]);
+    const Real zero(0), l = sqrt(square(away)), h = radius - l;
+    const auto acts = touches(h);
+    const Real inverse = select(l > Real(1e-9) * radius, Real(1) / l, zero);
+    tangent.stiffness = select(acts, rest.stiffness, zero);
+    tangent.across = tangent.stiffness * h * inverse;
+    tangent.damping = select(acts, rest.damping * select(h > zero, h, -h), zero);
+    for (int c = 0; c < D::size; ++c) f[0][c] = zero;
+    for (int c = 0; c < D::spatial; ++c) {
+      tangent.direction[c] = away[c] * inverse;
+      f[0][c] = tangent.across * away[c] - tangent.damping * v[0][c];
+    }
+  }
+
+  SINEW_HD void dforce(Rest const& rest, Tangent const& tangent, Deriv const (&dx)[1], Deriv (&df)[1], Real k,
+                       Real b) const {
+    const Mat<Real, D::size> m = block(rest, tangent, 0, 0, k, b);
+    for (int r = 0; r < D::size; ++r) {
+      df[0][r] = Real(0);
+      for (int c = 0; c < (r < D::spatial ? D::spatial : 0); ++c) df[0][r] += m(r, c) * dx[0][c];
+    }
+  }
+
+  SINEW_INLINE Mat<Real, D::size> block(Rest const&, Tangent const& tangent, int, int, Real k, Real b) const {
+    const Real along = -k * (tangent.stiffness + tangent.across),
+               all = k * tangent.across - b * tangent.damping;
+    Mat<Real, D::size> block;
+    for (int c = 0; c < D::size; ++c)
+      for (int r = 0; r < D::size; ++r) {
+        block(r, c) = Real(0);
+        if (r < D::spatial && c < D::spatial)
+          block(r, c) = along * tangent.direction[r] * tangent.direction[c];
+        if (r < D::spatial && r == c) block(r, c) += all;
+      }
+    return block;
+  }
+
+ private:
+  SINEW_INLINE Place from(Coord const& x) const {
+    Place away = D::center(x);
+    for (int c = 0; c < D::spatial; ++c) away[c] -= center[c];
+    return away;
+  }
+  SINEW_INLINE static Real square(Place const& p) {
+    Real sum(std::numeric_limits<lane_scalar<Real>>::min());
+    for (int c = 0; c < D::spatial; ++c) sum += p[c] * p[c];
+    return sum;
+  }
+  SINEW_INLINE auto touches(Real const& h) const {
+    auto acts = h > Real(0);
+    if (bilateral) acts = h == h;
+    return acts;
+  }
+};
+
+/// A sphere that pushes points out.
+template <class D>
+struct SphereForceField {
+  using Role = role::ForceField;
+  using DataTypes = D;
+  using Real = typename D::Real;
+  using VecCoord = typename D::VecCoord;
+  using VecDeriv = typename D::VecDeriv;
+  using Center = Vec<double, D::spatial>;
+  static constexpr std::string_view className = "SphereForceField";
+
+  Center center = Center::Zero();
+  double radius = 1, stiffness = 500, damping = 5;
+  bool bilateral = false;
+
+  static constexpr auto fields() {
+    using F = SphereForceField;
+    return field_list(
+        field("center", &F::center, "m", "centre of the sphere"),
+        field("radius", &F::radius, "m", "radius of the sphere", range::positive),
+        field("stiffness", &F::stiffness, "N/m", "force per depth inside the sphere", range::nonNegative),
+        field("damping", &F::damping, "N s/m^2", "force per depth and speed", range::nonNegative),
+        field("bilateral", &F::bilateral, "", "points outside are drawn to the sphere"));
+  }
+
+  static constexpr ForceProperties properties() { return {.internal = false, .objective = false}; }
+
+  // W = 1 for rigid bodies, whose positions do not interleave into lanes
+  using Driver = ElementDriver<SpherePenalty, D, D::rigid ? 1 : native_width<Real>>;
+  using Law = typename Driver::Law;
+  Driver driver{};
+
+  void init(InitContext<D> const& context) {
+    std::vector<typename Driver::Indices> points(context.rest.size());
+    for (std::size_t i = 0; i < points.size(); ++i) points[i] = {int(i)};
+    driver.init(points, std::vector<typename Driver::Rest>(points.size(), {Real(stiffness), Real(damping)}));
+  }
+
+  /// The sphere as it stands now, for lanes or one element at a time: it may move from step to step.
+  template <class L>
+  L law() const {
+    using R = typename L::Real;
+    L law;
+    for (int c = 0; c < D::spatial; ++c) law.center[c] = R(center[c]);
+    law.radius = R(radius);
+    law.bilateral = bilateral;
+    return law;
+  }
+
+  void addForce(MechanicalParams const&, VecDeriv& f, VecCoord const& x, VecDeriv const& v) {
+    driver.addForce(law<Law>(), f, x, v);
+  }
+  void addDForce(MechanicalParams const& p, VecDeriv& df, VecDeriv const& dx) const {
+    driver.addDForce(law<Law>(), df, dx, Real(p.k), Real(p.b));
+  }
+  double potentialEnergy(VecCoord const& x) const { return driver.energy(law<Law>(), x); }
+  template <class Sink>
+  void addToMatrix(MechanicalParams const& p, Sink const& sink) {
+    driver.addToMatrix(law<Law>(), sink, Real(p.k), Real(p.b));
+  }
+};
+
+}  // namespace sinew

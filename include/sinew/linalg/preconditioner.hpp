@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/linalg/block_matrix.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string_view>
+#include <vector>
+
+namespace sinew {
+
+/// What a preconditioner takes for the matrix A.
+///   none                A ~ I
+///   jacobi              its diagonal
+///   blockJacobi         its diagonal blocks
+///   incompleteCholesky  L D L' with the blocks of A and no more, IC(0) (Meijerink, van der Vorst 1977)
+enum class PreconditionerMethod { none, jacobi, blockJacobi, incompleteCholesky };
+inline constexpr std::array<std::string_view, 4> enum_names(PreconditionerMethod) {
+  return {"none", "jacobi", "blockJacobi", "incompleteCholesky"};
+}
+
+/// z = M^-1 r, where M is near to a block matrix and easily solved. Positive definite whatever the matrix is,
+/// so that conjugate gradients may use it. update and apply do not allocate.
+template <class Matrix>
+struct Preconditioner {
+  using Real = typename Matrix::Real;
+  static constexpr int B = Matrix::blockSize;
+  using Block = Eigen::Matrix<Real, B, B>;
+  using Column = Eigen::Matrix<Real, B, 1>;
+
+  PreconditionerMethod method = PreconditionerMethod::none;
+  int dofs = 0;      // scalars of the system, without padding
+  double shift = 0;  // of the diagonal, relative, that IC(0) needed to exist
+  std::vector<int> first{}, column{},
+      slot{};                             // IC: blocks left of the diagonal, and their slots in the matrix
+  std::vector<Block> lower{}, inverse{};  // L, D^-1
+
+  void init(Matrix const& a, PreconditionerMethod which, int systemDofs) {
+    method = which;
+    dofs = systemDofs;
+    inverse.assign(std::size_t(a.rows()), Block::Identity());
+    first.assign(1, 0);
+    column.clear();
+    slot.clear();
+    if (method == PreconditionerMethod::incompleteCholesky)
+      for (int i = 0; i < a.rows(); ++i) {
+        for (int s = a.rowStart[std::size_t(i)]; s < a.diagonal[std::size_t(i)]; ++s) {
+          column.push_back(a.columns[std::size_t(s)]);
+          slot.push_back(s);
+        }
+        first.push_back(int(column.size()));
+      }
+    lower.assign(column.size(), Block::Zero());
+    int longest = 0;
+    for (std::size_t i = 0; i + 1 < first.size(); ++i) longest = std::max(longest, first[i + 1] - first[i]);
+    scaled.assign(std::size_t(longest), Block::Zero());
+  }
+
+  void update(Matrix const& a) {
+    shift = 0;
+    if (method == PreconditionerMethod::incompleteCholesky) {
+      // IC(0) of a positive definite matrix may break down; that of A + shift diag(A) exists for a shift
+      // large enough (Manteuffel 1980)
+      while (!incompleteFactor(a) && shift < 1e3) shift = shift > 0 ? 2 * shift : 1e-3;
+      return;
+    }
+    for (int i = 0; i < a.rows() && method != PreconditionerMethod::none; ++i) {
+      const Block d = diagonal(a, i);
+      if (method == PreconditionerMethod::jacobi || !invert(d, inverse[std::size_t(i)])) scaleOnly(d, i);
+    }
+  }
+
+  template <class Vector>
+  void apply(Vector const& r, Vector& z) const {
+    auto at = [&z](int i) { return z.template segment<B>(Eigen::Index(i) * B); };
+    const int n = int(inverse.size());
+    const bool triangular = method == PreconditionerMethod::incompleteCholesky;
+    for (int i = 0; i < n; ++i) {
+      Column sum = r.template segment<B>(Eigen::Index(i) * B);
+      if (triangular)
+        for (int p = first[std::size_t(i)]; p < first[std::size_t(i) + 1]; ++p)
+          sum.noalias() -= lower[std::size_t(p)] * at(column[std::size_t(p)]);
+      at(i) = sum;
+    }
+    for (int i = 0; i < n; ++i) at(i) = (inverse[std::size_t(i)] * at(i)).eval();
+    for (int i = triangular ? n : 0; i-- > 0;)
+      for (int p = first[std::size_t(i)]; p < first[std::size_t(i) + 1]; ++p)
+        at(column[std::size_t(p)]).noalias() -= lower[std::size_t(p)].transpose() * at(i);
+  }
+
+ private:
+  std::vector<Block> scaled{};  // L D, of one row
+
+  Block diagonal(Matrix const& a, int i) const {
+    Block d = Eigen::Map<typename Matrix::Block const>(a.block(a.diagonal[std::size_t(i)]));
+    for (int r = 0; r < B; ++r)
+      if (i * B + r >= dofs) d(r, r) = 1;
+    return d;
+  }
+  void scaleOnly(Block const& d, int i) {
+    inverse[std::size_t(i)].setZero();
+    for (int r = 0; r < B; ++r)
+      inverse[std::size_t(i)](r, r) =
+          d(r, r) != 0 && std::isfinite(d(r, r)) ? 1 / std::abs(d(r, r)) : Real(1);
+  }
+  // to = d^-1; false unless d is positive definite, by more than rounding
+  static bool invert(Block d, Block& to) {
+    const Real least = d.diagonal().cwiseAbs().maxCoeff() * 32 * std::numeric_limits<Real>::epsilon();
+    to.setIdentity();
+    for (int c = 0; c < B; ++c) {  // Gauss, Jordan
+      const Real pivot = d(c, c);
+      if (!(pivot > least) || !std::isfinite(pivot)) return false;
+      d.row(c) /= pivot;
+      to.row(c) /= pivot;
+      for (int r = 0; r < B; ++r)
+        if (const Real f = d(r, c); r != c && f != 0) {
+          d.row(r) -= f * d.row(c);
+          to.row(r) -= f * to.row(c);
+        }
+    }
+    return true;
+  }
+  bool incompleteFactor(Matrix const& a) {
+    for (int i = 0; i < a.rows(); ++i) {
+      const int begin = first[std::size_t(i)], end = first[std::size_t(i) + 1];
+      Block d = diagonal(a, i);
+      d.diagonal() *= Real(1 + shift);
+      for (int p = begin; p < end; ++p) {
+        const std::size_t j = std::size_t(column[std::size_t(p)]);
+        Block u = Eigen::Map<typename Matrix::Block const>(a.block(slot[std::size_t(p)]));
+        // less the products of what rows i and j have in common
+        for (int q = begin, s = first[j]; q < p && s < first[j + 1];) {
+          const int cq = column[std::size_t(q)], cs = column[std::size_t(s)];
+          if (cq == cs) u.noalias() -= scaled[std::size_t(q - begin)] * lower[std::size_t(s)].transpose();
+          q += cq <= cs;
+          s += cs <= cq;
+        }
+        scaled[std::size_t(p - begin)] = u;
+        lower[std::size_t(p)].noalias() = u * inverse[j];
+        d.noalias() -= u * lower[std::size_t(p)].transpose();
+      }
+      if (!invert(d, inverse[std::size_t(i)])) return false;
+    }
+    return true;
+  }
+};
+
+}  // namespace sinew

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/assembly.hpp>
+#include <sinew/linalg/block_matrix.hpp>
+#include <sinew/mass/lumped_mass.hpp>
+#include <sinew/topology/element_checks.hpp>
+#include <sinew/topology/hexahedra.hpp>
+
+#include <optional>
+
+namespace sinew {
+
+/// The consistent mass of the elements of the topology (Archer 1963): with N_i the shape functions and rho
+/// the density,
+///   M_ij = integral of rho N_i N_j over the undeformed body         [kg], times the identity
+/// for tetrahedra and hexahedra; where there are none, for triangles and quads (rho is that of an area); else
+/// for edges (that of a length). `lumping` keeps its row sums only, on the diagonal. Without a density the
+/// body has a total of 1 kg.
+///
+/// M^-1 f, which explicit solvers ask for, is taken with the row sums, lumped or not: the inverse of M is
+/// full, and would carry the forces on fixed points to their neighbours. (SOFA refuses there, unless a linear
+/// solver stands by.)
+template <class D>
+struct MeshMatrixMass {
+  using Role = role::Mass;
+  using DataTypes = D;
+  using Real = typename D::Real;
+  using Deriv = typename D::Deriv;
+  using VecCoord = typename D::VecCoord;
+  using VecDeriv = typename D::VecDeriv;
+  using MassType = typename D::MassType;
+  static constexpr std::string_view className = "MeshMatrixMass";
+
+  std::vector<double> massDensity{};
+  std::optional<double> totalMass{};
+  bool lumping = false;
+
+  static constexpr auto fields() {
+    using M = MeshMatrixMass;
+    return field_list(
+        field("massDensity",
+              &M::massDensity,
+              "kg/m^3",
+              "density, [kg/m^2] of a surface, [kg/m] of a wire: one for all elements, or one for each, "
+              "tetrahedra "
+              "before hexahedra and triangles before quads",
+              range::positive),
+        field("totalMass", &M::totalMass, "kg", "mass of the body", range::positive).also("totalmass"),
+        field("lumping", &M::lumping, "", "keep the row sums only"));
+  }
+
+  LumpedMass<D> lumped{};                           // the row sums
+  CompressedRowSparseMatrix<Real, 1> consistent{};  // a scalar for each pair of points; empty when lumped
+  std::vector<int> slots{};  // of its blocks on and above the diagonal, in the matrix of the solver
+
+  /// M^-1 undoes M.
+  bool exactInverse() const { return lumping; }
+
+  void init(InitContext<D> const& context) {
+    static_assert(!D::rigid,
+                  "Sinew: MeshMatrixMass is for points; rigid bodies have a UniformMass or DiagonalMass.");
+    const std::string where = text(context.where, ": ", component_name<MeshMatrixMass>());
+    const std::size_t n = context.rest.size();
+    if (!massDensity.empty() && totalMass)
+      throw Error(where, "massDensity and totalMass are both given; give one of them");
+    check_element_indices(where, context.topology, n);
+
+    consistent.startPattern(int(n));
+    const std::size_t elements = forEachElement(context, [&](auto const& e, std::size_t, auto const&) {
+      for (const Index i : e)
+        for (const Index j : e) consistent.announce(i, j, 1, 1);
+    });
+    consistent.finishPattern();
+    if (elements == 0)
+      throw Error(where,
+                  "the mass is that of elements; give the node a topology with some, or take a UniformMass");
+    if (massDensity.size() > 1 && massDensity.size() != elements)
+      throw Error(where,
+                  text("massDensity has ",
+                       massDensity.size(),
+                       " values for ",
+                       elements,
+                       " elements; give one for all, or one for each"));
+
+    std::vector<double> rows(n, 0.0), values(consistent.columns.size(), 0.0);
+    double total = 0;
+    forEachElement(context, [&](auto const& e, std::size_t number, auto const& mass) {
+      const double density = massDensity.empty() ? 1 : massDensity[massDensity.size() > 1 ? number : 0];
+      for (std::size_t i = 0; i < e.size(); ++i)
+        for (std::size_t j = 0; j < e.size(); ++j) {
+          const double m = density * mass(Eigen::Index(i), Eigen::Index(j));
+          values[std::size_t(consistent.slot(e[i], e[j]))] += m;
+          rows[std::size_t(e[i])] += m;
+          total += m;
+        }
+    });
+    const double scale = massDensity.empty() ? totalMass.value_or(1) / total : 1;
+    for (std::size_t k = 0; k < values.size(); ++k) consistent.values[k] = Real(scale * values[k]);
+    std::vector<MassType> sums(n);
+    for (std::size_t i = 0; i < n; ++i) sums[i] = MassType(scale * rows[i]);
+    lumped.init(where, sums);
+    if (lumping) consistent = {};
+  }
+
+  void addForce(MechanicalParams const& p, VecDeriv& f, VecCoord const& x, VecDeriv const& v) const {
+    lumped.addForce(p, f, x, v);
+  }
+  void addMDx(VecDeriv& f, VecCoord const& x, VecDeriv const& dx, double factor) const {
+    if (lumping) return lumped.addMDx(f, x, dx, Real(factor));
+    for (int i = 0; i < consistent.rows(); ++i) f[std::size_t(i)] += Real(factor) * product(i, dx);
+  }
+  void accFromF(VecDeriv& a, VecCoord const& x, VecDeriv const& f) const { lumped.accFromF(a, x, f); }
+  double kineticEnergy(VecCoord const& x, VecDeriv const& v) const {
+    if (lumping) return lumped.kineticEnergy(x, v);
+    double sum = 0;
+    for (int i = 0; i < consistent.rows(); ++i) sum += 0.5 * double(v[std::size_t(i)].dot(product(i, v)));
+    return sum;
+  }
+
+  template <class Sink>
+  void addToMatrix(MechanicalParams const& p, VecCoord const& x, Sink const& sink) {
+    if (lumping) return lumped.addToMatrix(x, Real(p.m), sink);
+    if constexpr (Sink::direct && Sink::MatrixType::blockSize == D::size &&
+                  Sink::phase != AssemblyPhase::pattern) {
+      const int offset = sink.template side<0>().offset, first = offset / D::size;
+      if constexpr (Sink::phase == AssemblyPhase::bind) slots.clear();
+      if (offset % D::size == 0 && (Sink::phase == AssemblyPhase::bind || !slots.empty())) {
+        std::size_t next = 0;
+        for (int i = 0; i < consistent.rows(); ++i)
+          for (int k = consistent.diagonal[std::size_t(i)]; k < consistent.rowStart[std::size_t(i) + 1]; ++k)
+            if constexpr (Sink::phase == AssemblyPhase::bind) {
+              slots.push_back(sink.matrix.slot(first + i, first + consistent.columns[std::size_t(k)]));
+            } else {
+              auto* const block = sink.matrix.block(slots[next++]);
+              const auto m = typename Sink::MatrixType::Real(p.m * double(consistent.values[std::size_t(k)]));
+              for (int c = 0; c < D::size; ++c) block[c * (D::size + 1)] += m;
+            }
+        return;
+      }
+    }
+    if constexpr (Sink::phase != AssemblyPhase::bind)
+      for (int i = 0; i < consistent.rows(); ++i)
+        for (int k = consistent.rowStart[std::size_t(i)]; k < consistent.rowStart[std::size_t(i) + 1]; ++k) {
+          const Real m = Real(p.m * double(consistent.values[std::size_t(k)]));
+          sink.add(
+              i, consistent.columns[std::size_t(k)], Mat<Real, D::size>(Mat<Real, D::size>::Identity() * m));
+        }
+  }
+
+ private:
+  Deriv product(int i, VecDeriv const& v) const {
+    Deriv sum = Deriv::Zero();
+    for (int k = consistent.rowStart[std::size_t(i)]; k < consistent.rowStart[std::size_t(i) + 1]; ++k)
+      sum += consistent.values[std::size_t(k)] * v[std::size_t(consistent.columns[std::size_t(k)])];
+    return sum;
+  }
+
+  // f(points, number, integral of N_i N_j) for each element; returns how many there are
+  template <class F>
+  static std::size_t forEachElement(InitContext<D> const& context, F&& f) {
+    auto at = [&context](Index i) {
+      Eigen::Vector3d x = Eigen::Vector3d::Zero();
+      x.head<D::spatial>() = D::center(context.rest[std::size_t(i)]).template cast<double>();
+      return x;
+    };
+    std::size_t number = 0;
+    // of k + 1 corners and size V: V (1 + delta_ij) / ((k + 1) (k + 2))
+    auto simplices = [&](auto const& elements, auto const& sizeOf) {
+      for (auto const& e : elements) {
+        constexpr int corners = int(std::tuple_size_v<std::decay_t<decltype(e)>>);
+        Eigen::Matrix<double, corners, corners> mass;
+        mass.setOnes();
+        mass.diagonal() *= 2;
+        mass *= sizeOf(e) / (corners * (corners + 1));
+        f(e, number++, mass);
+      }
+    };
+    TopologyView const& t = context.topology;
+    if (!t.tetrahedra.empty() || !t.hexahedra.empty()) {
+      simplices(t.tetrahedra, [&](Tetrahedron const& e) {
+        return std::abs((at(e[1]) - at(e[0])).dot((at(e[2]) - at(e[0])).cross(at(e[3]) - at(e[0])))) / 6;
+      });
+      for (auto const& e : t.hexahedra) f(e, number++, multilinear<3>(e, at));
+    } else if (!t.triangles.empty() || !t.quads.empty()) {
+      // the triangles of a grid are the halves of its quads
+      if (t.grid[0] == 0 || t.quads.empty())
+        simplices(t.triangles, [&](Triangle const& e) {
+          return (at(e[1]) - at(e[0])).cross(at(e[2]) - at(e[0])).norm() / 2;
+        });
+      for (auto const& e : t.quads) f(e, number++, multilinear<2>(e, at));
+    } else {
+      simplices(t.edges, [&](Edge const& e) { return (at(e[1]) - at(e[0])).norm(); });
+    }
+    return number;
+  }
+
+  // three Gauss points a direction are exact to degree five; N_i N_j det J has four at most
+  template <int Dim, class Element, class At>
+  static auto multilinear(Element const& e, At const& at) {
+    constexpr int corners = 1 << Dim;
+    Eigen::Matrix<double, 3, corners> x;
+    for (int k = 0; k < corners; ++k) x.col(k) = at(e[std::size_t(k)]);
+    Eigen::Matrix<double, corners, corners> mass;
+    mass.setZero();
+    const double node[3] = {0.5 - std::sqrt(0.15), 0.5, 0.5 + std::sqrt(0.15)},
+                 weight[3] = {5. / 18, 4. / 9, 5. / 18};
+    for (int q = 0; q < (Dim == 3 ? 27 : 9); ++q) {
+      Eigen::Matrix<double, Dim, 1> place;
+      double w = 1;
+      for (int c = 0, rest = q; c < Dim; ++c, rest /= 3) place[c] = node[rest % 3], w *= weight[rest % 3];
+      const MultilinearShape<Dim> shape(place);
+      const Eigen::Matrix<double, 3, Dim> J = x * shape.derivatives;
+      mass += w * std::sqrt((J.transpose() * J).determinant()) * shape.weights * shape.weights.transpose();
+    }
+    return mass;
+  }
+};
+
+}  // namespace sinew

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/linalg/block_ldl.hpp>
+#include <sinew/solver/linear_system.hpp>
+
+#include <string_view>
+
+namespace sinew {
+
+/// The assembled system solved to rounding by a dense L L', in n^3/3 operations: for systems of up to a few
+/// hundred unknowns, which must be positive definite. Throws Error where they are not.
+template <class Matrix = CompressedRowSparseMatrixd>
+struct CholeskySolver {
+  using Role = role::LinearSolver;
+  static constexpr std::string_view className = "CholeskySolver";
+  static constexpr Auxiliary auxiliary{};
+
+  static constexpr auto fields() { return field_list(); }
+
+  using Vector = Eigen::Matrix<typename Matrix::Real, Eigen::Dynamic, 1>;
+  Matrix matrix{};
+  Eigen::MatrixXd lower{};
+  Vector x{}, b{};
+  Eigen::VectorXd y{};
+
+  template <class Operations>
+  void init(Operations& operations) {
+    operations.initMatrix(matrix);
+    const int n = count_dofs(operations);
+    lower.setZero(n, n);
+    y.setZero(n);
+    x.setZero(matrix.dofs());
+    b.setZero(matrix.dofs());
+  }
+
+  template <class Operations>
+  void solve(Operations& operations, MatrixFactors factors, MultiVecDeriv<Operations>& solution,
+             MultiVecDeriv<Operations>& rhs) {
+    operations.assemble(matrix, factors);
+    unpack();
+    if (const int dof = factorise(); dof >= 0)
+      throw Error(text(operations.root.path(), ": ", className),
+                  text("the matrix is not positive definite at ",
+                       dof_text(operations, dof),
+                       "; fix points of the body, take a smaller dt, or use SparseLDLSolver or "
+                       "MinResLinearSolver, which "
+                       "solve indefinite systems"));
+    operations.gather(b, rhs.id);
+    y = b.head(y.size()).template cast<double>();
+    substitute();
+    x.head(y.size()) = y.template cast<typename Matrix::Real>();
+    operations.scatter(solution.id, x);
+  }
+
+ private:
+  void unpack() {
+    constexpr int B = Matrix::blockSize;
+    const int n = int(y.size());
+    lower.setZero();
+    for (int i = 0; i < matrix.rows(); ++i)
+      for (int s = matrix.rowStart[std::size_t(i)]; s < matrix.rowStart[std::size_t(i) + 1]; ++s)
+        for (int r = 0; r < B; ++r)
+          for (int c = 0; c < B; ++c)
+            if (const int row = i * B + r, column = matrix.columns[std::size_t(s)] * B + c;
+                row < n && column < n)
+              lower(row, column) = double(matrix.block(s)[r * B + c]);
+  }
+  // column by column, in place; the first dof whose pivot is not positive, or -1
+  int factorise() {
+    const Eigen::Index n = lower.rows();
+    for (Eigen::Index k = 0; k < n; ++k) y[k] = noPivot<typename Matrix::Real> * lower(k, k);
+    for (Eigen::Index k = 0; k < n; ++k) {
+      if (!(lower(k, k) > y[k]) || !(y[k] > 0) || !std::isfinite(lower(k, k))) return int(k);
+      const Eigen::Index below = n - k - 1;
+      lower(k, k) = std::sqrt(lower(k, k));
+      lower.col(k).tail(below) /= lower(k, k);
+      for (Eigen::Index j = k + 1; j < n; ++j)
+        lower.col(j).tail(n - j) -= lower(j, k) * lower.col(k).tail(n - j);
+    }
+    return -1;
+  }
+  void substitute() {
+    const Eigen::Index n = lower.rows();
+    for (Eigen::Index k = 0; k < n; ++k) {
+      y[k] /= lower(k, k);
+      y.tail(n - k - 1) -= y[k] * lower.col(k).tail(n - k - 1);
+    }
+    for (Eigen::Index k = n; k-- > 0;)
+      y[k] = (y[k] - lower.col(k).tail(n - k - 1).dot(y.tail(n - k - 1))) / lower(k, k);
+  }
+};
+
+}  // namespace sinew

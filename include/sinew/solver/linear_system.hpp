@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/component.hpp>
+#include <sinew/linalg/block_matrix.hpp>
+#include <sinew/solver/multi_vec.hpp>
+
+#include <cmath>
+#include <string>
+
+namespace sinew {
+
+/// The matrix of a solver that never forms it: products go through the scene graph.
+struct GraphScattered {};
+
+/// Number of scalar unknowns of the independent states; an assembled matrix may be padded to whole blocks
+/// behind them.
+template <class Operations>
+int count_dofs(Operations& operations) {
+  int dofs = 0;
+  operations.forEachIndependent(
+      [&](auto& s) { dofs += int(s.size()) * std::decay_t<decltype(s)>::DataTypes::size; });
+  return dofs;
+}
+
+/// "point 7, component 1 of MechanicalObject<Vec3d>": what messages say of an unknown of the system.
+template <class Operations>
+std::string dof_text(Operations& operations, int dof) {
+  std::string words;
+  int first = 0;
+  operations.forEachIndependent([&](auto& s) {
+    using S = std::decay_t<decltype(s)>;
+    constexpr int size = S::DataTypes::size;
+    const int end = first + int(s.size()) * size;
+    if (dof >= first && dof < end)
+      words = text(
+          "point ", (dof - first) / size, ", component ", (dof - first) % size, " of ", component_name<S>());
+    first = end;
+  });
+  return words;
+}
+
+/// A vector of the assembled system, with the mathematics of MultiVecDeriv: methods are written once over
+/// both.
+template <class Vector>
+struct SystemVec {
+  using Real = typename Vector::Scalar;
+  Vector& v;
+
+  void clear() { v.setZero(); }
+  void eq(SystemVec const& a) { v = a.v; }
+  void eq(SystemVec const& a, double f) { v = Real(f) * a.v; }
+  void peq(SystemVec const& a, double f = 1) { v += Real(f) * a.v; }
+  void teq(double f) { v *= Real(f); }
+  double dot(SystemVec const& a) const { return double(v.dot(a.v)); }
+};
+
+}  // namespace sinew

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/linalg/preconditioner.hpp>
+#include <sinew/solver/linear_system.hpp>
+
+#include <string_view>
+#include <vector>
+
+namespace sinew {
+
+/// Preconditioned conjugate gradients (Shewchuk 1994, B3) from x = 0. `Matrix` as in CGLinearSolver; with
+/// GraphScattered products go through the scene graph, and the matrix is assembled for the preconditioner
+/// only, once in `update_step` solves.
+template <class Matrix = GraphScattered>
+struct ShewchukPCGLinearSolver {
+  using Role = role::LinearSolver;
+  static constexpr std::string_view className = "ShewchukPCGLinearSolver";
+  static constexpr std::string_view aliases = "PCGLinearSolver";
+  static constexpr bool matrixFree = std::is_same_v<Matrix, GraphScattered>;
+  static constexpr Auxiliary auxiliary{.derivs = matrixFree ? 3 : 0};
+  using Formed = std::conditional_t<matrixFree, CompressedRowSparseMatrixMat3x3d, Matrix>;
+
+  int iterations = 25;      // at most
+  double tolerance = 1e-5;  // ends at |b - A x| <= tolerance |b|
+  bool usePrecond = true;
+  int updateStep = 1;  // the preconditioner is made anew in every so many solves; 0: in the first only
+  bool buildPrecond = true;
+  PreconditionerMethod precondition = PreconditionerMethod::blockJacobi;
+
+  static constexpr auto fields() {
+    using S = ShewchukPCGLinearSolver;
+    return field_list(
+        field("iterations", &S::iterations, "", "largest number of iterations", range::atLeast(1)),
+        field("tolerance",
+              &S::tolerance,
+              "",
+              "relative residual at which to stop; 0 does all iterations",
+              range::nonNegative),
+        field("use_precond", &S::usePrecond, "", "use the preconditioner"),
+        field("update_step",
+              &S::updateStep,
+              "",
+              "solves from one update of the preconditioner to the next",
+              range::nonNegative),
+        field("build_precond", &S::buildPrecond, "", "update the preconditioner after the first solve"),
+        field("precondition", &S::precondition, "", "what it is made of"));
+  }
+
+  std::vector<double>
+      residuals{};  // |b - A x| / |b| of the last solve: at the start, then after each iteration
+
+  using Vector = Eigen::Matrix<typename Formed::Real, Eigen::Dynamic, 1>;
+  Formed matrix{};
+  Preconditioner<Formed> preconditioner{};
+  Vector x{}, b{}, r{}, p{}, q{};
+  int age = -1;  // solves since the preconditioner was made
+
+  template <class Operations>
+  void init(Operations& operations) {
+    residuals.clear();
+    residuals.reserve(std::size_t(iterations) + 1);
+    age = -1;
+    operations.initMatrix(matrix);
+    preconditioner.init(
+        matrix, usePrecond ? precondition : PreconditionerMethod::none, count_dofs(operations));
+    for (Vector* v : {&x, &b, &r, &p, &q})
+      v->setZero(matrix.dofs() + 1);  // the last stays 0: multiply reads it
+  }
+
+  template <class Operations>
+  void solve(Operations& operations, MatrixFactors factors, MultiVecDeriv<Operations>& solution,
+             MultiVecDeriv<Operations>& rhs) {
+    const bool update = preconditioner.method != PreconditionerMethod::none &&
+                        (age < 0 || (buildPrecond && updateStep > 0 && age + 1 >= updateStep));
+    if (update || !matrixFree) operations.assemble(matrix, factors);
+    if (update) preconditioner.update(matrix);
+    age = update ? 0 : age + 1;
+    if constexpr (matrixFree) {
+      MultiVecDeriv res(operations), dir(operations), product(operations);
+      iterate(
+          solution,
+          rhs,
+          res,
+          dir,
+          product,
+          [&](auto& to, auto& from) {
+            to.clear();
+            operations.addMBKdx(to.id, from.id, factors);
+            operations.projectResponse(to.id);
+          },
+          [&](auto& to, auto& from) {
+            if (preconditioner.method == PreconditionerMethod::none) return to.eq(from);
+            operations.gather(r, from.id);
+            preconditioner.apply(r, q);
+            operations.scatter(to.id, q);
+          });
+    } else {
+      operations.gather(b, rhs.id);
+      SystemVec<Vector> sx{x}, sb{b}, res{r}, dir{p}, product{q};
+      iterate(
+          sx,
+          sb,
+          res,
+          dir,
+          product,
+          [&](auto& to, auto& from) { matrix.multiply(from.v.data(), to.v.data()); },
+          [&](auto& to, auto& from) {
+            if (preconditioner.method == PreconditionerMethod::none) return to.eq(from);
+            preconditioner.apply(from.v, to.v);
+          });
+      operations.scatter(solution.id, x);
+    }
+  }
+
+ private:
+  // multiply(to, from): to = A from;  precondition(to, from): to = M^-1 from
+  template <class V, class Multiply, class Precondition>
+  void iterate(V& x, V& b, V& r, V& p, V& q, Multiply&& multiply, Precondition&& approximate) {
+    const double start = b.dot(b);
+    residuals.clear();
+    residuals.push_back(1);
+    x.clear();
+    r.eq(b);
+    approximate(p, r);
+    double rho = r.dot(p), size = start;
+    for (int i = 0; i < iterations; ++i) {
+      if (!(size > tolerance * tolerance * start)) return;
+      multiply(q, p);
+      const double curvature = p.dot(q);
+      if (curvature == 0) return;
+      x.peq(p, rho / curvature);
+      r.peq(q, -rho / curvature);
+      size = r.dot(r);
+      residuals.push_back(std::sqrt(size / start));
+      approximate(q, r);
+      const double next = r.dot(q);
+      p.teq(next / rho);
+      p.peq(q);
+      rho = next;
+    }
+  }
+};
+
+}  // namespace sinew

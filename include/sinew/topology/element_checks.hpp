@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/component.hpp>
+
+#include <Eigen/LU>
+#include <span>
+#include <string>
+
+namespace sinew {
+
+/// Throws Error at a tetrahedron that refers to a missing point, is flat, or is inside out. What there is no
+/// room for in less than three dimensions is not asked.
+template <class D>
+void check_tetrahedra(std::string const& where, std::span<Tetrahedron const> tetrahedra,
+                      typename D::VecCoord const& rest) {
+  detail::check_indices(where, "tetrahedron", tetrahedra, rest.size());
+  if constexpr (D::spatial == 3)
+    for (std::size_t e = 0; e < tetrahedra.size(); ++e) {
+      Mat<double, 3> edges;
+      for (int c = 0; c < 3; ++c)
+        edges.col(c) = (D::center(rest[std::size_t(tetrahedra[e][std::size_t(c) + 1])]) -
+                        D::center(rest[std::size_t(tetrahedra[e][0])]))
+                           .template cast<double>();
+      const double volume = edges.determinant() / 6, longest = edges.colwise().norm().maxCoeff();
+      if (!(std::abs(volume) > 1e-14 * longest * longest * longest))
+        throw Error(where, text("tetrahedron ", e, " has no volume; move or merge its points"));
+      if (volume < 0)
+        throw Error(
+            where,
+            text("tetrahedron ", e, " is inside out (volume ", volume, " m^3); swap two of its points"));
+    }
+}
+
+/// Throws Error where an element of a topology refers to a point that the state has not.
+inline void check_element_indices(std::string const& where, TopologyView const& topology,
+                                  std::size_t points) {
+  detail::check_indices(where, "edge", topology.edges, points);
+  detail::check_indices(where, "triangle", topology.triangles, points);
+  detail::check_indices(where, "quad", topology.quads, points);
+  detail::check_indices(where, "tetrahedron", topology.tetrahedra, points);
+  detail::check_indices(where, "hexahedron", topology.hexahedra, points);
+}
+
+/// Throws Error where the state has fewer points than the grid over which it is.
+inline void check_grid_state(std::string const& where, std::size_t grid, std::size_t state) {
+  if (state < grid)
+    throw Error(where,
+                text("the grid has ",
+                     grid,
+                     " points, but the state ",
+                     state,
+                     "; give the state no position, so that it takes those of the grid, or one for each"));
+}
+
+}  // namespace sinew

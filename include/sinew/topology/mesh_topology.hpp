@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/io/text_mesh_file.hpp>
+#include <sinew/topology/element_checks.hpp>
+
+#include <vector>
+
+namespace sinew {
+
+/// Elements of any kind over the points of the node's state, as a file or a scene gives them.
+struct MeshTopology {
+  using Role = role::Topology;
+  static constexpr std::string_view className = "MeshTopology";
+  static constexpr std::string_view aliases =
+      "Mesh PointSetTopologyContainer EdgeSetTopologyContainer TriangleSetTopologyContainer "
+      "QuadSetTopologyContainer TetrahedronSetTopologyContainer HexahedronSetTopologyContainer "
+      "ManifoldEdgeSetTopologyContainer ManifoldTriangleSetTopologyContainer "
+      "ManifoldTetrahedronSetTopologyContainer";
+  static constexpr bool hasTetrahedra = true;  // it may have; who needs some says so at init
+
+  std::vector<Eigen::Vector3d> position{};
+  std::vector<Edge> edges{};
+  std::vector<Triangle> triangles{};
+  std::vector<Quad> quads{};
+  std::vector<Tetrahedron> tetrahedra{};
+  std::vector<Hexahedron> hexahedra{};
+  DataFile filename{};
+
+  static constexpr auto fields() {
+    using T = MeshTopology;
+    return field_list(
+        field("position", &T::position, "m", "points, for a state that is given none").also("points"),
+        field("edges", &T::edges, "", "two points each", range::nonNegative).also("lines"),
+        field("triangles", &T::triangles, "", "three points each", range::nonNegative),
+        field("quads", &T::quads, "", "four points each, in turn", range::nonNegative),
+        field("tetrahedra", &T::tetrahedra, "", "four points each", range::nonNegative).also("tetras"),
+        field("hexahedra", &T::hexahedra, "", "eight points each, in VTK's order", range::nonNegative)
+            .also("hexas"),
+        field("filename", &T::filename, "", "a file (.msh, .obj, .stl, .vtk) with what is not given here")
+            .also("fileTopology"));
+  }
+  static constexpr auto outputs() { return fields(); }
+
+  TopologyView view() const {
+    return {.positions = position,
+            .edges = edges,
+            .triangles = triangles,
+            .quads = quads,
+            .tetrahedra = tetrahedra,
+            .hexahedra = hexahedra};
+  }
+
+  /// Takes from the file, if one is named, the lists that are empty. Throws Error when it cannot be read.
+  void generate(std::string_view where) {
+    if (filename.path.empty()) return;
+    Mesh mesh;
+    try {
+      mesh = io::read_text_mesh(filename.path);
+    } catch (Error const& error) {
+      throw Error(text(where, ": MeshTopology"), error.what());
+    }
+    auto take = [](auto& list, auto& read) {
+      if (list.empty()) list = std::move(read);
+    };
+    take(position, mesh.positions), take(edges, mesh.edges), take(triangles, mesh.triangles);
+    take(quads, mesh.quads), take(tetrahedra, mesh.tetrahedra), take(hexahedra, mesh.hexahedra);
+  }
+
+  /// Throws Error at an index that the state has no point for, and at a tetrahedron that is flat or inside
+  /// out.
+  template <class D>
+  void init(InitContext<D> const& context) const {
+    const std::string where = text(context.where, ": MeshTopology");
+    check_element_indices(where, view(), context.rest.size());
+    check_tetrahedra<D>(where, tetrahedra, context.rest);
+  }
+};
+
+}  // namespace sinew

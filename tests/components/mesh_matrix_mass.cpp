@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "catch.hpp"
+
+#include <sinew/mass/mesh_matrix_mass.hpp>
+#include <sinew/sinew.hpp>
+#include <sinew/solver/newmark_implicit.hpp>
+#include <sinew/solver/sparse_ldl_solver.hpp>
+#include <sinew/topology/regular_grid.hpp>
+
+using namespace sinew;
+
+namespace {
+
+using Points = std::vector<Eigen::Vector3d>;
+
+/// A box [0,2] x [0,1] x [0,1], or its side z = 0, or its edge along x, in elements that are shaken inside.
+struct Box {
+  Points x;
+  std::vector<Edge> edges;
+  std::vector<Triangle> triangles;
+  std::vector<Quad> quads;
+  std::vector<Tetrahedron> tetrahedra;
+  std::vector<Hexahedron> hexahedra;
+  TopologyView view() const {
+    return {.edges = edges,
+            .triangles = triangles,
+            .quads = quads,
+            .tetrahedra = tetrahedra,
+            .hexahedra = hexahedra};
+  }
+};
+/// `kind`: the number of corners of the elements, 4 for quads and -4 for tetrahedra.
+Box box(int kind) {
+  const int n = 4;
+  Box b;
+  const int ny = kind == 2 ? 1 : n, nz = kind == 8 || kind == -4 ? n : 1;
+  auto at = [&](int i, int j, int k) { return i + n * (j + ny * k); };
+  for (int k = 0; k < nz; ++k)
+    for (int j = 0; j < ny; ++j)
+      for (int i = 0; i < n; ++i) {
+        Eigen::Vector3d p(2.0 * i / (n - 1), double(j) / (n - 1), double(k) / (n - 1));
+        auto shake = [&](int c, int index, int size, double phase) {
+          if (size > 1 && index > 0 && index + 1 < size) p[c] += 0.06 * std::sin(phase);
+        };
+        shake(0, i, n, i + 2.0 * j + 3 * k);
+        shake(1, j, ny, 5.0 * i + j + k);
+        shake(2, k, nz, i + 7.0 * j + k);
+        b.x.push_back(p);
+      }
+  for (int k = 0; k < std::max(1, nz - 1); ++k)
+    for (int j = 0; j < std::max(1, ny - 1); ++j)
+      for (int i = 0; i + 1 < n; ++i) {
+        if (kind == 2) b.edges.push_back({at(i, 0, 0), at(i + 1, 0, 0)});
+        const Quad q{at(i, j, k), at(i + 1, j, k), at(i + 1, j + 1, k), at(i, j + 1, k)};
+        if (kind == 4) b.quads.push_back(q);
+        if (kind == 3) b.triangles.insert(b.triangles.end(), {{q[0], q[1], q[2]}, {q[0], q[2], q[3]}});
+        if (kind == 8 || kind == -4)
+          b.hexahedra.push_back({q[0],
+                                 q[1],
+                                 q[2],
+                                 q[3],
+                                 at(i, j, k + 1),
+                                 at(i + 1, j, k + 1),
+                                 at(i + 1, j + 1, k + 1),
+                                 at(i, j + 1, k + 1)});
+      }
+  if (kind == -4) {
+    b.tetrahedra = hexahedra_to_tetrahedra(b.hexahedra);
+    b.hexahedra.clear();
+  }
+  return b;
+}
+/// A topology of this test's own: n edges one after the other.
+struct EdgeChain {
+  using Role = role::Topology;
+  static constexpr std::string_view className = "EdgeChain";
+  static constexpr auto fields() { return field_list(); }
+  int n;
+  std::vector<Edge> edges{};
+  template <class D>
+  void init(InitContext<D> const&) {
+    for (int i = 0; i < n; ++i) edges.push_back({i, i + 1});
+  }
+  TopologyView view() const { return {.edges = edges}; }
+};
+
+const int kinds[] = {2, 3, 4, -4, 8};
+
+MeshMatrixMass<Vec3d> made(Box const& b, MeshMatrixMass<Vec3d> mass = {.massDensity = {3}}) {
+  mass.init(InitContext<Vec3d>{"box", b.x, b.view()});
+  return mass;
+}
+/// Integral of g h over the box, for linear g and h given by their values at the points.
+double integral(MeshMatrixMass<Vec3d> const& mass, Points const& g, Points const& h) {
+  Points m(g.size(), Eigen::Vector3d::Zero());
+  mass.addMDx(m, g, h, 1);
+  return vec::dot(g, m);
+}
+template <class F>
+Points field_of(Box const& b, F&& f) {
+  Points g;
+  for (auto const& p : b.x) g.push_back(f(p));
+  return g;
+}
+
+}  // namespace
+
+TEST_CASE("the total mass is density times volume, area or length") {
+  for (const int kind : kinds) {
+    const Box b = box(kind);
+    const Points one = field_of(b, [](auto const&) { return Eigen::Vector3d(1, 0, 0); });
+    for (const bool lumping : {false, true}) {
+      // 3 kg a unit on a box of 2 x 1 x 1; shaken grids fill it all the same, since their outside is not
+      // shaken but along itself
+      CHECK(integral(made(b, {.massDensity = {3}, .lumping = lumping}), one, one) ==
+            Approx(6).epsilon(1e-13));
+      CHECK(integral(made(b, {.totalMass = 7, .lumping = lumping}), one, one) == Approx(7).epsilon(1e-13));
+      CHECK(integral(made(b, {.lumping = lumping}), one, one) == Approx(1).epsilon(1e-13));
+    }
+  }
+}
+
+TEST_CASE("products of linear fields are integrated exactly") {
+  for (const int kind : kinds) {
+    INFO("kind " << kind);
+    const Box b = box(kind);
+    const auto mass = made(b);
+    const bool wide = kind != 2, deep = kind == -4 || kind == 8;
+    // rho times the integrals of x^2, x y, and (2 + x + y + z)^2 over [0,2] x [0,1] x [0,1], or where y, or
+    // z, are 0
+    auto along = [&](int c) {
+      return field_of(b, [c](auto const& p) { return Eigen::Vector3d(p[c], 0, 0); });
+    };
+    CHECK(integral(mass, along(0), along(0)) == Approx(3 * 8. / 3).epsilon(1e-13));
+    if (wide) CHECK(integral(mass, along(0), along(1)) == Approx(3 * 1).epsilon(1e-13));
+    if (deep) CHECK(integral(mass, along(1), along(2)) == Approx(3 * 2 * 0.25).epsilon(1e-13));
+    // and lumped they are not
+    if (kind == 2) CHECK(integral(made(b, {.massDensity = {3}, .lumping = true}), along(0), along(0)) > 8.2);
+  }
+}
+
+TEST_CASE("the kinetic energy of affine motions is that of the continuum") {
+  const Eigen::Vector3d u(0.3, -0.2, 0.5), w(1, -2, 0.5);
+  for (const int kind : {-4, 8}) {
+    const Box b = box(kind);
+    const auto mass = made(b);
+    // turning about the origin with angular velocity w: w.I w / 2, with the inertia of the box about its
+    // corner
+    Eigen::Matrix3d I = Eigen::Matrix3d::Zero();
+    const Eigen::Vector3d a(2, 1, 1);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        I(i, j) = i == j ? 6 * (a.squaredNorm() - a[i] * a[i]) / 3 : -6 * a[i] * a[j] / 4;
+    const Points v = field_of(b, [&](auto const& p) { return Eigen::Vector3d(w.cross(p)); });
+    CHECK(mass.kineticEnergy(b.x, v) == Approx(0.5 * w.dot(I * w)).epsilon(1e-13));
+    // moving with u while stretching by s along x: E = m/2 (|u|^2 + 2 u_x s <x> + s^2 <x^2>)
+    const double s = 0.7;
+    const Points stretch =
+        field_of(b, [&](auto const& p) { return Eigen::Vector3d(u + s * p[0] * Eigen::Vector3d::UnitX()); });
+    CHECK(mass.kineticEnergy(b.x, stretch) ==
+          Approx(3 * (u.squaredNorm() + 2 * u[0] * s * 1 + s * s * 4. / 3)).epsilon(1e-13));
+  }
+}
+
+TEST_CASE("densities may differ from element to element") {
+  Box b = box(2);
+  const std::vector<double> densities{1, 2, 4};
+  const auto mass = made(b, {.massDensity = densities});
+  double expected = 0;
+  for (std::size_t e = 0; e < 3; ++e)
+    expected += densities[e] * (b.x[std::size_t(b.edges[e][1])] - b.x[std::size_t(b.edges[e][0])]).norm();
+  CHECK(mass.lumped.totalMass(4) == Approx(expected));
+  // one edge alone: rho L / 6 (2 1; 1 2)
+  Box one;
+  one.x = {{0, 0, 0}, {0, 3, 4}};
+  one.edges = {{0, 1}};
+  const auto edge = made(one, {.massDensity = {6}});
+  Points m(2, Eigen::Vector3d::Zero());
+  edge.addMDx(m, one.x, {{1, 0, 0}, {0, 0, 0}}, 1);
+  CHECK(m[0][0] == Approx(10));
+  CHECK(m[1][0] == Approx(5));
+}
+
+TEST_CASE("bad masses say what is wrong") {
+  auto said = [](Box const& b, MeshMatrixMass<Vec3d> mass) -> std::string {
+    try {
+      check_fields(mass, "/root");
+      made(b, mass);
+    } catch (Error const& error) {
+      return error.what();
+    }
+    return "";
+  };
+  auto has = [](std::string const& text, std::string_view word) {
+    return text.find(word) != std::string::npos;
+  };
+  const Box b = box(2);
+  CHECK(said(b, {}).empty());
+  CHECK(has(said(b, {.massDensity = {1}, .totalMass = 1}), "give one of them"));
+  CHECK(has(said(b, {.massDensity = {1, 2}}), "2 values for 3 elements"));
+  CHECK(has(said(b, {.massDensity = {1, 2, -1}}), "massDensity[2] is -1"));
+  CHECK(has(said(b, {.totalMass = 0.0}), "totalMass is 0"));
+  CHECK(has(said(b, {.totalMass = std::nan("")}), "totalMass is nan"));
+  Box none = b;
+  none.edges.clear();
+  CHECK(has(said(none, {}), "MeshMatrixMass<Vec3d>: the mass is that of elements"));
+  Box outside = b;
+  outside.edges[1] = {0, 4};
+  CHECK(has(said(outside, {}), "edge 1 refers to point 4"));
+  Box lonely = b;
+  lonely.x.push_back({9, 9, 9});
+  CHECK(has(said(lonely, {}), "the mass of point 4 is 0"));
+}
+
+// A bar of length 1, fixed at one end, vibrates along itself in its first mode at (pi/2) sqrt(E/rho). With
+// linear elements of length h = 1/n the consistent mass gives w^2 = 6/h^2 (1 - cos kh) / (2 + cos kh), k =
+// pi/2; the lumped one 2/h^2 (1 - cos kh).
+TEST_CASE("a bar of springs rings at the frequency of its mass matrix") {
+  const int n = 10;
+  const double h = 1.0 / n, k = std::acos(-1) / 2;
+  MechanicalObject<Vec1d> state;
+  StiffSpringForceField<Vec1d> springs;
+  for (int i = 0; i <= n; ++i) state.position.push_back(Vec<double, 1>(i * h));
+  state.restPosition = state.position;
+  for (int i = 0; i <= n; ++i) state.position[std::size_t(i)][0] += 1e-3 * std::sin(k * i * h);
+  for (int i = 0; i < n; ++i)
+    springs.springs.push_back({.first = i, .second = i + 1, .stiffness = 1 / h, .length = h});
+  for (const bool lumping : {false, true}) {
+    const double w = std::sqrt(lumping ? 2 / (h * h) * (1 - std::cos(k * h))
+                                       : 6 / (h * h) * (1 - std::cos(k * h)) / (2 + std::cos(k * h)));
+    const double end = std::acos(-1) / w / 2;  // a quarter of the period: the end passes its rest position
+    auto run = [&](auto solver, int steps) {
+      Simulation sim{node<"root">(solver,
+                                  SparseLDLSolver<CompressedRowSparseMatrixd>{},
+                                  state,
+                                  springs,
+                                  EdgeChain{n},
+                                  MeshMatrixMass<Vec1d>{.totalMass = 1, .lumping = lumping},
+                                  FixedConstraint<Vec1d>{.indices = {0}})};
+      sim.init();
+      for (int i = 0; i < steps; ++i) sim.animate(end / steps);
+      return (sim.root().state().position[std::size_t(n)][0] - 1) / 1e-3;
+    };
+    // the amplitude is that of a cosine at its zero: the error of the phase, w dt^2 end / 12 and less
+    CHECK(std::abs(run(NewmarkImplicitSolver{}, 400)) < 1e-5);
+    if (lumping) CHECK(std::abs(run(RungeKutta4Solver{}, 400)) < 1e-7);
+  }
+}
+
+TEST_CASE("steps with the consistent mass do not depend on how the system is formed") {
+  const Mesh mesh = regular_grid_tetrahedra(4, 3, 3, {0, 0, 0}, {2, 1, 1});
+  auto run = [&](auto linear, int before) {
+    Simulation sim{node<"root">(
+        Gravity{{0, -9.81, 0}},
+        EulerImplicitSolver{.rayleighMass = 0.1},
+        linear,
+        node<"one">(
+            MechanicalObject<Vec1d>{.position = Vec1d::VecCoord(std::size_t(before), Vec<double, 1>(0))},
+            UniformMass<Vec1d>{.vertexMass = 1}),
+        node<"body">(TetrahedronTopology{mesh.tetrahedra},
+                     MechanicalObject<Vec3d>{mesh.positions},
+                     MeshMatrixMass<Vec3d>{.massDensity = {1000}},
+                     FixedConstraint<Vec3d>{.indices = {0, 1}}))};
+    sim.init();
+    for (int i = 0; i < 10; ++i) sim.animate(0.02);
+    return Eigen::VectorXd(vec::flat(sim.template at<"body">().state().velocity));
+  };
+  // behind one dof of another state, blocks of three do not fit the points; behind three they do
+  for (const int before : {1, 3}) {
+    const Eigen::VectorXd free = run(CGLinearSolver<>{.iterations = 1000, .tolerance = 1e-14}, before);
+    REQUIRE(free.norm() > 1);
+    CHECK((run(SparseLDLSolver<CompressedRowSparseMatrixd>{}, before) - free).norm() < 1e-10 * free.norm());
+    CHECK((run(SparseLDLSolver<CompressedRowSparseMatrixMat3x3d>{}, before) - free).norm() <
+          1e-10 * free.norm());
+  }
+}

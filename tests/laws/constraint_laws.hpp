@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include "catch.hpp"
+#include "sample.hpp"
+
+#include <sinew/core/assembly.hpp>
+#include <sinew/linalg/block_matrix.hpp>
+
+namespace laws {
+
+using namespace sinew;
+using sample::Random;
+
+template <class C>
+struct ConstraintSuite {
+  using D = typename C::DataTypes;
+  using Real = typename D::Real;
+  using VecCoord = typename D::VecCoord;
+  using VecDeriv = typename D::VecDeriv;
+  static constexpr double rounding = sizeof(Real) == 8 ? 1e-12 : 1e-5;
+  static constexpr double time = 0.7;  // between two key times
+
+  Random random{20070103};
+  sample::Body body{random};
+  VecCoord rest = sample::positions<D>(body, random);
+  std::size_t n = rest.size();
+
+  void run() {
+    INFO(component_name<C>());
+    sample::for_each_variant<C>(random, [&](C c) {
+      check_fields(c, "sample");
+      c.init(InitContext<D>{"sample", rest, body.topology()});
+      if constexpr (requires(VecCoord x) { c.projectPosition(time, x); }) prescribed(c);
+      projector(c);
+      projectedMatrix<1>(c);
+      projectedMatrix<3>(c);
+      projectedMatrix<D::size>(c);
+    });
+  }
+
+  static double distance(VecDeriv const& a, VecDeriv const& b) {
+    return double((vec::flat(a) - vec::flat(b)).norm());
+  }
+  static VecDeriv projected(C const& c, VecDeriv dx) {
+    c.projectResponse(dx);
+    return dx;
+  }
+  // what the constraint takes away
+  static VecDeriv rejected(C const& c, VecDeriv dx) {
+    const VecDeriv kept = projected(c, dx);
+    vec::peq(dx, kept, Real(-1));
+    return dx;
+  }
+
+  // P P = P = P', and something is held
+  void projector(C const& c) {
+    const VecDeriv u = sample::derivs<D>(n, random), w = sample::derivs<D>(n, random), pu = projected(c, u);
+    CHECK(distance(projected(c, pu), pu) <= rounding);
+    CHECK(vec::dot(pu, w) == Approx(vec::dot(u, projected(c, w))).margin(10 * rounding));
+    CHECK(distance(pu, u) > 0.1);
+  }
+
+  // the assembled P A P + I - P against products one after the other
+  template <int B>
+  void projectedMatrix(C const& c) {
+    constexpr int size = D::size;
+    using Matrix = CompressedRowSparseMatrix<Real, B>;
+    Matrix a;
+    a.startPattern(int(n) * size);
+    for (auto const& t : body.tetrahedra)
+      for (const int i : t)
+        for (const int j : t) a.announce(i * size, j * size, size, size);
+    a.finishPattern();
+    for (auto const& t : body.tetrahedra)
+      for (const int i : t)
+        for (const int j : t)
+          if (i <= j) {
+            Mat<Real, size> k;
+            for (int r = 0; r < size * size; ++r) k(r) = Real(random());
+            if (i == j) k = (k * k.transpose()).eval();
+            a.add(i * size, j * size, k);
+            if (i != j) a.add(j * size, i * size, k.transpose().eval());
+          }
+    a.mirror();
+    auto times = [&](VecDeriv const& x) {
+      Eigen::Matrix<Real, Eigen::Dynamic, 1> in(a.dofs() + 1), out(a.dofs());
+      in.setZero();
+      in.head(long(n) * size) = vec::flat(x);
+      a.multiply(in.data(), out.data());
+      VecDeriv y(n);
+      vec::flat(y) = out.head(long(n) * size);
+      return y;
+    };
+    const VecDeriv u = sample::derivs<D>(n, random);
+    VecDeriv expected = projected(c, times(projected(c, u)));
+    vec::peq(expected, rejected(c, u), Real(1));
+    const DirectDofs<size> dofs{0};
+    c.projectMatrix(
+        MatrixSink<AssemblyPhase::pattern, Matrix, DirectDofs<size>>{a, dofs, dofs});  // does nothing
+    c.projectMatrix(MatrixSink<AssemblyPhase::add, Matrix, DirectDofs<size>>{a, dofs, dofs});
+    CHECK(distance(times(u), expected) <= 10 * rounding * double(vec::flat(expected).norm()));
+  }
+
+  // positions and velocities that are given stay so when given again, and the velocity is that of the
+  // positions
+  void prescribed(C& c) {
+    VecCoord moved = rest;
+    vec::increment<D>(moved, sample::derivs<D>(n, random, 0.1), Real(1));
+    auto at = [&](double t, VecCoord x) {
+      c.projectPosition(t, x);
+      return x;
+    };
+    auto difference = [&](VecCoord const& a, VecCoord const& b) {
+      VecDeriv d(n);
+      for (std::size_t i = 0; i < n; ++i) d[i] = D::difference(a[i], b[i]);
+      return d;
+    };
+    VecDeriv v = sample::derivs<D>(n, random);
+    const VecCoord x = at(time, moved);
+    CHECK(double(vec::flat(difference(x, at(time, x))).norm()) <= 10 * rounding);
+    CHECK(double(vec::flat(difference(x, moved)).norm()) > 1e-3);
+    c.projectVelocity(time, v);
+    VecDeriv again = v;
+    c.projectVelocity(time, again);
+    CHECK(distance(v, again) <= 10 * rounding);
+    if constexpr (sizeof(Real) == 8) {
+      // differences over 2e-5 of movements of order 1: truncation 1e-10, rounding 1e-11
+      const double h = 1e-5;
+      VecDeriv rate = difference(at(time - h, moved), at(time + h, moved));
+      vec::flat(rate) /= 2 * h;
+      CHECK(distance(rejected(c, v), rejected(c, rate)) <= 1e-8 * (1 + double(vec::flat(rate).norm())));
+    }
+  }
+};
+
+/// Runs the suite on every projective constraint over D in a registry.
+template <class R, class D>
+void check_constraints() {
+  int found = 0;
+  for_each_registered<R>([&]<class C>() {
+    if constexpr (HasRole<C, role::ProjectiveConstraint>)
+      if constexpr (std::is_same_v<typename C::DataTypes, D>) {
+        ConstraintSuite<C>{}.run();
+        ++found;
+      }
+  });
+  CHECK(found > 0);
+}
+
+}  // namespace laws

@@ -1,0 +1,6 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "force_laws.hpp"
+
+TEST_CASE("loads over Vec1d obey the laws of forces") {
+  laws::check_force_fields<sinew::PointLoads<sinew::Vec1d>, sinew::Vec1d>();
+}
