@@ -20,9 +20,12 @@ std::string typical(Variants const& variants) {
   auto const* chosen = &variants[0];
   for (auto const& v : variants)
     if (v.second.find("Vec3d") != v.second.npos) chosen = &v;
-  std::string words = chosen->first;
-  if (words.size() > 40) words = words.substr(0, words.find(' ', 30)) + " ...";
-  return words;
+  return chosen->first;
+}
+// a long list, from its beginning
+std::string shortened(std::string words) {
+  const std::size_t end = words.size() > 40 ? words.find(' ', 30) : words.npos;
+  return end == words.npos ? words : words.substr(0, end) + " ...";
 }
 
 void table_of(std::string& out, Entry const& e, bool input) {
@@ -45,7 +48,7 @@ void table_of(std::string& out, Entry const& e, bool input) {
     std::string kind = cell(typical(f.kinds));
     if (f.kinds.size() > 1) kind += " (by template)";
     out += text("| `", name, "` | ", kind, " | ", cell(f.unit), " | ");
-    if (input) out += text(cell(typical(f.defaults)), " | ");
+    if (input) out += text(cell(shortened(typical(f.defaults))), " | ");
     out += text(meaning, " |\n");
   }
 }
@@ -56,11 +59,10 @@ std::string reference_page(std::vector<Entry> const& entries) {
   std::string out =
       "# Components\n\n"
       "Written by `sinew list --markdown` from the declarations of the components; do not edit it.\n\n"
-      "Attributes are those of scene files. In C++ the same settings are members: `rest_position` is "
-      "`restPosition`. "
-      "Values are checked\nagainst their ranges when the scene is initialised. Kind and default are shown "
-      "over `Vec3d` "
-      "where they depend on the template;\n`sinew list NAME` shows them over all.\n";
+      "Attributes are those of scene files. In C++ the same settings are members: `rest_position` is\n"
+      "`restPosition`. Values are checked against their ranges when the scene is initialised. Kind and\n"
+      "default are shown over `Vec3d` where they depend on the template; `sinew list NAME` shows them over "
+      "all.\n";
   std::string_view last;
   for (auto const& e : entries) {
     auto const& c = e.first();

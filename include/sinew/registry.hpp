@@ -9,8 +9,8 @@ namespace sinew {
 
 /// Components over one DataTypes of points, of rigids, and over none.
 template <class D>
-using PointSprings = Registry<StiffSpringForceField<D>, StiffSpringForceField<D, Linked>, MeshSpringForceField<D>,
-                              RegularGridSpringForceField<D>>;
+using PointSprings = Registry<StiffSpringForceField<D>, StiffSpringForceField<D, Linked>,
+                              MeshSpringForceField<D>, RegularGridSpringForceField<D>>;
 template <class D>
 using RigidLoads = Registry<ConstantForceField<D>, LinearForceField<D>, RestShapeSpringsForceField<D>,
                             PlaneForceField<D>, UniformVelocityDampingForceField<D>>;
@@ -44,36 +44,39 @@ using SpatialMappings = Registry<PointMappings<In, Out>, BarycentricMapping<In, 
 // what scenes in single precision need
 template <class D>
 using FloatComponents =
-    Registry<MechanicalObject<D>, UniformMass<D>, DiagonalMass<D>, StiffSpringForceField<D>, MeshSpringForceField<D>,
-             TetrahedronFEMForceField<D>, HexahedronFEMForceField<D>, ConstantForceField<D>, FixedConstraint<D>>;
+    Registry<MechanicalObject<D>, UniformMass<D>, DiagonalMass<D>, StiffSpringForceField<D>,
+             MeshSpringForceField<D>, TetrahedronFEMForceField<D>, HexahedronFEMForceField<D>,
+             ConstantForceField<D>, FixedConstraint<D>>;
 template <class D>
 using FloatRigids = Registry<MechanicalObject<D>, UniformMass<D>, ConstantForceField<D>, FixedConstraint<D>>;
 
-using StandardForces =
-    Registry<SpatialComponents<Vec3d>, PointComponents<Vec1d>, PointComponents<Vec2d>, PointComponents<Vec6d>,
-             RigidComponents<Rigid2d>, RigidComponents<Rigid3d>, FloatComponents<Vec3f>, FloatRigids<Rigid3f>>;
+using StandardForces = Registry<SpatialComponents<Vec3d>, PointComponents<Vec1d>, PointComponents<Vec2d>,
+                                PointComponents<Vec6d>, RigidComponents<Rigid2d>, RigidComponents<Rigid3d>,
+                                FloatComponents<Vec3f>, FloatRigids<Rigid3f>>;
 using StandardMappings =
     Registry<SpatialMappings<Vec3d, Vec3d>, SpatialMappings<Vec3d, Vec3f>, SpatialMappings<Vec3f, Vec3f>,
              SpatialMappings<Vec3f, Vec3d>, PointMappings<Vec1d, Vec1d>, PointMappings<Vec2d, Vec2d>,
              PointMappings<Vec6d, Vec6d>, RigidMappings<Rigid3d, Vec3d, Vec3f>,
-             RigidMappings<Rigid3f, Vec3f, Vec3d>, IdentityMapping<Rigid2d, Rigid2d>, RigidMapping<Rigid2d, Vec2d>>;
+             RigidMappings<Rigid3f, Vec3f, Vec3d>, IdentityMapping<Rigid2d, Rigid2d>,
+             RigidMapping<Rigid2d, Vec2d>>;
 template <template <class> class Solver>
-using AssembledSolvers = Registry<Solver<CompressedRowSparseMatrixMat3x3d>, Solver<CompressedRowSparseMatrixd>>;
+using AssembledSolvers =
+    Registry<Solver<CompressedRowSparseMatrixMat3x3d>, Solver<CompressedRowSparseMatrixd>>;
 using StandardSolvers =
     Registry<EulerExplicitSolver, CentralDifferenceSolver, RungeKutta2Solver, RungeKutta4Solver,
              RungeKutta45Solver, EulerImplicitSolver, NewmarkImplicitSolver, VariationalSymplecticSolver,
              BDFOdeSolver, StaticSolver, CGLinearSolver<>, AssembledSolvers<CGLinearSolver>,
              CGLinearSolver<CompressedRowSparseMatrixMat3x3f>, MinResLinearSolver<>,
-             AssembledSolvers<MinResLinearSolver>, ShewchukPCGLinearSolver<>, AssembledSolvers<ShewchukPCGLinearSolver>,
-             AssembledSolvers<SparseLDLSolver>, AssembledSolvers<CholeskySolver>>;
+             AssembledSolvers<MinResLinearSolver>, ShewchukPCGLinearSolver<>,
+             AssembledSolvers<ShewchukPCGLinearSolver>, AssembledSolvers<SparseLDLSolver>,
+             AssembledSolvers<CholeskySolver>>;
 template <class D>
 using Regions = Registry<BoxROI<D>, SphereROI<D>>;
 template <class D>
 using SpatialEngines = Registry<Regions<D>, PlaneROI<D>, TransformEngine<D>>;
-using StandardEngines =
-    Registry<MeshGmshLoader, MeshOBJLoader, MeshSTLLoader, MeshVTKLoader, SphereLoader, SpatialEngines<Vec3d>,
-             SpatialEngines<Vec3f>, SpatialEngines<Rigid3d>, Regions<Vec1d>, Regions<Vec2d>, Regions<Vec6d>,
-             Regions<Rigid2d>>;
+using StandardEngines = Registry<MeshGmshLoader, MeshOBJLoader, MeshSTLLoader, MeshVTKLoader, SphereLoader,
+                                 SpatialEngines<Vec3d>, SpatialEngines<Vec3f>, SpatialEngines<Rigid3d>,
+                                 Regions<Vec1d>, Regions<Vec2d>, Regions<Vec6d>, Regions<Rigid2d>>;
 using StandardTopologies =
     Registry<TetrahedronTopology, MeshTopology, RegularGridTopology, SparseGridTopology>;
 
@@ -82,10 +85,9 @@ struct Standard : Registry<Gravity, StandardTopologies, VisualModel, StandardEng
                            StandardMappings, StandardSolvers> {};
 
 /// The same over the rarer DataTypes too: what the law suites prove.
-struct Extended
-    : Registry<Standard, SpatialComponents<Vec3f>, PointComponents<Vec1f>, PointComponents<Vec2f>,
-               PointComponents<Vec6f>, RigidComponents<Rigid2f>, RigidComponents<Rigid3f>,
-               IdentityMapping<Rigid2f, Rigid2f>, RigidMapping<Rigid2d, Vec2f>, RigidMapping<Rigid2f, Vec2f>,
-               RigidMapping<Rigid2f, Vec2d>> {};
+struct Extended : Registry<Standard, SpatialComponents<Vec3f>, PointComponents<Vec1f>, PointComponents<Vec2f>,
+                           PointComponents<Vec6f>, RigidComponents<Rigid2f>, RigidComponents<Rigid3f>,
+                           IdentityMapping<Rigid2f, Rigid2f>, RigidMapping<Rigid2d, Vec2f>,
+                           RigidMapping<Rigid2f, Vec2f>, RigidMapping<Rigid2f, Vec2d>> {};
 
 }  // namespace sinew

@@ -14,6 +14,11 @@ std::string bake(std::string const& xml, BakeOptions const& options = {}) {
   return bake_text<Standard>(parse_scene<Standard>("folder/test.scn", xml, {}), "folder/test.scn", options);
 }
 
+template <class T>
+std::string initialised(T const& value) {
+  return detail::initialiser(detail::type_code<T>(), cpp_value(value));
+}
+
 const std::string pendulum = R"(<Node name="root" dt="0.01"><EulerExplicitSolver/>
   <Node name="a"><MechanicalObject name="dofs" position="0 0 0 1 0 0"/><UniformMass/>
     <FixedConstraint indices="0"/><StiffSpringForceField spring="0 1 100 0 auto"/></Node></Node>)";
@@ -86,11 +91,11 @@ TEST_CASE("the function needs a name of its own") {
 TEST_CASE("numbers keep their bits") {
   CHECK(detail::safe_cpp("{-0, 0, 10, -0.f, 1e-0, x0, 12345678901, -123}") ==
         "{-0.0, 0, 10, -0.f, 1e-0, x0, 12345678901.0, -123}");
-  CHECK(detail::initialiser(-0.0) == "-0.0");
-  CHECK(detail::initialiser(0.1f) == "0.1f");
-  CHECK(detail::initialiser(std::optional<Eigen::Vector3d>({1, 2, 3})) == "{{1, 2, 3}}");
-  CHECK(detail::initialiser(std::optional<double>(3)) == "3");
-  CHECK(detail::initialiser(std::string("a\"\t\\\x7F")) == R"("a\"\011\\\177")");
+  CHECK(initialised(-0.0) == "-0.0");
+  CHECK(initialised(0.1f) == "0.1f");
+  CHECK(initialised(std::optional<Eigen::Vector3d>({1, 2, 3})) == "{{1, 2, 3}}");
+  CHECK(initialised(std::optional<double>(3)) == "3");
+  CHECK(initialised(std::string("a\"\t\\\x7F")) == R"("a\"\011\\\177")");
 }
 
 TEST_CASE("lines break between arguments") {

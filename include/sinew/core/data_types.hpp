@@ -5,7 +5,6 @@
 #include <sinew/core/platform.hpp>
 
 #include <Eigen/Geometry>
-#include <numbers>
 #include <string_view>
 #include <vector>
 
@@ -18,14 +17,6 @@ using Mat = Eigen::Matrix<Real, R, C>;
 /// Not over-aligned, so that a rigid position is seven scalars without a gap.
 template <class Real>
 using Quat = Eigen::Quaternion<Real, Eigen::DontAlign>;
-
-/// The rotation by Euler angles [degree] about the fixed axes x, then y, then z: SOFA's `rotation`.
-inline Eigen::Quaterniond euler_angles(Eigen::Vector3d const& degrees) {
-  const Eigen::Vector3d a = degrees * (std::numbers::pi / 180);
-  return Eigen::AngleAxisd(a[2], Eigen::Vector3d::UnitZ()) *
-         Eigen::AngleAxisd(a[1], Eigen::Vector3d::UnitY()) *
-         Eigen::AngleAxisd(a[0], Eigen::Vector3d::UnitX());
-}
 
 /// Position of a rigid body: centre [m] and unit quaternion from body to world axes. In the plane the
 /// quaternion is replaced by the angle [rad].

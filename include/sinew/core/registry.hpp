@@ -21,32 +21,34 @@ namespace detail {
 
 template <class... Cs>
 struct TypeList {};
-template <class... Lists>
-struct Concatenated;
-template <>
-struct Concatenated<> {
-  using type = TypeList<>;
-};
-template <class... A>
-struct Concatenated<TypeList<A...>> {
-  using type = TypeList<A...>;
-};
-template <class... A, class... B, class... Rest>
-struct Concatenated<TypeList<A...>, TypeList<B...>, Rest...> {
-  using type = typename Concatenated<TypeList<A..., B...>, Rest...>::type;
-};
+
+// a list in which each class stands once, and the classes that are in it, as bases
+template <class Seen, class... Cs>
+struct Collected {};
+template <class Seen, class C>
+struct Also : Seen, std::type_identity<C> {};
 template <class Entry>
+struct Item {};
+
+template <class Seen, class... Cs, class C>
+auto operator+(Collected<Seen, Cs...> all, Item<C>) {
+  if constexpr (requires { typename C::Listed; })
+    return all + Item<typename C::Listed>{};
+  else if constexpr (std::is_base_of_v<std::type_identity<C>, Seen>)
+    return all;
+  else
+    return Collected<Also<Seen, C>, Cs..., C>{};
+}
+template <class Seen, class... Cs, class... Entries>
+auto operator+(Collected<Seen, Cs...> all, Item<Registry<Entries...>>) {
+  return (all + ... + Item<Entries>{});
+}
+template <class Seen, class... Cs>
+TypeList<Cs...> list_of(Collected<Seen, Cs...>);
+struct None {};
+template <class R>
 struct Flat {
-  using type = TypeList<Entry>;
-};
-template <class... Entries>
-struct Flat<Registry<Entries...>> {
-  using type = typename Concatenated<typename Flat<Entries>::type...>::type;
-};
-template <class List>
-requires requires { typename List::Listed; }
-struct Flat<List> {
-  using type = typename Flat<typename List::Listed>::type;
+  using type = decltype(list_of(Collected<None>{} + Item<R>{}));
 };
 
 template <class... Cs, class F>

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
+#include <string_view>
 #include <vector>
 
 namespace sinew {
@@ -20,6 +21,10 @@ struct CompressedRowSparseMatrix {
   using Real = R;
   using Block = Eigen::Matrix<Real, B, B, B == 1 ? Eigen::ColMajor : Eigen::RowMajor>;
   static constexpr int blockSize = B;
+  /// By which scene files know it.
+  static constexpr std::string_view name =
+      B == 3 ? (sizeof(R) == 8 ? "CompressedRowSparseMatrixMat3x3d" : "CompressedRowSparseMatrixMat3x3f")
+             : (sizeof(R) == 8 ? "CompressedRowSparseMatrixd" : "CompressedRowSparseMatrixf");
 
   std::vector<int> rowStart{}, columns{};
   std::vector<Real> values{};               // B*B a block, and one more so that kernels may read past the end

@@ -23,129 +23,139 @@ struct BakeOptions {
 
 namespace detail {
 
-/// What C++ text needs of a field, beside its FieldInfo.
+/// What C++ text needs of the type of a field.
+struct TypeCode {
+  std::type_info const* type = nullptr;
+  bool optional = false;
+  // of a list: "Vec<double, 3>", and the array of constants that it is made from: "double values[][3]"
+  std::string element{}, array{};
+  bool copied = false;  // the constants are the elements
+};
+/// And of a field, beside its FieldInfo.
 struct FieldCode {
-  std::string member;                                            // "restPosition", "mesh.positions"
-  std::type_info const* type;                                    // of its value
-  std::string (*cpp)(void const* component);                     // an initialiser
-  std::string (*list)(void const* component, std::string name);  // a function that returns it; or null
+  std::string member;  // "restPosition", "mesh.positions"
+  TypeCode const& (*type)();
 };
 struct ClassCode {
+  std::string cppName;            // "CGLinearSolver<GraphScattered>"
   std::vector<FieldCode> fields;  // as those of ClassInfo
-  bool generates = false;         // a topology that has to be made before it is looked at
-  std::string cppName{};          // "CGLinearSolver<GraphScattered>"
+  bool generates;                 // a topology that has to be made before it is looked at
 };
 
-/// The name of a member, as the compiler spells it.
-template <auto Member>
-std::string member_name(std::string_view fieldName) {
-  std::string_view whole = __PRETTY_FUNCTION__;
-  whole = whole.substr(0, whole.find_first_of(";]"));
-  if (const std::size_t at = whole.rfind("::"); at != whole.npos)
-    if (is_identifier(whole.substr(at + 2))) return std::string(whole.substr(at + 2));
-  return camel_case(fieldName);
-}
-
 template <class T>
-std::string initialiser(T const& value) {
-  std::string cpp = cpp_value(value);
-  // an optional takes what it holds as one argument
-  if constexpr (requires { value.has_value(); })
-    if (value && cpp.starts_with('{')) cpp = text('{', cpp, '}');
-  return safe_cpp(cpp);
+TypeCode const& type_code() {
+  static const TypeCode code = [] {
+    TypeCode made{.type = &typeid(T)};
+    made.optional = requires(T value) { value.has_value(); };
+    auto number = []<class S>(std::type_identity<S>) -> std::string_view {
+      return std::is_same_v<S, bool>  ? "bool"
+             : std::is_same_v<S, int> ? "int"
+             : sizeof(S) == 8         ? "double"
+                                      : "float";
+    };
+    if constexpr (DynamicList<T>) {
+      using E = typename T::value_type;
+      if constexpr (std::is_arithmetic_v<E>) {
+        made = {made.type, false, std::string(number(std::type_identity<E>{})), "", true};
+      } else if constexpr (is_eigen<E>) {
+        constexpr int n = E::SizeAtCompileTime;
+        const std::string_view real = number(std::type_identity<typename E::Scalar>{});
+        if (E::ColsAtCompileTime == 1 && n > 1)
+          made = {
+              made.type, false, text("Vec<", real, ", ", n, '>'), text(real, " values[][", n, ']'), false};
+      } else if constexpr (requires { std::tuple_size<E>::value; } && !HasFields<E>) {
+        const std::string_view one = number(std::type_identity<typename E::value_type>{});
+        made = {made.type, false, text("std::array<", one, ", ", std::tuple_size_v<E>, '>'), "", true};
+      } else {
+        made.element = std::string(type_name<E>());
+      }
+      if (made.copied) made.array = text(made.element, " values[]");
+    }
+    return made;
+  }();
+  return code;
 }
 
-// Numbers stand in constant arrays, which compile fast however long they are.
-template <class List>
-std::string list_function(List const& list, std::string const& name) {
-  using E = typename List::value_type;
-  auto number = []<class S>(std::type_identity<S>) -> std::string_view {
-    return std::is_same_v<S, bool>  ? "bool"
-           : std::is_same_v<S, int> ? "int"
-           : sizeof(S) == 8         ? "double"
-                                    : "float";
-  };
-  const std::string all = safe_cpp(cpp_value(list));
+/// A function that returns a list. Numbers stand in constant arrays, which compile fast however long they
+/// are.
+inline std::string list_function(TypeCode const& type, std::string const& all, std::string const& name) {
   std::string lines = text("inline auto ", name, "() {\n");
   auto statement = [&](std::string const& cpp) { lines += text("  ", fit(cpp, 2, 2, 1), ";\n"); };
-  auto array = [&](std::string_view type, std::string_view extent) {
-    statement(text("static constexpr ", type, " values[]", extent, " = ", all));
-  };
-  auto copy = [&](std::string_view type) {
-    statement(text("return std::vector<", type, ">(std::begin(values), std::end(values))"));
-  };
-  if constexpr (std::is_arithmetic_v<E>) {
-    const std::string_view type = number(std::type_identity<E>{});
-    array(type, "");
-    copy(type);
-  } else if constexpr (is_eigen<E>) {
-    if constexpr (E::ColsAtCompileTime == 1 && E::SizeAtCompileTime > 1) {
-      const std::string_view real = number(std::type_identity<typename E::Scalar>{});
-      const std::string type = text("Vec<", real, ", ", int(E::SizeAtCompileTime), '>');
-      array(real, text('[', int(E::SizeAtCompileTime), ']'));
-      statement(text("std::vector<", type, "> list"));
-      statement(text("for (auto const& v : values) list.push_back(Eigen::Map<", type, " const>(v))"));
-      statement("return list");
-    } else {
-      return {};
-    }
-  } else if constexpr (requires { std::tuple_size<E>::value; } && !HasFields<E>) {
-    const std::string type = text(
-        "std::array<", number(std::type_identity<typename E::value_type>{}), ", ", std::tuple_size_v<E>, '>');
-    array(type, "");
-    copy(type);
+  const std::string vector = text("std::vector<", type.element, '>');
+  if (type.array.empty()) {
+    statement(text("return ", vector, all));
   } else {
-    statement(text("return std::vector<", type_name<E>(), '>', all));
+    statement(text("static constexpr ", type.array, " = ", all));
+    if (type.copied) {
+      statement(text("return ", vector, "(std::begin(values), std::end(values))"));
+    } else {
+      statement(text(vector, " list"));
+      statement(text("for (auto const& v : values) list.push_back(Eigen::Map<", type.element, " const>(v))"));
+      statement("return list");
+    }
   }
   return lines + "}\n";
 }
 
-template <class C, auto... Path>
-FieldCode field_code(std::string member) {
-  using T = std::decay_t<decltype((std::declval<C const&>().*....*Path))>;
-  FieldCode code{std::move(member), &typeid(T), nullptr, nullptr};
-  code.cpp = [](void const* c) { return initialiser((*static_cast<C const*>(c).*....*Path)); };
-  if constexpr (DynamicList<T>)
-    code.list = [](void const* c, std::string name) {
-      return list_function((*static_cast<C const*>(c).*....*Path), name);
-    };
-  return code;
+template <auto Member>
+std::string_view spelled_member() {
+  return __PRETTY_FUNCTION__;
+}
+/// The name of a member, from how the compiler spells a pointer to it.
+inline std::string member_name(std::string_view spelled, std::string_view fieldName) {
+  spelled = spelled.substr(0, spelled.find_first_of(";]"));
+  if (const std::size_t at = spelled.rfind("::"); at != spelled.npos)
+    if (is_identifier(spelled.substr(at + 2))) return std::string(spelled.substr(at + 2));
+  return camel_case(fieldName);
+}
+
+template <class C, class List, std::size_t... I>
+void add_field_codes(ClassCode& code, std::index_sequence<I...>) {
+  (code.fields.push_back(
+       {member_name(spelled_member<boost::hana::at_c<I>(List::get()).member>(),
+                    boost::hana::at_c<I>(List::get()).name),
+        type_code<std::decay_t<decltype(std::declval<C&>().*(boost::hana::at_c<I>(List::get()).member))>>}),
+   ...);
 }
 
 template <class C>
 ClassCode class_code() {
-  ClassCode code;
-  code.generates = requires(C c) { c.generate(""); };
-  code.cppName = HasRole<C, role::VisualModel> ? std::string(C::className) : component_name<C>();
-  // of a template whose arguments its name leaves out
-  std::string type(type_name<C>());
-  for (std::size_t at = 0; (at = type.find("sinew::", at)) != type.npos;) type.erase(at, 7);
-  if (type.starts_with(text(C::className, '<')) && code.cppName.find('<') == code.cppName.npos)
-    code.cppName = type;
-  auto add = [&]<class List, std::size_t... I>(List, std::index_sequence<I...>) {
-    [[maybe_unused]] auto one = [&]<std::size_t J>() {
-      constexpr auto fd = boost::hana::at_c<J>(List::get());
-      code.fields.push_back(field_code<C, fd.member>(member_name<fd.member>(fd.name)));
-    };
-    (one.template operator()<I>(), ...);
+  ClassCode code{HasRole<C, role::VisualModel> ? std::string(C::className) : component_name<C>(),
+                 {},
+                 requires(C c){c.generate("");
+}
+};  // namespace detail
+// of a template whose arguments its name leaves out
+std::string type(type_name<C>());
+for (std::size_t at = 0; (at = type.find("sinew::", at)) != type.npos;) type.erase(at, 7);
+if (type.starts_with(text(C::className, '<')) && code.cppName.find('<') == code.cppName.npos)
+  code.cppName = type;
+struct Inputs {
+  static constexpr auto get() { return C::fields(); }
+};
+add_field_codes<C, Inputs>(code,
+                           std::make_index_sequence<decltype(boost::hana::length(Inputs::get()))::value>{});
+if constexpr (requires { C::outputs(); }) {
+  struct Outputs {
+    static constexpr auto get() { return C::outputs(); }
   };
-  struct Inputs {
-    static constexpr auto get() { return C::fields(); }
-  };
-  add(Inputs{}, std::make_index_sequence<decltype(boost::hana::length(Inputs::get()))::value>{});
-  if constexpr (requires { C::outputs(); }) {
-    struct Outputs {
-      static constexpr auto get() { return C::outputs(); }
-    };
-    add(Outputs{}, std::make_index_sequence<decltype(boost::hana::length(Outputs::get()))::value>{});
-  }
-  if constexpr (requires(C c) { c.mesh.positions; }) {
-    code.fields.push_back(field_code<C, &C::mesh, &Mesh::positions>("mesh.positions"));
-    code.fields.push_back(field_code<C, &C::mesh, &Mesh::edges>("mesh.edges"));
-    code.fields.push_back(field_code<C, &C::mesh, &Mesh::triangles>("mesh.triangles"));
-    code.fields.push_back(field_code<C, &C::mesh, &Mesh::quads>("mesh.quads"));
-  }
-  return code;
+  add_field_codes<C, Outputs>(
+      code, std::make_index_sequence<decltype(boost::hana::length(Outputs::get()))::value>{});
+}
+if constexpr (requires(C c) { c.mesh.positions; }) {
+  code.fields.push_back({"mesh.positions", type_code<decltype(Mesh::positions)>});
+  code.fields.push_back({"mesh.edges", type_code<decltype(Mesh::edges)>});
+  code.fields.push_back({"mesh.triangles", type_code<decltype(Mesh::triangles)>});
+  code.fields.push_back({"mesh.quads", type_code<decltype(Mesh::quads)>});
+}
+return code;
+}  // namespace sinew
+
+/// The C++ of a value as FieldInfo gives it, to initialise a member with.
+inline std::string initialiser(TypeCode const& type, std::string const& cpp) {
+  // an optional takes what it holds as one argument
+  const bool wrap = type.optional && cpp.starts_with('{') && cpp != "{}";
+  return safe_cpp(wrap ? text('{', cpp, '}') : cpp);
 }
 
 /// Writes the typed scene of a runtime tree. Components whose data others take by links, and engines, become
@@ -203,6 +213,7 @@ class Baker {
   std::map<std::string, std::string> functions_{};  // of a list, by what it returns
   std::set<std::string, std::less<>> taken_{};
   std::string locals_{}, lists_{}, tree_{};
+  std::set<Entry const*> busy_{};  // components being written
   bool readsFiles_ = false;
 
   ClassInfo const& infoOf(Entry const& entry) const { return table_[std::size_t(entry.component.type())]; }
@@ -354,11 +365,13 @@ class Baker {
       if (at->topology()) places.push_back({at->topology(), "position"});
     }
     for (auto const& [place, name] : places) {
+      // the type of an interaction says where it stands
+      if (infoOf(*place).joins || busy_.count(place)) continue;
       auto const& fields = infoOf(*place).fields;
       std::optional<std::size_t> found;
       for (std::size_t f = 0; f < fields.size(); ++f)
         if (fields[f].known(name) && (!found || !fields[f].isInput)) found = f;
-      if (!found || *codeOf(*place).fields[*found].type != *codeOf(entry).fields[field].type ||
+      if (!found || *codeOf(*place).fields[*found].type().type != *codeOf(entry).fields[field].type().type ||
           fields[*found].write(place->component.address()) != value)
         continue;
       if (fields[*found].isInput)
@@ -379,7 +392,7 @@ class Baker {
     if (name.empty()) name = camel_case(infoOf(entry).name);
     name = unique(name);
     names_[&entry] = name;
-    const std::size_t brace = cpp.find('{');
+    const std::size_t brace = className(node, entry, nullptr).size();
     locals_ += text("  ", fit(text(cpp.substr(0, brace), ' ', name, cpp.substr(brace)), 2, 2, 1), ";\n");
     const std::string where = cpp_literal(text(node.path(), ": ", entry.name));
     if (infoOf(entry).role == RoleKind::engine)
@@ -396,17 +409,17 @@ class Baker {
       return text(variable(*from->node, *from->entry), '.', codeOf(*from->entry).fields[from->field].member);
     if (info.fields[field].isFile)
       return file(node, entry, info.fields[field].write(entry.component.address()));
-    const std::string cpp = code.cpp(entry.component.address());
-    if (cpp.size() < 1000 || !code.list) return cpp;
-    const std::string wanted = code.list(entry.component.address(), "");
-    if (wanted.empty()) return cpp;
+    TypeCode const& type = code.type();
+    const std::string cpp = initialiser(type, info.fields[field].cpp(entry.component.address()));
+    if (cpp.size() < 1000 || type.element.empty()) return cpp;
+    const std::string wanted = text(type.element, cpp);
     auto known = functions_.find(wanted);
     if (known == functions_.end()) {
       const std::size_t dot = code.member.find('.');
       const std::string member = code.member.substr(dot == code.member.npos ? 0 : dot + 1);
       const std::string name = unique(text(options_.name, raised(camel_case(node.name)), raised(member)));
       known = functions_.emplace(wanted, name).first;
-      lists_ += code.list(entry.component.address(), name) + '\n';
+      lists_ += list_function(type, cpp, name) + '\n';
     }
     return known->second + "()";
   }
@@ -431,6 +444,7 @@ class Baker {
   /// "UniformMass<Vec3d>{.totalMass = 2}".
   std::string component(Node& node, Entry& entry, Node const* above = nullptr) {
     ClassInfo const& info = infoOf(entry);
+    busy_.insert(&entry);
     std::string members, mesh;
     for (std::size_t f = 0; f < info.fields.size(); ++f) {
       FieldInfo const& field = info.fields[f];
@@ -440,6 +454,7 @@ class Baker {
       std::string& to = ofMesh ? mesh : members;
       to += text(to.empty() ? "" : ", ", '.', member.substr(ofMesh ? 5 : 0), " = ", value(node, entry, f));
     }
+    busy_.erase(&entry);
     if (!mesh.empty()) members = text(".mesh = {", mesh, '}', members.empty() ? "" : ", ", members);
     return text(className(node, entry, above), '{', members, '}');
   }

@@ -163,14 +163,20 @@ FieldInfo mesh_field(std::string_view name, std::string_view documentation) {
           [](void const* c) { return cpp_value(static_cast<C const*>(c)->mesh.*List); }};
 }
 
-template <class C, bool Input, std::size_t I>
+enum class FieldList { inputs, state, outputs };
+template <class C, FieldList Which>
+constexpr auto fields_of() {
+  if constexpr (Which == FieldList::inputs)
+    return C::fields();
+  else if constexpr (Which == FieldList::state)
+    return C::state();
+  else
+    return C::outputs();
+}
+
+template <class C, FieldList Which, std::size_t I>
 FieldInfo field_info() {
-  static constexpr auto list = [] {
-    if constexpr (Input)
-      return C::fields();
-    else
-      return C::outputs();
-  }();
+  static constexpr auto list = fields_of<C, Which>();
   static constexpr auto const& fd = boost::hana::at_c<I>(list);
   using T = std::decay_t<decltype(std::declval<C>().*(fd.member))>;
   return {fd.name,
@@ -181,7 +187,7 @@ FieldInfo field_info() {
           kind_of<T>(),
           write_value(C{}.*(fd.member)),
           std::is_same_v<T, DataFile>,
-          Input,
+          Which != FieldList::outputs,
           [](void* c, std::string_view words) {
             read_value(words, static_cast<C*>(c)->*(boost::hana::at_c<I>(list).member));
           },
@@ -216,12 +222,15 @@ ClassInfo class_info(int type) {
   }
   if constexpr (HasRole<C, role::VisualModel>) info.cppName = std::string(C::className);
   if constexpr (requires(C c) { c.ends.object1; }) info.joins = true;
-  [&]<std::size_t... I>(std::index_sequence<I...>) { (info.fields.push_back(field_info<C, true, I>()), ...); }
-  (std::make_index_sequence<decltype(boost::hana::length(C::fields()))::value>{});
-  if constexpr (requires { C::outputs(); }) [&]<std::size_t... I>(std::index_sequence<I...>) {
-      (info.fields.push_back(field_info<C, false, I>()), ...);
+  auto add = [&]<FieldList Which>() {
+    [&]<std::size_t... I>(std::index_sequence<I...>) {
+      (info.fields.push_back(field_info<C, Which, I>()), ...);
     }
-  (std::make_index_sequence<decltype(boost::hana::length(C::outputs()))::value>{});
+    (std::make_index_sequence<decltype(boost::hana::length(fields_of<C, Which>()))::value>{});
+  };
+  add.template operator()<FieldList::inputs>();
+  if constexpr (requires { C::state(); }) add.template operator()<FieldList::state>();
+  if constexpr (requires { C::outputs(); }) add.template operator()<FieldList::outputs>();
   if constexpr (requires(C c) { c.mesh.positions; }) {
     info.fields.push_back(mesh_field<C, &Mesh::positions, true>("position", "vertices of the surface"));
     info.fields.push_back(mesh_field<C, &Mesh::edges, true>("edges", "edges of the surface"));

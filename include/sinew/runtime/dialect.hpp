@@ -210,6 +210,8 @@ inline constexpr std::array attributesNotYet =
                                      "warmStart",
                                      "geometricStiffness",
                                      "useRestPosition",
+                                     "preconditioner",
+                                     "preconditioners",
                                      "nbMaxIterations",
                                      "solveVelocityConstraintFirst"});
 

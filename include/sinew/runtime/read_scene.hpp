@@ -376,11 +376,14 @@ class SceneReader {
             text(", from the state of '", parent->name, "' to that of '", item.place->name, "'"));
       }
       case RoleKind::linearSolver: {
-        for (std::string_view wanted : {std::string_view(given),
-                                        std::string_view("GraphScattered"),
-                                        std::string_view("CompressedRowSparseMatrixd")})
+        // blocks of three are twice as fast where all points are in space
+        const std::string_view assembled = allStatesAre(*item.place, "Vec3")
+                                               ? "CompressedRowSparseMatrixMat3x3d"
+                                               : "CompressedRowSparseMatrixd";
+        if (!given.empty()) return withTypes(item, given);
+        for (std::string_view wanted : {std::string_view("GraphScattered"), assembled})
           for (auto const* info : item.candidates)
-            if (info->dataTypes == wanted && !wanted.empty()) return info;
+            if (info->dataTypes == wanted) return info;
         return &first;
       }
       case RoleKind::mass:
@@ -422,6 +425,12 @@ class SceneReader {
       default:
         return &first;
     }
+  }
+  static bool allStatesAre(Place const& place, std::string_view kind) {
+    return (place.state.empty() || place.state.starts_with(kind) || place.ofRole(RoleKind::mapping)) &&
+           std::all_of(place.children.begin(), place.children.end(), [&](auto const& child) {
+             return allStatesAre(*child, kind);
+           });
   }
   // "Vec3d" for a state over Vec3f is taken for SOFA's default precision
   static bool sameKind(std::string_view a, std::string_view b) {

@@ -29,7 +29,7 @@ class SceneWriter {
       set(node, "time", write_value(time));
       set(node, "step", std::to_string(step));
     }
-    fill(node, root);
+    fill(node, root, 0);
     std::ostringstream bytes;
     document.save(bytes, "  ");
     return bytes.str();
@@ -42,8 +42,14 @@ class SceneWriter {
     node.append_attribute(std::string(name).c_str()) = value.c_str();
   }
 
-  void fill(pugi::xml_node& to, RuntimeNode<R> const& node) {
+  // kept: how many auxiliary vectors the solver above keeps from step to step
+  void fill(pugi::xml_node& to, RuntimeNode<R> const& node, int kept) {
     const bool mapped = node.mapping() != nullptr;
+    for (auto const& entry : node.components())
+      entry.component.template visit<role::OdeSolver>([&](auto const& ode) {
+        kept = 0;
+        if constexpr (requires { ode.history; }) kept = ode.history.derivs;
+      });
     for (auto const& entry : node.components()) {
       ClassInfo const& info = table_[std::size_t(entry.component.type())];
       if (info.role == RoleKind::engine) continue;  // what it made is in the fields of others
@@ -55,7 +61,7 @@ class SceneWriter {
       set(element, "name", entry.name);
       if (!info.dataTypes.empty()) set(element, "template", info.dataTypes);
       const AnyComponent<R> component =
-          info.role == RoleKind::state ? stateToWrite(entry.component, mapped) : entry.component;
+          info.role == RoleKind::state ? stateToWrite(entry.component, mapped, kept) : entry.component;
       for (auto const& field : info.fields) {
         if (!field.isInput) continue;
         const std::string value =
@@ -73,12 +79,12 @@ class SceneWriter {
     for (auto const& child : node.children()) {
       pugi::xml_node element = to.append_child("Node");
       set(element, "name", child->name);
-      fill(element, *child);
+      fill(element, *child, kept);
     }
   }
 
   // a mapped state is what its mapping makes of what it was given
-  static AnyComponent<R> stateToWrite(AnyComponent<R> copy, bool mapped) {
+  static AnyComponent<R> stateToWrite(AnyComponent<R> copy, bool mapped, int kept) {
     copy.template visit<role::State>([&](auto& state) {
       if (mapped) {
         auto given = state.given.value_or(state.position);
@@ -88,6 +94,11 @@ class SceneWriter {
         if (state.resetPosition == state.position) state.resetPosition.clear();
         if (state.resetVelocity == state.velocity) state.resetVelocity.clear();
         if (state.restPosition == state.position) state.restPosition.clear();
+        state.history.clear();
+        for (int k = 0; k < kept && k < int(state.auxiliaryDerivs.size()); ++k) {
+          auto const& vector = state.auxiliaryDerivs[std::size_t(k)];
+          state.history.insert(state.history.end(), vector.begin(), vector.end());
+        }
       }
     });
     return copy;

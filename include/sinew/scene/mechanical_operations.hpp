@@ -180,13 +180,16 @@ struct MechanicalOperations {
 
   // the assembled system
 
-  /// Numbers the degrees of freedom of the independent states, and fixes the pattern of `matrix`.
+  /// Numbers the degrees of freedom of the independent states, each from a block of `matrix` on, and fixes
+  /// its pattern.
   template <class Matrix>
   void initMatrix(Matrix& matrix) {
+    constexpr int block = Matrix::blockSize;
     int dofs = 0;
     forEachIndependent([&](auto& s) {
       s.dofOffset = dofs;
       dofs += int(s.size()) * DataTypesOf<decltype(s)>::size;
+      dofs = (dofs + block - 1) / block * block;
     });
     matrix.startPattern(dofs);
     assemblePhase<AssemblyPhase::pattern>(matrix, {});
@@ -204,6 +207,11 @@ struct MechanicalOperations {
                const DirectDofs<std::decay_t<decltype(c)>::DataTypes::size> dofs{stateOf(c, scope).dofOffset};
                c.projectMatrix(make_sink<AssemblyPhase::add>(matrix, dofs, dofs));
              }));
+    // what fills up the last block of a state is nobody's
+    forEachIndependent([&](auto& s) {
+      const int end = s.dofOffset + int(s.size()) * DataTypesOf<decltype(s)>::size;
+      for (int dof = end; dof % Matrix::blockSize != 0; ++dof) matrix.fix(dof);
+    });
   }
   /// Copies between state vectors and one vector of all independent degrees of freedom.
   template <class Vector>

@@ -146,7 +146,7 @@ class Simulation {
   }
 
   template <class S>
-  static void initSolvers(S const& scope) {
+  static void initSolvers(S const& scope, bool again) {
     auto visit = on<role::OdeSolver>([&](auto& ode) {
       using Ode = std::decay_t<decltype(ode)>;
       scope.located(ode, [&] {
@@ -158,10 +158,14 @@ class Simulation {
           });
         else
           operations.reserve(Ode::auxiliary);
+        if constexpr (requires { ode.init(operations); }) ode.init(operations);
+        // what a solver remembers of the last step is not that of a scene that has changed
+        if constexpr (requires { ode.lastEnd; })
+          if (again) ode.lastEnd = -1;
       });
     });
     scope.forEachComponent(visit);
-    scope.forEachChild([](auto const& child) { initSolvers(child); });
+    scope.forEachChild([&](auto const& child) { initSolvers(child, again); });
   }
 
   // each ODE solver integrates its subtree and propagates; where there is none, the children are looked at
@@ -287,7 +291,7 @@ void Simulation<Root>::initScene(RootScope const& scope, bool again) {
   traverse(scope,
            on<AnyRole>([again](auto& c, auto const& s) { s.ifNew(c, again, [&] { initComponent(c, s); }); }));
   scope.raise();
-  initSolvers(scope);
+  initSolvers(scope, again);
   scope.raise();
   scope.settled();
 }

@@ -14,6 +14,7 @@ template <class Matrix = GraphScattered>
 struct CGLinearSolver {
   using Role = role::LinearSolver;
   static constexpr std::string_view className = "CGLinearSolver";
+  static constexpr std::string_view templateName = Matrix::name;
   static constexpr std::string_view aliases = "CGSolver ConjugateGradient";
   static constexpr bool matrixFree = std::is_same_v<Matrix, GraphScattered>;
   static constexpr Auxiliary auxiliary{.derivs = matrixFree ? 3 : 0};

@@ -14,6 +14,7 @@ template <class Matrix = CompressedRowSparseMatrixd>
 struct CholeskySolver {
   using Role = role::LinearSolver;
   static constexpr std::string_view className = "CholeskySolver";
+  static constexpr std::string_view templateName = Matrix::name;
   static constexpr Auxiliary auxiliary{};
 
   static constexpr auto fields() { return field_list(); }

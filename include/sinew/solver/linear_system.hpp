@@ -11,7 +11,9 @@
 namespace sinew {
 
 /// The matrix of a solver that never forms it: products go through the scene graph.
-struct GraphScattered {};
+struct GraphScattered {
+  static constexpr std::string_view name = "GraphScattered";
+};
 
 /// Number of scalar unknowns of the independent states; an assembled matrix may be padded to whole blocks
 /// behind them.

@@ -16,6 +16,7 @@ template <class Matrix = GraphScattered>
 struct ShewchukPCGLinearSolver {
   using Role = role::LinearSolver;
   static constexpr std::string_view className = "ShewchukPCGLinearSolver";
+  static constexpr std::string_view templateName = Matrix::name;
   static constexpr std::string_view aliases = "PCGLinearSolver";
   static constexpr bool matrixFree = std::is_same_v<Matrix, GraphScattered>;
   static constexpr Auxiliary auxiliary{.derivs = matrixFree ? 3 : 0};

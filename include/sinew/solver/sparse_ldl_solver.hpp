@@ -17,6 +17,7 @@ template <class Matrix = CompressedRowSparseMatrixMat3x3d>
 struct SparseLDLSolver {
   using Role = role::LinearSolver;
   static constexpr std::string_view className = "SparseLDLSolver";
+  static constexpr std::string_view templateName = Matrix::name;
   // matrices of Sinew are symmetric, so that what is solved by L L' or L U elsewhere is solved by L D L' here
   static constexpr std::string_view aliases =
       "EigenSimplicialLDLT EigenSimplicialLLT AsyncSparseLDLSolver SparseCholeskySolver SparseLUSolver "

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/core/component.hpp>
+#include <sinew/core/euler.hpp>
 #include <sinew/state/vector_operations.hpp>
 
 #include <optional>
@@ -29,6 +30,9 @@ struct MechanicalObject {
   // moves the positions given, at init: scaled first, then turned by Euler angles about x, y, z, then shifted
   Eigen::Vector3d translation{0, 0, 0}, rotation{0, 0, 0}, scale3d{1, 1, 1};
 
+  // of a checkpoint: what solvers keep from step to step, one auxiliary vector after the other
+  VecDeriv history{};
+
   static constexpr auto fields() {
     using M = MechanicalObject;
     return field_list(
@@ -46,7 +50,8 @@ struct MechanicalObject {
         field("translation", &M::translation, "m", "moves all positions at the start"),
         field(
             "rotation", &M::rotation, "degree", "turns all positions at the start, about x, then y, then z"),
-        field("scale3d", &M::scale3d, "", "stretches all positions at the start").also("scale"));
+        field("scale3d", &M::scale3d, "", "stretches all positions at the start").also("scale"),
+        field("history", &M::history, "", "what solvers keep from step to step, in a checkpoint"));
   }
 
   // after init
@@ -69,7 +74,7 @@ struct MechanicalObject {
     const Eigen::Vector3d none = Eigen::Vector3d::Zero(), whole = Eigen::Vector3d::Ones();
     if (translation == none && rotation == none && scale3d == whole) return;
     if constexpr (D::spatial == 3) {
-      const Eigen::Quaterniond turn = euler_angles(rotation);
+      const Eigen::Quaterniond turn = rotation_of_degrees(rotation);
       for (VecCoord* all : {&position, &restPosition})
         for (auto& x : *all) {
           const Eigen::Vector3d p =
@@ -141,7 +146,12 @@ struct MechanicalObject {
 
   void reserve(Auxiliary needed) {
     while (auxiliaryCoords.size() < std::size_t(needed.coords)) auxiliaryCoords.push_back(position);
-    while (auxiliaryDerivs.size() < std::size_t(needed.derivs)) auxiliaryDerivs.push_back(dx);
+    while (auxiliaryDerivs.size() < std::size_t(needed.derivs)) {
+      const std::size_t n = position.size(), first = auxiliaryDerivs.size() * n;
+      auxiliaryDerivs.emplace_back(n, D::Deriv::Zero());
+      if (first + n <= history.size())
+        std::copy_n(history.begin() + std::ptrdiff_t(first), n, auxiliaryDerivs.back().begin());
+    }
   }
 
   void reset() {
