@@ -28,6 +28,8 @@ struct ConstraintSuite {
 
   void run() {
     INFO(component_name<C>());
+    // points that have one coordinate are on every line
+    if constexpr (D::size == 1 && requires(C c) { c.along; }) return;
     sample::for_each_variant<C>(random, [&](C c) {
       check_fields(c, "sample");
       c.init(InitContext<D>{"sample", rest, body.topology()});
