@@ -41,18 +41,21 @@ using PointMappings = Registry<IdentityMapping<In, Out>, SubsetMapping<In, Out>>
 template <class In, class Out>
 using SpatialMappings = Registry<PointMappings<In, Out>, BarycentricMapping<In, Out>>;
 
-// what scenes in single precision need
+// what scenes over the rarer DataTypes, and in single precision, need
 template <class D>
-using FloatComponents =
-    Registry<MechanicalObject<D>, UniformMass<D>, DiagonalMass<D>, StiffSpringForceField<D>,
-             MeshSpringForceField<D>, TetrahedronFEMForceField<D>, HexahedronFEMForceField<D>,
-             ConstantForceField<D>, FixedConstraint<D>>;
+using CoreRigids =
+    Registry<MechanicalObject<D>, UniformMass<D>, ConstantForceField<D>, RestShapeSpringsForceField<D>,
+             UniformVelocityDampingForceField<D>, FixedConstraint<D>, PartialFixedConstraint<D>>;
 template <class D>
-using FloatRigids = Registry<MechanicalObject<D>, UniformMass<D>, ConstantForceField<D>, FixedConstraint<D>>;
+using CorePoints =
+    Registry<CoreRigids<D>, DiagonalMass<D>, StiffSpringForceField<D>, StiffSpringForceField<D, Linked>>;
+template <class D>
+using CoreBodies =
+    Registry<CorePoints<D>, MeshSpringForceField<D>, TetrahedronFEMForceField<D>, HexahedronFEMForceField<D>>;
 
-using StandardForces = Registry<SpatialComponents<Vec3d>, PointComponents<Vec1d>, PointComponents<Vec2d>,
-                                PointComponents<Vec6d>, RigidComponents<Rigid2d>, RigidComponents<Rigid3d>,
-                                FloatComponents<Vec3f>, FloatRigids<Rigid3f>>;
+using StandardForces =
+    Registry<SpatialComponents<Vec3d>, RigidComponents<Rigid3d>, CorePoints<Vec1d>, CorePoints<Vec2d>,
+             CorePoints<Vec6d>, CoreRigids<Rigid2d>, CoreBodies<Vec3f>, CoreRigids<Rigid3f>>;
 using StandardMappings =
     Registry<SpatialMappings<Vec3d, Vec3d>, SpatialMappings<Vec3d, Vec3f>, SpatialMappings<Vec3f, Vec3f>,
              SpatialMappings<Vec3f, Vec3d>, PointMappings<Vec1d, Vec1d>, PointMappings<Vec2d, Vec2d>,

@@ -21,7 +21,7 @@ std::string initialised(T const& value) {
 
 const std::string pendulum = R"(<Node name="root" dt="0.01"><EulerExplicitSolver/>
   <Node name="a"><MechanicalObject name="dofs" position="0 0 0 1 0 0"/><UniformMass/>
-    <FixedConstraint indices="0"/><StiffSpringForceField spring="0 1 100 0 auto"/></Node></Node>)";
+    <FixedConstraint indices="1"/><StiffSpringForceField spring="0 1 100 0 auto"/></Node></Node>)";
 
 }  // namespace
 
@@ -50,7 +50,7 @@ inline auto scene() {
       node<"a">(
           MechanicalObject<Vec3d>{.position = {{0, 0, 0}, {1, 0, 0}}},
           UniformMass<Vec3d>{},
-          FixedConstraint<Vec3d>{.indices = {0}},
+          FixedConstraint<Vec3d>{.indices = {1}},
           StiffSpringForceField<Vec3d>{
               .springs = {{.first = 0, .second = 1, .stiffness = 100, .damping = 0}}}))};
 }

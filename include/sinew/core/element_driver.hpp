@@ -141,26 +141,28 @@ struct ElementDriver {
       else
         addToSlots(law, sink.matrix, k, b);
     } else if constexpr (Sink::phase != AssemblyPhase::bind) {
-      constexpr std::array<int, arity> side = [] {
-        if constexpr (sizeof...(SideOf) == arity)
-          return std::array<int, arity>{SideOf...};
-        else
-          return std::array<int, arity>{};
-      }();
-      for (Pack const& pack : packs)
-        forEachPair([&]<int I, int J>() {
-          Mat<L, D::size> block;
+      auto addPair = [&]<int SideI, int SideJ>(Pack const& pack, int i, int j) {
+        Mat<L, D::size> block;
+        if constexpr (Sink::phase == AssemblyPhase::add)
+          block = law.block(pack.rest, pack.tangent, i, j, L(k), L(b));
+        for (int l = 0; l < pack.active; ++l) {
+          Mat<Real, D::size> one = Mat<Real, D::size>::Zero();
           if constexpr (Sink::phase == AssemblyPhase::add)
-            block = law.block(pack.rest, pack.tangent, I, J, L(k), L(b));
-          for (int l = 0; l < pack.active; ++l) {
-            Mat<Real, D::size> one = Mat<Real, D::size>::Zero();
-            if constexpr (Sink::phase == AssemblyPhase::add)
-              for (int c = 0; c < D::size * D::size; ++c) one(c) = lane(block(c), l);
-            sink.template add<side[I], side[J]>(pack.index[I][l], pack.index[J][l], one);
-            if constexpr (I != J)
-              sink.template add<side[J], side[I]>(pack.index[J][l], pack.index[I][l], one.transpose().eval());
-          }
-        });
+            for (int c = 0; c < D::size * D::size; ++c) one(c) = lane(block(c), l);
+          sink.template add<SideI, SideJ>(pack.index[i][l], pack.index[j][l], one);
+          if (i != j)
+            sink.template add<SideJ, SideI>(pack.index[j][l], pack.index[i][l], one.transpose().eval());
+        }
+      };
+      for (Pack const& pack : packs) {
+        if constexpr (within) {
+          for (int i = 0; i < arity; ++i)
+            for (int j = i; j < arity; ++j) addPair.template operator()<0, 0>(pack, i, j);
+        } else {
+          constexpr std::array<int, arity> side{SideOf...};
+          forEachPair([&]<int I, int J>() { addPair.template operator()<side[I], side[J]>(pack, I, J); });
+        }
+      }
     }
   }
 

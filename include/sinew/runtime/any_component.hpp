@@ -31,16 +31,46 @@ constexpr auto all_component_operations(TypeList<Cs...>) {
   return std::array{component_operations<Cs>()...};
 }
 
-// the functions of F for the classes with one of the roles; null for the others
-template <class F, class... Roles, class... Cs>
-constexpr auto role_table(TypeList<Cs...>) {
-  using Function = void (*)(void*, F&);
-  return std::array<Function, sizeof...(Cs)>{[]() -> Function {
-    if constexpr (has_any_role<Cs, Roles...>)
-      return [](void* c, F& f) { f(*static_cast<Cs*>(c)); };
-    else
-      return nullptr;
-  }()...};
+// the classes of a list with one of the roles
+template <class... Found, class C, class... Roles>
+auto add_if_role(TypeList<Found...>, Item<C>, TypeList<Roles...>) {
+  if constexpr (has_any_role<C, Roles...>)
+    return TypeList<Found..., C>{};
+  else
+    return TypeList<Found...>{};
+}
+template <class Found, class Roles>
+struct Filtered {};
+template <class Found, class Roles, class C>
+auto operator+(Filtered<Found, Roles>, Item<C> item) {
+  return Filtered<decltype(add_if_role(Found{}, item, Roles{})), Roles>{};
+}
+template <class Found, class Roles>
+Found found_in(Filtered<Found, Roles>);
+
+/// The classes of a list with one of the roles, and the place of each class of the list among them (-1:
+/// none). Found once for each set of roles: what is visited is instantiated for these classes alone.
+template <class List, class... Roles>
+struct WithRole;
+template <class... Cs, class... Roles>
+struct WithRole<TypeList<Cs...>, Roles...> {
+  using Classes = decltype(found_in((Filtered<TypeList<>, TypeList<Roles...>>{} + ... + Item<Cs>{})));
+  static constexpr auto places = [] {
+    const bool has[] = {has_any_role<Cs, Roles...>...};
+    std::array<short, sizeof...(Cs)> all{};
+    short next = 0;
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = has[i] ? next++ : short(-1);
+    return all;
+  }();
+};
+
+template <class C, class F>
+void call_with(void* component, F& f) {
+  f(*static_cast<C*>(component));
+}
+template <class F, class... Cs>
+constexpr auto call_table(TypeList<Cs...>) {
+  return std::array<void (*)(void*, F&), sizeof...(Cs)>{&call_with<Cs, F>...};
 }
 
 }  // namespace detail
@@ -86,24 +116,21 @@ class AnyComponent {
   /// f(component), if its class has one of the roles; says whether.
   template <class... Roles, class F>
   bool visit(F&& f) const {
-    static constexpr auto table = detail::role_table<std::remove_reference_t<F>, Roles...>(List{});
-    const auto call = table[index()];
-    if (call) call(value_, f);
-    return call != nullptr;
+    using Visited = detail::WithRole<List, Roles...>;
+    static constexpr auto table = detail::call_table<std::remove_reference_t<F>>(typename Visited::Classes{});
+    const int place = Visited::places[index()];
+    if (place >= 0) table[std::size_t(place)](value_, f);
+    return place >= 0;
   }
   template <class Role>
   bool is() const {
-    return roles<Role>[index()];
+    return detail::WithRole<List, Role>::places[index()] >= 0;
   }
 
  private:
   int type_;
   void* value_;
   static constexpr auto operations = detail::all_component_operations(List{});
-  template <class Role>
-  static constexpr auto roles = []<class... Cs>(detail::TypeList<Cs...>) {
-    return std::array<bool, sizeof...(Cs)>{std::is_same_v<typename Cs::Role, Role>...};
-  }(List{});
 
   AnyComponent(int type, void* value) : type_(type), value_(value) {}
   std::size_t index() const { return std::size_t(type_); }

@@ -91,6 +91,15 @@ struct RuntimeChecker {
                     ": there is no node at '",
                     *paths[k],
                     "'; give the path from its node to that end"));
+        bool above = false;
+        for (auto* at = entry.ends[k]; at; at = at->parent()) above = above || at == &scope.node;
+        if (!above)
+          fail(text(
+              "object",
+              k + 1,
+              ": the node at '",
+              *paths[k],
+              "' is not below that of the interaction; put the interaction into a node above both ends"));
         state<typename C::DataTypes>(
             RuntimeScope<R>(*entry.ends[k]),
             text("object", k + 1),

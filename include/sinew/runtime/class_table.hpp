@@ -137,13 +137,11 @@ std::string kind_of() {
                          v.center;
                          v.orientation;
                        })
-    return sizeof(T) / sizeof(decltype(T::center[0])) > 3 ? "centre, quaternion" : "centre, angle";
-  else if constexpr (is_eigen<T>)
-    return text(int(T::SizeAtCompileTime), " numbers");
-  else if constexpr (DynamicList<T>)
-    return text("list of ", kind_of<typename T::value_type>());
-  else
-    return text(std::tuple_size_v<T>, " of ", kind_of<typename T::value_type>());
+    return requires(T v) { v.orientation.coeffs(); }
+  ? "centre, quaternion" : "centre, angle";
+  else if constexpr (is_eigen<T>) return text(int(T::SizeAtCompileTime), " numbers");
+  else if constexpr (DynamicList<T>) return text("list of ", kind_of<typename T::value_type>());
+  else return text(std::tuple_size_v<T>, " of ", kind_of<typename T::value_type>());
 }
 
 // a field of a component that holds a Mesh stands for the lists of the mesh

@@ -72,6 +72,7 @@ class SceneReader {
     Progress progress = Progress::fresh;
     std::map<std::string, std::string, std::less<>> links{};
     std::array<std::string, 2> ends{};
+    Place* home = nullptr;  // of an interaction: the node above both its ends, where it belongs
     bool failed = false;
 
     void* address() const { return component->address(); }
@@ -104,6 +105,7 @@ class SceneReader {
     }
     /// The nearest node upwards, from this one on, that has a state.
     Place const* owner() const { return !state.empty() ? this : parent ? parent->owner() : nullptr; }
+    bool above(Place const& other) const { return this == &other || (other.parent && above(*other.parent)); }
     std::string path() const { return parent ? text(parent->path(), '/', name) : text('/', name); }
   };
 
@@ -113,6 +115,7 @@ class SceneReader {
   std::vector<std::string> errors_{};
   std::set<std::string, std::less<>> ignored_{}, warnings_{};
   std::vector<std::string> files_{};
+  std::vector<Item*> moved_{};
   std::vector<std::unique_ptr<XmlElement>> made_{};  // elements that stand for what an attribute asks for
 
   void complain(std::string const& place, std::string_view what) {
@@ -129,7 +132,6 @@ class SceneReader {
     for (auto const& [path, value] : options_.set) override_(root, path, value);
     Place top{&root, nameOf(root, "root"), nullptr};
     collect(top);
-    throwErrors();
     splitVisuals(top);
     decideStates(top);
     decideClasses(top);
@@ -138,6 +140,9 @@ class SceneReader {
     });
     forEachItem(top, [&](Item& item) {
       if (item.info) resolve(item);
+    });
+    forEachItem(top, [&](Item& item) {
+      if (item.home && item.home != item.place) moved_.push_back(&item);
     });
     ReadScene<R> scene{RuntimeNode<R>(top.name)};
     readNode(top, scene);
@@ -446,6 +451,9 @@ class SceneReader {
     Place const *first = followNode(item, *a), *second = followNode(item, *b);
     if (!first || !second) return true;
     if (first == second && first == item.place->owner()) return false;
+    // forces are gathered from the leaves to the root, so that an interaction has to be above its ends
+    item.home = item.place;
+    while (!item.home->above(*first) || !item.home->above(*second)) item.home = item.home->parent;
     item.ends = {first->path(), second->path()};
     for (auto& end : item.ends) end = end.substr(std::min(end.find('/', 1), end.size()));
     for (auto& end : item.ends)
@@ -617,6 +625,7 @@ class SceneReader {
     if (item.info->role == RoleKind::engine) surroundings(item, given);
     if (item.info->role == RoleKind::state) onePoint(item, given);
     locate(item, [&] {
+      item.component->template visit<AnyRole>([&](auto const& component) { check_fields(component, ""); });
       item.component->template visit<role::Engine>([&](auto& engine) { engine.update(item.info->cppName); });
       item.component->template visit<role::Topology>([&](auto& topology) {
         if constexpr (requires { topology.generate(""); }) topology.generate(item.info->cppName);
@@ -855,6 +864,16 @@ class SceneReader {
                text("<Node>: dt is ", scene.dt, " s, but must be a finite number greater than 0"));
   }
 
+  // those written in a node that belong there, then those that belong there and are written elsewhere
+  std::vector<Item*> itemsOf(Place& place) {
+    std::vector<Item*> items;
+    for (auto& item : place.items)
+      if (!item->home || item->home == &place) items.push_back(item.get());
+    for (Item* item : moved_)
+      if (item->home == &place) items.push_back(item);
+    return items;
+  }
+
   void fill(Place& place, RuntimeNode<R>& node) {
     auto const* gravity = place.element->attribute("gravity");
     if (gravity || !place.parent) {
@@ -876,7 +895,7 @@ class SceneReader {
           !a.name.starts_with("show"))
         complain(place.element->place(a),
                  text("<Node> has no attribute '", a.name, "'", suggestion(a.name, known)));
-    for (auto& item : place.items)
+    for (Item* item : itemsOf(place))
       if (item->component && !item->failed) {
         RuntimeEntry<R> entry{
             std::move(*item->component), item->name, item->element->place(), std::move(item->links)};

@@ -298,7 +298,11 @@ void Simulation<Root>::initScene(RootScope const& scope, bool again) {
 
 template <class Root>
 void Simulation<Root>::propagate() {
-  over([](auto& o) { return o.propagate(vec_id::position, vec_id::velocity), 0; });
+  over([&](auto& o) {
+    o.projectPositionAndVelocity(time_, vec_id::position, vec_id::velocity);
+    o.propagate(vec_id::position, vec_id::velocity);
+    return 0;
+  });
   visualsAreCurrent_ = false;
 }
 

@@ -1,0 +1,6 @@
+// SPDX-License-Identifier: BSL-1.0
+#include <sinew/runtime/precompiled.hpp>
+
+namespace sinew {
+template std::string bake_text<Standard>(ReadScene<Standard>, std::string const&, BakeOptions const&);
+}  // namespace sinew
