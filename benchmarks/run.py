@@ -110,7 +110,7 @@ def main():
     parser.add_argument("--meshes", type=pathlib.Path, nargs="*", help="tetrahedral meshes (.msh); default: blocks made here")
     parser.add_argument("--yardstick", type=pathlib.Path, help="C++ source of a program to compare the liver with")
     parser.add_argument("--rounds", type=int, default=5)
-    parser.add_argument("--only", choices=["fem", "by-hand", "compile"], help="one table instead of all")
+    parser.add_argument("--only", choices=["fem", "by-hand", "runtime", "compile"], help="one table instead of all")
     parser.add_argument("--json", type=pathlib.Path, default=pathlib.Path("out/bench.json"))
     arguments = parser.parse_args()
     for mesh in arguments.meshes or []:
@@ -138,6 +138,13 @@ def main():
             print("  " + text.replace("\n", "\n  ").rstrip())
             results["by_hand"] = [
                 {"name": line.split()[0], "ratio": float(re.search(r"ratio ([\d.]+)", line)[1])} for line in text.splitlines()
+            ]
+        if arguments.only in (None, "runtime"):
+            print("\nruntime tree against typed tree of the same scene, medians of 11 rounds in turn")
+            text = output(arguments.build / "bench_runtime")
+            print("  " + text.replace("\n", "\n  ").rstrip())
+            results["runtime"] = [
+                {"name": line[:34].strip(), "ratio": float(re.search(r"ratio ([\d.]+)", line)[1])} for line in text.splitlines()
             ]
         if arguments.only in (None, "compile"):
             results["compile"] = measure.table()

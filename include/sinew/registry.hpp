@@ -77,9 +77,9 @@ template <class D>
 using Regions = Registry<BoxROI<D>, SphereROI<D>>;
 template <class D>
 using SpatialEngines = Registry<Regions<D>, PlaneROI<D>, TransformEngine<D>>;
-using StandardEngines = Registry<MeshGmshLoader, MeshOBJLoader, MeshSTLLoader, MeshVTKLoader, SphereLoader,
-                                 SpatialEngines<Vec3d>, SpatialEngines<Vec3f>, SpatialEngines<Rigid3d>,
-                                 Regions<Vec1d>, Regions<Vec2d>, Regions<Vec6d>, Regions<Rigid2d>>;
+using StandardEngines =
+    Registry<MeshGmshLoader, MeshOBJLoader, MeshSTLLoader, MeshVTKLoader, SphereLoader, SpatialEngines<Vec3d>,
+             Regions<Vec3f>, SpatialEngines<Rigid3d>, Regions<Vec2d>, Regions<Rigid2d>>;
 using StandardTopologies =
     Registry<TetrahedronTopology, MeshTopology, RegularGridTopology, SparseGridTopology>;
 
@@ -88,9 +88,11 @@ struct Standard : Registry<Gravity, StandardTopologies, VisualModel, StandardEng
                            StandardMappings, StandardSolvers> {};
 
 /// The same over the rarer DataTypes too: what the law suites prove.
-struct Extended : Registry<Standard, SpatialComponents<Vec3f>, PointComponents<Vec1f>, PointComponents<Vec2f>,
-                           PointComponents<Vec6f>, RigidComponents<Rigid2f>, RigidComponents<Rigid3f>,
-                           IdentityMapping<Rigid2f, Rigid2f>, RigidMapping<Rigid2d, Vec2f>,
-                           RigidMapping<Rigid2f, Vec2f>, RigidMapping<Rigid2f, Vec2d>> {};
+struct Extended
+    : Registry<Standard, SpatialComponents<Vec3f>, PointComponents<Vec1d>, PointComponents<Vec1f>,
+               PointComponents<Vec2d>, PointComponents<Vec2f>, PointComponents<Vec6d>, PointComponents<Vec6f>,
+               RigidComponents<Rigid2d>, RigidComponents<Rigid2f>, RigidComponents<Rigid3f>,
+               IdentityMapping<Rigid2f, Rigid2f>, RigidMapping<Rigid2d, Vec2f>, RigidMapping<Rigid2f, Vec2f>,
+               RigidMapping<Rigid2f, Vec2d>> {};
 
 }  // namespace sinew

@@ -136,31 +136,26 @@ class AnyComponent {
   std::size_t index() const { return std::size_t(type_); }
 };
 
-/// The class of states over D in a registry.
+/// The class of states over D in a registry, if it has one.
 template <class R, class D>
 struct StateOf {
-  template <class... Cs>
-  static constexpr auto find(detail::TypeList<Cs...> list) {
-    constexpr int which = [] {
-      int i = 0, found = -1;
-      (
-          [&] {
-            if constexpr (HasRole<Cs, role::State>)
-              if constexpr (std::is_same_v<typename Cs::DataTypes, D>) found = i;
-            ++i;
-          }(),
-          ...);
-      return found;
-    }();
-    static_assert(which >= 0,
-                  "Sinew: the registry has no MechanicalObject for the DataTypes of one of its components.");
-    return pick<which>(list);
+  template <class C>
+  static constexpr bool fits = [] {
+    if constexpr (HasRole<C, role::State>)
+      return std::is_same_v<typename C::DataTypes, D>;
+    else
+      return false;
+  }();
+  template <class First, class... Rest>
+  static auto pick(detail::TypeList<First, Rest...>) {
+    if constexpr (fits<First>)
+      return std::type_identity<First>{};
+    else
+      return pick(detail::TypeList<Rest...>{});
   }
-  template <int I, class... Cs>
-  static constexpr auto pick(detail::TypeList<Cs...>) {
-    return std::type_identity<std::tuple_element_t<std::size_t(I), std::tuple<Cs...>>>{};
-  }
-  using type = typename decltype(find(typename detail::Flat<R>::type{}))::type;
+  static std::type_identity<void> pick(detail::TypeList<>) { return {}; }
+  using type = typename decltype(pick(
+      typename detail::WithRole<typename detail::Flat<R>::type, role::State>::Classes{}))::type;
 };
 
 }  // namespace sinew

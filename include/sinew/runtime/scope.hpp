@@ -84,6 +84,8 @@ struct RuntimeScope {
   template <class D>
   auto& state() const {
     using S = typename StateOf<R, D>::type;
+    static_assert(!std::is_void_v<S>,
+                  "Sinew: the registry has no MechanicalObject for the DataTypes of one of its components.");
     const RuntimeScope owner = stateScope();
     return *static_cast<S*>(owner.atMount ? owner.mount().state : owner.node.state()->component.address());
   }
@@ -175,11 +177,13 @@ struct RuntimeScope {
   template <class M, class F>
   void withMapped(M const&, F&& f) const {
     auto& parent = above().template state<typename M::In>();
-    if (node.state())
-      f(state<typename M::Out>(), parent);
-    else if constexpr (std::is_same_v<typename M::Out, Vec3f>)
+    if (node.state()) {
+      if constexpr (!std::is_void_v<typename StateOf<R, typename M::Out>::type>)
+        f(state<typename M::Out>(), parent);
+    } else if constexpr (std::is_same_v<typename M::Out, Vec3f>) {
       if (node.visual())
         node.visual()->component.template visit<role::VisualModel>([&](auto& visual) { f(visual, parent); });
+    }
   }
 
   template <class D, class F>
