@@ -18,7 +18,8 @@ struct ProjectDirectionConstraint {
   using VecDeriv = typename D::VecDeriv;
   using Place = Vec<double, D::spatial>;
   static constexpr std::string_view className = "ProjectDirectionConstraint";
-  static constexpr std::string_view aliases = "ProjectDirectionProjectiveConstraint";
+  static constexpr std::string_view aliases =
+      "ProjectDirectionProjectiveConstraint DirectionProjectiveConstraint";
 
   std::vector<int> indices{0};
   Place direction = Place::Zero();

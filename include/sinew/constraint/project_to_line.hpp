@@ -17,7 +17,7 @@ struct ProjectToLineConstraint {
   using VecDeriv = typename D::VecDeriv;
   using Place = Vec<double, D::spatial>;
   static constexpr std::string_view className = "ProjectToLineConstraint";
-  static constexpr std::string_view aliases = "ProjectToLineProjectiveConstraint";
+  static constexpr std::string_view aliases = "ProjectToLineProjectiveConstraint LineProjectiveConstraint";
 
   std::vector<int> indices{0};
   Place origin = Place::Zero(), direction = Place::Zero();

@@ -17,7 +17,7 @@ struct ProjectToPlaneConstraint {
   using VecDeriv = typename D::VecDeriv;
   using Place = Vec<double, D::spatial>;
   static constexpr std::string_view className = "ProjectToPlaneConstraint";
-  static constexpr std::string_view aliases = "ProjectToPlaneProjectiveConstraint";
+  static constexpr std::string_view aliases = "ProjectToPlaneProjectiveConstraint PlaneProjectiveConstraint";
 
   std::vector<int> indices{0};
   Place origin = Place::Zero(), normal = Place::Zero();

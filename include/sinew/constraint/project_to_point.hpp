@@ -18,7 +18,7 @@ struct ProjectToPointConstraint {
   using VecDeriv = typename D::VecDeriv;
   using Place = Vec<double, D::spatial>;
   static constexpr std::string_view className = "ProjectToPointConstraint";
-  static constexpr std::string_view aliases = "ProjectToPointProjectiveConstraint";
+  static constexpr std::string_view aliases = "ProjectToPointProjectiveConstraint PointProjectiveConstraint";
 
   std::vector<int> indices{0};
   Place point = Place::Zero();

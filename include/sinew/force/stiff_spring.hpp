@@ -45,6 +45,7 @@ struct StiffSpringForceField {
   using VecCoord = typename D::VecCoord;
   using VecDeriv = typename D::VecDeriv;
   static constexpr std::string_view className = "StiffSpringForceField";
+  static constexpr std::string_view aliases = "SpringForceField";
 
   std::vector<Spring> springs{};
   [[no_unique_address]] E ends{};

@@ -216,6 +216,7 @@ struct TetrahedronFEMForceField {
   using VecCoord = typename D::VecCoord;
   using VecDeriv = typename D::VecDeriv;
   static constexpr std::string_view className = "TetrahedronFEMForceField";
+  static constexpr std::string_view aliases = "TetrahedralCorotationalFEMForceField";
   static constexpr bool needsTetrahedra = true;
 
   std::vector<double> youngModulus{5000};  // one for all tetrahedra, or one for each

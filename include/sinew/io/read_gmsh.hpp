@@ -232,7 +232,7 @@ class GmshParser {
   }
   void skip(std::string const& section) {
     for (std::string_view word = in_.word(); !ends(word, section); word = in_.word())
-      if (word.empty()) throw in_.expected(text("the end of section ", quoted(section)));
+      if (word.empty()) throw in_.expected(text("the end of section ", in_quotes(section)));
   }
 
   TextReader in_;

@@ -61,7 +61,7 @@ class ObjParser {
       const std::string_view w = word();
       if (w.empty() || !parse_number(w, c)) throw in_.expected("a coordinate");
       if (!std::isfinite(c))
-        throw in_.error(text("the coordinate ", quoted(w), " is not a finite number; correct it"));
+        throw in_.error(text("the coordinate ", in_quotes(w), " is not a finite number; correct it"));
     }
     mesh_.positions.push_back(p);
   }

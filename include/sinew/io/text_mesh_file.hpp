@@ -26,7 +26,7 @@ inline Mesh read_text_mesh(std::string const& path, std::string_view others = ""
   throw Error(
       path,
       text(ending.empty() ? "has no ending that tells its format"
-                          : text("files ending in ", quoted(ending), " are not read"),
+                          : text("files ending in ", in_quotes(ending), " are not read"),
            "; the known endings are .msh (Gmsh), .obj (Wavefront), .stl (stereolithography), .vtk (VTK)",
            others));
 }

@@ -65,7 +65,7 @@ inline std::string read_file(std::string const& path) {
 }
 
 /// `word` in quotes, fit for a message: shortened, and without unprintable bytes.
-inline std::string quoted(std::string_view word) {
+inline std::string in_quotes(std::string_view word) {
   std::string shown(word.substr(0, 40));
   for (char& c : shown)
     if (c < ' ' || c > '~') c = '?';
@@ -144,7 +144,7 @@ class TextReader {
       throw error(text("expected ",
                        what,
                        ", found ",
-                       quoted(word_),
+                       in_quotes(word_),
                        ", which is not a finite number; ",
                        "correct it, or find out why the program that wrote the file went wrong"));
     return value;
@@ -204,7 +204,7 @@ class TextReader {
     return error(text("expected ",
                       what,
                       ", found ",
-                      word_.empty() ? "the end of the line" : quoted(word_),
+                      word_.empty() ? "the end of the line" : in_quotes(word_),
                       "; correct this line"));
   }
   /// Throws Error at the first byte of the text that no text file has.

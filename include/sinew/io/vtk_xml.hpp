@@ -45,7 +45,7 @@ class VtkXml {
     const std::string_view value = node.attribute(name).value();
     std::uint64_t n = 0;
     if (!parse_number(value, n))
-      throw Error(at(node), text(name, " is ", quoted(value), "; expected a whole number"));
+      throw Error(at(node), text(name, " is ", in_quotes(value), "; expected a whole number"));
     return n;
   }
 
@@ -72,7 +72,7 @@ class VtkXml {
     if (format == "binary") return convert<T>(array, bytes(array, source, true));
     if (format != "appended")
       throw Error(at(array),
-                  text("format is ", quoted(format), R"(; expected "ascii", "binary" or "appended")"));
+                  text("format is ", in_quotes(format), R"(; expected "ascii", "binary" or "appended")"));
     const std::uint64_t offset = number(array, "offset");
     if (offset > appended_.size())
       throw Error(at(array),
@@ -114,15 +114,15 @@ class VtkXml {
                            header = root().attribute("header_type").as_string("UInt32"),
                            compressor = root().attribute("compressor").value();
     auto wrong = [&](auto const&... parts) { return Error(at(root()), text(parts...)); };
-    if (held != type) throw wrong("holds ", quoted(held), "; name a file that holds ", quoted(type));
+    if (held != type) throw wrong("holds ", in_quotes(held), "; name a file that holds ", in_quotes(type));
     if (!compressor.empty())
       throw wrong("is compressed with ",
-                  quoted(compressor),
+                  in_quotes(compressor),
                   "; save it uncompressed (ParaView: Save Data, Compressor Type: None)");
     if (order != "LittleEndian" && order != "BigEndian")
-      throw wrong("byte_order is ", quoted(order), R"(; expected "LittleEndian" or "BigEndian")");
+      throw wrong("byte_order is ", in_quotes(order), R"(; expected "LittleEndian" or "BigEndian")");
     if (header != "UInt32" && header != "UInt64")
-      throw wrong("header_type is ", quoted(header), R"(; expected "UInt32" or "UInt64")");
+      throw wrong("header_type is ", in_quotes(header), R"(; expected "UInt32" or "UInt64")");
     headerSize_ = header == "UInt64" ? 8 : 4;
     swap_ = (order == "BigEndian") != (std::endian::native == std::endian::big);
   }
@@ -206,7 +206,7 @@ class VtkXml {
     throw Error(
         at(array),
         text("type is ",
-             quoted(type),
+             in_quotes(type),
              "; expected ",
              std::is_floating_point_v<T> ? "a type such as \"Float64\"" : "a type such as \"Int32\""));
   }

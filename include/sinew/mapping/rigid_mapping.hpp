@@ -30,7 +30,8 @@ struct RigidMapping {
                             &RigidMapping::rigidIndices,
                             "",
                             "the body that carries each point; one entry for all points",
-                            range::nonNegative),
+                            range::nonNegative)
+                          .also("index"),
                       field("globalToLocalCoords",
                             &RigidMapping::globalToLocalCoords,
                             "",

@@ -136,26 +136,25 @@ class AnyComponent {
   std::size_t index() const { return std::size_t(type_); }
 };
 
-/// The class of states over D in a registry, if it has one.
+namespace detail {
+template <class D>
+std::type_identity<void> state_over(TypeList<>) {
+  return {};
+}
+template <class D, class First, class... Rest>
+auto state_over(TypeList<First, Rest...>) {
+  if constexpr (std::is_same_v<typename First::DataTypes, D>)
+    return std::type_identity<First>{};
+  else
+    return state_over<D>(TypeList<Rest...>{});
+}
+}  // namespace detail
+
+/// The class of states over D in a registry; void where it has none.
 template <class R, class D>
 struct StateOf {
-  template <class C>
-  static constexpr bool fits = [] {
-    if constexpr (HasRole<C, role::State>)
-      return std::is_same_v<typename C::DataTypes, D>;
-    else
-      return false;
-  }();
-  template <class First, class... Rest>
-  static auto pick(detail::TypeList<First, Rest...>) {
-    if constexpr (fits<First>)
-      return std::type_identity<First>{};
-    else
-      return pick(detail::TypeList<Rest...>{});
-  }
-  static std::type_identity<void> pick(detail::TypeList<>) { return {}; }
-  using type = typename decltype(pick(
-      typename detail::WithRole<typename detail::Flat<R>::type, role::State>::Classes{}))::type;
+  using States = typename detail::WithRole<typename detail::Flat<R>::type, role::State>::Classes;
+  using type = typename decltype(detail::state_over<D>(States{}))::type;
 };
 
 }  // namespace sinew

@@ -41,8 +41,8 @@ struct RuntimeEntry {
 };
 
 /// A node of a scene that is composed while the program runs: components of the classes of a registry R, and
-/// children, added and removed at will before the scene starts; afterwards through change() of
-/// runtime/change.hpp. Simulation runs it as it runs typed nodes.
+/// children, added and removed at will before the scene starts; afterwards through Simulation::change.
+/// Simulation runs it as it runs typed nodes.
 template <class R>
 class RuntimeNode {
  public:

@@ -487,10 +487,10 @@ class SceneReader {
 
   /// "@name", "@../x/y", "@/x/y", "@[-1].position", "@name.position". Throws Error where it leads nowhere.
   Target follow(Item& item, std::string_view link) {
-    Words words(link);
-    std::string_view path = words.end() ? std::string_view() : words.next();
-    if (!path.starts_with('@')) throw Error("", text(shown(link), " is no link; a link starts with @"));
-    path.remove_prefix(1);
+    std::string whole(Words(link).rest());
+    if (!whole.starts_with('@')) throw Error("", text(shown(link), " is no link; a link starts with @"));
+    std::replace(whole.begin(), whole.end(), ' ', '_');  // as in names
+    std::string_view path = std::string_view(whole).substr(1);
     Target target;
     const std::size_t slash = path.rfind('/') == path.npos ? 0 : path.rfind('/') + 1;
     if (const std::string_view last = path.substr(slash); last != "." && last != "..")

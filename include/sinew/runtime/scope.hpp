@@ -64,7 +64,7 @@ struct RuntimeScope {
     if (atMount)
       return mount().scope ? mount().gravity(mount().scope) : Eigen::Vector3d(Eigen::Vector3d::Zero());
     for (auto const& entry : node.components()) {
-      Eigen::Vector3d value;
+      Eigen::Vector3d value = Eigen::Vector3d::Zero();
       if (entry.component.template visit<role::Context>([&](auto const& c) { value = c.gravity; }))
         return value;
     }

@@ -26,7 +26,8 @@ struct CGLinearSolver {
   static constexpr auto fields() {
     using S = CGLinearSolver;
     return field_list(
-        field("iterations", &S::iterations, "", "largest number of iterations", range::atLeast(1)),
+        field("iterations", &S::iterations, "", "largest number of iterations", range::atLeast(1))
+            .also("maxIter"),
         field("tolerance",
               &S::tolerance,
               "",
@@ -36,7 +37,8 @@ struct CGLinearSolver {
               &S::threshold,
               "",
               "smallest curvature p.A p with which to go on",
-              range::nonNegative));
+              range::nonNegative)
+            .also("smallDenominatorThreshold"));
   }
 
   std::vector<double>

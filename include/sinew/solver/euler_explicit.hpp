@@ -12,7 +12,7 @@ struct EulerExplicitSolver {
   using Role = role::OdeSolver;
   static constexpr std::string_view className = "EulerExplicitSolver";
   static constexpr std::string_view aliases =
-      "EulerSolver Euler EulerExplicit ExplicitEuler ExplicitEulerSolver";
+      "EulerSolver Euler EulerExplicit ExplicitEuler ExplicitEulerSolver EulerExplicitIntegrationScheme";
   static constexpr bool implicit = false;
   static constexpr Auxiliary auxiliary{.derivs = 1};
 

@@ -19,7 +19,8 @@ namespace sinew {
 struct EulerImplicitSolver {
   using Role = role::OdeSolver;
   static constexpr std::string_view className = "EulerImplicitSolver";
-  static constexpr std::string_view aliases = "EulerImplicit ImplicitEulerSolver ImplicitEuler";
+  static constexpr std::string_view aliases =
+      "EulerImplicit ImplicitEulerSolver ImplicitEuler EulerImplicitIntegrationScheme";
   static constexpr bool implicit = true;
   static constexpr Auxiliary auxiliary{.derivs = 1};
 

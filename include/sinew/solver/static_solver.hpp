@@ -38,7 +38,7 @@ inline constexpr std::array<std::string_view, 7> enum_names(NewtonStatus) {
 struct StaticSolver {
   using Role = role::OdeSolver;
   static constexpr std::string_view className = "StaticSolver";
-  static constexpr std::string_view aliases = "StaticOdeSolver";
+  static constexpr std::string_view aliases = "StaticOdeSolver StaticEquilibriumIntegrationScheme";
   static constexpr bool implicit = true;
   static constexpr Auxiliary auxiliary{.coords = 1, .derivs = 1};
 
