@@ -197,18 +197,20 @@ TEST_CASE("attributes are set from outside") {
   auto scene = parse(spring_pair, options);
   CHECK(scene.dt == 0.5);
   CHECK(scene.root.find_node("body")->get<UniformMass<Vec3d>>()->totalMass == 6.0);
-  CHECK(scene.root.find_node("body")->get<MechanicalObject<Vec3d>>()->position[2] == Eigen::Vector3d(3, 3, 3));
+  CHECK(scene.root.find_node("body")->get<MechanicalObject<Vec3d>>()->position[2] ==
+        Eigen::Vector3d(3, 3, 3));
   auto set = [](std::string path) { return ReadSceneOptions{.set = {{std::move(path), "1"}}}; };
   CHECK_THAT(wrong(spring_pair, set("boddy/UniformMass.totalMass")), Catch::Contains("did you mean 'body'?"));
   CHECK_THAT(wrong(spring_pair, set("body")), Catch::Contains("name an attribute"));
   CHECK_THAT(wrong(spring_pair, set("body/UniformMass.totl")), Catch::Contains("has no attribute 'totl'"));
 }
 
-TEST_CASE("init says where in the file a component is wrong, all at once") {
+TEST_CASE("values out of range are wrong in the file; what init finds has its place there too, all at once") {
+  CHECK_THAT(wrong_component("<UniformMass totalMass='-1'/>"),
+             Catch::Contains("test.scn:3:3: <UniformMass>") && Catch::Contains("totalMass is -1"));
   auto scene = parse(R"(<Node>
   <MechanicalObject position="0 0 0"/>
   <FixedConstraint indices="5"/>
-  <UniformMass totalMass="-1"/>
   <ConstantForceField indices="9" forces="1 0 0"/>
 </Node>)");
   StandardSimulation sim(std::move(scene.root));
@@ -216,7 +218,8 @@ TEST_CASE("init says where in the file a component is wrong, all at once") {
     sim.init();
     FAIL("nothing was wrong");
   } catch (Error const& error) {
-    CHECK_THAT(error.what(), Catch::Contains("test.scn:4:3: ") && Catch::Contains("totalMass is -1"));
+    CHECK_THAT(error.what(), Catch::Contains("test.scn:3:3: ") && Catch::Contains("indices has 5"));
+    CHECK_THAT(error.what(), Catch::Contains("test.scn:4:3: ") && Catch::Contains("indices has 9"));
   }
 }
 

@@ -95,12 +95,12 @@ struct CompressedRowSparseMatrix {
   Real* block(int slot) { return values.data() + std::ptrdiff_t(slot) * (B * B); }
   Real const* block(int slot) const { return values.data() + std::ptrdiff_t(slot) * (B * B); }
 
-  /// A(row.., column..) += K, in dofs; K of any fixed size. What falls below the diagonal is left to
+  /// A(row.., column..) += K, in dofs; K of any size. What falls below the diagonal is left to
   /// mirror().
   template <class K>
   void add(int row, int column, K const& k) {
-    constexpr int h = K::RowsAtCompileTime, w = K::ColsAtCompileTime;
-    if constexpr (h == B && w == B)
+    const int h = int(k.rows()), w = int(k.cols());
+    if constexpr (K::RowsAtCompileTime == B && K::ColsAtCompileTime == B)
       if (row == column && row % B == 0) {
         Eigen::Map<Block>(block(diagonal[std::size_t(row / B)])) += k.template cast<Real>();
         return;

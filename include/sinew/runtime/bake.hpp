@@ -177,7 +177,6 @@ class Baker {
     checkName();
     // what does not start is no scene; it is said in the words that a run would use
     Simulation<Node>{scene_.root}.init();
-    placeInteractions(scene_.root);
     // a component may be linked to before it is known that it has to be a variable
     for (std::size_t known = variables_.size() + 1; known != variables_.size();) {
       known = variables_.size();
@@ -194,20 +193,13 @@ class Baker {
     Entry* entry;
     std::size_t field;
   };
-  struct Moved {
-    Node* from;
-    Entry* entry;
-  };
-
   ReadScene<R>& scene_;
   std::string const& path_;
   BakeOptions const& options_;
   std::vector<ClassInfo> table_;
   std::vector<ClassCode> code_{};
   std::filesystem::path folder_{};
-  std::set<Entry const*> variables_{};                 // components that are local variables
-  std::map<Node const*, std::vector<Moved>> moved_{};  // interactions, by the node that they move to
-  std::set<Entry const*> leaving_{};
+  std::set<Entry const*> variables_{};  // components that are local variables
   // of one pass
   std::map<Entry const*, std::string> names_{};
   std::map<std::string, std::string> functions_{};  // of a list, by what it returns
@@ -247,37 +239,8 @@ class Baker {
     return name;
   }
 
-  // interactions: a typed one stands above both its ends
+  // interactions
 
-  void placeInteractions(Node& node) {
-    for (auto& entry : node.components()) {
-      const auto ends = endsOf(node, entry);
-      if (!ends[0]) continue;
-      Node* above = &node;
-      for (Node* end : ends)
-        while (!isBelow(*end, *above)) above = above->parent();
-      if (above == &node) continue;
-      for (Node* at = &node; at != above; at = at->parent())
-        for (auto const& other : at->components())
-          if (infoOf(other).role == RoleKind::odeSolver)
-            throw Error(
-                entry.origin.empty() ? node.path() : entry.origin,
-                text(node.path(),
-                     ": ",
-                     entry.component.name(),
-                     " joins '",
-                     ends[0]->path(),
-                     "' and '",
-                     ends[1]->path(),
-                     "', but stands below ",
-                     at->path(),
-                     ", whose solver does not move both; no typed scene can say that; put it with a solver "
-                     "into a node above both"));
-      moved_[above].push_back({&node, &entry});
-      leaving_.insert(&entry);
-    }
-    for (auto const& child : node.children()) placeInteractions(*child);
-  }
   std::array<Node*, 2> endsOf(Node& node, Entry const& entry) const {
     std::array<Node*, 2> ends{nullptr, nullptr};
     entry.component.template visit<role::InteractionForceField>([&](auto const& joint) {
@@ -285,11 +248,6 @@ class Baker {
         ends = {node.resolve(joint.ends.object1), node.resolve(joint.ends.object2)};
     });
     return ends;
-  }
-  static bool isBelow(Node const& node, Node const& above) {
-    for (Node const* at = &node; at; at = at->parent())
-      if (at == &above) return true;
-    return false;
   }
   static std::string pathFrom(Node const& above, Node const& node) {
     std::string path;
@@ -442,7 +400,7 @@ class Baker {
   }
 
   /// "UniformMass<Vec3d>{.totalMass = 2}".
-  std::string component(Node& node, Entry& entry, Node const* above = nullptr) {
+  std::string component(Node& node, Entry& entry) {
     ClassInfo const& info = infoOf(entry);
     busy_.insert(&entry);
     std::string members, mesh;
@@ -456,22 +414,21 @@ class Baker {
     }
     busy_.erase(&entry);
     if (!mesh.empty()) members = text(".mesh = {", mesh, '}', members.empty() ? "" : ", ", members);
-    return text(className(node, entry, above), '{', members, '}');
+    return text(className(node, entry), '{', members, '}');
   }
-  std::string className(Node& node, Entry& entry, Node const* above) const {
+  std::string className(Node& node, Entry& entry) const {
     std::string name = codeOf(entry).cppName;
     const auto ends = endsOf(node, entry);
     if (!ends[0]) return name;
     constexpr std::string_view linked = ", Linked>";
     if (!name.ends_with(linked))
       throw Error(node.path(), text(name, " joins two nodes in a way that a typed scene has not; remove it"));
-    Node const& from = above ? *above : node;
     name.resize(name.size() - linked.size());
     return text(name,
                 ", Between<",
-                cpp_literal(pathFrom(from, *ends[0])),
+                cpp_literal(pathFrom(node, *ends[0])),
                 ", ",
-                cpp_literal(pathFrom(from, *ends[1])),
+                cpp_literal(pathFrom(node, *ends[1])),
                 ">>");
   }
 
@@ -481,37 +438,22 @@ class Baker {
   void writeNode(Node& node, std::size_t indent, std::size_t used, std::size_t tail) {
     if (node.name.empty() || node.name.find('/') != node.name.npos)
       throw Error(node.path(), "the name of a node of a typed scene is not empty and has no '/'; rename it");
-    struct Part {
-      std::string comment, cpp;
-    };
-    std::vector<Part> parts;
-    for (auto& entry : node.components()) {
-      if (infoOf(entry).role == RoleKind::engine || leaving_.count(&entry)) continue;
-      parts.push_back({"", variables_.count(&entry) ? variable(node, entry) : component(node, entry)});
-    }
-    for (auto const& [from, entry] : moved_[&node])
-      parts.push_back(
-          {text("moved here from ",
-                cpp_literal(from->path()),
-                ": a typed interaction stands above its ends. The order of sums may change, and with it "
-                "the last bits."),
-           component(*from, *entry, &node)});
+    std::vector<std::string> parts;
+    for (auto& entry : node.components())
+      if (infoOf(entry).role != RoleKind::engine)
+        parts.push_back(variables_.count(&entry) ? variable(node, entry) : component(node, entry));
     const std::string head = text("node<", cpp_literal(node.name), ">(");
     tree_ += head;
     std::size_t width = used + head.size() + 1 + tail;
     bool flat = node.children().empty();
-    for (auto const& part : parts) {
-      width += part.cpp.size() + 2;
-      flat = flat && part.comment.empty();
-    }
+    for (auto const& part : parts) width += part.size() + 2;
     flat = flat && width <= lineWidth + 2;
     const std::string pad = flat ? "" : text('\n', std::string(indent + 4, ' '));
     std::size_t left = parts.size() + node.children().size();
     for (std::size_t i = 0; i < parts.size(); ++i) {
       --left;
-      comment(parts[i].comment, indent + 4);
       tree_ += flat ? (i ? " " : "") : pad;
-      tree_ += flat ? parts[i].cpp : fit(parts[i].cpp, indent + 4, indent + 4, left ? 1 : tail + 1);
+      tree_ += flat ? parts[i] : fit(parts[i], indent + 4, indent + 4, left ? 1 : tail + 1);
       if (left) tree_ += ',';
     }
     for (auto const& child : node.children()) {
@@ -522,16 +464,6 @@ class Baker {
     }
     tree_ += ')';
   }
-  void comment(std::string_view words, std::size_t indent) {
-    while (!words.empty()) {
-      const std::size_t room = lineWidth - indent - 3;
-      std::size_t cut = words.size() <= room ? words.size() : words.rfind(' ', room);
-      if (cut == words.npos) cut = std::min(words.find(' '), words.size());
-      tree_ += text('\n', std::string(indent, ' '), "// ", words.substr(0, cut));
-      words.remove_prefix(std::min(cut + 1, words.size()));
-    }
-  }
-
   std::string whole() const {
     namespace fs = std::filesystem;
     const bool first = options_.name == "scene";

@@ -198,10 +198,6 @@ inline constexpr std::array attributesWithoutMeaning =
                                      "isMechanical",
                                      "useX0",
                                      "tolerance_show",
-                                     "applyRestPosition",
-                                     "mapForces",
-                                     "mapConstraints",
-                                     "mapMasses",
                                      "mapMatrices",
                                      "checkJacobian",
                                      "input_nodes",
@@ -253,7 +249,11 @@ inline constexpr std::array attributesNotYet =
                                      "solveVelocityConstraintFirst",
                                      "restScale",
                                      "externalForce",
-                                     "newtonSolver"});
+                                     "newtonSolver",
+                                     "applyRestPosition",
+                                     "mapForces",
+                                     "mapConstraints",
+                                     "mapMasses"});
 
 /// Attributes that mean nothing in one class only: they are left over in well-known scenes, or say where to
 /// write.

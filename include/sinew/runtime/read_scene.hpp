@@ -552,6 +552,13 @@ class SceneReader {
     return true;
   }
 
+  /// What a component offers under a name: a result goes before a field of the same name.
+  static FieldInfo const* offered(ClassInfo const& info, std::string_view name) {
+    for (auto const& f : info.fields)
+      if (!f.isInput && f.known(name)) return &f;
+    return info.field(name);
+  }
+
   /// The words of a field of a component, which is made for that if it is not yet.
   std::string valueOf(Target target) {
     if (!target.item) {
@@ -562,10 +569,7 @@ class SceneReader {
     Item& item = *target.item;
     if (!item.info) throw Error("", text("leads to ", item.name, ", which is wrong itself"));
     resolve(item);
-    FieldInfo const* field = item.info->field(target.data);
-    // the result of an engine goes before a field of the same name
-    for (auto const& f : item.info->fields)
-      if (!f.isInput && f.known(target.data)) field = &f;
+    FieldInfo const* const field = offered(*item.info, target.data);
     if (!field) {
       std::vector<std::string_view> names;
       for (auto const& f : item.info->fields) names.push_back(f.name);
@@ -590,7 +594,7 @@ class SceneReader {
     std::vector<Eigen::Vector3d> points;
     if (Item* topology = item.place->ofRole(RoleKind::topology)) {
       resolve(*topology);
-      if (FieldInfo const* position = topology->info->field("position"))
+      if (FieldInfo const* position = offered(*topology->info, "position"))
         read_value(position->write(topology->address()), points);
     }
     std::string words;
@@ -743,7 +747,7 @@ class SceneReader {
         } else if (dialect::has(topologyLists, field.name)) {
           from = at->ofRole(RoleKind::topology);
         }
-        if (!from || !from->info->field(data)) continue;
+        if (!from || !offered(*from->info, data)) continue;
         locate(item, [&] {
           field.read(item.address(), valueOf({from, nullptr, data}));
           item.links[std::string(field.name)] = text('@', from->name, '.', data);
