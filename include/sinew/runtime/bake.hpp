@@ -267,8 +267,9 @@ class Baker {
   // the component that a link leads to, and the name behind its dot; as read_scene follows links
   std::pair<Node*, Entry*> follow(Node& from, Entry const& entry, std::string_view link,
                                   std::string& data) const {
-    Words words(link);
-    std::string_view path = words.end() ? std::string_view() : words.next();
+    std::string whole(Words(link).rest());
+    std::replace(whole.begin(), whole.end(), ' ', '_');
+    std::string_view path = whole;
     if (!path.starts_with('@')) return {};
     path.remove_prefix(1);
     const std::size_t slash = path.rfind('/') == path.npos ? 0 : path.rfind('/') + 1;
@@ -350,7 +351,7 @@ class Baker {
     if (name.empty()) name = camel_case(infoOf(entry).name);
     name = unique(name);
     names_[&entry] = name;
-    const std::size_t brace = className(node, entry, nullptr).size();
+    const std::size_t brace = className(node, entry).size();
     locals_ += text("  ", fit(text(cpp.substr(0, brace), ' ', name, cpp.substr(brace)), 2, 2, 1), ";\n");
     const std::string where = cpp_literal(text(node.path(), ": ", entry.name));
     if (infoOf(entry).role == RoleKind::engine)

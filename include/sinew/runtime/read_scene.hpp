@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/engine/transform_engine.hpp>
 #include <sinew/force/gravity.hpp>
 #include <sinew/runtime/class_table.hpp>
 #include <sinew/runtime/dialect.hpp>
@@ -225,10 +226,30 @@ class SceneReader {
         }
         place.children.push_back(std::make_unique<Place>(Place{&child, name, &place}));
         collect(*place.children.back());
+      } else if (child.tag == "BoxConstraint") {
+        boxConstraint(place, child);
       } else if (auto item = makeItem(place, child)) {
         place.items.push_back(std::move(item));
       }
     }
+  }
+
+  // <BoxConstraint box="..."/> stands for a BoxROI and a FixedProjectiveConstraint of what is in it
+  void boxConstraint(Place& place, XmlElement& element) {
+    const std::string name = nameOf(element, "BoxConstraint") + "_roi";
+    auto make = [&](std::string_view tag) -> XmlElement& {
+      made_.push_back(std::make_unique<XmlElement>(
+          XmlElement{.tag = std::string(tag), .file = element.file, .offset = element.offset}));
+      return *made_.back();
+    };
+    XmlElement& roi = make("BoxROI");
+    XmlElement& fixed = make("FixedProjectiveConstraint");
+    roi.attributes = element.attributes;
+    roi.set("name", name);
+    fixed.attributes = {{"indices", text('@', name, ".indices"), element.offset}};
+    if (auto const* given = element.attribute("name")) fixed.attributes.push_back(*given);
+    for (XmlElement* part : {&roi, &fixed})
+      if (auto item = makeItem(place, *part)) place.items.push_back(std::move(item));
   }
 
   std::unique_ptr<Item> makeItem(Place& place, XmlElement& element) {
@@ -622,10 +643,15 @@ class SceneReader {
     if (item.progress == Progress::busy)
       throw Error("", text("leads in a circle back to '", item.name, "'; break it"));
     item.progress = Progress::busy;
+    spellOut(item);
+    locate(item, [&] { spellOutSprings(item); });
+    if (item.failed) return void(item.progress = Progress::done);
     expandFile(item);
+    const std::vector<XmlAttribute> placing = takePlacing(item);
     std::set<std::string_view> given;
     for (auto const& a : item.element->attributes) attribute(item, a, given);
     if (auto const* src = item.element->attribute("src")) source(item, *src, given);
+    place(item, placing);
     if (item.info->role == RoleKind::engine) surroundings(item, given);
     if (item.info->role == RoleKind::state) onePoint(item, given);
     locate(item, [&] {
@@ -642,6 +668,111 @@ class SceneReader {
     if (item.info->role == RoleKind::mapping) ends(item);
     item.progress = Progress::done;
   }
+  // dx="1" stands for translation="1 0 0", rx="30" for rotation="30 0 0"
+  static void spellOut(Item& item) {
+    if (item.info->role != RoleKind::visualModel && !item.info->field("translation")) return;
+    auto& attributes = item.element->attributes;
+    struct Kind {
+      char letter;
+      std::string_view name;
+    };
+    for (const Kind kind : {Kind{'d', "translation"}, Kind{'r', "rotation"}}) {
+      std::array<std::string, 3> parts{"0", "0", "0"};
+      auto whole = std::find_if(
+          attributes.begin(), attributes.end(), [&](auto const& a) { return a.name == kind.name; });
+      if (whole != attributes.end()) {
+        Words words(whole->value);
+        for (auto& part : parts)
+          if (!words.end()) part = std::string(words.next());
+      }
+      std::optional<std::size_t> offset;
+      std::erase_if(attributes, [&](XmlAttribute const& a) {
+        if (a.name.size() != 2 || a.name[0] != kind.letter || a.name[1] < 'x' || a.name[1] > 'z')
+          return false;
+        parts[std::size_t(a.name[1] - 'x')] = a.value;
+        offset = a.offset;
+        return true;
+      });
+      if (!offset) continue;
+      std::erase_if(attributes, [&](auto const& a) { return a.name == kind.name; });
+      attributes.push_back({std::string(kind.name), text(parts[0], ' ', parts[1], ' ', parts[2]), *offset});
+    }
+  }
+
+  // SOFA also takes springs as lists of their ends, and of values: one for all springs, or one each
+  static void spellOutSprings(Item& item) {
+    auto const *first = item.element->attribute("indices1"), *second = item.element->attribute("indices2");
+    if (!item.info->field("springs") || !first || !second) return;
+    std::vector<int> a, b;
+    read_value(first->value, a);
+    read_value(second->value, b);
+    if (a.size() != b.size())
+      throw Error(
+          "", text("indices1 has ", a.size(), " points and indices2 ", b.size(), "; give as many of both"));
+    struct Values {
+      std::string_view name;
+      std::vector<double> all;
+    };
+    std::array<Values, 3> values{Values{"stiffness", {100}}, Values{"damping", {5}}, Values{"lengths", {}}};
+    for (auto& kind : values)
+      if (auto const* given = item.element->attribute(kind.name)) {
+        read_value(given->value, kind.all);
+        if (kind.all.size() != 1 && kind.all.size() != a.size())
+          throw Error("", text(kind.name, " has ", kind.all.size(), " values for ", a.size(), " springs"));
+      }
+    std::string springs;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      springs += text(i ? "  " : "", a[i], ' ', b[i]);
+      for (auto const& kind : values)
+        springs += text(' ', kind.all.empty() ? "auto" : write_value(kind.all[kind.all.size() == 1 ? 0 : i]));
+    }
+    std::erase_if(item.element->attributes, [&](XmlAttribute const& given) {
+      return given.name.starts_with("indices") ||
+             std::any_of(
+                 values.begin(), values.end(), [&](auto const& kind) { return kind.name == given.name; });
+    });
+    item.element->set("springs", springs);
+  }
+
+  // a visual model is moved where its vertices come from
+  static std::vector<XmlAttribute> takePlacing(Item& item) {
+    std::vector<XmlAttribute> taken;
+    if (item.info->role != RoleKind::visualModel) return taken;
+    static constexpr std::array names =
+        std::to_array<std::string_view>({"translation", "rotation", "scale", "scale3d"});
+    std::erase_if(item.element->attributes, [&](XmlAttribute const& a) {
+      if (!dialect::has(names, a.name)) return false;
+      taken.push_back(a);
+      return true;
+    });
+    return taken;
+  }
+  void place(Item& item, std::vector<XmlAttribute> const& placing) {
+    if (placing.empty() || item.failed) return;
+    FieldInfo const& position = *item.info->field("position");
+    TransformEngine<Vec3d> engine;
+    for (auto const& a : placing) try {
+        auto words = [&](auto& to) {
+          std::string value = a.value;
+          Words again(value);
+          if (const std::string one(again.next()); again.end()) value = text(one, ' ', one, ' ', one);
+          read_value(value, to);
+        };
+        a.name == "translation" ? words(engine.translation)
+        : a.name == "rotation"  ? words(engine.rotation)
+                                : words(engine.scale);
+      } catch (Error const& error) {
+        item.failed = true;
+        complain(item.element->place(a), text('<', item.tag, ">: ", a.name, ": ", error.what()));
+      }
+    locate(item, [&] {
+      read_value(position.write(item.address()), engine.inputPosition);
+      engine.update(item.name);
+      position.read(item.address(), write_value(engine.outputPosition));
+      item.links.erase("position");
+    });
+  }
+
   template <class F>
   void locate(Item& item, F&& f) {
     if (item.failed) return;
@@ -662,7 +793,7 @@ class SceneReader {
     for (auto const& f : item.info->fields)
       if (f.isInput && f.known(a.name)) field = &f;
     if (!field) {
-      if (dialect::attribute_without_meaning(a.name)) return;
+      if (dialect::attribute_without_meaning(item.info->name, a.name)) return;
       if (dialect::has(dialect::attributesNotYet, a.name))
         return void(ignored_.insert(text(item.tag, '.', a.name)));
       std::vector<std::string_view> names;

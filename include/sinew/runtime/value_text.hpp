@@ -15,16 +15,18 @@ namespace sinew {
 /// Words of an attribute, apart by white space.
 class Words {
  public:
+  // SOFA writes matrices as [1 0 0,0 1 0,0 0 1]
+  static constexpr std::string_view blanks = " \t\r\n[],";
   explicit Words(std::string_view text) : rest_(text) { skip(); }
   bool end() const { return rest_.empty(); }
   std::string_view next() {
-    const std::size_t n = std::min(rest_.find_first_of(" \t\r\n"), rest_.size());
+    const std::size_t n = std::min(rest_.find_first_of(blanks), rest_.size());
     const std::string_view word = rest_.substr(0, n);
     rest_.remove_prefix(n);
     skip();
     return word;
   }
-  std::string_view peek() const { return rest_.substr(0, rest_.find_first_of(" \t\r\n")); }
+  std::string_view peek() const { return rest_.substr(0, rest_.find_first_of(blanks)); }
   std::string_view rest() const {
     std::string_view all = rest_;
     while (!all.empty() && std::string_view(" \t\r\n").find(all.back()) != all.npos) all.remove_suffix(1);
@@ -33,7 +35,7 @@ class Words {
 
  private:
   std::string_view rest_;
-  void skip() { rest_.remove_prefix(std::min(rest_.find_first_not_of(" \t\r\n"), rest_.size())); }
+  void skip() { rest_.remove_prefix(std::min(rest_.find_first_not_of(blanks), rest_.size())); }
 };
 
 namespace detail {
