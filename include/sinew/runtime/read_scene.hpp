@@ -145,6 +145,7 @@ class SceneReader {
     forEachItem(top, [&](Item& item) {
       if (item.home && item.home != item.place) moved_.push_back(&item);
     });
+    forEachItem(top, [&](Item& item) { warnOfLooseEnds(item); });
     ReadScene<R> scene{RuntimeNode<R>(top.name)};
     readNode(top, scene);
     fill(top, scene.root);
@@ -169,6 +170,19 @@ class SceneReader {
     for (char& c : given)
       if (c == '/' || c == ' ') c = '_';
     return given;
+  }
+
+  // an interaction is seen by the solver of its node or above
+  void warnOfLooseEnds(Item const& item) {
+    if (!item.info || !item.info->joins) return;
+    for (Place const* at = item.home ? item.home : item.place; at; at = at->parent)
+      if (at->ofRole(RoleKind::odeSolver)) return;
+    warnings_.insert(
+        text(item.element->place(),
+             ": <",
+             item.tag,
+             "> joins bodies under different solvers, which is not simulated yet: it has no effect; put "
+             "one solver above both"));
   }
 
   // --set path.attribute=value
