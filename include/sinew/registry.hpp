@@ -78,7 +78,9 @@ using Regions = Registry<BoxROI<D>, SphereROI<D>>;
 template <class D>
 using SpatialEngines = Registry<Regions<D>, PlaneROI<D>, TransformEngine<D>>;
 using StandardEngines =
-    Registry<MeshGmshLoader, MeshOBJLoader, MeshSTLLoader, MeshVTKLoader, SphereLoader, SpatialEngines<Vec3d>,
+    Registry<MeshGmshLoader, MeshOBJLoader, MeshSTLLoader, MeshVTKLoader, SphereLoader,
+             Hexa2TetraTopologicalMapping, Tetra2TriangleTopologicalMapping, Hexa2QuadTopologicalMapping,
+             Quad2TriangleTopologicalMapping, Triangle2EdgeTopologicalMapping, SpatialEngines<Vec3d>,
              Regions<Vec3f>, SpatialEngines<Rigid3d>, Regions<Vec2d>, Regions<Rigid2d>>;
 using StandardTopologies =
     Registry<TetrahedronTopology, MeshTopology, RegularGridTopology, SparseGridTopology>;

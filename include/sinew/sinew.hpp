@@ -19,6 +19,7 @@
 #include <sinew/engine/plane_roi.hpp>
 #include <sinew/engine/sphere_loader.hpp>
 #include <sinew/engine/sphere_roi.hpp>
+#include <sinew/engine/topological_mapping.hpp>
 #include <sinew/engine/transform_engine.hpp>
 #include <sinew/force/constant_force.hpp>
 #include <sinew/force/gravity.hpp>

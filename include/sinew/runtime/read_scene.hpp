@@ -136,6 +136,7 @@ class SceneReader {
     splitVisuals(top);
     decideStates(top);
     decideClasses(top);
+    forEachItem(top, [&](Item& item) { connect(item); });
     forEachItem(top, [&](Item& item) {
       if (item.info) prepare(item);
     });
@@ -496,6 +497,36 @@ class SceneReader {
     return true;
   }
 
+  // a topological mapping takes elements from its input, the topology above where none is named, and its
+  // output, or the topology of its node, takes what it makes of them
+  void connect(Item& item) {
+    if (!item.info || item.info->role != RoleKind::engine || !item.info->name.ends_with("TopologicalMapping"))
+      return;
+    auto topologyOf = [&](std::initializer_list<std::string_view> names, Place* otherwise) -> Item* {
+      for (const std::string_view name : names)
+        if (auto const* given = item.element->attribute(name)) {
+          const std::string link = isLink(given->value) ? given->value : text('@', given->value);
+          const Target target = follow(item, link);
+          Item* to = target.item ? target.item : target.place->ofRole(RoleKind::topology);
+          if (to && to->info && to->info->role == RoleKind::topology) return to;
+          throw Error("", text(name, " leads to no topology; link to one"));
+        }
+      for (Place* at = otherwise; at; at = at->parent)
+        if (Item* found = at->ofRole(RoleKind::topology)) return found;
+      throw Error("", text("there is no topology for its ", *names.begin(), "; name one"));
+    };
+    locate(item, [&] {
+      Item* const input = topologyOf({"input", "object1"}, item.place->parent);
+      Item* const output = topologyOf({"output", "object2"}, item.place);
+      if (input == output) throw Error("", "has the same topology as input and output; name two");
+      item.element->set("src", linkTo(*input));
+      for (auto const& made : item.info->fields)
+        if (!made.isInput && output->info->field(made.name) && !output->element->attribute(made.name))
+          output->element->set(made.name, text(linkTo(item), '.', made.name));
+    });
+  }
+  static std::string linkTo(Item const& item) { return text('@', item.place->path(), '/', item.name); }
+
   // links
 
   struct Target {
@@ -666,7 +697,7 @@ class SceneReader {
     for (auto const& a : item.element->attributes) attribute(item, a, given);
     if (auto const* src = item.element->attribute("src")) source(item, *src, given);
     place(item, placing);
-    if (item.info->role == RoleKind::engine) surroundings(item, given);
+    if (item.info->role == RoleKind::engine && !item.element->attribute("src")) surroundings(item, given);
     if (item.info->role == RoleKind::state) onePoint(item, given);
     locate(item, [&] {
       item.component->template visit<AnyRole>([&](auto const& component) { check_fields(component, ""); });
@@ -802,7 +833,8 @@ class SceneReader {
     static constexpr std::array own = std::to_array<std::string_view>({"name", "template", "src", "type"});
     if (dialect::has(own, a.name) && !(a.name == "type" && item.element->tag != "Object")) return;
     if (a.name == "object1" || a.name == "object2") return;
-    if (item.info->role == RoleKind::mapping && (a.name == "input" || a.name == "output")) return;
+    const bool maps = item.info->role == RoleKind::mapping || item.info->role == RoleKind::engine;
+    if (maps && (a.name == "input" || a.name == "output")) return;
     FieldInfo const* field = nullptr;
     for (auto const& f : item.info->fields)
       if (f.isInput && f.known(a.name)) field = &f;
