@@ -513,14 +513,10 @@ std::string bake_text(ReadScene<R> scene, std::string const& path, BakeOptions c
 }
 
 /// The same of a scene file, in SOFA's XML dialect, of the classes of the registry R. Throws Error.
-template <class R>
-std::string bake_scene(std::string const& path, ReadSceneOptions const& read,
+template <class R = Standard>
+std::string bake_scene(std::string const& path, ReadSceneOptions const& read = {},
                        BakeOptions const& options = {}) {
   return bake_text<R>(read_scene<R>(path, read), path, options);
-}
-inline std::string bake_scene(std::string const& path, ReadSceneOptions const& read = {},
-                              BakeOptions const& options = {}) {
-  return bake_scene<Standard>(path, read, options);
 }
 
 }  // namespace sinew

@@ -28,7 +28,7 @@ struct CholeskySolver {
   template <class Operations>
   void init(Operations& operations) {
     operations.initMatrix(matrix);
-    const int n = count_dofs(operations);
+    const int n = matrix.dofs();
     lower.setZero(n, n);
     y.setZero(n);
     x.setZero(matrix.dofs());
@@ -48,24 +48,21 @@ struct CholeskySolver {
                        "MinResLinearSolver, which "
                        "solve indefinite systems"));
     operations.gather(b, rhs.id);
-    y = b.head(y.size()).template cast<double>();
+    y = b.template cast<double>();
     substitute();
-    x.head(y.size()) = y.template cast<typename Matrix::Real>();
+    x = y.template cast<typename Matrix::Real>();
     operations.scatter(solution.id, x);
   }
 
  private:
   void unpack() {
     constexpr int B = Matrix::blockSize;
-    const int n = int(y.size());
     lower.setZero();
     for (int i = 0; i < matrix.rows(); ++i)
       for (int s = matrix.rowStart[std::size_t(i)]; s < matrix.rowStart[std::size_t(i) + 1]; ++s)
         for (int r = 0; r < B; ++r)
           for (int c = 0; c < B; ++c)
-            if (const int row = i * B + r, column = matrix.columns[std::size_t(s)] * B + c;
-                row < n && column < n)
-              lower(row, column) = double(matrix.block(s)[r * B + c]);
+            lower(i * B + r, matrix.columns[std::size_t(s)] * B + c) = double(matrix.block(s)[r * B + c]);
   }
   // column by column, in place; the first dof whose pivot is not positive, or -1
   int factorise() {

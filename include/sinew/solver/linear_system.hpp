@@ -15,29 +15,16 @@ struct GraphScattered {
   static constexpr std::string_view name = "GraphScattered";
 };
 
-/// Number of scalar unknowns of the independent states; an assembled matrix may be padded to whole blocks
-/// behind them.
-template <class Operations>
-int count_dofs(Operations& operations) {
-  int dofs = 0;
-  operations.forEachIndependent(
-      [&](auto& s) { dofs += int(s.size()) * std::decay_t<decltype(s)>::DataTypes::size; });
-  return dofs;
-}
-
 /// "point 7, component 1 of MechanicalObject<Vec3d>": what messages say of an unknown of the system.
 template <class Operations>
 std::string dof_text(Operations& operations, int dof) {
   std::string words;
-  int first = 0;
   operations.forEachIndependent([&](auto& s) {
     using S = std::decay_t<decltype(s)>;
     constexpr int size = S::DataTypes::size;
-    const int end = first + int(s.size()) * size;
-    if (dof >= first && dof < end)
-      words = text(
-          "point ", (dof - first) / size, ", component ", (dof - first) % size, " of ", component_name<S>());
-    first = end;
+    const int own = dof - s.dofOffset;
+    if (own >= 0 && own < int(s.size()) * size)
+      words = text("point ", own / size, ", component ", own % size, " of ", component_name<S>());
   });
   return words;
 }

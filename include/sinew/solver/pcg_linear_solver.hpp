@@ -64,7 +64,7 @@ struct ShewchukPCGLinearSolver {
     age = -1;
     operations.initMatrix(matrix);
     preconditioner.init(
-        matrix, usePrecond ? precondition : PreconditionerMethod::none, count_dofs(operations));
+        matrix, usePrecond ? precondition : PreconditionerMethod::none, matrix.dofs());
     for (Vector* v : {&x, &b, &r, &p, &q})
       v->setZero(matrix.dofs() + 1);  // the last stays 0: multiply reads it
   }

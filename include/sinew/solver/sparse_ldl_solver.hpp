@@ -34,7 +34,7 @@ struct SparseLDLSolver {
   template <class Operations>
   void init(Operations& operations) {
     operations.initMatrix(matrix);
-    factor.init(matrix, count_dofs(operations));
+    factor.init(matrix, matrix.dofs());
     x.setZero(matrix.dofs());
     b.setZero(matrix.dofs());
   }
