@@ -3,8 +3,8 @@
 
 namespace sinew {
 using StandardSimulation = Simulation<RuntimeNode<Standard>>;
-template void StandardSimulation::animate(double);
-template void StandardSimulation::propagate();
-template double StandardSimulation::kineticEnergy();
-template double StandardSimulation::potentialEnergy();
+template void Simulation<RuntimeNode<Standard>>::animate(double);
+template void Simulation<RuntimeNode<Standard>>::propagate();
+template double Simulation<RuntimeNode<Standard>>::kineticEnergy();
+template double Simulation<RuntimeNode<Standard>>::potentialEnergy();
 }  // namespace sinew

@@ -3,8 +3,8 @@
 
 namespace sinew {
 using StandardSimulation = Simulation<RuntimeNode<Standard>>;
-template void StandardSimulation::init();
-template void StandardSimulation::initScene(RootScope const&, bool);
-template void StandardSimulation::reset();
-template void StandardSimulation::updateVisual();
+template void Simulation<RuntimeNode<Standard>>::init();
+template void Simulation<RuntimeNode<Standard>>::initScene(RootScope const&, bool);
+template void Simulation<RuntimeNode<Standard>>::reset();
+template void Simulation<RuntimeNode<Standard>>::updateVisual();
 }  // namespace sinew

@@ -12,14 +12,14 @@ namespace sinew {
 
 using StandardSimulation = Simulation<RuntimeNode<Standard>>;
 
-extern template void StandardSimulation::init();
-extern template void StandardSimulation::initScene(RootScope const&, bool);
-extern template void StandardSimulation::animate(double);
-extern template void StandardSimulation::reset();
-extern template void StandardSimulation::propagate();
-extern template void StandardSimulation::updateVisual();
-extern template double StandardSimulation::kineticEnergy();
-extern template double StandardSimulation::potentialEnergy();
+extern template void Simulation<RuntimeNode<Standard>>::init();
+extern template void Simulation<RuntimeNode<Standard>>::initScene(RootScope const&, bool);
+extern template void Simulation<RuntimeNode<Standard>>::animate(double);
+extern template void Simulation<RuntimeNode<Standard>>::reset();
+extern template void Simulation<RuntimeNode<Standard>>::propagate();
+extern template void Simulation<RuntimeNode<Standard>>::updateVisual();
+extern template double Simulation<RuntimeNode<Standard>>::kineticEnergy();
+extern template double Simulation<RuntimeNode<Standard>>::potentialEnergy();
 
 extern template std::vector<ClassInfo> make_class_table<Standard>();
 extern template ReadScene<Standard> read_scene<Standard>(std::string const&, ReadSceneOptions const&);
