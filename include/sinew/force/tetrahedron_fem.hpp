@@ -235,7 +235,12 @@ struct TetrahedronFEMForceField {
                             "",
                             "lateral contraction over extension; 0.5 is incompressible",
                             range::open(-1, 0.5)),
-                      field("method", &F::method, "", "how the rotation of an element is found"));
+                      field("method",
+                            &F::method,
+                            "",
+                            "rotation of an element: small: none, linear elasticity; large: of a frame on two "
+                            "edges, cheap, exerts a small torque on itself; polar: the nearest, keeps angular "
+                            "momentum, and inverted elements recover; gradient: as large, on the body's axes"));
   }
 
   ForceProperties properties() const {

@@ -5,15 +5,16 @@
 
 namespace sinew {
 
-/// Each point of the child is the same point of the parent, in another precision perhaps. An empty child
-/// takes the size of its parent.
+/// Each point of the child is the same point of the parent, in another precision perhaps, or the centre of the
+/// same rigid body. An empty child takes the size of its parent.
 template <class I, class O>
 struct IdentityMapping {
   using Role = role::Mapping;
   using In = I;
   using Out = O;
-  static_assert(In::size == Out::size && In::rigid == Out::rigid,
-                "IdentityMapping joins states of the same kind");
+  static constexpr bool centers = In::rigid && !Out::rigid;
+  static_assert(centers ? In::spatial == Out::size : In::size == Out::size && In::rigid == Out::rigid,
+                "IdentityMapping joins states of the same kind, or points to the rigid bodies of their space");
   static constexpr std::string_view className = "IdentityMapping";
 
   static constexpr auto fields() { return field_list(); }
@@ -32,7 +33,9 @@ struct IdentityMapping {
 
   void apply(typename Out::VecCoord& out, typename In::VecCoord const& in) const {
     for (std::size_t i = 0; i < in.size(); ++i) {
-      if constexpr (In::rigid) {
+      if constexpr (centers) {
+        out[i] = in[i].center.template cast<typename Out::Real>();
+      } else if constexpr (In::rigid) {
         out[i].center = in[i].center.template cast<typename Out::Real>();
         if constexpr (In::spatial == 3)
           out[i].orientation.coeffs() = in[i].orientation.coeffs().template cast<typename Out::Real>();
@@ -44,14 +47,17 @@ struct IdentityMapping {
     }
   }
   void applyJ(typename Out::VecDeriv& out, typename In::VecDeriv const& in) const {
-    for (std::size_t i = 0; i < in.size(); ++i) out[i] = in[i].template cast<typename Out::Real>();
+    for (std::size_t i = 0; i < in.size(); ++i)
+      out[i] = in[i].template head<Out::size>().template cast<typename Out::Real>();
   }
   void applyJT(typename In::VecDeriv& in, typename Out::VecDeriv const& out) const {
-    for (std::size_t i = 0; i < in.size(); ++i) in[i] += out[i].template cast<typename In::Real>();
+    for (std::size_t i = 0; i < in.size(); ++i)
+      in[i].template head<Out::size>() += out[i].template cast<typename In::Real>();
   }
   template <class F>
   void forEachJacobianBlock(int point, F&& f) const {
-    f(point, Mat<typename Out::Real, Out::size>(Mat<typename Out::Real, Out::size>::Identity()));
+    using J = Mat<typename Out::Real, Out::size, In::size>;
+    f(point, J(J::Identity()));
   }
 };
 

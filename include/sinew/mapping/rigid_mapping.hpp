@@ -7,20 +7,21 @@
 
 namespace sinew {
 
-/// Points carried by rigid bodies:
+/// Points, or frames, carried by rigid bodies:
 ///   x = c + r,  r = R p      v = c' + w x r      f_c += f,  torque += r x f
-/// The positions given to the child are the p in body axes, or world positions with `globalToLocalCoords`. In
-/// the plane w x r = w (-r_y, r_x).
+/// and, for frames, orientations q o, angular velocities w, and torques that are added. The positions given
+/// to the child are the p (and o) in body axes, or those in the world with `globalToLocalCoords`. In the
+/// plane w x r = w (-r_y, r_x).
 template <class I, class O>
 struct RigidMapping {
   using Role = role::Mapping;
   using In = I;
   using Out = O;
   using Real = typename Out::Real;
-  static constexpr int N = Out::size, M = In::size;
-  static_assert(In::rigid && !Out::rigid && In::spatial == N,
-                "RigidMapping carries points by rigid bodies of their space");
-  static constexpr std::string_view className = "RigidMapping";
+  static constexpr int N = In::spatial;
+  static_assert(In::rigid && Out::spatial == N && (Out::rigid || Out::size == N),
+                "RigidMapping carries points or frames by rigid bodies of their space");
+  static constexpr std::string_view className = "RigidMapping", aliases = "RigidRigidMapping";
 
   std::vector<int> rigidIndices{0};
   bool globalToLocalCoords = false;
@@ -38,8 +39,8 @@ struct RigidMapping {
                             "the positions of the child are given in the world, not in the body"));
   }
 
-  typename Out::VecCoord local{};    // p
-  typename Out::VecCoord rotated{};  // r at the last apply
+  typename Out::VecCoord local{};      // p, and o
+  std::vector<Vec<Real, N>> rotated{};  // r at the last apply
 
   void init(InitContext<In> const& parent, InitContext<Out> const& child, typename Out::VecCoord& positions) {
     const std::string where = text(child.where, ": ", component_name<RigidMapping>());
@@ -62,16 +63,26 @@ struct RigidMapping {
     if (globalToLocalCoords)
       for (std::size_t i = 0; i < local.size(); ++i) {
         auto const& body = parent.rest[body_of(i)];
-        local[i] = rotation(body).transpose() * (positions[i] - body.center.template cast<Real>());
+        const Vec<Real, N> arm = Out::center(positions[i]) - body.center.template cast<Real>();
+        Out::setCenter(local[i], rotation(body).transpose() * arm);
+        if constexpr (Out::rigid && N == 3)
+          local[i].orientation =
+              body.orientation.conjugate().template cast<Real>() * positions[i].orientation;
+        else if constexpr (Out::rigid)
+          local[i].orientation = positions[i].orientation - Real(body.orientation);
       }
-    rotated = local;
+    rotated.resize(local.size());
   }
 
   void apply(typename Out::VecCoord& out, typename In::VecCoord const& in) {
     for (std::size_t i = 0; i < local.size(); ++i) {
       auto const& body = in[body_of(i)];
-      rotated[i] = rotation(body) * local[i];
-      out[i] = body.center.template cast<Real>() + rotated[i];
+      rotated[i] = rotation(body) * Out::center(local[i]);
+      Out::setCenter(out[i], body.center.template cast<Real>() + rotated[i]);
+      if constexpr (Out::rigid && N == 3)
+        out[i].orientation = (body.orientation.template cast<Real>() * local[i].orientation).normalized();
+      else if constexpr (Out::rigid)
+        out[i].orientation = Real(body.orientation) + local[i].orientation;
     }
   }
   void applyJ(typename Out::VecDeriv& out, typename In::VecDeriv const& in) const {
@@ -99,11 +110,10 @@ struct RigidMapping {
       return (Mat<Real, 2>() << c, -s, s, c).finished();
     }
   }
-  // (I, -[r]x)
-  Mat<Real, N, M> jacobian(std::size_t i) const {
+  // (I, -[r]x), and (0, I) below it for frames
+  Mat<Real, Out::size, In::size> jacobian(std::size_t i) const {
     Vec<Real, N> const& r = rotated[i];
-    Mat<Real, N, M> j = Mat<Real, N, M>::Zero();
-    j.template leftCols<N>().setIdentity();
+    Mat<Real, Out::size, In::size> j = Mat<Real, Out::size, In::size>::Identity();
     if constexpr (N == 3) {
       j(0, 4) = r[2], j(0, 5) = -r[1];
       j(1, 3) = -r[2], j(1, 5) = r[0];
