@@ -22,7 +22,7 @@ std::string bits_of(Sim& sim) {
   };
   sim.updateVisual();
   const NoScope above;
-  traverse(typename Sim::RootScope(sim.root(), above),
+  traverse(typename Sim::RootScope{sim.root(), above},
            on<role::State, role::VisualModel>([&](auto& s, auto const&) {
              add(s.position);
              if constexpr (requires { s.velocity; }) add(s.velocity);

@@ -53,7 +53,8 @@ struct Flat {
 
 template <class... Cs, class F>
 constexpr void for_each_type(TypeList<Cs...>, F&& f) {
-  (f.template operator()<Cs>(), ...);
+  // no fold: clang nests those 256 deep at most
+  [[maybe_unused]] const bool called[] = {(f.template operator()<Cs>(), true)..., true};
 }
 template <class... Cs>
 constexpr std::size_t count_types(TypeList<Cs...>) {
@@ -61,9 +62,10 @@ constexpr std::size_t count_types(TypeList<Cs...>) {
 }
 template <class C, class... Cs>
 constexpr int index_of_type(TypeList<Cs...>) {
-  int i = 0, found = -1;
-  ((std::is_same_v<C, Cs> && found < 0 ? void(found = i) : void(), ++i), ...);
-  return found;
+  constexpr bool same[] = {std::is_same_v<C, Cs>..., true};
+  int i = 0;
+  while (!same[i]) ++i;
+  return i < int(sizeof...(Cs)) ? i : -1;
 }
 
 }  // namespace detail

@@ -79,10 +79,16 @@ struct MechanicalOperations {
     forEachMapping([&](auto& mapping, auto& child, auto& parent) { mapping.applyJ(child[v], parent[v]); });
   }
 
-  /// f = all forces at (x, v), with those on mapped states brought to the independent ones.
+  /// f = all forces at (x, v), with those on mapped states brought to the independent ones, and the external
+  /// forces as they are.
   void computeForce(DerivId f, CoordId x, DerivId v) {
     const MechanicalParams p{.time = time, .dt = dt};
-    forEachState([&](auto& s) { vec::clear(s[f]); });
+    forEachState([&](auto& s) {
+      if (s[vec_id::externalForce].empty())
+        vec::clear(s[f]);
+      else
+        vec::eq(s[f], s[vec_id::externalForce]);
+    });
     traverse(root,
              on<role::ForceField, role::Mass, role::InteractionForceField>([&](auto& c, auto const& scope) {
                using C = std::decay_t<decltype(c)>;

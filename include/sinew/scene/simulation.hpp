@@ -168,6 +168,43 @@ class Simulation {
     scope.forEachChild([&](auto const& child) { initSolvers(child, again); });
   }
 
+  // f(interaction, a, b) with the states of the ends of each interaction that no solver sees
+  template <class S, class F>
+  static void forEachLoose(S const& scope, F&& f) {
+    if constexpr (!S::template always<role::OdeSolver>) {
+      bool solved = false;
+      auto solver = on<role::OdeSolver>([&](auto&) { solved = true; });
+      scope.forEachComponent(solver);
+      if (solved) return;
+      auto visit = on<role::InteractionForceField>([&](auto& c) {
+        using D = typename std::decay_t<decltype(c)>::DataTypes;
+        scope.withEnds(
+            c, [&](auto const& a, auto const& b) { f(c, a.template state<D>(), b.template state<D>()); });
+      });
+      scope.forEachComponent(visit);
+      scope.forEachChild([&](auto const& child) { forEachLoose(child, f); });
+    }
+  }
+  // An interaction above the solvers of its ends is for each of them a force that stays as it is at the start
+  // of the step (as in SOFA): explicit, and stable only at steps small enough for it.
+  static void initLoose(RootScope const& scope) {
+    traverse(scope, on<role::State>([](auto& s, auto const&) { s.externalForce.clear(); }));
+    forEachLoose(scope, [](auto&, auto& a, auto& b) {
+      using VecDeriv = std::decay_t<decltype(a.velocity)>;
+      for (auto* end : {&a, &b}) end->externalForce = VecDeriv(end->size(), VecDeriv::value_type::Zero());
+    });
+  }
+  void computeLoose(RootScope const& scope, double dt) const {
+    forEachLoose(scope, [](auto&, auto& a, auto& b) {
+      vec::clear(a.externalForce);
+      vec::clear(b.externalForce);
+    });
+    const MechanicalParams p{.time = time_, .dt = dt};
+    forEachLoose(scope, [&](auto& c, auto& a, auto& b) {
+      c.addForce(p, a.externalForce, b.externalForce, a.position, b.position, a.velocity, b.velocity);
+    });
+  }
+
   // each ODE solver integrates its subtree and propagates; where there is none, the children are looked at
   template <class S>
   void integrate(S const& scope, double dt) {
@@ -233,6 +270,7 @@ void Simulation<Root>::animate(double dt) {
     throw Error("Simulation::animate", text("dt is ", dt, " s, but must be a finite number greater than 0"));
   if constexpr (proved) {
     const auto scope = rootScope();
+    computeLoose(scope, dt);
     integrate(scope, dt);
     time_ += dt;
     ++step_;
@@ -293,6 +331,7 @@ void Simulation<Root>::initScene(RootScope const& scope, bool again) {
   scope.raise();
   initSolvers(scope, again);
   scope.raise();
+  initLoose(scope);
   scope.settled();
 }
 

@@ -22,7 +22,7 @@ struct MechanicalObject {
   static constexpr std::string_view className = "MechanicalObject";
 
   VecCoord position{};      // current positions [m]; those given are the initial ones
-  VecDeriv velocity{};      // current velocities [m/s]; zero when not given
+  VecDeriv velocity{};      // current velocities [m/s]; zero when not given, the last for all when fewer
   VecCoord restPosition{};  // undeformed positions [m]; the initial ones when not given
   // where reset() goes; the start when not given
   VecCoord resetPosition{};
@@ -37,7 +37,10 @@ struct MechanicalObject {
     using M = MechanicalObject;
     return field_list(
         field("position", &M::position, "m", "positions at the start"),
-        field("velocity", &M::velocity, "m/s", "velocities at the start"),
+        field("velocity",
+              &M::velocity,
+              "m/s",
+              "velocities at the start; where they are fewer than points, the others have the last"),
         field("rest_position", &M::restPosition, "m", "undeformed positions"),
         field("reset_position",
               &M::resetPosition,
@@ -57,6 +60,8 @@ struct MechanicalObject {
   // after init
   VecDeriv force{}, dx{};
   VecCoord freePosition{};
+  VecDeriv externalForce{};  // of interactions with bodies under other solvers, at the start of the step [N];
+                             // empty where there are none
   std::vector<VecCoord> auxiliaryCoords{};
   std::vector<VecDeriv> auxiliaryDerivs{};
   std::optional<VecCoord> given{};  // positions that the mapping of a mapped state was given
@@ -118,7 +123,7 @@ struct MechanicalObject {
                          n,
                          "; give one for each, or none"));
     };
-    same(velocity.size(), "velocity");
+    if (velocity.size() > n) same(velocity.size(), "velocity");
     same(restPosition.size(), "rest_position");
     same(resetPosition.size(), "reset_position");
     same(resetVelocity.size(), "reset_velocity");
@@ -135,7 +140,7 @@ struct MechanicalObject {
         if (std::abs(norm - 1) > 4 * std::numeric_limits<typename D::Real>::epsilon())
           position[i].orientation.coeffs() /= norm;
       }
-    if (velocity.empty()) velocity.assign(n, D::Deriv::Zero());
+    velocity.resize(n, velocity.empty() ? typename D::Deriv(D::Deriv::Zero()) : velocity.back());
     if (restPosition.empty()) restPosition = position;
     force.assign(n, D::Deriv::Zero());
     dx.assign(n, D::Deriv::Zero());
@@ -179,6 +184,8 @@ struct MechanicalObject {
         return force;
       case vec_id::dx.index:
         return dx;
+      case vec_id::externalForce.index:
+        return externalForce;
       default:
         return auxiliaryDerivs[std::size_t(id.index - DerivId::reserved)];
     }
