@@ -20,22 +20,35 @@ template <class D>
 using ElementForces = Registry<TetrahedronFEMForceField<D>, HexahedronFEMForceField<D>,
                                TriangleFEMForceField<D>, SurfacePressureForceField<D>>;
 template <class D>
+using HyperelasticForces =
+    Registry<TetrahedronHyperelasticityFEMForceField<D>, TetrahedronViscoelasticityFEMForceField<D>>;
+template <class D>
+using SpatialSprings =
+    Registry<TriangularBendingSprings<D>, TriangleBendingSprings<D>, QuadularBendingSprings<D>,
+             QuadBendingSprings<D>, FastTriangularBendingSprings<D>, PolynomialSpringsForceField<D>,
+             PolynomialSpringsForceField<D, Linked>>;
+template <class D>
+using SpatialRigids = Registry<AngularSpringForceField<D>, FixedRotationConstraint<D>>;
+template <class D>
 using PointConstraints =
     Registry<FixedConstraint<D>, PartialFixedConstraint<D>, FixedPlaneConstraint<D>,
              LinearMovementConstraint<D>, AffineMovementConstraint<D>, LinearVelocityConstraint<D>,
-             OscillatorConstraint<D>, ProjectToPlaneConstraint<D>, ProjectToLineConstraint<D>,
-             ProjectToPointConstraint<D>, ProjectDirectionConstraint<D>>;
+             OscillatorConstraint<D>, HermiteSplineConstraint<D>, ParabolicConstraint<D>,
+             ProjectToPlaneConstraint<D>, ProjectToLineConstraint<D>, ProjectToPointConstraint<D>,
+             ProjectDirectionConstraint<D>>;
 template <class D>
 using PointComponents = Registry<MechanicalObject<D>, UniformMass<D>, DiagonalMass<D>, MeshMatrixMass<D>,
                                  PointSprings<D>, PointLoads<D>, PointConstraints<D>>;
 template <class D>
-using SpatialComponents = Registry<PointComponents<D>, ElementForces<D>>;
+using SpatialComponents =
+    Registry<PointComponents<D>, ElementForces<D>, HyperelasticForces<D>, SpatialSprings<D>>;
 template <class D>
 using RigidComponents =
     Registry<MechanicalObject<D>, UniformMass<D>, DiagonalMass<D>, RigidLoads<D>, PointConstraints<D>>;
 template <class Rigid, class Point, class OtherPoint>
 using RigidMappings =
-    Registry<IdentityMapping<Rigid, Rigid>, RigidMapping<Rigid, Point>, RigidMapping<Rigid, OtherPoint>>;
+    Registry<IdentityMapping<Rigid, Rigid>, IdentityMapping<Rigid, Point>, RigidMapping<Rigid, Rigid>,
+             RigidMapping<Rigid, Point>, RigidMapping<Rigid, OtherPoint>>;
 template <class In, class Out>
 using PointMappings = Registry<IdentityMapping<In, Out>, SubsetMapping<In, Out>>;
 template <class In, class Out>
@@ -53,15 +66,15 @@ template <class D>
 using CoreBodies =
     Registry<CorePoints<D>, MeshSpringForceField<D>, TetrahedronFEMForceField<D>, HexahedronFEMForceField<D>>;
 
-using StandardForces =
-    Registry<SpatialComponents<Vec3d>, RigidComponents<Rigid3d>, CorePoints<Vec1d>, CorePoints<Vec2d>,
-             CorePoints<Vec6d>, CoreRigids<Rigid2d>, CoreBodies<Vec3f>, CoreRigids<Rigid3f>>;
+using StandardForces = Registry<SpatialComponents<Vec3d>, RigidComponents<Rigid3d>, SpatialRigids<Rigid3d>,
+                                CorePoints<Vec1d>, CorePoints<Vec2d>, CorePoints<Vec6d>, CoreRigids<Rigid2d>,
+                                CoreBodies<Vec3f>, CoreRigids<Rigid3f>>;
 using StandardMappings =
     Registry<SpatialMappings<Vec3d, Vec3d>, SpatialMappings<Vec3d, Vec3f>, SpatialMappings<Vec3f, Vec3f>,
              SpatialMappings<Vec3f, Vec3d>, PointMappings<Vec1d, Vec1d>, PointMappings<Vec2d, Vec2d>,
              PointMappings<Vec6d, Vec6d>, RigidMappings<Rigid3d, Vec3d, Vec3f>,
              RigidMappings<Rigid3f, Vec3f, Vec3d>, IdentityMapping<Rigid2d, Rigid2d>,
-             RigidMapping<Rigid2d, Vec2d>>;
+             RigidMapping<Rigid2d, Rigid2d>, RigidMapping<Rigid2d, Vec2d>>;
 template <template <class> class Solver>
 using AssembledSolvers =
     Registry<Solver<CompressedRowSparseMatrixMat3x3d>, Solver<CompressedRowSparseMatrixd>>;
@@ -74,14 +87,15 @@ using StandardSolvers =
              AssembledSolvers<ShewchukPCGLinearSolver>, AssembledSolvers<SparseLDLSolver>,
              AssembledSolvers<CholeskySolver>>;
 template <class D>
-using Regions = Registry<BoxROI<D>, SphereROI<D>>;
+using Regions = Registry<BoxROI<D>, SphereROI<D>, PairBoxROI<D>, NearestPointROI<D>>;
 template <class D>
 using SpatialEngines = Registry<Regions<D>, PlaneROI<D>, TransformEngine<D>>;
 using StandardEngines =
     Registry<MeshGmshLoader, MeshOBJLoader, MeshSTLLoader, MeshVTKLoader, SphereLoader,
-             Hexa2TetraTopologicalMapping, Tetra2TriangleTopologicalMapping, Hexa2QuadTopologicalMapping,
-             Quad2TriangleTopologicalMapping, Triangle2EdgeTopologicalMapping, SpatialEngines<Vec3d>,
-             Regions<Vec3f>, SpatialEngines<Rigid3d>, Regions<Vec2d>, Regions<Rigid2d>>;
+             GenerateRigidMass<Rigid3d>, Hexa2TetraTopologicalMapping, Tetra2TriangleTopologicalMapping,
+             Hexa2QuadTopologicalMapping, Quad2TriangleTopologicalMapping, Triangle2EdgeTopologicalMapping,
+             SpatialEngines<Vec3d>, Regions<Vec3f>, SpatialEngines<Rigid3d>, Regions<Vec2d>,
+             Regions<Rigid2d>>;
 using StandardTopologies =
     Registry<TetrahedronTopology, MeshTopology, RegularGridTopology, SparseGridTopology>;
 
@@ -94,7 +108,7 @@ struct Extended
     : Registry<Standard, SpatialComponents<Vec3f>, PointComponents<Vec1d>, PointComponents<Vec1f>,
                PointComponents<Vec2d>, PointComponents<Vec2f>, PointComponents<Vec6d>, PointComponents<Vec6f>,
                RigidComponents<Rigid2d>, RigidComponents<Rigid2f>, RigidComponents<Rigid3f>,
-               IdentityMapping<Rigid2f, Rigid2f>, RigidMapping<Rigid2d, Vec2f>, RigidMapping<Rigid2f, Vec2f>,
-               RigidMapping<Rigid2f, Vec2d>> {};
+               SpatialRigids<Rigid3f>, IdentityMapping<Rigid2f, Rigid2f>, RigidMapping<Rigid2d, Vec2f>,
+               RigidMapping<Rigid2f, Vec2f>, RigidMapping<Rigid2f, Vec2d>> {};
 
 }  // namespace sinew

@@ -30,12 +30,12 @@ TEST_CASE("settings of solvers out of range are refused by name") {
   CHECK(has(refused(NewmarkImplicitSolver{.gamma = 1.5}), "gamma is 1.5"));
   CHECK(has(refused(NewmarkImplicitSolver{.beta = 0.6}), "beta is 0.6"));
   CHECK(has(refused(CentralDifferenceSolver{.rayleighMass = -1}), "rayleighMass is -1"));
-  CHECK(has(refused(BDFOdeSolver{.order = 3}), "order is 3"));
+  CHECK(has(refused(BDFOdeSolver{.order = 4}), "order is 4"));
   CHECK(has(refused(BDFOdeSolver{.maxNbIterationsNewton = 0}), "maxNbIterationsNewton is 0"));
-  CHECK(has(refused(StaticSolver{.newtonIterations = 0}), "newton_iterations is 0"));
+  CHECK(has(refused(StaticSolver{.maxNbIterationsNewton = 0}), "maxNbIterationsNewton is 0"));
+  CHECK(has(refused(EulerImplicitSolver{.maxNbIterationsNewton = 0}), "maxNbIterationsNewton is 0"));
   CHECK(has(refused(StaticSolver{.lineSearchCoefficient = 1}), "lineSearchCoefficient is 1"));
-  CHECK(
-      refused(StaticSolver{.absoluteResidualToleranceThreshold = -1}).empty());  // not looked at, as in SOFA
+  CHECK(refused(StaticSolver{.absoluteResidualStoppingThreshold = -1}).empty());  // not looked at, as in SOFA
   CHECK(has(refused(VariationalSymplecticSolver{.newtonError = -1}), "newtonError is -1"));
   CHECK(has(refused(VariationalSymplecticSolver{.steps = 0}), "steps is 0"));
   CHECK(has(refused(RungeKutta45Solver{.tolerance = -1}), "tolerance is -1"));

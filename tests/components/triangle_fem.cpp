@@ -82,7 +82,7 @@ TEST_CASE("a sheet under traction stretches as in plane stress and in plane stra
         load.push_back(Vector3d(end ? p * h * (corner ? 0.5 : 1) : 0, 0, 0));
       }
       auto fem = ready(Triangles{.youngModulus = {E},
-                                 .poissonRatio = nu,
+                                 .poissonRatio = {nu},
                                  .thickness = h,
                                  .planeStrain = planeStrain,
                                  .method = method},
@@ -98,6 +98,25 @@ TEST_CASE("a sheet under traction stretches as in plane stress and in plane stra
       CHECK(x.back()[0] / nx - 1 == Approx(along).epsilon(tolerance));
       CHECK(x.back()[1] / ny - 1 == Approx(across).epsilon(tolerance));
     }
+}
+
+TEST_CASE("each triangle may have a material of its own") {
+  const Sheet sheet(1, 1);
+  Vec3d::VecCoord x = sheet.x;
+  x[2] += Vector3d(0.1, 0.2, 0.3);
+  double sum = 0;
+  for (const std::size_t e : {0u, 1u}) {
+    const std::vector<Triangle> one{sheet.triangles[e]};
+    auto fem = ready(Triangles{.youngModulus = {100.0 + double(e)}, .poissonRatio = {0.1 + 0.3 * double(e)}},
+                     sheet.x,
+                     {.triangles = one});
+    sum += fem.potentialEnergy(x);
+  }
+  auto both = ready(Triangles{.youngModulus = {100, 101}, .poissonRatio = {0.1, 0.4}},
+                    sheet.x,
+                    {.triangles = sheet.triangles});
+  CHECK(sum > 1);
+  CHECK(both.potentialEnergy(x) == Approx(sum).epsilon(1e-14));
 }
 
 TEST_CASE("a membrane turns and bends freely") {
@@ -120,9 +139,10 @@ TEST_CASE("membranes are checked") {
   const TopologyView topology{.triangles = sheet.triangles};
   refuses(Triangles{}, sheet.x, {}, {"body", "TriangleFEMForceField<Vec3d>", "no triangle"});
   refuses(Triangles{.youngModulus = {1, 2, 3}}, sheet.x, topology, {"3 values for 2 triangles"});
+  refuses(Triangles{.poissonRatio = {}}, sheet.x, topology, {"poissonRatio has 0 values for 2 triangles"});
   refuses(Triangles{.youngModulus = {-1}}, sheet.x, topology, {"youngModulus[0] is -1"});
-  refuses(Triangles{.poissonRatio = 0.6}, sheet.x, topology, {"poissonRatio is 0.6", "at most 0.5"});
-  refuses(Triangles{.poissonRatio = 0.5, .planeStrain = true},
+  refuses(Triangles{.poissonRatio = {0.6}}, sheet.x, topology, {"poissonRatio[0] is 0.6", "at most 0.5"});
+  refuses(Triangles{.poissonRatio = {0.5}, .planeStrain = true},
           sheet.x,
           topology,
           {"less than 0.5 in plane strain"});

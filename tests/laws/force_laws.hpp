@@ -66,7 +66,8 @@ struct FieldSubject : Subject<D> {
   ForceProperties claims{};
   bool implicitDamping = true;  // whether addDForce has the damping too
 
-  virtual void assemble(MechanicalParams const& p, std::size_t points, typename Subject<D>::Scalars& matrix) = 0;
+  virtual void assemble(MechanicalParams const& p, std::size_t points,
+                        typename Subject<D>::Scalars& matrix) = 0;
   virtual void assembleBlocks(MechanicalParams const& p, std::size_t points,
                               typename Subject<D>::Blocks& matrix) = 0;
   virtual std::unique_ptr<Subject<D>> oneLane() = 0;  // null where there are no lanes
@@ -91,7 +92,8 @@ struct SubjectOf : FieldSubject<D> {
     c.addDForce(p, df, dx);
   }
   double energy(VecCoord const& x) override { return c.potentialEnergy(x); }
-  void assemble(MechanicalParams const& p, std::size_t points, typename Subject<D>::Scalars& matrix) override {
+  void assemble(MechanicalParams const& p, std::size_t points,
+                typename Subject<D>::Scalars& matrix) override {
     assembleInto(p, points, matrix);
   }
   void assembleBlocks(MechanicalParams const& p, std::size_t points,

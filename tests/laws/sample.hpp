@@ -111,7 +111,7 @@ void randomise(T& value, Range range, Random& random) {
     value = T(low + (high - low) * random(0.1, 0.9));
   } else if constexpr (std::is_same_v<T, int>) {
     value = random.index(Body::n);
-  } else if constexpr (std::is_same_v<T, bool> || std::is_enum_v<T>) {
+  } else if constexpr (std::is_same_v<T, bool> || std::is_same_v<T, std::vector<bool>> || std::is_enum_v<T>) {
   } else if constexpr (requires { value.has_value(); }) {
     value.emplace();
     randomise(*value, range, random);
@@ -135,14 +135,37 @@ void randomise(T& value, Range range, Random& random) {
   }
 }
 
-/// f(component) for a random one with each value of each enum and each bool among its fields.
+/// f(component) for a random one with each value of each enum and each bool, or list of one, among its
+/// fields.
 template <class C, class F>
-void for_each_variant(Random& random, F&& f) {
+void for_each_variant(Random& random, F&& use) {
+  // materials differ in the number of their parameters
+  auto f = [&](C complete) {
+    if constexpr (requires { complete.parameterSet; }) {
+      complete.parameterSet.clear();
+      while (!takes_parameters(complete.materialName, complete.parameterSet.size()))
+        complete.parameterSet.push_back(random(1, 3));
+    }
+    use(complete);
+  };
   C c{};
   for_each_field(c, [&](auto const& fd, auto& value) { randomise(value, fd.range, random); });
   if constexpr (requires { c.springs; })
     for (auto& s : c.springs)
       if (s.first == s.second) s.second = (s.first + 1) % Body::n;
+  if constexpr (requires { c.springsIndices1; })
+    for (std::size_t s = 0; s < c.springsIndices1.size(); ++s)
+      if (c.springsIndices1[s] == c.springsIndices2[s])
+        c.springsIndices2[s] = (c.springsIndices1[s] + 1) % Body::n;
+  if constexpr (requires { c.polynomialDegree; }) {
+    c.polynomialDegree = {3}, c.polynomialStiffness = {3, 1, 2};
+    for (std::size_t s = 0; s < c.firstObjectPoints.size(); ++s)
+      if (c.firstObjectPoints[s] == c.secondObjectPoints[s])
+        c.secondObjectPoints[s] = (c.firstObjectPoints[s] + 1) % Body::n;
+  }
+  // bodies that the one before them holds
+  if constexpr (requires { c.indices, c.angularStiffness; })
+    for (int& i : c.indices) i = std::max(i, 1);
   // a pressure is proved on a closed surface, where it has an energy: all of that of the body
   if constexpr (requires { c.triangleIndices; }) {
     c.triangleIndices.clear(), c.quadIndices.clear();
@@ -163,23 +186,39 @@ void for_each_variant(Random& random, F&& f) {
     if constexpr (requires { c.coordinates; }) c.coordinates.assign(1, 0);
   }
   if constexpr (requires { c.endConstraintTime; }) c.beginConstraintTime = 0, c.endConstraintTime = 2;
+  if constexpr (requires { c.minDistValidity; }) c.minDistValidity = 0;
+  if constexpr (requires { c.endTime; }) c.beginTime = 0, c.endTime = 2;
+  // at least one axis is held
+  if constexpr (requires { c.fixedXRotation; }) {
+    for (int axes = 1; axes < 8; ++axes) {
+      c.fixedXRotation = axes & 1, c.fixedYRotation = axes & 2, c.fixedZRotation = axes & 4;
+      f(c);
+    }
+    return;
+  }
   if constexpr (requires { c.dmax; }) c.dmin = 0, c.dmax = 1;
   if constexpr (requires { c.fixedDirections; }) c.fixedDirections.back() = c.fixedDirections.size() == 1;
   bool any = false;
-  for_each_field(c, [&](auto const&, auto& value) {
+  for_each_field(c, [&](auto const& fd, auto& value) {
     using T = std::decay_t<decltype(value)>;
+    if (fd.name == "enabled") return;  // what is not there has no laws
     if constexpr (std::is_enum_v<T>) {
       any = true;
       for (std::size_t i = 0; i < enum_names(T{}).size(); ++i) {
         value = T(i);
         f(c);
       }
-    } else if constexpr (std::is_same_v<T, bool>) {
+    } else if constexpr (std::is_same_v<T, bool> || std::is_same_v<T, std::vector<bool>>) {
       any = true;
+      [[maybe_unused]] const T before = value;
       for (const bool b : {true, false}) {
-        value = b;
+        if constexpr (std::is_same_v<T, bool>)
+          value = b;
+        else
+          value.assign(1, b);
         f(c);
       }
+      if constexpr (!std::is_same_v<T, bool>) value = before;
     }
   });
   if (!any) f(c);

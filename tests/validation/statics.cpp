@@ -29,17 +29,17 @@ auto pulled_spring(StaticSolver solver, Eigen::Vector2d start, Eigen::Vector2d f
   sim.animate(1);
   return sim;
 }
-const StaticSolver exact{.newtonIterations = 30,
-                         .absoluteCorrectionToleranceThreshold = 0,
-                         .relativeCorrectionToleranceThreshold = 0,
-                         .absoluteResidualToleranceThreshold = 1e-12,
-                         .relativeResidualToleranceThreshold = 0};
+const StaticSolver exact{.maxNbIterationsNewton = 30,
+                         .relativeInitialStoppingThreshold = 0,
+                         .absoluteResidualStoppingThreshold = 1e-12,
+                         .relativeEstimateDifferenceThreshold = 0,
+                         .absoluteEstimateDifferenceThreshold = 0};
 
 }  // namespace
 
 TEST_CASE("a spring is pulled to its closed form, with quadratic convergence") {
   auto sim = pulled_spring(exact, {1.5, 0}, {3, -6});
-  auto const& solver = sim.root().get<StaticSolver>();
+  auto const& solver = sim.root().get<StaticSolver>().newton;
   const Eigen::Vector2d f(3, -6), x = (1 + f.norm() / 8) * f.normalized();
   CHECK((sim.root().state().position[1] - x).norm() < 1e-12);
   CHECK(solver.status == NewtonStatus::residualSmall);
@@ -59,7 +59,7 @@ TEST_CASE("a spring is pulled to its closed form, with quadratic convergence") {
 
 TEST_CASE("a spring pulled along itself takes one iteration") {
   auto sim = pulled_spring({}, {1.5, 0}, {3, 0});
-  auto const& solver = sim.root().get<StaticSolver>();
+  auto const& solver = sim.root().get<StaticSolver>().newton;
   CHECK(sim.root().state().position[1][0] == Approx(1 + 3.0 / 8).epsilon(1e-14));
   CHECK(solver.corrections.size() == 1);
   CHECK(solver.residuals[0] == Approx(1));  // 3 - 8 * 0.5
@@ -69,22 +69,25 @@ TEST_CASE("a spring pulled along itself takes one iteration") {
 TEST_CASE("each criterion stops the search") {
   auto status = [](StaticSolver solver) {
     auto sim = pulled_spring(solver, {1.5, 0}, {3, -6});
-    return sim.root().get<StaticSolver>().status;
+    return sim.root().get<StaticSolver>().newton.status;
   };
   StaticSolver solver = exact;
-  solver.newtonIterations = 2;
+  solver.maxNbIterationsNewton = 2;
   CHECK(status(solver) == NewtonStatus::outOfIterations);
   solver = exact;
-  solver.absoluteResidualToleranceThreshold = -1;
-  solver.absoluteCorrectionToleranceThreshold = 1e-3;
+  solver.absoluteResidualStoppingThreshold = -1;
+  solver.absoluteEstimateDifferenceThreshold = 1e-3;
   CHECK(status(solver) == NewtonStatus::correctionSmall);
-  solver.absoluteCorrectionToleranceThreshold = 0;
-  solver.relativeCorrectionToleranceThreshold = 1e-3;
+  solver.absoluteEstimateDifferenceThreshold = 0;
+  solver.relativeEstimateDifferenceThreshold = 1e-3;
   CHECK(status(solver) == NewtonStatus::correctionSmall);
-  solver.relativeCorrectionToleranceThreshold = 0;
-  solver.relativeResidualToleranceThreshold = 1e-3;
+  solver.relativeEstimateDifferenceThreshold = 0;
+  solver.relativeInitialStoppingThreshold = 1e-3;
   CHECK(status(solver) == NewtonStatus::residualSmall);
-  solver.relativeResidualToleranceThreshold = 0;
+  solver.relativeInitialStoppingThreshold = 0;
+  solver.relativeSuccessiveStoppingThreshold = 1e-3;
+  CHECK(status(solver) == NewtonStatus::residualSmall);
+  solver.relativeSuccessiveStoppingThreshold = 0;
   CHECK(status(solver) == NewtonStatus::outOfIterations);
 }
 
@@ -92,12 +95,12 @@ TEST_CASE("a line search makes each residual smaller than the one before") {
   // hardly stretched, the spring holds next to nothing across: Newton's method overshoots 20 times
   const Eigen::Vector2d start(1.02, 0), force(0.5, -6);
   auto free = pulled_spring(exact, start, force);
-  auto const& wild = free.root().get<StaticSolver>().residuals;
+  auto const& wild = free.root().get<StaticSolver>().newton.residuals;
   CHECK_FALSE(std::is_sorted(wild.rbegin(), wild.rend()));
   StaticSolver solver = exact;
   solver.maxNbIterationsLineSearch = 20;
   auto sim = pulled_spring(solver, start, force);
-  auto const& tame = sim.root().get<StaticSolver>();
+  auto const& tame = sim.root().get<StaticSolver>().newton;
   CHECK(std::is_sorted(tame.residuals.rbegin(), tame.residuals.rend()));
   CHECK(tame.converged());
   CHECK((sim.root().state().position[1] - (1 + force.norm() / 8) * force.normalized()).norm() < 1e-12);
@@ -105,8 +108,8 @@ TEST_CASE("a line search makes each residual smaller than the one before") {
   solver = exact;
   solver.shouldDivergeWhenResidualIsGrowing = true;
   auto stopped = pulled_spring(solver, start, force);
-  CHECK(stopped.root().get<StaticSolver>().status == NewtonStatus::residualGrew);
-  CHECK_FALSE(stopped.root().get<StaticSolver>().converged());
+  CHECK(stopped.root().get<StaticSolver>().newton.status == NewtonStatus::residualGrew);
+  CHECK_FALSE(stopped.root().get<StaticSolver>().newton.converged());
 }
 
 TEST_CASE("points inside an affine boundary come to the same affine map") {
@@ -129,8 +132,8 @@ TEST_CASE("points inside an affine boundary come to the same affine map") {
         FixedConstraint<Vec3d>{.indices = {boundary.begin(), boundary.end()}})};
     sim.init();
     sim.animate(1);
-    CHECK(sim.root().get<StaticSolver>().converged());
-    if (method == RotationMethod::small) CHECK(sim.root().get<StaticSolver>().corrections.size() == 1);
+    CHECK(sim.root().get<StaticSolver>().newton.converged());
+    if (method == RotationMethod::small) CHECK(sim.root().get<StaticSolver>().newton.corrections.size() == 1);
     for (std::size_t i = 0; i < mesh.positions.size(); ++i)
       CHECK((sim.root().state().position[i] - f * mesh.positions[i]).norm() < 1e-11);
   }

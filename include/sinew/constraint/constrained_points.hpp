@@ -51,6 +51,15 @@ void check_key_times(InitContext<typename C::DataTypes> const& context, std::vec
                        "]; put them in rising order"));
 }
 
+/// Throws Error unless a movement ends after it begins; one of no points may be without times.
+template <class C>
+void check_begin_and_end(InitContext<typename C::DataTypes> const& context, double begin, double end,
+                         bool noPoints) {
+  if (!noPoints && !(end > begin))
+    throw Error(place_of<C>(context),
+                text("BeginTime is ", begin, " s and EndTime ", end, " s; give an end after the beginning"));
+}
+
 /// The interval between two key times that holds a time, and how far in it the time is, from 0 to 1. Needs
 /// two times or more; a time outside gets the nearest interval.
 struct KeyInterval {

@@ -64,7 +64,7 @@ inline void turn_elements(Mesh& mesh) {
 template <class Format>
 struct MeshLoader {
   using Role = role::Engine;
-  static constexpr std::string_view className = Format::className;
+  static constexpr std::string_view className = Format::className, aliases = Format::aliases;
 
   DataFile filename{};
   Eigen::Vector3d translation{0, 0, 0}, rotation{0, 0, 0}, scale3d{1, 1, 1};
@@ -162,15 +162,15 @@ struct MeshLoader {
 
 namespace detail {
 struct GmshFormat {
-  static constexpr std::string_view className = "MeshGmshLoader";
+  static constexpr std::string_view className = "MeshGmshLoader", aliases = "";
   static Mesh read(std::string const& path) { return io::read_gmsh(path); }
 };
 struct ObjFormat {
-  static constexpr std::string_view className = "MeshOBJLoader";
+  static constexpr std::string_view className = "MeshOBJLoader", aliases = "MeshObjLoader";
   static Mesh read(std::string const& path) { return io::read_obj(path); }
 };
 struct StlFormat {
-  static constexpr std::string_view className = "MeshSTLLoader";
+  static constexpr std::string_view className = "MeshSTLLoader", aliases = "";
   static Mesh read(std::string const& path) { return io::read_stl(path); }
 };
 }  // namespace detail

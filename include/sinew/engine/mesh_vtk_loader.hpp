@@ -10,7 +10,7 @@ namespace sinew {
 
 namespace detail {
 struct VtkFormat {
-  static constexpr std::string_view className = "MeshVTKLoader";
+  static constexpr std::string_view className = "MeshVTKLoader", aliases = "";
   static Mesh read(std::string const& path) {
     return io::file_ending(path) == ".vtu" ? io::read_vtu(path) : io::read_vtk(path);
   }

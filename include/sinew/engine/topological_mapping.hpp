@@ -46,9 +46,7 @@ struct Tetra2Triangle {
   using Elements = std::vector<Tetrahedron>;
   static constexpr std::string_view className = "Tetra2TriangleTopologicalMapping", from = "tetrahedra",
                                     to = "triangles", purpose = "the surface of the tetrahedra";
-  static std::vector<Triangle> convert(Elements const& tetrahedra) {
-    return boundary_triangles(tetrahedra);
-  }
+  static std::vector<Triangle> convert(Elements const& tetrahedra) { return boundary_triangles(tetrahedra); }
 };
 struct Hexa2Quad {
   using Elements = std::vector<Hexahedron>;
@@ -97,10 +95,9 @@ struct TopologicalMapping {
 
   static constexpr auto fields() {
     using T = TopologicalMapping;
-    return field_list(
-        field("position", &T::position, "m", "points").also("points"),
-        field(Conversion::from, &T::elements, "", "elements over them", range::nonNegative),
-        field("flipNormals", &T::flipNormals, "", "whether faces and edges are turned over"));
+    return field_list(field("position", &T::position, "m", "points").also("points"),
+                      field(Conversion::from, &T::elements, "", "elements over them", range::nonNegative),
+                      field("flipNormals", &T::flipNormals, "", "whether faces and edges are turned over"));
   }
 
   // after update

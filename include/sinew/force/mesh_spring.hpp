@@ -59,12 +59,6 @@ struct MeshSpringForceField {
   using Law = typename Driver::Law;
   Driver driver{};
 
-  /// The settings of the law, for lanes or one element at a time.
-  template <class L>
-  L law() const {
-    return {noCompression};
-  }
-
   void init(InitContext<D> const& context) {
     const std::string where = text(context.where, ": ", component_name<MeshSpringForceField>());
     TopologyView const& t = context.topology;
@@ -104,19 +98,19 @@ struct MeshSpringForceField {
       throw Error(where,
                   "there is no spring; give the node a topology with edges or higher elements, and set a "
                   "stiffness or damping of their kind");
-    springs.init(driver);
+    springs.init(driver, noCompression);
   }
 
   void addForce(MechanicalParams const&, VecDeriv& f, VecCoord const& x, VecDeriv const& v) {
-    driver.addForce(law<Law>(), f, x, v);
+    driver.addForce(Law{}, f, x, v);
   }
   void addDForce(MechanicalParams const& p, VecDeriv& df, VecDeriv const& dx) const {
-    driver.addDForce(law<Law>(), df, dx, Real(p.k), Real(p.b));
+    driver.addDForce(Law{}, df, dx, Real(p.k), Real(p.b));
   }
-  double potentialEnergy(VecCoord const& x) const { return driver.energy(law<Law>(), x); }
+  double potentialEnergy(VecCoord const& x) const { return driver.energy(Law{}, x); }
   template <class Sink>
   void addToMatrix(MechanicalParams const& p, Sink const& sink) {
-    driver.addToMatrix(law<Law>(), sink, Real(p.k), Real(p.b));
+    driver.addToMatrix(Law{}, sink, Real(p.k), Real(p.b));
   }
 };
 

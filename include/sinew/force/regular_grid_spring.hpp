@@ -23,6 +23,7 @@ struct RegularGridSpringForceField {
   double stiffness = 100, damping = 5;
   std::optional<double> linesStiffness{}, linesDamping{}, quadsStiffness{}, quadsDamping{}, cubesStiffness{},
       cubesDamping{};
+  bool elongationOnly = false;
 
   static constexpr auto fields() {
     using F = RegularGridSpringForceField;
@@ -40,7 +41,9 @@ struct RegularGridSpringForceField {
         field("quadsStiffness", &F::quadsStiffness, unit, "stiffness of diagonals of faces", r),
         field("quadsDamping", &F::quadsDamping, rate, "damping of diagonals of faces", r),
         field("cubesStiffness", &F::cubesStiffness, unit, "stiffness of diagonals of cells", r),
-        field("cubesDamping", &F::cubesDamping, rate, "damping of diagonals of cells", r));
+        field("cubesDamping", &F::cubesDamping, rate, "damping of diagonals of cells", r),
+        field("elongationOnly", &F::elongationOnly, "", "springs act only when they are longer than at rest")
+            .also("noCompression"));
   }
 
   using Driver = typename SpringNetwork<D>::Driver;
@@ -75,7 +78,7 @@ struct RegularGridSpringForceField {
           where,
           "there is no spring; give the node a regular grid of at least two points, or hexahedra, and "
           "set a stiffness or damping");
-    springs.init(driver);
+    springs.init(driver, elongationOnly);
   }
 
   void addForce(MechanicalParams const&, VecDeriv& f, VecCoord const& x, VecDeriv const& v) {

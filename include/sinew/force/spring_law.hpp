@@ -12,8 +12,8 @@ namespace sinew {
 ///   f0 = -f1 = F u,  F = k (l - L) + c d'.u,  u = d/l                                  [N]
 ///   df0/dx1 = F/l (I - u u') + k u u',  df0/dv1 = c u u'
 /// The change of the damping force with u is left out of the tangent, which keeps it symmetric. Two points in
-/// one place have no direction, and no force. With elongationOnly, as in a string, a spring shorter than L
-/// acts as if it were not there, its damping included.
+/// one place have no direction, and no force. A negative length -L stands for a string of length L: while it
+/// is shorter than that it acts as if it were not there, its damping included.
 template <class D>
 struct SpringLaw {
   using Real = typename D::Real;
@@ -21,8 +21,6 @@ struct SpringLaw {
   using Deriv = typename D::Deriv;
   static constexpr int arity = 2;
   static constexpr bool usesVelocity = true;
-
-  bool elongationOnly = false;
 
   struct Rest {
     Real stiffness, damping, length;
@@ -34,8 +32,8 @@ struct SpringLaw {
 
   SINEW_HD Real energy(Rest const& rest, Coord const (&x)[2]) const {
     using std::sqrt, sinew::sqrt;
-    Real stretch = sqrt((x[1] - x[0]).squaredNorm()) - rest.length;
-    if (elongationOnly) stretch = select(stretch > Real(0), stretch, Real(0));
+    const Real length = sqrt((x[1] - x[0]).squaredNorm());
+    const Real stretch = select(length > -rest.length, length - unstretched(rest), Real(0));
     return Real(0.5) * rest.stiffness * stretch * stretch;
   }
 
@@ -43,13 +41,14 @@ struct SpringLaw {
                       Tangent& tangent) const {
     using std::sqrt, sinew::sqrt;
     const Deriv d = x[1] - x[0];
-    const Real length = sqrt(d.squaredNorm());
-    auto acts = length > Real(1e-9) * rest.length + Real(std::numeric_limits<lane_scalar<Real>>::min());
-    if (elongationOnly) acts = both(acts, length > rest.length);
-    const Real inverse = select(acts, Real(1) / length, Real(0));
+    const Real length = sqrt(d.squaredNorm()), natural = unstretched(rest);
+    // of a string its length; of others next to nothing
+    const Real least = (natural - rest.length) * Real(0.5) + natural * Real(1e-9) +
+                       Real(std::numeric_limits<lane_scalar<Real>>::min());
+    const Real inverse = select(length > least, Real(1) / length, Real(0));
     tangent.direction = d * inverse;
     const Real force =
-        rest.stiffness * (length - rest.length) + rest.damping * (v[1] - v[0]).dot(tangent.direction);
+        rest.stiffness * (length - natural) + rest.damping * (v[1] - v[0]).dot(tangent.direction);
     tangent.tension = force * inverse;
     f[0] = tangent.direction * force;
     f[1] = -f[0];
@@ -77,6 +76,9 @@ struct SpringLaw {
   }
 
  private:
+  SINEW_INLINE static Real unstretched(Rest const& rest) {
+    return select(rest.length < Real(0), -rest.length, rest.length);
+  }
   SINEW_INLINE static Real axial(Rest const& rest, Tangent const& tangent, Real k, Real b) {
     return k * (rest.stiffness - tangent.tension) + b * rest.damping;
   }

@@ -45,7 +45,8 @@ class SpringNetwork {
 
   bool empty() const { return links_.empty(); }
 
-  void init(Driver& driver) const {
+  /// With elongationOnly all springs are strings, which pull and never push.
+  void init(Driver& driver, bool elongationOnly) const {
     // a stable sort keeps the first of equal links in front; the order in which they came is restored
     struct Key {
       int low, high;
@@ -68,7 +69,8 @@ class SpringNetwork {
       const Real length = (rest_[std::size_t(link.j)] - rest_[std::size_t(link.i)]).norm();
       const Real divisor = length > Real(0) ? length : Real(1);
       ends.push_back({link.i, link.j});
-      springs.push_back({Real(link.stiffness) / divisor, Real(link.damping) / divisor, length});
+      springs.push_back(
+          {Real(link.stiffness) / divisor, Real(link.damping) / divisor, elongationOnly ? -length : length});
     }
     driver.init(ends, springs);
   }

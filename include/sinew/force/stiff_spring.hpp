@@ -32,7 +32,9 @@ struct Spring {
 };
 
 /// Springs inside one body (`E` = Within), or between the states at two paths (`E` = Between<"a", "b/c">, at
-/// a common ancestor; `E` = Linked in a runtime tree); `first` then counts points of the first.
+/// a common ancestor; `E` = Linked in a runtime tree); `first` then counts points of the first. They are
+/// given one by one as `springs`, or as lists that have one entry for each: springsIndices1 and
+/// springsIndices2, of which the springs have `stiffness`, `damping` and `lengths`.
 template <class D, class E = Within>
 struct StiffSpringForceField {
   using Ends = E;
@@ -49,13 +51,29 @@ struct StiffSpringForceField {
 
   std::vector<Spring> springs{};
   [[no_unique_address]] E ends{};
+  std::vector<int> springsIndices1{}, springsIndices2{};
+  std::vector<double> stiffness{100}, damping{5}, lengths{};
+  std::vector<bool> elongationOnly{false}, enabled{true};
 
   static constexpr auto fields() {
-    return field_list(field("springs",
-                            &StiffSpringForceField::springs,
-                            "",
-                            "the springs: two points, stiffness, damping, length")
-                          .also("spring"));
+    using F = StiffSpringForceField;
+    constexpr Range r = range::nonNegative;
+    return field_list(
+        field("springs", &F::springs, "", "the springs: two points, stiffness, damping, length")
+            .also("spring"),
+        field("springsIndices1", &F::springsIndices1, "", "points at the first ends of further springs", r)
+            .also("indices1"),
+        field("springsIndices2", &F::springsIndices2, "", "points at their second ends", r).also("indices2"),
+        field("stiffness", &F::stiffness, "N/m", "force per extension of these: one for all, or each", r),
+        field(
+            "damping", &F::damping, "N s/m", "force per rate of extension of these: one for all, or each", r),
+        field("lengths", &F::lengths, "m", "length without force of these: one for all, or each; else 0", r)
+            .also("length"),
+        field("elongationOnly",
+              &F::elongationOnly,
+              "",
+              "whether springs act only when they are longer than without force: one for all, or each"),
+        field("enabled", &F::enabled, "", "whether springs are there: one for all, or each"));
   }
 
   using Driver = ElementDriver<SpringLaw, D>;
@@ -64,15 +82,16 @@ struct StiffSpringForceField {
 
   void init(InitContext<D> const& context) { init(context, context); }
   void init(InitContext<D> const& a, InitContext<D> const& b) {
-    std::vector<typename Driver::Indices> ends;
+    const std::string where = text(a.where, ": ", component_name<StiffSpringForceField>());
+    const std::vector<Spring> all = springsOfLists(where);
+    std::vector<typename Driver::Indices> points;
     std::vector<typename Driver::Rest> rest;
-    for (std::size_t s = 0; s < springs.size(); ++s) {
-      Spring const& spring = springs[s];
+    for (std::size_t s = 0; s < all.size(); ++s) {
+      Spring const& spring = all[s];
       auto check = [&](InitContext<D> const& end, int i) {
         if (std::size_t(i) >= end.rest.size())
-          throw Error(a.where,
-                      text(component_name<StiffSpringForceField>(),
-                           ": springs[",
+          throw Error(where,
+                      text("springs[",
                            s,
                            "] refers to point ",
                            i,
@@ -85,20 +104,17 @@ struct StiffSpringForceField {
       check(a, spring.first);
       check(b, spring.second);
       if (!between && spring.first == spring.second)
-        throw Error(a.where,
-                    text(component_name<StiffSpringForceField>(),
-                         ": springs[",
-                         s,
-                         "] joins point ",
-                         spring.first,
-                         " to itself; give two points"));
+        throw Error(where,
+                    text("springs[", s, "] joins point ", spring.first, " to itself; give two points"));
+      if (!of(where, "enabled", enabled, s, all.size(), true)) continue;
       const Real length =
           spring.length ? Real(*spring.length)
                         : (b.rest[std::size_t(spring.second)] - a.rest[std::size_t(spring.first)]).norm();
-      ends.push_back({spring.first, spring.second});
-      rest.push_back({Real(spring.stiffness), Real(spring.damping), length});
+      const bool string = of(where, "elongationOnly", elongationOnly, s, all.size(), false);
+      points.push_back({spring.first, spring.second});
+      rest.push_back({Real(spring.stiffness), Real(spring.damping), string ? -length : length});
     }
-    driver.init(ends, rest);
+    driver.init(points, rest);
   }
 
   void addForce(MechanicalParams const&, VecDeriv& f, VecCoord const& x, VecDeriv const& v) {
@@ -127,6 +143,38 @@ struct StiffSpringForceField {
       driver.template addToMatrix<0, 1>(Law{}, sink, Real(p.k), Real(p.b));
     else
       driver.addToMatrix(Law{}, sink, Real(p.k), Real(p.b));
+  }
+
+ private:
+  // what a list says of one of n springs
+  template <class T>
+  static T of(std::string const& where, std::string_view name, std::vector<T> const& list, std::size_t spring,
+              std::size_t n, T fallback) {
+    if (list.size() > 1 && list.size() != n)
+      throw Error(
+          where,
+          text(name, " has ", list.size(), " values for ", n, " springs; give one for all, or one for each"));
+    return list.empty() ? fallback : list[list.size() == 1 ? 0 : spring];
+  }
+
+  // `springs`, and behind them those that the lists make
+  std::vector<Spring> springsOfLists(std::string const& where) const {
+    std::vector<Spring> all = springs;
+    const std::size_t n = springsIndices1.size();
+    if (springsIndices2.size() != n)
+      throw Error(where,
+                  text("springsIndices1 has ",
+                       n,
+                       " points and springsIndices2 ",
+                       springsIndices2.size(),
+                       "; give both ends of each spring"));
+    for (std::size_t s = 0; s < n; ++s)
+      all.push_back({springsIndices1[s],
+                     springsIndices2[s],
+                     of(where, "stiffness", stiffness, s, n, 100.0),
+                     of(where, "damping", damping, s, n, 5.0),
+                     of(where, "lengths", lengths, s, n, 0.0)});
+    return all;
   }
 };
 

@@ -21,6 +21,10 @@ enum class RotationMethod { small, large, polar, gradient };
 inline constexpr std::array<std::string_view, 4> enum_names(RotationMethod) {
   return {"small", "large", "polar", "gradient"};
 }
+/// SOFA's svd is a polar decomposition too, in which inverted elements keep a rotation, as in `polar` here.
+inline constexpr std::array<std::array<std::string_view, 2>, 1> enum_aliases(RotationMethod) {
+  return {{{"svd", "polar"}}};
+}
 
 /// Linear tetrahedron of an isotropic material, corotational (Mueller, Gross 2004). With h_k = R g_k, where
 /// g_k is the gradient of shape function k at rest, all is said in world axes:

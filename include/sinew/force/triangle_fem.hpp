@@ -170,9 +170,10 @@ struct TriangleFEMForceField {
   using VecCoord = typename D::VecCoord;
   using VecDeriv = typename D::VecDeriv;
   static constexpr std::string_view className = "TriangleFEMForceField";
+  static constexpr std::string_view aliases = "TriangularFEMForceField TriangularFEMForceFieldOptim";
 
-  std::vector<double> youngModulus{1000};  // one for all triangles, or one for each
-  double poissonRatio = 0.3, thickness = 1;
+  std::vector<double> youngModulus{1000}, poissonRatio{0.3};  // one for all triangles, or one for each
+  double thickness = 1;
   bool planeStrain = false;
   TriangleMethod method = TriangleMethod::large;
 
@@ -187,7 +188,7 @@ struct TriangleFEMForceField {
         field("poissonRatio",
               &F::poissonRatio,
               "",
-              "lateral contraction over extension; 0.5 is incompressible",
+              "lateral contraction over extension, 0.5 is incompressible: one value, or one a triangle",
               Range{-1, 0.5, true, false}),
         field("thickness", &F::thickness, "m", "thickness of the membrane", range::positive),
         field("planeStrain", &F::planeStrain, "", "thickness is held, in the place of stress free"),
@@ -215,22 +216,27 @@ struct TriangleFEMForceField {
     if (triangles.empty())
       throw Error(where, "the topology has no triangle; give the node a topology with triangles or quads");
     detail::check_indices(where, "triangle", triangles, context.rest.size());
-    if (youngModulus.size() != 1 && youngModulus.size() != triangles.size())
-      throw Error(where,
-                  text("youngModulus has ",
-                       youngModulus.size(),
-                       " values for ",
-                       triangles.size(),
-                       " triangles; give one value, or one for each"));
-    if (planeStrain && !(poissonRatio < 0.5))
-      throw Error(
-          where,
-          text("poissonRatio is ", poissonRatio, ", but must be less than 0.5 in plane strain; lower it"));
+    for (auto const& [name, values] :
+         {std::pair("youngModulus", &youngModulus), std::pair("poissonRatio", &poissonRatio)})
+      if (values->size() != 1 && values->size() != triangles.size())
+        throw Error(where,
+                    text(name,
+                         " has ",
+                         values->size(),
+                         " values for ",
+                         triangles.size(),
+                         " triangles; give one value, or one for each"));
+    if (planeStrain)
+      for (const double nu : poissonRatio)
+        if (!(nu < 0.5))
+          throw Error(where,
+                      text("poissonRatio is ", nu, ", but must be less than 0.5 in plane strain; lower it"));
     std::vector<typename Driver::Rest> rest;
     for (std::size_t e = 0; e < triangles.size(); ++e) {
       typename D::Coord x[3];
       for (std::size_t k = 0; k < 3; ++k) x[k] = context.rest[std::size_t(triangles[e][k])];
-      const double E = youngModulus.size() == 1 ? youngModulus[0] : youngModulus[e], nu = poissonRatio;
+      const double E = youngModulus[youngModulus.size() == 1 ? 0 : e],
+                   nu = poissonRatio[poissonRatio.size() == 1 ? 0 : e];
       const double lambda = E * nu / (planeStrain ? (1 + nu) * (1 - 2 * nu) : 1 - nu * nu);
       rest.push_back(TriangleFEM<D>::restOf(x, Real(thickness), Real(E / (2 * (1 + nu))), Real(lambda)));
       const Real longest = std::max({(x[1] - x[0]).norm(), (x[2] - x[0]).norm(), (x[2] - x[1]).norm()});

@@ -5,16 +5,17 @@
 
 namespace sinew {
 
-/// Each point of the child is the same point of the parent, in another precision perhaps, or the centre of the
-/// same rigid body. An empty child takes the size of its parent.
+/// Each point of the child is the same point of the parent, in another precision perhaps, or the centre of
+/// the same rigid body. An empty child takes the size of its parent.
 template <class I, class O>
 struct IdentityMapping {
   using Role = role::Mapping;
   using In = I;
   using Out = O;
   static constexpr bool centers = In::rigid && !Out::rigid;
-  static_assert(centers ? In::spatial == Out::size : In::size == Out::size && In::rigid == Out::rigid,
-                "IdentityMapping joins states of the same kind, or points to the rigid bodies of their space");
+  static_assert(
+      centers ? In::spatial == Out::size : In::size == Out::size && In::rigid == Out::rigid,
+      "IdentityMapping joins states of the same kind, or points to the rigid bodies of their space");
   static constexpr std::string_view className = "IdentityMapping";
 
   static constexpr auto fields() { return field_list(); }

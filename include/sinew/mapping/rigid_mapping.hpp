@@ -39,7 +39,7 @@ struct RigidMapping {
                             "the positions of the child are given in the world, not in the body"));
   }
 
-  typename Out::VecCoord local{};      // p, and o
+  typename Out::VecCoord local{};       // p, and o
   std::vector<Vec<Real, N>> rotated{};  // r at the last apply
 
   void init(InitContext<In> const& parent, InitContext<Out> const& child, typename Out::VecCoord& positions) {

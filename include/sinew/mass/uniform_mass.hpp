@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/io/read_rigid.hpp>
+#include <sinew/io/text_mesh_file.hpp>
 #include <sinew/mass/lumped_mass.hpp>
+#include <sinew/topology/inertia.hpp>
 
 #include <optional>
 
 namespace sinew {
 
 /// The same mass at every point: `vertexMass`, or `totalMass` shared out evenly. Rigid bodies have a mass and
-/// an inertia in body axes; `totalMass` scales both.
+/// an inertia in body axes; `totalMass` scales both. In space they may take it from a file: SOFA's .rigid, or
+/// a closed surface (.obj, .stl, .msh, .vtk) around the origin, filled evenly with 1 kg or `totalMass`.
 template <class D>
 struct UniformMass {
   using Role = role::Mass;
@@ -21,13 +25,23 @@ struct UniformMass {
 
   std::optional<MassType> vertexMass{};  // 1 kg (and unit inertia) when neither is given
   std::optional<double> totalMass{};
+  DataFile filename{};  // of rigid bodies in space
+  static constexpr bool readsFile = D::rigid && D::spatial == 3;
 
   static constexpr auto fields() {
-    return field_list(
-        field("vertexMass", &UniformMass::vertexMass, "kg", "mass of each point", range::positive)
-            .also("mass vertexmass"),
-        field("totalMass", &UniformMass::totalMass, "kg", "mass of all points together", range::positive)
-            .also("totalmass"));
+    using M = UniformMass;
+    constexpr auto mass = field("vertexMass", &M::vertexMass, "kg", "mass of each point", range::positive)
+                              .also("mass vertexmass");
+    constexpr auto total =
+        field("totalMass", &M::totalMass, "kg", "mass of all points together", range::positive)
+            .also("totalmass");
+    if constexpr (readsFile)
+      return field_list(
+          mass,
+          total,
+          field("filename", &M::filename, "", "mass and inertia of each body: .rigid, or a closed surface"));
+    else
+      return field_list(mass, total);
   }
 
   LumpedMass<D> lumped{};
@@ -37,12 +51,17 @@ struct UniformMass {
     if (vertexMass && totalMass)
       throw Error(where, "vertexMass and totalMass are both given; give one of them");
     MassType mass = vertexMass.value_or(unit());
+    if constexpr (readsFile)
+      if (!filename.path.empty()) {
+        if (vertexMass) throw Error(where, "vertexMass and filename are both given; give one of them");
+        mass = massInFile(where);
+      }
     if (totalMass) {
       if (context.rest.empty())
         throw Error(where, "the state has no points to share totalMass; give it positions");
       const Real share = Real(*totalMass) / Real(context.rest.size());
       if constexpr (D::rigid)
-        mass = {share, share * mass.inertia};
+        mass = {share, share / mass.mass * mass.inertia};
       else
         mass = share;
     }
@@ -68,6 +87,36 @@ struct UniformMass {
       return {};
     else
       return MassType(1);
+  }
+
+  MassType massInFile(std::string const& where) const {
+    RigidMass<double, 3> body;
+    try {
+      if (io::file_ending(filename.path) == ".rigid")
+        body = io::read_rigid(filename.path);
+      else
+        body = insideOf(io::read_text_mesh(filename.path, " and .rigid"));
+    } catch (Error const& error) {
+      throw Error(where, error.what());
+    }
+    return {Real(body.mass), body.inertia.template cast<Real>()};
+  }
+  // 1 kg in the surface; a mesh that is round about the origin has its centre there up to what faces take
+  // away
+  RigidMass<double, 3> insideOf(Mesh const& mesh) const {
+    const MassProperties p = mass_properties(filename.path, mesh.positions, mesh.triangles, mesh.quads);
+    const double radius = std::sqrt(p.inertia.trace() / (2 * p.volume));
+    if (p.center.norm() > 0.01 * radius)
+      throw Error(filename.path,
+                  text("the centre of mass is at (",
+                       p.center[0],
+                       ", ",
+                       p.center[1],
+                       ", ",
+                       p.center[2],
+                       ") m, but a rigid body has it at the origin; move the surface there, or take "
+                       "GenerateRigidMass and its centerToOrigin"));
+    return {1, p.inertia / p.volume};
   }
 };
 

@@ -10,73 +10,81 @@
 namespace sinew::dialect {
 
 /// Programs, pictures, windows, and helpers of data structures that Sinew does not need.
-inline constexpr std::array withoutMeaning = std::to_array<std::string_view>({"RequiredPlugin",
-                                                                              "VisualStyle",
-                                                                              "DefaultAnimationLoop",
-                                                                              "DefaultVisualManagerLoop",
-                                                                              "BackgroundSetting",
-                                                                              "ViewerSetting",
-                                                                              "InteractiveCamera",
-                                                                              "OrthographicCamera",
-                                                                              "Camera",
-                                                                              "LightManager",
-                                                                              "SpotLight",
-                                                                              "PositionalLight",
-                                                                              "DirectionalLight",
-                                                                              "OglSceneFrame",
-                                                                              "OglLabel",
-                                                                              "OglGrid",
-                                                                              "OglColorMap",
-                                                                              "OglShadowShader",
-                                                                              "VisualGrid",
-                                                                              "InfoComponent",
-                                                                              "MessageHandlerComponent",
-                                                                              "StatsSetting",
-                                                                              "MouseButtonSetting",
-                                                                              "AttachBodyButtonSetting",
-                                                                              "SofaDefaultPathSetting",
-                                                                              "DefaultPathSetting",
-                                                                              "AddResourceRepository",
-                                                                              "AddDataRepository",
-                                                                              "APIVersion",
-                                                                              "PauseAnimation",
-                                                                              "PauseAnimationOnEvent",
-                                                                              "Visual3DText",
-                                                                              "Text",
-                                                                              "MeshTopologicalMapping",
-                                                                              "RenderingOrder",
-                                                                              "DataDisplay",
-                                                                              "Monitor",
-                                                                              "TrailRenderer",
-                                                                              "LineAxis",
-                                                                              "RecordedCamera",
-                                                                              "GraphScatteredMatrix",
-                                                                              "TreeTopology",
-                                                                              "CompareState",
-                                                                              "CompareTopology",
-                                                                              "ExtraMonitor",
-                                                                              "EvalPointsDistance",
-                                                                              "EvalSurfaceDistance",
-                                                                              "TopologyChecker",
-                                                                              "VTKExporter",
-                                                                              "MeshExporter",
-                                                                              "OBJExporter",
-                                                                              "STLExporter",
-                                                                              "BlenderExporter",
-                                                                              "WriteState",
-                                                                              "WriteTopology",
-                                                                              "OglCylinderModel",
-                                                                              "OglTexture2D",
-                                                                              "OglShader",
-                                                                              "OglShaderDefineMacro",
-                                                                              "OglViewport",
-                                                                              "ClipPlane",
-                                                                              "VisualVectorField",
-                                                                              "MatrixLinearSystem",
-                                                                              "ConstantSparsityPatternSystem",
-                                                                              "CompositeLinearSystem",
-                                                                              "BaseCamera",
-                                                                              "DisplayFlagsSetting"});
+inline constexpr std::array withoutMeaning =
+    std::to_array<std::string_view>({"RequiredPlugin",
+                                     "VisualStyle",
+                                     "DefaultAnimationLoop",
+                                     "DefaultVisualManagerLoop",
+                                     "BackgroundSetting",
+                                     "ViewerSetting",
+                                     "InteractiveCamera",
+                                     "OrthographicCamera",
+                                     "Camera",
+                                     "LightManager",
+                                     "SpotLight",
+                                     "PositionalLight",
+                                     "DirectionalLight",
+                                     "OglSceneFrame",
+                                     "OglLabel",
+                                     "OglGrid",
+                                     "OglColorMap",
+                                     "OglShadowShader",
+                                     "VisualGrid",
+                                     "InfoComponent",
+                                     "MessageHandlerComponent",
+                                     "StatsSetting",
+                                     "MouseButtonSetting",
+                                     "AttachBodyButtonSetting",
+                                     "SofaDefaultPathSetting",
+                                     "DefaultPathSetting",
+                                     "AddResourceRepository",
+                                     "AddDataRepository",
+                                     "APIVersion",
+                                     "PauseAnimation",
+                                     "PauseAnimationOnEvent",
+                                     "Visual3DText",
+                                     "Text",
+                                     "MeshTopologicalMapping",
+                                     "RenderingOrder",
+                                     "DataDisplay",
+                                     "Monitor",
+                                     "TrailRenderer",
+                                     "LineAxis",
+                                     "RecordedCamera",
+                                     "GraphScatteredMatrix",
+                                     "TreeTopology",
+                                     "CompareState",
+                                     "CompareTopology",
+                                     "ExtraMonitor",
+                                     "EvalPointsDistance",
+                                     "EvalSurfaceDistance",
+                                     "TopologyChecker",
+                                     "VTKExporter",
+                                     "MeshExporter",
+                                     "OBJExporter",
+                                     "STLExporter",
+                                     "BlenderExporter",
+                                     "WriteState",
+                                     "WriteTopology",
+                                     "OglCylinderModel",
+                                     "OglTexture2D",
+                                     "OglShader",
+                                     "OglShaderDefineMacro",
+                                     "OglViewport",
+                                     "ClipPlane",
+                                     "VisualVectorField",
+                                     "MatrixLinearSystem",
+                                     "MatrixFreeSystem",
+                                     "PreconditionedMatrixFreeSystem",
+                                     "ConstantSparsityProjectionMethod",
+                                     "MatrixProjectionMethod",
+                                     "NaturalOrderingMethod",
+                                     "AMDOrderingMethod",
+                                     "COLAMDOrderingMethod",
+                                     "ConstantSparsityPatternSystem",
+                                     "CompositeLinearSystem",
+                                     "BaseCamera",
+                                     "DisplayFlagsSetting"});
 
 /// Collision detection and response, and constraints solved by multipliers: not simulated yet.
 inline constexpr std::array notYet = std::to_array<std::string_view>({"DefaultPipeline",
@@ -93,6 +101,7 @@ inline constexpr std::array notYet = std::to_array<std::string_view>({"DefaultPi
                                                                       "ParallelBVHNarrowPhase",
                                                                       "DefaultContactManager",
                                                                       "CollisionResponse",
+                                                                      "CollisionGroupManager",
                                                                       "DefaultCollisionGroupManager",
                                                                       "TreeCollisionGroupManager",
                                                                       "MinProximityIntersection",
@@ -228,6 +237,15 @@ inline constexpr std::array attributesWithoutMeaning =
                                      "hamiltonianEnergy",
                                      "linearSystem",
                                      "warnWhenLineSearchFails",
+                                     "warnWhenDiverge",
+                                     "residualGraph",
+                                     "springColor",
+                                     "noNewTriangles",
+                                     "ordering",
+                                     "orderingMethod",
+                                     "computeResidual",
+                                     "free_position",
+                                     "free_velocity",
                                      "checkIndices",
                                      "lineWidth",
                                      "pointSize",
@@ -249,7 +267,9 @@ inline constexpr std::array attributesNotYet =
                                      "solveVelocityConstraintFirst",
                                      "restScale",
                                      "externalForce",
-                                     "newtonSolver",
+                                     "updateStateWhenDiverged",
+                                     "swapping",
+                                     "noInitialTriangles",
                                      "applyRestPosition",
                                      "mapForces",
                                      "mapConstraints",
@@ -263,6 +283,13 @@ struct AttributeOf {
 inline constexpr std::array attributesWithoutMeaningOf =
     std::to_array<AttributeOf>({{"MechanicalObject", "force"},
                                 {"TetrahedronFEMForceField", "indices"},
+                                {"BoxROI", "indices"},
+                                {"SparseLDLSolver", "iterations"},
+                                {"SparseLDLSolver", "tolerance"},
+                                {"SparseLDLSolver", "threshold"},
+                                {"TriangleFEMForceField", "hosfordExponant"},
+                                {"TriangleFEMForceField", "criteriaValue"},
+                                {"TriangleFEMForceField", "computePrincipalStress"},
                                 {"VariationalSymplecticSolver", "file"},
                                 {"RegularGridTopology", "position"}});
 
@@ -279,14 +306,48 @@ inline constexpr std::array nodeAttributesWithoutMeaning =
                                      "sleeping",
                                      "canChangeSleepingState",
                                      "multithreadSimulation",
+                                     "multiThreadSimulation",
                                      "visual",
                                      "color",
                                      "defaultContactDistance",
                                      "defaultAlarmDistance"});
 
+/// Classes that are another one with an attribute of its own, where that is not given.
+struct StandsFor {
+  std::string_view name, className, attribute, value;
+};
+inline constexpr std::array standsFor = std::to_array<StandsFor>(
+    {{"BDF1OdeSolver", "BDFOdeSolver", "order", "1"},
+     {"BDF1", "BDFOdeSolver", "order", "1"},
+     {"NodalLinearDampingForceField", "UniformVelocityDampingForceField", "implicit", "1"}});
+
+/// What SOFA's NewtonRaphsonSolver says of the search where its element says nothing.
+inline constexpr std::array newtonDefaults =
+    std::to_array<std::array<std::string_view, 2>>({{"maxNbIterationsNewton", "1"},
+                                                    {"relativeSuccessiveStoppingThreshold", "1e-5"},
+                                                    {"relativeInitialStoppingThreshold", "1e-5"},
+                                                    {"absoluteResidualStoppingThreshold", "1e-5"},
+                                                    {"relativeEstimateDifferenceThreshold", "0"},
+                                                    {"absoluteEstimateDifferenceThreshold", "0"},
+                                                    {"maxNbIterationsLineSearch", "5"}});
+
+/// Attributes that are as good as not given where they are empty, or a link to nothing: "@".
+inline constexpr std::array mayBeEmpty =
+    std::to_array<std::string_view>({"src", "filename", "fileMesh", "fileTopology"});
+
 template <class List>
 constexpr bool has(List const& list, std::string_view word) {
   return std::find(list.begin(), list.end(), word) != list.end();
+}
+/// Whether a list of a topology is taken by src: a TriangleSetTopologyContainer, say, has no tetrahedra.
+inline bool container_holds(std::string_view tag, std::string_view list) {
+  if (tag.find("SetTopologyContainer") == tag.npos || list == "position") return true;
+  auto is = [&](std::string_view kind) { return tag.find(kind) != tag.npos; };
+  if (list == "edges") return !is("PointSet");
+  if (list == "triangles") return is("TriangleSet") || is("TetrahedronSet");
+  if (list == "quads") return is("QuadSet") || is("HexahedronSet");
+  if (list == "tetrahedra") return is("TetrahedronSet");
+  return list != "hexahedra" || is("HexahedronSet");
 }
 inline bool class_without_meaning(std::string_view name) {
   if (has(withoutMeaning, name)) return true;

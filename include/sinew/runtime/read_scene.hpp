@@ -86,6 +86,7 @@ class SceneReader {
     std::vector<std::unique_ptr<Item>> items{};
     std::string state{};  // DataTypes of the state of this node; empty: none
     bool visual = false;
+    std::vector<XmlElement*> newton{};  // settings for ODE solvers
 
     Item* find(std::string_view itemName) const {
       for (auto const& item : items)
@@ -99,10 +100,13 @@ class SceneReader {
         if (c->name == childName) return c.get();
       return nullptr;
     }
+    /// The component of a role; of several topologies the last, as in SOFA.
     Item* ofRole(RoleKind role) const {
+      Item* found = nullptr;
       for (auto const& item : items)
-        if (item->info && item->info->role == role) return item.get();
-      return nullptr;
+        if (item->info && item->info->role == role && (!found || role == RoleKind::topology))
+          found = item.get();
+      return found;
     }
     /// The nearest node upwards, from this one on, that has a state.
     Place const* owner() const { return !state.empty() ? this : parent ? parent->owner() : nullptr; }
@@ -117,6 +121,7 @@ class SceneReader {
   std::set<std::string, std::less<>> ignored_{}, warnings_{};
   std::vector<std::string> files_{};
   std::vector<Item*> moved_{};
+  std::set<XmlElement const*> takenNewton_{};
   std::vector<std::unique_ptr<XmlElement>> made_{};  // elements that stand for what an attribute asks for
 
   void complain(std::string const& place, std::string_view what) {
@@ -133,6 +138,8 @@ class SceneReader {
     for (auto const& [path, value] : options_.set) override_(root, path, value);
     Place top{&root, nameOf(root, "root"), nullptr};
     collect(top);
+    setNewton(top);
+    warnOfLooseNewton(top);
     splitVisuals(top);
     decideStates(top);
     decideClasses(top);
@@ -146,13 +153,13 @@ class SceneReader {
     forEachItem(top, [&](Item& item) {
       if (item.home && item.home != item.place) moved_.push_back(&item);
     });
-    forEachItem(top, [&](Item& item) { warnOfLooseEnds(item); });
     ReadScene<R> scene{RuntimeNode<R>(top.name)};
     readNode(top, scene);
     fill(top, scene.root);
     throwErrors();
     scene.ignored.assign(ignored_.begin(), ignored_.end());
     scene.warnings.assign(warnings_.begin(), warnings_.end());
+    scene.warnings.insert(scene.warnings.end(), xml_.warnings.begin(), xml_.warnings.end());
     scene.files = files_;
     return scene;
   }
@@ -171,19 +178,6 @@ class SceneReader {
     for (char& c : given)
       if (c == '/' || c == ' ') c = '_';
     return given;
-  }
-
-  // an interaction is seen by the solver of its node or above
-  void warnOfLooseEnds(Item const& item) {
-    if (!item.info || !item.info->joins) return;
-    for (Place const* at = item.home ? item.home : item.place; at; at = at->parent)
-      if (at->ofRole(RoleKind::odeSolver)) return;
-    warnings_.insert(
-        text(item.element->place(),
-             ": <",
-             item.tag,
-             "> joins bodies under different solvers, which is not simulated yet: it has no effect; put "
-             "one solver above both"));
   }
 
   // --set path.attribute=value
@@ -241,40 +235,145 @@ class SceneReader {
         }
         place.children.push_back(std::make_unique<Place>(Place{&child, name, &place}));
         collect(*place.children.back());
-      } else if (child.tag == "BoxConstraint") {
+      } else if (const std::string tag = tagOf(child); tag == "NewtonRaphsonSolver") {
+        hasNoChildren(child);
+        place.newton.push_back(&child);
+      } else if (tag == "BoxConstraint") {
         boxConstraint(place, child);
+      } else if (tag == "CGImplicit" || tag == "CGImplicitSolver") {
+        cgImplicit(place, child);
       } else if (auto item = makeItem(place, child)) {
         place.items.push_back(std::move(item));
       }
     }
   }
+  static std::string tagOf(XmlElement const& element) {
+    auto const* type = element.tag == "Object" ? element.attribute("type") : nullptr;
+    return type ? type->value : element.tag;
+  }
+  void hasNoChildren(XmlElement const& component) {
+    for (auto const& child : component.children)
+      complain(child,
+               text("stands inside <", component.tag, ">, but a component has attributes only; move it out"));
+  }
+
+  // an element of another class that stands for a part of what an element asks for
+  XmlElement& partOf(XmlElement const& element, std::string_view tag) {
+    made_.push_back(std::make_unique<XmlElement>(
+        XmlElement{.tag = std::string(tag), .file = element.file, .offset = element.offset}));
+    return *made_.back();
+  }
+  void addItem(Place& place, XmlElement& element) {
+    if (auto item = makeItem(place, element)) place.items.push_back(std::move(item));
+  }
 
   // <BoxConstraint box="..."/> stands for a BoxROI and a FixedProjectiveConstraint of what is in it
   void boxConstraint(Place& place, XmlElement& element) {
+    hasNoChildren(element);
     const std::string name = nameOf(element, "BoxConstraint") + "_roi";
-    auto make = [&](std::string_view tag) -> XmlElement& {
-      made_.push_back(std::make_unique<XmlElement>(
-          XmlElement{.tag = std::string(tag), .file = element.file, .offset = element.offset}));
-      return *made_.back();
-    };
-    XmlElement& roi = make("BoxROI");
-    XmlElement& fixed = make("FixedProjectiveConstraint");
-    roi.attributes = element.attributes;
-    roi.set("name", name);
+    XmlElement& roi = partOf(element, "BoxROI");
+    XmlElement& fixed = partOf(element, "FixedProjectiveConstraint");
     fixed.attributes = {{"indices", text('@', name, ".indices"), element.offset}};
-    if (auto const* given = element.attribute("name")) fixed.attributes.push_back(*given);
-    for (XmlElement* part : {&roi, &fixed})
-      if (auto item = makeItem(place, *part)) place.items.push_back(std::move(item));
+    for (auto const& a : element.attributes)
+      if (a.name != "type") (a.name == "name" || a.name == "fixAll" ? fixed : roi).attributes.push_back(a);
+    roi.set("name", name);
+    addItem(place, roi);
+    addItem(place, fixed);
+  }
+
+  // <CGImplicit .../> of the first SOFA is an EulerImplicitSolver, damped, with a CGLinearSolver; a node that
+  // has a solver gets the latter only
+  void cgImplicit(Place& place, XmlElement& element) {
+    hasNoChildren(element);
+    XmlElement& ode = partOf(element, "EulerImplicitSolver");
+    XmlElement& linear = partOf(element, "CGLinearSolver");
+    auto const* class_ = classNamed(linear.tag);
+    for (auto const& a : element.attributes)
+      if (a.name != "type") (class_ && class_->field(a.name) ? linear : ode).attributes.push_back(a);
+    ode.set("rayleighStiffness", "0.1", false);
+    ode.set("rayleighMass", "0.1", false);
+    linear.set("threshold", "1e-5", false);
+    linear.set("name", nameOf(element, element.tag) + "_linear");
+    if (std::none_of(place.items.begin(), place.items.end(), [](auto const& item) {
+          return item->candidates[0]->role == RoleKind::odeSolver;
+        }))
+      addItem(place, ode);
+    addItem(place, linear);
+  }
+  ClassInfo const* classNamed(std::string_view name) const {
+    for (auto const& info : table_)
+      if (info.known(name)) return &info;
+    return nullptr;
+  }
+
+  // NewtonRaphsonSolver holds settings of the ODE solver that links to it; where that names none, of one in
+  // its node or above
+  void setNewton(Place& place) {
+    for (auto& item : place.items)
+      if (item->candidates[0]->role == RoleKind::odeSolver) {
+        std::string name;
+        std::erase_if(item->element->attributes, [&](XmlAttribute const& a) {
+          if (a.name != "newtonSolver") return false;
+          name = a.value.substr(a.value.find_last_of("@/") + 1);
+          std::replace(name.begin(), name.end(), ' ', '_');
+          return true;
+        });
+        XmlElement const* newton = nullptr;
+        for (Place* at = &place; at && !newton && !name.empty(); at = at->parent)
+          newton = newtonIn(*at, name);
+        if (!newton) newton = newtonIn(place, "");
+        if (newton) takeNewton(*item, *newton);
+      }
+    for (auto& child : place.children) setNewton(*child);
+  }
+  static XmlElement const* newtonIn(Place const& place, std::string_view name) {
+    for (XmlElement const* element : place.newton)
+      if (name.empty() || nameOf(*element, element->tag) == name) return element;
+    for (auto const& child : place.children)
+      if (XmlElement const* found = newtonIn(*child, name)) return found;
+    return nullptr;
+  }
+  void warnOfLooseNewton(Place const& place) {
+    for (XmlElement const* element : place.newton)
+      if (!takenNewton_.count(element))
+        warnings_.insert(text(element->place(),
+                              ": <NewtonRaphsonSolver>: no ODE solver links to it, stands beside it or "
+                              "above; it has no effect"));
+    for (auto const& child : place.children) warnOfLooseNewton(*child);
+  }
+  void takeNewton(Item& item, XmlElement const& newton) {
+    takenNewton_.insert(&newton);
+    if (!item.candidates[0]->field("maxNbIterationsNewton"))
+      return void(warnings_.insert(text(newton.place(),
+                                        ": <NewtonRaphsonSolver>: ",
+                                        item.tag,
+                                        " has no iterations of Newton's method; it has no effect")));
+    for (XmlAttribute a : newton.attributes) {
+      if (a.name == "name" || a.name == "type") continue;
+      if (!a.file) a.file = newton.file;
+      if (!item.element->attribute(a.name)) item.element->take(a, true);
+    }
+    for (auto const& [name, value] : dialect::newtonDefaults) item.element->set(name, value, false);
   }
 
   std::unique_ptr<Item> makeItem(Place& place, XmlElement& element) {
-    std::string tag = element.tag;
-    if (tag == "Object")
-      if (auto const* type = element.attribute("type")) tag = type->value;
+    const std::string tag = tagOf(element);
+    std::string_view known = tag;
+    for (auto const& other : dialect::standsFor)
+      if (other.name == tag) {
+        known = other.className;
+        element.set(other.attribute, other.value, false);
+      }
     auto item = std::make_unique<Item>(Item{&place, &element, tag, nameOf(element, tag)});
     for (auto const& info : table_)
-      if (info.known(tag)) item->candidates.push_back(&info);
-    if (!item->candidates.empty()) return item;
+      if (info.known(known)) item->candidates.push_back(&info);
+    if (!item->candidates.empty()) {
+      hasNoChildren(element);
+      std::erase_if(element.attributes, [](XmlAttribute const& a) {
+        return dialect::has(dialect::mayBeEmpty, a.name) && (a.value.empty() || a.value == "@");
+      });
+      return item;
+    }
     if (dialect::class_without_meaning(tag)) {
       ignored_.insert(tag);
     } else if (dialect::has(dialect::notYet, tag)) {
@@ -658,11 +757,9 @@ class SceneReader {
   std::string stateValue(Item& item, FieldInfo const& field) {
     AnyComponent<R> copy(*item.component);
     std::vector<Eigen::Vector3d> points;
-    if (Item* topology = item.place->ofRole(RoleKind::topology)) {
-      resolve(*topology);
-      if (FieldInfo const* position = offered(*topology->info, "position"))
-        read_value(position->write(topology->address()), points);
-    }
+    if (item.info->field("position")->write(item.address()).empty())
+      if (Item* topology = withPoints(*item.place))
+        read_value(valueOf({topology, nullptr, "position"}), points);
     std::string words;
     copy.template visit<role::State>([&](auto& state) {
       if constexpr (requires { state.place("", points); }) state.place("", points);
@@ -696,9 +793,10 @@ class SceneReader {
     std::set<std::string_view> given;
     for (auto const& a : item.element->attributes) attribute(item, a, given);
     if (auto const* src = item.element->attribute("src")) source(item, *src, given);
+    if (item.info->role == RoleKind::visualModel) clothe(item, given);
     place(item, placing);
     if (item.info->role == RoleKind::engine && !item.element->attribute("src")) surroundings(item, given);
-    if (item.info->role == RoleKind::state) onePoint(item, given);
+    if (item.info->role == RoleKind::state) statePoints(item, given);
     locate(item, [&] {
       item.component->template visit<AnyRole>([&](auto const& component) { check_fields(component, ""); });
       item.component->template visit<role::Engine>([&](auto& engine) { engine.update(item.info->cppName); });
@@ -734,6 +832,10 @@ class SceneReader {
       std::erase_if(attributes, [&](XmlAttribute const& a) {
         if (a.name.size() != 2 || a.name[0] != kind.letter || a.name[1] < 'x' || a.name[1] > 'z')
           return false;
+        // in an old scene that SOFA saved, dx is a vector of the state
+        Words words(a.value);
+        if (!words.end()) words.next();
+        if (item.info->role == RoleKind::state && !words.end()) return true;
         parts[std::size_t(a.name[1] - 'x')] = a.value;
         offset = a.offset;
         return true;
@@ -783,6 +885,11 @@ class SceneReader {
   static std::vector<XmlAttribute> takePlacing(Item& item) {
     std::vector<XmlAttribute> taken;
     if (item.info->role != RoleKind::visualModel) return taken;
+    // SOFA's second name for them
+    const bool named = item.element->attribute("position");
+    if (named) std::erase_if(item.element->attributes, [](auto const& a) { return a.name == "vertices"; });
+    for (auto& a : item.element->attributes)
+      if (a.name == "vertices") a.name = "position";
     static constexpr std::array names =
         std::to_array<std::string_view>({"translation", "rotation", "scale", "scale3d"});
     std::erase_if(item.element->attributes, [&](XmlAttribute const& a) {
@@ -833,6 +940,7 @@ class SceneReader {
     static constexpr std::array own = std::to_array<std::string_view>({"name", "template", "src", "type"});
     if (dialect::has(own, a.name) && !(a.name == "type" && item.element->tag != "Object")) return;
     if (a.name == "object1" || a.name == "object2") return;
+    if (a.name == "topology") return otherTopology(item, a);
     const bool maps = item.info->role == RoleKind::mapping || item.info->role == RoleKind::engine;
     if (maps && (a.name == "input" || a.name == "output")) return;
     FieldInfo const* field = nullptr;
@@ -860,29 +968,65 @@ class SceneReader {
         linked = valueOf(follow(item, a.value));
         item.links[std::string(field->name)] = a.value;
       }
-      setField(item, *field, isLink(a.value) ? std::string_view(linked) : std::string_view(a.value), a.name);
+      setField(item, *field, isLink(a.value) ? linked : a.value, a);
     } catch (Error const& error) {
       item.failed = true;
       complain(item.element->place(a), text('<', item.tag, ">: ", a.name, ": ", error.what()));
     }
   }
 
-  void setField(Item& item, FieldInfo const& field, std::string_view words, std::string_view written) {
-    std::string value(words);
+  // all of a node act over its last topology
+  void otherTopology(Item& item, XmlAttribute const& a) {
+    if (!isLink(a.value)) return;
+    Item const* linked = nullptr;
+    try {
+      linked = follow(item, a.value).item;
+    } catch (Error const&) {
+      return;  // as in SOFA, the topology of the node then
+    }
+    Item const* used = nullptr;
+    for (Place* at = item.place; at && !used; at = at->parent) used = at->ofRole(RoleKind::topology);
+    if (linked && linked != used && linked->info && linked->info->role == RoleKind::topology)
+      warnings_.insert(text(item.element->place(a),
+                            ": <",
+                            item.tag,
+                            ">: topology leads to '",
+                            linked->name,
+                            "', but it acts over '",
+                            used ? used->name : "",
+                            "', the last topology of the nearest node that has one"));
+  }
+
+  void setField(Item& item, FieldInfo const& field, std::string value, XmlAttribute const& written) {
     // one number stretches alike in all directions
-    if (field.name == "scale3d" && written == "scale") {
-      Words again(words);
+    if (field.name == "scale3d" && written.name == "scale") {
+      Words again(value);
       if (!again.end()) {
         const std::string one(again.next());
         if (again.end()) value = text(one, ' ', one, ' ', one);
       }
     }
+    if (field.name == "position" && item.info->role == RoleKind::topology) value = inSpace(item, value);
     if (field.isFile) {
-      value =
-          xml_.find(std::string(Words(value).rest()), item.element->file ? item.element->file->folder : "");
+      auto const& file = written.file ? written.file : item.element->file;
+      value = xml_.find(std::string(Words(value).rest()), file ? file->folder : "");
       files_.push_back(value);
     }
     field.read(item.address(), value);
+  }
+
+  // points of a topology are in space, but may be given as those of a state in fewer dimensions
+  static std::string inSpace(Item const& item, std::string value) {
+    Place const* const owner = item.place->owner();
+    const std::size_t given =
+        owner && owner->state.starts_with("Vec") ? std::size_t(owner->state[3] - '0') : 3;
+    std::size_t count = 0;
+    for (Words words(value); !words.end(); words.next()) ++count;
+    if (given >= 3 || count % 3 == 0 || count % given != 0) return value;
+    std::string points;
+    for (Words words(value); !words.end();)
+      for (std::size_t c = 0; c < 3; ++c) points += text(c < given ? words.next() : "0", ' ');
+    return points;
   }
 
   // src="@loader": all that the loader offers under the name of a field that is not given
@@ -894,6 +1038,7 @@ class SceneReader {
       for (auto const& field : item.info->fields) {
         if (!field.isInput || given.count(field.name)) continue;
         bool offered = false;
+        if (!dialect::container_holds(item.tag, field.name)) continue;
         for (auto const& other : target.item->info->fields)
           if (other.known(field.name) && (!other.isInput || target.item->info->role != RoleKind::engine))
             offered = true;
@@ -936,13 +1081,65 @@ class SceneReader {
   static constexpr auto topologyLists =
       std::to_array<std::string_view>({"edges", "triangles", "quads", "tetrahedra", "hexahedra"});
 
-  // a state of its own that is given no points has one, at the origin
-  void onePoint(Item& item, std::set<std::string_view> const& given) {
-    if (given.count("position") || item.place->ofRole(RoleKind::mapping) ||
-        item.place->ofRole(RoleKind::topology))
+  // A state that is given no points takes, at init, those of the topology of its node; here it takes those of
+  // another where that has none. One of its own without any topology has one point, at the origin.
+  void statePoints(Item& item, std::set<std::string_view> const& given) {
+    if (given.count("position")) return;
+    Item const* const used = item.place->ofRole(RoleKind::topology);
+    if (Item* topology = withPoints(*item.place)) {
+      if (topology != used) takeFrom(item, "position", *topology, "position");
+    } else if (!used && !item.place->ofRole(RoleKind::mapping)) {
+      item.component->template visit<role::State>(
+          [&](auto& state) { state.position.push_back(std::decay_t<decltype(state)>::DataTypes::zero()); });
+    }
+  }
+  Item* withPoints(Place& place) {
+    for (auto item = place.items.rbegin(); item != place.items.rend(); ++item)
+      if ((*item)->info && (*item)->info->role == RoleKind::topology && offered(*(*item)->info, "position") &&
+          !valueOf({item->get(), nullptr, "position"}).empty())
+        return item->get();
+    return nullptr;
+  }
+  void takeFrom(Item& item, std::string_view name, Item& from, std::string_view data) {
+    locate(item, [&] {
+      item.info->field(name)->read(item.address(), valueOf({&from, nullptr, std::string(data)}));
+      item.links[std::string(name)] = text(linkTo(from), '.', data);
+    });
+  }
+
+  // A visual model without vertices has, below an IdentityMapping, those of the state above, otherwise those
+  // of the nearest topology; and its elements, where it has none of its own.
+  void clothe(Item& item, std::set<std::string_view> const& given) {
+    if (given.count("position")) return;
+    Item* topology = nullptr;
+    for (Place* at = item.place; at && !topology; at = at->parent)
+      if (!at->state.empty() || at->ofRole(RoleKind::topology)) topology = at->ofRole(RoleKind::topology);
+    Item const* const mapping = item.place->ofRole(RoleKind::mapping);
+    Place* const above = item.place->parent;
+    if (mapping && mapping->info->name == "IdentityMapping") {
+      if (mapping->info->in.starts_with("Vec3"))
+        for (Place* at = above; at; at = at->parent)
+          if (Item* state = at->ofRole(RoleKind::state)) {
+            takeFrom(item, "position", *state, "position");
+            break;
+          }
+    } else if (topology && offered(*topology->info, "position")) {
+      takeFrom(item, "position", *topology, "position");
+    }
+    std::size_t points = 0;
+    item.component->template visit<role::VisualModel>(
+        [&](auto const& v) { points = v.mesh.positions.size(); });
+    static constexpr std::array lists = std::to_array<std::string_view>({"edges", "triangles", "quads"});
+    if (!topology || item.failed ||
+        std::any_of(lists.begin(), lists.end(), [&](std::string_view list) { return given.count(list); }))
       return;
-    item.component->template visit<role::State>(
-        [&](auto& state) { state.position.push_back(std::decay_t<decltype(state)>::DataTypes::zero()); });
+    for (const std::string_view list : lists) {
+      if (!offered(*topology->info, list)) continue;
+      std::vector<int> corners;
+      locate(item, [&] { read_value(valueOf({topology, nullptr, std::string(list)}), corners); });
+      if (std::all_of(corners.begin(), corners.end(), [&](int i) { return i >= 0 && i < int(points); }))
+        takeFrom(item, list, *topology, list);
+    }
   }
 
   // a file that a visual model or a topology names is read by a loader of its own
@@ -1048,8 +1245,11 @@ class SceneReader {
   // those written in a node that belong there, then those that belong there and are written elsewhere
   std::vector<Item*> itemsOf(Place& place) {
     std::vector<Item*> items;
-    for (auto& item : place.items)
+    Item const* const topology = place.ofRole(RoleKind::topology);
+    for (auto& item : place.items) {
+      if (item->info && item->info->role == RoleKind::topology && item.get() != topology) continue;
       if (!item->home || item->home == &place) items.push_back(item.get());
+    }
     for (Item* item : moved_)
       if (item->home == &place) items.push_back(item);
     return items;

@@ -129,6 +129,15 @@ void read_rigid_mass(Words& words, RigidMass<Real, Dim>& value) {
           perMass ? numbers[i + 2] * value.mass : numbers[i + 1];
 }
 
+/// The name of an enumerator for which a scene file may have another.
+template <class T>
+std::string_view name_of(std::string_view word) {
+  if constexpr (requires { enum_aliases(T{}); })
+    for (auto const& [alias, name] : enum_aliases(T{}))
+      if (alias == word) return name;
+  return word;
+}
+
 template <class T>
 void read_words(Words& words, T& value) {
   if constexpr (std::is_same_v<T, bool>) {
@@ -143,7 +152,7 @@ void read_words(Words& words, T& value) {
     const std::string_view word = need_word(words, "a word");
     constexpr auto names = enum_names(T{});
     for (std::size_t i = 0; i < names.size(); ++i)
-      if (names[i] == word) return void(value = T(i));
+      if (names[i] == name_of<T>(word)) return void(value = T(i));
     std::string known;
     for (auto name : names) known += text(known.empty() ? "" : ", ", name);
     const std::string nearest = nearest_name(word, names);

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <sinew/io/text_reader.hpp>
+#include <sinew/runtime/dialect.hpp>
 #include <sinew/runtime/value_text.hpp>
 
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <pugixml.hpp>
 #include <string>
@@ -16,21 +18,26 @@ namespace sinew {
 /// The text of a scene file, for places in it.
 struct XmlFile {
   std::string path, folder, content;
+  std::vector<std::size_t> lines{};  // where each begins
+
+  XmlFile(std::string p, std::string f, std::string c)
+      : path(std::move(p)), folder(std::move(f)), content(std::move(c)), lines{0} {
+    for (std::size_t i = 0; i < content.size(); ++i)
+      if (content[i] == '\n') lines.push_back(i + 1);
+  }
 
   /// "liver.scn:12:3".
   std::string place(std::size_t offset) const {
     offset = std::min(offset, content.size());
-    const auto begin = content.begin(), at = begin + std::ptrdiff_t(offset);
-    const auto line = std::count(begin, at, '\n') + 1;
-    const std::size_t start = content.rfind('\n', offset == 0 ? 0 : offset - 1);
-    const std::size_t column = offset == 0 ? 1 : start == content.npos ? offset + 1 : offset - start;
-    return text(path, ':', line, ':', column);
+    const auto line = std::upper_bound(lines.begin(), lines.end(), offset) - 1;
+    return text(path, ':', line - lines.begin() + 1, ':', offset - *line + 1);
   }
 };
 
 struct XmlAttribute {
   std::string name, value;
   std::size_t offset;
+  std::shared_ptr<XmlFile const> file{};  // where it stands, if not in the file of its element
 };
 
 /// One element of a scene file, after its includes are put in.
@@ -47,11 +54,21 @@ struct XmlElement {
     return nullptr;
   }
   std::string place() const { return file ? file->place(offset) : ""; }
-  std::string place(XmlAttribute const& a) const { return file ? file->place(a.offset) : ""; }
-  void set(std::string_view name, std::string_view value) {
+  std::string place(XmlAttribute const& a) const {
+    return a.file ? a.file->place(a.offset) : file ? file->place(a.offset) : "";
+  }
+  void set(std::string_view name, std::string_view value, bool replace = true) {
     for (auto& a : attributes)
-      if (a.name == name) return void(a.value = value);
+      if (a.name == name) return replace ? void(a.value = value) : void();
     attributes.push_back({std::string(name), std::string(value), offset});
+  }
+  /// The same, with the place of an attribute of another element; where it is new only if `add`. Says whether
+  /// there is one now.
+  bool take(XmlAttribute const& from, bool add) {
+    for (auto& a : attributes)
+      if (a.name == from.name) return a = from, true;
+    if (add) attributes.push_back(from);
+    return add;
   }
 };
 
@@ -86,13 +103,17 @@ inline std::size_t find_not_utf8(std::string_view bytes) {
 /// depth, number of elements, size, includes of includes. Throws Error with file, line and column.
 class XmlReader {
  public:
-  static constexpr std::size_t mostBytes = std::size_t(1) << 28, mostElements = 1000000;
+  static constexpr std::size_t mostBytes = std::size_t(1) << 28, mostElements = 1000000,
+                               mostAttributes = 1000, mostWarnings = 100;
   static constexpr int mostDepth = 200, mostIncludes = 16;
 
   /// Where files are looked for that do not stand beside the scene.
   explicit XmlReader(std::vector<std::string> dataPaths = {}) : dataPaths_(std::move(dataPaths)) {}
 
   XmlElement read(std::string const& path) { return parse(path, io::read_file(path)); }
+
+  /// What the files say without effect, each with its place; no more than the first of them.
+  std::vector<std::string> warnings{};
 
   XmlElement parse(std::string const& path, std::string content) {
     if (content.size() > mostBytes)
@@ -102,7 +123,7 @@ class XmlReader {
                        " bytes; a scene file may have ",
                        mostBytes,
                        "; keep meshes in files of their own"));
-    auto file = std::make_shared<XmlFile>(XmlFile{path, detail::folder_of(path), std::move(content)});
+    auto file = std::make_shared<XmlFile const>(path, detail::folder_of(path), std::move(content));
     if (const std::size_t bad = detail::find_not_utf8(file->content); bad != std::string::npos)
       throw Error(file->place(bad), "is no UTF-8 text; save the file in UTF-8");
     std::string buffer = file->content;
@@ -157,23 +178,55 @@ class XmlReader {
       throw Error(to.place(), text("is nested more than ", mostDepth, " deep; flatten the scene"));
     if (++elements_ > mostElements)
       throw Error(to.place(), text("is one element too many; a scene may have ", mostElements));
-    for (auto const& a : node.attributes()) {
-      const std::size_t offset = std::size_t(a.name() - buffer);
-      if (to.attribute(a.name()))
-        throw Error(file->place(offset),
-                    text("attribute ", detail::shown(a.name()), " is given twice; remove one"));
-      to.attributes.push_back({a.name(), a.value(), offset});
-    }
+    for (auto const& a : node.attributes())
+      addAttribute(to, {a.name(), a.value(), std::size_t(a.name() - buffer)}, *file);
     for (auto const& child : node.children()) {
       if (child.type() != pugi::node_element) continue;
-      if (std::string_view(child.name()) == "include")
+      const std::string_view tag = child.name();
+      if (tag == "include")
         include(child, buffer, file, to, depth);
+      else if (tag == "Attribute")
+        attribute(child, buffer, file, to);
       else
         convert(child, buffer, file, to.children.emplace_back(), depth + 1);
     }
   }
 
-  // the root of the other file stands in the place of the include; of a <Group>, its children
+  // <Attribute type="velocity"><Data value="0 1 0"/></Attribute>: an attribute of the element around it
+  void attribute(pugi::xml_node const& node, char const* buffer, std::shared_ptr<XmlFile const> const& file,
+                 XmlElement& to) {
+    const std::string place = file->place(std::size_t(node.name() - buffer) - 1);
+    const std::string name = node.attribute("type").value();
+    if (name.empty()) throw Error(place, "<Attribute>: has no type; give the name of the attribute");
+    std::vector<pugi::xml_node> data;
+    for (auto const& child : node.children())
+      if (child.type() == pugi::node_element) data.push_back(child);
+    if (data.size() != 1 || std::string_view(data[0].name()) != "Data" || !data[0].attribute("value"))
+      throw Error(place, "<Attribute>: has its value in one element below it: <Data value=\"...\"/>");
+    const auto value = data[0].attribute("value");
+    addAttribute(to, {name, value.value(), std::size_t(value.name() - buffer)}, *file);
+  }
+  void warn(std::string warning) {
+    if (warnings.size() < mostWarnings) warnings.push_back(std::move(warning));
+  }
+  // given twice, the last counts, as in SOFA
+  void addAttribute(XmlElement& to, XmlAttribute added, XmlFile const& file) {
+    if (to.attributes.size() == mostAttributes)
+      throw Error(file.place(added.offset),
+                  text("is one attribute too many; an element may have ", mostAttributes));
+    if (to.attribute(added.name))
+      warn(text(file.place(added.offset),
+                ": <",
+                to.tag,
+                ">: attribute ",
+                detail::shown(added.name),
+                " is given twice; the last counts"));
+    to.take(added, true);
+  }
+
+  // The root of the other file stands in the place of the include, or its children where the name of either
+  // is Group or _Group_, or the tag of the root is Group; named _Merge_, it is merged into the element
+  // around. Attributes of the include replace those that elements of the other file have.
   void include(pugi::xml_node const& node, char const* buffer, std::shared_ptr<XmlFile const> const& file,
                XmlElement& to, int depth) {
     XmlElement here{.tag = "include", .file = file, .offset = std::size_t(node.name() - buffer) - 1};
@@ -192,12 +245,74 @@ class XmlReader {
     XmlElement root = read(path);
     if (depth_of(root) + depth > mostDepth)
       throw Error(here.place(), text("nests the scene more than ", mostDepth, " deep; flatten it"));
-    for (auto const& a : node.attributes())
-      if (std::string_view(a.name()) != "href") root.set(a.name(), a.value());
-    if (root.tag == "Group")
+    bool group = root.tag == "Group", merge = false;
+    auto named = [&] {
+      auto const* name = root.attribute("name");
+      if (!name) return;
+      group = group || name->value == "Group" || name->value == "_Group_";
+      merge = merge || name->value == "_Merge_";
+    };
+    named();
+    for (auto const& a : node.attributes()) {
+      const XmlAttribute given{a.name(), a.value(), std::size_t(a.name() - buffer), file};
+      if (given.name == "href") continue;
+      if (given.name == "name") {
+        root.take(given, true);
+        named();
+      } else if (!replace(root, given) && !dialect::attribute_without_meaning(given.name)) {
+        warn(text(file->place(given.offset),
+                  ": <include>: no element of ",
+                  detail::shown(href),
+                  " has the attribute ",
+                  detail::shown(given.name),
+                  " that could be replaced; it has no effect"));
+      }
+    }
+    if (merge)
+      mergeInto(to, root);
+    else if (group)
       std::move(root.children.begin(), root.children.end(), std::back_inserter(to.children));
     else
       to.children.push_back(std::move(root));
+  }
+
+  // in all elements that have the attribute; "fem__youngModulus" in those named fem only
+  static bool replace(XmlElement& in, XmlAttribute const& by) {
+    const std::size_t sep = by.name.find("__");
+    if (sep == std::string::npos) return replace(in, by, nullptr);
+    XmlAttribute attribute = by;
+    attribute.name = by.name.substr(sep + 2);
+    const std::string element = by.name.substr(0, sep);
+    return replace(in, attribute, &element);
+  }
+  static bool replace(XmlElement& in, XmlAttribute const& by, std::string const* named) {
+    auto const* name = in.attribute("name");
+    bool found = (!named || (name && name->value == *named)) && in.take(by, false);
+    for (auto& child : in.children) found = replace(child, by, named) || found;
+    return found;
+  }
+
+  // attributes and children of an element are added to another; children of one tag and name are merged too
+  static void mergeInto(XmlElement& to, XmlElement& from) {
+    for (auto& a : from.attributes) {
+      if (!a.file) a.file = from.file;
+      if (a.name != "name") to.take(a, true);
+    }
+    std::map<std::pair<std::string, std::string>, std::size_t> known;
+    auto known_as = [&](XmlElement const& child, std::size_t place) {
+      auto const* name = child.attribute("name");
+      return name && !name->value.empty()
+                 ? known.emplace(std::pair(child.tag, name->value), place).first->second
+                 : place;
+    };
+    for (std::size_t i = 0; i < to.children.size(); ++i) known_as(to.children[i], i);
+    for (auto& child : from.children) {
+      const std::size_t place = known_as(child, to.children.size());
+      if (place == to.children.size())
+        to.children.push_back(std::move(child));
+      else
+        mergeInto(to.children[place], child);
+    }
   }
   static int depth_of(XmlElement const& element) {
     int most = 0;

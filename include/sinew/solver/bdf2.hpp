@@ -1,105 +1,145 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <sinew/core/component.hpp>
-#include <sinew/solver/multi_vec.hpp>
+#include <sinew/solver/newton.hpp>
 
 namespace sinew {
 
-/// Backward differentiation (Curtiss, Hirschfelder 1952) of order 2, or 1: implicit Euler; stable for any
-/// stiffness, for steps of any size. From what the state moved by in the step before, dx- and dv-, with the
-/// ratio r of the two steps,
-///   x1 = x + c dx- + B h v1,   M (v1 - v - c dv-) = B h (f(x1, v1) - rM M v1 + rK K v1),
-///   c = r^2 / (1 + 2 r), B = (1 + r) / (1 + 2 r)          c = 0, B = 1 in the first step and for order 1
-/// is solved for v1 by Newton's method; its first iteration alone already has the order for
-/// points, the second for rigid bodies too, whose gyroscopic forces have no part in the tangent.
+/// Backward differentiation (Curtiss, Hirschfelder 1952) of order 1: implicit Euler, 2: stable for any
+/// stiffness, or 3: stable but for springs that hardly damp (angles of more than 86 degrees). From what the
+/// state moved by in the steps before, dx- and dv-, dx-- and dv--, of the lengths h- and h--,
+///   x1 = x + c dx- + d dx-- + B v1,   M (v1 - v - c dv- - d dv--) = B (f(x1, v1) - rM M v1 + rK K v1),
+/// with B, c and d so that cubics x(t) are met exactly: with p = h + h-, q = h- + h--, s = p + h--,
+///   1/B = 1/h + 1/p + 1/s,   c = B h/h- (1/p + (1 + p/q)/s),   d = -B h/h-- p/(q s)
+/// For order 2, as in the second step, 1/s is 0; for order 1, as in the first step, so is 1/p. That would
+/// cost order 3 its order: its first step is the trapezoidal rule. Newton's method solves for v1; its first
+/// iteration alone already has the order for points, the second for rigid bodies too up to order 2, whose
+/// gyroscopic forces have no part in the tangent.
 struct BDFOdeSolver {
   using Role = role::OdeSolver;
   static constexpr std::string_view className = "BDFOdeSolver";
   static constexpr std::string_view aliases = "BDF2OdeSolver BDF2";
   static constexpr bool implicit = true;
-  static constexpr Auxiliary auxiliary{.coords = 1, .derivs = 5};
-  /// The first two auxiliary derivs, dx- and dv-, keep their values from step to step.
-  static constexpr Auxiliary history{.derivs = 2};
+  static constexpr Auxiliary auxiliary{.coords = 1, .derivs = 8};
+  /// The first four auxiliary derivs, dx-, dv-, dx-- and dv--, keep their values from step to step.
+  static constexpr Auxiliary history{.derivs = 4};
 
   int order = 2;
   double rayleighStiffness = 0;
   double rayleighMass = 0;
   int maxNbIterationsNewton = 1;
-  double relativeInitialStoppingThreshold = 1e-5;
+  double relativeSuccessiveStoppingThreshold = 0, relativeInitialStoppingThreshold = 1e-5,
+         absoluteResidualStoppingThreshold = 0, relativeEstimateDifferenceThreshold = 0,
+         absoluteEstimateDifferenceThreshold = 0;
+  bool shouldDivergeWhenResidualIsGrowing = false;
+  int maxNbIterationsLineSearch = 0;
+  double lineSearchCoefficient = 0.5;
 
   static constexpr auto fields() {
     using S = BDFOdeSolver;
-    return field_list(
-        field("order", &S::order, "", "order of the method, 1 or 2", range::closed(1, 2)),
+    return newton_fields<S>(
+        "N s",
+        "m/s",
+        field("order", &S::order, "", "order of the method, 1 to 3", range::closed(1, 3)),
         field("rayleighStiffness", &S::rayleighStiffness, "s", "damping per stiffness", range::nonNegative),
-        field("rayleighMass", &S::rayleighMass, "1/s", "damping per mass", range::nonNegative),
-        field("maxNbIterationsNewton",
-              &S::maxNbIterationsNewton,
-              "",
-              "largest number of iterations of Newton's method",
-              range::atLeast(1)),
-        field("relativeInitialStoppingThreshold",
-              &S::relativeInitialStoppingThreshold,
-              "",
-              "residual at which Newton's method stops, against its first",
-              range::nonNegative));
+        field("rayleighMass", &S::rayleighMass, "1/s", "damping per mass", range::nonNegative));
   }
 
-  double lastDt = 0, lastEnd = 0;  // of the step that dx- and dv- belong to; lastDt = 0: there was none
-  int iterations = 0;              // of Newton's method in the last step
+  double lastDt = 0, olderDt = 0;  // of the steps that dx- and dx-- belong to; 0: there was none
+  double lastEnd = 0;              // time at the end of the last step
 
   /// What the next step depends on, besides positions, velocities and `history`.
   static constexpr auto state() {
     using S = BDFOdeSolver;
     return field_list(field("lastDt", &S::lastDt, "s", "length of the last step"),
-                      field("lastEnd", &S::lastEnd, "s", "time at its end"));
+                      field("olderDt", &S::olderDt, "s", "length of the step before it"),
+                      field("lastEnd", &S::lastEnd, "s", "time at the end of the last step"));
+  }
+
+  NewtonReport newton{};
+
+  template <class Operations>
+  void init(Operations&) {
+    newton.init(maxNbIterationsNewton);
   }
 
   template <class Operations>
   void solve(Operations& operations, double h) {
-    MultiVecDeriv dxOld(operations), dvOld(operations);
+    MultiVecDeriv dxOld(operations), dvOld(operations), dxOlder(operations), dvOlder(operations);
     MultiVecCoord pos(operations, vec_id::position), start(operations);
     MultiVecDeriv vel(operations, vec_id::velocity), b(operations, vec_id::force), dv(operations, vec_id::dx);
-    MultiVecDeriv startV(operations), move(operations), change(operations);
+    MultiVecDeriv startV(operations), move(operations), change(operations), way(operations);
     const double rK = rayleighStiffness, rM = rayleighMass, time = operations.time;
-    // after a reset, or a jump in time, the step before is not the one that is remembered
-    const bool two = order == 2 && lastDt > 0 && lastEnd == time;
-    const double ratio = two ? h / lastDt : 0, c = ratio * ratio / (1 + 2 * ratio),
-                 bh = h * (1 + ratio) / (1 + 2 * ratio);
-    if (!two) dxOld.clear(), dvOld.clear();
+    // after a reset, or a jump in time, the steps before are not those that are remembered
+    if (lastEnd != time) lastDt = 0;
+    if (lastDt == 0) olderDt = 0;
+    double inverse = 1 / h, c = 0, d = 0;
+    if (order > 1 && lastDt > 0) {
+      const double p = h + lastDt;
+      inverse += 1 / p;
+      c = h / lastDt / p;
+      if (order > 2 && olderDt > 0) {
+        const double q = lastDt + olderDt, s = p + olderDt;
+        inverse += 1 / s;
+        c += h / lastDt * (1 + p / q) / s;
+        d = -h / olderDt * p / (q * s);
+      }
+    }
+    const bool trapezoid = order > 2 && lastDt == 0;
+    const double bh = trapezoid ? h / 2 : 1 / inverse;
+    c *= bh, d *= bh;
+    auto rate = [&] {
+      operations.computeForce(b.id, pos.id, vel.id);
+      if (rM != 0 || rK != 0) operations.addMBKdx(b.id, vel.id, {.m = -rM, .k = rK});
+    };
+    if (trapezoid) {
+      rate();
+      dvOlder.eq(b);
+      dvOld.clear();
+      dxOld.eq(vel, h);
+      c = 0.5;
+    }
 
     start = pos;
     startV = vel;
     operations.time = time + h;
-    double first = 0;
-    for (iterations = 0;; ++iterations) {
+    auto go = [&] {
       move.eq(vel, bh);
-      move.peq(dxOld, c);
+      if (c != 0) move.peq(dxOld, c);
+      if (d != 0) move.peq(dxOlder, d);
       pos = start;
       pos.peq(move);
       operations.propagate(pos.id, vel.id);
-      if (iterations == maxNbIterationsNewton) break;
-      operations.computeForce(b.id, pos.id, vel.id);
-      if (rM != 0 || rK != 0) operations.addMBKdx(b.id, vel.id, {.m = -rM, .k = rK});
+    };
+    auto evaluate = [&] {
+      go();
+      rate();
+      if (trapezoid) b.peq(dvOlder);
       b.teq(bh);
       change.eq(startV);
-      change.peq(dvOld, c);
+      if (c != 0) change.peq(dvOld, c);
+      if (d != 0) change.peq(dvOlder, d);
       change.peq(vel, -1);
       operations.addMBKdx(b.id, change.id, {.m = 1});
       operations.projectResponse(b.id);
-      const double residual = b.norm();
-      if (iterations == 0) first = residual;
-      if (iterations > 0 && !(residual > relativeInitialStoppingThreshold * first)) break;
-      operations.root.withLinearSolver([&](auto& linear) {
-        linear.solve(operations, {.m = 1 + bh * rM, .b = -bh, .k = -bh * (bh + rK)}, dv, b);
-      });
-      vel.peq(dv);
-    }
+    };
+    sinew::newton(*this,
+                  operations,
+                  {.m = 1 + bh * rM, .b = -bh, .k = -bh * (bh + rK)},
+                  false,
+                  dv,
+                  b,
+                  way,
+                  evaluate,
+                  [&](double s) { vel.peq(dv, s); });
+    if (!newton_goes_on(*this)) go();
     operations.time = time;
+    dxOlder.eq(dxOld);
+    dvOlder.eq(dvOld);
     dxOld.eq(move);
     dvOld.eq(vel);
     dvOld.peq(startV, -1);
+    olderDt = lastDt;
     lastDt = h;
     lastEnd = time + h;
   }

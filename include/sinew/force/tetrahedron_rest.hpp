@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/component.hpp>
+#include <sinew/force/rotations.hpp>
+#include <sinew/topology/element_checks.hpp>
+#include <sinew/topology/hexahedra.hpp>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sinew {
+
+/// A linear tetrahedron at rest, of total Lagrangian laws.
+template <class Real>
+struct TetrahedronRest {
+  Mat<Real, 3> gradient;  // columns g_1 g_2 g_3: gradients of the shape functions; det = 1 / (6 V) [1/m]
+  Real volume;            // V [m^3]
+};
+
+/// F = sum_k x_k g_k'
+template <class Real, class Coord>
+SINEW_INLINE Mat<Real, 3> deformation_gradient(TetrahedronRest<Real> const& rest, Coord const (&x)[4]) {
+  const Vec<Real, 3> a = x[1] - x[0], b = x[2] - x[0], c = x[3] - x[0];
+  Mat<Real, 3> f;
+  for (int j = 0; j < 3; ++j)
+    for (int i = 0; i < 3; ++i)
+      f(i, j) = a[i] * rest.gradient(j, 0) + b[i] * rest.gradient(j, 1) + c[i] * rest.gradient(j, 2);
+  return f;
+}
+
+template <class Real>
+SINEW_INLINE Vec<Real, 3> times(Mat<Real, 3> const& a, Vec<Real, 3> const& b) {
+  Vec<Real, 3> c;
+  for (int i = 0; i < 3; ++i) c[i] = a(i, 0) * b[0] + a(i, 1) * b[1] + a(i, 2) * b[2];
+  return c;
+}
+
+/// The tetrahedra of the topology, or six in each of its hexahedra where it has none. Throws Error where
+/// there are none, and at one that refers to a missing point, is flat, or is inside out.
+template <class D>
+std::vector<Tetrahedron> tetrahedra_of(std::string const& where, InitContext<D> const& context) {
+  auto const& given = context.topology.tetrahedra;
+  std::vector<Tetrahedron> tetrahedra(given.begin(), given.end());
+  if (!tetrahedra.empty()) {
+    check_tetrahedra<D>(where, tetrahedra, context.rest);
+    return tetrahedra;
+  }
+  tetrahedra = hexahedra_to_tetrahedra(context.topology.hexahedra);
+  check_tetrahedra<D>(text(where, ": its hexahedra, six tetrahedra each"), tetrahedra, context.rest);
+  if (tetrahedra.empty())
+    throw Error(where,
+                "the topology has no tetrahedron; give the node a topology with tetrahedra or hexahedra");
+  return tetrahedra;
+}
+
+/// Gives a driver the tetrahedra, which check_tetrahedra has found good.
+template <class D, class Driver>
+void init_tetrahedra(Driver& driver, std::vector<Tetrahedron> const& tetrahedra,
+                     typename D::VecCoord const& points) {
+  using Real = typename D::Real;
+  std::vector<TetrahedronRest<Real>> rest;
+  rest.reserve(tetrahedra.size());
+  for (Tetrahedron const& t : tetrahedra) {
+    Mat<double, 3> edges;
+    for (int c = 0; c < 3; ++c)
+      edges.col(c) =
+          (points[std::size_t(t[std::size_t(c) + 1])] - points[std::size_t(t[0])]).template cast<double>();
+    rest.push_back({edges.inverse().transpose().template cast<Real>(), Real(edges.determinant() / 6)});
+  }
+  driver.init({tetrahedra.begin(), tetrahedra.end()}, rest);
+}
+
+}  // namespace sinew

@@ -1,0 +1,6 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "force_laws.hpp"
+
+TEST_CASE("forces of hyperelastic and viscoelastic bodies over Vec3f obey the laws of forces") {
+  laws::check_force_fields<sinew::HyperelasticForces<sinew::Vec3f>, sinew::Vec3f>();
+}

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: BSL-1.0
+// What scenes of SOFA say beyond classes and attributes, read over a small registry.
+#include "catch.hpp"
+#include "io/files.hpp"
+
+#include <sinew/engine/mesh_loader.hpp>
+#include <sinew/engine/topological_mapping.hpp>
+#include <sinew/runtime/read_scene.hpp>
+#include <sinew/sinew.hpp>
+
+using namespace sinew;
+
+namespace {
+
+struct Small
+    : Registry<Gravity, MeshTopology, RegularGridTopology, VisualModel, MeshOBJLoader, BoxROI<Vec3d>,
+               Quad2TriangleTopologicalMapping, MechanicalObject<Vec3d>, MechanicalObject<Vec1d>,
+               UniformMass<Vec3d>, UniformVelocityDampingForceField<Vec3d>, TetrahedronFEMForceField<Vec3d>,
+               TriangleFEMForceField<Vec3d>, FixedConstraint<Vec3d>, IdentityMapping<Vec3d, Vec3f>,
+               BarycentricMapping<Vec3d, Vec3f>, EulerImplicitSolver, NewmarkImplicitSolver, BDFOdeSolver,
+               StaticSolver, CGLinearSolver<>, SparseLDLSolver<>> {};
+
+ReadScene<Small> parse(std::string content, ReadSceneOptions const& options = {}) {
+  return parse_scene<Small>("test.scn", std::move(content), options);
+}
+ReadScene<Small> node(std::string components) { return parse("<Node>\n" + components + "\n</Node>"); }
+std::string wrong(std::string components) {
+  try {
+    node(std::move(components));
+  } catch (SceneError const& error) {
+    return error.what();
+  }
+  return "nothing was wrong";
+}
+bool has(std::vector<std::string> const& lines, std::string_view words) {
+  return std::any_of(
+      lines.begin(), lines.end(), [&](auto const& line) { return line.find(words) != line.npos; });
+}
+template <class C>
+C const& in(ReadScene<Small>& scene, std::string_view path = "") {
+  auto* found = scene.root.find_node(path);
+  REQUIRE(found);
+  REQUIRE(found->get<C>());
+  return *found->get<C>();
+}
+
+}  // namespace
+
+TEST_CASE("an include of SOFA's topologies takes the source that the scene gives") {
+  const files::TempFolder folder;
+  folder.write("TriangleSetTopology.xml", R"(<Node name="Group">
+    <TriangleSetTopologyContainer name="Container" src="@" fileTopology="" tags=" "/>
+    <TriangleSetTopologyModifier name="Modifier"/>
+  </Node>)");
+  folder.write("sheet.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 4 3\n");
+  auto scene = parse(R"(<Node>
+    <MeshObjLoader name="loader" filename="sheet.obj"/>
+    <MechanicalObject src="@loader"/>
+    <include href="TriangleSetTopology.xml" src="@loader"/>
+  </Node>)",
+                     {.dataPaths = {folder / ""}});
+  CHECK(in<MeshTopology>(scene).triangles.size() == 2);
+  CHECK(in<MeshTopology>(scene).position.size() == 4);
+  CHECK(scene.warnings.empty());
+  // where no source is given, none is looked for
+  auto bare = parse("<Node><MechanicalObject/><include href='TriangleSetTopology.xml' dx='1'/></Node>",
+                    {.dataPaths = {folder / ""}});
+  CHECK(in<MeshTopology>(bare).triangles.empty());
+  CHECK(has(bare.warnings, "test.scn:1:66: <include>: no element of 'TriangleSetTopology.xml' has"));
+}
+
+TEST_CASE("a file in an attribute of an include lies beside the file that says so") {
+  const files::TempFolder folder, data;
+  data.write("part.xml", "<Node><MeshOBJLoader filename='x.obj'/></Node>");
+  folder.write("mesh.obj", "v 0 0 0\n");
+  const std::string path =
+      folder.write("main.scn", "<Node><include href='part.xml' filename='mesh.obj' name='n'/></Node>");
+  CHECK(read_scene<Small>(path, {.dataPaths = {data / ""}}).files ==
+        std::vector<std::string>{folder / "mesh.obj"});
+}
+
+TEST_CASE("a source or a file that is empty is not given") {
+  CHECK(wrong("<MeshTopology src='@' fileTopology=''/><OglModel filename='' src=''/>") ==
+        "nothing was wrong");
+  CHECK_THAT(wrong("<MeshOBJLoader filename=''/>"), Catch::Contains("filename is empty"));
+}
+
+TEST_CASE("attributes as elements are read; any other element inside a component is an error") {
+  auto scene = node(R"(<MechanicalObject position="0 0 0  1 0 0">
+    <Attribute type="velocity"><Data value="0 1 0  0 2 0"/></Attribute>
+  </MechanicalObject>)");
+  CHECK(in<MechanicalObject<Vec3d>>(scene).velocity == Vec3d::VecDeriv{{0, 1, 0}, {0, 2, 0}});
+  CHECK_THAT(
+      wrong(
+          "<MechanicalObject><Attribute type='velocity'><Data value='0 1'/></Attribute></MechanicalObject>"),
+      Catch::Contains("test.scn:2:52: <MechanicalObject>: velocity: ends where a number is expected"));
+  CHECK(wrong("<MechanicalObject>\n <UniformMass/></MechanicalObject>") ==
+        "test.scn:3:2: <UniformMass>: stands inside <MechanicalObject>, but a component has attributes only; "
+        "move it out");
+}
+
+TEST_CASE("NewtonRaphsonSolver says how the ODE solver beside it searches") {
+  auto scene = node(R"(<NewtonRaphsonSolver maxNbIterationsNewton="7" absoluteResidualStoppingThreshold="1e-9"
+    maxNbIterationsLineSearch="3" lineSearchCoefficient="0.25" warnWhenLineSearchFails="0" printLog="1"/>
+    <EulerImplicitSolver rayleighMass="0.1" relativeInitialStoppingThreshold="1e-3"/>)");
+  auto const& euler = in<EulerImplicitSolver>(scene);
+  CHECK(euler.rayleighMass == 0.1);
+  CHECK(euler.maxNbIterationsNewton == 7);
+  CHECK(euler.absoluteResidualStoppingThreshold == 1e-9);
+  CHECK(euler.relativeInitialStoppingThreshold == 1e-3);
+  CHECK(euler.maxNbIterationsLineSearch == 3);
+  CHECK(euler.lineSearchCoefficient == 0.25);
+  CHECK(euler.relativeSuccessiveStoppingThreshold == 1e-5);  // SOFA's default, which is not ours
+  CHECK(scene.warnings.empty());
+}
+
+TEST_CASE("NewtonRaphsonSolver is found by a link, in the node, or below") {
+  auto scene = parse(R"(<Node>
+    <NewtonRaphsonSolver name="first" maxNbIterationsNewton="2"/>
+    <NewtonRaphsonSolver name="the second" maxNbIterationsNewton="3"/>
+    <Node name="a"><StaticSolver newtonSolver="@../the second"/></Node>
+    <Node name="b">
+      <StaticOdeSolver newtonSolver="@../newton"/>
+      <NewtonRaphsonSolver name="newton" maxNbIterationsNewton="4"/>
+    </Node>
+    <Node name="c"><BDF1/><Node><NewtonRaphsonSolver maxNbIterationsNewton="5"/></Node></Node>
+    <Node name="d"><StaticSolver newton_iterations="6"/></Node>
+    <EulerImplicitSolver/>
+  </Node>)");
+  CHECK(in<StaticSolver>(scene, "a").maxNbIterationsNewton == 3);
+  CHECK(in<StaticSolver>(scene, "b").maxNbIterationsNewton == 4);
+  CHECK(in<BDFOdeSolver>(scene, "c").maxNbIterationsNewton == 5);
+  CHECK(in<BDFOdeSolver>(scene, "c").order == 1);
+  CHECK(in<StaticSolver>(scene, "d").maxNbIterationsNewton == 6);
+  CHECK(in<EulerImplicitSolver>(scene).maxNbIterationsNewton == 2);
+  CHECK(scene.warnings.empty());
+}
+
+TEST_CASE("NewtonRaphsonSolver without effect is said; what is wrong in it has its place") {
+  CHECK(has(node("<NewmarkImplicitSolver/><NewtonRaphsonSolver/>").warnings,
+            "test.scn:2:25: <NewtonRaphsonSolver>: NewmarkImplicitSolver has no iterations"));
+  CHECK(has(node("<NewtonRaphsonSolver/>").warnings, "test.scn:2:1: <NewtonRaphsonSolver>: no ODE solver"));
+  CHECK_THAT(
+      wrong("<BDFOdeSolver/>\n<NewtonRaphsonSolver maxNbIterationsNewtn='2'/>"),
+      Catch::Contains("test.scn:3:22: ") &&
+          Catch::Contains("has no attribute 'maxNbIterationsNewtn'; did you mean 'maxNbIterationsNewton'?"));
+  CHECK_THAT(wrong("<BDFOdeSolver/>\n<NewtonRaphsonSolver maxNbIterationsNewton='x'/>"),
+             Catch::Contains("test.scn:3:22: ") && Catch::Contains("'x' is no whole number"));
+}
+
+TEST_CASE("CGImplicit is implicit Euler with conjugate gradients") {
+  auto scene = node("<CGImplicit iterations='40' tolerance='1e-6' vdamping='0.2'/>");
+  auto const& euler = in<EulerImplicitSolver>(scene);
+  CHECK(euler.rayleighStiffness == 0.1);
+  CHECK(euler.rayleighMass == 0.1);
+  CHECK(euler.vdamping == 0.2);
+  auto const& cg = in<CGLinearSolver<>>(scene);
+  CHECK(cg.iterations == 40);
+  CHECK(cg.tolerance == 1e-6);
+  CHECK(cg.threshold == 1e-5);
+  // beside a solver it adds its linear solver only
+  auto other = node("<EulerImplicitSolver/><Object type='CGImplicit' threshold='1e-10'/>");
+  CHECK(in<EulerImplicitSolver>(other).rayleighMass == 0);
+  CHECK(in<CGLinearSolver<>>(other).threshold == 1e-10);
+  CHECK(other.root.components().size() == 3);  // with gravity
+  CHECK_THAT(wrong("<CGImplicit maxiter='3'/>"), Catch::Contains("has no attribute 'maxiter'"));
+}
+
+TEST_CASE("classes that are another one with an attribute of its own") {
+  auto scene = node("<MechanicalObject/><NodalLinearDampingForceField dampingCoefficient='0.5'/>");
+  CHECK(in<UniformVelocityDampingForceField<Vec3d>>(scene).implicit);
+  CHECK(in<UniformVelocityDampingForceField<Vec3d>>(scene).dampingCoefficient == 0.5);
+  CHECK_THAT(wrong("<MechanicalObject/><NodalLinearDampingForceField dampingCoefficientVector='1 2 3'/>"),
+             Catch::Contains("<NodalLinearDampingForceField> has no attribute 'dampingCoefficientVector'"));
+  auto bdf = node("<BDF1OdeSolver/>");
+  CHECK(in<BDFOdeSolver>(bdf).order == 1);
+  auto fall = node("<GravityForceField gravitationalAcceleration='0 0 -3'/>");
+  CHECK(in<Gravity>(fall).gravity == Eigen::Vector3d(0, 0, -3));
+  auto svd = node("<MechanicalObject/><TetrahedronFEMForceField method='svd'/>");
+  CHECK(in<TetrahedronFEMForceField<Vec3d>>(svd).method == RotationMethod::polar);
+  auto membrane = node("<MechanicalObject/><TriangularFEMForceField poissonRatio='0.1 0.2'/>");
+  CHECK(in<TriangleFEMForceField<Vec3d>>(membrane).poissonRatio == std::vector<double>{0.1, 0.2});
+}
+
+TEST_CASE("of several topologies in a node the last is that of the node; the others give data") {
+  auto scene = parse(R"(<Node>
+    <RegularGridTopology name="grid" n="3 3 1"/>
+    <MechanicalObject name="dofs" translation="0 0 1"/>
+    <QuadSetTopologyContainer name="Container" quads="@grid.quads"/>
+    <TriangleFEMForceField topology="@Container"/>
+    <UniformMass topology="@grid"/>
+    <FixedConstraint indices="@box.indices"/>
+    <BoxROI name="box" box="-1 -1 0.5 0.1 2 2"/>
+    <Node name="surface">
+      <TriangleSetTopologyContainer name="Surface"/>
+      <Quad2TriangleTopologicalMapping input="@../Container" output="@Surface"/>
+    </Node>
+  </Node>)");
+  CHECK_FALSE(scene.root.get<RegularGridTopology>());
+  CHECK(in<MeshTopology>(scene).quads.size() == 4);
+  CHECK(in<MeshTopology>(scene).position.empty());
+  CHECK(in<MechanicalObject<Vec3d>>(scene).position.size() == 9);
+  CHECK(in<FixedConstraint<Vec3d>>(scene).indices == std::vector<int>{0, 3, 6});
+  CHECK(in<MeshTopology>(scene, "surface").triangles.size() == 8);
+  REQUIRE(scene.warnings.size() == 1);
+  CHECK(scene.warnings[0] ==
+        "test.scn:6:18: <UniformMass>: topology leads to 'grid', but it acts over "
+        "'Container', the last topology of the nearest node that has one");
+}
+
+TEST_CASE("a container takes from a source what it can hold") {
+  auto scene = parse(R"(<Node>
+    <Node name="g"><RegularGridTopology name="grid" n="3 3 3"/></Node>
+    <Node name="t"><TriangleSetTopologyContainer src="@/g/grid"/></Node>
+    <Node name="q"><QuadSetTopologyContainer src="@/g/grid"/></Node>
+    <Node name="m"><MeshTopology src="@/g/grid"/></Node>
+  </Node>)");
+  auto const &t = in<MeshTopology>(scene, "t"), &q = in<MeshTopology>(scene, "q"),
+             &m = in<MeshTopology>(scene, "m");
+  CHECK((t.triangles.size() == 72 && t.quads.empty() && t.hexahedra.empty() && t.edges.size() == 54));
+  CHECK((q.quads.size() == 36 && q.triangles.empty() && q.hexahedra.empty()));
+  CHECK((m.quads.size() == 36 && m.triangles.size() == 72 && m.hexahedra.size() == 8));
+}
+
+TEST_CASE("points of a topology may be given as those of the state") {
+  auto scene = node("<MechanicalObject template='Vec1'/><PointSetTopologyContainer position='1 '/>");
+  CHECK(in<MeshTopology>(scene).position == std::vector<Eigen::Vector3d>{{1, 0, 0}});
+  CHECK_THAT(wrong("<MechanicalObject/><PointSetTopologyContainer position='1 '/>"),
+             Catch::Contains("ends where a number is expected"));
+}
+
+TEST_CASE("a visual model without vertices has those around it") {
+  auto scene = parse(R"(<Node>
+    <RegularGridTopology name="grid" n="3 3 1"/>
+    <MechanicalObject/>
+    <Node name="own"><OglModel triangles="@../grid.triangles"/><IdentityMapping/></Node>
+    <Node name="all"><OglModel color="red"/><IdentityMapping/></Node>
+    <Node name="none"><OglModel quads="0 1 4 3"/><BarycentricMapping/></Node>
+    <Node name="two"><OglModel vertices="0 0 0" position="1 1 1  2 2 2"/></Node>
+    <Node name="one"><OglModel vertices="0 0 0"/></Node>
+  </Node>)");
+  CHECK(in<VisualModel>(scene, "own").mesh.positions.size() == 9);
+  CHECK(in<VisualModel>(scene, "own").mesh.triangles.size() == 8);
+  CHECK(in<VisualModel>(scene, "own").mesh.quads.empty());
+  CHECK(in<VisualModel>(scene, "all").mesh.positions.size() == 9);
+  CHECK(in<VisualModel>(scene, "all").mesh.quads.size() == 4);
+  CHECK(in<VisualModel>(scene, "none").mesh.positions.size() == 9);
+  CHECK(in<VisualModel>(scene, "none").mesh.quads.size() == 1);
+  CHECK(in<VisualModel>(scene, "two").mesh.positions.size() == 2);
+  CHECK(in<VisualModel>(scene, "one").mesh.positions.size() == 1);
+}
+
+TEST_CASE("what old scenes say beside is ignored") {
+  auto scene = parse(R"(<Node multiThreadSimulation="1">
+    <CollisionGroupManager/> <NaturalOrderingMethod/> <MatrixLinearSystem/>
+    <EulerImplicitSolver computeResidual="1"/> <EigenSimplicialLDLT ordering="Natural" iterations="25"
+      tolerance="1e-9" threshold="1e-9"/>
+    <MechanicalObject position="0 0 0 1 1 1" free_position="0 0 0" free_velocity="0 0 0" dx="0 0 0 0 0 0"/>
+    <BoxROI box="-1 -1 -1 2 2 2" indices="0"/>
+    <BoxConstraint box="0.5 0.5 0.5 2 2 2" fixAll="0"/>
+  </Node>)");
+  CHECK(in<FixedConstraint<Vec3d>>(scene).indices == std::vector<int>{1});
+  CHECK(in<MechanicalObject<Vec3d>>(scene).position[1] == Eigen::Vector3d(1, 1, 1));
+  CHECK(in<MechanicalObject<Vec3d>>(scene).translation == Eigen::Vector3d(0, 0, 0));
+}
