@@ -66,9 +66,10 @@ template <class D>
 using CoreBodies =
     Registry<CorePoints<D>, MeshSpringForceField<D>, TetrahedronFEMForceField<D>, HexahedronFEMForceField<D>>;
 
-using StandardForces = Registry<SpatialComponents<Vec3d>, RigidComponents<Rigid3d>, SpatialRigids<Rigid3d>,
-                                CorePoints<Vec1d>, CorePoints<Vec2d>, CorePoints<Vec6d>, CoreRigids<Rigid2d>,
-                                CoreBodies<Vec3f>, CoreRigids<Rigid3f>>;
+using StandardForces =
+    Registry<SpatialComponents<Vec3d>, RigidComponents<Rigid3d>, SpatialRigids<Rigid3d>, CorePoints<Vec1d>,
+             CorePoints<Vec2d>, PlaneForceField<Vec2d>, CorePoints<Vec6d>, CoreRigids<Rigid2d>,
+             CoreBodies<Vec3f>, CoreRigids<Rigid3f>>;
 using StandardMappings =
     Registry<SpatialMappings<Vec3d, Vec3d>, SpatialMappings<Vec3d, Vec3f>, SpatialMappings<Vec3f, Vec3f>,
              SpatialMappings<Vec3f, Vec3d>, PointMappings<Vec1d, Vec1d>, PointMappings<Vec2d, Vec2d>,

@@ -16,7 +16,8 @@ struct Small
     : Registry<Gravity, MeshTopology, RegularGridTopology, VisualModel, MeshOBJLoader, BoxROI<Vec3d>,
                Quad2TriangleTopologicalMapping, MechanicalObject<Vec3d>, MechanicalObject<Vec1d>,
                UniformMass<Vec3d>, UniformVelocityDampingForceField<Vec3d>, TetrahedronFEMForceField<Vec3d>,
-               TriangleFEMForceField<Vec3d>, FixedConstraint<Vec3d>, IdentityMapping<Vec3d, Vec3f>,
+               TriangleFEMForceField<Vec3d>, FixedConstraint<Vec3d>, MechanicalObject<Rigid3d>,
+               IdentityMapping<Rigid3d, Vec3f>, IdentityMapping<Vec3d, Vec3d>, IdentityMapping<Vec3d, Vec3f>,
                BarycentricMapping<Vec3d, Vec3f>, EulerImplicitSolver, NewmarkImplicitSolver, BDFOdeSolver,
                StaticSolver, CGLinearSolver<>, SparseLDLSolver<>> {};
 
@@ -208,6 +209,14 @@ TEST_CASE("of several topologies in a node the last is that of the node; the oth
         "'Container', the last topology of the nearest node that has one");
 }
 
+TEST_CASE("a topology may have the points of the state beside it") {
+  auto scene = node(R"(<MechanicalObject name="dofs" position="0 0 0  1 1 0"/>
+    <EdgeSetTopologyContainer edges="0 1" position="@dofs.position"/>)");
+  CHECK(in<MeshTopology>(scene).position.size() == 2);
+  CHECK_THAT(wrong("<MechanicalObject name='dofs'/><MeshTopology position='@dofs.position'/>"),
+             Catch::Contains("leads in a circle"));
+}
+
 TEST_CASE("a container takes from a source what it can hold") {
   auto scene = parse(R"(<Node>
     <Node name="g"><RegularGridTopology name="grid" n="3 3 3"/></Node>
@@ -238,7 +247,12 @@ TEST_CASE("a visual model without vertices has those around it") {
     <Node name="none"><OglModel quads="0 1 4 3"/><BarycentricMapping/></Node>
     <Node name="two"><OglModel vertices="0 0 0" position="1 1 1  2 2 2"/></Node>
     <Node name="one"><OglModel vertices="0 0 0"/></Node>
+    <Node><MechanicalObject/><IdentityMapping/>
+      <Node name="far"><OglModel edges="7 8"/><IdentityMapping/></Node></Node>
   </Node>)");
+  auto* far = scene.root.find_node("Node/far")->get<VisualModel>();
+  REQUIRE(far->mesh.positions.size() == 9);
+  CHECK(far->mesh.positions[8] == Eigen::Vector3d(1, 1, 0));
   CHECK(in<VisualModel>(scene, "own").mesh.positions.size() == 9);
   CHECK(in<VisualModel>(scene, "own").mesh.triangles.size() == 8);
   CHECK(in<VisualModel>(scene, "own").mesh.quads.empty());
@@ -248,6 +262,19 @@ TEST_CASE("a visual model without vertices has those around it") {
   CHECK(in<VisualModel>(scene, "none").mesh.quads.size() == 1);
   CHECK(in<VisualModel>(scene, "two").mesh.positions.size() == 2);
   CHECK(in<VisualModel>(scene, "one").mesh.positions.size() == 1);
+}
+
+TEST_CASE("a visual model without vertices has the centres of rigid bodies") {
+  auto scene = parse(R"(<Node><MechanicalObject template="Rigid3" position="1 2 3 0 0 0 1  4 5 6 0 0 0 1"/>
+    <Node name="points"><OglModel/><IdentityMapping/></Node></Node>)");
+  CHECK(in<VisualModel>(scene, "points").mesh.positions ==
+        std::vector<Eigen::Vector3d>{{1, 2, 3}, {4, 5, 6}});
+}
+
+TEST_CASE("of an attribute that is given twice the last counts, which is said") {
+  auto scene = node("<UniformMass totalMass='1'\n totalMass='2'/><MechanicalObject/>");
+  CHECK(in<UniformMass<Vec3d>>(scene).totalMass == 2.0);
+  CHECK(has(scene.warnings, "test.scn:3:2: <UniformMass>: attribute 'totalMass' is given twice"));
 }
 
 TEST_CASE("what old scenes say beside is ignored") {
@@ -261,5 +288,6 @@ TEST_CASE("what old scenes say beside is ignored") {
   </Node>)");
   CHECK(in<FixedConstraint<Vec3d>>(scene).indices == std::vector<int>{1});
   CHECK(in<MechanicalObject<Vec3d>>(scene).position[1] == Eigen::Vector3d(1, 1, 1));
+  CHECK(scene.warnings.size() == 1);  // collision is not simulated
   CHECK(in<MechanicalObject<Vec3d>>(scene).translation == Eigen::Vector3d(0, 0, 0));
 }

@@ -266,7 +266,8 @@ struct HexahedronFEMForceField {
   using Real = typename D::Real;
   using VecCoord = typename D::VecCoord;
   using VecDeriv = typename D::VecDeriv;
-  static constexpr std::string_view className = "HexahedronFEMForceField";
+  static constexpr std::string_view className = "HexahedronFEMForceField",
+                                    aliases = "HexahedralFEMForceField";
 
   std::vector<double> youngModulus{5000};  // one for all hexahedra, or one for each
   double poissonRatio = 0.45;

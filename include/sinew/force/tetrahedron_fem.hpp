@@ -229,22 +229,23 @@ struct TetrahedronFEMForceField {
 
   static constexpr auto fields() {
     using F = TetrahedronFEMForceField;
-    return field_list(field("youngModulus",
-                            &F::youngModulus,
-                            "Pa",
-                            "stiffness of the material: one value, or one a tetrahedron",
-                            range::positive),
-                      field("poissonRatio",
-                            &F::poissonRatio,
-                            "",
-                            "lateral contraction over extension; 0.5 is incompressible",
-                            range::open(-1, 0.5)),
-                      field("method",
-                            &F::method,
-                            "",
-                            "rotation of an element: small: none, linear elasticity; large: of a frame on two "
-                            "edges, cheap, exerts a small torque on itself; polar: the nearest, keeps angular "
-                            "momentum, and inverted elements recover; gradient: as large, on the body's axes"));
+    return field_list(
+        field("youngModulus",
+              &F::youngModulus,
+              "Pa",
+              "stiffness of the material: one value, or one a tetrahedron",
+              range::positive),
+        field("poissonRatio",
+              &F::poissonRatio,
+              "",
+              "lateral contraction over extension; 0.5 is incompressible",
+              range::open(-1, 0.5)),
+        field("method",
+              &F::method,
+              "",
+              "rotation of an element: small: none, linear elasticity; large: of a frame on two "
+              "edges, cheap, exerts a small torque on itself; polar: the nearest, keeps angular "
+              "momentum, and inverted elements recover; gradient: as large, on the body's axes"));
   }
 
   ForceProperties properties() const {

@@ -7,7 +7,8 @@
 
 namespace sinew {
 
-/// Point i of the child is point indices[i] of the parent.
+/// Point i of the child is point indices[i] of the parent. Where no indices are given, each point of the
+/// child is the point of the parent that is at the same place at rest.
 template <class I, class O>
 struct SubsetMapping {
   using Role = role::Mapping;
@@ -23,13 +24,15 @@ struct SubsetMapping {
     return field_list(field("indices",
                             &SubsetMapping::indices,
                             "",
-                            "point of the parent that each point of the child is",
+                            "point of the parent that each point of the child is; those at the same place, "
+                            "where none is given",
                             range::nonNegative));
   }
 
-  void init(InitContext<In> const& parent, InitContext<Out> const& child,
-            typename Out::VecCoord& positions) const {
+  void init(InitContext<In> const& parent, InitContext<Out> const& child, typename Out::VecCoord& positions) {
     const std::string where = text(child.where, ": ", component_name<SubsetMapping>());
+    if (indices.empty())
+      for (auto const& x : positions) indices.push_back(pointAt(where, parent.rest, x));
     for (const int i : indices)
       if (std::size_t(i) >= parent.rest.size())
         throw Error(where,
@@ -61,6 +64,19 @@ struct SubsetMapping {
   }
 
  private:
+  // of those at the same place the first
+  static int pointAt(std::string const& where, typename In::VecCoord const& rest,
+                     typename Out::Coord const& x) {
+    const typename In::Coord place = x.template cast<typename In::Real>();
+    for (std::size_t i = 0; i < rest.size(); ++i)
+      if ((rest[i] - place).norm() <= 1e-5) return int(i);
+    std::string words;
+    for (int c = 0; c < In::size; ++c) words += text(c ? " " : "", double(x[c]));
+    throw Error(where,
+                text("the parent has no point within 1e-5 m of ",
+                     words,
+                     "; give indices, or the child places of points of its parent"));
+  }
   void gather(typename Out::VecDeriv& out, typename In::VecDeriv const& in) const {
     for (std::size_t i = 0; i < indices.size(); ++i)
       out[i] = in[std::size_t(indices[i])].template cast<typename Out::Real>();

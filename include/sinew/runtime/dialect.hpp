@@ -282,6 +282,10 @@ struct AttributeOf {
 };
 inline constexpr std::array attributesWithoutMeaningOf =
     std::to_array<AttributeOf>({{"MechanicalObject", "force"},
+                                {"AngularSpringForceField", "limit"},
+                                {"AngularSpringForceField", "recompute_indices"},
+                                {"RestShapeSpringsForceField", "recompute_indices"},
+                                {"AffineMovementConstraint", "meshIndices"},
                                 {"TetrahedronFEMForceField", "indices"},
                                 {"BoxROI", "indices"},
                                 {"SparseLDLSolver", "iterations"},

@@ -786,7 +786,6 @@ class SceneReader {
       throw Error("", text("leads in a circle back to '", item.name, "'; break it"));
     item.progress = Progress::busy;
     spellOut(item);
-    locate(item, [&] { spellOutSprings(item); });
     if (item.failed) return void(item.progress = Progress::done);
     expandFile(item);
     const std::vector<XmlAttribute> placing = takePlacing(item);
@@ -844,41 +843,6 @@ class SceneReader {
       std::erase_if(attributes, [&](auto const& a) { return a.name == kind.name; });
       attributes.push_back({std::string(kind.name), text(parts[0], ' ', parts[1], ' ', parts[2]), *offset});
     }
-  }
-
-  // SOFA also takes springs as lists of their ends, and of values: one for all springs, or one each
-  static void spellOutSprings(Item& item) {
-    auto const *first = item.element->attribute("indices1"), *second = item.element->attribute("indices2");
-    if (!item.info->field("springs") || !first || !second) return;
-    std::vector<int> a, b;
-    read_value(first->value, a);
-    read_value(second->value, b);
-    if (a.size() != b.size())
-      throw Error(
-          "", text("indices1 has ", a.size(), " points and indices2 ", b.size(), "; give as many of both"));
-    struct Values {
-      std::string_view name;
-      std::vector<double> all;
-    };
-    std::array<Values, 3> values{Values{"stiffness", {100}}, Values{"damping", {5}}, Values{"lengths", {}}};
-    for (auto& kind : values)
-      if (auto const* given = item.element->attribute(kind.name)) {
-        read_value(given->value, kind.all);
-        if (kind.all.size() != 1 && kind.all.size() != a.size())
-          throw Error("", text(kind.name, " has ", kind.all.size(), " values for ", a.size(), " springs"));
-      }
-    std::string springs;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-      springs += text(i ? "  " : "", a[i], ' ', b[i]);
-      for (auto const& kind : values)
-        springs += text(' ', kind.all.empty() ? "auto" : write_value(kind.all[kind.all.size() == 1 ? 0 : i]));
-    }
-    std::erase_if(item.element->attributes, [&](XmlAttribute const& given) {
-      return given.name.starts_with("indices") ||
-             std::any_of(
-                 values.begin(), values.end(), [&](auto const& kind) { return kind.name == given.name; });
-    });
-    item.element->set("springs", springs);
   }
 
   // a visual model is moved where its vertices come from
@@ -1023,10 +987,19 @@ class SceneReader {
     std::size_t count = 0;
     for (Words words(value); !words.end(); words.next()) ++count;
     if (given >= 3 || count % 3 == 0 || count % given != 0) return value;
-    std::string points;
-    for (Words words(value); !words.end();)
-      for (std::size_t c = 0; c < 3; ++c) points += text(c < given ? words.next() : "0", ' ');
-    return points;
+    return every(value, given, given, given == 2 ? "0 " : "0 0 ");
+  }
+  // of each group of words the first ones, with more behind them
+  static std::string every(std::string_view value, std::size_t group, std::size_t first,
+                           std::string_view more) {
+    std::string all;
+    std::size_t i = 0;
+    for (Words words(value); !words.end(); ++i) {
+      const std::string_view word = words.next();
+      if (i % group < first) all += text(word, ' ');
+      if (i % group == group - 1) all += more;
+    }
+    return all;
   }
 
   // src="@loader": all that the loader offers under the name of a field that is not given
@@ -1107,25 +1080,34 @@ class SceneReader {
     });
   }
 
+  static bool isIdentity(Place const& place) {
+    Item const* const mapping = place.ofRole(RoleKind::mapping);
+    return mapping && mapping->info->name == "IdentityMapping";
+  }
+
   // A visual model without vertices has, below an IdentityMapping, those of the state above, otherwise those
   // of the nearest topology; and its elements, where it has none of its own.
   void clothe(Item& item, std::set<std::string_view> const& given) {
     if (given.count("position")) return;
     Item* topology = nullptr;
-    for (Place* at = item.place; at && !topology; at = at->parent)
-      if (!at->state.empty() || at->ofRole(RoleKind::topology)) topology = at->ofRole(RoleKind::topology);
-    Item const* const mapping = item.place->ofRole(RoleKind::mapping);
-    Place* const above = item.place->parent;
-    if (mapping && mapping->info->name == "IdentityMapping") {
-      if (mapping->info->in.starts_with("Vec3"))
-        for (Place* at = above; at; at = at->parent)
-          if (Item* state = at->ofRole(RoleKind::state)) {
-            takeFrom(item, "position", *state, "position");
-            break;
-          }
-    } else if (topology && offered(*topology->info, "position")) {
-      takeFrom(item, "position", *topology, "position");
+    for (Place* at = item.place; at && !topology; at = at->parent) {
+      topology = at->ofRole(RoleKind::topology);
+      if (!at->state.empty()) break;
     }
+    if (isIdentity(*item.place))
+      locate(item, [&] {
+        std::string words;
+        Place* at = item.place;
+        do {
+          at = at->parent;
+          while (at->state.empty()) at = at->parent;
+          words = valueOf({at->ofRole(RoleKind::state), nullptr, "position"});
+        } while (words.empty() && isIdentity(*at));
+        if (at->state.starts_with("Rigid3")) words = every(words, 7, 3, "");
+        item.info->field("position")->read(item.address(), words);
+      });
+    else if (topology && offered(*topology->info, "position"))
+      takeFrom(item, "position", *topology, "position");
     std::size_t points = 0;
     item.component->template visit<role::VisualModel>(
         [&](auto const& v) { points = v.mesh.positions.size(); });

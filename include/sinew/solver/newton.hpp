@@ -31,8 +31,7 @@ inline constexpr std::array<std::string_view, 7> enum_names(NewtonStatus) {
           "notFinite"};
 }
 
-/// What the iterations of the last step did. A residual that nobody asks for is not computed: that after the
-/// last iteration, where a step of a solver in time may have one only.
+/// What the iterations of the last step did. Nothing is measured in a step in time that has one iteration.
 struct NewtonReport {
   std::vector<double> residuals{};    // |r| at the start of the step, then after each iteration
   std::vector<double> corrections{};  // |s dx| of each iteration
@@ -129,22 +128,28 @@ void newton(Solver& solver, Operations& operations, MatrixFactors factors, bool 
     way.peq(dx, s);
     advance(s);
   };
+  auto solve = [&] {
+    operations.root.withLinearSolver([&](auto& linear) { linear.solve(operations, factors, dx, b); });
+  };
   residuals.clear();
   corrections.clear();
+  status = NewtonStatus::outOfIterations;
+  if (!equilibrium && !newton_goes_on(solver)) {
+    evaluate();
+    solve();
+    way.eq(dx);
+    advance(1);
+    return;
+  }
   way.clear();
   residuals.push_back(residual());
   if (equilibrium && below(residuals[0], solver.absoluteResidualStoppingThreshold)) {
     status = NewtonStatus::alreadyInEquilibrium;
     return;
   }
-  status = NewtonStatus::outOfIterations;
   while (status == NewtonStatus::outOfIterations && int(corrections.size()) < solver.maxNbIterationsNewton) {
-    operations.root.withLinearSolver([&](auto& linear) { linear.solve(operations, factors, dx, b); });
+    solve();
     move(1);
-    if (!equilibrium && !newton_goes_on(solver)) {
-      corrections.push_back(dx.norm());
-      return;
-    }
     const double last = residuals.back();
     double size = residual(), s = 1;
     for (int i = 1; i < solver.maxNbIterationsLineSearch && !(size < last); ++i) {

@@ -26,6 +26,7 @@ struct VisualModel {
   /// The mesh with its vertices where they are now.
   Mesh current() const {
     Mesh now = mesh;
+    now.positions.resize(position.size());
     for (std::size_t i = 0; i < position.size(); ++i) now.positions[i] = position[i].cast<double>();
     return now;
   }
