@@ -12,9 +12,62 @@ namespace laws {
 using namespace sinew;
 using sample::Random;
 
-template <class C>
+/// What the suite asks of a constraint over D, so that the suite is compiled once for all of them.
+template <class D>
+struct Subject {
+  using VecCoord = typename D::VecCoord;
+  using VecDeriv = typename D::VecDeriv;
+  template <int B>
+  using Matrix = CompressedRowSparseMatrix<typename D::Real, B>;
+  bool prescribes = false;  // positions and velocities
+
+  virtual ~Subject() = default;
+  virtual void projectResponse(VecDeriv& dx) const = 0;
+  virtual void projectMatrix(Matrix<1>& matrix) = 0;
+  virtual void projectBlocksOfThree(Matrix<3>& matrix) = 0;
+  virtual void projectBlocks(Matrix<D::size>& matrix) = 0;
+  virtual void projectPosition(double time, VecCoord& x) = 0;
+  virtual void projectVelocity(double time, VecDeriv& v) = 0;
+};
+
+template <class C, class D = typename C::DataTypes>
+struct SubjectOf : Subject<D> {
+  using typename Subject<D>::VecCoord;
+  using typename Subject<D>::VecDeriv;
+  C c;
+
+  SubjectOf(C component, InitContext<D> const& context) : c(std::move(component)) {
+    check_fields(c, "sample");
+    c.init(context);
+    this->prescribes = requires(VecCoord x) { c.projectPosition(0.0, x); };
+  }
+  void projectResponse(VecDeriv& dx) const override { c.projectResponse(dx); }
+  void projectMatrix(CompressedRowSparseMatrix<typename D::Real, 1>& matrix) override { project(matrix); }
+  void projectBlocksOfThree(CompressedRowSparseMatrix<typename D::Real, 3>& matrix) override {
+    project(matrix);
+  }
+  void projectBlocks(CompressedRowSparseMatrix<typename D::Real, D::size>& matrix) override {
+    project(matrix);
+  }
+  void projectPosition(double time, VecCoord& x) override {
+    if constexpr (requires { c.projectPosition(time, x); }) c.projectPosition(time, x);
+  }
+  void projectVelocity(double time, VecDeriv& v) override {
+    if constexpr (requires { c.projectVelocity(time, v); }) c.projectVelocity(time, v);
+  }
+
+ private:
+  template <class Matrix>
+  void project(Matrix& matrix) {
+    using Dofs = DirectDofs<D::size>;
+    const Dofs dofs{0};
+    c.projectMatrix(MatrixSink<AssemblyPhase::pattern, Matrix, Dofs>{matrix, dofs, dofs});  // does nothing
+    c.projectMatrix(MatrixSink<AssemblyPhase::add, Matrix, Dofs>{matrix, dofs, dofs});
+  }
+};
+
+template <class D>
 struct ConstraintSuite {
-  using D = typename C::DataTypes;
   using Real = typename D::Real;
   using VecCoord = typename D::VecCoord;
   using VecDeriv = typename D::VecDeriv;
@@ -26,37 +79,40 @@ struct ConstraintSuite {
   VecCoord rest = sample::positions<D>(body, random);
   std::size_t n = rest.size();
 
+  template <class C>
   void run() {
     INFO(component_name<C>());
     // points that have one coordinate are on every line
     if constexpr (D::size == 1 && requires(C c) { c.along; }) return;
-    sample::for_each_variant<C>(random, [&](C c) {
-      check_fields(c, "sample");
-      c.init(InitContext<D>{"sample", rest, body.topology()});
-      if constexpr (requires(VecCoord x) { c.projectPosition(time, x); }) prescribed(c);
-      projector(c);
-      projectedMatrix<1>(c);
-      projectedMatrix<3>(c);
-      projectedMatrix<D::size>(c);
+    sample::for_each_variant<C>(random, [&](C const& sampled) {
+      SubjectOf<C> subject(sampled, InitContext<D>{"sample", rest, body.topology()});
+      check(subject);
     });
+  }
+  void check(Subject<D>& c) {
+    if (c.prescribes) prescribed(c);
+    projector(c);
+    projectedMatrix<1>(c, [&](auto& a) { c.projectMatrix(a); });
+    projectedMatrix<3>(c, [&](auto& a) { c.projectBlocksOfThree(a); });
+    projectedMatrix<D::size>(c, [&](auto& a) { c.projectBlocks(a); });
   }
 
   static double distance(VecDeriv const& a, VecDeriv const& b) {
     return double((vec::flat(a) - vec::flat(b)).norm());
   }
-  static VecDeriv projected(C const& c, VecDeriv dx) {
+  static VecDeriv projected(Subject<D> const& c, VecDeriv dx) {
     c.projectResponse(dx);
     return dx;
   }
   // what the constraint takes away
-  static VecDeriv rejected(C const& c, VecDeriv dx) {
+  static VecDeriv rejected(Subject<D> const& c, VecDeriv dx) {
     const VecDeriv kept = projected(c, dx);
     vec::peq(dx, kept, Real(-1));
     return dx;
   }
 
   // P P = P = P', and something is held
-  void projector(C const& c) {
+  void projector(Subject<D> const& c) {
     const VecDeriv u = sample::derivs<D>(n, random), w = sample::derivs<D>(n, random), pu = projected(c, u);
     CHECK(distance(projected(c, pu), pu) <= rounding);
     CHECK(vec::dot(pu, w) == Approx(vec::dot(u, projected(c, w))).margin(10 * rounding));
@@ -64,8 +120,8 @@ struct ConstraintSuite {
   }
 
   // the assembled P A P + I - P against products one after the other
-  template <int B>
-  void projectedMatrix(C const& c) {
+  template <int B, class F>
+  void projectedMatrix(Subject<D> const& c, F&& project) {
     constexpr int size = D::size;
     using Matrix = CompressedRowSparseMatrix<Real, B>;
     Matrix a;
@@ -86,27 +142,22 @@ struct ConstraintSuite {
           }
     a.mirror();
     auto times = [&](VecDeriv const& x) {
-      Eigen::Matrix<Real, Eigen::Dynamic, 1> in(a.dofs() + 1), out(a.dofs());
-      in.setZero();
-      in.head(long(n) * size) = vec::flat(x);
-      a.multiply(in.data(), out.data());
-      VecDeriv y(n);
-      vec::flat(y) = out.head(long(n) * size);
-      return y;
+      VecDeriv in = x, out(n + 3, D::Deriv::Zero());
+      in.resize(n + 3, D::Deriv::Zero());  // the last block may be filled up, and multiply reads behind it
+      a.multiply(in[0].data(), out[0].data());
+      out.resize(n);
+      return out;
     };
     const VecDeriv u = sample::derivs<D>(n, random);
     VecDeriv expected = projected(c, times(projected(c, u)));
     vec::peq(expected, rejected(c, u), Real(1));
-    const DirectDofs<size> dofs{0};
-    c.projectMatrix(
-        MatrixSink<AssemblyPhase::pattern, Matrix, DirectDofs<size>>{a, dofs, dofs});  // does nothing
-    c.projectMatrix(MatrixSink<AssemblyPhase::add, Matrix, DirectDofs<size>>{a, dofs, dofs});
+    project(a);
     CHECK(distance(times(u), expected) <= 10 * rounding * double(vec::flat(expected).norm()));
   }
 
   // positions and velocities that are given stay so when given again, and the velocity is that of the
   // positions
-  void prescribed(C& c) {
+  void prescribed(Subject<D>& c) {
     VecCoord moved = rest;
     vec::increment<D>(moved, sample::derivs<D>(n, random, 0.1), Real(1));
     auto at = [&](double t, VecCoord x) {
@@ -143,7 +194,7 @@ void check_constraints() {
   for_each_registered<R>([&]<class C>() {
     if constexpr (HasRole<C, role::ProjectiveConstraint>)
       if constexpr (std::is_same_v<typename C::DataTypes, D>) {
-        ConstraintSuite<C>{}.run();
+        ConstraintSuite<D>{}.template run<C>();
         ++found;
       }
   });
