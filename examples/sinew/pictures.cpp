@@ -16,7 +16,7 @@ std::string file_name(Node const& node) {
                        c == '-' || c == '.' || static_cast<unsigned char>(c) >= 0x80;
     if (!plain) c = '_';
   }
-  if (name.empty() || name.starts_with('.')) name.insert(0, "_");
+  if (name.empty() || name.starts_with('.')) name.insert(name.begin(), '_');
   return name;
 }
 
