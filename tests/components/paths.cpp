@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "one_component.hpp"
+#include "moving_point.hpp"
 
 #include <sinew/constraint/fixed_rotation.hpp>
 #include <sinew/constraint/hermite_spline.hpp>
@@ -11,35 +11,13 @@ using namespace sinew;
 using Eigen::AngleAxisd;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
+using moving::at;
+using moving::elsewhere;
+using moving::holds;
+using moving::near;
+using moving::two;
 using one::ready;
 using one::refuses;
-
-namespace {
-
-const Vec3d::VecCoord two{{0, 0, 0}, {1, 2, 3}};
-const Vector3d elsewhere(-7, -8, -9);
-
-bool near(Vector3d const& a, Vector3d const& b) { return (a - b).norm() < 1e-14 * (1 + b.norm()); }
-
-/// Position and velocity that point 1 gets at a time.
-template <class C>
-std::pair<Vector3d, Vector3d> at(C& c, double time) {
-  Vec3d::VecCoord x(2, elsewhere);
-  Vec3d::VecDeriv v(2, elsewhere);
-  c.projectPosition(time, x);
-  c.projectVelocity(time, v);
-  CHECK((x[0] == elsewhere && v[0] == elsewhere));
-  return {x[1], v[1]};
-}
-template <class C>
-bool holds(C const& c) {
-  Vec3d::VecDeriv dx(2, Vector3d(1, 1, 1));
-  c.projectResponse(dx);
-  CHECK(dx[0] == Vector3d(1, 1, 1));
-  return dx[1].norm() == 0;
-}
-
-}  // namespace
 
 TEST_CASE("points move along a Hermite spline") {
   using Spline = HermiteSplineConstraint<Vec3d>;

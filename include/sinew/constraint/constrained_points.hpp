@@ -73,12 +73,37 @@ inline KeyInterval key_interval(std::vector<double> const& times, double time) {
   return {first, (time - times[first]) / length, length};
 }
 
+/// The time that a prescribed movement takes.
+struct MovementTime {
+  double begin, end;
+
+  /// Whether points move in the step from a time on.
+  bool moves(double time) const { return time >= begin && time < end; }
+  /// Whether the movement says where they are at a time.
+  bool given(double time) const { return time >= begin && time <= end && begin < end; }
+};
+
 template <class D>
 void set_center(typename D::Coord& x, Vec<typename D::Real, D::spatial> const& center) {
   if constexpr (D::rigid)
     x.center = center;
   else
     x.template head<D::spatial>() = center;
+}
+
+/// Puts the centres of points to one place, or gives them one velocity, without turning.
+template <class D>
+void place_points(typename D::VecCoord& x, std::vector<int> const& indices,
+                  Vec<double, D::spatial> const& place) {
+  for (const int i : indices) set_center<D>(x[std::size_t(i)], place.template cast<typename D::Real>());
+}
+template <class D>
+void move_points(typename D::VecDeriv& v, std::vector<int> const& indices,
+                 Vec<double, D::spatial> const& velocity) {
+  for (const int i : indices) {
+    v[std::size_t(i)].setZero();
+    v[std::size_t(i)].template head<D::spatial>() = velocity.template cast<typename D::Real>();
+  }
 }
 
 /// The projector of all coordinates of a point from that of its place.

@@ -47,7 +47,7 @@ struct HermiteSplineConstraint {
   void init(InitContext<D> const& context) {
     check_points<HermiteSplineConstraint>(context, indices);
     check_begin_and_end<HermiteSplineConstraint>(context, beginTime, endTime, indices.empty());
-    active = moves(0);
+    active = movement().moves(0);
   }
 
   void projectResponse(VecDeriv& dx) const {
@@ -61,28 +61,23 @@ struct HermiteSplineConstraint {
   }
 
   void projectPosition(double time, VecCoord& x) {
-    active = moves(time);
-    if (!given(time)) return;
+    active = movement().moves(time);
+    if (!movement().given(time)) return;
     const Eigen::Vector4d h = hermite(progress(time)[0]);
     const Place place = x0 * h[0] + dx0 * h[1] + x1 * h[2] + dx1 * h[3];
-    for (const int i : indices) set_center<D>(x[std::size_t(i)], place.template cast<Real>());
+    place_points<D>(x, indices, place);
   }
   void projectVelocity(double time, VecDeriv& v) {
-    active = moves(time);
-    if (!given(time)) return;
+    active = movement().moves(time);
+    if (!movement().given(time)) return;
     const auto [s, rate] = progress(time);
     const Eigen::Vector4d h = hermiteRate(s) * rate;
     const Place velocity = x0 * h[0] + dx0 * h[1] + x1 * h[2] + dx1 * h[3];
-    for (const int i : indices) {
-      v[std::size_t(i)].setZero();
-      v[std::size_t(i)].template head<D::spatial>() = velocity.template cast<Real>();
-    }
+    move_points<D>(v, indices, velocity);
   }
 
  private:
-  // in the step from a time on; at a time
-  bool moves(double time) const { return time >= beginTime && time < endTime; }
-  bool given(double time) const { return time >= beginTime && time <= endTime && beginTime < endTime; }
+  MovementTime movement() const { return {beginTime, endTime}; }
 
   static Eigen::Vector4d hermite(double s) {
     const double s2 = s * s, s3 = s2 * s;

@@ -59,7 +59,7 @@ struct LinearMovementConstraint {
                                 (180 / std::numbers::pi))
                 .template cast<Real>();
     }
-    active = moves(0);
+    active = movement().moves(0);
   }
 
   void projectResponse(VecDeriv& dx) const {
@@ -73,8 +73,8 @@ struct LinearMovementConstraint {
   }
 
   void projectPosition(double time, VecCoord& x) {
-    active = moves(time);
-    if (!given(time)) return;
+    active = movement().moves(time);
+    if (!movement().given(time)) return;
     const KeyInterval key = key_interval(keyTimes, time);
     const Deriv m = movements[key.first] * Real(1 - key.part) + movements[key.first + 1] * Real(key.part);
     for (std::size_t k = 0; k < indices.size(); ++k) {
@@ -91,8 +91,8 @@ struct LinearMovementConstraint {
   }
 
   void projectVelocity(double time, VecDeriv& v) {
-    active = moves(time);
-    if (!given(time)) return;
+    active = movement().moves(time);
+    if (!movement().given(time)) return;
     const KeyInterval key = key_interval(keyTimes, time);
     Deriv rate = (movements[key.first + 1] - movements[key.first]) / Real(key.length);
     for (std::size_t k = 0; k < indices.size(); ++k) {
@@ -106,11 +106,7 @@ struct LinearMovementConstraint {
   }
 
  private:
-  // in the step from a time on; at a time
-  bool moves(double time) const { return time >= keyTimes.front() && time < keyTimes.back(); }
-  bool given(double time) const {
-    return keyTimes.size() > 1 && time >= keyTimes.front() && time <= keyTimes.back();
-  }
+  MovementTime movement() const { return {keyTimes.front(), keyTimes.back()}; }
 };
 
 }  // namespace sinew

@@ -58,7 +58,7 @@ struct ParabolicConstraint {
         across = height / (a * (1 - a));
       }
     }
-    active = moves(0);
+    active = movement().moves(0);
   }
 
   void projectResponse(VecDeriv& dx) const {
@@ -72,27 +72,22 @@ struct ParabolicConstraint {
   }
 
   void projectPosition(double time, VecCoord& x) {
-    active = moves(time);
-    if (!given(time)) return;
+    active = movement().moves(time);
+    if (!movement().given(time)) return;
     const double r = (time - beginTime) / (endTime - beginTime);
     const Place place = p1 + r * along + r * (1 - r) * across;
-    for (const int i : indices) set_center<D>(x[std::size_t(i)], place.template cast<Real>());
+    place_points<D>(x, indices, place);
   }
   void projectVelocity(double time, VecDeriv& v) {
-    active = moves(time);
-    if (!given(time)) return;
+    active = movement().moves(time);
+    if (!movement().given(time)) return;
     const double length = endTime - beginTime, r = (time - beginTime) / length;
     const Place velocity = (along + (1 - 2 * r) * across) / length;
-    for (const int i : indices) {
-      v[std::size_t(i)].setZero();
-      v[std::size_t(i)].template head<D::spatial>() = velocity.template cast<Real>();
-    }
+    move_points<D>(v, indices, velocity);
   }
 
  private:
-  // in the step from a time on; at a time
-  bool moves(double time) const { return time >= beginTime && time < endTime; }
-  bool given(double time) const { return time >= beginTime && time <= endTime && beginTime < endTime; }
+  MovementTime movement() const { return {beginTime, endTime}; }
 };
 
 }  // namespace sinew

@@ -3,8 +3,7 @@
 
 #include <sinew/core/component.hpp>
 #include <sinew/core/element_driver.hpp>
-#include <sinew/topology/element_checks.hpp>
-#include <sinew/topology/hexahedra.hpp>
+#include <sinew/force/tetrahedron_rest.hpp>
 
 #include <array>
 #include <string_view>
@@ -260,16 +259,7 @@ struct TetrahedronFEMForceField {
 
   void init(InitContext<D> const& context) {
     const std::string where = text(context.where, ": ", component_name<TetrahedronFEMForceField>());
-    auto tetrahedra = context.topology.tetrahedra;
-    std::vector<Tetrahedron> split;
-    if (tetrahedra.empty()) {
-      tetrahedra = split = hexahedra_to_tetrahedra(context.topology.hexahedra);
-      check_tetrahedra<D>(text(where, ": its hexahedra, six tetrahedra each"), tetrahedra, context.rest);
-    }
-    if (tetrahedra.empty())
-      throw Error(where,
-                  "the topology has no tetrahedron; give the node a topology with tetrahedra or hexahedra");
-    detail::check_indices(where, "tetrahedron", tetrahedra, context.rest.size());
+    const auto tetrahedra = tetrahedra_of(where, context);
     if (youngModulus.size() != 1 && youngModulus.size() != tetrahedra.size())
       throw Error(where,
                   text("youngModulus has ",

@@ -246,8 +246,7 @@ struct TetrahedronHyperelasticityFEMForceField {
     const std::string where =
         text(context.where, ": ", component_name<TetrahedronHyperelasticityFEMForceField>());
     check_hyperelastic(where, materialName, parameterSet);
-    const auto tetrahedra = tetrahedra_of(where, context);
-    init_tetrahedra<D>(driver, tetrahedra, context.rest);
+    init_tetrahedra<D>(where, driver, context);
   }
 
   template <class Law = typename Driver::Law>

@@ -38,13 +38,13 @@ SINEW_INLINE Vec<Real, 3> times(Mat<Real, 3> const& a, Vec<Real, 3> const& b) {
 }
 
 /// The tetrahedra of the topology, or six in each of its hexahedra where it has none. Throws Error where
-/// there are none, and at one that refers to a missing point, is flat, or is inside out.
+/// there are none, at one that refers to a missing point, and at a hexahedron that is flat or inside out.
 template <class D>
 std::vector<Tetrahedron> tetrahedra_of(std::string const& where, InitContext<D> const& context) {
   auto const& given = context.topology.tetrahedra;
   std::vector<Tetrahedron> tetrahedra(given.begin(), given.end());
   if (!tetrahedra.empty()) {
-    check_tetrahedra<D>(where, tetrahedra, context.rest);
+    detail::check_indices(where, "tetrahedron", tetrahedra, context.rest.size());
     return tetrahedra;
   }
   tetrahedra = hexahedra_to_tetrahedra(context.topology.hexahedra);
@@ -55,11 +55,14 @@ std::vector<Tetrahedron> tetrahedra_of(std::string const& where, InitContext<D> 
   return tetrahedra;
 }
 
-/// Gives a driver the tetrahedra, which check_tetrahedra has found good.
+/// Gives them to a driver, and returns them. Throws Error also at one that is flat or inside out.
 template <class D, class Driver>
-void init_tetrahedra(Driver& driver, std::vector<Tetrahedron> const& tetrahedra,
-                     typename D::VecCoord const& points) {
+std::vector<Tetrahedron> init_tetrahedra(std::string const& where, Driver& driver,
+                                         InitContext<D> const& context) {
   using Real = typename D::Real;
+  auto const& points = context.rest;
+  std::vector<Tetrahedron> tetrahedra = tetrahedra_of(where, context);
+  if (!context.topology.tetrahedra.empty()) check_tetrahedra<D>(where, tetrahedra, points);
   std::vector<TetrahedronRest<Real>> rest;
   rest.reserve(tetrahedra.size());
   for (Tetrahedron const& t : tetrahedra) {
@@ -70,6 +73,7 @@ void init_tetrahedra(Driver& driver, std::vector<Tetrahedron> const& tetrahedra,
     rest.push_back({edges.inverse().transpose().template cast<Real>(), Real(edges.determinant() / 6)});
   }
   driver.init({tetrahedra.begin(), tetrahedra.end()}, rest);
+  return tetrahedra;
 }
 
 }  // namespace sinew

@@ -219,8 +219,7 @@ struct TetrahedronViscoelasticityFEMForceField {
         text(context.where, ": ", component_name<TetrahedronViscoelasticityFEMForceField>());
     check_viscoelastic(where, materialName, parameterSet);
     moduli = viscoelastic_moduli(materialName, parameterSet);
-    const auto tetrahedra = tetrahedra_of(where, context);
-    init_tetrahedra<D>(driver, tetrahedra, context.rest);
+    const auto tetrahedra = init_tetrahedra<D>(where, driver, context);
     now = currentTime;
     if (moduli.terms == 0) return;
     const std::size_t size = tetrahedra.size() * memorySize;
