@@ -4,6 +4,7 @@
 #include <sinew/core/data_types.hpp>
 #include <sinew/core/fields.hpp>
 #include <sinew/core/mesh.hpp>
+#include <sinew/core/renumbering.hpp>
 #include <sinew/core/vec_id.hpp>
 
 #include <array>
@@ -35,7 +36,8 @@ template <class C, class R>
 concept HasRole = std::same_as<typename C::Role, R>;
 
 /// Elements over the points of one node, as components see them at init. Empty where there is no topology. A
-/// topology that has to be made first offers generate(where), which init calls before all else.
+/// topology that has to be made first offers generate(where), which init calls before all else. One whose
+/// elements may be removed while the scene runs offers edit(), its ElementLists.
 struct TopologyView {
   std::span<Eigen::Vector3d const> positions{};  // for a state that is given none
   std::span<Edge const> edges{};

@@ -32,6 +32,7 @@ struct RigidMapping {
                             "",
                             "the body that carries each point; one entry for all points",
                             range::nonNegative)
+                          .numbersOf(Of::parentPoints)
                           .also("index"),
                       field("globalToLocalCoords",
                             &RigidMapping::globalToLocalCoords,

@@ -30,6 +30,7 @@ struct RuntimeScope {
                  [](void const* s) { return static_cast<S const*>(s)->path(); },
                  [](void const* s) { return static_cast<S const*>(s)->gravity(); },
                  [](void const* s) { return static_cast<S const*>(s)->topology(); },
+                 [](void const* s) { return static_cast<S const*>(s)->topologyAddress(); },
                  nullptr};
     if constexpr (S::hasState) {
       auto& state = typed.stateScope().node.state();
@@ -89,6 +90,17 @@ struct RuntimeScope {
     const RuntimeScope owner = stateScope();
     return *static_cast<S*>(owner.atMount ? owner.mount().state : owner.node.state()->component.address());
   }
+  void const* stateAddress() const {
+    const RuntimeScope owner = stateScope();
+    return owner.atMount        ? owner.mount().state
+           : owner.node.state() ? owner.node.state()->component.address()
+                                : nullptr;
+  }
+  void const* topologyAddress() const {
+    if (atMount) return mount().scope ? mount().topologyAddress(mount().scope) : nullptr;
+    if (node.topology()) return node.topology()->component.address();
+    return node.state() ? nullptr : above().topologyAddress();
+  }
   template <class D>
   InitContext<D> context() const {
     return {path(), state<D>().restPosition, topology()};
@@ -125,9 +137,9 @@ struct RuntimeScope {
     }
   }
   template <class C, class F>
-  void ifNew(C const& c, bool again, F&& f) const {
+  void ifNew(C const& c, InitAgain const& again, F&& f) const {
     auto const& entry = node.entryOf(&c);
-    if (again && entry.initialised && entry.surroundings == surroundings(entry)) return;
+    if (again && entry.initialised && !again.touches(&c) && entry.surroundings == surroundings(entry)) return;
     collect([&] { located(c, f); });
   }
   /// Goes on after an error, so that all can be said at once; raise() throws them.
@@ -216,9 +228,7 @@ struct RuntimeScope {
  private:
   void addSurroundings(std::vector<void const*>& all) const {
     const RuntimeScope owner = stateScope();
-    all.push_back(owner.atMount        ? owner.mount().state
-                  : owner.node.state() ? owner.node.state()->component.address()
-                                       : nullptr);
+    all.push_back(stateAddress());
     all.push_back(topologyAddress());
     if (!atMount && node.mapping()) {
       all.push_back(node.mapping()->component.address());
@@ -226,12 +236,6 @@ struct RuntimeScope {
     } else if (!owner.atMount && owner.node.mapping() && &owner.node != &node) {
       owner.addSurroundings(all);
     }
-  }
-
-  void const* topologyAddress() const {
-    if (atMount) return nullptr;
-    if (node.topology()) return node.topology()->component.address();
-    return node.state() ? nullptr : above().topologyAddress();
   }
 
   // the Jacobian of a point of this scope's state with respect to the independent states above it

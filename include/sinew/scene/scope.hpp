@@ -4,8 +4,11 @@
 #include <sinew/core/assembly.hpp>
 #include <sinew/scene/node.hpp>
 
+#include <algorithm>
+#include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace sinew {
 
@@ -15,6 +18,19 @@ struct NoScope {
   static std::string path() { return ""; }
   static Eigen::Vector3d gravity() { return Eigen::Vector3d::Zero(); }
   static TopologyView topology() { return {}; }
+  static void const* topologyAddress() { return nullptr; }
+};
+
+/// Whether an init is the first one, or that of a scene that has changed, in which these components have to
+/// be initialised again.
+struct InitAgain {
+  bool again = false;
+  std::vector<void const*> touched{};  // in rising order
+
+  explicit operator bool() const { return again; }
+  bool touches(void const* component) const {
+    return std::binary_search(touched.begin(), touched.end(), component, std::less<>{});
+  }
 };
 
 namespace detail {
@@ -90,6 +106,21 @@ struct Scope {
   auto& state() const {
     return stateScope().node.template first<role::State>();
   }
+  /// Where the state and the topology of components of this node are; null for none.
+  void const* stateAddress() const {
+    if constexpr (hasState)
+      return &stateScope().node.state();
+    else
+      return nullptr;
+  }
+  void const* topologyAddress() const {
+    if constexpr (always<role::Topology>)
+      return &node.template first<role::Topology>();
+    else if constexpr (ownsState)
+      return nullptr;
+    else
+      return above.topologyAddress();
+  }
   template <class D>
   InitContext<D> context() const {
     return {path(), state<D>().restPosition, topology()};
@@ -122,8 +153,8 @@ struct Scope {
   /// Runs a part of init that concerns one component, unless that is initialised already (`again`) and
   /// nothing around it has changed. settled() ends the init.
   template <class C, class F>
-  void ifNew(C const&, bool again, F&& f) const {
-    if (!again) f();
+  void ifNew(C const& c, InitAgain const& again, F&& f) const {
+    if (!again || again.touches(&c)) f();
   }
   /// Adds the place of a component to what goes wrong; the path has been said here.
   template <class C, class F>
