@@ -2,6 +2,8 @@
 #include <sinew/runtime/runtime.hpp>
 
 namespace sinew {
-template TopologyChange Simulation<RuntimeNode<Standard>>::removeElements(std::string_view,
-                                                                          ElementNumbers const&);
+using StandardSimulation = Simulation<RuntimeNode<Standard>>;
+extern template void StandardSimulation::initScene(RootScope const&, InitAgain const&);
+extern template void StandardSimulation::propagate();
+template TopologyChange StandardSimulation::removeElements(std::string_view, ElementNumbers const&);
 }  // namespace sinew

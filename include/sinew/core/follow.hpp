@@ -37,23 +37,91 @@ struct Followed {
 
 namespace detail {
 
-constexpr bool of_points(Of what) { return what == Of::points || what == Of::secondPoints; }
-
 template <class T>
-constexpr bool is_number_list = std::is_same_v<T, std::vector<int>>;
+inline constexpr bool is_list = false;
 template <class T>
-constexpr bool is_struct_list = false;
+inline constexpr bool is_list<std::vector<T>> = true;
+template <class T>
+inline constexpr bool is_struct_list = false;
 template <HasFields T>
-constexpr bool is_struct_list<std::vector<T>> = true;
+inline constexpr bool is_struct_list<std::vector<T>> = true;
 
-// f(field, number) for each number of a point or element in a struct with fields
+// f(what it numbers, number) for each number of a point or element in a struct with fields
 template <class T, class F>
 void for_each_number(T& owner, F&& f) {
   for_each_field(owner, [&](auto const& fd, auto& value) {
     if constexpr (std::is_same_v<std::decay_t<decltype(value)>, int>)
-      if (fd.numbers) f(fd, value);
+      if (fd.numbers) f(fd.entries, value);
   });
 }
+
+/// How the lists of one component follow: first all are marked, then changed.
+struct ListsThatFollow {
+  Followed const& change;
+  std::vector<bool> structs{}, entries{};  // which stay, of lists of structs and of lists of points
+  Renumbering ofStructs{}, ofEntries{}, ofBoth{};
+  bool emptied = false;
+
+  static bool isEntry(Of what) { return what == Of::points || what == Of::secondPoints; }
+
+  template <class T>
+  void markStructs(std::vector<T> const& list) {
+    for (auto const& item : list) {
+      bool stays = true;
+      for_each_number(item, [&](Of what, int i) { stays = stays && change.numbered(what).stays(i); });
+      structs.push_back(stays);
+    }
+  }
+  void markNumbers(std::vector<int> const& list, Of what) {
+    if (!isEntry(what)) return;
+    if (entries.size() < list.size()) entries.resize(list.size(), true);
+    for (std::size_t i = 0; i < list.size(); ++i)
+      if (!change.numbered(what).stays(list[i])) entries[i] = false;
+  }
+  void marked() {
+    ofStructs = Renumbering::of(structs), ofEntries = Renumbering::of(entries);
+    structs.insert(structs.end(), entries.begin(), entries.end());
+    ofBoth = Renumbering::of(structs);
+  }
+
+  template <class T>
+  void changeStructs(std::vector<T>& list) const {
+    ofStructs.filter(list);
+    for (auto& item : list)
+      for_each_number(item, [&](Of what, int& i) { change.numbered(what).renumber(i); });
+  }
+  void changeNumbers(std::vector<int>& list, Of what) {
+    const bool before = !list.empty();
+    Renumbering const& numbered = change.numbered(what);
+    if (isEntry(what))
+      ofEntries.filter(list);
+    else if (what == Of::parentPoints)
+      change.points.filter(list);
+    else
+      std::erase_if(list, [&](int i) { return !numbered.stays(i); });
+    for (int& i : list) numbered.renumber(i);
+    emptied = emptied || (before && list.empty());
+  }
+  template <class T>
+  void changeValues(std::vector<T>& list, Of what) const {
+    if (list.size() > 1) ofValues(what, list.size()).filter(list);
+  }
+  Renumbering ofValues(Of what, std::size_t size) const {
+    switch (what) {
+      case Of::nothing:
+        return {};
+      case Of::points:
+        return change.points;
+      case Of::entries:
+        // of structs and lists together, or of the lists only; where there are none, of all points
+        return ofBoth.now.empty() ? change.points : size == ofBoth.now.size() ? ofBoth : ofEntries;
+      case Of::hexahedra:
+        return change.topology.of(ElementKind::hexahedron);
+      default:
+        return change.topology.ofDimension(change.dimensionOf(what), size);
+    }
+  }
+};
 
 }  // namespace detail
 
@@ -61,75 +129,25 @@ void for_each_number(T& owner, F&& f) {
 template <class C>
 void follow_fields(C& component, Followed const& change) {
   if constexpr (requires { component.follow(change); }) component.follow(change);
-
-  // the entries of structs, and of the lists of points, that stay
-  std::vector<bool> structs, entries;
-  bool emptied = false;
-  for_each_field(component, [&](auto const& fd, auto& list) {
-    using List = std::decay_t<decltype(list)>;
-    if constexpr (detail::is_struct_list<List>) {
-      for (auto& item : list) {
-        bool stays = true;
-        detail::for_each_number(item, [&](auto const& part, int number) {
-          stays = stays && change.numbered(part.entries).stays(number);
-        });
-        structs.push_back(stays);
-      }
-    } else if constexpr (detail::is_number_list<List>) {
-      if (!fd.numbers || !detail::of_points(fd.entries)) return;
-      if (entries.size() < list.size()) entries.resize(list.size(), true);
-      for (std::size_t i = 0; i < list.size(); ++i)
-        if (!change.numbered(fd.entries).stays(list[i])) entries[i] = false;
-    }
+  detail::ListsThatFollow lists{change};
+  for_each_field(component, [&]<class List>(auto const& fd, List& list) {
+    if constexpr (detail::is_struct_list<List>)
+      lists.markStructs(list);
+    else if constexpr (std::is_same_v<List, std::vector<int>>)
+      if (fd.numbers) lists.markNumbers(list, fd.entries);
   });
-  const Renumbering ofStructs = Renumbering::of(structs), ofLists = Renumbering::of(entries);
-  std::vector<bool> both = structs;
-  both.insert(both.end(), entries.begin(), entries.end());
-  const Renumbering ofBoth = Renumbering::of(both);
-
-  for_each_field(component, [&](auto const& fd, auto& list) {
-    using List = std::decay_t<decltype(list)>;
+  lists.marked();
+  for_each_field(component, [&]<class List>(auto const& fd, List& list) {
     if constexpr (detail::is_struct_list<List>) {
-      ofStructs.filter(list);
-      for (auto& item : list)
-        detail::for_each_number(
-            item, [&](auto const& part, int& number) { change.numbered(part.entries).renumber(number); });
-      return;
-    }
-    if constexpr (detail::is_number_list<List>)
-      if (fd.numbers) {
-        const std::size_t before = list.size();
-        Renumbering const& numbered = change.numbered(fd.entries);
-        if (detail::of_points(fd.entries))
-          ofLists.filter(list);
-        else if (fd.entries == Of::parentPoints)
-          change.points.filter(list);
-        else
-          std::erase_if(list, [&](int number) { return !numbered.stays(number); });
-        for (int& number : list) numbered.renumber(number);
-        emptied = emptied || (before > 0 && list.empty());
-        return;
-      }
-    if constexpr (requires { list.resize(0), list[0]; }) {
-      if (list.size() < 2) return;
-      switch (fd.entries) {
-        case Of::nothing:
-          return;
-        case Of::points:
-          return change.points.filter(list);
-        case Of::entries:
-          // one for each entry of structs and lists, or of the lists only; without lists for each point
-          if (both.empty()) return change.points.filter(list);
-          return list.size() == both.size() ? ofBoth.filter(list) : ofLists.filter(list);
-        case Of::hexahedra:
-          return change.topology.of(ElementKind::hexahedron).filter(list);
-        default:
-          return change.topology.ofDimension(change.dimensionOf(fd.entries), list.size()).filter(list);
-      }
+      lists.changeStructs(list);
+    } else if constexpr (detail::is_list<List>) {
+      if constexpr (std::is_same_v<List, std::vector<int>>)
+        if (fd.numbers) return lists.changeNumbers(list, fd.entries);
+      lists.changeValues(list, fd.entries);
     }
   });
   if constexpr (requires { component.none; })
-    if (emptied) component.none = true;
+    if (lists.emptied) component.none = true;
 }
 
 /// Which of the n points of its child a mapping keeps, where points of its parent go.
@@ -139,7 +157,7 @@ std::vector<bool> mapped_points_that_stay(M const& mapping, Renumbering const& p
   if constexpr (requires { M::samePoints; })
     for (std::size_t i = 0; i < n; ++i) stays[i] = parent.stays(Index(i));
   for_each_field(mapping, [&](auto const& fd, auto const& list) {
-    if constexpr (detail::is_number_list<std::decay_t<decltype(list)>>)
+    if constexpr (std::is_same_v<std::decay_t<decltype(list)>, std::vector<int>>)
       if (fd.numbers && fd.entries == Of::parentPoints)
         for (std::size_t i = 0; i < n && !list.empty(); ++i)
           if (!parent.stays(list[list.size() == 1 ? 0 : i])) stays[i] = false;
