@@ -106,8 +106,7 @@ struct AngularSpringForceField {
 
   static constexpr ForceProperties properties() { return {.exactTangent = false}; }
 
-  // rotation vectors take trigonometry, which lanes do not have
-  using Driver = ElementDriver<AngularSpring, D, 1>;
+  using Driver = ElementDriver<AngularSpring, D>;
   using Law = typename Driver::Law;
   Driver driver{};
 

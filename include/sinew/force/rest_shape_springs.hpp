@@ -123,8 +123,7 @@ struct RestShapeSpringsForceField {
     return {.internal = false, .objective = false, .exactTangent = !RestShapeSpring<D>::turns};
   }
 
-  // the rotation vector of a body takes trigonometry, which lanes do not have
-  using Driver = ElementDriver<RestShapeSpring, D, D::rigid ? 1 : native_width<Real>>;
+  using Driver = ElementDriver<RestShapeSpring, D>;
   using Law = typename Driver::Law;
   Driver driver{};
 
