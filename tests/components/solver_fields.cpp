@@ -44,6 +44,7 @@ TEST_CASE("settings of solvers out of range are refused by name") {
   CHECK(has(refused(MinResLinearSolver<>{.tolerance = nan}), "tolerance is nan"));
   CHECK(has(refused(ShewchukPCGLinearSolver<>{.iterations = 0}), "iterations is 0"));
   CHECK(has(refused(ShewchukPCGLinearSolver<>{.updateStep = -1}), "update_step is -1"));
+  CHECK(has(refused(ShewchukPCGLinearSolver<>{.omega = 2}), "omega is 2"));
 }
 
 TEST_CASE("solvers are refused nothing by default, and no two share a name") {
