@@ -132,8 +132,7 @@ struct AngularSpringForceField {
       indices[0] = indices[1];
   }
 
-  // rotation vectors take trigonometry, which lanes do not have
-  using Driver = ElementDriver<AngularSpring, D, 1>;
+  using Driver = ElementDriver<AngularSpring, D>;
   using Law = typename Driver::Law;
   Driver driver{};
 

@@ -133,8 +133,7 @@ struct RestShapeSpringsForceField {
         field("none", &RestShapeSpringsForceField::none, "", "all of the points have been removed"));
   }
 
-  // the rotation vector of a body takes trigonometry, which lanes do not have
-  using Driver = ElementDriver<RestShapeSpring, D, D::rigid ? 1 : native_width<Real>>;
+  using Driver = ElementDriver<RestShapeSpring, D>;
   using Law = typename Driver::Law;
   Driver driver{};
 

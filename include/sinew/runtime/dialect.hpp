@@ -335,6 +335,25 @@ inline constexpr std::array newtonDefaults =
                                                     {"absoluteEstimateDifferenceThreshold", "0"},
                                                     {"maxNbIterationsLineSearch", "5"}});
 
+/// Components that precondition, and linear solvers that may stand in their place: what a PCG solver that
+/// links to them is told.
+struct Preconditions {
+  std::string_view name, precondition, updateStep;
+  bool warp;  // it turns with the body, and wraps another
+};
+inline constexpr std::array preconditioners =
+    std::to_array<Preconditions>({{"JacobiPreconditioner", "jacobi", "", false},
+                                  {"JacobiLinearSolver", "jacobi", "", false},
+                                  {"BlockJacobiPreconditioner", "blockJacobi", "", false},
+                                  {"SSORPreconditioner", "ssor", "", false},
+                                  {"WarpPreconditioner", "ldl", "", true},
+                                  {"PrecomputedWarpPreconditioner", "ldl", "0", true}});
+constexpr Preconditions const* preconditioner_named(std::string_view tag) {
+  for (auto const& p : preconditioners)
+    if (p.name == tag) return &p;
+  return nullptr;
+}
+
 /// Attributes that are as good as not given where they are empty, or a link to nothing: "@".
 inline constexpr std::array mayBeEmpty =
     std::to_array<std::string_view>({"src", "filename", "fileMesh", "fileTopology"});
