@@ -55,6 +55,8 @@ struct InitContext {
   std::string where;
   typename D::VecCoord const& rest;
   TopologyView topology;
+  /// Of the points [kg], for a component that asks for them by `needsMasses`; empty where there is no mass.
+  std::span<double const> masses{};
 };
 
 /// Arguments of the mechanical operations. The product with a vector is (m M + b B + k K) dx, where
@@ -149,6 +151,27 @@ concept Mapping = HasRole<C, role::Mapping> &&
   m.apply(xo, xi);
   m.applyJ(vo, vi);   // vo = J vi at the last apply
   m.applyJT(vi, vo);  // vi += J' vo
+};
+
+/// A mapping that is not linear may say what that adds to the stiffness of its parent,
+/// K_g = (dJ'/dx) f, at the force f on its child that updateK was given last. It also adds K_g to a matrix
+/// over the parent's degrees of freedom: addToMatrix(params, sink). K_g is symmetric.
+template <class C>
+concept HasGeometricStiffness = requires(C m, typename C::In::VecDeriv vi,
+                                         typename C::Out::VecDeriv const vo) {
+  m.updateK(vo);
+  m.addKx(vi, vi, 1.0);  // df += k K_g dx
+};
+
+/// A component that is given the masses of the points at init: those of its parent, where it is a mapping.
+template <class C>
+inline constexpr bool needs_masses = requires {
+  C::needsMasses;
+};
+/// A mapping for which the elements of the topology in its node are over the points of its parent.
+template <class C>
+inline constexpr bool over_parent = requires {
+  C::overParent;
 };
 
 /// Files to read and points to select, turned into data of other components before the scene starts:

@@ -105,12 +105,23 @@ struct RuntimeScope {
   InitContext<D> context() const {
     return {path(), state<D>().restPosition, topology()};
   }
+  RuntimeScope parentScope() const { return above().stateScope(); }
   template <class D>
   InitContext<D> parentContext() const {
-    return above().stateScope().template context<D>();
+    return parentScope().template context<D>();
   }
   template <class F>
   void withContext(F&& f) const {
+    bool overParent = false;
+    if (!atMount && node.mapping())
+      node.mapping()->component.template visit<role::Mapping>([&](auto& mapping) {
+        using M = std::decay_t<decltype(mapping)>;
+        if constexpr (over_parent<M>) {
+          overParent = true;
+          f(parentContext<typename M::In>());
+        }
+      });
+    if (overParent) return;
     const RuntimeScope owner = stateScope();
     if (!owner.atMount && owner.node.state())
       owner.node.state()->component.template visit<role::State>(
@@ -124,6 +135,17 @@ struct RuntimeScope {
   template <class F>
   void forEachChild(F&& f) const {
     for (auto const& child : node.children()) f(RuntimeScope(*child));
+  }
+  template <class F>
+  void forEachChildReversed(F&& f) const {
+    auto const& children = node.children();
+    for (auto child = children.rbegin(); child != children.rend(); ++child) f(RuntimeScope(**child));
+  }
+  template <class F>
+  void withMass(F&& f) const {
+    if (atMount) return;
+    for (auto& entry : node.components())
+      if (entry.component.template visit<role::Mass>(f)) return;
   }
 
   template <class C, class F>
@@ -183,12 +205,19 @@ struct RuntimeScope {
     addSurroundings(all);
     for (auto* end : entry.ends)
       if (end) RuntimeScope(*end).addSurroundings(all);
+    // a mapping may have asked for the masses of its parent
+    if (entry.component.template is<role::Mapping>()) {
+      const RuntimeScope parent = parentScope();
+      if (!parent.atMount)
+        for (auto const& other : parent.node.components())
+          if (other.component.template is<role::Mass>()) all.push_back(other.component.address());
+    }
     return all;
   }
 
   template <class M, class F>
   void withMapped(M const&, F&& f) const {
-    auto& parent = above().template state<typename M::In>();
+    auto& parent = parentScope().template state<typename M::In>();
     if (node.state()) {
       if constexpr (!std::is_void_v<typename StateOf<R, typename M::Out>::type>)
         f(state<typename M::Out>(), parent);

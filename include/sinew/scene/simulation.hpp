@@ -116,9 +116,13 @@ class Simulation {
       scope.withMapped(c, [&](auto& child, auto& parent) {
         using Child = std::decay_t<decltype(child)>;
         auto place = [&](auto& rest) {
-          c.init(scope.template parentContext<typename C::In>(),
-                 {scope.path(), rest, scope.topology()},
-                 child.position);
+          auto above = scope.template parentContext<typename C::In>();
+          std::vector<double> masses;
+          if constexpr (needs_masses<C>) {
+            masses = massesOf(scope.parentScope(), above);
+            above.masses = masses;
+          }
+          c.init(above, {scope.path(), rest, scope.topology()}, child.position);
         };
         if constexpr (HasRole<Child, role::VisualModel>) {
           child.init(scope.path());
@@ -138,6 +142,22 @@ class Simulation {
       if constexpr (HasRole<C, role::State>) c.place(scope.path(), scope.topology().positions);
       c.init(scope.path());
     }
+  }
+
+  // masses of the points of a state: the sums of the rows of M
+  template <class S, class D>
+  static std::vector<double> massesOf(S const& scope, InitContext<D> const& context) {
+    std::vector<double> masses;
+    scope.withMass([&](auto& mass) {
+      if constexpr (std::is_same_v<typename std::decay_t<decltype(mass)>::DataTypes, D>) {
+        mass.init(context);
+        typename D::VecDeriv along(context.rest.size(), D::Deriv::Unit(0)),
+            sums(along.size(), D::Deriv::Zero());
+        mass.addMDx(sums, context.rest, along, 1.0);
+        for (auto const& sum : sums) masses.push_back(double(sum[0]));
+      }
+    });
+    return masses;
   }
 
   template <class C, class S>
