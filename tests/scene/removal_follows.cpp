@@ -164,3 +164,40 @@ TEST_CASE("springs to another body go with their ends") {
   CHECK(springs.elongationOnly == std::vector<bool>{true, false});
   sim.animate(0.01);
 }
+
+TEST_CASE("lengths and volumes go with their edges and tetrahedra, and the centre of mass moves") {
+  using Lengths = DistanceMapping<Vec3d, Vec1d>;
+  Simulation sim{node<"root">(
+      EulerImplicitSolver{},
+      CGLinearSolver<>{},
+      node<"body">(TetrahedronTopology{tetrahedra()},
+                   MechanicalObject<Vec3d>{.position = row()},
+                   DiagonalMass<Vec3d>{.massDensity = 1},
+                   node<"sides">(MechanicalObject<Vec1d>{}, Lengths{}),
+                   node<"wires">(MeshTopology{.edges = {{0, 5}, {1, 5}, {2, 5}}},
+                                 MechanicalObject<Vec1d>{},
+                                 Lengths{.restLengths = {1, 2, 3}}),
+                   node<"volumes">(MechanicalObject<Vec1d>{}, VolumeMapping<Vec3d, Vec1d>{}),
+                   node<"centre">(MechanicalObject<Vec3d>{}, CenterOfMassMapping<Vec3d, Vec3d>{})))};
+  sim.init();
+  auto& sides = sim.at<"body/sides">();
+  auto& volumes = sim.at<"body/volumes">();
+  CHECK(sides.state().size() == 12);  // 6 of the first, 3 more of each other
+  const double second = volumes.state().position[1][0];
+  sim.removeElements("body", {.tetrahedra = {0}});
+  CHECK(sides.state().size() == 9);
+  CHECK(volumes.state().size() == 2);
+  CHECK(volumes.state().position[0][0] == Approx(second).epsilon(1e-14));
+  auto& wires = sim.at<"body/wires">();
+  CHECK(wires.get<MeshTopology>().edges == std::vector<Edge>{{0, 4}, {1, 4}});
+  CHECK(wires.get<Lengths>().restLengths == std::vector<double>{2, 3});
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  auto const& masses = sim.at<"body">().get<DiagonalMass<Vec3d>>().lumped.mass;
+  double whole = 0;
+  for (std::size_t i = 0; i < masses.size(); ++i) {
+    centre += masses[i] * sim.at<"body">().state().position[i];
+    whole += masses[i];
+  }
+  CHECK((sim.at<"body/centre">().state().position[0] - centre / whole).norm() < 1e-14);
+  sim.animate(0.01);
+}

@@ -168,7 +168,9 @@ template <class C>
 inline constexpr bool needs_masses = requires {
   C::needsMasses;
 };
-/// A mapping for which the elements of the topology in its node are over the points of its parent.
+/// A mapping for which the elements of the topology in its node are over the points of its parent. Its points
+/// are elements of that topology, or of the parent's where the node has none: pointsThatStay(before, change)
+/// says which stay when elements are removed.
 template <class C>
 inline constexpr bool over_parent = requires {
   C::overParent;

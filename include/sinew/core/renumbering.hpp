@@ -23,6 +23,11 @@ struct Renumbering {
     return r;
   }
 
+  std::vector<bool> stays() const {
+    std::vector<bool> all;
+    for (const Index n : now) all.push_back(n >= 0);
+    return all;
+  }
   bool changes() const { return kept.size() != now.size(); }
   bool stays(Index old) const { return std::size_t(old) >= now.size() || now[std::size_t(old)] >= 0; }
 

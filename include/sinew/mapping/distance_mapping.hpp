@@ -38,7 +38,8 @@ struct DistanceMapping {
               &M::restLengths,
               "m",
               "length of each edge at rest; where none is given, that of the rest positions",
-              range::nonNegative),
+              range::nonNegative)
+            .oneEach(Of::points),
         field("geometricStiffness", &M::geometricStiffness, "", "what turning edges add to the stiffness"));
   }
 
@@ -112,6 +113,26 @@ struct DistanceMapping {
     j.template head<N>() = -link.direction.transpose().template cast<typename Out::Real>();
     f(link.ends[0], j);
     f(link.ends[1], Mat<typename Out::Real, 1, In::size>(-j));
+  }
+
+  std::vector<bool> pointsThatStay(TopologyView const& before, TopologyChange const& change) const {
+    if (!before.edges.empty()) return change.of(ElementKind::edge).stays();
+    Mesh left;
+    auto filter = [&](auto& list, auto const& from, ElementKind kind) {
+      list.assign(from.begin(), from.end());
+      change.of(kind).filter(list);
+    };
+    filter(left.triangles, before.triangles, ElementKind::triangle);
+    filter(left.quads, before.quads, ElementKind::quad);
+    filter(left.tetrahedra, before.tetrahedra, ElementKind::tetrahedron);
+    filter(left.hexahedra, before.hexahedra, ElementKind::hexahedron);
+    const std::vector<Edge> edges = edgesOf({.triangles = left.triangles,
+                                             .quads = left.quads,
+                                             .tetrahedra = left.tetrahedra,
+                                             .hexahedra = left.hexahedra});
+    std::vector<bool> stays;
+    for (Link const& link : links) stays.push_back(std::binary_search(edges.begin(), edges.end(), link.ends));
+    return stays;
   }
 
   void updateK(typename Out::VecDeriv const& f) {

@@ -68,6 +68,10 @@ struct VolumeMapping {
                        " tetrahedra; give the child as many, or none"));
   }
 
+  std::vector<bool> pointsThatStay(TopologyView const&, TopologyChange const& change) const {
+    return change.of(ElementKind::tetrahedron).stays();
+  }
+
   void apply(typename Out::VecCoord& out, typename In::VecCoord const& in) {
     for (std::size_t e = 0; e < cells.size(); ++e) {
       Cell& c = cells[e];

@@ -96,6 +96,7 @@ struct RuntimeScope {
            : owner.node.state() ? owner.node.state()->component.address()
                                 : nullptr;
   }
+  void const* pointsAddress() const { return overParent() ? parentScope().stateAddress() : stateAddress(); }
   void const* topologyAddress() const {
     if (atMount) return mount().scope ? mount().topologyAddress(mount().scope) : nullptr;
     if (node.topology()) return node.topology()->component.address();
@@ -110,18 +111,20 @@ struct RuntimeScope {
   InitContext<D> parentContext() const {
     return parentScope().template context<D>();
   }
+  bool overParent() const {
+    bool over = false;
+    if (!atMount && node.mapping())
+      node.mapping()->component.template visit<role::Mapping>(
+          [&](auto& mapping) { over = over_parent<std::decay_t<decltype(mapping)>>; });
+    return over;
+  }
   template <class F>
   void withContext(F&& f) const {
-    bool overParent = false;
-    if (!atMount && node.mapping())
-      node.mapping()->component.template visit<role::Mapping>([&](auto& mapping) {
-        using M = std::decay_t<decltype(mapping)>;
-        if constexpr (over_parent<M>) {
-          overParent = true;
-          f(parentContext<typename M::In>());
-        }
-      });
-    if (overParent) return;
+    if (overParent()) {
+      node.mapping()->component.template visit<role::Mapping>(
+          [&](auto& mapping) { f(parentContext<typename std::decay_t<decltype(mapping)>::In>()); });
+      return;
+    }
     const RuntimeScope owner = stateScope();
     if (!owner.atMount && owner.node.state())
       owner.node.state()->component.template visit<role::State>(

@@ -119,6 +119,13 @@ struct Scope {
     else
       return nullptr;
   }
+  /// The state over whose points the topology of this node is.
+  void const* pointsAddress() const {
+    if constexpr (overParent())
+      return parentScope().stateAddress();
+    else
+      return stateAddress();
+  }
   void const* topologyAddress() const {
     if constexpr (always<role::Topology>)
       return &node.template first<role::Topology>();

@@ -80,11 +80,11 @@ class Simulation {
   }
 
   /// Removes elements of the topology of the node at a path from the root ("liver"), and with them faces and
-  /// edges that are left without an element, and points that are. All that refers to them follows: states
-  /// lose the points, components the entries of their lists, mapped states what was mapped from there; what
-  /// stays keeps its order, and everything around it is initialised again from the rest positions. Returns
-  /// what became of points and elements. Throws Error where there is no such topology or element, and where
-  /// what is left is no scene: nothing has changed then.
+  /// edges that are left without an element, and points (plan_element_removal). All that refers to them
+  /// follows: states lose the points, components the entries of their lists, mapped states what was mapped
+  /// from there; what stays keeps its order, and everything around it is initialised again from the rest
+  /// positions. Returns what became of points and elements. Throws Error where there is no such topology or
+  /// element, and where what is left is no scene: nothing has changed then.
   TopologyChange removeElements(std::string_view path, ElementNumbers const& elements);
 
  private:

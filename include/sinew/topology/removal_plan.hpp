@@ -60,16 +60,14 @@ inline bool contains(std::span<Index const> outer, std::span<Index const> inner)
 /// What goes with elements of topologies[first]:
 ///   - an element of a lower dimension that lies in one that goes, and in none that stays: faces and edges of
 ///     what is removed
-///   - a point that belonged to elements, and now to none
+///   - a point that has no element left of the highest dimension of those that it had: one of a volume does
+///     not hang on by a wire
+///   - an element over such a point
 /// All topologies are over the same points, and their indices are in range.
 inline RemovalPlan plan_element_removal(std::size_t points, std::vector<TopologyView> const& topologies,
                                         std::size_t first, ElementNumbers const& gone) {
   using detail::ElementOfBody;
   RemovalPlan plan = detail::whole_plan(points, topologies);
-  const auto lists = gone.lists();
-  for (std::size_t k = 0; k < element_kinds; ++k)
-    for (const Index e : *lists[k]) plan.elements[first][k][std::size_t(e)] = false;
-
   auto forEachElement = [&](auto&& f) {
     for (std::size_t t = 0; t < topologies.size(); ++t)
       detail::for_each_kind(topologies[t], [&](int kind, auto const& list) {
@@ -79,6 +77,21 @@ inline RemovalPlan plan_element_removal(std::size_t points, std::vector<Topology
   auto stays = [&](ElementOfBody const& e) {
     return plan.elements[e.topology][std::size_t(e.kind)][e.number];
   };
+
+  // of the elements at each point the highest dimension
+  auto dimensions = [&] {
+    std::vector<int> highest(points, 0);
+    forEachElement([&](ElementOfBody const& e) {
+      if (stays(e))
+        for (const Index i : e.points)
+          highest[std::size_t(i)] = std::max(highest[std::size_t(i)], detail::dimension_of_kind(e.kind));
+    });
+    return highest;
+  };
+  const std::vector<int> before = dimensions();
+  const auto lists = gone.lists();
+  for (std::size_t k = 0; k < element_kinds; ++k)
+    for (const Index e : *lists[k]) plan.elements[first][k][std::size_t(e)] = false;
 
   // points of elements that go, and the elements around them
   std::vector<bool> touched(points, false);
@@ -107,11 +120,19 @@ inline RemovalPlan plan_element_removal(std::size_t points, std::vector<Topology
       if (inGone && !inKept) plan.elements[e.topology][std::size_t(e.kind)][e.number] = false;
     });
 
-  for (std::size_t i = 0; i < points; ++i)
-    if (touched[i]) {
-      auto const& elements = around[std::size_t(place[i])];
-      plan.points[i] = std::any_of(elements.begin(), elements.end(), stays);
-    }
+  for (bool changed = true; changed;) {
+    const std::vector<int> now = dimensions();
+    changed = false;
+    for (std::size_t i = 0; i < points; ++i)
+      if (now[i] < before[i]) plan.points[i] = false;
+    forEachElement([&](ElementOfBody const& e) {
+      if (!stays(e) ||
+          std::all_of(e.points.begin(), e.points.end(), [&](Index i) { return plan.points[std::size_t(i)]; }))
+        return;
+      plan.elements[e.topology][std::size_t(e.kind)][e.number] = false;
+      changed = true;
+    });
+  }
   return plan;
 }
 
