@@ -28,7 +28,9 @@ using SpatialSprings =
              QuadBendingSprings<D>, FastTriangularBendingSprings<D>, PolynomialSpringsForceField<D>,
              PolynomialSpringsForceField<D, Linked>>;
 template <class D>
-using SpatialRigids = Registry<AngularSpringForceField<D>, FixedRotationConstraint<D>>;
+using FrameElements = Registry<BeamFEMForceField<D>, BeamMass<D>>;
+template <class D>
+using SpatialRigids = Registry<AngularSpringForceField<D>, FixedRotationConstraint<D>, FrameElements<D>>;
 template <class D>
 using PointConstraints =
     Registry<FixedConstraint<D>, PartialFixedConstraint<D>, FixedPlaneConstraint<D>,
