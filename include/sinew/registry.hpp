@@ -50,7 +50,8 @@ using RigidComponents =
 template <class Rigid, class Point, class OtherPoint>
 using RigidMappings =
     Registry<IdentityMapping<Rigid, Rigid>, IdentityMapping<Rigid, Point>, RigidMapping<Rigid, Rigid>,
-             RigidMapping<Rigid, Point>, RigidMapping<Rigid, OtherPoint>>;
+             RigidMapping<Rigid, Point>, RigidMapping<Rigid, OtherPoint>, BeamLinearMapping<Rigid, Point>,
+             BeamLinearMapping<Rigid, OtherPoint>>;
 template <class In, class Out>
 using PointMappings = Registry<IdentityMapping<In, Out>, SubsetMapping<In, Out>>;
 template <class In, class Out>

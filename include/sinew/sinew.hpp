@@ -49,6 +49,7 @@
 #include <sinew/force/triangle_fem.hpp>
 #include <sinew/force/uniform_velocity_damping.hpp>
 #include <sinew/mapping/barycentric_mapping.hpp>
+#include <sinew/mapping/beam_linear_mapping.hpp>
 #include <sinew/mapping/identity_mapping.hpp>
 #include <sinew/mapping/rigid_mapping.hpp>
 #include <sinew/mapping/subset_mapping.hpp>
