@@ -28,7 +28,9 @@ using SpatialSprings =
              QuadBendingSprings<D>, FastTriangularBendingSprings<D>, PolynomialSpringsForceField<D>,
              PolynomialSpringsForceField<D, Linked>>;
 template <class D>
-using SpatialRigids = Registry<AngularSpringForceField<D>, FixedRotationConstraint<D>>;
+using FrameElements = Registry<BeamFEMForceField<D>, BeamMass<D>>;
+template <class D>
+using SpatialRigids = Registry<AngularSpringForceField<D>, FixedRotationConstraint<D>, FrameElements<D>>;
 template <class D>
 using PointConstraints =
     Registry<FixedConstraint<D>, PartialFixedConstraint<D>, FixedPlaneConstraint<D>,
@@ -48,7 +50,8 @@ using RigidComponents =
 template <class Rigid, class Point, class OtherPoint>
 using RigidMappings =
     Registry<IdentityMapping<Rigid, Rigid>, IdentityMapping<Rigid, Point>, RigidMapping<Rigid, Rigid>,
-             RigidMapping<Rigid, Point>, RigidMapping<Rigid, OtherPoint>>;
+             RigidMapping<Rigid, Point>, RigidMapping<Rigid, OtherPoint>, BeamLinearMapping<Rigid, Point>,
+             BeamLinearMapping<Rigid, OtherPoint>>;
 template <class In, class Out>
 using PointMappings = Registry<IdentityMapping<In, Out>, SubsetMapping<In, Out>>;
 template <class In, class Out>

@@ -28,6 +28,7 @@
 #include <sinew/engine/topological_mapping.hpp>
 #include <sinew/engine/transform_engine.hpp>
 #include <sinew/force/angular_spring.hpp>
+#include <sinew/force/beam_fem.hpp>
 #include <sinew/force/bending_springs.hpp>
 #include <sinew/force/constant_force.hpp>
 #include <sinew/force/fast_triangular_bending_springs.hpp>
@@ -54,6 +55,11 @@
 #include <sinew/mapping/rigid_mapping.hpp>
 #include <sinew/mapping/subset_mapping.hpp>
 #include <sinew/mapping/volume_mapping.hpp>
+#include <sinew/mapping/beam_linear_mapping.hpp>
+#include <sinew/mapping/identity_mapping.hpp>
+#include <sinew/mapping/rigid_mapping.hpp>
+#include <sinew/mapping/subset_mapping.hpp>
+#include <sinew/mass/beam_mass.hpp>
 #include <sinew/mass/diagonal_mass.hpp>
 #include <sinew/mass/mesh_matrix_mass.hpp>
 #include <sinew/mass/uniform_mass.hpp>
