@@ -3,6 +3,7 @@
 
 // All of Sinew that needs no other package than Eigen and Boost.Hana.
 #include <sinew/constraint/affine_movement.hpp>
+#include <sinew/constraint/attach.hpp>
 #include <sinew/constraint/fixed_constraint.hpp>
 #include <sinew/constraint/fixed_plane.hpp>
 #include <sinew/constraint/fixed_rotation.hpp>
