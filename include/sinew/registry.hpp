@@ -37,7 +37,8 @@ using PointConstraints =
              LinearMovementConstraint<D>, AffineMovementConstraint<D>, LinearVelocityConstraint<D>,
              OscillatorConstraint<D>, HermiteSplineConstraint<D>, ParabolicConstraint<D>,
              ProjectToPlaneConstraint<D>, ProjectToLineConstraint<D>, ProjectToPointConstraint<D>,
-             ProjectDirectionConstraint<D>>;
+             ProjectDirectionConstraint<D>, AttachProjectiveConstraint<D>,
+             AttachProjectiveConstraint<D, Linked>>;
 template <class D>
 using PointComponents = Registry<MechanicalObject<D>, UniformMass<D>, DiagonalMass<D>, MeshMatrixMass<D>,
                                  PointSprings<D>, PointLoads<D>, PointConstraints<D>>;

@@ -206,6 +206,9 @@ void for_each_variant(Random& random, F&& use) {
     return;
   }
   if constexpr (requires { c.dmax; }) c.dmin = 0, c.dmax = 1;
+  // some points attached to others, one of them to three
+  if constexpr (requires { c.twoWay; })
+    c.indices1 = {0, 1, 2, 2, 9}, c.indices2 = {10, 13, 11, 20, 15}, c.constraintFactor = {1, 1, 1, 1, 0};
   if constexpr (requires { c.restLengths; }) c.restLengths.clear();  // those of the rest positions
   if constexpr (requires { c.fixedDirections; }) c.fixedDirections.back() = c.fixedDirections.size() == 1;
   bool any = false;
