@@ -70,10 +70,13 @@ using StandardForces =
     Registry<SpatialComponents<Vec3d>, RigidComponents<Rigid3d>, SpatialRigids<Rigid3d>, CorePoints<Vec1d>,
              CorePoints<Vec2d>, PlaneForceField<Vec2d>, CorePoints<Vec6d>, CoreRigids<Rigid2d>,
              CoreBodies<Vec3f>, CoreRigids<Rigid3f>>;
+using MeasuringMappings = Registry<DistanceMapping<Vec3d, Vec1d>, DistanceMapping<Rigid3d, Vec1d>,
+                                   DistanceMapping<Vec2d, Vec1d>, VolumeMapping<Vec3d, Vec1d>,
+                                   CenterOfMassMapping<Vec3d, Vec3d>, CenterOfMassMapping<Rigid3d, Vec3d>>;
 using StandardMappings =
-    Registry<SpatialMappings<Vec3d, Vec3d>, SpatialMappings<Vec3d, Vec3f>, SpatialMappings<Vec3f, Vec3f>,
-             SpatialMappings<Vec3f, Vec3d>, PointMappings<Vec1d, Vec1d>, PointMappings<Vec2d, Vec2d>,
-             PointMappings<Vec6d, Vec6d>, RigidMappings<Rigid3d, Vec3d, Vec3f>,
+    Registry<MeasuringMappings, SpatialMappings<Vec3d, Vec3d>, SpatialMappings<Vec3d, Vec3f>,
+             SpatialMappings<Vec3f, Vec3f>, SpatialMappings<Vec3f, Vec3d>, PointMappings<Vec1d, Vec1d>,
+             PointMappings<Vec2d, Vec2d>, PointMappings<Vec6d, Vec6d>, RigidMappings<Rigid3d, Vec3d, Vec3f>,
              RigidMappings<Rigid3f, Vec3f, Vec3d>, IdentityMapping<Rigid2d, Rigid2d>,
              RigidMapping<Rigid2d, Rigid2d>, RigidMapping<Rigid2d, Vec2d>>;
 template <template <class> class Solver>
@@ -113,6 +116,7 @@ struct Extended
                PointComponents<Vec2d>, PointComponents<Vec2f>, PointComponents<Vec6d>, PointComponents<Vec6f>,
                RigidComponents<Rigid2d>, RigidComponents<Rigid2f>, RigidComponents<Rigid3f>,
                SpatialRigids<Rigid3f>, IdentityMapping<Rigid2f, Rigid2f>, RigidMapping<Rigid2d, Vec2f>,
-               RigidMapping<Rigid2f, Vec2f>, RigidMapping<Rigid2f, Vec2d>> {};
+               RigidMapping<Rigid2f, Vec2f>, RigidMapping<Rigid2f, Vec2d>, DistanceMapping<Vec3f, Vec1f>,
+               VolumeMapping<Vec3f, Vec1f>, CenterOfMassMapping<Vec3d, Vec3f>> {};
 
 }  // namespace sinew

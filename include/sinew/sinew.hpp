@@ -50,9 +50,12 @@
 #include <sinew/force/triangle_fem.hpp>
 #include <sinew/force/uniform_velocity_damping.hpp>
 #include <sinew/mapping/barycentric_mapping.hpp>
+#include <sinew/mapping/center_of_mass_mapping.hpp>
+#include <sinew/mapping/distance_mapping.hpp>
 #include <sinew/mapping/identity_mapping.hpp>
 #include <sinew/mapping/rigid_mapping.hpp>
 #include <sinew/mapping/subset_mapping.hpp>
+#include <sinew/mapping/volume_mapping.hpp>
 #include <sinew/mass/diagonal_mass.hpp>
 #include <sinew/mass/mesh_matrix_mass.hpp>
 #include <sinew/mass/uniform_mass.hpp>

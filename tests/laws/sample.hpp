@@ -197,6 +197,7 @@ void for_each_variant(Random& random, F&& use) {
     return;
   }
   if constexpr (requires { c.dmax; }) c.dmin = 0, c.dmax = 1;
+  if constexpr (requires { c.restLengths; }) c.restLengths.clear();  // those of the rest positions
   if constexpr (requires { c.fixedDirections; }) c.fixedDirections.back() = c.fixedDirections.size() == 1;
   bool any = false;
   for_each_field(c, [&](auto const& fd, auto& value) {

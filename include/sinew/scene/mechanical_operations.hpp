@@ -89,20 +89,21 @@ struct MechanicalOperations {
       else
         vec::eq(s[f], s[vec_id::externalForce]);
     });
-    traverse(root,
-             on<role::ForceField, role::Mass, role::InteractionForceField>([&](auto& c, auto const& scope) {
-               using C = std::decay_t<decltype(c)>;
-               if constexpr (HasRole<C, role::InteractionForceField>) {
-                 forEnds(
-                     c, scope, [&](auto& a, auto& b) { c.addForce(p, a[f], b[f], a[x], b[x], a[v], b[v]); });
-               } else {
-                 auto& s = stateOf(c, scope);
-                 MechanicalParams params = p;
-                 if constexpr (HasRole<C, role::Mass>) params.gravity = scope.gravity();
-                 c.addForce(params, s[f], s[x], s[v]);
-               }
-             }),
-             accumulate(f));
+    traverse(
+        root, on<role::ForceField, role::Mass, role::InteractionForceField>([&](auto& c, auto const& scope) {
+          using C = std::decay_t<decltype(c)>;
+          if constexpr (HasRole<C, role::InteractionForceField>) {
+            forEnds(c, scope, [&](auto& a, auto& b) { c.addForce(p, a[f], b[f], a[x], b[x], a[v], b[v]); });
+          } else {
+            auto& s = stateOf(c, scope);
+            MechanicalParams params = p;
+            if constexpr (HasRole<C, role::Mass>) params.gravity = scope.gravity();
+            c.addForce(params, s[f], s[x], s[v]);
+          }
+        }));
+    accumulate(f, [f](auto& mapping, auto& child, auto&) {
+      if constexpr (HasGeometricStiffness<std::decay_t<decltype(mapping)>>) mapping.updateK(child[f]);
+    });
   }
 
   /// a = P M^-1 f
@@ -158,8 +159,11 @@ struct MechanicalOperations {
                    c.addDForce(p, s[r], s[dx]);
                  }
                }
-             }),
-             accumulate(r));
+             }));
+    accumulate(r, [&](auto& mapping, auto&, auto& parent) {
+      if constexpr (HasGeometricStiffness<std::decay_t<decltype(mapping)>>)
+        if (p.k != 0) mapping.addKx(parent[r], parent[dx], p.k);
+    });
   }
 
   double kineticEnergy() {
@@ -280,12 +284,16 @@ struct MechanicalOperations {
       if constexpr (HasRole<std::decay_t<decltype(child)>, role::State>) f(mapping, child, parent);
     });
   }
-  // on the way up, f of mapped states is added to that of their parents
-  auto accumulate(DerivId f) const {
-    return on<role::Mapping>([f](auto& mapping, auto const& scope) {
-      withMechanicalChild(
-          mapping, scope, [f](auto& m, auto& child, auto& parent) { m.applyJT(parent[f], child[f]); });
-    });
+  // f of mapped states, then complete, is added to that of their parents; with each also(mapping, child,
+  // parent)
+  template <class F>
+  void accumulate(DerivId f, F&& also) {
+    traverse_back(root, on<role::Mapping>([&](auto& mapping, auto const& scope) {
+                    withMechanicalChild(mapping, scope, [&](auto& m, auto& child, auto& parent) {
+                      m.applyJT(parent[f], child[f]);
+                      also(m, child, parent);
+                    });
+                  }));
   }
   template <class C, class S, class F>
   void forEnds(C const& c, S const& scope, F&& f) {
@@ -296,6 +304,14 @@ struct MechanicalOperations {
   template <AssemblyPhase Phase, class Matrix>
   void assemblePhase(Matrix& matrix, MatrixFactors factors) {
     const MechanicalParams p{.time = time, .dt = dt, .m = factors.m, .b = factors.b, .k = factors.k};
+    traverse(root, on<role::Mapping>([&](auto& mapping, auto const& scope) {
+               using M = std::decay_t<decltype(mapping)>;
+               if constexpr (HasGeometricStiffness<M>)
+                 withMechanicalChild(mapping, scope, [&](auto& m, auto&, auto&) {
+                   scope.parentScope().template withDofs<typename M::In>(
+                       [&](auto const& dofs) { m.addToMatrix(p, make_sink<Phase>(matrix, dofs, dofs)); });
+                 });
+             }));
     traverse(
         root, on<role::ForceField, role::Mass, role::InteractionForceField>([&](auto& c, auto const& scope) {
           using C = std::decay_t<decltype(c)>;
