@@ -106,10 +106,13 @@ using StandardEngines =
              Regions<Rigid2d>>;
 using StandardTopologies =
     Registry<TetrahedronTopology, MeshTopology, RegularGridTopology, SparseGridTopology>;
+// meshes that need no file
+using MadeMeshes =
+    Registry<CubeTopology, CylinderGridTopology, SphereGridTopology, GridMeshCreator, MeshSubdivision>;
 
 /// Every component that Sinew brings, over the DataTypes that scenes use.
-struct Standard : Registry<Gravity, StandardTopologies, VisualModel, StandardEngines, StandardForces,
-                           StandardMappings, StandardSolvers> {};
+struct Standard : Registry<Gravity, StandardTopologies, MadeMeshes, VisualModel, StandardEngines,
+                           StandardForces, StandardMappings, StandardSolvers> {};
 
 /// The same over the rarer DataTypes too: what the law suites prove.
 struct Extended

@@ -20,7 +20,9 @@
 #include <sinew/control/step_callback.hpp>
 #include <sinew/engine/box_roi.hpp>
 #include <sinew/engine/generate_rigid_mass.hpp>
+#include <sinew/engine/grid_mesh_creator.hpp>
 #include <sinew/engine/mesh_loader.hpp>
+#include <sinew/engine/mesh_subdivision.hpp>
 #include <sinew/engine/nearest_point_roi.hpp>
 #include <sinew/engine/pair_box_roi.hpp>
 #include <sinew/engine/plane_roi.hpp>
@@ -78,8 +80,11 @@
 #include <sinew/solver/static_solver.hpp>
 #include <sinew/solver/variational_symplectic.hpp>
 #include <sinew/state/mechanical_object.hpp>
+#include <sinew/topology/cube_topology.hpp>
+#include <sinew/topology/cylinder_grid_topology.hpp>
 #include <sinew/topology/mesh_topology.hpp>
 #include <sinew/topology/regular_grid_topology.hpp>
 #include <sinew/topology/sparse_grid_topology.hpp>
+#include <sinew/topology/sphere_grid_topology.hpp>
 #include <sinew/topology/tetrahedron_topology.hpp>
 #include <sinew/visual/visual_model.hpp>

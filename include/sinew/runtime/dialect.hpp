@@ -304,7 +304,8 @@ inline constexpr std::array attributesWithoutMeaningOf =
                                 {"TriangleFEMForceField", "criteriaValue"},
                                 {"TriangleFEMForceField", "computePrincipalStress"},
                                 {"VariationalSymplecticSolver", "file"},
-                                {"RegularGridTopology", "position"}});
+                                {"RegularGridTopology", "position"},
+                                {"GridMeshCreator", "filename"}});
 
 /// Attributes of nodes that concern pictures or bookkeeping.
 inline constexpr std::array nodeAttributesWithoutMeaning =
