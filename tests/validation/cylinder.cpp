@@ -35,7 +35,7 @@ TEST_CASE("a cylinder of corotational tetrahedra or hexahedra under four pressur
       } else {
         // a known defect: the frame on an element's own edges turns with its strain
         CHECK(error < 2 * p / E);
-        CHECK(error > 0.05 * p / E);
+        CHECK(error > 0.02 * p / E);
       }
     }
   };
@@ -46,11 +46,10 @@ TEST_CASE("a cylinder of corotational tetrahedra or hexahedra under four pressur
           tets,
           TetrahedronFEMForceField<Vec3d>{.method = method},
           method != RotationMethod::large);
-  // of these hexahedra the first edges lie across, and turn with no strain
   for (const HexahedronMethod method :
        {HexahedronMethod::small, HexahedronMethod::polar, HexahedronMethod::large})
     check(text("HexahedronFEM ", enum_names(method)[std::size_t(method)]),
           hexes,
           HexahedronFEMForceField<Vec3d>{.method = method},
-          true);
+          method != HexahedronMethod::large);
 }

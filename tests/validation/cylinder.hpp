@@ -7,6 +7,8 @@
 
 #include <sinew/topology/hexahedra.hpp>
 
+#include <numbers>
+
 namespace cylinder {
 
 using namespace bars;
@@ -14,12 +16,15 @@ using namespace bars;
 constexpr double length = 2, radius = 0.5;
 
 inline Mesh tetrahedra() { return cylinder_tetrahedra(2, 0, length, radius, 3, 6); }
-/// A grid of which each square section is rounded: x sqrt(1 - y^2/2), y sqrt(1 - x^2/2).
+/// A grid of which each square section is rounded, x sqrt(1 - y^2/2), y sqrt(1 - x^2/2), and those inside
+/// lean.
 inline Mesh hexahedra() {
   Mesh mesh = regular_grid(5, 5, 7, {-1, -1, 0}, {1, 1, length});
   for (auto& p : mesh.positions)
-    p = {
-        radius * p[0] * std::sqrt(1 - p[1] * p[1] / 2), radius * p[1] * std::sqrt(1 - p[0] * p[0] / 2), p[2]};
+    p = {radius * p[0] * std::sqrt(1 - p[1] * p[1] / 2),
+         radius * p[1] * std::sqrt(1 - p[0] * p[0] / 2),
+         p[2] +
+             0.5 * p[0] * (1 - p[0] * p[0]) * (1 - p[1] * p[1]) * std::sin(std::numbers::pi * p[2] / length)};
   return mesh;
 }
 
@@ -80,8 +85,13 @@ Stretches pulled(Mesh const& mesh, Force const& force, double p, int steps = 1) 
     sim.animate(1);
   }
   auto const& x = sim.root().state().position;
-  const int top = nearest_point(mesh, {0, 0, length}), middle = nearest_point(mesh, {radius, 0, length / 2});
-  return {x[std::size_t(top)][2] / length, x[std::size_t(middle)][0] / radius};
+  // between points on opposite sides: unbalanced torques of `large` may bend the cylinder aside
+  const int top = nearest_point(mesh, {0, 0, length}), right = nearest_point(mesh, {radius, 0, length / 2}),
+            left = nearest_point(mesh, {-radius, 0, length / 2});
+  auto across = [&](Vec3d::VecCoord const& at) {
+    return at[std::size_t(right)][0] - at[std::size_t(left)][0];
+  };
+  return {x[std::size_t(top)][2] / length, across(x) / across(mesh.positions)};
 }
 
 }  // namespace cylinder
