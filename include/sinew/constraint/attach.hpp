@@ -41,12 +41,14 @@ struct AttachProjectiveConstraint {
   static constexpr auto fields() {
     using F = AttachProjectiveConstraint;
     return field_list(
-        field("indices1", &F::indices1, "", "points of the first body", range::nonNegative),
+        field("indices1", &F::indices1, "", "points of the first body", range::nonNegative)
+            .numbersOf(Of::points),
         field("indices2",
               &F::indices2,
               "",
               "points of the second that are attached to them",
-              range::nonNegative),
+              range::nonNegative)
+            .numbersOf(Of::secondPoints),
         field("twoWay", &F::twoWay, "", "the first body feels the second"),
         field(
             "freeRotations", &F::freeRotations, "", "rigid bodies turn freely about where they are attached"),
@@ -54,7 +56,8 @@ struct AttachProjectiveConstraint {
               &F::constraintFactor,
               "",
               "whether each pair is attached, 1 or 0; all are where none is given",
-              range::closed(0, 1)));
+              range::closed(0, 1))
+            .oneEach(Of::entries));
   }
 
   struct Member {

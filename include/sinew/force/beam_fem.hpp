@@ -182,7 +182,8 @@ struct BeamFEMForceField {
               &F::listSegment,
               "",
               "the edges of the topology that are beams; all when not given",
-              range::nonNegative),
+              range::nonNegative)
+            .numbersOf(Of::edges),
         field("crossSectionShape",
               &F::crossSectionShape,
               "",
@@ -207,6 +208,13 @@ struct BeamFEMForceField {
   // the symmetric part
   static constexpr ForceProperties properties() { return {.exactTangent = false}; }
 
+  bool none = false;  // all of listSegment have been removed
+
+  static constexpr auto state() {
+    return field_list(
+        field("none", &BeamFEMForceField::none, "", "all beams of listSegment have been removed"));
+  }
+
   using Driver = ElementDriver<BeamFEM, D>;
   using Law = typename Driver::Law;
   Driver driver{};
@@ -222,7 +230,7 @@ struct BeamFEMForceField {
           "the topology has no edge; give the node a topology with edges (in MeshTopology: edges or lines)");
     detail::check_indices(where, "edge", edges, context.rest.size());
     std::vector<Edge> beams(edges.begin(), edges.end());
-    if (!listSegment.empty()) {
+    if (!listSegment.empty() || none) {
       beams.clear();
       for (const int i : listSegment) {
         if (std::size_t(i) >= edges.size())

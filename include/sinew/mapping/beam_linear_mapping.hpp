@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/core/component.hpp>
+#include <sinew/core/follow.hpp>
 #include <sinew/topology/beam_section.hpp>
 #include <sinew/topology/point_location.hpp>
 
@@ -38,6 +39,14 @@ struct BeamLinearMapping {
               "",
               "the positions of the child are given in the beams: x is the number of the beam plus "
               "the part of its length, y and z are across, in lengths of the beam"));
+  }
+
+  /// Throws Error where positions count beams: those of the others would have to change.
+  void follow(Followed const&) const {
+    if (localCoord)
+      throw Error(component_name<BeamLinearMapping>(),
+                  "with localCoord positions count the beams, and none of these can be removed; give the "
+                  "positions in the world");
   }
 
   struct Carrier {
