@@ -28,7 +28,7 @@ using SpatialSprings =
              QuadBendingSprings<D>, FastTriangularBendingSprings<D>, PolynomialSpringsForceField<D>,
              PolynomialSpringsForceField<D, Linked>>;
 template <class D>
-using FrameElements = Registry<BeamFEMForceField<D>, BeamMass<D>>;
+using FrameElements = Registry<BeamFEMForceField<D>, BeamMass<D>, TriangularShellForceField<D>>;
 template <class D>
 using SpatialRigids = Registry<AngularSpringForceField<D>, FixedRotationConstraint<D>, FrameElements<D>>;
 template <class D>

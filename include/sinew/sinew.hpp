@@ -50,6 +50,7 @@
 #include <sinew/force/tetrahedron_hyperelasticity.hpp>
 #include <sinew/force/tetrahedron_viscoelasticity.hpp>
 #include <sinew/force/triangle_fem.hpp>
+#include <sinew/force/triangular_shell.hpp>
 #include <sinew/force/uniform_velocity_damping.hpp>
 #include <sinew/mapping/barycentric_mapping.hpp>
 #include <sinew/mapping/beam_linear_mapping.hpp>

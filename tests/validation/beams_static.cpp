@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "beams.hpp"
+#include "elastica.hpp"
 
 #include <numbers>
 
@@ -66,35 +67,7 @@ TEST_CASE("a cantilever under its weight comes to q L^4 / 8EI with order 2") {
   }
 }
 
-// The elastica: a slender cantilever under a dead load P at its tip, a = P L^2 / EI (Bisshopp & Drucker
-// 1945). With the tip angle f, k^2 = (1 + sin f)/2, sin(t) = 1/(k sqrt 2):
-//   sqrt a = K(k) - F(t, k),   deflection = 1 - 2 (E(k) - E(t, k)) / sqrt a,   reach = sqrt(2 sin f / a)
 namespace {
-
-struct Elastica {
-  double deflection, reach, angle;  // of the tip, lengths against L
-};
-// Simpson's rule for the elliptic integrals from t to pi/2, whose integrands are smooth
-double elliptic(double k, double t, double power) {
-  const int n = 2000;
-  double sum = 0;
-  for (int i = 0; i <= n; ++i) {
-    const double s = k * std::sin(t + (pi / 2 - t) * i / n);
-    sum += (i == 0 || i == n ? 1 : i % 2 ? 4 : 2) * std::pow(1 - s * s, power);
-  }
-  return sum * (pi / 2 - t) / n / 3;
-}
-Elastica elastica(double a) {
-  double low = 0, high = pi / 2;
-  auto modulus = [](double f) { return std::sqrt((1 + std::sin(f)) / 2); };
-  auto start = [&](double f) { return std::asin(std::min(1.0, 1 / (modulus(f) * std::sqrt(2.0)))); };
-  for (int i = 0; i < 60; ++i) {
-    const double f = (low + high) / 2;
-    (elliptic(modulus(f), start(f), -0.5) < std::sqrt(a) ? low : high) = f;
-  }
-  return {
-      1 - 2 * elliptic(modulus(low), start(low), 0.5) / std::sqrt(a), std::sqrt(2 * std::sin(low) / a), low};
-}
 
 // EI = 1, and so thin that the stretch, a (h/L)^2 / 12 = 3e-7 a, does not count
 Beam slender() {
@@ -111,13 +84,13 @@ Beam slender() {
 
 TEST_CASE("a cantilever bends into the elastica with order 2") {
   // values of the paper's table, as they are quoted: 3 digits
-  CHECK(elastica(1).deflection == Approx(0.302).margin(5e-4));
-  CHECK(elastica(10).deflection == Approx(0.811).margin(5e-4));
-  CHECK(elastica(10).reach == Approx(0.445).margin(5e-4));
+  CHECK(elastica::tip(1).deflection == Approx(0.302).margin(5e-4));
+  CHECK(elastica::tip(10).deflection == Approx(0.811).margin(5e-4));
+  CHECK(elastica::tip(10).reach == Approx(0.445).margin(5e-4));
   // in any direction: the same beam along the turned x axis
   const Eigen::Quaterniond any = Eigen::Quaterniond(0.3, 0.5, -0.4, 0.7).normalized();
   for (const double a : {1.0, 10.0}) {
-    const Elastica exact = elastica(a);
+    const elastica::Tip exact = elastica::tip(a);
     double last = 0;
     for (const int n : {5, 10, 20}) {
       auto x = straight(n, 1);

@@ -41,6 +41,11 @@ struct Dual {
     for (int i = 0; i < N; ++i) r.slope[i] = a.slope[i] * b.value + a.value * b.slope[i];
     return r;
   }
+  SINEW_INLINE friend Dual operator*(T a, Dual const& b) {
+    Dual r(a * b.value);
+    for (int i = 0; i < N; ++i) r.slope[i] = a * b.slope[i];
+    return r;
+  }
   SINEW_INLINE friend Dual operator/(Dual const& a, Dual const& b) {
     const T inverse = T(1) / b.value;
     Dual r(a.value * inverse);
