@@ -77,8 +77,11 @@ using StandardForces =
 using MeasuringMappings = Registry<DistanceMapping<Vec3d, Vec1d>, DistanceMapping<Rigid3d, Vec1d>,
                                    DistanceMapping<Vec2d, Vec1d>, VolumeMapping<Vec3d, Vec1d>,
                                    CenterOfMassMapping<Vec3d, Vec3d>, CenterOfMassMapping<Rigid3d, Vec3d>>;
+using MultiMappings = Registry<SubsetMultiMapping<Vec3d, Vec3d>, SubsetMultiMapping<Vec2d, Vec2d>,
+                               SubsetMultiMapping<Vec1d, Vec1d>, SubsetMultiMapping<Rigid3d, Rigid3d>,
+                               SubsetMultiMapping<Rigid3d, Vec3d>>;
 using StandardMappings =
-    Registry<MeasuringMappings, SpatialMappings<Vec3d, Vec3d>, SpatialMappings<Vec3d, Vec3f>,
+    Registry<MultiMappings, MeasuringMappings, SpatialMappings<Vec3d, Vec3d>, SpatialMappings<Vec3d, Vec3f>,
              SpatialMappings<Vec3f, Vec3f>, SpatialMappings<Vec3f, Vec3d>, PointMappings<Vec1d, Vec1d>,
              PointMappings<Vec2d, Vec2d>, PointMappings<Vec6d, Vec6d>, RigidMappings<Rigid3d, Vec3d, Vec3f>,
              RigidMappings<Rigid3f, Vec3f, Vec3d>, IdentityMapping<Rigid2d, Rigid2d>,

@@ -168,4 +168,62 @@ struct MappingSuite {
   }
 };
 
+/// A mapping with several parents, three of them, looked at as one from all of them one behind the other.
+template <class M>
+struct Joined : M {
+  std::size_t each = 0;
+
+  void init(InitContext<typename M::In> const& parent, InitContext<typename M::Out> const& child,
+            typename M::Out::VecCoord& positions) {
+    each = parent.rest.size() / 3;
+    std::vector<typename M::In::VecCoord> rest(3);
+    std::vector<InitContext<typename M::In>> parents;
+    for (std::size_t k = 0; k < 3; ++k) rest[k] = part(parent.rest, k);
+    for (std::size_t k = 0; k < 3; ++k) parents.push_back({"parent", rest[k], {}});
+    M::init(parents, child, positions);
+  }
+  void apply(typename M::Out::VecCoord& out, typename M::In::VecCoord const& in) {
+    for (std::size_t k = 0; k < 3; ++k) this->parts[k].apply(out, part(in, k));
+  }
+  void applyJ(typename M::Out::VecDeriv& out, typename M::In::VecDeriv const& in) {
+    for (std::size_t k = 0; k < 3; ++k) this->parts[k].applyJ(out, part(in, k));
+  }
+  void applyJT(typename M::In::VecDeriv& in, typename M::Out::VecDeriv const& out) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      auto own = part(in, k);
+      this->parts[k].applyJT(own, out);
+      std::copy(own.begin(), own.end(), in.begin() + std::ptrdiff_t(k * each));
+    }
+  }
+  template <class F>
+  void forEachJacobianBlock(int point, F&& f) const {
+    for (std::size_t k = 0; k < 3; ++k)
+      this->parts[k].forEachJacobianBlock(point,
+                                          [&](int above, auto const& j) { f(int(k * each) + above, j); });
+  }
+
+ private:
+  template <class V>
+  V part(V const& all, std::size_t k) const {
+    return V(all.begin() + std::ptrdiff_t(k * each), all.begin() + std::ptrdiff_t((k + 1) * each));
+  }
+};
+
+/// Runs the suite on every mapping in a registry from points, or from rigid bodies.
+template <class R, bool Rigid>
+void check_mappings() {
+  int found = 0;
+  for_each_registered<R>([&]<class C>() {
+    if constexpr (HasRole<C, role::Mapping>)
+      if constexpr (C::In::rigid == Rigid) {
+        ++found;
+        if constexpr (HasParents<C>)
+          MappingSuite<Joined<C>>{}.run();
+        else
+          MappingSuite<C>{}.run();
+      }
+  });
+  CHECK(found > 0);
+}
+
 }  // namespace laws

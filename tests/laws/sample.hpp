@@ -209,6 +209,11 @@ void for_each_variant(Random& random, F&& use) {
   // some points attached to others, one of them to three
   if constexpr (requires { c.twoWay; })
     c.indices1 = {0, 1, 2, 2, 9}, c.indices2 = {10, 13, 11, 20, 15}, c.constraintFactor = {1, 1, 1, 1, 0};
+  // points of three parents, of nine points each
+  if constexpr (requires { c.indexPairs; }) {
+    c.indexPairs.resize(7);
+    for (std::size_t i = 0; i < 7; ++i) c.indexPairs[i] = {int(i) % 3, random.index(9)};
+  }
   if constexpr (requires { c.restLengths; }) c.restLengths.clear();  // those of the rest positions
   if constexpr (requires { c.fixedDirections; }) c.fixedDirections.back() = c.fixedDirections.size() == 1;
   bool any = false;

@@ -60,6 +60,25 @@ auto block(Linear linear) {
                                  FixedConstraint<Vec3d>{.indices = {0, 1, 2}})};
 }
 
+// what is mapped, attached and joined
+template <class Linear>
+auto joints(Linear linear) {
+  return Simulation{node<"root">(
+      EulerImplicitSolver{},
+      linear,
+      AttachProjectiveConstraint<Vec3d, Between<"a", "b">>{.indices1 = {0}, .indices2 = {1}, .twoWay = true},
+      node<"a">(MechanicalObject<Vec3d>{.position = {{0, 0, 0}, {1, 0, 0}}},
+                UniformMass<Vec3d>{},
+                node<"length">(MeshTopology{.edges = {{0, 1}}},
+                               MechanicalObject<Vec1d>{},
+                               DistanceMapping<Vec3d, Vec1d>{.geometricStiffness = GeometricStiffness::exact},
+                               RestShapeSpringsForceField<Vec1d>{})),
+      node<"b">(MechanicalObject<Vec3d>{.position = {{0, 1, 0}, {0, 0, 0}}}, UniformMass<Vec3d>{}),
+      node<"both">(MechanicalObject<Vec3d>{},
+                   SubsetMultiMapping<Vec3d, Vec3d, Parents<"../a", "../b">>{.indexPairs = {{0, 1}, {1, 0}}},
+                   StiffSpringForceField<Vec3d>{{{.first = 0, .second = 1, .length = 1}}}))};
+}
+
 }  // namespace
 
 TEST_CASE("the counter counts") {
@@ -87,4 +106,6 @@ TEST_CASE("no step after init allocates, not even the first") {
               block(ShewchukPCGLinearSolver<>{.updateStep = 3, .precondition = method, .warp = true})) == 0);
   CHECK(allocations_of(block(ShewchukPCGLinearSolver<CompressedRowSparseMatrixMat3x3d>{
             .updateStep = 3, .precondition = PreconditionerMethod::ldl, .warp = true})) == 0);
+  CHECK(allocations_of(joints(CGLinearSolver<>{})) == 0);
+  CHECK(allocations_of(joints(SparseLDLSolver<CompressedRowSparseMatrixMat3x3d>{})) == 0);
 }

@@ -3,7 +3,9 @@
 
 #include <sinew/core/data_types.hpp>
 
+#include <tuple>
 #include <type_traits>
+#include <utility>
 
 namespace sinew {
 
@@ -46,6 +48,28 @@ struct MappedDofs {
     mapping.forEachJacobianBlock(point, [&](int above, auto const& j) {
       parent.expand(above, [&](int dof, auto const& jAbove) { f(dof, (j * jAbove)); });
     });
+  }
+};
+
+/// The same where each point depends on points of several parents.
+template <class Mapping, class... Parent>
+struct MultiMappedDofs {
+  static constexpr int size = Mapping::Out::size;
+  static constexpr bool direct = false;
+  Mapping const& mapping;
+  std::tuple<Parent...> parents;
+
+  template <class F>
+  void expand(int point, F&& f) const {
+    [&]<std::size_t... K>(std::index_sequence<K...>) {
+      (mapping.parts[K].forEachJacobianBlock(
+           point,
+           [&](int above, auto const& j) {
+             std::get<K>(parents).expand(above, [&](int dof, auto const& jAbove) { f(dof, (j * jAbove)); });
+           }),
+       ...);
+    }
+    (std::index_sequence_for<Parent...>{});
   }
 };
 

@@ -170,6 +170,22 @@ concept Mapping = HasRole<C, role::Mapping> &&
   m.applyJT(vi, vo);  // vi += J' vo
 };
 
+/// A mapping with several parents, named by paths. It has a part for each, a mapping from that parent alone
+/// to those points of the child that follow it.
+template <class C>
+concept HasParents = HasRole<C, role::Mapping> && requires {
+  typename C::Parents;
+};
+template <class C, class In = typename C::In, class Out = typename C::Out>
+concept MultiMapping = HasParents<C> &&
+    requires(C m, std::vector<InitContext<In>> parents, InitContext<Out> child, typename In::VecCoord xi,
+             typename In::VecDeriv vi, typename Out::VecCoord xo, typename Out::VecDeriv vo) {
+  m.init(parents, child, xo);  // as many parts as parents
+  m.parts[0].apply(xo, xi);
+  m.parts[0].applyJ(vo, vi);
+  m.parts[0].applyJT(vi, vo);
+};
+
 /// A mapping that is not linear may say what that adds to the stiffness of its parent,
 /// K_g = (dJ'/dx) f, at the force f on its child that updateK was given last. It also adds K_g to a matrix
 /// over the parent's degrees of freedom: addToMatrix(params, sink). K_g is symmetric.

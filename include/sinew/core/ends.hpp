@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace sinew {
 
@@ -43,6 +44,24 @@ struct Between {
 struct Linked {
   std::string object1{}, object2{};
   static std::string name() { return "Linked"; }
+};
+
+/// The parents of a mapping that has several: paths from its node to nodes before it, up by ".." and down by
+/// names ("../left", "../right/corner").
+template <FixedString... Paths>
+struct Parents {
+  static std::vector<std::string> list() { return {std::string(Paths.view())...}; }
+  static std::string name() {
+    std::string all;
+    for (auto const& path : list()) all.append(all.empty() ? "\"" : ", \"").append(path).append("\"");
+    return "Parents<" + all + ">";
+  }
+};
+
+/// Parents found at run time, by paths as those of Linked.
+struct LinkedParents {
+  std::vector<std::string> paths{};
+  static std::string name() { return "LinkedParents"; }
 };
 
 }  // namespace sinew

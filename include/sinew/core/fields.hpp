@@ -146,10 +146,11 @@ std::string component_name() {
   if constexpr (requires {
                   typename C::In;
                   typename C::Out;
-                })
-    name +=
-        text('<', data_types_name<typename C::In>::value, ", ", data_types_name<typename C::Out>::value, '>');
-  else if constexpr (requires { C::templateName; })
+                }) {
+    name += text('<', data_types_name<typename C::In>::value, ", ", data_types_name<typename C::Out>::value);
+    if constexpr (requires { typename C::Parents; }) name += text(", ", C::Parents::name());
+    name += '>';
+  } else if constexpr (requires { C::templateName; })
     name += text('<', C::templateName, '>');
   else if constexpr (requires {
                        typename C::Ends;

@@ -155,16 +155,20 @@ void follow_fields(C& component, Followed const& change) {
 /// Which of the n points of its child a mapping keeps, where points of its parent go.
 template <class M>
 std::vector<bool> mapped_points_that_stay(M const& mapping, Renumbering const& parent, std::size_t n) {
-  std::vector<bool> stays(n, true);
-  if constexpr (requires { M::samePoints; })
-    for (std::size_t i = 0; i < n; ++i) stays[i] = parent.stays(Index(i));
-  for_each_field(mapping, [&](auto const& fd, auto const& list) {
-    if constexpr (std::is_same_v<std::decay_t<decltype(list)>, std::vector<int>>)
-      if (fd.numbers && fd.entries == Of::parentPoints)
-        for (std::size_t i = 0; i < n && !list.empty(); ++i)
-          if (!parent.stays(list[list.size() == 1 ? 0 : i])) stays[i] = false;
-  });
-  return stays;
+  if constexpr (requires { mapping.pointsThatStay(parent); }) {
+    return mapping.pointsThatStay(parent);
+  } else {
+    std::vector<bool> stays(n, true);
+    if constexpr (requires { M::samePoints; })
+      for (std::size_t i = 0; i < n; ++i) stays[i] = parent.stays(Index(i));
+    for_each_field(mapping, [&](auto const& fd, auto const& list) {
+      if constexpr (std::is_same_v<std::decay_t<decltype(list)>, std::vector<int>>)
+        if (fd.numbers && fd.entries == Of::parentPoints)
+          for (std::size_t i = 0; i < n && !list.empty(); ++i)
+            if (!parent.stays(list[list.size() == 1 ? 0 : i])) stays[i] = false;
+    });
+    return stays;
+  }
 }
 
 }  // namespace sinew

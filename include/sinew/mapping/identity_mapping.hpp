@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/core/component.hpp>
+#include <sinew/mapping/point_copy.hpp>
 
 namespace sinew {
 
@@ -13,9 +14,9 @@ struct IdentityMapping {
   using In = I;
   using Out = O;
   static constexpr bool samePoints = true;  // point i of the child goes with point i of the parent
-  static constexpr bool centers = In::rigid && !Out::rigid;
+  using Copy = PointCopy<In, Out>;
   static_assert(
-      centers ? In::spatial == Out::size : In::size == Out::size && In::rigid == Out::rigid,
+      Copy::possible,
       "IdentityMapping joins states of the same kind, or points to the rigid bodies of their space");
   static constexpr std::string_view className = "IdentityMapping";
 
@@ -34,32 +35,17 @@ struct IdentityMapping {
   }
 
   void apply(typename Out::VecCoord& out, typename In::VecCoord const& in) const {
-    for (std::size_t i = 0; i < in.size(); ++i) {
-      if constexpr (centers) {
-        out[i] = in[i].center.template cast<typename Out::Real>();
-      } else if constexpr (In::rigid) {
-        out[i].center = in[i].center.template cast<typename Out::Real>();
-        if constexpr (In::spatial == 3)
-          out[i].orientation.coeffs() = in[i].orientation.coeffs().template cast<typename Out::Real>();
-        else
-          out[i].orientation = typename Out::Real(in[i].orientation);
-      } else {
-        out[i] = in[i].template cast<typename Out::Real>();
-      }
-    }
+    for (std::size_t i = 0; i < in.size(); ++i) Copy::position(out[i], in[i]);
   }
   void applyJ(typename Out::VecDeriv& out, typename In::VecDeriv const& in) const {
-    for (std::size_t i = 0; i < in.size(); ++i)
-      out[i] = in[i].template head<Out::size>().template cast<typename Out::Real>();
+    for (std::size_t i = 0; i < in.size(); ++i) Copy::velocity(out[i], in[i]);
   }
   void applyJT(typename In::VecDeriv& in, typename Out::VecDeriv const& out) const {
-    for (std::size_t i = 0; i < in.size(); ++i)
-      in[i].template head<Out::size>() += out[i].template cast<typename In::Real>();
+    for (std::size_t i = 0; i < in.size(); ++i) Copy::force(in[i], out[i]);
   }
   template <class F>
   void forEachJacobianBlock(int point, F&& f) const {
-    using J = Mat<typename Out::Real, Out::size, In::size>;
-    f(point, J(J::Identity()));
+    f(point, typename Copy::Jacobian(Copy::Jacobian::Identity()));
   }
 };
 

@@ -239,7 +239,7 @@ class Baker {
     return name;
   }
 
-  // interactions
+  // interactions, and mappings with several parents
 
   std::array<Node*, 2> endsOf(Node& node, Entry const& entry) const {
     std::array<Node*, 2> ends{nullptr, nullptr};
@@ -249,6 +249,28 @@ class Baker {
             ends = {node.resolve(joint.ends.object1), node.resolve(joint.ends.object2)};
         });
     return ends;
+  }
+  // "../left"
+  static std::string wayFrom(Node const& node, Node const& to) {
+    std::string up;
+    for (Node const* at = &node; at; at = at->parent()) {
+      for (Node const* below = &to; below; below = below->parent())
+        if (below == at) {
+          const std::string down = pathFrom(*at, to);
+          return down.empty() ? up : up.empty() ? down : text(up, '/', down);
+        }
+      up += up.empty() ? ".." : "/..";
+    }
+    return up;
+  }
+  std::string parentsOf(Node& node, Entry const& entry) const {
+    std::string all;
+    entry.component.template visit<role::Mapping>([&](auto const& mapping) {
+      if constexpr (requires { mapping.parents.paths; })
+        for (auto const& path : mapping.parents.paths)
+          all += text(all.empty() ? "" : ", ", cpp_literal(wayFrom(node, *node.resolve(path))));
+    });
+    return all;
   }
   static std::string pathFrom(Node const& above, Node const& node) {
     std::string path;
@@ -326,7 +348,7 @@ class Baker {
     }
     for (auto const& [place, name] : places) {
       // the type of an interaction says where it stands
-      if (infoOf(*place).joins || busy_.count(place)) continue;
+      if (infoOf(*place).joins || infoOf(*place).severalParents || busy_.count(place)) continue;
       auto const& fields = infoOf(*place).fields;
       std::optional<std::size_t> found;
       for (std::size_t f = 0; f < fields.size(); ++f)
@@ -420,6 +442,13 @@ class Baker {
   }
   std::string className(Node& node, Entry& entry) const {
     std::string name = codeOf(entry).cppName;
+    if (infoOf(entry).severalParents) {
+      constexpr std::string_view linked = "LinkedParents>";
+      if (!name.ends_with(linked))
+        throw Error(node.path(), text(name, " names its parents in a way that a typed scene has not; remove it"));
+      name.resize(name.size() - linked.size());
+      return text(name, "Parents<", parentsOf(node, entry), ">>");
+    }
     const auto ends = endsOf(node, entry);
     if (!ends[0]) return name;
     constexpr std::string_view linked = ", Linked>";

@@ -61,7 +61,10 @@ struct RuntimeChecker {
       if (HasRole<C, role::ProjectiveConstraint> && scope.stateScope().mapped())
         fail("acts on a mapped state, which follows its parent; constrain the parent instead");
     } else if constexpr (HasRole<C, role::Mapping>) {
-      mapping<C>();
+      if constexpr (HasParents<C>)
+        mappingWithParents(c);
+      else
+        mapping<C>();
     } else if constexpr (HasRole<C, role::OdeSolver>) {
       if constexpr (C::implicit) {
         bool found = false;
@@ -79,12 +82,51 @@ struct RuntimeChecker {
     return node.parent() ? solver(*node.parent()) : nullptr;
   }
 
+  // whether a traversal comes to a node before another
+  static bool before(RuntimeNode<R> const& first, RuntimeNode<R> const& second) {
+    auto below = [&](RuntimeNode<R> const& top) {
+      for (auto* at = &first; at; at = at->parent())
+        if (at == &top) return true;
+      return false;
+    };
+    RuntimeNode<R> const* branch = &second;
+    for (auto* at = second.parent(); at; branch = at, at = at->parent()) {
+      if (at == &first) return true;
+      for (auto const& child : at->children()) {
+        if (child.get() == branch) break;
+        if (below(*child)) return true;
+      }
+    }
+    return false;
+  }
+
   template <class M>
-  void mapping() const {
+  void mappingWithParents(M& m) const {
+    hasChild<M>();
+    if constexpr (requires { m.parents.paths; }) {
+      if (m.parents.paths.empty()) fail("has no parents; name them: input=\"@../left @../right\"");
+      entry.ends.clear();
+      auto const& parents = scope.endsOf(entry);
+      for (std::size_t k = 0; k < parents.size(); ++k) {
+        const std::string who = text("its parent at '", m.parents.paths[k], "'");
+        if (!parents[k]) fail(text("there is no node for ", who, "; give the path from the node of the mapping"));
+        const RuntimeScope<R> parent(*parents[k]);
+        state<typename M::In>(parent, who, text(who, " has no MechanicalObject"));
+        if (parent.stateScope().atMount) continue;
+        if (!before(*parents[k], scope.node))
+          fail(text("comes before ", who, ", which it follows; move its node behind that of the parent"));
+        if (scope.node.state() && solver(*parents[k]) != solver(scope.node))
+          fail(text("is under another ODE solver than ", who, "; put both below one solver"));
+      }
+    } else {
+      fail("names its parents by compile-time paths, which a runtime tree has not; use LinkedParents");
+    }
+  }
+
+  template <class M>
+  void hasChild() const {
     if (!scope.node.state() && !scope.node.visual())
       fail("has no child: its node has neither a MechanicalObject nor a VisualModel; add one");
-    state<typename M::In>(
-        scope.above(), "its parent", "has no parent: no node above has a MechanicalObject; add one");
     if (scope.node.state())
       state<typename M::Out>(scope, "its child", "");
     else if (!std::is_same_v<typename M::Out, Vec3f>)
@@ -92,14 +134,20 @@ struct RuntimeChecker {
                 data_types_name<typename M::Out>::value,
                 ", but a VisualModel is of Vec3f; map to Vec3f"));
   }
+  template <class M>
+  void mapping() const {
+    hasChild<M>();
+    state<typename M::In>(
+        scope.above(), "its parent", "has no parent: no node above has a MechanicalObject; add one");
+  }
 
   template <class C>
   void ends(C& c) const {
     if constexpr (requires { c.ends.object1; }) {
       const std::string* paths[] = {&c.ends.object1, &c.ends.object2};
+      entry.ends.clear();
       for (std::size_t k = 0; k < 2; ++k) {
-        entry.ends[k] = scope.node.resolve(*paths[k]);
-        if (!entry.ends[k])
+        if (!scope.endsOf(entry)[k])
           fail(text("object",
                     k + 1,
                     ": there is no node at '",

@@ -93,6 +93,7 @@ struct ClassInfo {
   std::string cppName;       // "UniformMass<Vec3d>"
   bool joins = false;        // has ends object1 and object2
   std::vector<FieldInfo> fields;
+  bool severalParents = false;  // a mapping
 
   bool known(std::string_view asked) const {
     bool found = asked == name;
@@ -220,6 +221,7 @@ ClassInfo class_info(int type) {
   }
   if constexpr (HasRole<C, role::VisualModel>) info.cppName = std::string(C::className);
   if constexpr (requires(C c) { c.ends.object1; }) info.joins = true;
+  info.severalParents = requires(C c) { c.parents.paths; };
   auto add = [&]<FieldList Which>() {
     [&]<std::size_t... I>(std::index_sequence<I...>) {
       (info.fields.push_back(field_info<C, Which, I>()), ...);

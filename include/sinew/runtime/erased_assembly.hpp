@@ -166,6 +166,13 @@ ErasedDofs erased(MappedDofs<M, P> const& dofs) {
                 point, [&](int dof, auto const& j) { emit(visitor, dof, j); });
           }};
 }
+template <class M, class... P>
+ErasedDofs erased(MultiMappedDofs<M, P...> const& dofs) {
+  return {&dofs, [](void const* self, int point, JacobianVisitor const& visitor) {
+            static_cast<MultiMappedDofs<M, P...> const*>(self)->expand(
+                point, [&](int dof, auto const& j) { emit(visitor, dof, j); });
+          }};
+}
 }  // namespace detail
 
 /// Degrees of freedom of an independent state of a runtime tree. Only what has to be fast is instantiated for

@@ -19,6 +19,13 @@ void add_typed(RuntimeNode<R>& to, C const& component) {
     });
     joint.ends = {std::string(C::Ends::first.view()), std::string(C::Ends::second.view())};
     to.add(std::move(joint));
+  } else if constexpr (requires { C::Parents::list(); }) {
+    typename C::template WithParents<LinkedParents> mapping;
+    boost::hana::for_each(boost::hana::zip(C::fields(), decltype(mapping)::fields()), [&](auto const& pair) {
+      mapping.*(boost::hana::at_c<1>(pair).member) = component.*(boost::hana::at_c<0>(pair).member);
+    });
+    mapping.parents.paths = C::Parents::list();
+    to.add(std::move(mapping));
   } else {
     to.add(component);
   }

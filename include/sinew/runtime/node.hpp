@@ -38,7 +38,8 @@ struct RuntimeEntry {
   // after init
   bool initialised = false;
   std::vector<void const*> surroundings{};  // states, mappings and topologies it was initialised with
-  std::array<RuntimeNode<R>*, 2> ends{nullptr, nullptr};  // of an interaction, found when first asked for
+  std::vector<RuntimeNode<R>*> ends{};  // of an interaction, or parents of a mapping with several: found when
+                                        // first asked for
 };
 
 /// A node of a scene that is composed while the program runs: components of the classes of a registry R, and
@@ -181,7 +182,7 @@ class RuntimeNode {
     refresh();
   }
   void forgetEnds() {
-    for (auto& entry : entries_) entry.ends = {nullptr, nullptr};
+    for (auto& entry : entries_) entry.ends.clear();
     for (auto& child : children_) child->forgetEnds();
   }
   void refresh() {

@@ -73,7 +73,8 @@ class SceneReader {
     Progress progress = Progress::fresh;
     std::map<std::string, std::string, std::less<>> links{};
     std::array<std::string, 2> ends{};
-    Place* home = nullptr;  // of an interaction: the node above both its ends, where it belongs
+    std::vector<std::string> parents{};  // of a mapping with several
+    Place* home = nullptr;               // of an interaction: the node above both its ends, where it belongs
     bool failed = false;
 
     void* address() const { return component->address(); }
@@ -553,7 +554,11 @@ class SceneReader {
     const std::string given = templateOf(item);
     switch (first.role) {
       case RoleKind::mapping: {
-        Place const* const parent = item.place->parent ? item.place->parent->owner() : nullptr;
+        Place const* parent = item.place->parent ? item.place->parent->owner() : nullptr;
+        if (first.severalParents) {
+          parent = firstOfParents(item);
+          if (!parent) return nullptr;
+        }
         if (!parent)
           return complain(
                      *item.element,
@@ -620,6 +625,32 @@ class SceneReader {
         return &first;
     }
   }
+  // the node of the first of the parents that `input` names: "@left @../right/corner"
+  Place const* firstOfParents(Item& item) {
+    auto const* input = item.element->attribute("input");
+    if (!input || !isLink(input->value))
+      return complain(*item.element, "names no parents; name them: input=\"@../left @../right\""), nullptr;
+    Place const* firstParent = nullptr;
+    XmlAttribute one = *input;
+    std::string_view rest = input->value;
+    for (std::size_t at = rest.find('@'); at != rest.npos;) {
+      const std::size_t next = rest.find('@', at + 1);
+      one.value = std::string(rest.substr(at, next == rest.npos ? next : next - at));
+      at = next;
+      one.value.erase(one.value.find_last_not_of(" \t\r\n") + 1);
+      Place const* const parent = followNode(item, one);
+      if (!parent) return nullptr;
+      if (!firstParent) firstParent = parent;
+      item.parents.push_back(fromTop(*parent));
+    }
+    return firstParent;
+  }
+  // "/liver/skin"
+  static std::string fromTop(Place const& place) {
+    const std::string path = place.path();
+    const std::string below = path.substr(std::min(path.find('/', 1), path.size()));
+    return below.empty() ? "/" : below;
+  }
   static bool allStatesAre(Place const& place, std::string_view kind) {
     return (place.state.empty() || place.state.starts_with(kind) || place.ofRole(RoleKind::mapping)) &&
            std::all_of(place.children.begin(), place.children.end(), [&](auto const& child) {
@@ -643,10 +674,7 @@ class SceneReader {
     // forces are gathered from the leaves to the root, so that an interaction has to be above its ends
     item.home = item.place;
     while (!item.home->above(*first) || !item.home->above(*second)) item.home = item.home->parent;
-    item.ends = {first->path(), second->path()};
-    for (auto& end : item.ends) end = end.substr(std::min(end.find('/', 1), end.size()));
-    for (auto& end : item.ends)
-      if (end.empty()) end = "/";
+    item.ends = {fromTop(*first), fromTop(*second)};
     return true;
   }
 
@@ -863,6 +891,10 @@ class SceneReader {
           });
     });
     if (item.info->role == RoleKind::mapping) ends(item);
+    if (item.info->severalParents)
+      item.component->template visit<role::Mapping>([&](auto& mapping) {
+        if constexpr (requires { mapping.parents.paths; }) mapping.parents.paths = item.parents;
+      });
     item.progress = Progress::done;
   }
   // dx="1" stands for translation="1 0 0", rx="30" for rotation="30 0 0"
@@ -1234,7 +1266,7 @@ class SceneReader {
   void ends(Item& item) {
     for (std::string_view name : {"input", "output"}) {
       auto const* a = item.element->attribute(name);
-      if (!a || !isLink(a->value)) continue;
+      if (!a || !isLink(a->value) || (item.info->severalParents && name == "input")) continue;
       try {
         const Target target = follow(item, a->value);
         Place const* const place = target.item ? target.item->place : target.place;

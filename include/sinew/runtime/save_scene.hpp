@@ -68,6 +68,14 @@ class SceneWriter {
             field.isFile ? absolute(field.write(component.address())) : field.write(component.address());
         if (value != field.defaultValue) set(element, field.name, value);
       }
+      if (info.severalParents)
+        component.template visit<role::Mapping>([&](auto const& mapping) {
+          if constexpr (requires { mapping.parents.paths; }) {
+            std::string input;
+            for (auto const& path : mapping.parents.paths) input += text(input.empty() ? "@" : " @", path);
+            set(element, "input", input);
+          }
+        });
       if (info.joins)
         component.template visit<role::InteractionForceField, role::ProjectiveConstraint>(
             [&](auto const& joint) {

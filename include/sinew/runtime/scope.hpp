@@ -163,7 +163,7 @@ struct RuntimeScope {
   }
   template <class C, class F>
   void ifNew(C const& c, InitAgain const& again, F&& f) const {
-    auto const& entry = node.entryOf(&c);
+    auto& entry = node.entryOf(&c);
     if (again && entry.initialised && !again.touches(&c) && entry.surroundings == surroundings(entry)) return;
     collect([&] { located(c, f); });
   }
@@ -202,11 +202,11 @@ struct RuntimeScope {
     forEachChild([](RuntimeScope const& child) { child.settled(); });
   }
   /// The states, mappings and topologies on which what a component computes at init depends.
-  std::vector<void const*> surroundings(RuntimeEntry<R> const& entry) const {
+  std::vector<void const*> surroundings(RuntimeEntry<R>& entry) const {
     std::vector<void const*> all;
     if (entry.component.template is<role::State>() && !mapped()) return all;
     addSurroundings(all);
-    for (auto* end : entry.ends)
+    for (auto* end : endsOf(entry))
       if (end) RuntimeScope(*end).addSurroundings(all);
     // masses that it may have asked for
     if (entry.component.template is<role::Mapping>()) {
@@ -220,15 +220,42 @@ struct RuntimeScope {
   }
 
   template <class M, class F>
-  void withMapped(M const&, F&& f) const {
-    auto& parent = parentScope().template state<typename M::In>();
+  void withChild(M const&, F&& f) const {
     if (node.state()) {
-      if constexpr (!std::is_void_v<typename StateOf<R, typename M::Out>::type>)
-        f(state<typename M::Out>(), parent);
+      if constexpr (!std::is_void_v<typename StateOf<R, typename M::Out>::type>) f(state<typename M::Out>());
     } else if constexpr (std::is_same_v<typename M::Out, Vec3f>) {
-      if (node.visual())
-        node.visual()->component.template visit<role::VisualModel>([&](auto& visual) { f(visual, parent); });
+      if (node.visual()) node.visual()->component.template visit<role::VisualModel>(f);
     }
+  }
+  template <class M, class F>
+  void forEachParent(M const&, F&& f) const {
+    std::size_t k = 0;
+    for (auto* parent : endsOf(*node.mapping())) f(k++, RuntimeScope(*parent).stateScope());
+  }
+  template <class M, class F>
+  void withMapped(M& mapping, F&& f) const {
+    using In = typename M::In;
+    withChild(mapping, [&](auto& child) {
+      if constexpr (HasParents<M>)
+        forEachParent(mapping, [&](std::size_t k, RuntimeScope const& parent) {
+          f(mapping.parts[k], child, parent.template state<In>());
+        });
+      else
+        f(mapping, child, parentScope().template state<In>());
+    });
+  }
+  /// The nodes that an interaction joins, or that a mapping with several parents follows; nulls where there is
+  /// none at a path.
+  std::vector<RuntimeNode<R>*> const& endsOf(RuntimeEntry<R>& entry) const {
+    if (entry.ends.empty())
+      entry.component.template visit<role::InteractionForceField, role::ProjectiveConstraint, role::Mapping>(
+          [&](auto const& c) {
+            if constexpr (requires { c.ends.object1; })
+              entry.ends = {node.resolve(c.ends.object1), node.resolve(c.ends.object2)};
+            if constexpr (requires { c.parents.paths; })
+              for (auto const& path : c.parents.paths) entry.ends.push_back(node.resolve(path));
+          });
+    return entry.ends;
   }
 
   template <class D, class F>
@@ -244,10 +271,8 @@ struct RuntimeScope {
 
   template <class C, class F>
   void withEnds(C const& c, F&& f) const {
-    auto& entry = node.entryOf(&c);
-    if constexpr (requires { c.ends.object1; })
-      if (!entry.ends[0]) entry.ends = {node.resolve(c.ends.object1), node.resolve(c.ends.object2)};
-    f(RuntimeScope(*entry.ends[0]), RuntimeScope(*entry.ends[1]));
+    auto const& ends = endsOf(node.entryOf(&c));
+    f(RuntimeScope(*ends[0]), RuntimeScope(*ends[1]));
   }
 
   template <class F>
@@ -265,7 +290,10 @@ struct RuntimeScope {
     all.push_back(topologyAddress());
     if (!atMount && node.mapping()) {
       all.push_back(node.mapping()->component.address());
-      above().addSurroundings(all);
+      auto const& parents = endsOf(*node.mapping());
+      for (auto* parent : parents)
+        if (parent) RuntimeScope(*parent).addSurroundings(all);
+      if (parents.empty()) above().addSurroundings(all);
     } else if (!owner.atMount && owner.node.mapping() && &owner.node != &node) {
       owner.addSurroundings(all);
     }
@@ -290,14 +318,20 @@ struct RuntimeScope {
     }
     node.mapping()->component.template visit<role::Mapping>([&](auto const& mapping) {
       using M = std::decay_t<decltype(mapping)>;
-      const RuntimeScope parent = above().stateScope();
-      mapping.forEachJacobianBlock(point, [&](int pointAbove, auto const& j) {
-        auto chain = [&](int dof, int columns, double const* entries) {
-          detail::with_jacobian<typename M::Out::Real, M::In::size>(
-              columns, entries, [&](auto const& jAbove) { detail::emit(visitor, dof, (j * jAbove).eval()); });
-        };
-        parent.expand(pointAbove, detail::jacobian_visitor(chain));
-      });
+      auto expandPart = [&](auto const& part, RuntimeScope const& parent) {
+        part.forEachJacobianBlock(point, [&](int pointAbove, auto const& j) {
+          auto chain = [&](int dof, int columns, double const* entries) {
+            detail::with_jacobian<typename M::Out::Real, M::In::size>(
+                columns, entries, [&](auto const& jAbove) { detail::emit(visitor, dof, (j * jAbove).eval()); });
+          };
+          parent.expand(pointAbove, detail::jacobian_visitor(chain));
+        });
+      };
+      if constexpr (HasParents<M>)
+        forEachParent(mapping,
+                      [&](std::size_t k, RuntimeScope const& parent) { expandPart(mapping.parts[k], parent); });
+      else
+        expandPart(mapping, above().stateScope());
     });
   }
 };

@@ -76,37 +76,6 @@ constexpr bool acts_on_state() {
   }
 }
 
-template <class C, class S>
-constexpr bool mapping() {
-  constexpr bool child = S::ownsState || S::isVisual, parent = S::Above::hasState;
-  static_assert(child,
-                "Sinew: a mapping has no child: its node has neither a MechanicalObject nor a VisualModel.");
-  static_assert(parent, "Sinew: a mapping has no parent: no node above it has a MechanicalObject.");
-  if constexpr (!child || !parent) {
-    return false;
-  } else {
-    constexpr bool in = std::is_same_v<typename C::In, DataTypesAt<typename S::Above>>;
-    static_assert(in,
-                  "Sinew: the In of a mapping differs from the DataTypes of its parent, the MechanicalObject "
-                  "above it.");
-    constexpr bool out = [] {
-      if constexpr (S::ownsState)
-        return std::is_same_v<typename C::Out, DataTypesAt<S>>;
-      else
-        return std::is_same_v<typename C::Out, Vec3f>;
-    }();
-    static_assert(out,
-                  "Sinew: the Out of a mapping differs from the DataTypes of its child, the MechanicalObject "
-                  "in its node (Vec3f "
-                  "for a VisualModel).");
-    constexpr bool tetrahedra = !requires { C::needsParentTetrahedra; }
-    || has_tetrahedra<Owner<typename S::Above>>();
-    static_assert(tetrahedra,
-                  "Sinew: a mapping needs tetrahedra, and its parent has no topology with tetrahedra.");
-    return in && out && tetrahedra;
-  }
-}
-
 /// The scope at a path below S; NoScope where there is none.
 template <class S, FixedString Path>
 constexpr auto find_path() {
@@ -136,6 +105,124 @@ constexpr auto find_solver() {
 }
 template <class S>
 using Solver = typename decltype(find_solver<S>())::type;
+
+/// The scope at a path from S that may begin with ".."; NoScope where there is none.
+template <class S, FixedString Path>
+constexpr auto find_reach() {
+  if constexpr (std::is_same_v<S, NoScope>)
+    return std::type_identity<NoScope>{};
+  else if constexpr (detail::first_name(Path.view()) == "..")
+    return find_reach<typename S::Above, detail::rest_of_path<Path>()>();
+  else
+    return find_path<S, Path>();
+}
+/// Whether that is before S in a traversal. `Branch`: the scope below S on the way there, S itself at first.
+template <class S, FixedString Path, class Branch = S>
+constexpr bool comes_before() {
+  if constexpr (detail::first_name(Path.view()) == "..")
+    return comes_before<typename S::Above, detail::rest_of_path<Path>(), S>();
+  else if constexpr (std::is_same_v<Branch, S>)
+    return false;
+  else if constexpr (Path.view().empty())
+    return true;
+  else
+    return S::NodeType::childIndex(detail::first_name(Path.view())) <
+           S::NodeType::childIndex(Branch::NodeType::name.view());
+}
+
+template <class C, class S, FixedString Path>
+constexpr bool mapping_parent() {
+  using Parent = typename decltype(find_reach<S, Path>())::type;
+  constexpr bool found = !std::is_same_v<Parent, NoScope>;
+  static_assert(
+      found,
+      "Sinew: a parent of a mapping is no node. Its paths begin in the node of the mapping, go up by "
+      "\"..\" and down by names (\"../left\"); look for a misspelt name.");
+  if constexpr (!found) {
+    return false;
+  } else {
+    constexpr bool before = comes_before<S, Path>();
+    static_assert(before,
+                  "Sinew: a mapping comes before one of its parents, which it follows. Put its node behind "
+                  "those of its parents.");
+    static_assert(Parent::hasState, "Sinew: a parent of a mapping is a node without a MechanicalObject.");
+    if constexpr (!before || !Parent::hasState) {
+      return false;
+    } else {
+      constexpr bool in = std::is_same_v<typename C::In, DataTypesAt<Parent>>;
+      static_assert(in, "Sinew: the In of a mapping differs from the DataTypes of one of its parents.");
+      constexpr bool together = S::isVisual || std::is_same_v<Solver<S>, Solver<Parent>>;
+      static_assert(
+          together,
+          "Sinew: a mapping has parents under different ODE solvers. Put it and its parents below one "
+          "solver.");
+      return in && together;
+    }
+  }
+}
+template <class C, class S, FixedString... Paths>
+constexpr bool mapping_parents(Parents<Paths...>) {
+  return (mapping_parent<C, S, Paths>() && ...);
+}
+template <class C, class S>
+constexpr bool mapping_parents(LinkedParents) {
+  constexpr bool typed = !HasParents<C>;  // false
+  static_assert(typed,
+                "Sinew: a mapping in a typed scene names its parents in its type: Parents<\"../left\", "
+                "\"../right\">.");
+  return typed;
+}
+
+/// The Out of a mapping is that of the state, or visual model, in its node.
+template <class C, class S>
+constexpr bool mapping_out() {
+  if constexpr (S::ownsState)
+    return std::is_same_v<typename C::Out, DataTypesAt<S>>;
+  else
+    return std::is_same_v<typename C::Out, Vec3f>;
+}
+
+template <class C, class S>
+constexpr bool mapping_with_parents() {
+  constexpr bool child = S::ownsState || S::isVisual;
+  static_assert(child,
+                "Sinew: a mapping has no child: its node has neither a MechanicalObject nor a VisualModel.");
+  if constexpr (!child) {
+    return false;
+  } else {
+    constexpr bool out = mapping_out<C, S>();
+    static_assert(out,
+                  "Sinew: the Out of a mapping differs from the DataTypes of its child, the MechanicalObject "
+                  "in its node (Vec3f for a VisualModel).");
+    return out && mapping_parents<C, S>(typename C::Parents{});
+  }
+}
+
+template <class C, class S>
+constexpr bool mapping() {
+  constexpr bool child = S::ownsState || S::isVisual, parent = S::Above::hasState;
+  static_assert(child,
+                "Sinew: a mapping has no child: its node has neither a MechanicalObject nor a VisualModel.");
+  static_assert(parent, "Sinew: a mapping has no parent: no node above it has a MechanicalObject.");
+  if constexpr (!child || !parent) {
+    return false;
+  } else {
+    constexpr bool in = std::is_same_v<typename C::In, DataTypesAt<typename S::Above>>;
+    static_assert(in,
+                  "Sinew: the In of a mapping differs from the DataTypes of its parent, the MechanicalObject "
+                  "above it.");
+    constexpr bool out = mapping_out<C, S>();
+    static_assert(out,
+                  "Sinew: the Out of a mapping differs from the DataTypes of its child, the MechanicalObject "
+                  "in its node (Vec3f "
+                  "for a VisualModel).");
+    constexpr bool tetrahedra = !requires { C::needsParentTetrahedra; }
+    || has_tetrahedra<Owner<typename S::Above>>();
+    static_assert(tetrahedra,
+                  "Sinew: a mapping needs tetrahedra, and its parent has no topology with tetrahedra.");
+    return in && out && tetrahedra;
+  }
+}
 
 template <class C, class End>
 constexpr bool interaction_end() {
@@ -218,6 +305,11 @@ constexpr bool component() {
                   "core/component.hpp.");
     return InteractionForceField<C> && interaction_end<C, AtPath<S, C::Ends::first>>() &&
            interaction_end<C, AtPath<S, C::Ends::second>>();
+  } else if constexpr (std::is_same_v<R, role::Mapping> && HasParents<C>) {
+    static_assert(MultiMapping<C>,
+                  "Sinew: a component with role::Mapping and several parents does not fulfil the concept "
+                  "MultiMapping of core/component.hpp.");
+    return MultiMapping<C> && mapping_with_parents<C, S>();
   } else if constexpr (std::is_same_v<R, role::Mapping>) {
     static_assert(
         Mapping<C>,

@@ -142,16 +142,22 @@ class ElementRemoval {
   void planMapped() {
     touchedStates_.insert(state_);
     traverse(root_, on<role::Mapping>([this](auto& mapping, auto const& scope) {
-               scope.withMapped(mapping, [&](auto& child, auto& parent) {
+               void const* mapped = nullptr;
+               std::vector<bool> stays;
+               scope.withMapped(mapping, [&](auto& part, auto& child, auto& parent) {
                  if (!touchedStates_.contains(&parent)) return;
-                 touchedStates_.insert(&child);
-                 std::vector<bool> stays = pointsThatStay(mapping, scope, child, parent);
-                 if (std::find(stays.begin(), stays.end(), false) == stays.end()) return;
-                 const auto over = topologiesOver(&child);
-                 std::vector<TopologyView> views;
-                 for (Topology const& t : over) views.push_back(t.view);
-                 record(&child, plan_point_removal(stays, views), over);
+                 mapped = &child;
+                 stays.resize(sizeOf(child), true);
+                 const std::vector<bool> here = pointsThatStay(part, scope, child, parent);
+                 for (std::size_t i = 0; i < stays.size(); ++i) stays[i] = stays[i] && here[i];
                });
+               if (!mapped) return;
+               touchedStates_.insert(mapped);
+               if (std::find(stays.begin(), stays.end(), false) == stays.end()) return;
+               const auto over = topologiesOver(mapped);
+               std::vector<TopologyView> views;
+               for (Topology const& t : over) views.push_back(t.view);
+               record(mapped, plan_point_removal(stays, views), over);
              }));
   }
   template <class M, class S, class Child, class Parent>
@@ -205,10 +211,19 @@ class ElementRemoval {
       if constexpr (editable_topology<C>)
         if (ofTopology(&c).changes()) follow(c.edit(), ofTopology(&c));
     } else if constexpr (HasRole<C, role::Mapping>) {
-      scope.withMapped(c, [&](auto& child, auto& parent) {
-        if (touchedStates_.contains(&parent))
-          follow_fields(c, {ofState(&child), {}, ofState(&parent), ofTopology(scope.topologyAddress())});
+      void const* mapped = nullptr;
+      bool any = false;
+      std::vector<Renumbering const*> parents;
+      scope.withMapped(c, [&](auto&, auto& child, auto& parent) {
+        mapped = &child;
+        any = any || touchedStates_.contains(&parent);
+        parents.push_back(&ofState(&parent));
       });
+      if (!any) return;
+      if constexpr (HasParents<C>)
+        c.follow(ofState(mapped), parents);
+      else
+        follow_fields(c, {ofState(mapped), {}, *parents[0], ofTopology(scope.topologyAddress())});
     } else if constexpr (JoinsTwo<C>) {
       scope.withEnds(c, [&](auto const& a, auto const& b) {
         if (ofState(a.stateAddress()).changes() || ofState(b.stateAddress()).changes())
@@ -246,7 +261,7 @@ class ElementRemoval {
       return any;
     } else if constexpr (HasRole<C, role::Mapping>) {
       bool any = false;
-      scope.withMapped(c, [&](auto& child, auto&) { any = touchedStates_.contains(&child); });
+      scope.withMapped(c, [&](auto&, auto& child, auto&) { any = touchedStates_.contains(&child); });
       return any;
     } else if constexpr (HasRole<C, role::Topology> || HasRole<C, role::State> ||
                          HasRole<C, role::ForceField> || HasRole<C, role::Mass> ||

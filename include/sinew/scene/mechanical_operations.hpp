@@ -290,8 +290,8 @@ struct MechanicalOperations {
   }
   template <class M, class S, class F>
   static void withMechanicalChild(M& mapping, S const& scope, F&& f) {
-    scope.withMapped(mapping, [&](auto& child, auto& parent) {
-      if constexpr (HasRole<std::decay_t<decltype(child)>, role::State>) f(mapping, child, parent);
+    scope.withMapped(mapping, [&](auto& m, auto& child, auto& parent) {
+      if constexpr (HasRole<std::decay_t<decltype(child)>, role::State>) f(m, child, parent);
     });
   }
   // f of mapped states, then complete, is added to that of their parents; with each also(mapping, child,

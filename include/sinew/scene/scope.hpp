@@ -206,13 +206,35 @@ struct Scope {
     if constexpr (always<role::Mass>) f(node.template first<role::Mass>());
   }
 
-  /// f(child, parent state) for the mapping of this node; the child is a state or a visual model.
+  /// f(state or visual model that the mapping of this node moves).
   template <class M, class F>
-  void withMapped(M const&, F&& f) const {
+  void withChild(M&, F&& f) const {
     if constexpr (ownsState)
-      f(node.state(), above.stateScope().node.state());
+      f(node.state());
     else
-      f(node.visual(), above.stateScope().node.state());
+      f(node.visual());
+  }
+  /// f(number, scope that owns the state) for each parent of a mapping with several.
+  template <class M, class F>
+  void forEachParent(M&, F&& f) const {
+    [&]<FixedString... Paths>(Parents<Paths...>) {
+      std::size_t k = 0;
+      (reach<Paths>([&](auto const& parent) { f(k++, parent.stateScope()); }), ...);
+    }
+    (typename M::Parents{});
+  }
+  /// f(mapping, child, parent state) for the mapping of this node, or for each part of one with several
+  /// parents; the child is a state or a visual model.
+  template <class M, class F>
+  void withMapped(M& mapping, F&& f) const {
+    withChild(mapping, [&](auto& child) {
+      if constexpr (HasParents<M>)
+        forEachParent(mapping, [&](std::size_t k, auto const& parent) {
+          f(mapping.parts[k], child, parent.node.state());
+        });
+      else
+        f(mapping, child, above.stateScope().node.state());
+    });
   }
 
   /// f(degrees of freedom of the state of this scope in an assembled system).
@@ -223,14 +245,25 @@ struct Scope {
     } else if constexpr (isMapped) {
       auto& mapping = node.template first<role::Mapping>();
       using M = std::decay_t<decltype(mapping)>;
-      above.stateScope().template withDofs<typename M::In>([&](auto const& dofs) {
-        f(MappedDofs<M, std::decay_t<decltype(dofs)>>{mapping, dofs});
-      });
+      if constexpr (HasParents<M>)
+        withParentDofs(mapping, f, typename M::Parents{});
+      else
+        above.stateScope().template withDofs<typename M::In>([&](auto const& dofs) {
+          f(MappedDofs<M, std::decay_t<decltype(dofs)>>{mapping, dofs});
+        });
     } else {
       f(DirectDofs<D::size>{node.state().dofOffset});
     }
   }
 
+  /// f(scope) for the node at a path from here that may begin with "..", which exists.
+  template <FixedString Path, class F>
+  decltype(auto) reach(F&& f) const {
+    if constexpr (detail::first_name(Path.view()) == "..")
+      return above.template reach<detail::rest_of_path<Path>()>(f);
+    else
+      return descend<Path>(f);
+  }
   /// f(scope) for the node at a path from here, which exists.
   template <FixedString Path, class F>
   decltype(auto) descend(F&& f) const {
@@ -257,6 +290,19 @@ struct Scope {
       f(node.template first<role::LinearSolver>());
     else
       above.withLinearSolver(f);
+  }
+
+ private:
+  template <class M, class F, class... Found>
+  void withParentDofs(M const& mapping, F&& f, Parents<>, Found const&... found) const {
+    f(MultiMappedDofs<M, Found...>{mapping, {found...}});
+  }
+  template <class M, class F, FixedString Path, FixedString... Paths, class... Found>
+  void withParentDofs(M const& mapping, F&& f, Parents<Path, Paths...>, Found const&... found) const {
+    reach<Path>([&](auto const& parent) {
+      parent.template withDofs<typename M::In>(
+          [&](auto const& dofs) { withParentDofs(mapping, f, Parents<Paths...>{}, found..., dofs); });
+    });
   }
 };
 

@@ -113,26 +113,24 @@ class Simulation {
   template <class C, class S>
   static void initState(C& c, S const& scope) {
     if constexpr (HasRole<C, role::Mapping>) {
-      scope.withMapped(c, [&](auto& child, auto& parent) {
-        using Child = std::decay_t<decltype(child)>;
-        auto place = [&](auto& rest) {
-          withContext<C, typename C::In>(scope.parentScope(), [&](auto const& parent) {
-            c.init(parent, {scope.path(), rest, scope.topology()}, child.position);
-          });
-        };
-        if constexpr (HasRole<Child, role::VisualModel>) {
+      scope.withChild(c, [&](auto& child) {
+        if constexpr (HasRole<std::decay_t<decltype(child)>, role::VisualModel>) {
           child.init(scope.path());
-          place(child.position);
-          c.apply(child.position, parent.position);
+          initMapping(c, scope, child.position, child.position);
         } else {
           child.place(scope.path(), scope.topology().positions);
           child.takeGiven();
-          place(child.position);
+          initMapping(c, scope, child.position, child.position);
           child.restPosition.assign(child.position.size(), C::Out::zero());
-          c.apply(child.restPosition, parent.restPosition);
-          c.apply(child.position, parent.position);
-          child.init(scope.path());
         }
+      });
+      scope.withMapped(c, [&](auto& mapping, auto& child, auto& parent) {
+        if constexpr (HasRole<std::decay_t<decltype(child)>, role::State>)
+          mapping.apply(child.restPosition, parent.restPosition);
+        mapping.apply(child.position, parent.position);
+      });
+      scope.withChild(c, [&](auto& child) {
+        if constexpr (HasRole<std::decay_t<decltype(child)>, role::State>) child.init(scope.path());
       });
     } else if (!scope.mapped()) {
       if constexpr (HasRole<C, role::State>) c.place(scope.path(), scope.topology().positions);
@@ -158,6 +156,21 @@ class Simulation {
       });
     context.masses = masses;
     f(context);
+  }
+
+  // a mapping sizes its child
+  template <class C, class S, class VecCoord>
+  static void initMapping(C& c, S const& scope, VecCoord const& rest, VecCoord& positions) {
+    using In = typename C::In;
+    const InitContext<typename C::Out> own{scope.path(), rest, scope.topology()};
+    if constexpr (HasParents<C>) {
+      std::vector<InitContext<In>> parents;
+      scope.forEachParent(
+          c, [&](std::size_t, auto const& parent) { parents.push_back(parent.template context<In>()); });
+      c.init(parents, own, positions);
+    } else {
+      withContext<C, In>(scope.parentScope(), [&](auto const& parent) { c.init(parent, own, positions); });
+    }
   }
 
   template <class C, class S>
@@ -353,9 +366,9 @@ template <class Root>
 void Simulation<Root>::updateVisual() {
   if (visualsAreCurrent_) return;
   traverse(rootScope(), on<role::Mapping>([](auto& mapping, auto const& scope) {
-             scope.withMapped(mapping, [&](auto& child, auto& parent) {
+             scope.withMapped(mapping, [&](auto& m, auto& child, auto& parent) {
                if constexpr (HasRole<std::decay_t<decltype(child)>, role::VisualModel>)
-                 mapping.apply(child.position, parent.position);
+                 m.apply(child.position, parent.position);
              });
            }));
   visualsAreCurrent_ = true;

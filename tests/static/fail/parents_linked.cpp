@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSL-1.0
+// expect: Sinew: a mapping in a typed scene names its parents in its type
+#include <sinew/sinew.hpp>
+
+using namespace sinew;
+
+int main() {
+  Simulation sim{node<"root">(EulerExplicitSolver{},
+                              node<"a">(MechanicalObject<Vec3d>{}, UniformMass<Vec3d>{}),
+                              node<"c">(MechanicalObject<Vec3d>{}, SubsetMultiMapping<Vec3d, Vec3d>{}))};
+  sim.init();
+  sim.animate(0.1);
+}

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSL-1.0
+// expect: Sinew: a mapping comes before one of its parents
+#include <sinew/sinew.hpp>
+
+using namespace sinew;
+
+int main() {
+  Simulation sim{node<"root">(
+      EulerExplicitSolver{},
+      node<"a">(MechanicalObject<Vec3d>{}, UniformMass<Vec3d>{}),
+      node<"c">(MechanicalObject<Vec3d>{}, SubsetMultiMapping<Vec3d, Vec3d, Parents<"../a", "../b">>{}),
+      node<"b">(MechanicalObject<Vec3d>{}, UniformMass<Vec3d>{}))};
+  sim.init();
+  sim.animate(0.1);
+}

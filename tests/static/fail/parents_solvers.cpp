@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSL-1.0
+// expect: Sinew: a mapping has parents under different ODE solvers.
+#include <sinew/sinew.hpp>
+
+using namespace sinew;
+
+int main() {
+  Simulation sim{node<"root">(
+      node<"a">(EulerExplicitSolver{}, MechanicalObject<Vec3d>{}, UniformMass<Vec3d>{}),
+      node<"b">(MechanicalObject<Vec3d>{}, UniformMass<Vec3d>{}),
+      node<"c">(MechanicalObject<Vec3d>{}, SubsetMultiMapping<Vec3d, Vec3d, Parents<"../a", "../b">>{}))};
+  sim.init();
+  sim.animate(0.1);
+}

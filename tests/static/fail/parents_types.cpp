@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSL-1.0
+// expect: Sinew: the In of a mapping differs from the DataTypes of one of its parents.
+#include <sinew/sinew.hpp>
+
+using namespace sinew;
+
+int main() {
+  Simulation sim{node<"root">(
+      EulerExplicitSolver{},
+      node<"a">(MechanicalObject<Vec3d>{}, UniformMass<Vec3d>{}),
+      node<"b">(MechanicalObject<Vec3f>{}),
+      node<"c">(MechanicalObject<Vec3d>{}, SubsetMultiMapping<Vec3d, Vec3d, Parents<"../a", "../b">>{}))};
+  sim.init();
+  sim.animate(0.1);
+}
