@@ -47,6 +47,7 @@ enum class Of {
   points,        // of the state on which the component acts; of the first end of an interaction
   secondPoints,  // of the second end
   parentPoints,  // of the parent of a mapping, one entry for each point of the child, or one for all
+  edges,
   triangles,
   quads,
   hexahedra,

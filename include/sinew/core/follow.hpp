@@ -22,6 +22,8 @@ struct Followed {
         return secondPoints;
       case Of::parentPoints:
         return parentPoints;
+      case Of::edges:
+        return topology.of(ElementKind::edge);
       case Of::triangles:
         return topology.of(ElementKind::triangle);
       case Of::quads:
