@@ -30,14 +30,17 @@ using SpatialSprings =
              QuadBendingSprings<D>, FastTriangularBendingSprings<D>, PolynomialSpringsForceField<D>,
              PolynomialSpringsForceField<D, Linked>>;
 template <class D>
-using SpatialRigids = Registry<AngularSpringForceField<D>, FixedRotationConstraint<D>>;
+using FrameElements = Registry<BeamFEMForceField<D>, BeamMass<D>>;
+template <class D>
+using SpatialRigids = Registry<AngularSpringForceField<D>, FixedRotationConstraint<D>, FrameElements<D>>;
 template <class D>
 using PointConstraints =
     Registry<FixedConstraint<D>, PartialFixedConstraint<D>, FixedPlaneConstraint<D>,
              LinearMovementConstraint<D>, AffineMovementConstraint<D>, LinearVelocityConstraint<D>,
              OscillatorConstraint<D>, HermiteSplineConstraint<D>, ParabolicConstraint<D>,
              ProjectToPlaneConstraint<D>, ProjectToLineConstraint<D>, ProjectToPointConstraint<D>,
-             ProjectDirectionConstraint<D>>;
+             ProjectDirectionConstraint<D>, AttachProjectiveConstraint<D>,
+             AttachProjectiveConstraint<D, Linked>>;
 template <class D>
 using PointComponents = Registry<MechanicalObject<D>, UniformMass<D>, DiagonalMass<D>, MeshMatrixMass<D>,
                                  PointSprings<D>, PointLoads<D>, PointConstraints<D>>;
@@ -50,7 +53,8 @@ using RigidComponents =
 template <class Rigid, class Point, class OtherPoint>
 using RigidMappings =
     Registry<IdentityMapping<Rigid, Rigid>, IdentityMapping<Rigid, Point>, RigidMapping<Rigid, Rigid>,
-             RigidMapping<Rigid, Point>, RigidMapping<Rigid, OtherPoint>>;
+             RigidMapping<Rigid, Point>, RigidMapping<Rigid, OtherPoint>, BeamLinearMapping<Rigid, Point>,
+             BeamLinearMapping<Rigid, OtherPoint>>;
 template <class In, class Out>
 using PointMappings = Registry<IdentityMapping<In, Out>, SubsetMapping<In, Out>>;
 template <class In, class Out>

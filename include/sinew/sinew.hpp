@@ -3,6 +3,7 @@
 
 // All of Sinew that needs no other package than Eigen and Boost.Hana.
 #include <sinew/constraint/affine_movement.hpp>
+#include <sinew/constraint/attach.hpp>
 #include <sinew/constraint/fixed_constraint.hpp>
 #include <sinew/constraint/fixed_plane.hpp>
 #include <sinew/constraint/fixed_rotation.hpp>
@@ -30,6 +31,7 @@
 #include <sinew/engine/topological_mapping.hpp>
 #include <sinew/engine/transform_engine.hpp>
 #include <sinew/force/angular_spring.hpp>
+#include <sinew/force/beam_fem.hpp>
 #include <sinew/force/bending_springs.hpp>
 #include <sinew/force/constant_force.hpp>
 #include <sinew/force/element_pressure.hpp>
@@ -51,12 +53,14 @@
 #include <sinew/force/triangle_fem.hpp>
 #include <sinew/force/uniform_velocity_damping.hpp>
 #include <sinew/mapping/barycentric_mapping.hpp>
+#include <sinew/mapping/beam_linear_mapping.hpp>
 #include <sinew/mapping/center_of_mass_mapping.hpp>
 #include <sinew/mapping/distance_mapping.hpp>
 #include <sinew/mapping/identity_mapping.hpp>
 #include <sinew/mapping/rigid_mapping.hpp>
 #include <sinew/mapping/subset_mapping.hpp>
 #include <sinew/mapping/volume_mapping.hpp>
+#include <sinew/mass/beam_mass.hpp>
 #include <sinew/mass/diagonal_mass.hpp>
 #include <sinew/mass/mesh_matrix_mass.hpp>
 #include <sinew/mass/uniform_mass.hpp>

@@ -201,3 +201,34 @@ TEST_CASE("lengths and volumes go with their edges and tetrahedra, and the centr
   CHECK((sim.at<"body/centre">().state().position[0] - centre / whole).norm() < 1e-14);
   sim.animate(0.01);
 }
+
+TEST_CASE("attached points and listed beams go with what they refer to") {
+  using Attach = AttachProjectiveConstraint<Vec3d, Between<"body", "other">>;
+  std::vector<Rigid3d::Coord> frames;
+  for (int i = 0; i < 4; ++i) frames.push_back({{double(i), 0, 0}, Eigen::Quaterniond::Identity()});
+  Simulation sim{node<"root">(
+      EulerImplicitSolver{},
+      CGLinearSolver<>{},
+      node<"body">(TetrahedronTopology{tetrahedra()},
+                   MechanicalObject<Vec3d>{.position = row()},
+                   UniformMass<Vec3d>{}),
+      node<"other">(MechanicalObject<Vec3d>{.position = {row()[0], row()[4]}}, UniformMass<Vec3d>{}),
+      Attach{.indices1 = {0, 4}, .indices2 = {0, 1}, .constraintFactor = {1, 1}},
+      node<"beams">(MeshTopology{.edges = {{0, 1}, {1, 2}, {2, 3}}},
+                    MechanicalObject<Rigid3d>{.position = frames},
+                    UniformMass<Rigid3d>{},
+                    BeamFEMForceField<Rigid3d>{.listSegment = {0, 2}}))};
+  sim.init();
+  sim.removeElements("body", {.tetrahedra = {0}});
+  CHECK(sim.root().get<Attach>().indices1 == std::vector<int>{3});
+  CHECK(sim.root().get<Attach>().indices2 == std::vector<int>{1});
+  sim.removeElements("beams", {.edges = {0}});
+  auto& beams = sim.at<"beams">();
+  CHECK(beams.state().size() == 3);
+  CHECK(beams.get<BeamFEMForceField<Rigid3d>>().listSegment == std::vector<int>{1});
+  sim.removeElements("beams", {.edges = {1}});
+  CHECK(beams.state().size() == 2);
+  CHECK(beams.get<BeamFEMForceField<Rigid3d>>().none);
+  CHECK(beams.get<BeamFEMForceField<Rigid3d>>().driver.packs.empty());
+  sim.animate(0.01);
+}

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "catch.hpp"
 #include "validation/closed_forms.hpp"
+#include "validation/record.hpp"
 
 #include <sinew/solver/central_difference.hpp>
 #include <sinew/solver/newmark_implicit.hpp>
@@ -44,4 +45,32 @@ TEST_CASE("the trapezoidal rule and Newmark keep the energy of a linear system")
   CHECK(drift(EulerImplicitSolver{.trapezoidalScheme = true}) < 1e-10);
   CHECK(drift(NewmarkImplicitSolver{}) < 1e-10);
   CHECK(drift(VariationalSymplecticSolver{}) < 1e-10);
+}
+
+TEST_CASE("the energy of an orbit over 100,000 steps, for the page") {
+  // the orbit above; the largest error so far, at steps that grow by turns 2, 2.5 and 2 times
+  Record curve("energy_drift", {"solver", "step", "error"});
+  const int last = Record::wanted() ? 100000 : 1000;
+  auto follow = [&](std::string name, auto solver) {
+    auto sim = mass_on_spring(solver, {2, 0}, {0, 2});
+    auto energy = [&] { return sim.kineticEnergy() + sim.potentialEnergy(); };
+    const double start = energy();
+    double worst = 0;
+    for (int i = 1, next = 10; i <= last; ++i) {
+      sim.animate(0.05 / std::sqrt(2.0));
+      worst = std::max(worst, std::abs(energy() / start - 1));
+      if (i < next) continue;
+      curve.row(name, i, worst);
+      next = next * (text(next)[0] == '2' ? 5 : 4) / 2;
+    }
+    return worst;
+  };
+  const double symplectic = follow("EulerExplicitSolver", EulerExplicitSolver{});
+  CHECK(symplectic < 0.1);
+  follow("CentralDifferenceSolver", CentralDifferenceSolver{});
+  follow("VariationalSymplecticSolver", VariationalSymplecticSolver{.newtonError = 1e-13, .steps = 20});
+  follow("NewmarkImplicitSolver", NewmarkImplicitSolver{});
+  follow("RungeKutta4Solver", RungeKutta4Solver{});
+  follow("RungeKutta2Solver", RungeKutta2Solver{});
+  CHECK(follow("EulerImplicitSolver", EulerImplicitSolver{}) > symplectic);
 }

@@ -1,85 +1,18 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "components/equilibrium.hpp"
+#include "hyperelastic_laws.hpp"
+#include "record.hpp"
 
-#include <sinew/force/tetrahedron_hyperelasticity.hpp>
 #include <sinew/topology/regular_grid.hpp>
 
 #include <cmath>
 
 using namespace sinew;
+using namespace hyperelastic;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 namespace {
-
-using Body = TetrahedronHyperelasticityFEMForceField<Vec3d>;
-using Material = HyperelasticMaterial;
-
-/// A material and what its energy makes of stretches along three axes.
-struct Law {
-  Material material;
-  std::vector<double> p;
-
-  Body body() const {
-    Body b;
-    b.materialName = material;
-    b.parameterSet = p;
-    return b;
-  }
-  // parameters with which the volume hardly changes
-  Law stiffInVolume() const {
-    Law law = *this;
-    law.p.back() = 1e5;
-    return law;
-  }
-  // slope of W by B1 where W depends on it alone, times 2
-  double chain(double b1) const {
-    const double c[] = {1. / 2, 1. / 160, 11. / 67200, 19. / 3584000, 519. / 2759680000};
-    double sum = 0;
-    for (int n = 1; n <= 5; ++n) sum += 2 * p[0] * n * c[n - 1] * std::pow(b1, n - 1);
-    return sum;
-  }
-  /// Kirchhoff's stress s_a dW/ds_a [Pa] of stretches s, by hand.
-  Vector3d kirchhoff(Vector3d const& s) const {
-    const double j = s.prod(), ln = std::log(j);
-    const Vector3d c = s.cwiseAbs2(), one = Vector3d::Ones();
-    const double i1 = c.sum(), i2 = c[0] * c[1] + c[1] * c[2] + c[2] * c[0];
-    switch (material) {
-      case Material::StVenantKirchhoff:
-        return c.cwiseProduct(p[1] * (i1 - 3) / 2 * one + p[0] * (c - one));
-      case Material::NeoHookean:
-        return p[0] * (c - one) + p[1] * ln * one;
-      case Material::StableNeoHookean: {
-        const double a = 1 + p[0] / (p[0] + p[1]);
-        return p[0] * c + (p[0] + p[1]) * (j - a) * j * one;
-      }
-      case Material::MooneyRivlin:
-        return 2 * p[0] * std::pow(j, -2. / 3) * (c - i1 / 3 * one) +
-               2 * p[1] * std::pow(j, -4. / 3) * (i1 * c - c.cwiseAbs2() - 2 * i2 / 3 * one) +
-               p[2] * ln * one;
-      case Material::ArrudaBoyce: {
-        const double q = std::pow(j, -2. / 3);
-        return chain(q * i1) * q * (c - i1 / 3 * one) + p[1] * ln * one;
-      }
-      case Material::Ogden:
-        break;
-    }
-    Vector3d sum = p.back() * ln * one;
-    for (std::size_t i = 0; i + 1 < p.size(); i += 2) {
-      const Vector3d power = (s / std::cbrt(j)).array().pow(p[i + 1]);
-      sum += p[i] / p[i + 1] * (power - power.mean() * one);
-    }
-    return sum;
-  }
-};
-
-const std::vector<Law> laws{{Material::ArrudaBoyce, {100, 500}},
-                            {Material::StVenantKirchhoff, {100, 150}},
-                            {Material::NeoHookean, {100, 150}},
-                            {Material::MooneyRivlin, {30, 20, 500}},
-                            {Material::Ogden, {200, 3, 500}},
-                            {Material::Ogden, {120, 1.3, 40, 5, 20, -2, 500}},
-                            {Material::StableNeoHookean, {100, 150}}};
 
 /// The unit cube in 40 tetrahedra.
 const Mesh cube = regular_grid_tetrahedra(3, 3, 3, {0, 0, 0}, {1, 1, 1});
@@ -191,18 +124,36 @@ TEST_CASE("simple shear keeps the volume, and has each law's closed form") {
       Body body = ready_cube(law);
       Vec3d::VecCoord x = cube.positions;
       for (auto& p : x) p[0] += g * p[1];
-      auto const& p = law.p;
-      double shear = p[0] * g;  // of Neo-Hooke's
-      if (law.material == Material::StVenantKirchhoff) shear += (p[1] / 2 + p[0]) * g * g * g;
-      if (law.material == Material::MooneyRivlin) shear = 2 * (p[0] + p[1]) * g;
-      if (law.material == Material::ArrudaBoyce) shear = law.chain(3 + g * g) * g;
-      if (law.material == Material::Ogden) {
-        // principal stretches l, 1, 1/l
-        const double l = g / 2 + std::sqrt(1 + g * g / 4);
-        shear = 0;
-        for (std::size_t i = 0; i + 1 < p.size(); i += 2)
-          shear += p[i] / p[i + 1] * (std::pow(l, p[i + 1]) - std::pow(l, -p[i + 1])) * l / (1 + l * l);
-      }
-      CHECK(stress(body, x)(0, 1) == Approx(shear).epsilon(1e-12));
+      CHECK(stress(body, x)(0, 1) == Approx(law.shear(g)).epsilon(1e-12));
     }
+}
+
+TEST_CASE("curves of the response, for the page") {
+  // what the cases above check at a few stretches, along the whole curve
+  Record uniaxial("hyperelastic_uniaxial", {"law", "stretch", "stress", "closed form"}),
+      biaxial("hyperelastic_biaxial", {"law", "stretch", "stress", "closed form"}),
+      shear("hyperelastic_shear", {"law", "shear", "stress", "closed form"});
+  const std::vector<double> stretches =
+      Record::wanted() ? std::vector{0.7, 0.8, 0.9, 1.0001, 1.1, 1.2, 1.3, 1.4, 1.5, 1.6, 1.7}
+                       : std::vector{1.0001};
+  for (Law const& law : laws) {
+    const std::string name =
+        text(enum_names(Material{})[std::size_t(law.material)], law.p.size() > 3 ? " of 3 terms" : "");
+    INFO(name);
+    const double modulus = rest_moduli(law.material, law.p).shear;
+    for (const int axes : {1, 2})
+      for (const double stretch : stretches) {
+        if (law.material == Material::StVenantKirchhoff && axes * stretch > 2.5) continue;
+        const Vector3d s = free_stretch(law, axes, stretch);
+        const double closed = law.kirchhoff(s)[0] / stretch, found = pull(law, axes, stretch).stress(0, 0);
+        CHECK(found == Approx(closed).margin(1e-7 * law.p.back()));
+        (axes == 1 ? uniaxial : biaxial).row(name, stretch, found / modulus, closed / modulus);
+      }
+    Body body = ready_cube(law);
+    for (double g = 0; g < 1.55; g += 0.1) {
+      Vec3d::VecCoord x = cube.positions;
+      for (auto& p : x) p[0] += g * p[1];
+      shear.row(name, g, stress(body, x)(0, 1) / modulus, law.shear(g) / modulus);
+    }
+  }
 }

@@ -35,6 +35,13 @@ struct Engine;        // makes its outputs from its fields before the scene star
 template <class C, class R>
 concept HasRole = std::same_as<typename C::Role, R>;
 
+/// A component between two states, at the paths that its `ends` name.
+template <class C>
+concept JoinsTwo = HasRole<C, role::InteractionForceField> || requires {
+  typename C::Ends;
+  requires C::between;
+};
+
 /// Elements over the points of one node, as components see them at init. Empty where there is no topology. A
 /// topology that has to be made first offers generate(where), which init calls before all else. One whose
 /// elements may be removed while the scene runs offers edit(), its ElementLists.
@@ -137,10 +144,20 @@ concept InteractionForceField = HasRole<C, role::InteractionForceField> &&
 template <class C, class D = typename C::DataTypes>
 concept ProjectiveConstraint = HasRole<C, role::ProjectiveConstraint> &&
     requires(C pc, InitContext<D> c, typename D::VecDeriv dx) {
+  requires !JoinsTwo<C>;
   pc.init(c);
   pc.projectResponse(dx);  // remove forbidden displacements
   // and, where points move on a prescribed path or stay on a surface, at the time t at the end of a step:
   //   pc.projectPosition(t, x);  pc.projectVelocity(t, v);
+  // and, where the accelerations M^-1 f that it allows are others than their projection:
+  //   pc.projectAcceleration(a);
+};
+/// The same between two states: each function has both vectors.
+template <class C, class D = typename C::DataTypes>
+concept InteractionConstraint = HasRole<C, role::ProjectiveConstraint> && JoinsTwo<C> &&
+    requires(C pc, InitContext<D> c, typename D::VecDeriv dx) {
+  pc.init(c, c);
+  pc.projectResponse(dx, dx);
 };
 
 template <class C, class In = typename C::In, class Out = typename C::Out>

@@ -276,7 +276,16 @@ inline constexpr std::array attributesNotYet =
                                      "applyRestPosition",
                                      "mapForces",
                                      "mapConstraints",
-                                     "mapMasses"});
+                                     "mapMasses",
+                                     "lastFreeRotation",
+                                     "restRotations",
+                                     "lastPos",
+                                     "lastDir",
+                                     "clamp",
+                                     "minDistance",
+                                     "positionFactor",
+                                     "velocityFactor",
+                                     "responseFactor"});
 
 /// Attributes that mean nothing in one class only: they are left over in well-known scenes, or say where to
 /// write.

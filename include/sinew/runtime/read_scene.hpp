@@ -856,10 +856,11 @@ class SceneReader {
       item.component->template visit<role::Topology>([&](auto& topology) {
         if constexpr (requires { topology.generate(""); }) topology.generate(item.info->cppName);
       });
-      item.component->template visit<role::InteractionForceField>([&](auto& joint) {
-        if constexpr (requires { joint.ends.object1; })
-          joint.ends.object1 = item.ends[0], joint.ends.object2 = item.ends[1];
-      });
+      item.component->template visit<role::InteractionForceField, role::ProjectiveConstraint>(
+          [&](auto& joint) {
+            if constexpr (requires { joint.ends.object1; })
+              joint.ends.object1 = item.ends[0], joint.ends.object2 = item.ends[1];
+          });
     });
     if (item.info->role == RoleKind::mapping) ends(item);
     item.progress = Progress::done;

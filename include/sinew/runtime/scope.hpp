@@ -208,12 +208,13 @@ struct RuntimeScope {
     addSurroundings(all);
     for (auto* end : entry.ends)
       if (end) RuntimeScope(*end).addSurroundings(all);
-    // a mapping may have asked for the masses of its parent
+    // masses that it may have asked for
     if (entry.component.template is<role::Mapping>()) {
-      const RuntimeScope parent = parentScope();
-      if (!parent.atMount)
-        for (auto const& other : parent.node.components())
-          if (other.component.template is<role::Mass>()) all.push_back(other.component.address());
+      parentScope().addMass(all);
+    } else if (entry.component.template is<role::ProjectiveConstraint>()) {
+      addMass(all);
+      for (auto* end : entry.ends)
+        if (end) RuntimeScope(*end).addMass(all);
     }
     return all;
   }
@@ -268,6 +269,13 @@ struct RuntimeScope {
     } else if (!owner.atMount && owner.node.mapping() && &owner.node != &node) {
       owner.addSurroundings(all);
     }
+  }
+
+  void addMass(std::vector<void const*>& all) const {
+    const RuntimeScope owner = stateScope();
+    if (owner.atMount) return;
+    for (auto const& other : owner.node.components())
+      if (other.component.template is<role::Mass>()) all.push_back(other.component.address());
   }
 
   // the Jacobian of a point of this scope's state with respect to the independent states above it

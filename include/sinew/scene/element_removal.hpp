@@ -209,7 +209,7 @@ class ElementRemoval {
         if (touchedStates_.contains(&parent))
           follow_fields(c, {ofState(&child), {}, ofState(&parent), ofTopology(scope.topologyAddress())});
       });
-    } else if constexpr (HasRole<C, role::InteractionForceField>) {
+    } else if constexpr (JoinsTwo<C>) {
       scope.withEnds(c, [&](auto const& a, auto const& b) {
         if (ofState(a.stateAddress()).changes() || ofState(b.stateAddress()).changes())
           follow_fields(c, {ofState(a.stateAddress()), ofState(b.stateAddress()), {}, ofTopology(nullptr)});
@@ -238,7 +238,7 @@ class ElementRemoval {
   bool isTouched(C const& c, S const& scope) const {
     if constexpr (HasRole<C, role::VisualModel>) {
       return touchedStates_.contains(&c);
-    } else if constexpr (HasRole<C, role::InteractionForceField>) {
+    } else if constexpr (JoinsTwo<C>) {
       bool any = false;
       scope.withEnds(c, [&](auto const& a, auto const& b) {
         any = touchedStates_.contains(a.stateAddress()) || touchedStates_.contains(b.stateAddress());

@@ -113,7 +113,14 @@ struct MechanicalOperations {
                auto& s = stateOf(c, scope);
                c.accFromF(s[a], s[x], s[f]);
              }));
-    projectResponse(a);
+    traverse(root, on<role::ProjectiveConstraint>([&](auto& c, auto const& scope) {
+               withConstrained(c, scope, [&](auto&... s) {
+                 if constexpr (requires { c.projectAcceleration(s[a]...); })
+                   c.projectAcceleration(s[a]...);
+                 else
+                   c.projectResponse(s[a]...);
+               });
+             }));
   }
 
   /// a = acceleration at time t in the state (x, v), mapped states included.
@@ -128,15 +135,16 @@ struct MechanicalOperations {
   /// Removes forbidden displacements.
   void projectResponse(DerivId dx) {
     traverse(root, on<role::ProjectiveConstraint>([&](auto& c, auto const& scope) {
-               c.projectResponse(stateOf(c, scope)[dx]);
+               withConstrained(c, scope, [&](auto&... s) { c.projectResponse(s[dx]...); });
              }));
   }
   /// Puts constrained points where they have to be at time t, with the velocity they have there.
   void projectPositionAndVelocity(double t, CoordId x, DerivId v) {
     traverse(root, on<role::ProjectiveConstraint>([&](auto& c, auto const& scope) {
-               [[maybe_unused]] auto& s = stateOf(c, scope);
-               if constexpr (requires { c.projectPosition(t, s[x]); }) c.projectPosition(t, s[x]);
-               if constexpr (requires { c.projectVelocity(t, s[v]); }) c.projectVelocity(t, s[v]);
+               withConstrained(c, scope, [&]([[maybe_unused]] auto&... s) {
+                 if constexpr (requires { c.projectPosition(t, s[x]...); }) c.projectPosition(t, s[x]...);
+                 if constexpr (requires { c.projectVelocity(t, s[v]...); }) c.projectVelocity(t, s[v]...);
+               });
              }));
   }
 
@@ -203,6 +211,10 @@ struct MechanicalOperations {
     });
     matrix.startPattern(dofs);
     assemblePhase<AssemblyPhase::pattern>(matrix, {});
+    traverse(root, on<role::ProjectiveConstraint>([&](auto& c, auto const& scope) {
+               const auto sink = constraintSink<AssemblyPhase::pattern>(matrix, c, scope);
+               if constexpr (requires { c.announce(sink); }) c.announce(sink);
+             }));
     matrix.finishPattern();
     assemblePhase<AssemblyPhase::bind>(matrix, {});
   }
@@ -213,9 +225,7 @@ struct MechanicalOperations {
     assemblePhase<AssemblyPhase::add>(matrix, factors);
     matrix.mirror();
     traverse(root, on<role::ProjectiveConstraint>([&](auto& c, auto const& scope) {
-               if (scope.stateScope().mapped()) return;
-               const DirectDofs<std::decay_t<decltype(c)>::DataTypes::size> dofs{stateOf(c, scope).dofOffset};
-               c.projectMatrix(make_sink<AssemblyPhase::add>(matrix, dofs, dofs));
+               c.projectMatrix(constraintSink<AssemblyPhase::add>(matrix, c, scope));
              }));
     // what fills up the last block of a state is nobody's
     forEachIndependent([&](auto& s) {
@@ -299,6 +309,27 @@ struct MechanicalOperations {
   void forEnds(C const& c, S const& scope, F&& f) {
     using D = typename C::DataTypes;
     scope.withEnds(c, [&](auto const& a, auto const& b) { f(a.template state<D>(), b.template state<D>()); });
+  }
+
+  // f(state) of a constraint, or f(state, state) of one that joins two
+  template <class C, class S, class F>
+  static void withConstrained(C const& c, S const& scope, F&& f) {
+    using D = typename C::DataTypes;
+    if constexpr (JoinsTwo<C>)
+      scope.withEnds(c,
+                     [&](auto const& a, auto const& b) { f(a.template state<D>(), b.template state<D>()); });
+    else
+      f(scope.template state<D>());
+  }
+  template <AssemblyPhase Phase, class Matrix, class C, class S>
+  static auto constraintSink(Matrix& matrix, C const& c, S const& scope) {
+    using Dofs = DirectDofs<C::DataTypes::size>;
+    Dofs first{0}, second{0};
+    withConstrained(c, scope, [&](auto& a, auto&... b) {
+      first.offset = second.offset = a.dofOffset;
+      ((second.offset = b.dofOffset), ...);
+    });
+    return MatrixSink<Phase, Matrix, Dofs>{matrix, first, second};
   }
 
   template <AssemblyPhase Phase, class Matrix>

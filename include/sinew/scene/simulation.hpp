@@ -116,13 +116,9 @@ class Simulation {
       scope.withMapped(c, [&](auto& child, auto& parent) {
         using Child = std::decay_t<decltype(child)>;
         auto place = [&](auto& rest) {
-          auto above = scope.template parentContext<typename C::In>();
-          std::vector<double> masses;
-          if constexpr (needs_masses<C>) {
-            masses = massesOf(scope.parentScope(), above);
-            above.masses = masses;
-          }
-          c.init(above, {scope.path(), rest, scope.topology()}, child.position);
+          withContext<C, typename C::In>(scope.parentScope(), [&](auto const& parent) {
+            c.init(parent, {scope.path(), rest, scope.topology()}, child.position);
+          });
         };
         if constexpr (HasRole<Child, role::VisualModel>) {
           child.init(scope.path());
@@ -144,33 +140,40 @@ class Simulation {
     }
   }
 
-  // masses of the points of a state: the sums of the rows of M
-  template <class S, class D>
-  static std::vector<double> massesOf(S const& scope, InitContext<D> const& context) {
+  // f(what a component of class C is given at init of the state of a scope); the masses of its points are the
+  // sums of the rows of M
+  template <class C, class D, class S, class F>
+  static void withContext(S const& scope, F&& f) {
+    auto context = scope.template context<D>();
     std::vector<double> masses;
-    scope.withMass([&](auto& mass) {
-      if constexpr (std::is_same_v<typename std::decay_t<decltype(mass)>::DataTypes, D>) {
-        mass.init(context);
-        typename D::VecDeriv along(context.rest.size(), D::Deriv::Unit(0)),
-            sums(along.size(), D::Deriv::Zero());
-        mass.addMDx(sums, context.rest, along, 1.0);
-        for (auto const& sum : sums) masses.push_back(double(sum[0]));
-      }
-    });
-    return masses;
+    if constexpr (needs_masses<C>)
+      scope.stateScope().withMass([&](auto& mass) {
+        if constexpr (std::is_same_v<typename std::decay_t<decltype(mass)>::DataTypes, D>) {
+          mass.init(context);
+          typename D::VecDeriv along(context.rest.size(), D::Deriv::Unit(0)),
+              sums(along.size(), D::Deriv::Zero());
+          mass.addMDx(sums, context.rest, along, 1.0);
+          for (auto const& sum : sums) masses.push_back(double(sum[0]));
+        }
+      });
+    context.masses = masses;
+    f(context);
   }
 
   template <class C, class S>
   static void initComponent(C& c, S const& scope) {
     if constexpr (HasRole<C, role::Topology>) {
       scope.withContext([&](auto const& context) { c.init(context); });
+    } else if constexpr (JoinsTwo<C>) {
+      using D = typename C::DataTypes;
+      scope.withEnds(c, [&](auto const& a, auto const& b) {
+        withContext<C, D>(a, [&](auto const& first) {
+          withContext<C, D>(b, [&](auto const& second) { c.init(first, second); });
+        });
+      });
     } else if constexpr (HasRole<C, role::ForceField> || HasRole<C, role::Mass> ||
                          HasRole<C, role::ProjectiveConstraint>) {
-      c.init(scope.template context<typename C::DataTypes>());
-    } else if constexpr (HasRole<C, role::InteractionForceField>) {
-      using D = typename C::DataTypes;
-      scope.withEnds(
-          c, [&](auto const& a, auto const& b) { c.init(a.template context<D>(), b.template context<D>()); });
+      withContext<C, typename C::DataTypes>(scope, [&](auto const& context) { c.init(context); });
     }
   }
 
