@@ -14,7 +14,7 @@
 #include <sinew/force/tetrahedron_hyperelasticity.hpp>
 #include <sinew/force/tetrahedron_viscoelasticity.hpp>
 #include <sinew/force/triangle_fem.hpp>
-#include <sinew/linalg/block_matrix.hpp>
+#include <sinew/linalg/preconditioner.hpp>
 #include <sinew/mapping/barycentric_mapping.hpp>
 #include <sinew/mapping/identity_mapping.hpp>
 #include <sinew/mapping/rigid_mapping.hpp>
@@ -161,12 +161,14 @@ void add_mapping(std::vector<Work>& list, std::string family, typename Mapping::
   list.push_back({family, "applyJT", child.size(), [=] { s->mapping.applyJT(s->force, s->v); }});
 }
 
-/// What conjugate gradients do with vectors, and with the assembled matrix of the tetrahedra.
+/// What linear solvers do with vectors, with the assembled matrix of the tetrahedra, and to be
+/// preconditioned.
 template <class D>
-void add_vectors(std::vector<Work>& list, std::shared_ptr<Body<D>> body) {
+void add_linear(std::vector<Work>& list, std::shared_ptr<Body<D>> body) {
   using Real = typename D::Real;
+  using Matrix = CompressedRowSparseMatrix<Real, 3>;
   struct System {
-    CompressedRowSparseMatrix<Real, 3> matrix;
+    Matrix matrix;
     Eigen::Matrix<Real, Eigen::Dynamic, 1> p, q;
     double sum;
   };
@@ -175,7 +177,10 @@ void add_vectors(std::vector<Work>& list, std::shared_ptr<Body<D>> body) {
   s->matrix.startPattern(int(3 * n));
   for (auto const& [i, j] : body->edges) s->matrix.announce(3 * i, 3 * j, 3, 3);
   s->matrix.finishPattern();
+  // definite, since its diagonal dominates
   std::fill(s->matrix.values.begin(), s->matrix.values.end(), Real(0.01));
+  for (const int k : s->matrix.diagonal)
+    for (int c = 0; c < 3; ++c) s->matrix.block(k)[4 * c] = 1;
   s->p.setConstant(Eigen::Index(3 * n + 1), Real(1));
   s->q.setZero(Eigen::Index(3 * n + 1));
   list.push_back({"vectors", "x += f y", n, [=] { vec::peq(body->f, body->v, Real(1e-3)); }});
@@ -183,6 +188,16 @@ void add_vectors(std::vector<Work>& list, std::shared_ptr<Body<D>> body) {
   list.push_back({"matrix of 3 x 3 blocks", "multiply, a block", s->matrix.columns.size(), [=] {
                     s->matrix.multiply(s->p.data(), s->q.data());
                   }});
+  for (const auto method : {PreconditionerMethod::blockJacobi,
+                            PreconditionerMethod::ssor,
+                            PreconditionerMethod::incompleteCholesky,
+                            PreconditionerMethod::ldl}) {
+    auto m = std::make_shared<Preconditioner<Matrix>>();
+    m->init(s->matrix, method, s->matrix.dofs());
+    const std::string family = "preconditioner " + std::string(enum_names(method)[std::size_t(method)]);
+    list.push_back({family, "update", n, [=] { m->update(s->matrix); }});
+    list.push_back({family, "apply", n, [=] { m->apply(s->p, s->q); }});
+  }
 }
 
 /// Masses, mappings and vectors: loops over points, which the compiler vectorises or not.
@@ -200,7 +215,7 @@ std::vector<Work> points() {
   add_mapping<BarycentricMapping<D, D>>(list, "barycentric, tetrahedra", b.rest, b.volumes(false), b.x);
   add_mapping<BarycentricMapping<D, D>>(list, "barycentric, hexahedra", b.rest, b.volumes(true), b.x);
   add_mapping<RigidMapping<Rigid, D>>(list, "rigid mapping", {typename Rigid::Coord{}}, {}, b.x);
-  add_vectors<D>(list, body);
+  add_linear<D>(list, body);
   return list;
 }
 

@@ -17,8 +17,10 @@ using RigidLoads = Registry<ConstantForceField<D>, LinearForceField<D>, RestShap
 template <class D>
 using PointLoads = Registry<RigidLoads<D>, SphereForceField<D>>;
 template <class D>
-using ElementForces = Registry<TetrahedronFEMForceField<D>, HexahedronFEMForceField<D>,
-                               TriangleFEMForceField<D>, SurfacePressureForceField<D>>;
+using ElementForces =
+    Registry<TetrahedronFEMForceField<D>, HexahedronFEMForceField<D>, TriangleFEMForceField<D>,
+             SurfacePressureForceField<D>, TrianglePressureForceField<D>, QuadPressureForceField<D>,
+             EdgePressureForceField<D>>;
 template <class D>
 using HyperelasticForces =
     Registry<TetrahedronHyperelasticityFEMForceField<D>, TetrahedronViscoelasticityFEMForceField<D>>;
@@ -92,9 +94,9 @@ using AssembledSolvers =
 using StandardSolvers =
     Registry<EulerExplicitSolver, CentralDifferenceSolver, RungeKutta2Solver, RungeKutta4Solver,
              RungeKutta45Solver, EulerImplicitSolver, NewmarkImplicitSolver, VariationalSymplecticSolver,
-             BDFOdeSolver, StaticSolver, CGLinearSolver<>, AssembledSolvers<CGLinearSolver>,
-             CGLinearSolver<CompressedRowSparseMatrixMat3x3f>, MinResLinearSolver<>,
-             AssembledSolvers<MinResLinearSolver>, ShewchukPCGLinearSolver<>,
+             BDFOdeSolver, StaticSolver, DampVelocitySolver, CGLinearSolver<>,
+             AssembledSolvers<CGLinearSolver>, CGLinearSolver<CompressedRowSparseMatrixMat3x3f>,
+             MinResLinearSolver<>, AssembledSolvers<MinResLinearSolver>, ShewchukPCGLinearSolver<>,
              AssembledSolvers<ShewchukPCGLinearSolver>, AssembledSolvers<SparseLDLSolver>,
              AssembledSolvers<CholeskySolver>>;
 template <class D>

@@ -34,6 +34,7 @@
 #include <sinew/force/beam_fem.hpp>
 #include <sinew/force/bending_springs.hpp>
 #include <sinew/force/constant_force.hpp>
+#include <sinew/force/element_pressure.hpp>
 #include <sinew/force/fast_triangular_bending_springs.hpp>
 #include <sinew/force/gravity.hpp>
 #include <sinew/force/hexahedron_fem.hpp>
@@ -70,6 +71,7 @@
 #include <sinew/solver/central_difference.hpp>
 #include <sinew/solver/cg_linear_solver.hpp>
 #include <sinew/solver/cholesky_solver.hpp>
+#include <sinew/solver/damp_velocity.hpp>
 #include <sinew/solver/euler_explicit.hpp>
 #include <sinew/solver/euler_implicit.hpp>
 #include <sinew/solver/min_res_linear_solver.hpp>

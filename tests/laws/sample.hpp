@@ -180,6 +180,8 @@ void for_each_variant(Random& random, F&& use) {
     c.triangleIndices.clear(), c.quadIndices.clear();
     c.min.reset(), c.max.reset();
   }
+  if constexpr (requires { c.pressedElements; })
+    for (int& i : c.pressedElements) i %= 24;  // quads of the body
   // movements over the times 0 to 2; a velocity turns a body about one axis, as its orientation has it
   if constexpr (requires { c.keyTimes; }) {
     auto fill = [&](auto& values, bool oneAxis) {

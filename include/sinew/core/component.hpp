@@ -223,6 +223,13 @@ concept OdeSolver = HasRole<C, role::OdeSolver> && requires {
   { C::auxiliary } -> std::convertible_to<Auxiliary>;
 };
 
+/// An ODE solver that does not integrate but changes the state after the solver that stands before it in its
+/// node.
+template <class C>
+inline constexpr bool stands_beside = requires {
+  requires C::beside;
+};
+
 template <class C>
 concept LinearSolver = HasRole<C, role::LinearSolver> && requires {
   { C::auxiliary } -> std::convertible_to<Auxiliary>;

@@ -182,6 +182,10 @@ void runtime_checks(RuntimeScope<R> const& scope) {
   for (auto& entry : node.components()) {
     auto one = [&]<class Role>(int slot, std::string_view what) {
       if (!entry.component.template is<Role>()) return;
+      bool beside = false;
+      entry.component.template visit<role::OdeSolver>(
+          [&](auto const& ode) { beside = stands_beside<std::decay_t<decltype(ode)>>; });
+      if (beside) return;
       if (first[slot])
         return scope.collect([&] {
           detail::RuntimeChecker<R>{scope, entry}.fail(text("is the second ",

@@ -261,6 +261,9 @@ inline constexpr std::array attributesNotYet =
                                      "warmStart",
                                      "geometricStiffness",
                                      "useRestPosition",
+                                     "cauchyStress",
+                                     "p_intensity",
+                                     "binormal",
                                      "preconditioner",
                                      "preconditioners",
                                      "nbMaxIterations",
@@ -305,7 +308,9 @@ inline constexpr std::array attributesWithoutMeaningOf =
                                 {"TriangleFEMForceField", "computePrincipalStress"},
                                 {"VariationalSymplecticSolver", "file"},
                                 {"RegularGridTopology", "position"},
-                                {"GridMeshCreator", "filename"}});
+                                {"GridMeshCreator", "filename"},
+                                {"TrianglePressureForceField", "useConstantForce"},
+                                {"EdgePressureForceField", "arrowSizeCoef"}});
 
 /// Attributes of nodes that concern pictures or bookkeeping.
 inline constexpr std::array nodeAttributesWithoutMeaning =

@@ -47,6 +47,7 @@ class SceneWriter {
     const bool mapped = node.mapping() != nullptr;
     for (auto const& entry : node.components())
       entry.component.template visit<role::OdeSolver>([&](auto const& ode) {
+        if constexpr (stands_beside<std::decay_t<decltype(ode)>>) return;
         kept = 0;
         if constexpr (requires { ode.history; }) kept = ode.history.derivs;
       });

@@ -334,7 +334,7 @@ constexpr bool one_of_each() {
   using N = typename S::NodeType;
   constexpr bool state = N::template count<role::State> + N::template count<role::VisualModel> <= 1;
   constexpr bool mapping = N::template count<role::Mapping> <= 1, mass = N::template count<role::Mass> <= 1,
-                 solver = N::template count<role::OdeSolver> <= 1;
+                 solver = N::template count<role::OdeSolver> - N::solversBeside <= 1;
   static_assert(state,
                 "Sinew: a node has two states. Give each MechanicalObject or VisualModel a node of its own.");
   static_assert(mapping, "Sinew: a node has two mappings; its state can follow one parent.");

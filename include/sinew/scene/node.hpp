@@ -57,6 +57,8 @@ struct Node<Name, hana::tuple<Cs...>, hana::tuple<Ns...>> {
   /// How many components have the role R, and where the first of them stands (-1: none).
   template <class R>
   static constexpr int count = (0 + ... + int(HasRole<Cs, R>));
+  /// ODE solvers of the kind that stands beside the one of a node.
+  static constexpr int solversBeside = (0 + ... + int(stands_beside<Cs>));
   template <class R>
   static constexpr int indexOf = [] {
     int i = 0, found = -1;

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/component.hpp>
+#include <sinew/topology/adjacency.hpp>
+
+#include <algorithm>
+#include <vector>
+
+namespace sinew {
+
+/// What bears the load, and how SOFA's three classes call it.
+namespace pressed {
+struct Triangles {
+  static constexpr std::string_view className = "TrianglePressureForceField", list = "triangleList",
+                                    older = "triangleIndices", kind = "triangle", unit = "Pa",
+                                    load = "force per area of the triangles at rest";
+  static constexpr Of what = Of::triangles;
+  static std::vector<Triangle> of(TopologyView const& t) { return {t.triangles.begin(), t.triangles.end()}; }
+};
+struct Quads {
+  static constexpr std::string_view className = "QuadPressureForceField", list = "quadList",
+                                    older = "quadIndices", kind = "quad", unit = "Pa",
+                                    load = "force per area of the quads at rest";
+  static constexpr Of what = Of::quads;
+  static std::vector<Quad> of(TopologyView const& t) { return {t.quads.begin(), t.quads.end()}; }
+};
+/// The sides of the triangles, or of the quads, where the topology has no edges.
+struct Edges {
+  static constexpr std::string_view className = "EdgePressureForceField", list = "edgeIndices",
+                                    older = "edgeList", kind = "edge", unit = "N/m",
+                                    load = "force per length of the edges at rest";
+  static constexpr Of what = Of::edges;
+  static std::vector<Edge> of(TopologyView const& t) {
+    if (!t.edges.empty()) return {t.edges.begin(), t.edges.end()};
+    if (!t.triangles.empty()) return edges_of(std::vector<Triangle>(t.triangles.begin(), t.triangles.end()));
+    return edges_of_quads({t.quads.begin(), t.quads.end()});
+  }
+};
+}  // namespace pressed
+
+/// A load that stays as it is: p times the area (or length) A of an element at rest, shared evenly by its
+/// points.
+///   f_i = p A / n [N],   E = -sum_i f_i.(x_i - x_i at rest) [J]
+/// It acts on the elements with the given numbers and on those whose points all lie between two planes at
+/// rest, dmin < normal.x < dmax; where neither is given, on all. A load that follows area and normal is
+/// SurfacePressureForceField's.
+template <class D, class Kind>
+struct ElementPressure {
+  using Role = role::ForceField;
+  using DataTypes = D;
+  using Real = typename D::Real;
+  using Deriv = typename D::Deriv;
+  using VecCoord = typename D::VecCoord;
+  using VecDeriv = typename D::VecDeriv;
+  static constexpr std::string_view className = Kind::className;
+
+  Deriv pressure = Deriv::Zero();
+  std::vector<int> pressedElements{};
+  Eigen::Vector3d normal{0, 0, 0};
+  double dmin = 0, dmax = 0;
+
+  static constexpr auto fields() {
+    using F = ElementPressure;
+    return field_list(
+        field("pressure", &F::pressure, Kind::unit, Kind::load),
+        field(Kind::list, &F::pressedElements, "", "numbers of the elements that bear it", range::nonNegative)
+            .also(Kind::older)
+            .numbersOf(Kind::what),
+        field("normal", &F::normal, "", "normal of the two planes, used at the length given"),
+        field("dmin", &F::dmin, "m", "where the lower plane is, normal.x = dmin"),
+        field("dmax", &F::dmax, "m", "where the higher plane is; no planes where it is dmin"));
+  }
+
+  static constexpr ForceProperties properties() { return {.internal = false, .objective = false}; }
+
+  bool none = false;  // all of them have been removed
+  static constexpr auto state() {
+    return field_list(
+        field("none", &ElementPressure::none, "", "all of the elements with a number have been removed"));
+  }
+
+  struct Load {
+    int point;
+    Deriv force;
+  };
+  std::vector<Load> loads{};  // each point once
+  VecCoord rest{};
+
+  void init(InitContext<D> const& context) {
+    const std::string where = text(context.where, ": ", component_name<ElementPressure>());
+    const auto elements = Kind::of(context.topology);
+    if (elements.empty() && !none)
+      throw Error(where, text("the topology has no ", Kind::kind, "; give the node a topology with some"));
+    detail::check_indices(where, Kind::kind, elements, context.rest.size());
+    if (dmin > dmax) throw Error(where, text("dmin is ", dmin, ", above dmax, ", dmax, "; exchange them"));
+    std::vector<bool> bears(elements.size(), pressedElements.empty() && !(dmin < dmax) && !none);
+    for (const int e : pressedElements) {
+      if (std::size_t(e) >= elements.size())
+        throw Error(where,
+                    text(Kind::list,
+                         " has ",
+                         e,
+                         ", but the topology has ",
+                         elements.size(),
+                         " such elements, numbered from 0; correct the index"));
+      bears[std::size_t(e)] = true;
+    }
+    std::vector<double> share(context.rest.size(), 0.0);
+    for (std::size_t e = 0; e < elements.size(); ++e) {
+      auto at = [&](std::size_t k) -> Eigen::Vector3d {
+        return context.rest[std::size_t(elements[e][k])].template cast<double>();
+      };
+      bool between = dmin < dmax;
+      for (std::size_t k = 0; k < elements[e].size() && between; ++k)
+        between = normal.dot(at(k)) > dmin && normal.dot(at(k)) < dmax;
+      if (!bears[e] && !between) continue;
+      for (const Index i : elements[e])
+        share[std::size_t(i)] += size(elements[e], at) / double(elements[e].size());
+    }
+    loads.clear();
+    for (std::size_t i = 0; i < share.size(); ++i)
+      if (share[i] > 0) loads.push_back({int(i), Deriv(pressure * Real(share[i]))});
+    rest = context.rest;
+  }
+
+  void addForce(MechanicalParams const&, VecDeriv& f, VecCoord const&, VecDeriv const&) const {
+    for (Load const& l : loads) f[std::size_t(l.point)] += l.force;
+  }
+  void addDForce(MechanicalParams const&, VecDeriv&, VecDeriv const&) const {}
+  template <class Sink>
+  void addToMatrix(MechanicalParams const&, Sink const&) const {}
+  double potentialEnergy(VecCoord const& x) const {
+    double energy = 0;
+    for (Load const& l : loads)
+      energy -= double(l.force.dot(x[std::size_t(l.point)] - rest[std::size_t(l.point)]));
+    return energy;
+  }
+
+ private:
+  // length of an edge; area of a triangle, and of the two in a quad
+  template <class Element, class At>
+  static double size(Element const&, At const& at) {
+    constexpr std::size_t n = std::tuple_size_v<Element>;
+    if constexpr (n == 2) {
+      return (at(1) - at(0)).norm();
+    } else {
+      const Eigen::Vector3d a = at(1) - at(0), b = at(2) - at(0);
+      double area = a.cross(b).norm() / 2;
+      if constexpr (n == 4) area += b.cross(at(3) - at(0)).norm() / 2;
+      return area;
+    }
+  }
+};
+
+template <class D>
+using TrianglePressureForceField = ElementPressure<D, pressed::Triangles>;
+template <class D>
+using QuadPressureForceField = ElementPressure<D, pressed::Quads>;
+template <class D>
+using EdgePressureForceField = ElementPressure<D, pressed::Edges>;
+
+}  // namespace sinew

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "one_component.hpp"
+
+#include <sinew/core/follow.hpp>
+#include <sinew/force/element_pressure.hpp>
+
+using namespace sinew;
+using Eigen::Vector3d;
+using one::force;
+using one::ready;
+using one::refuses;
+
+namespace {
+
+const Vec3d::VecCoord corners{{0, 0, 0}, {2, 0, 0}, {2, 3, 0}, {0, 3, 0}, {2, 0, 1}, {2, 3, 1}};
+const std::vector<Triangle> triangles{{0, 1, 2}, {0, 2, 3}, {1, 4, 5}};
+const std::vector<Quad> quads{{0, 1, 2, 3}, {1, 2, 5, 4}};
+const std::vector<Edge> edges{{0, 1}, {1, 2}, {2, 3}};
+const TopologyView all{.edges = edges, .triangles = triangles, .quads = quads};
+const Vector3d p(1, -2, 4);
+
+void check(Vec3d::VecDeriv const& f, std::vector<double> const& shares) {
+  for (std::size_t i = 0; i < f.size(); ++i) CHECK((f[i] - shares[i] * p).norm() < 1e-13);
+}
+
+}  // namespace
+
+TEST_CASE("the load of an element at rest is shared by its points") {
+  // triangles of 3, 3 and 1.5 square metres; quads of 6 and 3; edges of 2, 3 and 2 metres
+  auto t = ready(TrianglePressureForceField<Vec3d>{.pressure = p}, corners, all);
+  check(force(t, corners), {2, 1.5, 2, 1, 0.5, 0.5});
+  auto q = ready(QuadPressureForceField<Vec3d>{.pressure = p}, corners, all);
+  check(force(q, corners), {1.5, 2.25, 2.25, 1.5, 0.75, 0.75});
+  auto e = ready(EdgePressureForceField<Vec3d>{.pressure = p}, corners, all);
+  check(force(e, corners), {1, 2.5, 2.5, 1, 0, 0});
+  // it stays when the body moves, and does work
+  Vec3d::VecCoord moved = corners;
+  for (auto& x : moved) x = 3 * x + Vector3d(0, 0, 2);
+  check(force(t, moved), {2, 1.5, 2, 1, 0.5, 0.5});
+  double work = 0;
+  for (std::size_t i = 0; i < moved.size(); ++i) work += force(t, moved)[i].dot(moved[i] - corners[i]);
+  CHECK(t.potentialEnergy(moved) == Approx(-work));
+  CHECK(t.potentialEnergy(corners) == 0);
+}
+
+TEST_CASE("loads are on the elements that are numbered, and on those between two planes") {
+  auto some =
+      ready(TrianglePressureForceField<Vec3d>{.pressure = p, .pressedElements = {1, 1}}, corners, all);
+  check(force(some, corners), {1, 0, 1, 1, 0, 0});
+  auto plane =
+      ready(TrianglePressureForceField<Vec3d>{.pressure = p, .normal = {2, 0, 0}, .dmin = 3.9, .dmax = 4.1},
+            corners,
+            all);
+  check(force(plane, corners), {0, 0.5, 0, 0, 0.5, 0.5});
+  auto both = ready(
+      TrianglePressureForceField<Vec3d>{
+          .pressure = p, .pressedElements = {1}, .normal = {2, 0, 0}, .dmin = 3.9, .dmax = 4.1},
+      corners,
+      all);
+  check(force(both, corners), {1, 0.5, 1, 1, 0.5, 0.5});
+  // edges are the sides of the surface where there are none: here in lexicographic order, 0-1 first
+  auto sides = ready(EdgePressureForceField<Vec3d>{.pressure = p, .pressedElements = {0}},
+                     corners,
+                     {.triangles = triangles});
+  check(force(sides, corners), {1, 1, 0, 0, 0, 0});
+  auto around =
+      ready(EdgePressureForceField<Vec3d>{.pressure = p}, corners, {.quads = std::span(quads).first(1)});
+  check(force(around, corners), {2.5, 2.5, 2.5, 2.5, 0, 0});
+}
+
+TEST_CASE("loads go with the elements that are removed, and do not turn to all") {
+  TrianglePressureForceField<Vec3d> load{.pressure = p, .pressedElements = {2}};
+  TopologyChange change;
+  change.elements[std::size_t(ElementKind::triangle)] = Renumbering::of({true, true, false});
+  follow_fields(load, {{}, {}, {}, change});
+  CHECK(load.none);
+  load.init(InitContext<Vec3d>{"there", corners, {.triangles = std::span(triangles).first(2)}});
+  CHECK(load.loads.empty());
+
+  EdgePressureForceField<Vec3d> edge{.pressure = p, .pressedElements = {0, 2}};
+  change.elements[std::size_t(ElementKind::edge)] = Renumbering::of({false, true, true});
+  follow_fields(edge, {{}, {}, {}, change});
+  CHECK(edge.pressedElements == std::vector<int>{1});
+}
+
+TEST_CASE("loads on what is not there are refused") {
+  using T = TrianglePressureForceField<Vec3d>;
+  refuses(T{}, corners, {}, {"the topology has no triangle"});
+  refuses(T{.pressedElements = {3}}, corners, all, {"triangleList has 3, but the topology has 3"});
+  refuses(T{.pressedElements = {-1}}, corners, all, {"triangleList[0] is -1"});
+  refuses(T{.pressure = {0, one::notANumber, 0}}, corners, all, {"pressure"});
+  refuses(T{.dmin = 2, .dmax = 1}, corners, all, {"dmin is 2"});
+  refuses(QuadPressureForceField<Vec3d>{}, corners, {.triangles = triangles}, {"the topology has no quad"});
+  const std::vector<Edge> wrong{{0, 9}};
+  refuses(EdgePressureForceField<Vec3d>{}, corners, {.edges = wrong}, {"edge 0 refers to point 9"});
+}
