@@ -43,7 +43,7 @@ double error_of(CentralDifferenceSolver const& solver, int steps) {
 
 }  // namespace
 
-TEST_CASE("every solver of the registry has the order that it claims") {
+TEST_CASE("every solver of the registry has the order that it claims", "[page]") {
   Record curve("orders", {"solver", "h", "error"}), table("orders_table", {"solver", "claimed", "measured"});
   auto measure = [&](std::string name, auto solver, int claimed) {
     INFO(name);
