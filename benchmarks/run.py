@@ -103,6 +103,21 @@ def fem(build, meshes, yardstick, rounds):
     return rows
 
 
+def families(build, rounds):
+    kinds = ["double", "double_one_by_one", "float", "float_one_by_one"]
+    print(f"\nnanoseconds an element of a body of 1,331 points, medians of {rounds} rounds in turn")
+    print(f"  {'':36} {'':18} {'double,':>10} {'double,':>10} {'float,':>10} {'float,':>10}")
+    print(f"  {'family':36} {'operation':18} {'lanes':>10} {'one by one':>10} {'lanes':>10} {'one by one':>10}")
+    rows = []
+    for line in output(build / "bench_families", rounds).splitlines():
+        family, operation, count, *times = line.split("; ")
+        row = {"family": family, "operation": operation, "count": int(count)}
+        row.update({kind: float(time) for kind, time in zip(kinds, times) if time != "-"})
+        rows.append(row)
+        print(f"  {family:36} {operation:18}" + "".join(f" {row[k]:10.2f}" if k in row else f" {'-':>10}" for k in kinds))
+    return rows
+
+
 def main():
     here = pathlib.Path(__file__).resolve().parent
     parser = argparse.ArgumentParser(description=__doc__)
@@ -110,7 +125,7 @@ def main():
     parser.add_argument("--meshes", type=pathlib.Path, nargs="*", help="tetrahedral meshes (.msh); default: blocks made here")
     parser.add_argument("--yardstick", type=pathlib.Path, help="C++ source of a program to compare the liver with")
     parser.add_argument("--rounds", type=int, default=5)
-    parser.add_argument("--only", choices=["fem", "by-hand", "runtime", "compile"], help="one table instead of all")
+    parser.add_argument("--only", choices=["fem", "by-hand", "runtime", "families", "compile"], help="one table instead of all")
     parser.add_argument("--json", type=pathlib.Path, default=pathlib.Path("out/bench.json"))
     arguments = parser.parse_args()
     for mesh in arguments.meshes or []:
@@ -146,6 +161,8 @@ def main():
             results["runtime"] = [
                 {"name": line[:34].strip(), "ratio": float(re.search(r"ratio ([\d.]+)", line)[1])} for line in text.splitlines()
             ]
+        if arguments.only in (None, "families"):
+            results["families"] = families(arguments.build, 2 * arguments.rounds + 1)
         if arguments.only in (None, "compile"):
             results["compile"] = measure.table()
     arguments.json.parent.mkdir(parents=True, exist_ok=True)

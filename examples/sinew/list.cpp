@@ -109,7 +109,8 @@ int list(ListOptions const& options) {
   const auto table = sinew::make_class_table<sinew::Standard>();
   const auto entries = entries_of(table);
   if (!options.markdown.empty()) {
-    writing([&] { sinew::io::write_file(options.markdown, reference_page(entries)); });
+    for (auto const& page : reference_pages(entries, options.headers))
+      writing([&] { sinew::io::write_file(text(options.markdown, '/', page.name), page.text); });
     return ok;
   }
   if (options.component.empty()) {

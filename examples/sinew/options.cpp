@@ -126,12 +126,15 @@ Options read_options(int argc, char** argv, int& status) {
 
   auto* list = app.add_subcommand("list", "Show the components that scenes may have, or explain one");
   list->footer(
-      "Examples:  sinew list   sinew list TetrahedronFEMForceField   sinew list --markdown reference.md");
+      "Examples:  sinew list   sinew list TetrahedronFEMForceField   sinew list --markdown reference");
   auto* component = list->add_option("component", o.list.component, "Class to explain, by one of its names")
                         ->type_name("NAME");
-  list->add_option("--markdown", o.list.markdown, "File for the reference of all components, as Markdown")
-      ->type_name("FILE")
+  list->add_option("--markdown", o.list.markdown, "Folder for the reference of all components, a page each")
+      ->type_name("FOLDER")
       ->excludes(component);
+  list->add_option("--headers", o.list.headers, "Folder of Sinew's headers, whose comments the pages have")
+      ->type_name("FOLDER")
+      ->capture_default_str();
 
   auto* bake = app.add_subcommand("bake", "Write a scene as C++, which runs faster than its file");
   bake->footer("Example:  sinew bake liver.scn -o liver.hpp");

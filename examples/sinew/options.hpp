@@ -42,7 +42,7 @@ struct CheckOptions {
   bool quiet = false;
 };
 struct ListOptions {
-  std::string component{}, markdown{};
+  std::string component{}, markdown{}, headers{"include/sinew"};
 };
 struct BakeOptions {
   SceneOptions scene{};

@@ -38,7 +38,12 @@ FieldWords words_of(Entry const& entry, std::string_view field, bool input);
 
 std::string joined(std::vector<std::string> const& words, std::string_view between);
 
-/// The reference of all components, as Markdown.
-std::string reference_page(std::vector<Entry> const& entries);
+/// A file of the reference: Markdown.
+struct Page {
+  std::string name, text;
+};
+/// A page for each component, and README.md that lists them. What they are is taken from the comments in the
+/// headers in a folder. Throws Failure where a component or a field has no explanation.
+std::vector<Page> reference_pages(std::vector<Entry> const& entries, std::string const& headerFolder);
 
 }  // namespace cli

@@ -28,14 +28,17 @@ using SpatialSprings =
              QuadBendingSprings<D>, FastTriangularBendingSprings<D>, PolynomialSpringsForceField<D>,
              PolynomialSpringsForceField<D, Linked>>;
 template <class D>
-using SpatialRigids = Registry<AngularSpringForceField<D>, FixedRotationConstraint<D>>;
+using FrameElements = Registry<BeamFEMForceField<D>, BeamMass<D>>;
+template <class D>
+using SpatialRigids = Registry<AngularSpringForceField<D>, FixedRotationConstraint<D>, FrameElements<D>>;
 template <class D>
 using PointConstraints =
     Registry<FixedConstraint<D>, PartialFixedConstraint<D>, FixedPlaneConstraint<D>,
              LinearMovementConstraint<D>, AffineMovementConstraint<D>, LinearVelocityConstraint<D>,
              OscillatorConstraint<D>, HermiteSplineConstraint<D>, ParabolicConstraint<D>,
              ProjectToPlaneConstraint<D>, ProjectToLineConstraint<D>, ProjectToPointConstraint<D>,
-             ProjectDirectionConstraint<D>>;
+             ProjectDirectionConstraint<D>, AttachProjectiveConstraint<D>,
+             AttachProjectiveConstraint<D, Linked>>;
 template <class D>
 using PointComponents = Registry<MechanicalObject<D>, UniformMass<D>, DiagonalMass<D>, MeshMatrixMass<D>,
                                  PointSprings<D>, PointLoads<D>, PointConstraints<D>>;
@@ -48,7 +51,8 @@ using RigidComponents =
 template <class Rigid, class Point, class OtherPoint>
 using RigidMappings =
     Registry<IdentityMapping<Rigid, Rigid>, IdentityMapping<Rigid, Point>, RigidMapping<Rigid, Rigid>,
-             RigidMapping<Rigid, Point>, RigidMapping<Rigid, OtherPoint>>;
+             RigidMapping<Rigid, Point>, RigidMapping<Rigid, OtherPoint>, BeamLinearMapping<Rigid, Point>,
+             BeamLinearMapping<Rigid, OtherPoint>>;
 template <class In, class Out>
 using PointMappings = Registry<IdentityMapping<In, Out>, SubsetMapping<In, Out>>;
 template <class In, class Out>
@@ -70,10 +74,13 @@ using StandardForces =
     Registry<SpatialComponents<Vec3d>, RigidComponents<Rigid3d>, SpatialRigids<Rigid3d>, CorePoints<Vec1d>,
              CorePoints<Vec2d>, PlaneForceField<Vec2d>, CorePoints<Vec6d>, CoreRigids<Rigid2d>,
              CoreBodies<Vec3f>, CoreRigids<Rigid3f>>;
+using MeasuringMappings = Registry<DistanceMapping<Vec3d, Vec1d>, DistanceMapping<Rigid3d, Vec1d>,
+                                   DistanceMapping<Vec2d, Vec1d>, VolumeMapping<Vec3d, Vec1d>,
+                                   CenterOfMassMapping<Vec3d, Vec3d>, CenterOfMassMapping<Rigid3d, Vec3d>>;
 using StandardMappings =
-    Registry<SpatialMappings<Vec3d, Vec3d>, SpatialMappings<Vec3d, Vec3f>, SpatialMappings<Vec3f, Vec3f>,
-             SpatialMappings<Vec3f, Vec3d>, PointMappings<Vec1d, Vec1d>, PointMappings<Vec2d, Vec2d>,
-             PointMappings<Vec6d, Vec6d>, RigidMappings<Rigid3d, Vec3d, Vec3f>,
+    Registry<MeasuringMappings, SpatialMappings<Vec3d, Vec3d>, SpatialMappings<Vec3d, Vec3f>,
+             SpatialMappings<Vec3f, Vec3f>, SpatialMappings<Vec3f, Vec3d>, PointMappings<Vec1d, Vec1d>,
+             PointMappings<Vec2d, Vec2d>, PointMappings<Vec6d, Vec6d>, RigidMappings<Rigid3d, Vec3d, Vec3f>,
              RigidMappings<Rigid3f, Vec3f, Vec3d>, IdentityMapping<Rigid2d, Rigid2d>,
              RigidMapping<Rigid2d, Rigid2d>, RigidMapping<Rigid2d, Vec2d>>;
 template <template <class> class Solver>
@@ -99,10 +106,13 @@ using StandardEngines =
              Regions<Rigid2d>>;
 using StandardTopologies =
     Registry<TetrahedronTopology, MeshTopology, RegularGridTopology, SparseGridTopology>;
+// meshes that need no file
+using MadeMeshes =
+    Registry<CubeTopology, CylinderGridTopology, SphereGridTopology, GridMeshCreator, MeshSubdivision>;
 
 /// Every component that Sinew brings, over the DataTypes that scenes use.
-struct Standard : Registry<Gravity, StandardTopologies, VisualModel, StandardEngines, StandardForces,
-                           StandardMappings, StandardSolvers> {};
+struct Standard : Registry<Gravity, StandardTopologies, MadeMeshes, VisualModel, StandardEngines,
+                           StandardForces, StandardMappings, StandardSolvers> {};
 
 /// The same over the rarer DataTypes too: what the law suites prove.
 struct Extended
@@ -110,6 +120,7 @@ struct Extended
                PointComponents<Vec2d>, PointComponents<Vec2f>, PointComponents<Vec6d>, PointComponents<Vec6f>,
                RigidComponents<Rigid2d>, RigidComponents<Rigid2f>, RigidComponents<Rigid3f>,
                SpatialRigids<Rigid3f>, IdentityMapping<Rigid2f, Rigid2f>, RigidMapping<Rigid2d, Vec2f>,
-               RigidMapping<Rigid2f, Vec2f>, RigidMapping<Rigid2f, Vec2d>> {};
+               RigidMapping<Rigid2f, Vec2f>, RigidMapping<Rigid2f, Vec2d>, DistanceMapping<Vec3f, Vec1f>,
+               VolumeMapping<Vec3f, Vec1f>, CenterOfMassMapping<Vec3d, Vec3f>> {};
 
 }  // namespace sinew

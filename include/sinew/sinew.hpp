@@ -3,6 +3,7 @@
 
 // All of Sinew that needs no other package than Eigen and Boost.Hana.
 #include <sinew/constraint/affine_movement.hpp>
+#include <sinew/constraint/attach.hpp>
 #include <sinew/constraint/fixed_constraint.hpp>
 #include <sinew/constraint/fixed_plane.hpp>
 #include <sinew/constraint/fixed_rotation.hpp>
@@ -19,7 +20,9 @@
 #include <sinew/control/step_callback.hpp>
 #include <sinew/engine/box_roi.hpp>
 #include <sinew/engine/generate_rigid_mass.hpp>
+#include <sinew/engine/grid_mesh_creator.hpp>
 #include <sinew/engine/mesh_loader.hpp>
+#include <sinew/engine/mesh_subdivision.hpp>
 #include <sinew/engine/nearest_point_roi.hpp>
 #include <sinew/engine/pair_box_roi.hpp>
 #include <sinew/engine/plane_roi.hpp>
@@ -28,6 +31,7 @@
 #include <sinew/engine/topological_mapping.hpp>
 #include <sinew/engine/transform_engine.hpp>
 #include <sinew/force/angular_spring.hpp>
+#include <sinew/force/beam_fem.hpp>
 #include <sinew/force/bending_springs.hpp>
 #include <sinew/force/constant_force.hpp>
 #include <sinew/force/fast_triangular_bending_springs.hpp>
@@ -48,9 +52,14 @@
 #include <sinew/force/triangle_fem.hpp>
 #include <sinew/force/uniform_velocity_damping.hpp>
 #include <sinew/mapping/barycentric_mapping.hpp>
+#include <sinew/mapping/beam_linear_mapping.hpp>
+#include <sinew/mapping/center_of_mass_mapping.hpp>
+#include <sinew/mapping/distance_mapping.hpp>
 #include <sinew/mapping/identity_mapping.hpp>
 #include <sinew/mapping/rigid_mapping.hpp>
 #include <sinew/mapping/subset_mapping.hpp>
+#include <sinew/mapping/volume_mapping.hpp>
+#include <sinew/mass/beam_mass.hpp>
 #include <sinew/mass/diagonal_mass.hpp>
 #include <sinew/mass/mesh_matrix_mass.hpp>
 #include <sinew/mass/uniform_mass.hpp>
@@ -71,8 +80,11 @@
 #include <sinew/solver/static_solver.hpp>
 #include <sinew/solver/variational_symplectic.hpp>
 #include <sinew/state/mechanical_object.hpp>
+#include <sinew/topology/cube_topology.hpp>
+#include <sinew/topology/cylinder_grid_topology.hpp>
 #include <sinew/topology/mesh_topology.hpp>
 #include <sinew/topology/regular_grid_topology.hpp>
 #include <sinew/topology/sparse_grid_topology.hpp>
+#include <sinew/topology/sphere_grid_topology.hpp>
 #include <sinew/topology/tetrahedron_topology.hpp>
 #include <sinew/visual/visual_model.hpp>

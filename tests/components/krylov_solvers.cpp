@@ -100,7 +100,9 @@ TEST_CASE("preconditioned conjugate gradients find what L D L' finds, with any p
   for (const auto method : {PreconditionerMethod::none,
                             PreconditionerMethod::jacobi,
                             PreconditionerMethod::blockJacobi,
-                            PreconditionerMethod::incompleteCholesky}) {
+                            PreconditionerMethod::ssor,
+                            PreconditionerMethod::incompleteCholesky,
+                            PreconditionerMethod::ldl}) {
     CHECK((run(ShewchukPCGLinearSolver<>{.tolerance = 1e-13, .precondition = method}).velocities - exact)
               .norm() < 1e-10 * exact.norm());
     CHECK((run(ShewchukPCGLinearSolver<Matrix3d>{.tolerance = 1e-13, .precondition = method}).velocities -
@@ -137,15 +139,20 @@ TEST_CASE("preconditioners save iterations on a bar") {
   const int uniform[] = {count(none, false),
                          count(jacobi, false),
                          count(blockJacobi, false),
-                         count(incompleteCholesky, false)},
+                         count(incompleteCholesky, false),
+                         count(ssor, false),
+                         count(ldl, false)},
             graded[] = {count(none, true),
                         count(jacobi, true),
                         count(blockJacobi, true),
-                        count(incompleteCholesky, true)};
+                        count(incompleteCholesky, true),
+                        count(ssor, true),
+                        count(ldl, true)};
   INFO("CG " << cg << ", jacobi " << uniform[1] << ", blockJacobi " << uniform[2] << ", incompleteCholesky "
-             << uniform[3]);
+             << uniform[3] << ", ssor " << uniform[4] << ", ldl " << uniform[5]);
   INFO("graded: CG " << cgGraded << ", jacobi " << graded[1] << ", blockJacobi " << graded[2]
-                     << ", incompleteCholesky " << graded[3]);
+                     << ", incompleteCholesky " << graded[3] << ", ssor " << graded[4] << ", ldl "
+                     << graded[5]);
   CHECK(uniform[0] == cg);
   CHECK(uniform[1] <= cg);
   CHECK(uniform[2] <= uniform[1]);
@@ -153,6 +160,11 @@ TEST_CASE("preconditioners save iterations on a bar") {
   CHECK(2 * graded[1] < cgGraded);
   CHECK(graded[2] <= graded[1]);
   CHECK(2 * graded[3] < graded[2]);
+  CHECK(3 * uniform[4] < 2 * uniform[2]);
+  CHECK(3 * graded[4] < 2 * graded[2]);
+  // A itself: one iteration, two where rounding leaves more than the tolerance
+  CHECK(uniform[5] <= 2);
+  CHECK(graded[5] <= 2);
   // one that is three steps old still serves
   CHECK(count(incompleteCholesky, false, 0) <= uniform[3] + 2);
 }

@@ -44,6 +44,7 @@ TEST_CASE("settings of solvers out of range are refused by name") {
   CHECK(has(refused(MinResLinearSolver<>{.tolerance = nan}), "tolerance is nan"));
   CHECK(has(refused(ShewchukPCGLinearSolver<>{.iterations = 0}), "iterations is 0"));
   CHECK(has(refused(ShewchukPCGLinearSolver<>{.updateStep = -1}), "update_step is -1"));
+  CHECK(has(refused(ShewchukPCGLinearSolver<>{.omega = 2}), "omega is 2"));
 }
 
 TEST_CASE("solvers are refused nothing by default, and no two share a name") {
@@ -60,6 +61,8 @@ TEST_CASE("solvers are refused nothing by default, and no two share a name") {
   });
   CHECK(owner.at("EulerImplicit") == "EulerImplicitSolver");
   CHECK(owner.at("CGSolver") == "CGLinearSolver");
-  CHECK(owner.at("EigenSimplicialLDLT") == "SparseLDLSolver");
+  for (const std::string direct :
+       {"EigenSimplicialLDLT", "EigenSimplicialLLT", "EigenSparseLU", "EigenSparseQR"})
+    CHECK(owner.at(direct) == "SparseLDLSolver");
   CHECK(owner.at("PCGLinearSolver") == "ShewchukPCGLinearSolver");
 }

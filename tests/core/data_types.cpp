@@ -12,6 +12,10 @@ static_assert(sizeof(Rigid3d::Coord) == 7 * sizeof(double) && sizeof(Rigid3f::Co
 static_assert(Vec1f::size == 1 && Vec2d::size == 2 && Vec6d::size == 6 && Rigid2d::size == 3 &&
               Rigid3d::size == 6);
 static_assert(data_types_name<Rigid3f>::value == "Rigid3f" && data_types_name<Vec6d>::value == "Vec6d");
+static_assert(data_types_name<WithLanes<Vec3f, 1>>::value == "Vec3fx1" &&
+              data_types_name<WithLanes<Vec3d, 16>>::value == "Vec3dx16");
+static_assert(lane_width<Vec3d>() == native_width<double> && lane_width<Vec3f>() == native_width<float> &&
+              lane_width<Rigid3d>() == 1 && lane_width<WithLanes<Vec3d, 2>>() == 2);
 
 TEST_CASE("increment and difference of rigid positions undo each other") {
   Rigid3d::Coord a;

@@ -45,7 +45,7 @@ Matrix chain(int n, double shift, bool ring, Eigen::MatrixXd& dense) {
 }
 
 template <class Matrix>
-Eigen::MatrixXd inverse_of(Preconditioner<Matrix> const& m, int n) {
+Eigen::MatrixXd inverse_of(Preconditioner<Matrix>& m, int n) {
   Eigen::MatrixXd inverse(n, n);
   Eigen::Matrix<typename Matrix::Real, Eigen::Dynamic, 1> e(n + 1), z(n + 1);
   for (int i = 0; i < n; ++i) {
@@ -77,6 +77,16 @@ TEMPLATE_TEST_CASE("preconditioners are the inverse of what they take", "",
   Eigen::MatrixXd blocks = Eigen::MatrixXd::Zero(dofs, dofs);
   for (int i = 0; i < dofs; i += B) blocks.block<B, B>(i, i) = dense.block<B, B>(i, i);
   CHECK((inverse(PreconditionerMethod::blockJacobi) * blocks - one).norm() < 1e-13);
+  // (D/w + L) (D/w)^-1 (D/w + L)' / (2 - w)
+  for (const double w : {1.0, 0.7, 1.4}) {
+    m.omega = w;
+    Eigen::MatrixXd left = dense.triangularView<Eigen::StrictlyLower>();
+    for (int i = 0; i < dofs; i += B) left.block<B, B>(i, i) = dense.block<B, B>(i, i) / w;
+    const Eigen::MatrixXd ssor = left * (blocks / w).inverse() * left.transpose() / (2 - w);
+    CHECK((inverse(PreconditionerMethod::ssor) * ssor - one).norm() < 1e-12);
+  }
+  CHECK((inverse(PreconditionerMethod::ldl) * dense - one).norm() < 1e-12);
+  CHECK(m.shift == 0);
   // a chain eliminated from its end has no fill: IC(0) is the whole factorisation
   CHECK((inverse(PreconditionerMethod::incompleteCholesky) * dense - one).norm() < 1e-12);
   CHECK(m.shift == 0);
@@ -109,11 +119,20 @@ TEST_CASE("preconditioners of an indefinite matrix are positive all the same") {
   REQUIRE(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(dense).eigenvalues()[0] < -0.5);
   for (const auto method : {PreconditionerMethod::jacobi,
                             PreconditionerMethod::blockJacobi,
-                            PreconditionerMethod::incompleteCholesky}) {
+                            PreconditionerMethod::ssor,
+                            PreconditionerMethod::incompleteCholesky,
+                            PreconditionerMethod::ldl}) {
     Preconditioner<Matrix> m;
     m.init(a, method, 3 * n);
     m.update(a);
-    CHECK((m.shift > 0) == (method == PreconditionerMethod::incompleteCholesky));
+    const bool factorised =
+        method == PreconditionerMethod::incompleteCholesky || method == PreconditionerMethod::ldl;
+    CHECK((m.shift > 0) == factorised);
+    // the whole factorisation is that of A + shift diag(A)
+    if (method == PreconditionerMethod::ldl) {
+      dense.diagonal() *= 1 + m.shift;
+      CHECK((inverse_of(m, 3 * n) * dense - Eigen::MatrixXd::Identity(3 * n, 3 * n)).norm() < 1e-9);
+    }
     CHECK(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(inverse_of(m, 3 * n)).eigenvalues()[0] > 0);
   }
 }

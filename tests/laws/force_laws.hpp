@@ -174,7 +174,7 @@ struct ForceSuite {
 
     if constexpr (isDouble) {
       if (c.claims.conservative) energyGradient(c, x);
-      tangent(c, c.claims.exactTangent ? x : turned(rest), v);
+      tangent(c, c.claims.exactTangent ? x : D::rigid && !c.claims.objective ? rest : turned(rest), v);
     }
     symmetry(c, x, v);
     assembled(c, x, v);
@@ -200,6 +200,9 @@ struct ForceSuite {
   }
   VecCoord turned(VecCoord x) {
     if constexpr (D::rigid) {
+      if constexpr (D::spatial == 3)
+        for (auto& p : x)
+          p = {wholeTurn * p.center + Vec<Real, 3>::Constant(Real(0.5)), wholeTurn * p.orientation};
       return x;
     } else {
       const auto q = rotation();
@@ -207,6 +210,8 @@ struct ForceSuite {
       return x;
     }
   }
+  // of rigid bodies in space
+  const Quat<Real> wholeTurn = Quat<Real>(Real(0.4), Real(-0.3), Real(0.6), Real(0.5)).normalized();
   // a turn in each of the planes of two axes that follow one another
   Mat<Real, D::size> rotation() const {
     Mat<Real, D::size> q = Mat<Real, D::size>::Identity();
@@ -281,11 +286,24 @@ struct ForceSuite {
   // forces inside a body sum to zero and turn nothing; moving it as a whole costs nothing
   void wholeMotion(FieldSubject<D>& c, VecCoord const& x, VecDeriv const& v) {
     const VecDeriv f = force(c, x, v);
-    typename D::Deriv sum = D::Deriv::Zero();
-    for (auto const& fi : f) sum += fi;
+    Vec<Real, D::rigid ? D::spatial : D::size> sum = sum.Zero();
+    for (auto const& fi : f) sum += fi.template head<sum.RowsAtCompileTime>();
     CHECK(double(sum.norm()) <= 10 * rounding * norm(f));
     if (!c.claims.objective) return;
     const VecDeriv g = force(c, turned(x), zero);
+    if constexpr (D::rigid && D::spatial == 3) {
+      const Mat<Real, 3> q = wholeTurn.toRotationMatrix();
+      Vec<Real, 3> moment = moment.Zero();
+      VecDeriv still = force(c, x, zero);
+      for (std::size_t i = 0; i < n; ++i) {
+        moment += still[i].template tail<3>() + x[i].center.cross(still[i].template head<3>());
+        still[i].template head<3>() = (q * still[i].template head<3>()).eval();
+        still[i].template tail<3>() = (q * still[i].template tail<3>()).eval();
+      }
+      CHECK(distance(g, still) <= 100 * rounding * (norm(g) + norm(still)));
+      CHECK(c.energy(turned(x)) == Approx(c.energy(x)).epsilon(1000 * rounding));
+      if (c.claims.conservative) CHECK(double(moment.norm()) <= 1000 * rounding * norm(f));
+    }
     if constexpr (!D::rigid) {
       VecDeriv still = force(c, x, zero);
       const auto q = rotation();

@@ -4,6 +4,9 @@
 #include "catch.hpp"
 #include "sample.hpp"
 
+#include <sinew/core/assembly.hpp>
+#include <sinew/linalg/block_matrix.hpp>
+
 namespace laws {
 
 using namespace sinew;
@@ -26,11 +29,15 @@ struct MappingSuite {
       // as many points in the child as the mapping has indices
       std::size_t points = 7;
       if constexpr (requires { mapping.carriers; }) points = 40;
-      if constexpr (std::is_same_v<M, IdentityMapping<In, Out>>) points = 0;
+      // those that make their child
+      if constexpr (std::is_same_v<M, IdentityMapping<In, Out>> || over_parent<M> || needs_masses<M>)
+        points = 0;
       typename Out::VecCoord child;
       for (std::size_t i = 0; i < points; ++i) child.push_back(sample::coord<Out>(random, 1.5));
       const typename Out::VecCoord childRest = child;
-      mapping.init(InitContext<In>{"parent", parentRest, body.topology()},
+      std::vector<double> masses;
+      for (std::size_t i = 0; i < parentRest.size(); ++i) masses.push_back(random(0.5, 2));
+      mapping.init(InitContext<In>{"parent", parentRest, body.topology(), masses},
                    InitContext<Out>{"child", childRest, {}},
                    child);
       typename In::VecCoord x = parentRest;
@@ -40,6 +47,7 @@ struct MappingSuite {
       if constexpr (isDouble) jacobian(mapping, x, child);
       adjoint(mapping, x.size(), child.size());
       blocks(mapping, x.size(), child.size());
+      if constexpr (HasGeometricStiffness<M>) geometricStiffness(mapping, x, child);
     });
   }
 
@@ -84,6 +92,79 @@ struct MappingSuite {
       });
       CHECK(double((sum - ju[i]).norm()) <= rounding * (1 + double(ju[i].norm())));
     }
+  }
+
+  static typename In::VecDeriv product(M const& mapping, typename In::VecDeriv const& dx, double k) {
+    typename In::VecDeriv df(dx.size(), In::Deriv::Zero());
+    mapping.addKx(df, dx, k);
+    return df;
+  }
+
+  // K_g is symmetric, the same assembled, and the derivative of J' f; where it is not all of that, what its
+  // option says
+  void geometricStiffness(M& mapping, typename In::VecCoord const& x, typename Out::VecCoord const& at) {
+    const auto f = sample::derivs<Out>(at.size(), random);
+    mapping.updateK(f);
+    const auto u = sample::derivs<In>(x.size(), random), w = sample::derivs<In>(x.size(), random);
+    const auto ku = product(mapping, u, 1), kw = product(mapping, w, 1);
+    const double size = double(vec::flat(ku).norm() * vec::flat(w).norm());
+    CHECK(vec::dot(ku, w) == Approx(vec::dot(u, kw)).margin(rounding * (1 + size)));
+    using Option = decltype(mapping.geometricStiffness);
+    if (mapping.geometricStiffness == Option::none) {
+      CHECK(size == 0);
+      return;
+    }
+    CHECK(size > 0.1);
+    assembled(mapping, u);
+
+    if constexpr (std::is_same_v<Option, GeometricStiffness> && std::is_same_v<M, DistanceMapping<In, Out>>)
+      if (mapping.geometricStiffness == GeometricStiffness::stabilized)
+        CHECK(vec::dot(ku, u) < 0);  // of what pulls alone
+    if constexpr (isDouble) {
+      typename In::VecDeriv du = derivative(mapping, x, at, f, u), dw = derivative(mapping, x, at, f, w);
+      // differences over 2e-5: truncation 1e-10, rounding 1e-11
+      if constexpr (std::is_same_v<Option, GeometricStiffness>) {
+        if (mapping.geometricStiffness != Option::exact) return;
+        CHECK(double((vec::flat(du) - vec::flat(ku)).norm()) <= 1e-7 * (1 + double(vec::flat(ku).norm())));
+      }
+      CHECK((vec::dot(du, w) + vec::dot(u, dw)) / 2 == Approx(vec::dot(ku, w)).margin(1e-7 * (1 + size)));
+    }
+  }
+  // d/dh J(x + h u)' f
+  static typename In::VecDeriv derivative(M mapping, typename In::VecCoord const& x,
+                                          typename Out::VecCoord at, typename Out::VecDeriv const& f,
+                                          typename In::VecDeriv const& u) {
+    const double h = 1e-5;
+    typename In::VecDeriv sum(x.size(), In::Deriv::Zero());
+    for (const double sign : {1.0, -1.0}) {
+      typename In::VecCoord moved = x;
+      vec::increment<In>(moved, u, sign * h);
+      mapping.apply(at, moved);
+      typename In::VecDeriv force(x.size(), In::Deriv::Zero());
+      mapping.applyJT(force, f);
+      vec::peq(sum, force, sign / (2 * h));
+    }
+    return sum;
+  }
+  void assembled(M& mapping, typename In::VecDeriv const& u) {
+    using Real = typename In::Real;
+    using Matrix = CompressedRowSparseMatrix<Real, In::size>;
+    const DirectDofs<In::size> dofs{0};
+    MechanicalParams p;
+    p.k = -2.5;
+    Matrix a;
+    a.startPattern(int(u.size()) * In::size);
+    mapping.addToMatrix(p, MatrixSink<AssemblyPhase::pattern, Matrix, DirectDofs<In::size>>{a, dofs, dofs});
+    a.finishPattern();
+    mapping.addToMatrix(p, MatrixSink<AssemblyPhase::add, Matrix, DirectDofs<In::size>>{a, dofs, dofs});
+    a.mirror();
+    typename In::VecDeriv in = u, out(u.size() + 1, In::Deriv::Zero());
+    in.push_back(In::Deriv::Zero());  // multiply reads behind it
+    a.multiply(in[0].data(), out[0].data());
+    out.pop_back();
+    const auto expected = product(mapping, u, p.k);
+    CHECK(double((vec::flat(out) - vec::flat(expected)).norm()) <=
+          10 * rounding * (1 + double(vec::flat(expected).norm())));
   }
 };
 

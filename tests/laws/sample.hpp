@@ -22,9 +22,11 @@ struct Random {
   int index(int n) { return int(engine() % unsigned(n)); }
 };
 
-/// Points of a 3x3x3 grid, shaken, with a hexahedron and five tetrahedra a cell, and the surface of both.
+/// Points of a 3x3x3 grid, shaken, with its lines, a hexahedron and five tetrahedra a cell, and the surface
+/// of both.
 struct Body {
   static constexpr int n = 27;
+  std::vector<Edge> edges;
   std::vector<Triangle> triangles;
   std::vector<Quad> quads;
   std::vector<Tetrahedron> tetrahedra;
@@ -35,6 +37,11 @@ struct Body {
     for (int i = 0; i < n; ++i)
       points.push_back(Eigen::Vector3d(i % 3, i / 3 % 3, i / 9) +
                        0.1 * Eigen::Vector3d(random(), random(), random()));
+    for (int i = 0; i < n; ++i) {
+      if (i % 3 < 2) edges.push_back({i, i + 1});
+      if (i / 3 % 3 < 2) edges.push_back({i, i + 3});
+      if (i / 9 < 2) edges.push_back({i, i + 9});
+    }
     const int even[5][4] = {{0, 1, 2, 4}, {3, 2, 1, 7}, {5, 4, 7, 1}, {6, 7, 4, 2}, {1, 2, 4, 7}};
     const int odd[5][4] = {{1, 3, 0, 5}, {2, 0, 3, 6}, {4, 5, 6, 0}, {7, 6, 5, 3}, {0, 3, 5, 6}};
     for (int c = 0; c < 8; ++c) {
@@ -62,7 +69,8 @@ struct Body {
     triangles = boundary_triangles(tetrahedra);
   }
   TopologyView topology() const {
-    return {.triangles = triangles,
+    return {.edges = edges,
+            .triangles = triangles,
             .quads = quads,
             .tetrahedra = tetrahedra,
             .hexahedra = hexahedra,
@@ -163,6 +171,7 @@ void for_each_variant(Random& random, F&& use) {
       if (c.firstObjectPoints[s] == c.secondObjectPoints[s])
         c.secondObjectPoints[s] = (c.firstObjectPoints[s] + 1) % Body::n;
   }
+  if constexpr (requires { c.radiusInner; }) c.radiusInner = c.radius / 2;
   // bodies that the one before them holds
   if constexpr (requires { c.indices, c.angularStiffness; })
     for (int& i : c.indices) i = std::max(i, 1);
@@ -197,6 +206,10 @@ void for_each_variant(Random& random, F&& use) {
     return;
   }
   if constexpr (requires { c.dmax; }) c.dmin = 0, c.dmax = 1;
+  // some points attached to others, one of them to three
+  if constexpr (requires { c.twoWay; })
+    c.indices1 = {0, 1, 2, 2, 9}, c.indices2 = {10, 13, 11, 20, 15}, c.constraintFactor = {1, 1, 1, 1, 0};
+  if constexpr (requires { c.restLengths; }) c.restLengths.clear();  // those of the rest positions
   if constexpr (requires { c.fixedDirections; }) c.fixedDirections.back() = c.fixedDirections.size() == 1;
   bool any = false;
   for_each_field(c, [&](auto const& fd, auto& value) {

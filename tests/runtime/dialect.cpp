@@ -19,7 +19,7 @@ struct Small
                TriangleFEMForceField<Vec3d>, FixedConstraint<Vec3d>, MechanicalObject<Rigid3d>,
                IdentityMapping<Rigid3d, Vec3f>, IdentityMapping<Vec3d, Vec3d>, IdentityMapping<Vec3d, Vec3f>,
                BarycentricMapping<Vec3d, Vec3f>, EulerImplicitSolver, NewmarkImplicitSolver, BDFOdeSolver,
-               StaticSolver, CGLinearSolver<>, SparseLDLSolver<>> {};
+               StaticSolver, CGLinearSolver<>, SparseLDLSolver<>, ShewchukPCGLinearSolver<>> {};
 
 ReadScene<Small> parse(std::string content, ReadSceneOptions const& options = {}) {
   return parse_scene<Small>("test.scn", std::move(content), options);
@@ -113,6 +113,44 @@ TEST_CASE("NewtonRaphsonSolver says how the ODE solver beside it searches") {
   CHECK(euler.lineSearchCoefficient == 0.25);
   CHECK(euler.relativeSuccessiveStoppingThreshold == 1e-5);  // SOFA's default, which is not ours
   CHECK(scene.warnings.empty());
+}
+
+TEST_CASE("preconditioners are settings of the solver that links to them") {
+  auto scene = parse(R"(<Node>
+    <Node name="a"><PCGLinearSolver preconditioner="@p"/><JacobiPreconditioner name="p"/></Node>
+    <Node name="b"><SSORPreconditioner name="p" omega="1.3"/>
+      <ShewchukPCGLinearSolver preconditioners="p" update_step="4"/></Node>
+    <Node name="c"><ShewchukPCGLinearSolver preconditioners="precond"/><SparseLDLSolver name="precond"/></Node>
+    <Node name="d"><ShewchukPCGLinearSolver preconditioner="@warp" update_step="1"/>
+      <WarpPreconditioner name="warp" linearSolver="@factorization" update_step="15"/>
+      <AsyncSparseLDLSolver name="factorization" template="CompressedRowSparseMatrixMat3x3"/></Node>
+    <Node name="e"><PrecomputedWarpPreconditioner name="p" linearSolver="@s"/><SparseLDLSolver name="s"/>
+      <Node name="below"><PCGLinearSolver preconditioner="@../p"/></Node></Node>
+    <Node name="f"><PCGLinearSolver preconditioner="@w"/><WarpPreconditioner name="w" solverName="b"/>
+      <BlockJacobiPreconditioner name="b"/><SSORPreconditioner name="unused"/></Node>
+  </Node>)");
+  using Solver = ShewchukPCGLinearSolver<>;
+  using enum PreconditionerMethod;
+  auto is = [&](std::string_view path, PreconditionerMethod method, bool warp, int updateStep) {
+    auto const& solver = in<Solver>(scene, path);
+    CHECK(solver.precondition == method);
+    CHECK(solver.warp == warp);
+    CHECK(solver.updateStep == updateStep);
+    CHECK_FALSE(scene.root.find_node(path)->get<SparseLDLSolver<>>());
+  };
+  is("a", jacobi, false, 1);
+  is("b", ssor, false, 4);
+  CHECK(in<Solver>(scene, "b").omega == 1.3);
+  is("c", ldl, false, 1);
+  is("d", ldl, true, 15);
+  is("e/below", ldl, true, 0);
+  is("f", blockJacobi, true, 1);
+  CHECK(scene.warnings.size() == 1);
+  CHECK(has(scene.warnings, "<SSORPreconditioner>: no solver links to it"));
+  CHECK(wrong(R"(<PCGLinearSolver preconditioner="@nowhere"/>)")
+            .find("there is no preconditioner '@nowhere'") != std::string::npos);
+  CHECK(wrong(R"(<PCGLinearSolver preconditioner="@w"/><WarpPreconditioner name="w" linearSolver="@w"/>)")
+            .find("there is no preconditioner '@w'") != std::string::npos);
 }
 
 TEST_CASE("NewtonRaphsonSolver is found by a link, in the node, or below") {

@@ -4,7 +4,7 @@
 namespace sinew {
 using StandardSimulation = Simulation<RuntimeNode<Standard>>;
 template void Simulation<RuntimeNode<Standard>>::init();
-template void Simulation<RuntimeNode<Standard>>::initScene(RootScope const&, bool);
+template void Simulation<RuntimeNode<Standard>>::initScene(RootScope const&, InitAgain const&);
 template void Simulation<RuntimeNode<Standard>>::reset();
 template void Simulation<RuntimeNode<Standard>>::updateVisual();
 }  // namespace sinew

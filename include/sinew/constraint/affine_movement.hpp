@@ -30,7 +30,7 @@ struct AffineMovementConstraint {
   static constexpr auto fields() {
     using F = AffineMovementConstraint;
     return field_list(
-        field("indices", &F::indices, "", "points that are moved", range::nonNegative),
+        field("indices", &F::indices, "", "points that are moved", range::nonNegative).numbersOf(Of::points),
         field("beginConstraintTime", &F::beginConstraintTime, "s", "time at which the movement starts"),
         field("endConstraintTime", &F::endConstraintTime, "s", "time at which the movement ends"),
         field("rotation", &F::rotation, "", "matrix A, row by row"),

@@ -22,7 +22,7 @@ struct FixedConstraint {
   static constexpr auto fields() {
     using F = FixedConstraint;
     return field_list(
-        field("indices", &F::indices, "", "points held in place", range::nonNegative),
+        field("indices", &F::indices, "", "points held in place", range::nonNegative).numbersOf(Of::points),
         field("fixAll", &F::fixAll, "", "all points are held"),
         field(
             "activate_projectVelocity", &F::activateProjectVelocity, "", "held points lose their velocity"));

@@ -28,7 +28,8 @@ struct FixedPlaneConstraint {
         field("direction", &F::direction, "", "normal of the planes"),
         field("dmin", &F::dmin, "m", "lowest x.direction of points to be held"),
         field("dmax", &F::dmax, "m", "highest x.direction of points to be held; none where it is dmin"),
-        field("indices", &F::indices, "", "more points to be held", range::nonNegative));
+        field("indices", &F::indices, "", "more points to be held", range::nonNegative)
+            .numbersOf(Of::points));
   }
 
   Mat<typename D::Real, D::size> projector = Mat<typename D::Real, D::size>::Identity();

@@ -31,15 +31,16 @@ struct HermiteSplineConstraint {
 
   static constexpr auto fields() {
     using F = HermiteSplineConstraint;
-    return field_list(field("indices", &F::indices, "", "points that are moved", range::nonNegative),
-                      field("BeginTime", &F::beginTime, "s", "when the movement begins"),
-                      field("EndTime", &F::endTime, "s", "when it ends"),
-                      field("X0", &F::x0, "m", "where it begins"),
-                      field("dX0", &F::dx0, "m", "derivative of the path by s there"),
-                      field("X1", &F::x1, "m", "where it ends"),
-                      field("dX1", &F::dx1, "m", "derivative of the path by s there"),
-                      field("SX0", &F::sx0, "", "slope of s by u where it begins, the second number"),
-                      field("SX1", &F::sx1, "", "slope of s by u where it ends, the second number"));
+    return field_list(
+        field("indices", &F::indices, "", "points that are moved", range::nonNegative).numbersOf(Of::points),
+        field("BeginTime", &F::beginTime, "s", "when the movement begins"),
+        field("EndTime", &F::endTime, "s", "when it ends"),
+        field("X0", &F::x0, "m", "where it begins"),
+        field("dX0", &F::dx0, "m", "derivative of the path by s there"),
+        field("X1", &F::x1, "m", "where it ends"),
+        field("dX1", &F::dx1, "m", "derivative of the path by s there"),
+        field("SX0", &F::sx0, "", "slope of s by u where it begins, the second number"),
+        field("SX1", &F::sx1, "", "slope of s by u where it ends, the second number"));
   }
 
   bool active = false;  // at the end of the last step

@@ -33,13 +33,14 @@ struct LinearMovementConstraint {
 
   static constexpr auto fields() {
     using F = LinearMovementConstraint;
-    return field_list(field("indices", &F::indices, "", "points that are moved", range::nonNegative),
-                      field("keyTimes", &F::keyTimes, "s", "key times, in rising order"),
-                      field("movements", &F::movements, "m", "movement of the points at each key time"),
-                      field("relativeMovements",
-                            &F::relativeMovements,
-                            "",
-                            "movements start from rest, else from the origin"));
+    return field_list(
+        field("indices", &F::indices, "", "points that are moved", range::nonNegative).numbersOf(Of::points),
+        field("keyTimes", &F::keyTimes, "s", "key times, in rising order"),
+        field("movements", &F::movements, "m", "movement of the points at each key time"),
+        field("relativeMovements",
+              &F::relativeMovements,
+              "",
+              "movements start from rest, else from the origin"));
   }
 
   VecCoord start{};         // positions of the indices that movements start from

@@ -32,15 +32,16 @@ struct LinearVelocityConstraint {
 
   static constexpr auto fields() {
     using F = LinearVelocityConstraint;
-    return field_list(field("indices", &F::indices, "", "points that are moved", range::nonNegative),
-                      field("keyTimes", &F::keyTimes, "s", "key times, in rising order"),
-                      field("velocities", &F::velocities, "m/s", "velocity of the points at each key time"),
-                      field("coordinates",
-                            &F::coordinates,
-                            "",
-                            "coordinates that are moved; none for all",
-                            range::nonNegative),
-                      field("continueAfterEnd", &F::continueAfterEnd, "", "the last velocity stays"));
+    return field_list(
+        field("indices", &F::indices, "", "points that are moved", range::nonNegative).numbersOf(Of::points),
+        field("keyTimes", &F::keyTimes, "s", "key times, in rising order"),
+        field("velocities", &F::velocities, "m/s", "velocity of the points at each key time"),
+        field("coordinates",
+              &F::coordinates,
+              "",
+              "coordinates that are moved; none for all",
+              range::nonNegative),
+        field("continueAfterEnd", &F::continueAfterEnd, "", "the last velocity stays"));
   }
 
   VecCoord start{};

@@ -18,11 +18,12 @@ struct Oscillator {
 
   static constexpr auto fields() {
     using O = Oscillator;
-    return field_list(field("index", &O::index, "", "point that is moved", range::nonNegative),
-                      field("mean", &O::mean, "m", "position in the middle"),
-                      field("amplitude", &O::amplitude, "m", "largest movement from there"),
-                      field("pulsation", &O::pulsation, "rad/s", "angular frequency"),
-                      field("phase", &O::phase, "rad", "angle at time 0"));
+    return field_list(
+        field("index", &O::index, "", "point that is moved", range::nonNegative).numbersOf(Of::points),
+        field("mean", &O::mean, "m", "position in the middle"),
+        field("amplitude", &O::amplitude, "m", "largest movement from there"),
+        field("pulsation", &O::pulsation, "rad/s", "angular frequency"),
+        field("phase", &O::phase, "rad", "angle at time 0"));
   }
 };
 

@@ -28,12 +28,13 @@ struct ParabolicConstraint {
 
   static constexpr auto fields() {
     using F = ParabolicConstraint;
-    return field_list(field("indices", &F::indices, "", "points that are moved", range::nonNegative),
-                      field("P1", &F::p1, "m", "where the movement begins"),
-                      field("P2", &F::p2, "m", "where it passes"),
-                      field("P3", &F::p3, "m", "where it ends"),
-                      field("BeginTime", &F::beginTime, "s", "when it begins"),
-                      field("EndTime", &F::endTime, "s", "when it ends"));
+    return field_list(
+        field("indices", &F::indices, "", "points that are moved", range::nonNegative).numbersOf(Of::points),
+        field("P1", &F::p1, "m", "where the movement begins"),
+        field("P2", &F::p2, "m", "where it passes"),
+        field("P3", &F::p3, "m", "where it ends"),
+        field("BeginTime", &F::beginTime, "s", "when it begins"),
+        field("EndTime", &F::endTime, "s", "when it ends"));
   }
 
   Place along = Place::Zero(), across = Place::Zero();  // P1P3, h / (a (1 - a))

@@ -26,7 +26,7 @@ struct PartialFixedConstraint {
   static constexpr auto fields() {
     using F = PartialFixedConstraint;
     return field_list(
-        field("indices", &F::indices, "", "points that are held", range::nonNegative),
+        field("indices", &F::indices, "", "points that are held", range::nonNegative).numbersOf(Of::points),
         field("fixAll", &F::fixAll, "", "all points are held"),
         field("fixedDirections",
               &F::fixedDirections,

@@ -26,8 +26,9 @@ struct ProjectDirectionConstraint {
 
   static constexpr auto fields() {
     using F = ProjectDirectionConstraint;
-    return field_list(field("indices", &F::indices, "", "points that are held", range::nonNegative),
-                      field("direction", &F::direction, "", "direction of the lines"));
+    return field_list(
+        field("indices", &F::indices, "", "points that are held", range::nonNegative).numbersOf(Of::points),
+        field("direction", &F::direction, "", "direction of the lines"));
   }
 
   Mat<Real, D::size> projector = Mat<Real, D::size>::Identity();

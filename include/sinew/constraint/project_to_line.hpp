@@ -24,9 +24,10 @@ struct ProjectToLineConstraint {
 
   static constexpr auto fields() {
     using F = ProjectToLineConstraint;
-    return field_list(field("indices", &F::indices, "", "points that are held", range::nonNegative),
-                      field("origin", &F::origin, "m", "a point of the line"),
-                      field("direction", &F::direction, "", "direction of the line"));
+    return field_list(
+        field("indices", &F::indices, "", "points that are held", range::nonNegative).numbersOf(Of::points),
+        field("origin", &F::origin, "m", "a point of the line"),
+        field("direction", &F::direction, "", "direction of the line"));
   }
 
   Mat<Real, D::size> projector = Mat<Real, D::size>::Identity();

@@ -24,9 +24,10 @@ struct ProjectToPlaneConstraint {
 
   static constexpr auto fields() {
     using F = ProjectToPlaneConstraint;
-    return field_list(field("indices", &F::indices, "", "points that are held", range::nonNegative),
-                      field("origin", &F::origin, "m", "a point of the plane"),
-                      field("normal", &F::normal, "", "normal of the plane"));
+    return field_list(
+        field("indices", &F::indices, "", "points that are held", range::nonNegative).numbersOf(Of::points),
+        field("origin", &F::origin, "m", "a point of the plane"),
+        field("normal", &F::normal, "", "normal of the plane"));
   }
 
   Mat<Real, D::size> projector = Mat<Real, D::size>::Identity();

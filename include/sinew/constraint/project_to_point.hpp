@@ -26,9 +26,10 @@ struct ProjectToPointConstraint {
 
   static constexpr auto fields() {
     using F = ProjectToPointConstraint;
-    return field_list(field("indices", &F::indices, "", "points that are held", range::nonNegative),
-                      field("point", &F::point, "m", "where they are held"),
-                      field("fixAll", &F::fixAll, "", "all points are held"));
+    return field_list(
+        field("indices", &F::indices, "", "points that are held", range::nonNegative).numbersOf(Of::points),
+        field("point", &F::point, "m", "where they are held"),
+        field("fixAll", &F::fixAll, "", "all points are held"));
   }
 
   std::array<int, D::size> mask{};  // 1 for the coordinates of the place

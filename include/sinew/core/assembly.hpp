@@ -83,6 +83,24 @@ struct MatrixSink {
   void project(int point, P const& p) const {
     if constexpr (Phase == AssemblyPhase::add && A::direct) matrix.project(first.offset + point * A::size, p);
   }
+  /// First degree of freedom of a point of an independent state.
+  template <int Side>
+  int dof(int point) const {
+    return side<Side>().offset + point * std::decay_t<decltype(side<Side>())>::size;
+  }
+  void fixDof(int dof) const {
+    if constexpr (Phase == AssemblyPhase::add) matrix.fix(dof);
+  }
+  /// A = P A P + (I - P) with the P that gives each of the first coordinates of some points, which begin at
+  /// `dofs`, their mean; and the room for it.
+  template <class Dofs>
+  void projectToMean(Dofs const& dofs, int coordinates) const {
+    if constexpr (Phase == AssemblyPhase::add) matrix.projectToMean(dofs, coordinates);
+  }
+  template <class Dofs>
+  void announceMean(Dofs const& dofs, int coordinates) const {
+    if constexpr (Phase == AssemblyPhase::pattern) matrix.announceMean(dofs, coordinates);
+  }
   template <int Side>
   auto const& side() const {
     if constexpr (Side == 0)

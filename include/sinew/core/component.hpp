@@ -4,6 +4,7 @@
 #include <sinew/core/data_types.hpp>
 #include <sinew/core/fields.hpp>
 #include <sinew/core/mesh.hpp>
+#include <sinew/core/renumbering.hpp>
 #include <sinew/core/vec_id.hpp>
 
 #include <array>
@@ -34,8 +35,16 @@ struct Engine;        // makes its outputs from its fields before the scene star
 template <class C, class R>
 concept HasRole = std::same_as<typename C::Role, R>;
 
+/// A component between two states, at the paths that its `ends` name.
+template <class C>
+concept JoinsTwo = HasRole<C, role::InteractionForceField> || requires {
+  typename C::Ends;
+  requires C::between;
+};
+
 /// Elements over the points of one node, as components see them at init. Empty where there is no topology. A
-/// topology that has to be made first offers generate(where), which init calls before all else.
+/// topology that has to be made first offers generate(where), which init calls before all else. One whose
+/// elements may be removed while the scene runs offers edit(), its ElementLists.
 struct TopologyView {
   std::span<Eigen::Vector3d const> positions{};  // for a state that is given none
   std::span<Edge const> edges{};
@@ -53,6 +62,8 @@ struct InitContext {
   std::string where;
   typename D::VecCoord const& rest;
   TopologyView topology;
+  /// Of the points [kg], for a component that asks for them by `needsMasses`; empty where there is no mass.
+  std::span<double const> masses{};
 };
 
 /// Arguments of the mechanical operations. The product with a vector is (m M + b B + k K) dx, where
@@ -133,10 +144,20 @@ concept InteractionForceField = HasRole<C, role::InteractionForceField> &&
 template <class C, class D = typename C::DataTypes>
 concept ProjectiveConstraint = HasRole<C, role::ProjectiveConstraint> &&
     requires(C pc, InitContext<D> c, typename D::VecDeriv dx) {
+  requires !JoinsTwo<C>;
   pc.init(c);
   pc.projectResponse(dx);  // remove forbidden displacements
   // and, where points move on a prescribed path or stay on a surface, at the time t at the end of a step:
   //   pc.projectPosition(t, x);  pc.projectVelocity(t, v);
+  // and, where the accelerations M^-1 f that it allows are others than their projection:
+  //   pc.projectAcceleration(a);
+};
+/// The same between two states: each function has both vectors.
+template <class C, class D = typename C::DataTypes>
+concept InteractionConstraint = HasRole<C, role::ProjectiveConstraint> && JoinsTwo<C> &&
+    requires(C pc, InitContext<D> c, typename D::VecDeriv dx) {
+  pc.init(c, c);
+  pc.projectResponse(dx, dx);
 };
 
 template <class C, class In = typename C::In, class Out = typename C::Out>
@@ -147,6 +168,29 @@ concept Mapping = HasRole<C, role::Mapping> &&
   m.apply(xo, xi);
   m.applyJ(vo, vi);   // vo = J vi at the last apply
   m.applyJT(vi, vo);  // vi += J' vo
+};
+
+/// A mapping that is not linear may say what that adds to the stiffness of its parent,
+/// K_g = (dJ'/dx) f, at the force f on its child that updateK was given last. It also adds K_g to a matrix
+/// over the parent's degrees of freedom: addToMatrix(params, sink). K_g is symmetric.
+template <class C>
+concept HasGeometricStiffness = requires(C m, typename C::In::VecDeriv vi,
+                                         typename C::Out::VecDeriv const vo) {
+  m.updateK(vo);
+  m.addKx(vi, vi, 1.0);  // df += k K_g dx
+};
+
+/// A component that is given the masses of the points at init: those of its parent, where it is a mapping.
+template <class C>
+inline constexpr bool needs_masses = requires {
+  C::needsMasses;
+};
+/// A mapping for which the elements of the topology in its node are over the points of its parent. Its points
+/// are elements of that topology, or of the parent's where the node has none: pointsThatStay(before, change)
+/// says which stay when elements are removed.
+template <class C>
+inline constexpr bool over_parent = requires {
+  C::overParent;
 };
 
 /// Files to read and points to select, turned into data of other components before the scene starts:

@@ -150,6 +150,26 @@ struct RigidTypes<2, R> {
   static bool finite(Coord const& x) { return x.center.allFinite() && std::isfinite(x.orientation); }
 };
 
+/// D, whose element laws run on W elements at a time: WithLanes<Vec3d, 1> takes them one by one. W is a power
+/// of two, at most native_width<Real>. All that one node holds is over the same DataTypes; mappings join it
+/// to others.
+template <class D, int W>
+struct WithLanes : D {
+  static_assert(!D::rigid && W >= 1 && (W & (W - 1)) == 0 && W <= native_width<typename D::Real>,
+                "Sinew: lanes are for points, and their number is a power of two, at most native_width.");
+  static constexpr int lanes = W;
+};
+
+/// How many elements a law over D takes at a time: as many as fill a register, unless D says otherwise. Rigid
+/// bodies are taken one by one: their positions do not interleave, and rotations take trigonometry.
+template <class D>
+constexpr int lane_width() {
+  if constexpr (requires { D::lanes; })
+    return D::lanes;
+  else
+    return D::rigid ? 1 : native_width<typename D::Real>;
+}
+
 using Vec1d = VecTypes<1, double>;
 using Vec2d = VecTypes<2, double>;
 using Vec3d = VecTypes<3, double>;
@@ -163,7 +183,7 @@ using Vec6f = VecTypes<6, float>;
 using Rigid2f = RigidTypes<2, float>;
 using Rigid3f = RigidTypes<3, float>;
 
-/// "Vec3d", "Rigid3f"...: the name by which messages and scene files know a DataTypes.
+/// "Vec3d", "Rigid3f", "Vec3dx1"...: the name by which messages and scene files know a DataTypes.
 template <class D>
 struct data_types_name;
 template <int N, class R>
@@ -175,6 +195,21 @@ template <int N, class R>
 struct data_types_name<RigidTypes<N, R>> {
   static constexpr char text[] = {'R', 'i', 'g', 'i', 'd', char('0' + N), sizeof(R) == 8 ? 'd' : 'f', 0};
   static constexpr std::string_view value{text, 7};
+};
+template <class D, int W>
+struct data_types_name<WithLanes<D, W>> {
+  static_assert(W < 100);
+  static constexpr auto base = data_types_name<D>::value;
+  static constexpr char text[] = {base[0],
+                                  base[1],
+                                  base[2],
+                                  base[3],
+                                  base[4],
+                                  'x',
+                                  W > 9 ? char('0' + W / 10) : char('0' + W),
+                                  W > 9 ? char('0' + W % 10) : char(0),
+                                  0};
+  static constexpr std::string_view value{text, W > 9 ? 8 : 7};
 };
 
 }  // namespace sinew

@@ -18,7 +18,7 @@ namespace sinew {
 /// The tangent is symmetric: block(j, i) = block(i, j)', and only i <= j is asked for.
 /// `Rest` holds nothing but scalars (or Eigen objects of them), so that W of them interleave into one of
 /// lanes.
-template <template <class> class LawOf, class D, int W = native_width<typename D::Real>>
+template <template <class> class LawOf, class D, int W = lane_width<D>()>
 struct ElementDriver {
   using Real = typename D::Real;
   using Coord = typename D::Coord;

@@ -40,6 +40,24 @@ struct DataFile {
   bool operator==(DataFile const&) const = default;
 };
 
+/// What the entries of a list stand for, so that they follow when points and elements are removed while a
+/// scene runs (scene/element_removal.hpp).
+enum class Of {
+  nothing,
+  points,        // of the state on which the component acts; of the first end of an interaction
+  secondPoints,  // of the second end
+  parentPoints,  // of the parent of a mapping, one entry for each point of the child, or one for all
+  edges,
+  triangles,
+  quads,
+  hexahedra,
+  lines,     // elements of one dimension,
+  surfaces,  // two,
+  volumes,   // three,
+  elements,  // or of the highest that the topology has
+  entries    // of the lists of points beside it
+};
+
 /// One value of a component that its user may set: the single declaration from which range checks, messages,
 /// scene files and reference pages are made. The default is what a default-constructed component holds.
 template <class Owner, class T>
@@ -50,12 +68,27 @@ struct Field {
   std::string_view documentation;
   Range range;
   std::string_view aliases{};  // other names in scene files, apart by blanks
+  Of entries = Of::nothing;    // a list that follows: of numbers of these, or with one value for each
+  bool numbers = false;
 
   /// The same field, known to scene files by other names too: those of older and newer SOFA.
   constexpr Field also(std::string_view names) const {
     Field known = *this;
     known.aliases = names;
     return known;
+  }
+  /// The same field, whose entries are numbers of points or elements, and go with them.
+  constexpr Field numbersOf(Of what) const {
+    Field follows = *this;
+    follows.entries = what;
+    follows.numbers = true;
+    return follows;
+  }
+  /// The same field, whose list has one entry for each of these; one of a single entry, for all, stays.
+  constexpr Field oneEach(Of what) const {
+    Field follows = *this;
+    follows.entries = what;
+    return follows;
   }
 };
 
@@ -72,7 +105,7 @@ constexpr void for_each_name(std::string_view list, F&& f) {
 template <class Owner, class T>
 constexpr Field<Owner, T> field(std::string_view name, T Owner::*member, std::string_view unit,
                                 std::string_view documentation, Range range = range::any) {
-  return {name, member, unit, documentation, range, {}};
+  return {name, member, unit, documentation, range};
 }
 
 template <class... F>

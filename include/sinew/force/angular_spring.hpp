@@ -3,6 +3,7 @@
 
 #include <sinew/core/component.hpp>
 #include <sinew/core/element_driver.hpp>
+#include <sinew/core/follow.hpp>
 
 #include <cmath>
 #include <vector>
@@ -96,18 +97,42 @@ struct AngularSpringForceField {
                             &F::indices,
                             "",
                             "bodies, each held by the one before it; the first is not held",
-                            range::nonNegative),
+                            range::nonNegative)
+                          .numbersOf(Of::points),
                       field("angularStiffness",
                             &F::angularStiffness,
                             "N m/rad",
                             "torque per angle: one value, or one for each of the indices",
-                            range::nonNegative));
+                            range::nonNegative)
+                          .oneEach(Of::entries));
   }
 
   static constexpr ForceProperties properties() { return {.exactTangent = false}; }
 
-  // rotation vectors take trigonometry, which lanes do not have
-  using Driver = ElementDriver<AngularSpring, D, 1>;
+  bool none = false;  // all of them have been removed
+
+  static constexpr auto state() {
+    return field_list(
+        field("none", &AngularSpringForceField::none, "", "all of the springs have been removed"));
+  }
+
+  /// A spring goes with the body before its own, too; the first of the indices, which has no spring, stands
+  /// for any body.
+  void follow(Followed const& change) {
+    std::vector<bool> stays(indices.size(), true);
+    for (std::size_t k = 1; k < indices.size(); ++k)
+      stays[k] = change.points.stays(indices[k]) && change.points.stays(indices[k] - 1);
+    const Renumbering springs = Renumbering::of(stays);
+    springs.filter(angularStiffness);
+    springs.filter(indices);
+    none = indices.size() < 2;
+    if (none)
+      indices.clear();
+    else if (!change.points.stays(indices[0]))
+      indices[0] = indices[1];
+  }
+
+  using Driver = ElementDriver<AngularSpring, D>;
   using Law = typename Driver::Law;
   Driver driver{};
 
@@ -140,7 +165,7 @@ struct AngularSpringForceField {
       rest.push_back({(before.conjugate() * context.rest[std::size_t(i)].orientation).normalized(),
                       Real(angularStiffness[angularStiffness.size() == 1 ? 0 : k])});
     }
-    if (bodies.empty())
+    if (bodies.empty() && !none)
       throw Error(where, "there is no spring; give two indices or more, of which all but the first are held");
     driver.init(bodies, rest);
   }

@@ -29,8 +29,9 @@ struct ConstantForceField {
     using F = ConstantForceField;
     return field_list(
         field("indices", &F::indices, "", "points that the forces act on; none for all", range::nonNegative)
+            .numbersOf(Of::points)
             .also("points"),
-        field("forces", &F::forces, "N", "one force for all indices, or one for each"),
+        field("forces", &F::forces, "N", "one force for all indices, or one for each").oneEach(Of::entries),
         field("force", &F::force, "N", "force on each point, where forces is not given"),
         field(
             "totalForce", &F::totalForce, "N", "force that the points share evenly, where neither is given"));
@@ -41,11 +42,19 @@ struct ConstantForceField {
     return {.internal = false, .objective = false, .conservative = !(D::rigid && D::spatial == 3)};
   }
 
+  bool none = false;  // all of them have been removed
+
+  static constexpr auto state() {
+    return field_list(field("none", &ConstantForceField::none, "", "all of the points have been removed"));
+  }
+
   VecCoord rest{};
   std::size_t size = 0;  // points that a force acts on
 
   void init(InitContext<D> const& context) {
     const std::string where = text(context.where, ": ", component_name<ConstantForceField>());
+    size = 0;
+    if (none) return;
     size = indices.empty() ? context.rest.size() : indices.size();
     if (forces.empty() && !force && !totalForce)
       throw Error(where, "there is no force; give one of forces, force and totalForce");

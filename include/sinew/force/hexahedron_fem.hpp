@@ -279,7 +279,8 @@ struct HexahedronFEMForceField {
                             &F::youngModulus,
                             "Pa",
                             "stiffness of the material: one value, or one a hexahedron",
-                            range::positive),
+                            range::positive)
+                          .oneEach(Of::hexahedra),
                       field("poissonRatio",
                             &F::poissonRatio,
                             "",

@@ -140,8 +140,7 @@ struct PlaneForceField {
 
   static constexpr ForceProperties properties() { return {.internal = false, .objective = false}; }
 
-  // W = 1 for rigid bodies, whose positions do not interleave into lanes
-  using Driver = ElementDriver<PlanePenalty, D, D::rigid ? 1 : native_width<Real>>;
+  using Driver = ElementDriver<PlanePenalty, D>;
   using Law = typename Driver::Law;
   Driver driver{};
 

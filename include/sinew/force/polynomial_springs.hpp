@@ -4,6 +4,7 @@
 #include <sinew/core/component.hpp>
 #include <sinew/core/element_driver.hpp>
 #include <sinew/core/ends.hpp>
+#include <sinew/core/follow.hpp>
 
 #include <limits>
 #include <vector>
@@ -113,12 +114,11 @@ struct PolynomialSpringsForceField {
   static constexpr auto fields() {
     using F = PolynomialSpringsForceField;
     return field_list(
-        field("firstObjectPoints", &F::firstObjectPoints, "", "points at the first ends", range::nonNegative),
-        field("secondObjectPoints",
-              &F::secondObjectPoints,
-              "",
-              "points at the second ends",
-              range::nonNegative),
+        field("firstObjectPoints", &F::firstObjectPoints, "", "points at the first ends", range::nonNegative)
+            .numbersOf(Of::points),
+        field(
+            "secondObjectPoints", &F::secondObjectPoints, "", "points at the second ends", range::nonNegative)
+            .numbersOf(Of::secondPoints),
         field(
             "polynomialStiffness",
             &F::polynomialStiffness,
@@ -128,13 +128,15 @@ struct PolynomialSpringsForceField {
               &F::polynomialDegree,
               "",
               "number of coefficients of each spring; one for all, which then share them",
-              range::closed(1, PolynomialSpring<D>::degree)),
+              range::closed(1, PolynomialSpring<D>::degree))
+            .oneEach(Of::entries),
         field("computeZeroLength", &F::computeZeroLength, "", "springs are relaxed at rest"),
         field("zeroLength",
               &F::zeroLength,
               "m",
               "else, their lengths without force: one for all, or each",
-              range::positive),
+              range::positive)
+            .oneEach(Of::entries),
         field("compressible",
               &F::compressible,
               "",
@@ -151,6 +153,25 @@ struct PolynomialSpringsForceField {
     return {compressible};
   }
 
+  bool none = false;  // all of them have been removed
+
+  static constexpr auto state() {
+    return field_list(
+        field("none", &PolynomialSpringsForceField::none, "", "all of the springs have been removed"));
+  }
+
+  /// Each spring takes its coefficients with it.
+  void follow(Followed const& change) {
+    if (polynomialDegree.size() == 1) return;
+    std::vector<bool> stays;
+    for (std::size_t s = 0; s < firstObjectPoints.size(); ++s)
+      stays.insert(
+          stays.end(),
+          std::size_t(polynomialDegree[s]),
+          change.points.stays(firstObjectPoints[s]) && change.secondPoints.stays(secondObjectPoints[s]));
+    Renumbering::of(stays).filter(polynomialStiffness);
+  }
+
   void init(InitContext<D> const& context) { init(context, context); }
   void init(InitContext<D> const& a, InitContext<D> const& b) {
     const std::string where = text(a.where, ": ", component_name<PolynomialSpringsForceField>());
@@ -158,6 +179,7 @@ struct PolynomialSpringsForceField {
     auto check = [&](bool good, auto const&... message) {
       if (!good) throw Error(where, text(message...));
     };
+    if (none) return driver.init({}, {});
     check(n > 0 && secondObjectPoints.size() == n,
           "there are ",
           n,

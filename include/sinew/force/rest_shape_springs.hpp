@@ -106,31 +106,40 @@ struct RestShapeSpringsForceField {
     using F = RestShapeSpringsForceField;
     return field_list(
         field("points", &F::points, "", "points that are held; none for all of them", range::nonNegative)
+            .numbersOf(Of::points)
             .also("indices"),
         field("stiffness",
               &F::stiffness,
               "N/m",
               "force per distance from rest: one value, or one a point",
-              range::nonNegative),
+              range::nonNegative)
+            .oneEach(Of::entries),
         field("angularStiffness",
               &F::angularStiffness,
               "N m/rad",
               "torque per angle from rest of rigid bodies: one value, or one a point",
-              range::nonNegative));
+              range::nonNegative)
+            .oneEach(Of::entries));
   }
 
   static constexpr ForceProperties properties() {
     return {.internal = false, .objective = false, .exactTangent = !RestShapeSpring<D>::turns};
   }
 
-  // the rotation vector of a body takes trigonometry, which lanes do not have
-  using Driver = ElementDriver<RestShapeSpring, D, D::rigid ? 1 : native_width<Real>>;
+  bool none = false;  // all of them have been removed
+
+  static constexpr auto state() {
+    return field_list(
+        field("none", &RestShapeSpringsForceField::none, "", "all of the points have been removed"));
+  }
+
+  using Driver = ElementDriver<RestShapeSpring, D>;
   using Law = typename Driver::Law;
   Driver driver{};
 
   void init(InitContext<D> const& context) {
     const std::string where = text(context.where, ": ", component_name<RestShapeSpringsForceField>());
-    const std::size_t n = points.empty() ? context.rest.size() : points.size();
+    const std::size_t n = none ? 0 : points.empty() ? context.rest.size() : points.size();
     auto value = [&](std::string_view name, std::vector<double> const& list, std::size_t i) {
       if (list.size() != 1 && list.size() != n)
         throw Error(

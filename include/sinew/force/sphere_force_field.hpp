@@ -128,8 +128,7 @@ struct SphereForceField {
 
   static constexpr ForceProperties properties() { return {.internal = false, .objective = false}; }
 
-  // W = 1 for rigid bodies, whose positions do not interleave into lanes
-  using Driver = ElementDriver<SpherePenalty, D, D::rigid ? 1 : native_width<Real>>;
+  using Driver = ElementDriver<SpherePenalty, D>;
   using Law = typename Driver::Law;
   Driver driver{};
 

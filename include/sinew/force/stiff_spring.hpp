@@ -19,8 +19,10 @@ struct Spring {
 
   static constexpr auto fields() {
     return field_list(
-        field("first", &Spring::first, "", "point at the first end", range::nonNegative),
-        field("second", &Spring::second, "", "point at the second end", range::nonNegative),
+        field("first", &Spring::first, "", "point at the first end", range::nonNegative)
+            .numbersOf(Of::points),
+        field("second", &Spring::second, "", "point at the second end", range::nonNegative)
+            .numbersOf(Of::secondPoints),
         field("stiffness", &Spring::stiffness, "N/m", "force per extension", range::nonNegative),
         field("damping", &Spring::damping, "N s/m", "force per rate of extension", range::nonNegative),
         field("length",
@@ -62,18 +64,26 @@ struct StiffSpringForceField {
         field("springs", &F::springs, "", "the springs: two points, stiffness, damping, length")
             .also("spring"),
         field("springsIndices1", &F::springsIndices1, "", "points at the first ends of further springs", r)
+            .numbersOf(Of::points)
             .also("indices1"),
-        field("springsIndices2", &F::springsIndices2, "", "points at their second ends", r).also("indices2"),
-        field("stiffness", &F::stiffness, "N/m", "force per extension of these: one for all, or each", r),
+        field("springsIndices2", &F::springsIndices2, "", "points at their second ends", r)
+            .numbersOf(Of::secondPoints)
+            .also("indices2"),
+        field("stiffness", &F::stiffness, "N/m", "force per extension of these: one for all, or each", r)
+            .oneEach(Of::entries),
         field(
-            "damping", &F::damping, "N s/m", "force per rate of extension of these: one for all, or each", r),
+            "damping", &F::damping, "N s/m", "force per rate of extension of these: one for all, or each", r)
+            .oneEach(Of::entries),
         field("lengths", &F::lengths, "m", "length without force of these: one for all, or each; else 0", r)
+            .oneEach(Of::entries)
             .also("length"),
         field("elongationOnly",
               &F::elongationOnly,
               "",
-              "whether springs act only when they are longer than without force: one for all, or each"),
-        field("enabled", &F::enabled, "", "whether springs are there: one for all, or each"));
+              "whether springs act only when they are longer than without force: one for all, or each")
+            .oneEach(Of::entries),
+        field("enabled", &F::enabled, "", "whether springs are there: one for all, or each")
+            .oneEach(Of::entries));
   }
 
   using Driver = ElementDriver<SpringLaw, D>;

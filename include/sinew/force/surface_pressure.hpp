@@ -100,12 +100,21 @@ struct SurfacePressureForceField {
         field("pressure", &F::pressure, "Pa", "force per area along the normal"),
         field("min", &F::min, "m", "lowest corner of a box around the elements"),
         field("max", &F::max, "m", "highest corner of a box around the elements"),
-        field("triangleIndices", &F::triangleIndices, "", "triangles under pressure", range::nonNegative),
-        field("quadIndices", &F::quadIndices, "", "quads under pressure", range::nonNegative));
+        field("triangleIndices", &F::triangleIndices, "", "triangles under pressure", range::nonNegative)
+            .numbersOf(Of::triangles),
+        field("quadIndices", &F::quadIndices, "", "quads under pressure", range::nonNegative)
+            .numbersOf(Of::quads));
   }
 
   ForceProperties properties() const {
     return {.internal = closed, .objective = closed, .conservative = closed, .exactTangent = closed};
+  }
+
+  bool none = false;  // all of them have been removed
+
+  static constexpr auto state() {
+    return field_list(field(
+        "none", &SurfacePressureForceField::none, "", "all of the elements with an index have been removed"));
   }
 
   using Driver = ElementDriver<TrianglePressure, D>;
@@ -122,7 +131,7 @@ struct SurfacePressureForceField {
   void init(InitContext<D> const& context) {
     const std::string where = text(context.where, ": ", component_name<SurfacePressureForceField>());
     TopologyView const& t = context.topology;
-    if (t.triangles.empty() && t.quads.empty())
+    if (t.triangles.empty() && t.quads.empty() && !none)
       throw Error(where, "the topology has neither triangle nor quad; give the node a surface");
     detail::check_indices(where, "triangle", t.triangles, context.rest.size());
     detail::check_indices(where, "quad", t.quads, context.rest.size());
@@ -176,7 +185,7 @@ struct SurfacePressureForceField {
                          " such elements, numbered from 0; correct the index"));
       take(elements[std::size_t(e)]);
     }
-    if (indices.empty())
+    if (indices.empty() && !none)
       for (auto const& element : elements)
         if (inBox(element)) take(element);
   }

@@ -233,7 +233,8 @@ struct TetrahedronFEMForceField {
               &F::youngModulus,
               "Pa",
               "stiffness of the material: one value, or one a tetrahedron",
-              range::positive),
+              range::positive)
+            .oneEach(Of::volumes),
         field("poissonRatio",
               &F::poissonRatio,
               "",

@@ -3,6 +3,7 @@
 
 #include <sinew/core/component.hpp>
 #include <sinew/core/element_driver.hpp>
+#include <sinew/core/follow.hpp>
 #include <sinew/force/tetrahedron_rest.hpp>
 #include <sinew/force/viscoelastic_material.hpp>
 
@@ -212,6 +213,14 @@ struct TetrahedronViscoelasticityFEMForceField {
                       field("currentTime", &F::currentTime, "s", "time of the last step"),
                       field("step", &F::step, "s", "length of the last step; negative: there was none"),
                       field("memory", &F::memory, "", "strains and stresses of both, of all elements"));
+  }
+
+  /// Tetrahedra that stay keep their past.
+  void follow(Followed const& change) {
+    const Renumbering elements = change.topology.ofDimension(3, memory.size() / memorySize);
+    std::vector<bool> stays;
+    for (const Index n : elements.now) stays.insert(stays.end(), memorySize, n >= 0);
+    Renumbering::of(stays).filter(memory);
   }
 
   void init(InitContext<D> const& context) {

@@ -184,12 +184,14 @@ struct TriangleFEMForceField {
               &F::youngModulus,
               "Pa",
               "stiffness of the material: one value, or one a triangle",
-              range::positive),
+              range::positive)
+            .oneEach(Of::surfaces),
         field("poissonRatio",
               &F::poissonRatio,
               "",
               "lateral contraction over extension, 0.5 is incompressible: one value, or one a triangle",
-              Range{-1, 0.5, true, false}),
+              Range{-1, 0.5, true, false})
+            .oneEach(Of::surfaces),
         field("thickness", &F::thickness, "m", "thickness of the membrane", range::positive),
         field("planeStrain", &F::planeStrain, "", "thickness is held, in the place of stress free"),
         field("method", &F::method, "", "how the frame of an element is found"));

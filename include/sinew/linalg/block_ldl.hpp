@@ -54,9 +54,9 @@ struct BlockLdl {
     x.assign(std::size_t(n), Column::Zero());
   }
 
-  /// The first dof whose pivot is not finite, or zero to rounding against its diagonal entry; -1 if all are
-  /// sound.
-  int factorise(Matrix const& a) {
+  /// Of A + shift diag(A). The first dof whose pivot is not finite, or zero to rounding against its diagonal
+  /// entry; -1 if all are sound.
+  int factorise(Matrix const& a, double shift = 0) {
     const int n = a.rows();
     negativePivots = 0;
     std::fill(mark.begin(), mark.end(), -1);
@@ -77,6 +77,7 @@ struct BlockLdl {
       Block pivot = work[std::size_t(k)];
       for (int r = 0; r < B; ++r)
         if (oldIndex[std::size_t(k)] * B + r >= dofs) pivot(r, r) = 1;
+      pivot.diagonal() *= 1 + shift;
       const Column diagonal = pivot.diagonal();
       work[std::size_t(k)].setZero();
 

@@ -49,6 +49,23 @@ struct CompressedRowSparseMatrix {
       }
   }
 
+  /// Announces what projectToMean with the same arguments fills. Comes behind all other announcements but
+  /// those of its kind.
+  template <class Dofs>
+  void announceMean(Dofs const& starts, int coordinates) {
+    std::vector<int> own, all;
+    for (const int dof : starts)
+      for (int i = dof / B; i <= (dof + coordinates - 1) / B; ++i) own.push_back(i);
+    compact(own);
+    all = own;
+    for (const int i : own)
+      all.insert(all.end(), pattern[std::size_t(i)].begin(), pattern[std::size_t(i)].end());
+    compact(all);
+    for (const int j : all)
+      for (const int i : own) insert(pattern[std::size_t(j)], i);
+    for (const int i : own) pattern[std::size_t(i)] = all;
+  }
+
   void finishPattern() {
     rowStart.assign(1, 0);
     columns.clear();
@@ -159,6 +176,39 @@ struct CompressedRowSparseMatrix {
     own = (projector * own * projector + Mat<Real, n>::Identity() - projector).eval();
     for (int i = 0; i < n; ++i)
       for (int j = 0; j < n; ++j) put(dof + i, dof + j, own(i, j));
+  }
+
+  /// A = P A P + (I - P), where P replaces each of the first coordinates of some points, whose dofs begin at
+  /// `starts`, by its mean over them; to be called after mirror().
+  template <class Dofs>
+  void projectToMean(Dofs const& starts, int coordinates) {
+    const Real share = Real(1) / Real(starts.size());
+    for (int c = 0; c < coordinates; ++c) {
+      auto own = [&](int column) {
+        for (const int dof : starts)
+          if (dof + c == column) return true;
+        return false;
+      };
+      auto sum = [&](int column) {
+        Real total = 0;
+        for (const int dof : starts)
+          if (Real const* const entry = find(dof + c, column)) total += *entry;
+        return total;
+      };
+      const std::size_t r = std::size_t((starts[0] + c) / B);
+      for (int k = rowStart[r]; k < rowStart[r + 1]; ++k)
+        for (int j = 0; j < B; ++j) {
+          const int column = columns[std::size_t(k)] * B + j;
+          if (own(column)) continue;
+          const Real mean = sum(column) * share;
+          for (const int dof : starts) put(dof + c, column, mean), put(column, dof + c, mean);
+        }
+      Real mean = 0;
+      for (const int dof : starts) mean += sum(dof + c);
+      mean *= share * share;
+      for (const int a : starts)
+        for (const int b : starts) put(a + c, b + c, mean + Real(a == b) - share);
+    }
   }
 
   /// y = A x, both of dofs() scalars, with one more scalar of any value readable behind x.

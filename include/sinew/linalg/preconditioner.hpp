@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/linalg/block_ldl.hpp>
 #include <sinew/linalg/block_matrix.hpp>
 
 #include <algorithm>
@@ -12,14 +13,16 @@
 
 namespace sinew {
 
-/// What a preconditioner takes for the matrix A.
+/// What a preconditioner takes for the matrix A = L + D + L', D its diagonal blocks.
 ///   none                A ~ I
 ///   jacobi              its diagonal
-///   blockJacobi         its diagonal blocks
+///   blockJacobi         D
+///   ssor                (D/w + L) (D/w)^-1 (D/w + L)' / (2 - w), one sweep there and back (Axelsson 1972)
 ///   incompleteCholesky  L D L' with the blocks of A and no more, IC(0) (Meijerink, van der Vorst 1977)
-enum class PreconditionerMethod { none, jacobi, blockJacobi, incompleteCholesky };
-inline constexpr std::array<std::string_view, 4> enum_names(PreconditionerMethod) {
-  return {"none", "jacobi", "blockJacobi", "incompleteCholesky"};
+///   ldl                 A itself, factorised: of use for several steps, while A changes little
+enum class PreconditionerMethod { none, jacobi, blockJacobi, ssor, incompleteCholesky, ldl };
+inline constexpr std::array<std::string_view, 6> enum_names(PreconditionerMethod) {
+  return {"none", "jacobi", "blockJacobi", "ssor", "incompleteCholesky", "ldl"};
 }
 
 /// z = M^-1 r, where M is near to a block matrix and easily solved. Positive definite whatever the matrix is,
@@ -33,19 +36,22 @@ struct Preconditioner {
 
   PreconditionerMethod method = PreconditionerMethod::none;
   int dofs = 0;      // scalars of the system, without padding
-  double shift = 0;  // of the diagonal, relative, that IC(0) needed to exist
+  double omega = 1;  // w of SSOR
+  double shift = 0;  // of the diagonal, relative, that a factorisation needed to be positive
   std::vector<int> first{}, column{},
-      slot{};                             // IC: blocks left of the diagonal, and their slots in the matrix
-  std::vector<Block> lower{}, inverse{};  // L, D^-1
+      slot{};  // SSOR, IC: blocks left of the diagonal, and their slots in the matrix
+  std::vector<Block> lower{}, inverse{};  // L with ones on its diagonal, D^-1
+  BlockLdl<Matrix> factor{};
 
   void init(Matrix const& a, PreconditionerMethod which, int systemDofs) {
     method = which;
     dofs = systemDofs;
+    if (method == PreconditionerMethod::ldl) return factor.init(a, dofs);
     inverse.assign(std::size_t(a.rows()), Block::Identity());
     first.assign(1, 0);
     column.clear();
     slot.clear();
-    if (method == PreconditionerMethod::incompleteCholesky)
+    if (triangular())
       for (int i = 0; i < a.rows(); ++i) {
         for (int s = a.rowStart[std::size_t(i)]; s < a.diagonal[std::size_t(i)]; ++s) {
           column.push_back(a.columns[std::size_t(s)]);
@@ -59,25 +65,32 @@ struct Preconditioner {
     scaled.assign(std::size_t(longest), Block::Zero());
   }
 
+  /// IC(0) of a positive definite matrix may break down, and L D L' of an indefinite one has negative pivots;
+  /// those of A + shift diag(A) are positive for a shift large enough (Manteuffel 1980): 0.001, doubled as
+  /// long as it takes.
   void update(Matrix const& a) {
     shift = 0;
-    if (method == PreconditionerMethod::incompleteCholesky) {
-      // IC(0) of a positive definite matrix may break down; that of A + shift diag(A) exists for a shift
-      // large enough (Manteuffel 1980)
-      while (!incompleteFactor(a) && shift < 1e3) shift = shift > 0 ? 2 * shift : 1e-3;
+    auto positive = [&] {
+      if (method == PreconditionerMethod::incompleteCholesky) return incompleteFactor(a);
+      return factor.factorise(a, shift) < 0 && factor.negativePivots == 0;
+    };
+    if (method == PreconditionerMethod::incompleteCholesky || method == PreconditionerMethod::ldl) {
+      while (!positive() && shift < 1e3) shift = shift > 0 ? 2 * shift : 1e-3;
       return;
     }
     for (int i = 0; i < a.rows() && method != PreconditionerMethod::none; ++i) {
       const Block d = diagonal(a, i);
       if (method == PreconditionerMethod::jacobi || !invert(d, inverse[std::size_t(i)])) scaleOnly(d, i);
     }
+    if (method == PreconditionerMethod::ssor) scaleRows(a);
   }
 
   template <class Vector>
-  void apply(Vector const& r, Vector& z) const {
+  void apply(Vector const& r, Vector& z) {
+    if (method == PreconditionerMethod::ldl) return factor.solve(r, z);
     auto at = [&z](int i) { return z.template segment<B>(Eigen::Index(i) * B); };
     const int n = int(inverse.size());
-    const bool triangular = method == PreconditionerMethod::incompleteCholesky;
+    const bool triangular = this->triangular();
     for (int i = 0; i < n; ++i) {
       Column sum = r.template segment<B>(Eigen::Index(i) * B);
       if (triangular)
@@ -94,6 +107,16 @@ struct Preconditioner {
  private:
   std::vector<Block> scaled{};  // L D, of one row
 
+  bool triangular() const {
+    return method == PreconditionerMethod::ssor || method == PreconditionerMethod::incompleteCholesky;
+  }
+  // SSOR as L D L': L = I + w A_lower D^-1,  D^-1 <- w (2 - w) D^-1
+  void scaleRows(Matrix const& a) {
+    for (std::size_t p = 0; p < column.size(); ++p)
+      lower[p].noalias() = Real(omega) * Eigen::Map<typename Matrix::Block const>(a.block(slot[p])) *
+                           inverse[std::size_t(column[p])];
+    for (Block& d : inverse) d *= Real(omega * (2 - omega));
+  }
   Block diagonal(Matrix const& a, int i) const {
     Block d = Eigen::Map<typename Matrix::Block const>(a.block(a.diagonal[std::size_t(i)]));
     for (int r = 0; r < B; ++r)

@@ -12,6 +12,7 @@ struct IdentityMapping {
   using Role = role::Mapping;
   using In = I;
   using Out = O;
+  static constexpr bool samePoints = true;  // point i of the child goes with point i of the parent
   static constexpr bool centers = In::rigid && !Out::rigid;
   static_assert(
       centers ? In::spatial == Out::size : In::size == Out::size && In::rigid == Out::rigid,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/core/component.hpp>
+#include <sinew/mapping/geometric_stiffness.hpp>
 
 #include <vector>
 
@@ -11,7 +12,9 @@ namespace sinew {
 ///   x = c + r,  r = R p      v = c' + w x r      f_c += f,  torque += r x f
 /// and, for frames, orientations q o, angular velocities w, and torques that are added. The positions given
 /// to the child are the p (and o) in body axes, or those in the world with `globalToLocalCoords`. In the
-/// plane w x r = w (-r_y, r_x).
+/// plane w x r = w (-r_y, r_x). As bodies turn, the arms of forces do, which `geometricStiffness` adds:
+///   K_g = 1/2 ([f]x [r]x + [r]x [f]x) on angular coordinates, in the plane -f.r
+/// What the symmetric part leaves out is 1/2 [f x r]x, and vanishes together with the torque on a body.
 template <class I, class O>
 struct RigidMapping {
   using Role = role::Mapping;
@@ -25,6 +28,7 @@ struct RigidMapping {
 
   std::vector<int> rigidIndices{0};
   bool globalToLocalCoords = false;
+  RotationalStiffness geometricStiffness = RotationalStiffness::none;
 
   static constexpr auto fields() {
     return field_list(field("rigidIndexPerPoint",
@@ -32,15 +36,22 @@ struct RigidMapping {
                             "",
                             "the body that carries each point; one entry for all points",
                             range::nonNegative)
+                          .numbersOf(Of::parentPoints)
                           .also("index"),
                       field("globalToLocalCoords",
                             &RigidMapping::globalToLocalCoords,
                             "",
-                            "the positions of the child are given in the world, not in the body"));
+                            "the positions of the child are given in the world, not in the body"),
+                      field("geometricStiffness",
+                            &RigidMapping::geometricStiffness,
+                            "",
+                            "what turning arms add to the stiffness"));
   }
+  static constexpr int angular = In::size - N;
 
-  typename Out::VecCoord local{};       // p, and o
-  std::vector<Vec<Real, N>> rotated{};  // r at the last apply
+  typename Out::VecCoord local{};                            // p, and o
+  std::vector<Vec<Real, N>> rotated{};                       // r at the last apply
+  std::vector<Mat<typename In::Real, angular>> stiffness{};  // K_g of each body at the last updateK
 
   void init(InitContext<In> const& parent, InitContext<Out> const& child, typename Out::VecCoord& positions) {
     const std::string where = text(child.where, ": ", component_name<RigidMapping>());
@@ -72,6 +83,7 @@ struct RigidMapping {
           local[i].orientation = positions[i].orientation - Real(body.orientation);
       }
     rotated.resize(local.size());
+    stiffness.assign(parent.rest.size(), Mat<typename In::Real, angular>::Zero());
   }
 
   void apply(typename Out::VecCoord& out, typename In::VecCoord const& in) {
@@ -96,6 +108,37 @@ struct RigidMapping {
   template <class F>
   void forEachJacobianBlock(int point, F&& f) const {
     f(int(body_of(std::size_t(point))), jacobian(std::size_t(point)));
+  }
+
+  void updateK(typename Out::VecDeriv const& f) {
+    if (geometricStiffness == RotationalStiffness::none) return;
+    for (auto& k : stiffness) k.setZero();
+    for (std::size_t i = 0; i < local.size(); ++i) {
+      const Vec<Real, N> force = f[i].template head<N>(), r = rotated[i];
+      Mat<Real, angular> k;
+      if constexpr (N == 3)
+        k = Real(0.5) * (force * r.transpose() + r * force.transpose()) -
+            force.dot(r) * Mat<Real, 3>::Identity();
+      else
+        k(0) = -force.dot(r);
+      stiffness[body_of(i)] += k.template cast<typename In::Real>();
+    }
+  }
+  void addKx(typename In::VecDeriv& df, typename In::VecDeriv const& dx, double k) const {
+    if (geometricStiffness == RotationalStiffness::none) return;
+    for (std::size_t b = 0; b < stiffness.size(); ++b)
+      df[b].template tail<angular>() +=
+          typename In::Real(k) * (stiffness[b] * dx[b].template tail<angular>());
+  }
+  template <class Sink>
+  void addToMatrix(MechanicalParams const& p, Sink const& sink) const {
+    if (geometricStiffness == RotationalStiffness::none) return;
+    using Block = Mat<typename In::Real, In::size>;
+    for (std::size_t b = 0; b < stiffness.size(); ++b) {
+      Block block = Block::Zero();
+      block.template bottomRightCorner<angular, angular>() = typename In::Real(p.k) * stiffness[b];
+      sink.add(int(b), int(b), block);
+    }
   }
 
  private:

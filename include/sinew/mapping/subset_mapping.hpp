@@ -26,7 +26,8 @@ struct SubsetMapping {
                             "",
                             "point of the parent that each point of the child is; those at the same place, "
                             "where none is given",
-                            range::nonNegative));
+                            range::nonNegative)
+                          .numbersOf(Of::parentPoints));
   }
 
   void init(InitContext<In> const& parent, InitContext<Out> const& child, typename Out::VecCoord& positions) {

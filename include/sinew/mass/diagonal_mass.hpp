@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/follow.hpp>
 #include <sinew/mass/lumped_mass.hpp>
 #include <sinew/topology/element_checks.hpp>
 #include <sinew/topology/hexahedra.hpp>
@@ -36,10 +37,20 @@ struct DiagonalMass {
               "mass of a volume of the body, [kg/m^2] of a surface, [kg/m] of a wire",
               range::positive),
         field("totalMass", &M::totalMass, "kg", "mass of the body", range::positive).also("totalmass"),
-        field("vertexMass", &M::vertexMass, "kg", "mass of each point", range::positive).also("mass"));
+        field("vertexMass", &M::vertexMass, "kg", "mass of each point", range::positive)
+            .oneEach(Of::points)
+            .also("mass"));
   }
 
   LumpedMass<D> lumped{};
+  double density = 0;
+
+  /// The density stays, not the total.
+  void follow(Followed const&) {
+    if (!totalMass) return;
+    massDensity = density;
+    totalMass.reset();
+  }
 
   void init(InitContext<D> const& context) {
     const std::string where = text(context.where, ": ", component_name<DiagonalMass>());
@@ -57,7 +68,7 @@ struct DiagonalMass {
       const std::vector<double> share = sizes(context, where);
       double whole = 0;
       for (const double v : share) whole += v;
-      const double density = massDensity ? *massDensity : *totalMass / whole;
+      density = massDensity ? *massDensity : *totalMass / whole;
       std::vector<MassType> masses(n);
       for (std::size_t i = 0; i < n; ++i) masses[i] = MassType(density * share[i]);
       lumped.init(where, masses);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/core/assembly.hpp>
+#include <sinew/core/follow.hpp>
 #include <sinew/linalg/block_matrix.hpp>
 #include <sinew/mass/lumped_mass.hpp>
 #include <sinew/topology/element_checks.hpp>
@@ -45,9 +46,19 @@ struct MeshMatrixMass {
               "density, [kg/m^2] of a surface, [kg/m] of a wire: one for all elements, or one for each, "
               "tetrahedra "
               "before hexahedra and triangles before quads",
-              range::positive),
+              range::positive)
+            .oneEach(Of::elements),
         field("totalMass", &M::totalMass, "kg", "mass of the body", range::positive).also("totalmass"),
         field("lumping", &M::lumping, "", "keep the row sums only"));
+  }
+
+  double scale = 1;  // of the densities
+
+  /// The density stays, not the total.
+  void follow(Followed const&) {
+    if (!massDensity.empty()) return;
+    massDensity = {scale};
+    totalMass.reset();
   }
 
   LumpedMass<D> lumped{};                           // the row sums
@@ -95,7 +106,7 @@ struct MeshMatrixMass {
           total += m;
         }
     });
-    const double scale = massDensity.empty() ? totalMass.value_or(1) / total : 1;
+    scale = massDensity.empty() ? totalMass.value_or(1) / total : 1;
     for (std::size_t k = 0; k < values.size(); ++k) consistent.values[k] = Real(scale * values[k]);
     std::vector<MassType> sums(n);
     for (std::size_t i = 0; i < n; ++i) sums[i] = MassType(scale * rows[i]);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/follow.hpp>
 #include <sinew/io/read_rigid.hpp>
 #include <sinew/io/text_mesh_file.hpp>
 #include <sinew/mass/lumped_mass.hpp>
@@ -45,6 +46,14 @@ struct UniformMass {
   }
 
   LumpedMass<D> lumped{};
+
+  /// What a point weighs stays, not the total.
+  void follow(Followed const&) {
+    if (!totalMass) return;
+    vertexMass = lumped.mass[0];
+    totalMass.reset();
+    filename = {};
+  }
 
   void init(InitContext<D> const& context) {
     const std::string where = text(context.where, ": ", component_name<UniformMass>());

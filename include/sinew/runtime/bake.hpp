@@ -243,10 +243,11 @@ class Baker {
 
   std::array<Node*, 2> endsOf(Node& node, Entry const& entry) const {
     std::array<Node*, 2> ends{nullptr, nullptr};
-    entry.component.template visit<role::InteractionForceField>([&](auto const& joint) {
-      if constexpr (requires { joint.ends.object1; })
-        ends = {node.resolve(joint.ends.object1), node.resolve(joint.ends.object2)};
-    });
+    entry.component.template visit<role::InteractionForceField, role::ProjectiveConstraint>(
+        [&](auto const& joint) {
+          if constexpr (requires { joint.ends.object1; })
+            ends = {node.resolve(joint.ends.object1), node.resolve(joint.ends.object2)};
+        });
     return ends;
   }
   static std::string pathFrom(Node const& above, Node const& node) {

@@ -43,8 +43,17 @@ struct RuntimeChecker {
 
   template <class C>
   void operator()(C& c) const {
-    if constexpr (HasRole<C, role::ForceField> || HasRole<C, role::Mass> ||
-                  HasRole<C, role::ProjectiveConstraint>) {
+    if constexpr (JoinsTwo<C>) {
+      ends(c);
+      if constexpr (HasRole<C, role::ProjectiveConstraint>)
+        for (auto* end : entry.ends) {
+          if (RuntimeScope<R>(*end).stateScope().mapped())
+            fail("acts on a mapped state, which follows its parent; constrain the parent instead");
+          if (solver(*end) != solver(scope.node))
+            fail("joins bodies under different ODE solvers; put it and both bodies below one solver");
+        }
+    } else if constexpr (HasRole<C, role::ForceField> || HasRole<C, role::Mass> ||
+                         HasRole<C, role::ProjectiveConstraint>) {
       state<typename C::DataTypes>(
           scope,
           "what it acts on",
@@ -53,8 +62,6 @@ struct RuntimeChecker {
         fail("acts on a mapped state, which follows its parent; constrain the parent instead");
     } else if constexpr (HasRole<C, role::Mapping>) {
       mapping<C>();
-    } else if constexpr (HasRole<C, role::InteractionForceField>) {
-      ends(c);
     } else if constexpr (HasRole<C, role::OdeSolver>) {
       if constexpr (C::implicit) {
         bool found = false;
@@ -63,6 +70,13 @@ struct RuntimeChecker {
           fail("is implicit and finds no linear solver; add one, such as CGLinearSolver, to its node");
       }
     }
+  }
+
+  // the node of the nearest ODE solver upwards; null where there is none, or above a runtime tree
+  static RuntimeNode<R> const* solver(RuntimeNode<R> const& node) {
+    for (auto const& other : node.components())
+      if (other.component.template is<role::OdeSolver>()) return &node;
+    return node.parent() ? solver(*node.parent()) : nullptr;
   }
 
   template <class M>
@@ -94,12 +108,11 @@ struct RuntimeChecker {
         bool above = false;
         for (auto* at = entry.ends[k]; at; at = at->parent()) above = above || at == &scope.node;
         if (!above)
-          fail(text(
-              "object",
-              k + 1,
-              ": the node at '",
-              *paths[k],
-              "' is not below that of the interaction; put the interaction into a node above both ends"));
+          fail(text("object",
+                    k + 1,
+                    ": the node at '",
+                    *paths[k],
+                    "' is not below that of this component; put it into a node above both ends"));
         state<typename C::DataTypes>(
             RuntimeScope<R>(*entry.ends[k]),
             text("object", k + 1),

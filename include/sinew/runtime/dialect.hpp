@@ -273,7 +273,16 @@ inline constexpr std::array attributesNotYet =
                                      "applyRestPosition",
                                      "mapForces",
                                      "mapConstraints",
-                                     "mapMasses"});
+                                     "mapMasses",
+                                     "lastFreeRotation",
+                                     "restRotations",
+                                     "lastPos",
+                                     "lastDir",
+                                     "clamp",
+                                     "minDistance",
+                                     "positionFactor",
+                                     "velocityFactor",
+                                     "responseFactor"});
 
 /// Attributes that mean nothing in one class only: they are left over in well-known scenes, or say where to
 /// write.
@@ -295,7 +304,8 @@ inline constexpr std::array attributesWithoutMeaningOf =
                                 {"TriangleFEMForceField", "criteriaValue"},
                                 {"TriangleFEMForceField", "computePrincipalStress"},
                                 {"VariationalSymplecticSolver", "file"},
-                                {"RegularGridTopology", "position"}});
+                                {"RegularGridTopology", "position"},
+                                {"GridMeshCreator", "filename"}});
 
 /// Attributes of nodes that concern pictures or bookkeeping.
 inline constexpr std::array nodeAttributesWithoutMeaning =
@@ -334,6 +344,25 @@ inline constexpr std::array newtonDefaults =
                                                     {"relativeEstimateDifferenceThreshold", "0"},
                                                     {"absoluteEstimateDifferenceThreshold", "0"},
                                                     {"maxNbIterationsLineSearch", "5"}});
+
+/// Components that precondition, and linear solvers that may stand in their place: what a PCG solver that
+/// links to them is told.
+struct Preconditions {
+  std::string_view name, precondition, updateStep;
+  bool warp;  // it turns with the body, and wraps another
+};
+inline constexpr std::array preconditioners =
+    std::to_array<Preconditions>({{"JacobiPreconditioner", "jacobi", "", false},
+                                  {"JacobiLinearSolver", "jacobi", "", false},
+                                  {"BlockJacobiPreconditioner", "blockJacobi", "", false},
+                                  {"SSORPreconditioner", "ssor", "", false},
+                                  {"WarpPreconditioner", "ldl", "", true},
+                                  {"PrecomputedWarpPreconditioner", "ldl", "0", true}});
+constexpr Preconditions const* preconditioner_named(std::string_view tag) {
+  for (auto const& p : preconditioners)
+    if (p.name == tag) return &p;
+  return nullptr;
+}
 
 /// Attributes that are as good as not given where they are empty, or a link to nothing: "@".
 inline constexpr std::array mayBeEmpty =

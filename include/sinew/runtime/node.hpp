@@ -19,6 +19,7 @@ struct Mount {
   std::string (*path)(void const*) = nullptr;
   Eigen::Vector3d (*gravity)(void const*) = nullptr;
   TopologyView (*topology)(void const*) = nullptr;
+  void const* (*topologyAddress)(void const*) = nullptr;
   void (*expand)(void const*, int point, struct JacobianVisitor const&) = nullptr;
   std::string_view dataTypes{};  // of the state above; empty: none
   void* state = nullptr;

@@ -13,7 +13,9 @@ namespace sinew {
 using StandardSimulation = Simulation<RuntimeNode<Standard>>;
 
 extern template void Simulation<RuntimeNode<Standard>>::init();
-extern template void Simulation<RuntimeNode<Standard>>::initScene(RootScope const&, bool);
+extern template void Simulation<RuntimeNode<Standard>>::initScene(RootScope const&, InitAgain const&);
+extern template TopologyChange Simulation<RuntimeNode<Standard>>::removeElements(std::string_view,
+                                                                                 ElementNumbers const&);
 extern template void Simulation<RuntimeNode<Standard>>::animate(double);
 extern template void Simulation<RuntimeNode<Standard>>::reset();
 extern template void Simulation<RuntimeNode<Standard>>::propagate();

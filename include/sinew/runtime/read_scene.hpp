@@ -87,6 +87,7 @@ class SceneReader {
     std::string state{};  // DataTypes of the state of this node; empty: none
     bool visual = false;
     std::vector<XmlElement*> newton{};  // settings for ODE solvers
+    std::vector<XmlElement*> preconditioners{};
 
     Item* find(std::string_view itemName) const {
       for (auto const& item : items)
@@ -121,7 +122,7 @@ class SceneReader {
   std::set<std::string, std::less<>> ignored_{}, warnings_{};
   std::vector<std::string> files_{};
   std::vector<Item*> moved_{};
-  std::set<XmlElement const*> takenNewton_{};
+  std::set<XmlElement const*> takenNewton_{}, takenPreconditioners_{};
   std::vector<std::unique_ptr<XmlElement>> made_{};  // elements that stand for what an attribute asks for
 
   void complain(std::string const& place, std::string_view what) {
@@ -140,6 +141,7 @@ class SceneReader {
     collect(top);
     setNewton(top);
     warnOfLooseNewton(top);
+    setPreconditioners(top);
     splitVisuals(top);
     decideStates(top);
     decideClasses(top);
@@ -238,6 +240,9 @@ class SceneReader {
       } else if (const std::string tag = tagOf(child); tag == "NewtonRaphsonSolver") {
         hasNoChildren(child);
         place.newton.push_back(&child);
+      } else if (dialect::preconditioner_named(tag)) {
+        hasNoChildren(child);
+        place.preconditioners.push_back(&child);
       } else if (tag == "BoxConstraint") {
         boxConstraint(place, child);
       } else if (tag == "CGImplicit" || tag == "CGImplicitSolver") {
@@ -354,6 +359,55 @@ class SceneReader {
       if (!item.element->attribute(a.name)) item.element->take(a, true);
     }
     for (auto const& [name, value] : dialect::newtonDefaults) item.element->set(name, value, false);
+  }
+
+  // A preconditioner, or the linear solver that is one, is a setting of the solver that links to it.
+  void setPreconditioners(Place& place) {
+    for (std::size_t i = 0; i < place.items.size(); ++i)
+      if (Item& item = *place.items[i]; item.candidates[0]->field("precondition")) {
+        std::string link;
+        std::erase_if(item.element->attributes, [&](XmlAttribute const& a) {
+          if (a.name != "preconditioner" && a.name != "preconditioners") return false;
+          link = a.value;
+          return true;
+        });
+        if (!link.empty()) takePreconditioner(item, link);
+      }
+    for (auto& child : place.children) setPreconditioners(*child);
+    std::erase_if(place.items,
+                  [&](auto const& item) { return takenPreconditioners_.count(item->element) > 0; });
+    for (XmlElement const* element : place.preconditioners)
+      if (!takenPreconditioners_.count(element))
+        warnings_.insert(
+            text(element->place(), ": <", tagOf(*element), ">: no solver links to it; it has no effect"));
+  }
+  void takePreconditioner(Item& item, std::string const& link, int depth = 0) {
+    XmlElement const* const element = solverNamed(*item.place, link);
+    if (!element || element == item.element || depth > 2)
+      return complain(*item.element, text("there is no preconditioner ", shown(link), "; correct the link"));
+    takenPreconditioners_.insert(element);
+    auto const* means = dialect::preconditioner_named(tagOf(*element));
+    if (means && means->warp) item.element->set("warp", "1", false);
+    if (means && !means->updateStep.empty()) item.element->set("update_step", means->updateStep);
+    for (XmlAttribute const& a : element->attributes) {
+      if (a.name == "omega") item.element->set(a.name, a.value, false);
+      if (a.name == "update_step") item.element->set(a.name, a.value);
+      // what is warped
+      if (means && means->warp && (a.name == "linearSolver" || a.name == "solverName") && !a.value.empty())
+        takePreconditioner(item, a.value, depth + 1);
+    }
+    item.element->set("precondition", means ? means->precondition : "ldl", false);
+  }
+  // by the last step of the link, in the node or above
+  static XmlElement const* solverNamed(Place const& place, std::string const& link) {
+    std::string name = link.substr(link.find_last_of("@/") + 1);
+    for (Place const* at = &place; at; at = at->parent) {
+      for (XmlElement const* element : at->preconditioners)
+        if (nameOf(*element, tagOf(*element)) == name) return element;
+      for (auto const& item : at->items)
+        if (item->name == name && item->candidates[0]->role == RoleKind::linearSolver) return item->element;
+    }
+    return nullptr;
   }
 
   std::unique_ptr<Item> makeItem(Place& place, XmlElement& element) {
@@ -802,10 +856,11 @@ class SceneReader {
       item.component->template visit<role::Topology>([&](auto& topology) {
         if constexpr (requires { topology.generate(""); }) topology.generate(item.info->cppName);
       });
-      item.component->template visit<role::InteractionForceField>([&](auto& joint) {
-        if constexpr (requires { joint.ends.object1; })
-          joint.ends.object1 = item.ends[0], joint.ends.object2 = item.ends[1];
-      });
+      item.component->template visit<role::InteractionForceField, role::ProjectiveConstraint>(
+          [&](auto& joint) {
+            if constexpr (requires { joint.ends.object1; })
+              joint.ends.object1 = item.ends[0], joint.ends.object2 = item.ends[1];
+          });
     });
     if (item.info->role == RoleKind::mapping) ends(item);
     item.progress = Progress::done;

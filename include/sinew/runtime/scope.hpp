@@ -30,6 +30,7 @@ struct RuntimeScope {
                  [](void const* s) { return static_cast<S const*>(s)->path(); },
                  [](void const* s) { return static_cast<S const*>(s)->gravity(); },
                  [](void const* s) { return static_cast<S const*>(s)->topology(); },
+                 [](void const* s) { return static_cast<S const*>(s)->topologyAddress(); },
                  nullptr};
     if constexpr (S::hasState) {
       auto& state = typed.stateScope().node.state();
@@ -89,16 +90,41 @@ struct RuntimeScope {
     const RuntimeScope owner = stateScope();
     return *static_cast<S*>(owner.atMount ? owner.mount().state : owner.node.state()->component.address());
   }
+  void const* stateAddress() const {
+    const RuntimeScope owner = stateScope();
+    return owner.atMount        ? owner.mount().state
+           : owner.node.state() ? owner.node.state()->component.address()
+                                : nullptr;
+  }
+  void const* pointsAddress() const { return overParent() ? parentScope().stateAddress() : stateAddress(); }
+  void const* topologyAddress() const {
+    if (atMount) return mount().scope ? mount().topologyAddress(mount().scope) : nullptr;
+    if (node.topology()) return node.topology()->component.address();
+    return node.state() ? nullptr : above().topologyAddress();
+  }
   template <class D>
   InitContext<D> context() const {
     return {path(), state<D>().restPosition, topology()};
   }
+  RuntimeScope parentScope() const { return above().stateScope(); }
   template <class D>
   InitContext<D> parentContext() const {
-    return above().stateScope().template context<D>();
+    return parentScope().template context<D>();
+  }
+  bool overParent() const {
+    bool over = false;
+    if (!atMount && node.mapping())
+      node.mapping()->component.template visit<role::Mapping>(
+          [&](auto& mapping) { over = over_parent<std::decay_t<decltype(mapping)>>; });
+    return over;
   }
   template <class F>
   void withContext(F&& f) const {
+    if (overParent()) {
+      node.mapping()->component.template visit<role::Mapping>(
+          [&](auto& mapping) { f(parentContext<typename std::decay_t<decltype(mapping)>::In>()); });
+      return;
+    }
     const RuntimeScope owner = stateScope();
     if (!owner.atMount && owner.node.state())
       owner.node.state()->component.template visit<role::State>(
@@ -113,6 +139,17 @@ struct RuntimeScope {
   void forEachChild(F&& f) const {
     for (auto const& child : node.children()) f(RuntimeScope(*child));
   }
+  template <class F>
+  void forEachChildReversed(F&& f) const {
+    auto const& children = node.children();
+    for (auto child = children.rbegin(); child != children.rend(); ++child) f(RuntimeScope(**child));
+  }
+  template <class F>
+  void withMass(F&& f) const {
+    if (atMount) return;
+    for (auto& entry : node.components())
+      if (entry.component.template visit<role::Mass>(f)) return;
+  }
 
   template <class C, class F>
   void located(C const& c, F&& f) const {
@@ -125,9 +162,9 @@ struct RuntimeScope {
     }
   }
   template <class C, class F>
-  void ifNew(C const& c, bool again, F&& f) const {
+  void ifNew(C const& c, InitAgain const& again, F&& f) const {
     auto const& entry = node.entryOf(&c);
-    if (again && entry.initialised && entry.surroundings == surroundings(entry)) return;
+    if (again && entry.initialised && !again.touches(&c) && entry.surroundings == surroundings(entry)) return;
     collect([&] { located(c, f); });
   }
   /// Goes on after an error, so that all can be said at once; raise() throws them.
@@ -171,12 +208,20 @@ struct RuntimeScope {
     addSurroundings(all);
     for (auto* end : entry.ends)
       if (end) RuntimeScope(*end).addSurroundings(all);
+    // masses that it may have asked for
+    if (entry.component.template is<role::Mapping>()) {
+      parentScope().addMass(all);
+    } else if (entry.component.template is<role::ProjectiveConstraint>()) {
+      addMass(all);
+      for (auto* end : entry.ends)
+        if (end) RuntimeScope(*end).addMass(all);
+    }
     return all;
   }
 
   template <class M, class F>
   void withMapped(M const&, F&& f) const {
-    auto& parent = above().template state<typename M::In>();
+    auto& parent = parentScope().template state<typename M::In>();
     if (node.state()) {
       if constexpr (!std::is_void_v<typename StateOf<R, typename M::Out>::type>)
         f(state<typename M::Out>(), parent);
@@ -216,9 +261,7 @@ struct RuntimeScope {
  private:
   void addSurroundings(std::vector<void const*>& all) const {
     const RuntimeScope owner = stateScope();
-    all.push_back(owner.atMount        ? owner.mount().state
-                  : owner.node.state() ? owner.node.state()->component.address()
-                                       : nullptr);
+    all.push_back(stateAddress());
     all.push_back(topologyAddress());
     if (!atMount && node.mapping()) {
       all.push_back(node.mapping()->component.address());
@@ -228,10 +271,11 @@ struct RuntimeScope {
     }
   }
 
-  void const* topologyAddress() const {
-    if (atMount) return nullptr;
-    if (node.topology()) return node.topology()->component.address();
-    return node.state() ? nullptr : above().topologyAddress();
+  void addMass(std::vector<void const*>& all) const {
+    const RuntimeScope owner = stateScope();
+    if (owner.atMount) return;
+    for (auto const& other : owner.node.components())
+      if (other.component.template is<role::Mass>()) all.push_back(other.component.address());
   }
 
   // the Jacobian of a point of this scope's state with respect to the independent states above it

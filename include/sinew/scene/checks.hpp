@@ -124,6 +124,19 @@ constexpr auto find_path() {
 template <class S, FixedString Path>
 using AtPath = typename decltype(find_path<S, Path>())::type;
 
+/// The nearest scope from S upwards that has an ODE solver; NoScope where none has.
+template <class S>
+constexpr auto find_solver() {
+  if constexpr (std::is_same_v<S, NoScope>)
+    return std::type_identity<NoScope>{};
+  else if constexpr (S::NodeType::template count<role::OdeSolver> > 0)
+    return std::type_identity<S>{};
+  else
+    return find_solver<typename S::Above>();
+}
+template <class S>
+using Solver = typename decltype(find_solver<S>())::type;
+
 template <class C, class End>
 constexpr bool interaction_end() {
   constexpr bool found = !std::is_same_v<End, NoScope>;
@@ -148,6 +161,26 @@ constexpr bool interaction_end() {
 }
 
 template <class C, class S>
+constexpr bool interaction_constraint() {
+  using A = AtPath<S, C::Ends::first>;
+  using B = AtPath<S, C::Ends::second>;
+  if constexpr (!interaction_end<C, A>() || !interaction_end<C, B>()) {
+    return false;
+  } else {
+    constexpr bool independent = !Owner<A>::isMapped && !Owner<B>::isMapped;
+    static_assert(independent,
+                  "Sinew: a projective constraint acts on a mapped state, which follows its parent. "
+                  "Constrain the parent instead.");
+    constexpr bool together = std::is_same_v<Solver<S>, Solver<A>> && std::is_same_v<Solver<S>, Solver<B>>;
+    static_assert(
+        together,
+        "Sinew: a constraint joins bodies under different ODE solvers. Put it and both bodies below "
+        "one solver.");
+    return independent && together;
+  }
+}
+
+template <class C, class S>
 constexpr bool component() {
   using R = typename C::Role;
   if constexpr (std::is_same_v<R, role::State>) {
@@ -165,6 +198,11 @@ constexpr bool component() {
         Mass<C>,
         "Sinew: a component with role::Mass does not fulfil the concept Mass of core/component.hpp.");
     return Mass<C> && acts_on_state<C, S>();
+  } else if constexpr (std::is_same_v<R, role::ProjectiveConstraint> && JoinsTwo<C>) {
+    static_assert(InteractionConstraint<C>,
+                  "Sinew: a component with role::ProjectiveConstraint does not fulfil that concept of "
+                  "core/component.hpp.");
+    return InteractionConstraint<C> && interaction_constraint<C, S>();
   } else if constexpr (std::is_same_v<R, role::ProjectiveConstraint>) {
     static_assert(ProjectiveConstraint<C>,
                   "Sinew: a component with role::ProjectiveConstraint does not fulfil that concept of "

@@ -89,20 +89,21 @@ struct MechanicalOperations {
       else
         vec::eq(s[f], s[vec_id::externalForce]);
     });
-    traverse(root,
-             on<role::ForceField, role::Mass, role::InteractionForceField>([&](auto& c, auto const& scope) {
-               using C = std::decay_t<decltype(c)>;
-               if constexpr (HasRole<C, role::InteractionForceField>) {
-                 forEnds(
-                     c, scope, [&](auto& a, auto& b) { c.addForce(p, a[f], b[f], a[x], b[x], a[v], b[v]); });
-               } else {
-                 auto& s = stateOf(c, scope);
-                 MechanicalParams params = p;
-                 if constexpr (HasRole<C, role::Mass>) params.gravity = scope.gravity();
-                 c.addForce(params, s[f], s[x], s[v]);
-               }
-             }),
-             accumulate(f));
+    traverse(
+        root, on<role::ForceField, role::Mass, role::InteractionForceField>([&](auto& c, auto const& scope) {
+          using C = std::decay_t<decltype(c)>;
+          if constexpr (HasRole<C, role::InteractionForceField>) {
+            forEnds(c, scope, [&](auto& a, auto& b) { c.addForce(p, a[f], b[f], a[x], b[x], a[v], b[v]); });
+          } else {
+            auto& s = stateOf(c, scope);
+            MechanicalParams params = p;
+            if constexpr (HasRole<C, role::Mass>) params.gravity = scope.gravity();
+            c.addForce(params, s[f], s[x], s[v]);
+          }
+        }));
+    accumulate(f, [f](auto& mapping, auto& child, auto&) {
+      if constexpr (HasGeometricStiffness<std::decay_t<decltype(mapping)>>) mapping.updateK(child[f]);
+    });
   }
 
   /// a = P M^-1 f
@@ -112,7 +113,14 @@ struct MechanicalOperations {
                auto& s = stateOf(c, scope);
                c.accFromF(s[a], s[x], s[f]);
              }));
-    projectResponse(a);
+    traverse(root, on<role::ProjectiveConstraint>([&](auto& c, auto const& scope) {
+               withConstrained(c, scope, [&](auto&... s) {
+                 if constexpr (requires { c.projectAcceleration(s[a]...); })
+                   c.projectAcceleration(s[a]...);
+                 else
+                   c.projectResponse(s[a]...);
+               });
+             }));
   }
 
   /// a = acceleration at time t in the state (x, v), mapped states included.
@@ -127,15 +135,16 @@ struct MechanicalOperations {
   /// Removes forbidden displacements.
   void projectResponse(DerivId dx) {
     traverse(root, on<role::ProjectiveConstraint>([&](auto& c, auto const& scope) {
-               c.projectResponse(stateOf(c, scope)[dx]);
+               withConstrained(c, scope, [&](auto&... s) { c.projectResponse(s[dx]...); });
              }));
   }
   /// Puts constrained points where they have to be at time t, with the velocity they have there.
   void projectPositionAndVelocity(double t, CoordId x, DerivId v) {
     traverse(root, on<role::ProjectiveConstraint>([&](auto& c, auto const& scope) {
-               [[maybe_unused]] auto& s = stateOf(c, scope);
-               if constexpr (requires { c.projectPosition(t, s[x]); }) c.projectPosition(t, s[x]);
-               if constexpr (requires { c.projectVelocity(t, s[v]); }) c.projectVelocity(t, s[v]);
+               withConstrained(c, scope, [&]([[maybe_unused]] auto&... s) {
+                 if constexpr (requires { c.projectPosition(t, s[x]...); }) c.projectPosition(t, s[x]...);
+                 if constexpr (requires { c.projectVelocity(t, s[v]...); }) c.projectVelocity(t, s[v]...);
+               });
              }));
   }
 
@@ -158,8 +167,11 @@ struct MechanicalOperations {
                    c.addDForce(p, s[r], s[dx]);
                  }
                }
-             }),
-             accumulate(r));
+             }));
+    accumulate(r, [&](auto& mapping, auto&, auto& parent) {
+      if constexpr (HasGeometricStiffness<std::decay_t<decltype(mapping)>>)
+        if (p.k != 0) mapping.addKx(parent[r], parent[dx], p.k);
+    });
   }
 
   double kineticEnergy() {
@@ -199,6 +211,10 @@ struct MechanicalOperations {
     });
     matrix.startPattern(dofs);
     assemblePhase<AssemblyPhase::pattern>(matrix, {});
+    traverse(root, on<role::ProjectiveConstraint>([&](auto& c, auto const& scope) {
+               const auto sink = constraintSink<AssemblyPhase::pattern>(matrix, c, scope);
+               if constexpr (requires { c.announce(sink); }) c.announce(sink);
+             }));
     matrix.finishPattern();
     assemblePhase<AssemblyPhase::bind>(matrix, {});
   }
@@ -209,9 +225,7 @@ struct MechanicalOperations {
     assemblePhase<AssemblyPhase::add>(matrix, factors);
     matrix.mirror();
     traverse(root, on<role::ProjectiveConstraint>([&](auto& c, auto const& scope) {
-               if (scope.stateScope().mapped()) return;
-               const DirectDofs<std::decay_t<decltype(c)>::DataTypes::size> dofs{stateOf(c, scope).dofOffset};
-               c.projectMatrix(make_sink<AssemblyPhase::add>(matrix, dofs, dofs));
+               c.projectMatrix(constraintSink<AssemblyPhase::add>(matrix, c, scope));
              }));
     // what fills up the last block of a state is nobody's
     forEachIndependent([&](auto& s) {
@@ -280,12 +294,16 @@ struct MechanicalOperations {
       if constexpr (HasRole<std::decay_t<decltype(child)>, role::State>) f(mapping, child, parent);
     });
   }
-  // on the way up, f of mapped states is added to that of their parents
-  auto accumulate(DerivId f) const {
-    return on<role::Mapping>([f](auto& mapping, auto const& scope) {
-      withMechanicalChild(
-          mapping, scope, [f](auto& m, auto& child, auto& parent) { m.applyJT(parent[f], child[f]); });
-    });
+  // f of mapped states, then complete, is added to that of their parents; with each also(mapping, child,
+  // parent)
+  template <class F>
+  void accumulate(DerivId f, F&& also) {
+    traverse_back(root, on<role::Mapping>([&](auto& mapping, auto const& scope) {
+                    withMechanicalChild(mapping, scope, [&](auto& m, auto& child, auto& parent) {
+                      m.applyJT(parent[f], child[f]);
+                      also(m, child, parent);
+                    });
+                  }));
   }
   template <class C, class S, class F>
   void forEnds(C const& c, S const& scope, F&& f) {
@@ -293,9 +311,38 @@ struct MechanicalOperations {
     scope.withEnds(c, [&](auto const& a, auto const& b) { f(a.template state<D>(), b.template state<D>()); });
   }
 
+  // f(state) of a constraint, or f(state, state) of one that joins two
+  template <class C, class S, class F>
+  static void withConstrained(C const& c, S const& scope, F&& f) {
+    using D = typename C::DataTypes;
+    if constexpr (JoinsTwo<C>)
+      scope.withEnds(c,
+                     [&](auto const& a, auto const& b) { f(a.template state<D>(), b.template state<D>()); });
+    else
+      f(scope.template state<D>());
+  }
+  template <AssemblyPhase Phase, class Matrix, class C, class S>
+  static auto constraintSink(Matrix& matrix, C const& c, S const& scope) {
+    using Dofs = DirectDofs<C::DataTypes::size>;
+    Dofs first{0}, second{0};
+    withConstrained(c, scope, [&](auto& a, auto&... b) {
+      first.offset = second.offset = a.dofOffset;
+      ((second.offset = b.dofOffset), ...);
+    });
+    return MatrixSink<Phase, Matrix, Dofs>{matrix, first, second};
+  }
+
   template <AssemblyPhase Phase, class Matrix>
   void assemblePhase(Matrix& matrix, MatrixFactors factors) {
     const MechanicalParams p{.time = time, .dt = dt, .m = factors.m, .b = factors.b, .k = factors.k};
+    traverse(root, on<role::Mapping>([&](auto& mapping, auto const& scope) {
+               using M = std::decay_t<decltype(mapping)>;
+               if constexpr (HasGeometricStiffness<M>)
+                 withMechanicalChild(mapping, scope, [&](auto& m, auto&, auto&) {
+                   scope.parentScope().template withDofs<typename M::In>(
+                       [&](auto const& dofs) { m.addToMatrix(p, make_sink<Phase>(matrix, dofs, dofs)); });
+                 });
+             }));
     traverse(
         root, on<role::ForceField, role::Mass, role::InteractionForceField>([&](auto& c, auto const& scope) {
           using C = std::decay_t<decltype(c)>;

@@ -4,8 +4,11 @@
 #include <sinew/core/assembly.hpp>
 #include <sinew/scene/node.hpp>
 
+#include <algorithm>
+#include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace sinew {
 
@@ -15,6 +18,19 @@ struct NoScope {
   static std::string path() { return ""; }
   static Eigen::Vector3d gravity() { return Eigen::Vector3d::Zero(); }
   static TopologyView topology() { return {}; }
+  static void const* topologyAddress() { return nullptr; }
+};
+
+/// Whether an init is the first one, or that of a scene that has changed, in which these components have to
+/// be initialised again.
+struct InitAgain {
+  bool again = false;
+  std::vector<void const*> touched{};  // in rising order
+
+  explicit operator bool() const { return again; }
+  bool touches(void const* component) const {
+    return std::binary_search(touched.begin(), touched.end(), component, std::less<>{});
+  }
 };
 
 namespace detail {
@@ -60,6 +76,12 @@ struct Scope {
   static constexpr bool always = N::template count<R> > 0;
 
   static constexpr bool mapped() { return isMapped; }
+  static constexpr bool overParent() {
+    if constexpr (isMapped)
+      return over_parent<std::decay_t<decltype(std::declval<N&>().template first<role::Mapping>())>>;
+    else
+      return false;
+  }
   std::string path() const { return text(above.path(), '/', N::name.view()); }
 
   Eigen::Vector3d gravity() const {
@@ -90,19 +112,46 @@ struct Scope {
   auto& state() const {
     return stateScope().node.template first<role::State>();
   }
+  /// Where the state and the topology of components of this node are; null for none.
+  void const* stateAddress() const {
+    if constexpr (hasState)
+      return &stateScope().node.state();
+    else
+      return nullptr;
+  }
+  /// The state over whose points the topology of this node is.
+  void const* pointsAddress() const {
+    if constexpr (overParent())
+      return parentScope().stateAddress();
+    else
+      return stateAddress();
+  }
+  void const* topologyAddress() const {
+    if constexpr (always<role::Topology>)
+      return &node.template first<role::Topology>();
+    else if constexpr (ownsState)
+      return nullptr;
+    else
+      return above.topologyAddress();
+  }
   template <class D>
   InitContext<D> context() const {
     return {path(), state<D>().restPosition, topology()};
   }
+  /// The scope that owns the state that the mapping of this node follows.
+  auto const& parentScope() const { return above.stateScope(); }
   template <class D>
   auto parentContext() const {
-    return above.stateScope().template context<D>();
+    return parentScope().template context<D>();
   }
-  /// f(context) for the state on which components of this node act, if there is one.
+  /// f(context) for the points over which the topology of this node is, if there are some.
   template <class F>
   void withContext(F&& f) const {
-    if constexpr (hasState)
+    if constexpr (overParent()) {
+      f(parentContext<typename std::decay_t<decltype(node.template first<role::Mapping>())>::In>());
+    } else if constexpr (hasState) {
       f(context<typename std::decay_t<decltype(stateScope().node.state())>::DataTypes>());
+    }
   }
 
   template <class F, class... Roles>
@@ -115,6 +164,19 @@ struct Scope {
       f(typename ScopeOf<std::decay_t<decltype(child)>, Scope>::type{child, *this});
     });
   }
+  /// The same from the last to the first.
+  template <class F>
+  void forEachChildReversed(F&& f) const {
+    [&]<std::size_t... I>(std::index_sequence<I...>) {
+      (
+          [&] {
+            auto& child = hana::at_c<sizeof...(I) - 1 - I>(node.children);
+            f(typename ScopeOf<std::decay_t<decltype(child)>, Scope>::type{child, *this});
+          }(),
+          ...);
+    }
+    (std::make_index_sequence<std::size_t(N::childCount)>{});
+  }
   /// What the compiler could not prove is checked at init: that of runtime nodes.
   void check() const {
     forEachChild([](auto const& child) { child.check(); });
@@ -122,8 +184,8 @@ struct Scope {
   /// Runs a part of init that concerns one component, unless that is initialised already (`again`) and
   /// nothing around it has changed. settled() ends the init.
   template <class C, class F>
-  void ifNew(C const&, bool again, F&& f) const {
-    if (!again) f();
+  void ifNew(C const& c, InitAgain const& again, F&& f) const {
+    if (!again || again.touches(&c)) f();
   }
   /// Adds the place of a component to what goes wrong; the path has been said here.
   template <class C, class F>
@@ -136,6 +198,12 @@ struct Scope {
   }
   void settled() const {
     forEachChild([](auto const& child) { child.settled(); });
+  }
+
+  /// f(mass) for that of the state in this node, if it has one.
+  template <class F>
+  void withMass(F&& f) const {
+    if constexpr (always<role::Mass>) f(node.template first<role::Mass>());
   }
 
   /// f(child, parent state) for the mapping of this node; the child is a state or a visual model.
@@ -192,24 +260,20 @@ struct Scope {
   }
 };
 
-/// down(component, scope) from the root to the leaves, up(component, scope) on the way back, each for the
-/// components with one of its roles: traverse(scope, on<role::Mass>([](auto& mass, auto const& scope)
-/// {...})).
-template <class S, class Down, class... DownRoles, class Up, class... UpRoles>
-void traverse(S const& scope, RoleVisitor<Down, DownRoles...> const& down,
-              RoleVisitor<Up, UpRoles...> const& up) {
-  auto visitDown = on<DownRoles...>([&](auto& component) { down.f(component, scope); });
-  scope.forEachComponent(visitDown);
-  scope.forEachChild([&](auto const& child) { traverse(child, down, up); });
-  auto visitUp = on<UpRoles...>([&](auto& component) { up.f(component, scope); });
-  scope.forEachComponent(visitUp);
-}
-
-template <class S, class Down, class... Roles>
-void traverse(S const& scope, RoleVisitor<Down, Roles...> const& down) {
-  auto visit = on<Roles...>([&](auto& component) { down.f(component, scope); });
+/// f(component, scope) from the root to the leaves, for the components with one of its roles:
+/// traverse(scope, on<role::Mass>([](auto& mass, auto const& scope) {...})).
+template <class S, class F, class... Roles>
+void traverse(S const& scope, RoleVisitor<F, Roles...> const& visitor) {
+  auto visit = on<Roles...>([&](auto& component) { visitor.f(component, scope); });
   scope.forEachComponent(visit);
-  scope.forEachChild([&](auto const& child) { traverse(child, down); });
+  scope.forEachChild([&](auto const& child) { traverse(child, visitor); });
+}
+/// The same on the way back: nodes in the reverse order.
+template <class S, class F, class... Roles>
+void traverse_back(S const& scope, RoleVisitor<F, Roles...> const& visitor) {
+  scope.forEachChildReversed([&](auto const& child) { traverse_back(child, visitor); });
+  auto visit = on<Roles...>([&](auto& component) { visitor.f(component, scope); });
+  scope.forEachComponent(visit);
 }
 
 }  // namespace sinew

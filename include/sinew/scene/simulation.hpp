@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/scene/checks.hpp>
+#include <sinew/scene/element_removal.hpp>
 #include <sinew/scene/mechanical_operations.hpp>
 
 namespace sinew {
@@ -73,10 +74,18 @@ class Simulation {
     Root next(root_);
     scopeOf(next).settled();
     edit(next);
-    initScene(scopeOf(next), true);
+    initScene(scopeOf(next), {.again = true});
     root_ = std::move(next);
     propagate();
   }
+
+  /// Removes elements of the topology of the node at a path from the root ("liver"), and with them faces and
+  /// edges that are left without an element, and points (plan_element_removal). All that refers to them
+  /// follows: states lose the points, components the entries of their lists, mapped states what was mapped
+  /// from there; what stays keeps its order, and everything around it is initialised again from the rest
+  /// positions. Returns what became of points and elements. Throws Error where there is no such topology or
+  /// element, and where what is left is no scene: nothing has changed then.
+  TopologyChange removeElements(std::string_view path, ElementNumbers const& elements);
 
  private:
   Root root_;
@@ -98,7 +107,7 @@ class Simulation {
   void propagate();
 
   // topologies are made first; then states, parents before children; then what acts on them
-  static void initScene(RootScope const& scope, bool again);
+  static void initScene(RootScope const& scope, InitAgain const& again);
 
   // a mapping sizes and places the state of its node
   template <class C, class S>
@@ -107,9 +116,9 @@ class Simulation {
       scope.withMapped(c, [&](auto& child, auto& parent) {
         using Child = std::decay_t<decltype(child)>;
         auto place = [&](auto& rest) {
-          c.init(scope.template parentContext<typename C::In>(),
-                 {scope.path(), rest, scope.topology()},
-                 child.position);
+          withContext<C, typename C::In>(scope.parentScope(), [&](auto const& parent) {
+            c.init(parent, {scope.path(), rest, scope.topology()}, child.position);
+          });
         };
         if constexpr (HasRole<Child, role::VisualModel>) {
           child.init(scope.path());
@@ -131,22 +140,45 @@ class Simulation {
     }
   }
 
+  // f(what a component of class C is given at init of the state of a scope); the masses of its points are the
+  // sums of the rows of M
+  template <class C, class D, class S, class F>
+  static void withContext(S const& scope, F&& f) {
+    auto context = scope.template context<D>();
+    std::vector<double> masses;
+    if constexpr (needs_masses<C>)
+      scope.stateScope().withMass([&](auto& mass) {
+        if constexpr (std::is_same_v<typename std::decay_t<decltype(mass)>::DataTypes, D>) {
+          mass.init(context);
+          typename D::VecDeriv along(context.rest.size(), D::Deriv::Unit(0)),
+              sums(along.size(), D::Deriv::Zero());
+          mass.addMDx(sums, context.rest, along, 1.0);
+          for (auto const& sum : sums) masses.push_back(double(sum[0]));
+        }
+      });
+    context.masses = masses;
+    f(context);
+  }
+
   template <class C, class S>
   static void initComponent(C& c, S const& scope) {
     if constexpr (HasRole<C, role::Topology>) {
       scope.withContext([&](auto const& context) { c.init(context); });
+    } else if constexpr (JoinsTwo<C>) {
+      using D = typename C::DataTypes;
+      scope.withEnds(c, [&](auto const& a, auto const& b) {
+        withContext<C, D>(a, [&](auto const& first) {
+          withContext<C, D>(b, [&](auto const& second) { c.init(first, second); });
+        });
+      });
     } else if constexpr (HasRole<C, role::ForceField> || HasRole<C, role::Mass> ||
                          HasRole<C, role::ProjectiveConstraint>) {
-      c.init(scope.template context<typename C::DataTypes>());
-    } else if constexpr (HasRole<C, role::InteractionForceField>) {
-      using D = typename C::DataTypes;
-      scope.withEnds(
-          c, [&](auto const& a, auto const& b) { c.init(a.template context<D>(), b.template context<D>()); });
+      withContext<C, typename C::DataTypes>(scope, [&](auto const& context) { c.init(context); });
     }
   }
 
   template <class S>
-  static void initSolvers(S const& scope, bool again) {
+  static void initSolvers(S const& scope, InitAgain const& again) {
     auto visit = on<role::OdeSolver>([&](auto& ode) {
       using Ode = std::decay_t<decltype(ode)>;
       scope.located(ode, [&] {
@@ -255,12 +287,31 @@ template <class Root>
 void Simulation<Root>::init() {
   if constexpr (proved) {
     initialised_ = false;
-    initScene(rootScope(), false);
+    initScene(rootScope(), {});
     time_ = 0;
     step_ = 0;
     propagate();
     initialised_ = true;
   }
+}
+
+template <class Root>
+TopologyChange Simulation<Root>::removeElements(std::string_view path, ElementNumbers const& elements) {
+  if (!initialised_)
+    throw Error("Simulation::removeElements", "the scene is not initialised; call init() first");
+  TopologyChange change;
+  if constexpr (proved) {
+    Root next(root_);
+    const auto scope = scopeOf(next);
+    scope.settled();
+    ElementRemoval removal(scope, path, elements);
+    removal.apply();
+    initScene(scope, removal.touched());
+    change = removal.change();
+    root_ = std::move(next);
+    propagate();
+  }
+  return change;
 }
 
 template <class Root>
@@ -311,23 +362,24 @@ void Simulation<Root>::updateVisual() {
 }
 
 template <class Root>
-void Simulation<Root>::initScene(RootScope const& scope, bool again) {
+void Simulation<Root>::initScene(RootScope const& scope, InitAgain const& again) {
   scope.check();
   scope.raise();
-  traverse(scope, on<AnyRole>([again](auto& c, auto const& s) {
+  traverse(scope, on<AnyRole>([&again](auto& c, auto const& s) {
              s.ifNew(c, again, [&] { check_fields(c, s.path()); });
            }));
   scope.raise();
-  traverse(scope, on<role::Topology>([again](auto& c, auto const& s) {
+  traverse(scope, on<role::Topology>([&again](auto& c, auto const& s) {
              if constexpr (requires { c.generate(s.path()); })
                s.ifNew(c, again, [&] { c.generate(s.path()); });
            }));
-  traverse(scope, on<role::Mapping, role::State, role::VisualModel>([again](auto& c, auto const& s) {
+  traverse(scope, on<role::Mapping, role::State, role::VisualModel>([&again](auto& c, auto const& s) {
              s.ifNew(c, again, [&] { initState(c, s); });
              s.raise();  // what follows a wrong state has nothing to stand on
            }));
-  traverse(scope,
-           on<AnyRole>([again](auto& c, auto const& s) { s.ifNew(c, again, [&] { initComponent(c, s); }); }));
+  traverse(scope, on<AnyRole>([&again](auto& c, auto const& s) {
+             s.ifNew(c, again, [&] { initComponent(c, s); });
+           }));
   scope.raise();
   initSolvers(scope, again);
   scope.raise();

@@ -3,6 +3,7 @@
 
 #include <sinew/linalg/preconditioner.hpp>
 #include <sinew/solver/linear_system.hpp>
+#include <sinew/solver/point_rotations.hpp>
 
 #include <string_view>
 #include <vector>
@@ -12,6 +13,10 @@ namespace sinew {
 /// Preconditioned conjugate gradients (Shewchuk 1994, B3) from x = 0. `Matrix` as in CGLinearSolver; with
 /// GraphScattered products go through the scene graph, and the matrix is assembled for the preconditioner
 /// only, once in `update_step` solves.
+///
+/// A preconditioner P that is kept for several solves is that of a body as it stood. With `warp` it turns
+/// with the body: R P^-1 R' is applied, R the rotation of each point's neighbourhood since P was made, as the
+/// positions tell it (Courtecuisse, Allard, Duriez, Cotin 2010; there P is made by another thread meanwhile).
 template <class Matrix = GraphScattered>
 struct ShewchukPCGLinearSolver {
   using Role = role::LinearSolver;
@@ -28,6 +33,8 @@ struct ShewchukPCGLinearSolver {
   int updateStep = 1;  // the preconditioner is made anew in every so many solves; 0: in the first only
   bool buildPrecond = true;
   PreconditionerMethod precondition = PreconditionerMethod::blockJacobi;
+  double omega = 1;
+  bool warp = false;
 
   static constexpr auto fields() {
     using S = ShewchukPCGLinearSolver;
@@ -45,7 +52,9 @@ struct ShewchukPCGLinearSolver {
               "solves from one update of the preconditioner to the next",
               range::nonNegative),
         field("build_precond", &S::buildPrecond, "", "update the preconditioner after the first solve"),
-        field("precondition", &S::precondition, "", "what it is made of"));
+        field("precondition", &S::precondition, "", "what it is made of"),
+        field("omega", &S::omega, "", "relaxation of ssor", range::open(0, 2)),
+        field("warp", &S::warp, "", "a preconditioner that is kept turns with each point's neighbourhood"));
   }
 
   std::vector<double>
@@ -54,6 +63,8 @@ struct ShewchukPCGLinearSolver {
   using Vector = Eigen::Matrix<typename Formed::Real, Eigen::Dynamic, 1>;
   Formed matrix{};
   Preconditioner<Formed> preconditioner{};
+  PointRotations rotations{};
+  Vector turned{};  // R' r
   Vector x{}, b{}, r{}, p{}, q{};
   int age = -1;  // solves since the preconditioner was made
 
@@ -63,9 +74,10 @@ struct ShewchukPCGLinearSolver {
     residuals.reserve(std::size_t(iterations) + 1);
     age = -1;
     operations.initMatrix(matrix);
-    preconditioner.init(
-        matrix, usePrecond ? precondition : PreconditionerMethod::none, matrix.dofs());
-    for (Vector* v : {&x, &b, &r, &p, &q})
+    preconditioner.init(matrix, usePrecond ? precondition : PreconditionerMethod::none, matrix.dofs());
+    preconditioner.omega = omega;
+    if (warp) rotations.init(operations, matrix);
+    for (Vector* v : {&x, &b, &r, &p, &q, &turned})
       v->setZero(matrix.dofs() + 1);  // the last stays 0: multiply reads it
   }
 
@@ -77,6 +89,8 @@ struct ShewchukPCGLinearSolver {
     if (update || !matrixFree) operations.assemble(matrix, factors);
     if (update) preconditioner.update(matrix);
     age = update ? 0 : age + 1;
+    if (warp && update) rotations.reset(operations);
+    if (warp && age > 0) rotations.update(operations);
     if constexpr (matrixFree) {
       MultiVecDeriv res(operations), dir(operations), product(operations);
       iterate(
@@ -93,8 +107,9 @@ struct ShewchukPCGLinearSolver {
           [&](auto& to, auto& from) {
             if (preconditioner.method == PreconditionerMethod::none) return to.eq(from);
             operations.gather(r, from.id);
-            preconditioner.apply(r, q);
+            apply(r, q);
             operations.scatter(to.id, q);
+            if (warp) operations.projectResponse(to.id);  // which need not commute with R
           });
     } else {
       operations.gather(b, rhs.id);
@@ -108,13 +123,21 @@ struct ShewchukPCGLinearSolver {
           [&](auto& to, auto& from) { matrix.multiply(from.v.data(), to.v.data()); },
           [&](auto& to, auto& from) {
             if (preconditioner.method == PreconditionerMethod::none) return to.eq(from);
-            preconditioner.apply(from.v, to.v);
+            apply(from.v, to.v);
           });
       operations.scatter(solution.id, x);
     }
   }
 
  private:
+  // z = P^-1 r, or R P^-1 R' r
+  void apply(Vector const& from, Vector& to) {
+    if (!warp || age == 0) return preconditioner.apply(from, to);
+    turned = from;
+    rotations.apply(turned, true);
+    preconditioner.apply(turned, to);
+    rotations.apply(to, false);
+  }
   // multiply(to, from): to = A from;  precondition(to, from): to = M^-1 from
   template <class V, class Multiply, class Precondition>
   void iterate(V& x, V& b, V& r, V& p, V& q, Multiply&& multiply, Precondition&& approximate) {

@@ -21,7 +21,8 @@ struct SparseLDLSolver {
   // matrices of Sinew are symmetric, so that what is solved by L L' or L U elsewhere is solved by L D L' here
   static constexpr std::string_view aliases =
       "EigenSimplicialLDLT EigenSimplicialLLT AsyncSparseLDLSolver SparseCholeskySolver SparseLUSolver "
-      "EigenSparseLU EigenCholmodSupernodalLLT SparsePARDISOSolver SparseTAUCSSolver SparseXXTSolver";
+      "EigenSparseLU EigenSparseQR EigenCholmodSupernodalLLT SparsePARDISOSolver SparseTAUCSSolver "
+      "SparseXXTSolver";
   static constexpr Auxiliary auxiliary{};
 
   static constexpr auto fields() { return field_list(); }

@@ -159,6 +159,16 @@ struct MechanicalObject {
     }
   }
 
+  /// Points that go leave all vectors.
+  void follow(Renumbering const& points) {
+    for (VecCoord* v : {&position, &restPosition, &resetPosition, &freePosition}) points.filter(*v);
+    for (VecDeriv* v : {&velocity, &resetVelocity, &force, &dx, &externalForce}) points.filter(*v);
+    for (VecCoord& v : auxiliaryCoords) points.filter(v);
+    for (VecDeriv& v : auxiliaryDerivs) points.filter(v);
+    if (given) points.filter(*given);
+    history.clear();
+  }
+
   void reset() {
     position = resetPosition;
     velocity = resetVelocity;

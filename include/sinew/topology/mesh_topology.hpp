@@ -51,6 +51,12 @@ struct MeshTopology {
             .hexahedra = hexahedra};
   }
 
+  /// The lists, for change: from here on they are no longer those of the file.
+  ElementLists edit() {
+    filename = {};
+    return {&position, &edges, &triangles, &quads, &tetrahedra, &hexahedra};
+  }
+
   /// Takes from the file, if one is named, the lists that are empty. Throws Error when it cannot be read.
   void generate(std::string_view where) {
     if (filename.path.empty()) return;

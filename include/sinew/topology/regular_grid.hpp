@@ -126,6 +126,24 @@ void for_grid_lines(std::array<int, 3> const& n, Body&& body) {
   }
 }
 
+/// The elements between the `points` of a topology, those that it says it computes.
+template <class Topology>
+void make_grid_elements(Topology& t) {
+  t.hexahedra.clear(), t.quads.clear(), t.triangles.clear(), t.edges.clear();
+  if (t.computeHexaList)
+    for_grid_cells(
+        t.points[0], t.points[1], t.points[2], [&](Hexahedron const& c, int) { t.hexahedra.push_back(c); });
+  if (t.computeQuadList || t.computeTriangleList)
+    for_grid_squares(t.points, [&](Index p, Index a, Index b) {
+      if (t.computeQuadList) t.quads.push_back({p, p + a, p + a + b, p + b});
+      if (t.computeTriangleList) {
+        t.triangles.push_back({p, p + a, p + a + b});
+        t.triangles.push_back({p, p + a + b, p + b});
+      }
+    });
+  if (t.computeEdgeList) for_grid_lines(t.points, [&](Index p, Index q) { t.edges.push_back({p, q}); });
+}
+
 }  // namespace detail
 
 /// Hexahedra of a box, with nx x ny x nz points, the corners lo and hi included. x runs fastest.

@@ -93,19 +93,7 @@ struct RegularGridTopology {
     if (p0) hi += *p0 - lo, lo = *p0;
 
     position = detail::grid_points(at, points, lo, hi, 1, 24).positions;
-    hexahedra.clear(), quads.clear(), triangles.clear(), edges.clear();
-    if (computeHexaList)
-      detail::for_grid_cells(
-          points[0], points[1], points[2], [&](Hexahedron const& c, int) { hexahedra.push_back(c); });
-    if (computeQuadList || computeTriangleList)
-      detail::for_grid_squares(points, [&](Index p, Index a, Index b) {
-        if (computeQuadList) quads.push_back({p, p + a, p + a + b, p + b});
-        if (computeTriangleList) {
-          triangles.push_back({p, p + a, p + a + b});
-          triangles.push_back({p, p + a + b, p + b});
-        }
-      });
-    if (computeEdgeList) detail::for_grid_lines(points, [&](Index p, Index q) { edges.push_back({p, q}); });
+    detail::make_grid_elements(*this);
   }
 
   /// Throws Error where the state has fewer points than the grid.

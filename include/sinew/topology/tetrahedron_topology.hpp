@@ -25,6 +25,7 @@ struct TetrahedronTopology {
   static constexpr auto outputs() { return fields(); }
 
   TopologyView view() const { return {.tetrahedra = tetrahedra}; }
+  ElementLists edit() { return {.tetrahedra = &tetrahedra}; }
 
   /// Throws Error at an index out of range, and at an element that is flat or inside out.
   template <class D>

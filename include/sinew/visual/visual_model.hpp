@@ -3,6 +3,7 @@
 
 #include <sinew/core/component.hpp>
 
+#include <algorithm>
 #include <vector>
 
 namespace sinew {
@@ -29,6 +30,20 @@ struct VisualModel {
     now.positions.resize(position.size());
     for (std::size_t i = 0; i < position.size(); ++i) now.positions[i] = position[i].cast<double>();
     return now;
+  }
+
+  /// Vertices that go take their faces with them.
+  void follow(Renumbering const& points) {
+    points.filter(mesh.positions);
+    auto faces = [&points](auto& list) {
+      std::erase_if(list, [&](auto const& face) {
+        return std::any_of(face.begin(), face.end(), [&](Index i) { return !points.stays(i); });
+      });
+      for (auto& face : list)
+        for (Index& i : face) points.renumber(i);
+    };
+    faces(mesh.edges), faces(mesh.triangles), faces(mesh.quads), faces(mesh.tetrahedra);
+    faces(mesh.hexahedra);
   }
 
   void init(std::string const& where) {

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include "families.hpp"
+
+#include <sinew/force/bending_springs.hpp>
+#include <sinew/force/fast_triangular_bending_springs.hpp>
+#include <sinew/force/hexahedron_fem.hpp>
+#include <sinew/force/mesh_spring.hpp>
+#include <sinew/force/plane_force_field.hpp>
+#include <sinew/force/rest_shape_springs.hpp>
+#include <sinew/force/surface_pressure.hpp>
+#include <sinew/force/tetrahedron_fem.hpp>
+#include <sinew/force/tetrahedron_hyperelasticity.hpp>
+#include <sinew/force/tetrahedron_viscoelasticity.hpp>
+#include <sinew/force/triangle_fem.hpp>
+#include <sinew/linalg/block_matrix.hpp>
+#include <sinew/mapping/barycentric_mapping.hpp>
+#include <sinew/mapping/identity_mapping.hpp>
+#include <sinew/mapping/rigid_mapping.hpp>
+#include <sinew/mass/diagonal_mass.hpp>
+#include <sinew/mass/mesh_matrix_mass.hpp>
+#include <sinew/mass/uniform_mass.hpp>
+#include <sinew/state/vector_operations.hpp>
+#include <sinew/topology/adjacency.hpp>
+#include <sinew/topology/regular_grid.hpp>
+
+#include <cmath>
+#include <memory>
+
+namespace bench {
+
+using namespace sinew;
+
+/// A block of 11 x 11 x 11 points, strained by some hundredths, and what its vectors hold.
+template <class D>
+struct Body {
+  static constexpr int n = 11;
+  Mesh hexahedra = regular_grid(n, n, n, {0, 0, 0}, {1, 1, 1});
+  Mesh tetrahedra = regular_grid_tetrahedra(n, n, n, {0, 0, 0}, {1, 1, 1});
+  std::vector<Edge> edges{};
+  std::vector<Triangle> triangles{};
+  typename D::VecCoord rest{}, x{};
+  typename D::VecDeriv v{}, f{};
+
+  Body() {
+    edges = edges_of(tetrahedra.tetrahedra);
+    detail::for_grid_squares({n, n, n}, [&](Index p, Index a, Index b) {
+      triangles.push_back({p, p + a, p + a + b});
+      triangles.push_back({p, p + a + b, p + b});
+    });
+    for (auto const& p : hexahedra.positions) {
+      rest.push_back(p.template cast<typename D::Real>());
+      const Eigen::Vector3d moved = p + 0.003 * Eigen::Vector3d(std::sin(7 * p[1] + 9 * p[2]),
+                                                                std::sin(5 * p[2] + 8 * p[0]),
+                                                                std::sin(6 * p[0] + 7 * p[1]));
+      x.push_back(moved.template cast<typename D::Real>());
+      v.push_back((moved - p).template cast<typename D::Real>());
+    }
+    f.assign(rest.size(), D::Deriv::Zero());
+  }
+  TopologyView volumes(bool cubes) const {
+    TopologyView view{.positions = hexahedra.positions};
+    if (cubes)
+      view.hexahedra = hexahedra.hexahedra;
+    else
+      view.tetrahedra = tetrahedra.tetrahedra;
+    return view;
+  }
+  TopologyView surfaces() const { return {.positions = hexahedra.positions, .triangles = triangles}; }
+  TopologyView lines() const { return {.positions = hexahedra.positions, .edges = edges}; }
+};
+
+template <class Force>
+void add_force(std::vector<Work>& list, std::string family, Force component, TopologyView const& topology,
+               std::shared_ptr<Body<typename Force::DataTypes>> body) {
+  using D = typename Force::DataTypes;
+  auto force = std::make_shared<Force>(std::move(component));
+  force->init(InitContext<D>{"benchmark", body->rest, topology});
+  std::size_t count = 0;
+  for (auto const& pack : force->driver.packs) count += std::size_t(pack.active);
+  const MechanicalParams p{.dt = 0.01, .b = -0.01, .k = -0.0001};
+  list.push_back({family, "addForce", count, [=] { force->addForce(p, body->f, body->x, body->v); }});
+  list.push_back({family, "addDForce", count, [=] { force->addDForce(p, body->f, body->v); }});
+}
+
+/// Element laws, which run in lanes.
+template <class D>
+std::vector<Work> forces() {
+  std::vector<Work> list;
+  auto body = std::make_shared<Body<D>>();
+  auto const& b = *body;
+  using Material = HyperelasticMaterial;
+  add_force(
+      list, "springs", MeshSpringForceField<D>{.linesStiffness = 100, .linesDamping = 1}, b.lines(), body);
+  add_force(list, "springs to rest places", RestShapeSpringsForceField<D>{}, {}, body);
+  add_force(list, "plane penalty", PlaneForceField<D>{.d = 0.5}, {}, body);
+  add_force(list, "pressure on triangles", SurfacePressureForceField<D>{.pressure = 1}, b.surfaces(), body);
+  add_force(list, "bending springs", TriangularBendingSprings<D>{}, b.surfaces(), body);
+  add_force(list, "triangle FEM", TriangleFEMForceField<D>{}, b.surfaces(), body);
+  add_force(list, "tetrahedron FEM, large", TetrahedronFEMForceField<D>{}, b.volumes(false), body);
+  add_force(list,
+            "tetrahedron FEM, polar",
+            TetrahedronFEMForceField<D>{.method = RotationMethod::polar},
+            b.volumes(false),
+            body);
+  add_force(list, "hexahedron FEM, large", HexahedronFEMForceField<D>{}, b.volumes(true), body);
+  auto hyperelastic = [&](std::string name, Material material, std::vector<double> parameters) {
+    add_force(
+        list,
+        "hyperelastic, " + name,
+        TetrahedronHyperelasticityFEMForceField<D>{.materialName = material, .parameterSet = parameters},
+        b.volumes(false),
+        body);
+  };
+  hyperelastic("Saint Venant-Kirchhoff", Material::StVenantKirchhoff, {1000, 2000});
+  hyperelastic("Neo-Hookean", Material::NeoHookean, {1000, 2000});
+  hyperelastic("Mooney-Rivlin", Material::MooneyRivlin, {500, 100, 2000});
+  hyperelastic("Ogden", Material::Ogden, {1000, 3, 2000});
+  add_force(list,
+            "viscoelastic, Kelvin-Voigt",
+            TetrahedronViscoelasticityFEMForceField<D>{.parameterSet = {1000, 0.1, 2000}},
+            b.volumes(false),
+            body);
+  return list;
+}
+
+template <class Mass>
+void add_mass(std::vector<Work>& list, std::string family, Mass component, TopologyView const& topology,
+              std::shared_ptr<Body<typename Mass::DataTypes>> body) {
+  using D = typename Mass::DataTypes;
+  auto mass = std::make_shared<Mass>(std::move(component));
+  mass->init(InitContext<D>{"benchmark", body->rest, topology});
+  const MechanicalParams p{.dt = 0.01, .gravity = {0, -9.81, 0}};
+  const std::size_t n = body->rest.size();
+  list.push_back({family, "addForce", n, [=] { mass->addForce(p, body->f, body->x, body->v); }});
+  list.push_back({family, "addMDx", n, [=] { mass->addMDx(body->f, body->x, body->v, 0.5); }});
+}
+
+template <class Mapping>
+void add_mapping(std::vector<Work>& list, std::string family, typename Mapping::In::VecCoord const& parent,
+                 TopologyView const& topology, typename Mapping::Out::VecCoord const& child) {
+  using In = typename Mapping::In;
+  using Out = typename Mapping::Out;
+  struct State {
+    Mapping mapping;
+    typename In::VecCoord in;
+    typename In::VecDeriv force;
+    typename Out::VecCoord out;
+    typename Out::VecDeriv v;
+  };
+  auto s = std::make_shared<State>();
+  s->in = parent;
+  s->out = child;
+  s->force.assign(parent.size(), In::Deriv::Zero());
+  s->v.assign(child.size(), Out::Deriv::Constant(typename Out::Real(1e-3)));
+  typename Out::VecCoord positions = child;
+  s->mapping.init(
+      InitContext<In>{"benchmark", s->in, topology}, InitContext<Out>{"benchmark", s->out, {}}, positions);
+  list.push_back({family, "apply", child.size(), [=] { s->mapping.apply(s->out, s->in); }});
+  list.push_back({family, "applyJT", child.size(), [=] { s->mapping.applyJT(s->force, s->v); }});
+}
+
+/// What conjugate gradients do with vectors, and with the assembled matrix of the tetrahedra.
+template <class D>
+void add_vectors(std::vector<Work>& list, std::shared_ptr<Body<D>> body) {
+  using Real = typename D::Real;
+  struct System {
+    CompressedRowSparseMatrix<Real, 3> matrix;
+    Eigen::Matrix<Real, Eigen::Dynamic, 1> p, q;
+    double sum;
+  };
+  auto s = std::make_shared<System>();
+  const std::size_t n = body->rest.size();
+  s->matrix.startPattern(int(3 * n));
+  for (auto const& [i, j] : body->edges) s->matrix.announce(3 * i, 3 * j, 3, 3);
+  s->matrix.finishPattern();
+  std::fill(s->matrix.values.begin(), s->matrix.values.end(), Real(0.01));
+  s->p.setConstant(Eigen::Index(3 * n + 1), Real(1));
+  s->q.setZero(Eigen::Index(3 * n + 1));
+  list.push_back({"vectors", "x += f y", n, [=] { vec::peq(body->f, body->v, Real(1e-3)); }});
+  list.push_back({"vectors", "dot", n, [=] { s->sum += vec::dot(body->f, body->v); }});
+  list.push_back({"matrix of 3 x 3 blocks", "multiply, a block", s->matrix.columns.size(), [=] {
+                    s->matrix.multiply(s->p.data(), s->q.data());
+                  }});
+}
+
+/// Masses, mappings and vectors: loops over points, which the compiler vectorises or not.
+template <class D>
+std::vector<Work> points() {
+  using Real = typename D::Real;
+  using Rigid = RigidTypes<3, Real>;
+  std::vector<Work> list;
+  auto body = std::make_shared<Body<D>>();
+  auto const& b = *body;
+  add_mass(list, "uniform mass", UniformMass<D>{.vertexMass = 1}, {}, body);
+  add_mass(list, "diagonal mass", DiagonalMass<D>{.massDensity = 1}, b.volumes(false), body);
+  add_mass(list, "consistent mass", MeshMatrixMass<D>{.massDensity = {1}}, b.volumes(false), body);
+  add_mapping<IdentityMapping<D, D>>(list, "identity mapping", b.x, {}, b.x);
+  add_mapping<BarycentricMapping<D, D>>(list, "barycentric, tetrahedra", b.rest, b.volumes(false), b.x);
+  add_mapping<BarycentricMapping<D, D>>(list, "barycentric, hexahedra", b.rest, b.volumes(true), b.x);
+  add_mapping<RigidMapping<Rigid, D>>(list, "rigid mapping", {typename Rigid::Coord{}}, {}, b.x);
+  add_vectors<D>(list, body);
+  return list;
+}
+
+}  // namespace bench

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/fields.hpp>
+#include <sinew/core/renumbering.hpp>
+
+namespace sinew {
+
+/// What becomes of all that a component may refer to, when points and elements are removed. A component whose
+/// values do not follow by Field::numbersOf and Field::oneEach alone offers follow(Followed const&), called
+/// before its fields are changed. One for which an empty list of points means all of them has a member
+/// `none`, set where the last point of the list goes.
+struct Followed {
+  Renumbering const& points;
+  Renumbering const& secondPoints;
+  Renumbering const& parentPoints;
+  TopologyChange const& topology;
+
+  Renumbering const& numbered(Of what) const {
+    switch (what) {
+      case Of::secondPoints:
+        return secondPoints;
+      case Of::parentPoints:
+        return parentPoints;
+      case Of::edges:
+        return topology.of(ElementKind::edge);
+      case Of::triangles:
+        return topology.of(ElementKind::triangle);
+      case Of::quads:
+        return topology.of(ElementKind::quad);
+      default:
+        return points;
+    }
+  }
+  int dimensionOf(Of what) const {
+    return what == Of::lines ? 1 : what == Of::surfaces ? 2 : what == Of::volumes ? 3 : topology.dimension();
+  }
+};
+
+namespace detail {
+
+template <class T>
+inline constexpr bool is_list = false;
+template <class T>
+inline constexpr bool is_list<std::vector<T>> = true;
+template <class T>
+inline constexpr bool is_struct_list = false;
+template <HasFields T>
+inline constexpr bool is_struct_list<std::vector<T>> = true;
+
+// f(what it numbers, number) for each number of a point or element in a struct with fields
+template <class T, class F>
+void for_each_number(T& owner, F&& f) {
+  for_each_field(owner, [&](auto const& fd, auto& value) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(value)>, int>)
+      if (fd.numbers) f(fd.entries, value);
+  });
+}
+
+/// How the lists of one component follow: first all are marked, then changed.
+struct ListsThatFollow {
+  Followed const& change;
+  std::vector<bool> structs{}, entries{};  // which stay, of lists of structs and of lists of points
+  Renumbering ofStructs{}, ofEntries{}, ofBoth{};
+  bool emptied = false;
+
+  static bool isEntry(Of what) { return what == Of::points || what == Of::secondPoints; }
+
+  template <class T>
+  void markStructs(std::vector<T> const& list) {
+    for (auto const& item : list) {
+      bool stays = true;
+      for_each_number(item, [&](Of what, int i) { stays = stays && change.numbered(what).stays(i); });
+      structs.push_back(stays);
+    }
+  }
+  void markNumbers(std::vector<int> const& list, Of what) {
+    if (!isEntry(what)) return;
+    if (entries.size() < list.size()) entries.resize(list.size(), true);
+    for (std::size_t i = 0; i < list.size(); ++i)
+      if (!change.numbered(what).stays(list[i])) entries[i] = false;
+  }
+  void marked() {
+    ofStructs = Renumbering::of(structs), ofEntries = Renumbering::of(entries);
+    structs.insert(structs.end(), entries.begin(), entries.end());
+    ofBoth = Renumbering::of(structs);
+  }
+
+  template <class T>
+  void changeStructs(std::vector<T>& list) const {
+    ofStructs.filter(list);
+    for (auto& item : list)
+      for_each_number(item, [&](Of what, int& i) { change.numbered(what).renumber(i); });
+  }
+  void changeNumbers(std::vector<int>& list, Of what) {
+    const bool before = !list.empty();
+    Renumbering const& numbered = change.numbered(what);
+    if (isEntry(what))
+      ofEntries.filter(list);
+    else if (what == Of::parentPoints)
+      change.points.filter(list);
+    else
+      std::erase_if(list, [&](int i) { return !numbered.stays(i); });
+    for (int& i : list) numbered.renumber(i);
+    emptied = emptied || (before && list.empty());
+  }
+  template <class T>
+  void changeValues(std::vector<T>& list, Of what) const {
+    if (list.size() > 1) ofValues(what, list.size()).filter(list);
+  }
+  Renumbering ofValues(Of what, std::size_t size) const {
+    switch (what) {
+      case Of::nothing:
+        return {};
+      case Of::points:
+        return change.points;
+      case Of::entries:
+        // of structs and lists together, or of the lists only; where there are none, of all points
+        return ofBoth.now.empty() ? change.points : size == ofBoth.now.size() ? ofBoth : ofEntries;
+      case Of::hexahedra:
+        return change.topology.of(ElementKind::hexahedron);
+      default:
+        return change.topology.ofDimension(change.dimensionOf(what), size);
+    }
+  }
+};
+
+}  // namespace detail
+
+/// All fields of a component that are declared to follow do so.
+template <class C>
+void follow_fields(C& component, Followed const& change) {
+  if constexpr (requires { component.follow(change); }) component.follow(change);
+  detail::ListsThatFollow lists{change};
+  for_each_field(component, [&]<class List>(auto const& fd, List& list) {
+    if constexpr (detail::is_struct_list<List>)
+      lists.markStructs(list);
+    else if constexpr (std::is_same_v<List, std::vector<int>>)
+      if (fd.numbers) lists.markNumbers(list, fd.entries);
+  });
+  lists.marked();
+  for_each_field(component, [&]<class List>(auto const& fd, List& list) {
+    if constexpr (detail::is_struct_list<List>) {
+      lists.changeStructs(list);
+    } else if constexpr (detail::is_list<List>) {
+      if constexpr (std::is_same_v<List, std::vector<int>>)
+        if (fd.numbers) return lists.changeNumbers(list, fd.entries);
+      lists.changeValues(list, fd.entries);
+    }
+  });
+  if constexpr (requires { component.none; })
+    if (lists.emptied) component.none = true;
+}
+
+/// Which of the n points of its child a mapping keeps, where points of its parent go.
+template <class M>
+std::vector<bool> mapped_points_that_stay(M const& mapping, Renumbering const& parent, std::size_t n) {
+  std::vector<bool> stays(n, true);
+  if constexpr (requires { M::samePoints; })
+    for (std::size_t i = 0; i < n; ++i) stays[i] = parent.stays(Index(i));
+  for_each_field(mapping, [&](auto const& fd, auto const& list) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(list)>, std::vector<int>>)
+      if (fd.numbers && fd.entries == Of::parentPoints)
+        for (std::size_t i = 0; i < n && !list.empty(); ++i)
+          if (!parent.stays(list[list.size() == 1 ? 0 : i])) stays[i] = false;
+  });
+  return stays;
+}
+
+}  // namespace sinew

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/mesh.hpp>
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace sinew {
+
+/// Points or elements of which some go. What stays keeps its order.
+struct Renumbering {
+  std::vector<Index> kept{};  // old numbers, by new ones
+  std::vector<Index> now{};   // new numbers, by old ones; -1 for what has gone
+
+  static Renumbering of(std::vector<bool> const& stays) {
+    Renumbering r;
+    for (std::size_t i = 0; i < stays.size(); ++i) {
+      r.now.push_back(stays[i] ? Index(r.kept.size()) : -1);
+      if (stays[i]) r.kept.push_back(Index(i));
+    }
+    return r;
+  }
+
+  std::vector<bool> stays() const {
+    std::vector<bool> all;
+    for (const Index n : now) all.push_back(n >= 0);
+    return all;
+  }
+  bool changes() const { return kept.size() != now.size(); }
+  bool stays(Index old) const { return std::size_t(old) >= now.size() || now[std::size_t(old)] >= 0; }
+
+  /// Takes out of a list with one entry for each what has gone.
+  template <class List>
+  void filter(List& list) const {
+    if (!changes() || list.size() != now.size()) return;
+    for (std::size_t i = 0; i < kept.size(); ++i) list[i] = list[std::size_t(kept[i])];
+    list.resize(kept.size());
+  }
+  /// Puts the new number in the place of the old one.
+  void renumber(Index& number) const {
+    if (std::size_t(number) < now.size()) number = now[std::size_t(number)];
+  }
+};
+
+/// The kinds of elements that a topology has, in the order in which messages and changes list them.
+enum class ElementKind { edge, triangle, quad, tetrahedron, hexahedron };
+inline constexpr int element_kinds = 5;
+constexpr std::string_view element_kind_name(int kind) {
+  constexpr std::array<std::string_view, element_kinds> names{
+      "edge", "triangle", "quad", "tetrahedron", "hexahedron"};
+  return names[std::size_t(kind)];
+}
+
+/// Numbers of elements of a topology, kind by kind.
+struct ElementNumbers {
+  std::vector<Index> edges{}, triangles{}, quads{}, tetrahedra{}, hexahedra{};
+
+  std::array<std::vector<Index> const*, element_kinds> lists() const {
+    return {&edges, &triangles, &quads, &tetrahedra, &hexahedra};
+  }
+};
+
+/// The lists of a topology that may be changed; null for kinds that it does not have.
+struct ElementLists {
+  std::vector<Eigen::Vector3d>* positions = nullptr;
+  std::vector<Edge>* edges = nullptr;
+  std::vector<Triangle>* triangles = nullptr;
+  std::vector<Quad>* quads = nullptr;
+  std::vector<Tetrahedron>* tetrahedra = nullptr;
+  std::vector<Hexahedron>* hexahedra = nullptr;
+
+  /// f(kind, list) for each kind there is.
+  template <class F>
+  void forEach(F&& f) const {
+    if (edges) f(0, *edges);
+    if (triangles) f(1, *triangles);
+    if (quads) f(2, *quads);
+    if (tetrahedra) f(3, *tetrahedra);
+    if (hexahedra) f(4, *hexahedra);
+  }
+};
+
+/// What became of the points of a state and of the elements of one of its topologies.
+struct TopologyChange {
+  Renumbering points{};
+  std::array<Renumbering, element_kinds> elements{};
+
+  bool changes() const {
+    bool any = points.changes();
+    for (auto const& kind : elements) any = any || kind.changes();
+    return any;
+  }
+  Renumbering const& of(ElementKind kind) const { return elements[std::size_t(kind)]; }
+
+  /// The entries that stay of a list of `size`, with one entry for each element of a dimension (1, 2, 3):
+  /// simplices first, and then as many entries for each other element as there must be, since a component may
+  /// split hexahedra or quads into simplices.
+  Renumbering ofDimension(int dimension, std::size_t size) const {
+    constexpr int simplex[] = {0, 1, 3}, other[] = {-1, 2, 4};
+    Renumbering const& simplices = elements[std::size_t(simplex[dimension - 1])];
+    std::vector<bool> stays;
+    for (const Index n : simplices.now) stays.push_back(n >= 0);
+    if (dimension > 1) {
+      Renumbering const& others = elements[std::size_t(other[dimension - 1])];
+      const std::size_t rest = size > stays.size() ? size - stays.size() : 0, count = others.now.size();
+      if (count > 0 && rest % count == 0)
+        for (const Index n : others.now) stays.insert(stays.end(), rest / count, n >= 0);
+    }
+    return Renumbering::of(stays);
+  }
+  /// The highest dimension of which there were elements; 0 for none.
+  int dimension() const {
+    if (!elements[3].now.empty() || !elements[4].now.empty()) return 3;
+    if (!elements[1].now.empty() || !elements[2].now.empty()) return 2;
+    return elements[0].now.empty() ? 0 : 1;
+  }
+};
+
+}  // namespace sinew

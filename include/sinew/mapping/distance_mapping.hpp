@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/component.hpp>
+#include <sinew/mapping/geometric_stiffness.hpp>
+#include <sinew/topology/adjacency.hpp>
+
+#include <vector>
+
+namespace sinew {
+
+/// Each point of the child is by how much an edge of the parent is longer than at rest:
+///   c = l - L,  l = |d|,  d = x1 - x0       J = (-u', u'),  u = d/l
+///   K_g = f/l (I - u u') (1 -1; -1 1)       with f the force on c
+/// The edges are those of the topology in the node of the mapping, or else of the parent's: its edges, or,
+/// where it has none, the sides of its elements. Two points in one place have no direction: J and K_g are
+/// zero there. `stabilized` has no K_g for edges that push (f > 0), where it is not negative.
+template <class I, class O>
+struct DistanceMapping {
+  using Role = role::Mapping;
+  using In = I;
+  using Out = O;
+  using Real = typename In::Real;
+  static constexpr int N = In::spatial;
+  static_assert(!Out::rigid && Out::size == 1, "DistanceMapping maps to Vec1");
+  static constexpr std::string_view className = "DistanceMapping";
+  static constexpr bool overParent = true;
+
+  bool computeDistance = false;
+  std::vector<double> restLengths{};
+  GeometricStiffness geometricStiffness = GeometricStiffness::stabilized;
+
+  static constexpr auto fields() {
+    using M = DistanceMapping;
+    return field_list(
+        field("computeDistance", &M::computeDistance, "", "lengths at rest are 0 where none are given"),
+        field("restLengths",
+              &M::restLengths,
+              "m",
+              "length of each edge at rest; where none is given, that of the rest positions",
+              range::nonNegative)
+            .oneEach(Of::points),
+        field("geometricStiffness", &M::geometricStiffness, "", "what turning edges add to the stiffness"));
+  }
+
+  struct Link {
+    Edge ends;
+    Real length;             // L
+    Vec<Real, N> direction;  // u, or zero
+    Real inverse;            // 1/l, or zero
+    Real tension;            // f/l, at the last updateK
+  };
+  std::vector<Link> links{};
+
+  void init(InitContext<In> const& parent, InitContext<Out> const& child, typename Out::VecCoord& positions) {
+    const std::string where = text(child.where, ": ", component_name<DistanceMapping>());
+    std::vector<Edge> edges = edgesOf(child.topology);
+    if (edges.empty()) edges = edgesOf(parent.topology);
+    if (edges.empty())
+      throw Error(where,
+                  "there are no edges, neither in its node nor in its parent's; add a topology with some");
+    detail::check_indices(where, "edge", edges, parent.rest.size());
+    if (!restLengths.empty() && restLengths.size() != edges.size())
+      throw Error(where,
+                  text("restLengths has ",
+                       restLengths.size(),
+                       " entries for ",
+                       edges.size(),
+                       " edges; give one for each edge, or none"));
+    links.clear();
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+      auto const [a, b] = edges[e];
+      Real length =
+          (In::center(parent.rest[std::size_t(b)]) - In::center(parent.rest[std::size_t(a)])).norm();
+      if (!restLengths.empty())
+        length = Real(restLengths[e]);
+      else if (computeDistance)
+        length = 0;
+      links.push_back({edges[e], length, Vec<Real, N>::Zero(), 0, 0});
+    }
+    if (positions.empty()) positions.resize(links.size());
+    if (positions.size() != links.size())
+      throw Error(where,
+                  text("the child has ",
+                       positions.size(),
+                       " points for ",
+                       links.size(),
+                       " edges; give the child as many, or none"));
+  }
+
+  void apply(typename Out::VecCoord& out, typename In::VecCoord const& in) {
+    for (std::size_t e = 0; e < links.size(); ++e) {
+      Link& link = links[e];
+      const Vec<Real, N> d = In::center(in[end(link, 1)]) - In::center(in[end(link, 0)]);
+      const Real length = d.norm();
+      link.inverse =
+          length > link.length * Real(1e-9) + std::numeric_limits<Real>::min() ? Real(1) / length : Real(0);
+      link.direction = d * link.inverse;
+      out[e][0] = typename Out::Real(length - link.length);
+    }
+  }
+  void applyJ(typename Out::VecDeriv& out, typename In::VecDeriv const& in) const {
+    for (std::size_t e = 0; e < links.size(); ++e)
+      out[e][0] = typename Out::Real(links[e].direction.dot(difference(links[e], in)));
+  }
+  void applyJT(typename In::VecDeriv& in, typename Out::VecDeriv const& out) const {
+    for (std::size_t e = 0; e < links.size(); ++e) spread(links[e], in, links[e].direction * Real(out[e][0]));
+  }
+  template <class F>
+  void forEachJacobianBlock(int point, F&& f) const {
+    Link const& link = links[std::size_t(point)];
+    Mat<typename Out::Real, 1, In::size> j = Mat<typename Out::Real, 1, In::size>::Zero();
+    j.template head<N>() = -link.direction.transpose().template cast<typename Out::Real>();
+    f(link.ends[0], j);
+    f(link.ends[1], Mat<typename Out::Real, 1, In::size>(-j));
+  }
+
+  std::vector<bool> pointsThatStay(TopologyView const& before, TopologyChange const& change) const {
+    if (!before.edges.empty()) return change.of(ElementKind::edge).stays();
+    Mesh left;
+    auto filter = [&](auto& list, auto const& from, ElementKind kind) {
+      list.assign(from.begin(), from.end());
+      change.of(kind).filter(list);
+    };
+    filter(left.triangles, before.triangles, ElementKind::triangle);
+    filter(left.quads, before.quads, ElementKind::quad);
+    filter(left.tetrahedra, before.tetrahedra, ElementKind::tetrahedron);
+    filter(left.hexahedra, before.hexahedra, ElementKind::hexahedron);
+    const std::vector<Edge> edges = edgesOf({.triangles = left.triangles,
+                                             .quads = left.quads,
+                                             .tetrahedra = left.tetrahedra,
+                                             .hexahedra = left.hexahedra});
+    std::vector<bool> stays;
+    for (Link const& link : links) stays.push_back(std::binary_search(edges.begin(), edges.end(), link.ends));
+    return stays;
+  }
+
+  void updateK(typename Out::VecDeriv const& f) {
+    for (std::size_t e = 0; e < links.size(); ++e) {
+      const Real force = Real(f[e][0]);
+      const bool counts = geometricStiffness == GeometricStiffness::exact ||
+                          (geometricStiffness == GeometricStiffness::stabilized && force < 0);
+      links[e].tension = counts ? force * links[e].inverse : Real(0);
+    }
+  }
+  void addKx(typename In::VecDeriv& df, typename In::VecDeriv const& dx, double k) const {
+    if (geometricStiffness == GeometricStiffness::none) return;
+    for (Link const& link : links) {
+      const Vec<Real, N> d = difference(link, dx);
+      spread(link, df, (Real(k) * link.tension) * (d - link.direction * link.direction.dot(d)));
+    }
+  }
+  template <class Sink>
+  void addToMatrix(MechanicalParams const& p, Sink const& sink) const {
+    if (geometricStiffness == GeometricStiffness::none) return;
+    for (Link const& link : links) {
+      Mat<Real, In::size> block = Mat<Real, In::size>::Zero();
+      block.template topLeftCorner<N, N>() =
+          (Real(p.k) * link.tension) *
+          (Mat<Real, N>::Identity() - link.direction * link.direction.transpose());
+      const auto [a, b] = link.ends;
+      sink.add(a, a, block), sink.add(b, b, block);
+      block = -block;
+      sink.add(a, b, block), sink.add(b, a, block);
+    }
+  }
+
+ private:
+  static std::vector<Edge> edgesOf(TopologyView const& t) {
+    std::vector<Edge> edges(t.edges.begin(), t.edges.end());
+    auto list = [](auto const& span) { return std::vector(span.begin(), span.end()); };
+    auto add = [&](std::vector<Edge> const& more) { edges.insert(edges.end(), more.begin(), more.end()); };
+    if (!edges.empty()) return edges;
+    add(edges_of(list(t.triangles))), add(edges_of_quads(list(t.quads)));
+    add(edges_of(list(t.tetrahedra))), add(edges_of(list(t.hexahedra)));
+    std::sort(edges.begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    return edges;
+  }
+  static std::size_t end(Link const& link, std::size_t k) { return std::size_t(link.ends[k]); }
+  static Vec<Real, N> difference(Link const& link, typename In::VecDeriv const& v) {
+    return v[end(link, 1)].template head<N>() - v[end(link, 0)].template head<N>();
+  }
+  // to the second end, and the opposite to the first
+  static void spread(Link const& link, typename In::VecDeriv& to, Vec<Real, N> const& f) {
+    to[end(link, 0)].template head<N>() -= f;
+    to[end(link, 1)].template head<N>() += f;
+  }
+};
+
+}  // namespace sinew

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/follow.hpp>
+#include <sinew/scene/scope.hpp>
+#include <sinew/topology/removal_plan.hpp>
+
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sinew {
+
+/// A topology whose elements may be removed.
+template <class T>
+inline constexpr bool editable_topology = requires(T t) {
+  t.edit();
+};
+
+/// Takes elements out of one topology of a scene, with all that refers to them; the scene then has to be
+/// initialised again where touched() says. Works on a scene that may be thrown away: an Error leaves it half
+/// changed.
+template <class RootScope>
+class ElementRemoval {
+ public:
+  /// Throws Error where there is no topology at `path`, or no element of a number in it.
+  ElementRemoval(RootScope const& root, std::string_view path, ElementNumbers const& gone) : root_(root) {
+    find(path);
+    check(path, gone);
+    plan(gone);
+    planMapped();
+  }
+
+  /// What becomes of the topology and its points.
+  TopologyChange const& change() const { return ofTopology_.at(topology_); }
+
+  void apply() {
+    traverse(root_, on<AnyRole>([this](auto& c, auto const& scope) { follow(c, scope); }));
+  }
+
+  InitAgain touched() const {
+    InitAgain again{.again = true};
+    traverse(root_, on<AnyRole>([&](auto& c, auto const& scope) {
+               if (isTouched(c, scope)) again.touched.push_back(&c);
+             }));
+    std::sort(again.touched.begin(), again.touched.end(), std::less<>{});
+    return again;
+  }
+
+ private:
+  struct Topology {
+    void const* address;
+    TopologyView view;
+    bool editable;
+    std::string path;
+  };
+
+  RootScope const& root_;
+  void const *topology_ = nullptr, *state_ = nullptr;
+  std::size_t points_ = 0;
+  std::map<void const*, Renumbering> ofState_{};  // and of visual models
+  std::map<void const*, TopologyChange> ofTopology_{};
+  std::set<void const*> touchedStates_{};  // states and visual models around which something changes
+
+  void find(std::string_view path) {
+    const std::string wanted = text(root_.path(), path.empty() ? "" : "/", path);
+    std::string known;
+    traverse(root_, on<role::Topology>([&](auto& t, auto const& scope) {
+               const std::string here = scope.path();
+               known += text(known.empty() ? "" : ", ",
+                             here.substr(std::min(here.size(), root_.path().size() + 1)));
+               if (here != wanted || topology_) return;
+               topology_ = &t;
+               state_ = scope.pointsAddress();
+             }));
+    if (!topology_)
+      throw Error(wanted,
+                  text("there is no topology at this path, from which elements could be removed; there is ",
+                       known.empty() ? "none in the scene" : text("one at: ", known)));
+    if (!state_)
+      throw Error(wanted, "the topology has no state whose points it refers to; give its node one");
+    traverse(root_, on<role::State>([&](auto& s, auto const&) {
+               if (static_cast<void const*>(&s) == state_) points_ = s.size();
+             }));
+  }
+
+  std::vector<Topology> topologiesOver(void const* state) const {
+    std::vector<Topology> all;
+    traverse(root_, on<role::Topology>([&](auto& t, auto const& scope) {
+               if (scope.pointsAddress() == state)
+                 all.push_back({&t, t.view(), editable_topology<std::decay_t<decltype(t)>>, scope.path()});
+             }));
+    return all;
+  }
+
+  void check(std::string_view path, ElementNumbers const& gone) const {
+    const auto lists = gone.lists();
+    for (Topology const& t : topologiesOver(state_)) {
+      if (t.address != topology_) continue;
+      if (!t.editable)
+        throw Error(t.path,
+                    "the elements of this topology are made from a few numbers, and none of them "
+                    "can be removed; give "
+                    "the node a MeshTopology with these elements");
+      detail::for_each_kind(t.view, [&](int kind, auto const& list) {
+        for (const Index e : *lists[std::size_t(kind)])
+          if (e < 0 || std::size_t(e) >= list.size())
+            throw Error(t.path,
+                        text(element_kind_name(kind),
+                             ' ',
+                             e,
+                             " cannot be removed: the topology of '",
+                             path,
+                             "' has ",
+                             list.size(),
+                             ", numbered from 0; correct the number"));
+      });
+    }
+  }
+
+  // what becomes of the state of the topology
+  void plan(ElementNumbers const& gone) {
+    const auto all = topologiesOver(state_);
+    std::vector<TopologyView> views;
+    std::size_t first = 0;
+    for (std::size_t t = 0; t < all.size(); ++t) {
+      if (all[t].address == topology_) first = t;
+      views.push_back(all[t].view);
+    }
+    record(state_, plan_element_removal(points_, views, first, gone), all);
+    const bool left = std::any_of(change().elements.begin(), change().elements.end(), [](auto const& kind) {
+      return !kind.kept.empty();
+    });
+    if (!left)
+      throw Error(all[first].path,
+                  "no element would be left; take the node out of the scene instead (Simulation::change)");
+  }
+
+  // what becomes of the states that are mapped from it, parents first
+  void planMapped() {
+    touchedStates_.insert(state_);
+    traverse(root_, on<role::Mapping>([this](auto& mapping, auto const& scope) {
+               scope.withMapped(mapping, [&](auto& child, auto& parent) {
+                 if (!touchedStates_.contains(&parent)) return;
+                 touchedStates_.insert(&child);
+                 std::vector<bool> stays = pointsThatStay(mapping, scope, child, parent);
+                 if (std::find(stays.begin(), stays.end(), false) == stays.end()) return;
+                 const auto over = topologiesOver(&child);
+                 std::vector<TopologyView> views;
+                 for (Topology const& t : over) views.push_back(t.view);
+                 record(&child, plan_point_removal(stays, views), over);
+               });
+             }));
+  }
+  template <class M, class S, class Child, class Parent>
+  std::vector<bool> pointsThatStay(M const& mapping, S const& scope, Child const& child,
+                                   Parent const& parent) const {
+    if constexpr (over_parent<M>) {
+      void const* const own = scope.topologyAddress();
+      void const* const topology = own ? own : scope.parentScope().topologyAddress();
+      for (Topology const& t : topologiesOver(&parent))
+        if (t.address == topology && ofTopology_.contains(topology))
+          return mapping.pointsThatStay(t.view, ofTopology(topology));
+    }
+    return mapped_points_that_stay(mapping, ofState(&parent), sizeOf(child));
+  }
+  template <class Child>
+  static std::size_t sizeOf(Child const& child) {
+    if constexpr (HasRole<Child, role::VisualModel>)
+      return child.mesh.positions.size();
+    else
+      return child.size();
+  }
+
+  void record(void const* state, RemovalPlan const& plan, std::vector<Topology> const& topologies) {
+    ofState_[state] = Renumbering::of(plan.points);
+    for (std::size_t t = 0; t < topologies.size(); ++t) {
+      ofTopology_[topologies[t].address] = plan.change(t);
+      if (!topologies[t].editable && plan.change(t).changes())
+        throw Error(topologies[t].path,
+                    "this topology is made from a few numbers, and cannot lose the points that it "
+                    "would have to; "
+                    "take a MeshTopology");
+    }
+  }
+
+  Renumbering const& ofState(void const* state) const {
+    static const Renumbering none{};
+    const auto found = ofState_.find(state);
+    return found == ofState_.end() ? none : found->second;
+  }
+  TopologyChange const& ofTopology(void const* topology) const {
+    static const TopologyChange none{};
+    const auto found = ofTopology_.find(topology);
+    return found == ofTopology_.end() ? none : found->second;
+  }
+
+  template <class C, class S>
+  void follow(C& c, S const& scope) const {
+    if constexpr (HasRole<C, role::State> || HasRole<C, role::VisualModel>) {
+      if (ofState(&c).changes()) c.follow(ofState(&c));
+    } else if constexpr (HasRole<C, role::Topology>) {
+      if constexpr (editable_topology<C>)
+        if (ofTopology(&c).changes()) follow(c.edit(), ofTopology(&c));
+    } else if constexpr (HasRole<C, role::Mapping>) {
+      scope.withMapped(c, [&](auto& child, auto& parent) {
+        if (touchedStates_.contains(&parent))
+          follow_fields(c, {ofState(&child), {}, ofState(&parent), ofTopology(scope.topologyAddress())});
+      });
+    } else if constexpr (JoinsTwo<C>) {
+      scope.withEnds(c, [&](auto const& a, auto const& b) {
+        if (ofState(a.stateAddress()).changes() || ofState(b.stateAddress()).changes())
+          follow_fields(c, {ofState(a.stateAddress()), ofState(b.stateAddress()), {}, ofTopology(nullptr)});
+      });
+    } else if constexpr (HasRole<C, role::ForceField> || HasRole<C, role::Mass> ||
+                         HasRole<C, role::ProjectiveConstraint>) {
+      if (touchedStates_.contains(scope.stateAddress()))
+        follow_fields(c,
+                      {ofState(scope.stateAddress()),
+                       ofState(scope.stateAddress()),
+                       {},
+                       ofTopology(scope.topologyAddress())});
+    }
+  }
+  static void follow(ElementLists const& lists, TopologyChange const& change) {
+    if (lists.positions) change.points.filter(*lists.positions);
+    lists.forEach([&](int kind, auto& list) {
+      change.elements[std::size_t(kind)].filter(list);
+      for (auto& element : list)
+        for (Index& i : element) change.points.renumber(i);
+    });
+  }
+
+  // what stands on a state around which something changes has to be initialised again
+  template <class C, class S>
+  bool isTouched(C const& c, S const& scope) const {
+    if constexpr (HasRole<C, role::VisualModel>) {
+      return touchedStates_.contains(&c);
+    } else if constexpr (JoinsTwo<C>) {
+      bool any = false;
+      scope.withEnds(c, [&](auto const& a, auto const& b) {
+        any = touchedStates_.contains(a.stateAddress()) || touchedStates_.contains(b.stateAddress());
+      });
+      return any;
+    } else if constexpr (HasRole<C, role::Mapping>) {
+      bool any = false;
+      scope.withMapped(c, [&](auto& child, auto&) { any = touchedStates_.contains(&child); });
+      return any;
+    } else if constexpr (HasRole<C, role::Topology> || HasRole<C, role::State> ||
+                         HasRole<C, role::ForceField> || HasRole<C, role::Mass> ||
+                         HasRole<C, role::ProjectiveConstraint>) {
+      return scope.stateAddress() && touchedStates_.contains(scope.stateAddress());
+    } else {
+      return false;
+    }
+  }
+};
+
+}  // namespace sinew

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/component.hpp>
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+namespace sinew {
+
+/// What stays, of the points of a body and of the elements of all topologies over them.
+struct RemovalPlan {
+  using OfTopology = std::array<std::vector<bool>, element_kinds>;
+  std::vector<bool> points;
+  std::vector<OfTopology> elements;
+
+  TopologyChange change(std::size_t topology) const {
+    TopologyChange c{.points = Renumbering::of(points)};
+    for (std::size_t k = 0; k < element_kinds; ++k) c.elements[k] = Renumbering::of(elements[topology][k]);
+    return c;
+  }
+};
+
+namespace detail {
+
+// f(kind, list) for the five lists of a view
+template <class F>
+void for_each_kind(TopologyView const& t, F&& f) {
+  f(0, t.edges), f(1, t.triangles), f(2, t.quads), f(3, t.tetrahedra), f(4, t.hexahedra);
+}
+constexpr int dimension_of_kind(int kind) { return kind == 0 ? 1 : kind < 3 ? 2 : 3; }
+
+inline RemovalPlan whole_plan(std::size_t points, std::vector<TopologyView> const& topologies) {
+  RemovalPlan plan{.points = std::vector<bool>(points, true), .elements = {}};
+  for (TopologyView const& t : topologies) {
+    plan.elements.emplace_back();
+    for_each_kind(t, [&](int kind, auto const& list) {
+      plan.elements.back()[std::size_t(kind)].assign(list.size(), true);
+    });
+  }
+  return plan;
+}
+
+// an element of one of several topologies
+struct ElementOfBody {
+  std::size_t topology;
+  int kind;
+  std::size_t number;
+  std::span<Index const> points;
+};
+inline bool contains(std::span<Index const> outer, std::span<Index const> inner) {
+  return std::all_of(inner.begin(), inner.end(), [&](Index i) {
+    return std::find(outer.begin(), outer.end(), i) != outer.end();
+  });
+}
+
+}  // namespace detail
+
+/// What goes with elements of topologies[first]:
+///   - an element of a lower dimension that lies in one that goes, and in none that stays: faces and edges of
+///     what is removed
+///   - a point that has no element left of the highest dimension of those that it had: one of a volume does
+///     not hang on by a wire
+///   - an element over such a point
+/// All topologies are over the same points, and their indices are in range.
+inline RemovalPlan plan_element_removal(std::size_t points, std::vector<TopologyView> const& topologies,
+                                        std::size_t first, ElementNumbers const& gone) {
+  using detail::ElementOfBody;
+  RemovalPlan plan = detail::whole_plan(points, topologies);
+  auto forEachElement = [&](auto&& f) {
+    for (std::size_t t = 0; t < topologies.size(); ++t)
+      detail::for_each_kind(topologies[t], [&](int kind, auto const& list) {
+        for (std::size_t e = 0; e < list.size(); ++e) f(ElementOfBody{t, kind, e, list[e]});
+      });
+  };
+  auto stays = [&](ElementOfBody const& e) {
+    return plan.elements[e.topology][std::size_t(e.kind)][e.number];
+  };
+
+  // of the elements at each point the highest dimension
+  auto dimensions = [&] {
+    std::vector<int> highest(points, 0);
+    forEachElement([&](ElementOfBody const& e) {
+      if (stays(e))
+        for (const Index i : e.points)
+          highest[std::size_t(i)] = std::max(highest[std::size_t(i)], detail::dimension_of_kind(e.kind));
+    });
+    return highest;
+  };
+  const std::vector<int> before = dimensions();
+  const auto lists = gone.lists();
+  for (std::size_t k = 0; k < element_kinds; ++k)
+    for (const Index e : *lists[k]) plan.elements[first][k][std::size_t(e)] = false;
+
+  // points of elements that go, and the elements around them
+  std::vector<bool> touched(points, false);
+  forEachElement([&](ElementOfBody const& e) {
+    if (!stays(e))
+      for (const Index i : e.points) touched[std::size_t(i)] = true;
+  });
+  std::vector<Index> place(points, -1);
+  std::vector<std::vector<ElementOfBody>> around;
+  forEachElement([&](ElementOfBody const& e) {
+    for (const Index i : e.points)
+      if (touched[std::size_t(i)]) {
+        Index& at = place[std::size_t(i)];
+        if (at < 0) at = Index(around.size()), around.emplace_back();
+        around[std::size_t(at)].push_back(e);
+      }
+  });
+
+  for (const int dimension : {2, 1})
+    forEachElement([&](ElementOfBody const& e) {
+      if (detail::dimension_of_kind(e.kind) != dimension || !touched[std::size_t(e.points[0])]) return;
+      bool inGone = false, inKept = false;
+      for (ElementOfBody const& other : around[std::size_t(place[std::size_t(e.points[0])])])
+        if (detail::dimension_of_kind(other.kind) > dimension && detail::contains(other.points, e.points))
+          (stays(other) ? inKept : inGone) = true;
+      if (inGone && !inKept) plan.elements[e.topology][std::size_t(e.kind)][e.number] = false;
+    });
+
+  for (bool changed = true; changed;) {
+    const std::vector<int> now = dimensions();
+    changed = false;
+    for (std::size_t i = 0; i < points; ++i)
+      if (now[i] < before[i]) plan.points[i] = false;
+    forEachElement([&](ElementOfBody const& e) {
+      if (!stays(e) ||
+          std::all_of(e.points.begin(), e.points.end(), [&](Index i) { return plan.points[std::size_t(i)]; }))
+        return;
+      plan.elements[e.topology][std::size_t(e.kind)][e.number] = false;
+      changed = true;
+    });
+  }
+  return plan;
+}
+
+/// What goes with points: the elements over them.
+inline RemovalPlan plan_point_removal(std::vector<bool> const& stays,
+                                      std::vector<TopologyView> const& topologies) {
+  RemovalPlan plan = detail::whole_plan(stays.size(), topologies);
+  plan.points = stays;
+  for (std::size_t t = 0; t < topologies.size(); ++t)
+    detail::for_each_kind(topologies[t], [&](int kind, auto const& list) {
+      for (std::size_t e = 0; e < list.size(); ++e)
+        plan.elements[t][std::size_t(kind)][e] =
+            std::all_of(list[e].begin(), list[e].end(), [&](Index i) { return stays[std::size_t(i)]; });
+    });
+  return plan;
+}
+
+}  // namespace sinew

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/topology/regular_grid.hpp>
+
+#include <Eigen/Geometry>
+
+namespace sinew::detail {
+
+/// The first `dimensions` coordinates moved along the ray from the origin so that squares of half width r (or
+/// cubes) become circles (or spheres) of radius r: p max|p_i| / |p|.
+inline void round_square(Eigen::Vector3d& p, int dimensions) {
+  auto across = p.head(dimensions);
+  const double size = across.norm();
+  if (size > 0) across *= across.cwiseAbs().maxCoeff() / size;
+}
+
+/// Right-handed axes, the third along `axis`, the first as near to x as can be; as near to y where `axis` is
+/// x.
+inline Eigen::Matrix3d axes_around(std::string_view where, Eigen::Vector3d const& axis) {
+  if (!(axis.norm() > 0)) throw Error(where, "axis is zero; give it a direction");
+  Eigen::Matrix3d axes;
+  axes.col(2) = axis.normalized();
+  const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), y = Eigen::Vector3d::UnitY();
+  axes.col(1) = axes.col(2).cross((axes.col(2).cwiseAbs() - x).norm() < 1e-6 ? y : x).normalized();
+  axes.col(0) = axes.col(1).cross(axes.col(2));
+  return axes;
+}
+
+/// Points of a grid over a square (or cube) of half width `radius` around the origin, rounded in two (or
+/// three) dimensions, about `axis`; in two, along it from 0 to `length`.
+inline Mesh round_grid_points(std::string_view where, std::array<int, 3> const& n,
+                              Eigen::Vector3d const& axis, int dimensions, double radius, double length) {
+  const Eigen::Matrix3d axes = axes_around(where, axis);
+  for (std::size_t c = 0; c < std::size_t(dimensions); ++c)
+    if (n[c] < 2)
+      throw Error(where,
+                  text("a grid of ",
+                       n[0],
+                       " x ",
+                       n[1],
+                       " x ",
+                       n[2],
+                       " points cannot be round; give at least 2 ",
+                       dimensions == 2 ? "across, twice" : "each way"));
+  const Eigen::Vector3d half = Eigen::Vector3d::Constant(radius);
+  Eigen::Vector3d lo = -half, hi = half;
+  if (dimensions == 2) lo[2] = 0, hi[2] = length;
+  Mesh mesh = grid_points(where, n, lo, hi, 1, 24);
+  for (auto& p : mesh.positions) {
+    round_square(p, dimensions);
+    p = axes * p;
+  }
+  return mesh;
+}
+
+}  // namespace sinew::detail

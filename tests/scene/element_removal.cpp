@@ -1,0 +1,7 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "element_removal.hpp"
+
+TEST_CASE("elements removed at random for thousands of steps: as scenes built afresh, matrix-free") {
+  CHECK(removal::remove_at_random(
+            3, 3000, 20, sinew::CGLinearSolver<>{.iterations = 60, .tolerance = 1e-10}) > 60);
+}

@@ -1,0 +1,7 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "element_removal.hpp"
+
+TEST_CASE("elements removed at random for thousands of steps: as scenes built afresh, with a direct solver") {
+  CHECK(removal::remove_at_random(
+            3, 2000, 16, sinew::SparseLDLSolver<sinew::CompressedRowSparseMatrixMat3x3d>{}) > 60);
+}

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSL-1.0
+// expect: Sinew: a projective constraint acts on a mapped state, which follows its parent.
+#include <sinew/sinew.hpp>
+
+using namespace sinew;
+
+int main() {
+  Simulation sim{
+      node<"root">(EulerExplicitSolver{},
+                   AttachProjectiveConstraint<Vec3d, Between<"a", "b/c">>{},
+                   node<"a">(MechanicalObject<Vec3d>{}, UniformMass<Vec3d>{}),
+                   node<"b">(MechanicalObject<Vec3d>{},
+                             UniformMass<Vec3d>{},
+                             node<"c">(MechanicalObject<Vec3d>{}, IdentityMapping<Vec3d, Vec3d>{})))};
+  sim.init();
+  sim.animate(0.1);
+}

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "beams.hpp"
+
+#include <numbers>
+
+using namespace beams;
+using std::numbers::pi;
+
+namespace {
+
+Deriv wrench(Vector3d const& force, Vector3d const& torque = Vector3d::Zero()) {
+  Deriv f;
+  f << force, torque;
+  return f;
+}
+BeamSection section_of(Beam const& b) { return rectangular_section(b.lengthY, b.lengthZ, b.poissonRatio); }
+const Vector3d X = Vector3d::UnitX(), Y = Vector3d::UnitY(), Z = Vector3d::UnitZ();
+
+// 1 m long, 0.06 m x 0.1 m
+const Beam stubby{.poissonRatio = 0.3,
+                  .youngModulus = 1e6,
+                  .crossSectionShape = CrossSectionShape::rectangular,
+                  .lengthY = 0.06,
+                  .lengthZ = 0.1};
+
+}  // namespace
+
+// The stiffness of an element is exact for loads at its ends: one is as good as many.
+TEST_CASE("a cantilever under small loads at its tip has the closed forms of Timoshenko's beam") {
+  for (const bool shear : {true, false})
+    for (const int n : {1, 7}) {
+      INFO("elements " << n << " shear " << shear);
+      Beam beam = stubby;
+      beam.shearStressComputation = shear;
+      const BeamSection s = section_of(beam);
+      const double E = 1e6, G = E / 2.6, P = 1e-5;
+      const double yield = shear ? P / (s.shear * G * s.area) : 0;
+      auto tip = [&](Deriv const& load) { return tip_load(beam, straight(n, 1), load, 1, 1e-13).x.back(); };
+      // nonlinear terms: squares of slopes of 1e-5; Newton's tolerance 1e-13 of 1e-6
+      CHECK(tip(wrench(P * Y)).center[1] == Approx(P / (3 * E * s.aboutZ) + yield).epsilon(1e-5));
+      CHECK(tip(wrench(P * Z)).center[2] == Approx(P / (3 * E * s.aboutY) + yield).epsilon(1e-5));
+      CHECK(tip(wrench(1e3 * P * X)).center[0] - 1 == Approx(1e3 * P / (E * s.area)).epsilon(1e-5));
+      auto turn = [&](Vector3d const& torque) {
+        return Vector3d(2 * tip(wrench(Vector3d::Zero(), torque)).orientation.vec());
+      };
+      CHECK(turn(P * X)[0] == Approx(P / (G * s.torsion)).epsilon(1e-5));
+      CHECK(turn(P * Y)[1] == Approx(P / (E * s.aboutY)).epsilon(1e-5));
+      CHECK(turn(P * Z)[2] == Approx(P / (E * s.aboutZ)).epsilon(1e-5));
+      CHECK(tip(wrench(Vector3d::Zero(), P * Z)).center[1] == Approx(P / (2 * E * s.aboutZ)).epsilon(1e-5));
+    }
+}
+
+// Weight is carried to the frames, half an element each: exact at the frames up to h^2.
+TEST_CASE("a cantilever under its weight comes to q L^4 / 8EI with order 2") {
+  Beam beam = stubby;
+  beam.shearStressComputation = false;
+  const double q = 1e-5, exact = q / (8 * 1e6 * section_of(beam).aboutZ);
+  double last = 0;
+  for (const int n : {4, 8, 16}) {
+    Rigid3d::VecDeriv loads(std::size_t(n) + 1, wrench(q / n * Y));
+    loads.front() *= 0.5, loads.back() *= 0.5;
+    const double error = load(beam, straight(n, 1), loads, 1, 1e-13).x.back().center[1] / exact - 1;
+    CHECK(std::abs(error) < 1.0 / (n * n));
+    if (last != 0) CHECK(last / error == Approx(4).epsilon(0.02));
+    last = error;
+  }
+}
+
+// The elastica: a slender cantilever under a dead load P at its tip, a = P L^2 / EI (Bisshopp & Drucker
+// 1945). With the tip angle f, k^2 = (1 + sin f)/2, sin(t) = 1/(k sqrt 2):
+//   sqrt a = K(k) - F(t, k),   deflection = 1 - 2 (E(k) - E(t, k)) / sqrt a,   reach = sqrt(2 sin f / a)
+namespace {
+
+struct Elastica {
+  double deflection, reach, angle;  // of the tip, lengths against L
+};
+// Simpson's rule for the elliptic integrals from t to pi/2, whose integrands are smooth
+double elliptic(double k, double t, double power) {
+  const int n = 2000;
+  double sum = 0;
+  for (int i = 0; i <= n; ++i) {
+    const double s = k * std::sin(t + (pi / 2 - t) * i / n);
+    sum += (i == 0 || i == n ? 1 : i % 2 ? 4 : 2) * std::pow(1 - s * s, power);
+  }
+  return sum * (pi / 2 - t) / n / 3;
+}
+Elastica elastica(double a) {
+  double low = 0, high = pi / 2;
+  auto modulus = [](double f) { return std::sqrt((1 + std::sin(f)) / 2); };
+  auto start = [&](double f) { return std::asin(std::min(1.0, 1 / (modulus(f) * std::sqrt(2.0)))); };
+  for (int i = 0; i < 60; ++i) {
+    const double f = (low + high) / 2;
+    (elliptic(modulus(f), start(f), -0.5) < std::sqrt(a) ? low : high) = f;
+  }
+  return {
+      1 - 2 * elliptic(modulus(low), start(low), 0.5) / std::sqrt(a), std::sqrt(2 * std::sin(low) / a), low};
+}
+
+// EI = 1, and so thin that the stretch, a (h/L)^2 / 12 = 3e-7 a, does not count
+Beam slender() {
+  const double h = 2e-3;
+  return {.poissonRatio = 0,
+          .youngModulus = 12 / std::pow(h, 4),
+          .crossSectionShape = CrossSectionShape::rectangular,
+          .lengthY = h,
+          .lengthZ = h,
+          .shearStressComputation = false};
+}
+
+}  // namespace
+
+TEST_CASE("a cantilever bends into the elastica with order 2") {
+  // values of the paper's table, as they are quoted: 3 digits
+  CHECK(elastica(1).deflection == Approx(0.302).margin(5e-4));
+  CHECK(elastica(10).deflection == Approx(0.811).margin(5e-4));
+  CHECK(elastica(10).reach == Approx(0.445).margin(5e-4));
+  // in any direction: the same beam along the turned x axis
+  const Eigen::Quaterniond any = Eigen::Quaterniond(0.3, 0.5, -0.4, 0.7).normalized();
+  for (const double a : {1.0, 10.0}) {
+    const Elastica exact = elastica(a);
+    double last = 0;
+    for (const int n : {5, 10, 20}) {
+      auto x = straight(n, 1);
+      for (auto& f : x) f = frame(any * f.center, any);
+      const auto bent = tip_load(slender(), x, wrench(any * (a * Y)), 5);
+      const Coord tip =
+          frame(any.conjugate() * bent.x.back().center, any.conjugate() * bent.x.back().orientation);
+      const double angle = 2 * std::atan2(tip.orientation.vec()[2], tip.orientation.w());
+      const double error = std::hypot(tip.center[1] - exact.deflection, tip.center[0] - exact.reach);
+      INFO("a " << a << " elements " << n << " error " << error << " angle " << angle - exact.angle
+                << " iterations " << bent.corrections.size());
+      CHECK(error < 0.06 * a / (n * n));
+      CHECK(std::abs(angle - exact.angle) < 0.06 * a / (n * n));
+      CHECK(std::abs(tip.center[2]) < 1e-9);
+      CHECK(bent.corrections.size() < 40);
+      if (last != 0) CHECK(last / error == Approx(4).epsilon(0.15));
+      last = error;
+    }
+  }
+}
+
+// M = 2 pi EI / L. Each element turns by 2 pi / n exactly, and stays as long as it was: frames on a circle
+// whose chords are L / n.
+TEST_CASE("a moment at its tip rolls a beam into a circle") {
+  // wide, so that it does not buckle sideways on its way
+  Beam beam = slender();
+  beam.lengthZ *= 20, beam.youngModulus /= 20;
+  for (const int n : {6, 20}) {
+    const auto bent = tip_load(beam, straight(n, 1), wrench(Vector3d::Zero(), 2 * pi * Z), 2 * n);
+    INFO("iterations " << bent.corrections.size());
+    CHECK(bent.x.back().center.norm() < 1e-8);
+    CHECK(std::abs(bent.x.back().orientation.w()) == Approx(1).epsilon(1e-12));
+    const double radius = 0.5 / n / std::sin(pi / n);
+    for (std::size_t i = 0; i < bent.x.size(); ++i) {
+      const double angle = 2 * pi * double(i) / n;
+      CHECK((bent.x[i].center - radius * Vector3d(std::sin(angle), 1 - std::cos(angle), 0)).norm() < 1e-8);
+    }
+  }
+}
+
+// Bathe & Bolourchi 1979: an eighth of a circle of radius 100, clamped, of unit square cross-section, E =
+// 1e7, nu = 0, is pulled out of its plane by 600. Tips in the literature, with 8 straight
+// elements: 47.2, 15.9, 53.4 (Bathe & Bolourchi), 47.23, 15.79, 53.37 (Simo & Vu-Quoc
+// 1986), 46.84, 15.61, 53.71 (Crisfield 1990).
+TEST_CASE("a bent beam pulled out of its plane comes to where the literature has it") {
+  Vector3d tip[3];
+  for (const int k : {0, 1, 2}) {
+    const int n = 8 << k;
+    Rigid3d::VecCoord x;
+    for (int i = 0; i <= n; ++i) {
+      const double angle = pi / 4 * i / n;
+      x.push_back(frame({100 * std::sin(angle), 100 * (1 - std::cos(angle)), 0},
+                        Eigen::Quaterniond(Eigen::AngleAxisd(angle, Z))));
+    }
+    Beam beam = stubby;
+    beam.poissonRatio = 0, beam.youngModulus = 1e7, beam.lengthY = beam.lengthZ = 1;
+    const auto bent = tip_load(beam, x, wrench(600 * Z), 6);
+    INFO(bent.x.back().center.transpose() << " iterations " << bent.corrections.size());
+    CHECK((bent.x.back().center - Vector3d(47.0, 15.7, 53.5)).norm() < 0.3);
+    CHECK(bent.corrections.size() < 10);
+    tip[k] = bent.x.back().center;
+  }
+  CHECK((tip[1] - tip[0]).norm() / (tip[2] - tip[1]).norm() == Approx(4).epsilon(0.1));
+}
+
+// near the equilibrium the symmetric tangent is the whole one: dead loads are conservative
+TEST_CASE("Newton's method converges quadratically on a bent beam") {
+  const auto bent = tip_load(slender(), straight(10, 1), wrench(3 * Y), 3, 1e-11);
+  auto const& c = bent.corrections;
+  INFO(Catch::Detail::stringify(c));
+  REQUIRE(c.size() >= 5);
+  CHECK(c.size() <= 10);
+  // bending and stretch take turns to be out of balance: two iterations square the correction
+  for (std::size_t i = 4; i < c.size(); ++i) CHECK(c[i] < 2 * std::pow(c[i - 2], 2) + 1e-10);
+}
