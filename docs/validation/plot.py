@@ -297,6 +297,16 @@ FIGURES = {
     "hexahedra_bending": ("hexahedra_bending", dict(
         title="Pure bending of a bar of hexahedra", x=("a", "length of a hexahedron along the bar, in heights of the bar"),
         y=("ratio", "rotation of the end, against theory"), line="closed form", log="x", ylim=(0, 1.05))),
+    "elastica": ("elastica", dict(
+        title="Tip of a slender cantilever, 20 beams", series="coordinate", x=("load", "dead load, PL²/EI"),
+        y=("tip", "place of the tip / L"), line="closed form")),
+    "elastica_convergence": ("elastica_convergence", dict(
+        title="The same, against the size of elements", series="load", x=("h", "length of an element / L"),
+        y=("error", "distance of the tip from the elastica / L"), log="xy", slopes=[(2, "PL²/EI = 1", 0.5)])),
+    "beam_frequencies": ("beam_frequencies", dict(
+        title="First frequencies of a beam", series="mode", x=("h", "length of an element / L"),
+        y=("error", "relative error, its size"), log="xy",
+        slopes=[(2, "stretch", 2), (4, "bending, on simple supports", 2)])),
     "locking": ("locking", dict(
         title="Cantilever, length 5, near incompressibility", series="element",
         x=("compressibility", "1/2 − ν"), y=("ratio", "tip, against Timoshenko"), log="x", ylim=(0, 1.05))),
@@ -350,6 +360,8 @@ FIGURES = {
 TABLES = {
     "cantilever": ("cantilever_table", [("element", "element", str), ("across", "cells across", whole),
                                         ("points", "points", whole), ("ratio", "w / w_T", digits(4))]),
+    "bent_beam": ("bent_beam", [("who", "who, and elements", str), ("x", "x", digits(2)), ("y", "y", digits(2)),
+                                ("z", "z", digits(2))]),
     "cylinder_hyperelastic": ("cylinder_hyperelastic", [
         ("law", "law", str), ("p1", "strain at p/E = 1e-4", short), ("p2", "stretch at 0.02", digits(4)),
         ("p3", "at 0.1", digits(4)), ("p4", "at 0.3", digits(4)), ("error", "largest difference", short)]),
