@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: BSL-1.0
 """Makes docs/validation/*.svg and the tables of docs/validation.md from what the tests of tests/validation record.
 
-usage: plot.py FOLDER    where FOLDER holds the CSV files that the tests wrote with SINEW_VALIDATION_DIR=FOLDER
+usage: plot.py FOLDER [OUT]    where FOLDER holds the CSV files that the tests wrote with SINEW_VALIDATION_DIR=FOLDER;
+                               the page and its plots are written to OUT, or where they are
 
 A plot or a table is one entry of FIGURES or TABLES at the end of this file. The page has a plot by the name of its
 file, and a table between the lines `<!-- table NAME -->` and `<!-- end -->`. Only Python's standard library is used.
@@ -262,14 +263,20 @@ def table(rows, columns):
 
 
 def main():
-    if len(sys.argv) != 2:
+    if len(sys.argv) not in (2, 3):
         raise SystemExit(__doc__)
     folder, page = pathlib.Path(sys.argv[1]), HERE.parent / "validation.md"
+    out = pathlib.Path(sys.argv[2]) if len(sys.argv) == 3 else page.parent
     words = page.read_text()
+    shown, places = re.findall(r"\]\(validation/(\w+)\.svg\)", words), re.findall(r"<!-- table (\w+) -->", words)
+    for kind, made, used in (("plot", FIGURES, shown), ("table", TABLES, places)):
+        if sorted(made) != sorted(used):
+            raise SystemExit(f"plot.py: {page.name} must have each {kind} once; it lacks {sorted(set(made) - set(used))}, "
+                             f"and these are made by nobody or shown twice: "
+                             f"{sorted({n for n in used if n not in made or used.count(n) > 1})}")
+    (out / "validation").mkdir(exist_ok=True)
     for name, (source, settings) in FIGURES.items():
-        if f"validation/{name}.svg" not in words:
-            raise SystemExit(f"plot.py: {page} does not show validation/{name}.svg")
-        (HERE / f"{name}.svg").write_text(figure(read(folder, source), **settings))
+        (out / "validation" / f"{name}.svg").write_text(figure(read(folder, source), **settings))
     for svg in HERE.glob("*.svg"):
         if svg.stem not in FIGURES:
             raise SystemExit(f"plot.py: {svg} is no longer made; delete it")
@@ -277,9 +284,9 @@ def main():
         made = f"<!-- table {name} -->\n\n{table(read(folder, source), columns)}\n\n<!-- end -->"
         words, found = re.subn(rf"<!-- table {name} -->.*?<!-- end -->", lambda _: made, words, flags=re.S)
         if found != 1:
-            raise SystemExit(f"plot.py: {page} must have one place for the table {name}, and has {found}")
-    page.write_text(words)
-    print(f"{len(FIGURES)} plots and {len(TABLES)} tables in {page}")
+            raise SystemExit(f"plot.py: the table {name} of {page.name} has no <!-- end -->")
+    (out / page.name).write_text(words)
+    print(f"{len(FIGURES)} plots and {len(TABLES)} tables in {out / page.name}")
 
 
 # name of the plot: the files it is made of, and the arguments of figure()
@@ -290,6 +297,16 @@ FIGURES = {
     "hexahedra_bending": ("hexahedra_bending", dict(
         title="Pure bending of a bar of hexahedra", x=("a", "length of a hexahedron along the bar, in heights of the bar"),
         y=("ratio", "rotation of the end, against theory"), line="closed form", log="x", ylim=(0, 1.05))),
+    "elastica": ("elastica", dict(
+        title="Tip of a slender cantilever, 20 beams", series="coordinate", x=("load", "dead load, PL²/EI"),
+        y=("tip", "place of the tip / L"), line="closed form")),
+    "elastica_convergence": ("elastica_convergence", dict(
+        title="The same, against the size of elements", series="load", x=("h", "length of an element / L"),
+        y=("error", "distance of the tip from the elastica / L"), log="xy", slopes=[(2, "PL²/EI = 1", 0.5)])),
+    "beam_frequencies": ("beam_frequencies", dict(
+        title="First frequencies of a beam", series="mode", x=("h", "length of an element / L"),
+        y=("error", "relative error, its size"), log="xy",
+        slopes=[(2, "stretch", 0.5), (4, "bending, on simple supports", 2)])),
     "locking": ("locking", dict(
         title="Cantilever, length 5, near incompressibility", series="element",
         x=("compressibility", "1/2 − ν"), y=("ratio", "tip, against Timoshenko"), log="x", ylim=(0, 1.05))),
@@ -343,6 +360,8 @@ FIGURES = {
 TABLES = {
     "cantilever": ("cantilever_table", [("element", "element", str), ("across", "cells across", whole),
                                         ("points", "points", whole), ("ratio", "w / w_T", digits(4))]),
+    "bent_beam": ("bent_beam", [("who", "who, and elements", str), ("x", "x", digits(2)), ("y", "y", digits(2)),
+                                ("z", "z", digits(2))]),
     "cylinder_hyperelastic": ("cylinder_hyperelastic", [
         ("law", "law", str), ("p1", "strain at p/E = 1e-4", short), ("p2", "stretch at 0.02", digits(4)),
         ("p3", "at 0.1", digits(4)), ("p4", "at 0.3", digits(4)), ("error", "largest difference", short)]),

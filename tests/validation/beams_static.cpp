@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "beams.hpp"
 #include "elastica.hpp"
+#include "record.hpp"
 
 #include <numbers>
 
@@ -82,7 +83,8 @@ Beam slender() {
 
 }  // namespace
 
-TEST_CASE("a cantilever bends into the elastica with order 2") {
+TEST_CASE("a cantilever bends into the elastica with order 2", "[page]") {
+  Record convergence("elastica_convergence", {"load", "h", "error"});
   // values of the paper's table, as they are quoted: 3 digits
   CHECK(elastica::tip(1).deflection == Approx(0.302).margin(5e-4));
   CHECK(elastica::tip(10).deflection == Approx(0.811).margin(5e-4));
@@ -102,6 +104,7 @@ TEST_CASE("a cantilever bends into the elastica with order 2") {
       const double error = std::hypot(tip.center[1] - exact.deflection, tip.center[0] - exact.reach);
       INFO("a " << a << " elements " << n << " error " << error << " angle " << angle - exact.angle
                 << " iterations " << bent.corrections.size());
+      convergence.row(text("PL²/EI = ", a), 1.0 / n, error);
       CHECK(error < 0.06 * a / (n * n));
       CHECK(std::abs(angle - exact.angle) < 0.06 * a / (n * n));
       CHECK(std::abs(tip.center[2]) < 1e-9);
@@ -110,6 +113,20 @@ TEST_CASE("a cantilever bends into the elastica with order 2") {
       last = error;
     }
   }
+}
+
+TEST_CASE("the tip of the elastica from small to large loads, for the page", "[page]") {
+  Record curve("elastica", {"coordinate", "load", "tip", "closed form"});
+  std::vector<std::array<double, 3>> reach;
+  for (const double a : {0.25, 0.5, 1.0, 2.0, 3.0, 4.0, 6.0, 8.0, 10.0}) {
+    if (!Record::wanted() && a != 4) continue;
+    const Elastica exact = elastica(a);
+    const Vector3d tip = tip_load(slender(), straight(20, 1), wrench(a * Y), 5).x.back().center;
+    CHECK(std::hypot(tip[1] - exact.deflection, tip[0] - exact.reach) < 0.06 * a / 400);
+    curve.row("across", a, tip[1], exact.deflection);
+    reach.push_back({a, tip[0], exact.reach});
+  }
+  for (auto const& r : reach) curve.row("along", r[0], r[1], r[2]);
 }
 
 // M = 2 pi EI / L. Each element turns by 2 pi / n exactly, and stays as long as it was: frames on a circle
@@ -135,7 +152,11 @@ TEST_CASE("a moment at its tip rolls a beam into a circle") {
 // 1e7, nu = 0, is pulled out of its plane by 600. Tips in the literature, with 8 straight
 // elements: 47.2, 15.9, 53.4 (Bathe & Bolourchi), 47.23, 15.79, 53.37 (Simo & Vu-Quoc
 // 1986), 46.84, 15.61, 53.71 (Crisfield 1990).
-TEST_CASE("a bent beam pulled out of its plane comes to where the literature has it") {
+TEST_CASE("a bent beam pulled out of its plane comes to where the literature has it", "[page]") {
+  Record table("bent_beam", {"who", "x", "y", "z"});
+  table.row("Bathe and Bolourchi 1979, 8", 47.2, 15.9, 53.4);
+  table.row("Simo and Vu-Quoc 1986, 8", 47.23, 15.79, 53.37);
+  table.row("Crisfield 1990, 8", 46.84, 15.61, 53.71);
   Vector3d tip[3];
   for (const int k : {0, 1, 2}) {
     const int n = 8 << k;
@@ -152,6 +173,7 @@ TEST_CASE("a bent beam pulled out of its plane comes to where the literature has
     CHECK((bent.x.back().center - Vector3d(47.0, 15.7, 53.5)).norm() < 0.3);
     CHECK(bent.corrections.size() < 10);
     tip[k] = bent.x.back().center;
+    table.row(text("BeamFEMForceField, ", n), tip[k][0], tip[k][1], tip[k][2]);
   }
   CHECK((tip[1] - tip[0]).norm() / (tip[2] - tip[1]).norm() == Approx(4).epsilon(0.1));
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "components/equilibrium.hpp"
 #include "validation/beams.hpp"
+#include "validation/record.hpp"
 
 #include <sinew/mass/beam_mass.hpp>
 #include <sinew/solver/runge_kutta4.hpp>
@@ -112,6 +113,36 @@ TEST_CASE("a beam swings at the frequencies of the closed forms") {
       clamped, {}, [](int c) { return c == 0; }, 0, {k[0] * stretch, k[1] * stretch}, 1e-3, 2);
   check(
       clamped, {}, [](int c) { return c == 3; }, 0, {k[0] * twist, k[1] * twist}, 1e-3, 2);
+}
+
+TEST_CASE("frequencies of beams against the size of their elements, for the page", "[page]") {
+  Record curve("beam_frequencies", {"mode", "h", "error"});
+  const BeamSection s = rectangular_section(Ly, Lz, nu);
+  const double speed = std::sqrt(E * s.aboutZ / (density * s.area)), rotary = s.aboutZ / s.area;
+  auto errors = [&](std::string name,
+                    std::vector<int> const& start,
+                    std::vector<int> const& end,
+                    auto const& seen,
+                    double exact) {
+    double last = 0, order = 0;
+    for (const int n : {4, 8, 16, 32}) {
+      std::vector<int> held = start;
+      for (const int c : end) held.push_back(6 * n + c);
+      const double error = std::abs(frequencies(n, held, seen)[0] / exact - 1);
+      curve.row(name, 1.0 / n, error);
+      order = std::log2(last / error), last = error;
+    }
+    return order;
+  };
+  const auto bending = [](int c) { return c == 1 || c == 5; };
+  const double clampedMode = 1.87510407 * 1.87510407 * speed,
+               simple = pi * pi * speed / std::sqrt(1 + rotary * pi * pi);
+  CHECK(errors("bending, clamped at one end", clamped, {}, bending, clampedMode) == Approx(2).margin(0.05));
+  CHECK(errors("bending, on simple supports", {0, 1, 2, 3}, {1, 2}, bending, simple) ==
+        Approx(4).margin(0.3));
+  CHECK(errors(
+            "stretch", clamped, {}, [](int c) { return c == 0; }, pi / 2 * std::sqrt(E / density)) ==
+        Approx(2).margin(0.05));
 }
 
 // A bent and twisted beam that flies: nothing acts on it, so that both momenta and the energy stay.

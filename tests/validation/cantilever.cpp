@@ -15,7 +15,7 @@ double tetrahedra_tip(Bar const& bar, Cells cells) { return tip_against_theory(b
 
 }  // namespace
 
-TEST_CASE("cantilevers of hexahedra and tetrahedra converge to Timoshenko's beam with order 2") {
+TEST_CASE("cantilevers of hexahedra and tetrahedra converge to Timoshenko's beam with order 2", "[page]") {
   // without Poisson's effect, so that the clamp holds back nothing that the beam has
   Record curve("cantilever", {"element", "h", "error"}),
       table("cantilever_table", {"element", "across", "points", "ratio"});
@@ -54,7 +54,7 @@ TEST_CASE("all methods of rotation are the same at small load") {
           Approx(tetrahedron).epsilon(1e-9));
 }
 
-TEST_CASE("hexahedra lock in bending by the shear that they cannot do without") {
+TEST_CASE("hexahedra lock in bending by the shear that they cannot do without", "[page]") {
   // A known defect. In bending of curvature k the section of an element of length a leans evenly along it,
   // while its axis stays straight: a shear of k x, which costs G k^2 a^2 / 24 where bending costs E k^2 b^2 /
   // 24, with b the whole height of the bar. So the bar turns too little, by 1 / (1 + G/E (a/b)^2).
@@ -93,7 +93,7 @@ TEST_CASE("hexahedra lock in bending by the shear that they cannot do without") 
     }
 }
 
-TEST_CASE("linear tetrahedra and hexahedra lock as Poisson's ratio nears 1/2") {
+TEST_CASE("linear tetrahedra and hexahedra lock as Poisson's ratio nears 1/2", "[page]") {
   // A known defect: elements whose volume cannot change have no way left to bend. With a full clamp the body
   // itself differs from the beam by some percent.
   Record curve("locking", {"element", "compressibility", "ratio"});

@@ -22,7 +22,7 @@ const double pressures[] = {1e-4 * E, 1e-3 * E, 1e-2 * E, 1e-1 * E};
 
 }  // namespace
 
-TEST_CASE("a cylinder of corotational tetrahedra or hexahedra under four pressures") {
+TEST_CASE("a cylinder of corotational tetrahedra or hexahedra under four pressures", "[page]") {
   Record curve("cylinder", {"method", "pressure", "error"});
   auto check = [&](std::string name, Mesh const& mesh, auto force, bool exact) {
     for (const double p : pressures) {

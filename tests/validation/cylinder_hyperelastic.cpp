@@ -33,7 +33,7 @@ Stretches closed_form(Law const& law, double p) {
 
 }  // namespace
 
-TEST_CASE("a cylinder of each hyperelastic law under four pressures") {
+TEST_CASE("a cylinder of each hyperelastic law under four pressures", "[page]") {
   Record table("cylinder_hyperelastic", {"law", "p1", "p2", "p3", "p4", "error"});
   const Mesh mesh = tetrahedra();
   for (Law const& law : laws) {

@@ -47,7 +47,7 @@ TEST_CASE("the trapezoidal rule and Newmark keep the energy of a linear system")
   CHECK(drift(VariationalSymplecticSolver{}) < 1e-10);
 }
 
-TEST_CASE("the energy of an orbit over 100,000 steps, for the page") {
+TEST_CASE("the energy of an orbit over 100,000 steps, for the page", "[page]") {
   // the orbit above; the largest error so far, at steps that grow by turns 2, 2.5 and 2 times
   Record curve("energy_drift", {"solver", "step", "error"});
   const int last = Record::wanted() ? 100000 : 1000;

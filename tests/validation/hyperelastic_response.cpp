@@ -128,7 +128,7 @@ TEST_CASE("simple shear keeps the volume, and has each law's closed form") {
     }
 }
 
-TEST_CASE("curves of the response, for the page") {
+TEST_CASE("curves of the response, for the page", "[page]") {
   // what the cases above check at a few stretches, along the whole curve
   Record uniaxial("hyperelastic_uniaxial", {"law", "stretch", "stress", "closed form"}),
       biaxial("hyperelastic_biaxial", {"law", "stretch", "stress", "closed form"}),

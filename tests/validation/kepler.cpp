@@ -112,7 +112,7 @@ const VariationalSymplecticSolver midpoint{.newtonError = 1e-13, .steps = 20};
 
 }  // namespace
 
-TEST_CASE("planets keep energy and angular momentum for 1,000 years under symplectic solvers") {
+TEST_CASE("planets keep energy and angular momentum for 1,000 years under symplectic solvers", "[page]") {
   Record curve("kepler_energy", {"solver", "year", "error"}),
       table("kepler", {"solver", "years", "first", "last", "momentum", "turn"});
   auto measure = [&](std::string name, auto solver, int years = 1000) {
@@ -173,7 +173,7 @@ TEST_CASE("ellipses of symplectic solvers turn slowly, with the square of the st
   CHECK(std::log2(turn(midpoint, 200) / turn(midpoint, 400)) == Approx(2).margin(0.1));
 }
 
-TEST_CASE("orbits to look at, for the page") {
+TEST_CASE("orbits to look at, for the page", "[page]") {
   Record curve("kepler_orbits", {"solver", "x", "y"});
   const int steps = 60, years = Record::wanted() ? 10 : 1;
   auto draw = [&](std::string name, auto solver) {

@@ -48,7 +48,8 @@ Eigen::VectorXd way(Sim& sim) {
 
 TEST_CASE(
     "the stiffness of one point changes: a low-rank update, a direct solution and conjugate gradients "
-    "agree") {
+    "agree",
+    "[page]") {
   // Sherman, Morrison, Woodbury: with A = L D L' of the body as it was, S = k I the stiffness that point i
   // gets, E its three columns of the identity and C = A^-1 E,
   //   (A + E S E')^-1 f = u - C (S^-1 + E' C)^-1 E' u,   u = A^-1 f

@@ -29,7 +29,7 @@ auto bent(Solver solver, Force fem, Cells cells, int steps, double dt) {
 
 }  // namespace
 
-TEST_CASE("what StaticSolver finds is what dynamics settle to") {
+TEST_CASE("what StaticSolver finds is what dynamics settle to", "[page]") {
   Record table("settled", {"element", "sag", "difference", "iterations"});
   auto check = [&](std::string name, auto fem, Cells cells) {
     INFO(name);

@@ -85,7 +85,7 @@ double largest_difference(Vec3d::VecCoord const& a, Vec3d::VecCoord const& b) {
 
 }  // namespace
 
-TEST_CASE("networks of springs hang where a direct solution made by hand says") {
+TEST_CASE("networks of springs hang where a direct solution made by hand says", "[page]") {
   Record table("spring_networks", {"load", "way", "ldl", "cg"});
   for (const double load : {1e-3, 1.0, 10.0}) {
     const Network net = network(load);

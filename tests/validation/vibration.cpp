@@ -35,7 +35,7 @@ double frequency(Bar const& bar, Cells cells, Mass mass, Force fem, std::vector<
 
 }  // namespace
 
-TEST_CASE("bars ring along themselves as rods do") {
+TEST_CASE("bars ring along themselves as rods do", "[page]") {
   // held at one end, w = pi/2L sqrt(E/rho); of hexahedra of length a, with t = pi a/2L:
   //   lumped      w = 2/a sin(t/2) sqrt(E/rho)
   //   consistent  w = 2/a sin(t/2) sqrt(E/rho) / sqrt(1 - 2/3 sin^2(t/2))

@@ -8,7 +8,7 @@
 
 using namespace sinew;
 
-TEST_CASE("a chain of springs rings in each of its modes as its dispersion says") {
+TEST_CASE("a chain of springs rings in each of its modes as its dispersion says", "[page]") {
   // n springs k between n + 1 masses m, the ends held: w_j = 2 sqrt(k/m) sin(j pi / 2n)
   Record curve("chain", {"chain", "mode", "frequency"});
   const int n = 16;

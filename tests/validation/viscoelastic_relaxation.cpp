@@ -41,7 +41,7 @@ struct Cube {
 
 }  // namespace
 
-TEST_CASE("held in a shear, the stress relaxes as the Prony series says") {
+TEST_CASE("held in a shear, the stress relaxes as the Prony series says", "[page]") {
   const double g = 1e-4, lambda = 300;
   const double G[] = {50, 30, 20, 10}, tau[] = {0.1, 0.7, 4};
   Record curve("relaxation", {"step", "time", "modulus", "closed form"});
