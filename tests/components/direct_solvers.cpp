@@ -64,7 +64,7 @@ TEST_CASE("direct solvers take points of any size in any blocks") {
   CHECK(moved(CholeskySolver<CompressedRowSparseMatrixMat3x3d>{}) == Approx(expected).epsilon(1e-13));
 }
 
-TEST_CASE("an indefinite system is solved by L D L' and refused by Cholesky") {
+TEST_CASE("an indefinite system is solved by L D L', sparse and dense") {
   // the same spring and a mass too light for the step: m - 100 h^2 = -0.5
   const double h = 0.1, m = 0.5;
   auto sim = compressed_spring(SparseLDLSolver<>{}, m);
@@ -72,11 +72,9 @@ TEST_CASE("an indefinite system is solved by L D L' and refused by Cholesky") {
   CHECK(sim.root().state().velocity[1][1] == Approx(1 + 100 * h * h / (m - 100 * h * h)).epsilon(1e-13));
   CHECK(sim.root().get<SparseLDLSolver<>>().factor.negativePivots == 1);
 
-  auto refused = compressed_spring(CholeskySolver<>{}, m);
-  const std::string said = message([&] { refused.animate(h); });
-  for (const std::string word :
-       {"/root: CholeskySolver", "not positive definite", "point 1, component 1", "SparseLDLSolver"})
-    CHECK(said.find(word) != std::string::npos);
+  auto dense = compressed_spring(CholeskySolver<>{}, m);
+  dense.animate(h);
+  CHECK(dense.root().state().velocity[1][1] == Approx(sim.root().state().velocity[1][1]).epsilon(1e-13));
 }
 
 TEST_CASE("a singular system is an error that names the point") {

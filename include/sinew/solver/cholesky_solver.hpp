@@ -8,8 +8,9 @@
 
 namespace sinew {
 
-/// The assembled system solved to rounding by a dense L L', in n^3/3 operations: for systems of up to a few
-/// hundred unknowns, which must be positive definite. Throws Error where they are not.
+/// The assembled system solved to rounding by a dense L D L', in n^3/3 operations: for systems of up to a few
+/// hundred unknowns, positive definite or, as there is no pivoting, indefinite ones whose leading minors do
+/// not vanish. Throws Error where one does.
 template <class Matrix = CompressedRowSparseMatrixd>
 struct CholeskySolver {
   using Role = role::LinearSolver;
@@ -42,11 +43,10 @@ struct CholeskySolver {
     unpack();
     if (const int dof = factorise(); dof >= 0)
       throw Error(text(operations.root.path(), ": ", className),
-                  text("the matrix is not positive definite at ",
+                  text("the matrix is singular at ",
                        dof_text(operations, dof),
-                       "; fix points of the body, take a smaller dt, or use SparseLDLSolver or "
-                       "MinResLinearSolver, which "
-                       "solve indefinite systems"));
+                       ": nothing holds it there; fix points of the body, or give it mass or stiffness (if a "
+                       "value is not finite, the simulation diverged before: take a smaller dt)"));
     operations.gather(b, rhs.id);
     y = b.template cast<double>();
     substitute();
@@ -64,28 +64,24 @@ struct CholeskySolver {
           for (int c = 0; c < B; ++c)
             lower(i * B + r, matrix.columns[std::size_t(s)] * B + c) = double(matrix.block(s)[r * B + c]);
   }
-  // column by column, in place; the first dof whose pivot is not positive, or -1
+  // column by column, in place, D on the diagonal; the first dof whose pivot vanishes, or -1
   int factorise() {
     const Eigen::Index n = lower.rows();
-    for (Eigen::Index k = 0; k < n; ++k) y[k] = noPivot<typename Matrix::Real> * lower(k, k);
+    for (Eigen::Index k = 0; k < n; ++k) y[k] = noPivot<typename Matrix::Real> * std::abs(lower(k, k));
     for (Eigen::Index k = 0; k < n; ++k) {
-      if (!(lower(k, k) > y[k]) || !(y[k] > 0) || !std::isfinite(lower(k, k))) return int(k);
-      const Eigen::Index below = n - k - 1;
-      lower(k, k) = std::sqrt(lower(k, k));
-      lower.col(k).tail(below) /= lower(k, k);
+      const double d = lower(k, k);
+      if (!(std::abs(d) > y[k]) || !std::isfinite(d)) return int(k);
+      lower.col(k).tail(n - k - 1) /= d;
       for (Eigen::Index j = k + 1; j < n; ++j)
-        lower.col(j).tail(n - j) -= lower(j, k) * lower.col(k).tail(n - j);
+        lower.col(j).tail(n - j) -= (d * lower(j, k)) * lower.col(k).tail(n - j);
     }
     return -1;
   }
   void substitute() {
     const Eigen::Index n = lower.rows();
-    for (Eigen::Index k = 0; k < n; ++k) {
-      y[k] /= lower(k, k);
-      y.tail(n - k - 1) -= y[k] * lower.col(k).tail(n - k - 1);
-    }
+    for (Eigen::Index k = 0; k < n; ++k) y.tail(n - k - 1) -= y[k] * lower.col(k).tail(n - k - 1);
     for (Eigen::Index k = n; k-- > 0;)
-      y[k] = (y[k] - lower.col(k).tail(n - k - 1).dot(y.tail(n - k - 1))) / lower(k, k);
+      y[k] = y[k] / lower(k, k) - lower.col(k).tail(n - k - 1).dot(y.tail(n - k - 1));
   }
 };
 
