@@ -169,31 +169,36 @@ SINEW_INLINE void frame_dforce(FrameState<Real, N> const& state, Deriv const (&d
   }
 }
 
-/// Block (i, j) of k K.
+/// Block (i, j) of k K, two columns at a time: more slopes do not fit into registers.
 template <int N, class Real, class Forces>
 SINEW_INLINE Mat<Real, 6> frame_block(FrameState<Real, N> const& state, int i, int j, Real k,
                                       Forces const& forces) {
-  using S = Dual<Real, 6>;
-  Frames<S, N> frames = state.template frames<S>();
-  for (int c = 0; c < 6; ++c) {
-    Vec<Real, 6> unit;
-    for (int r = 0; r < 6; ++r) unit[r] = Real(r == c ? 1 : 0);
-    seed(frames, j, unit, c);
-  }
-  const FrameForces<S, N> f = forces(frames);
+  constexpr int together = 2;
+  using S = Dual<Real, together>;
   Mat<Real, 6> block;
-  for (int c = 0; c < 6; ++c)
-    for (int r = 0; r < 3; ++r) {
-      block(r, c) = k * f.force[i][r].slope[c];
-      block(r + 3, c) = k * f.torque[i][r].slope[c];
+  Vec<Real, 3> torque;
+  for (int first = 0; first < 6; first += together) {
+    Frames<S, N> frames = state.template frames<S>();
+    for (int c = 0; c < together; ++c) {
+      Vec<Real, 6> unit;
+      for (int r = 0; r < 6; ++r) unit[r] = Real(r == first + c ? 1 : 0);
+      seed(frames, j, unit, c);
     }
-  if (i == j)
-    for (int r = 0; r < 3; ++r) {
-      const Real half = Real(0.5) * k * f.torque[i][r].value;
-      const int a = (r + 1) % 3, b = (r + 2) % 3;
-      block(a + 3, b + 3) -= half;
-      block(b + 3, a + 3) += half;
-    }
+    const FrameForces<S, N> f = forces(frames);
+    for (int c = 0; c < together; ++c)
+      for (int r = 0; r < 3; ++r) {
+        block(r, first + c) = k * f.force[i][r].slope[c];
+        block(r + 3, first + c) = k * f.torque[i][r].slope[c];
+      }
+    if (i == j && first == 0)
+      for (int r = 0; r < 3; ++r) torque[r] = f.torque[i][r].value;
+  }
+  for (int r = 0; r < 3 && i == j; ++r) {
+    const Real half = Real(0.5) * k * torque[r];
+    const int a = (r + 1) % 3, b = (r + 2) % 3;
+    block(a + 3, b + 3) -= half;
+    block(b + 3, a + 3) += half;
+  }
   return block;
 }
 

@@ -212,7 +212,6 @@ struct TriangularShellForceField {
   using VecCoord = typename D::VecCoord;
   using VecDeriv = typename D::VecDeriv;
   static constexpr std::string_view className = "TriangularShellForceField";
-  static constexpr std::string_view aliases = "TriangularBendingFEMForceField";
 
   double poissonRatio = 0.45, youngModulus = 3000, thickness = 0.1;
   bool bending = true;

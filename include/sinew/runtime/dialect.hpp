@@ -295,6 +295,7 @@ struct AttributeOf {
 inline constexpr std::array attributesWithoutMeaningOf =
     std::to_array<AttributeOf>({{"MechanicalObject", "force"},
                                 {"AngularSpringForceField", "limit"},
+                                {"BeamFEMForceField", "useSymmetricAssembly"},
                                 {"AngularSpringForceField", "recompute_indices"},
                                 {"RestShapeSpringsForceField", "recompute_indices"},
                                 {"AffineMovementConstraint", "meshIndices"},
@@ -303,6 +304,8 @@ inline constexpr std::array attributesWithoutMeaningOf =
                                 {"SparseLDLSolver", "iterations"},
                                 {"SparseLDLSolver", "tolerance"},
                                 {"SparseLDLSolver", "threshold"},
+                                {"TriangularShellForceField", "measure"},
+                                {"TriangularShellForceField", "arrow_radius"},
                                 {"TriangleFEMForceField", "hosfordExponant"},
                                 {"TriangleFEMForceField", "criteriaValue"},
                                 {"TriangleFEMForceField", "computePrincipalStress"},
@@ -338,6 +341,7 @@ struct StandsFor {
 inline constexpr std::array standsFor = std::to_array<StandsFor>(
     {{"BDF1OdeSolver", "BDFOdeSolver", "order", "1"},
      {"BDF1", "BDFOdeSolver", "order", "1"},
+     {"TriangularBendingFEMForceField", "TriangularShellForceField", "bending", "0"},
      {"NodalLinearDampingForceField", "UniformVelocityDampingForceField", "implicit", "1"}});
 
 /// What SOFA's NewtonRaphsonSolver says of the search where its element says nothing.
