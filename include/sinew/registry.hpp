@@ -81,13 +81,14 @@ using MeasuringMappings = Registry<DistanceMapping<Vec3d, Vec1d>, DistanceMappin
                                    CenterOfMassMapping<Vec3d, Vec3d>, CenterOfMassMapping<Rigid3d, Vec3d>>;
 using MultiMappings = Registry<SubsetMultiMapping<Vec3d, Vec3d>, SubsetMultiMapping<Vec2d, Vec2d>,
                                SubsetMultiMapping<Vec1d, Vec1d>, SubsetMultiMapping<Rigid3d, Rigid3d>,
-                               SubsetMultiMapping<Rigid3d, Vec3d>>;
+                               SubsetMultiMapping<Rigid3d, Vec3d>, SubsetMultiMapping<Vec3d, Vec3f>>;
+using SkinningMappings = Registry<SkinningMapping<Rigid3d, Vec3d>, SkinningMapping<Rigid3d, Vec3f>>;
 using StandardMappings =
-    Registry<MultiMappings, MeasuringMappings, SpatialMappings<Vec3d, Vec3d>, SpatialMappings<Vec3d, Vec3f>,
-             SpatialMappings<Vec3f, Vec3f>, SpatialMappings<Vec3f, Vec3d>, PointMappings<Vec1d, Vec1d>,
-             PointMappings<Vec2d, Vec2d>, PointMappings<Vec6d, Vec6d>, RigidMappings<Rigid3d, Vec3d, Vec3f>,
-             RigidMappings<Rigid3f, Vec3f, Vec3d>, IdentityMapping<Rigid2d, Rigid2d>,
-             RigidMapping<Rigid2d, Rigid2d>, RigidMapping<Rigid2d, Vec2d>>;
+    Registry<MultiMappings, SkinningMappings, MeasuringMappings, SpatialMappings<Vec3d, Vec3d>,
+             SpatialMappings<Vec3d, Vec3f>, SpatialMappings<Vec3f, Vec3f>, SpatialMappings<Vec3f, Vec3d>,
+             PointMappings<Vec1d, Vec1d>, PointMappings<Vec2d, Vec2d>, PointMappings<Vec6d, Vec6d>,
+             RigidMappings<Rigid3d, Vec3d, Vec3f>, RigidMappings<Rigid3f, Vec3f, Vec3d>,
+             IdentityMapping<Rigid2d, Rigid2d>, RigidMapping<Rigid2d, Rigid2d>, RigidMapping<Rigid2d, Vec2d>>;
 template <template <class> class Solver>
 using AssembledSolvers =
     Registry<Solver<CompressedRowSparseMatrixMat3x3d>, Solver<CompressedRowSparseMatrixd>>;
@@ -126,6 +127,7 @@ struct Extended
                RigidComponents<Rigid2d>, RigidComponents<Rigid2f>, RigidComponents<Rigid3f>,
                SpatialRigids<Rigid3f>, IdentityMapping<Rigid2f, Rigid2f>, RigidMapping<Rigid2d, Vec2f>,
                RigidMapping<Rigid2f, Vec2f>, RigidMapping<Rigid2f, Vec2d>, DistanceMapping<Vec3f, Vec1f>,
-               VolumeMapping<Vec3f, Vec1f>, CenterOfMassMapping<Vec3d, Vec3f>> {};
+               VolumeMapping<Vec3f, Vec1f>, CenterOfMassMapping<Vec3d, Vec3f>,
+               SkinningMapping<Rigid3f, Vec3f>> {};
 
 }  // namespace sinew

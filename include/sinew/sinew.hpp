@@ -59,6 +59,7 @@
 #include <sinew/mapping/distance_mapping.hpp>
 #include <sinew/mapping/identity_mapping.hpp>
 #include <sinew/mapping/rigid_mapping.hpp>
+#include <sinew/mapping/skinning_mapping.hpp>
 #include <sinew/mapping/subset_mapping.hpp>
 #include <sinew/mapping/subset_multi_mapping.hpp>
 #include <sinew/mapping/volume_mapping.hpp>

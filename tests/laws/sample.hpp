@@ -211,6 +211,11 @@ void for_each_variant(Random& random, F&& use) {
   // some points attached to others, one of them to three
   if constexpr (requires { c.twoWay; })
     c.indices1 = {0, 1, 2, 2, 9}, c.indices2 = {10, 13, 11, 20, 15}, c.constraintFactor = {1, 1, 1, 1, 0};
+  // the nearest frames, with the weights that follow
+  if constexpr (requires { c.nbRef; }) {
+    c.nbRef = {3};
+    c.indices.clear(), c.weight.clear(), c.initPos.clear();
+  }
   // points of three parents, of nine points each
   if constexpr (requires { c.indexPairs; }) {
     c.indexPairs.resize(7);
