@@ -307,6 +307,9 @@ FIGURES = {
         title="First frequencies of a beam", series="mode", x=("h", "length of an element / L"),
         y=("error", "relative error, its size"), log="xy",
         slopes=[(2, "stretch", 0.5), (4, "bending, on simple supports", 2)])),
+    "plates": ("plates", dict(
+        title="Plates under an even load, against Kirchhoff", series="plate", x=("h", "1 / cells along a side or a radius"),
+        y=("error", "relative error of the middle"), log="xy", slopes=[(2, "disc, clamped", 0.5)])),
     "locking": ("locking", dict(
         title="Cantilever, length 5, near incompressibility", series="element",
         x=("compressibility", "1/2 − ν"), y=("ratio", "tip, against Timoshenko"), log="x", ylim=(0, 1.05))),
@@ -360,6 +363,8 @@ FIGURES = {
 TABLES = {
     "cantilever": ("cantilever_table", [("element", "element", str), ("across", "cells across", whole),
                                         ("points", "points", whole), ("ratio", "w / w_T", digits(4))]),
+    "roof": ("roof", [("cells", "cells a side", whole), ("sinks", "edge sinks by", digits(4)),
+                      ("ratio", "against 0.3024", digits(4))]),
     "bent_beam": ("bent_beam", [("who", "who, and elements", str), ("x", "x", digits(2)), ("y", "y", digits(2)),
                                 ("z", "z", digits(2))]),
     "cylinder_hyperelastic": ("cylinder_hyperelastic", [

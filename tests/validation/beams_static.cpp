@@ -120,7 +120,7 @@ TEST_CASE("the tip of the elastica from small to large loads, for the page", "[p
   std::vector<std::array<double, 3>> reach;
   for (const double a : {0.25, 0.5, 1.0, 2.0, 3.0, 4.0, 6.0, 8.0, 10.0}) {
     if (!Record::wanted() && a != 4) continue;
-    const Elastica exact = elastica(a);
+    const elastica::Tip exact = elastica::tip(a);
     const Vector3d tip = tip_load(slender(), straight(20, 1), wrench(a * Y), 5).x.back().center;
     CHECK(std::hypot(tip[1] - exact.deflection, tip[0] - exact.reach) < 0.06 * a / 400);
     curve.row("across", a, tip[1], exact.deflection);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
+#include "record.hpp"
 #include "shells.hpp"
 
 using namespace shells;
@@ -72,8 +73,12 @@ double middle(Sheet const& sheet, Held const& held) {
 }
 /// Errors with n and 2 n cells a side: of order 2, and at most `most` with 2 n.
 template <class Deflection>
-void converges(Deflection const& deflection, double exact, int n, double most) {
+void converges(Record& curve, std::string_view name, Deflection const& deflection, double exact, int n,
+               double most) {
   const double coarse = deflection(n) / exact - 1, fine = deflection(2 * n) / exact - 1;
+  curve.row(name, 1.0 / n, std::abs(coarse));
+  curve.row(name, 0.5 / n, std::abs(fine));
+  if (Record::wanted()) curve.row(name, 0.25 / n, std::abs(deflection(4 * n) / exact - 1));
   INFO("errors " << coarse << " " << fine);
   CHECK(std::abs(fine) < most);
   CHECK(coarse / fine == Approx(4).epsilon(0.2));
@@ -81,8 +86,11 @@ void converges(Deflection const& deflection, double exact, int n, double most) {
 
 }  // namespace
 
-TEST_CASE("plates under an even load sag as Kirchhoff's do, with order 2") {
+TEST_CASE("plates under an even load sag as Kirchhoff's do, with order 2", "[page]") {
+  Record curve("plates", {"plate", "h", "error"});
   converges(
+      curve,
+      "square, clamped",
       [](int n) {
         const Sheet sheet = flat(n, n, 1, 1);
         return middle(sheet, {sheet.where(on_border), all});
@@ -91,6 +99,8 @@ TEST_CASE("plates under an even load sag as Kirchhoff's do, with order 2") {
       8,
       0.008);
   converges(
+      curve,
+      "square, supported",
       [](int n) {
         const Sheet sheet = flat(n, n, 1, 1);
         return middle(sheet, {sheet.where(on_border), places});
@@ -99,6 +109,8 @@ TEST_CASE("plates under an even load sag as Kirchhoff's do, with order 2") {
       8,
       0.004);
   converges(
+      curve,
+      "disc, clamped",
       [](int n) {
         Sheet sheet = disc(n, 0.5);
         for (auto& x : sheet.x) x.center += Vector3d(0.5, 0.5, 0);
@@ -144,7 +156,8 @@ TEST_CASE("a strip bends as a beam does, across its plane and in it") {
 // The roof of Scordelis & Lo 1964 under its weight: R = 25, L = 50, 80 degrees, 0.25 thick, E = 4.32e8, nu =
 // 0, 90 a square; its ends are held in their planes. The middle of the free edge sinks by 0.3024 (MacNeal &
 // Harder 1985).
-TEST_CASE("the roof of Scordelis and Lo sinks as in the literature") {
+TEST_CASE("the roof of Scordelis and Lo sinks as in the literature", "[page]") {
+  Record table("roof", {"cells", "sinks", "ratio"});
   const Shell shell{.poissonRatio = 0, .youngModulus = 4.32e8, .thickness = 0.25};
   for (const int n : {8, 16, 32}) {
     const Sheet sheet = grid(n, n, 50, 80, [](double x, double degrees) {
@@ -158,6 +171,7 @@ TEST_CASE("the roof of Scordelis and Lo sinks as in the literature") {
     const auto found = settle(shell, sheet, {{ends, along}}, sheet.spread({0, 0, -weight}), 1, 1e-11);
     const std::size_t edge = std::size_t(n / 2);
     const double sinks = -(found.x[edge].center[2] - sheet.x[edge].center[2]) * 90 / weight;
+    table.row(n, sinks, sinks / 0.3024);
     INFO("cells " << n << " sinks " << sinks);
     CHECK(sinks == Approx(0.3024).epsilon(n == 8 ? 0.05 : 0.005));
   }
