@@ -93,3 +93,30 @@ TEST_CASE("of a state with several parents what was mapped from a point that goe
   CHECK(both.state().position[1] == sim.at<"body">().state().position[3]);
   sim.animate(0.01);
 }
+
+TEST_CASE("a skin loses the weights of the frames that go, and the points that have no other") {
+  using Skin = SkinningMapping<Rigid3d, Vec3d>;
+  std::vector<Rigid3d::Coord> frames;
+  for (int i = 0; i < 4; ++i) frames.push_back({{double(i), 0, 0}, Eigen::Quaterniond::Identity()});
+  const std::vector<Eigen::Vector3d> points{{0, 1, 0}, {1, 1, 0}, {2, 1, 0}};
+  Simulation sim{node<"root">(
+      EulerImplicitSolver{},
+      CGLinearSolver<>{},
+      node<"beams">(
+          MeshTopology{.edges = {{0, 1}, {1, 2}, {2, 3}}},
+          MechanicalObject<Rigid3d>{.position = frames},
+          UniformMass<Rigid3d>{},
+          node<"given">(
+              MechanicalObject<Vec3d>{.position = points},
+              Skin{.nbRef = {1, 2, 2}, .indices = {0, 0, 1, 1, 2}, .weight = {1, 0.5, 0.5, 0.25, 0.75}}),
+          node<"nearest">(MechanicalObject<Vec3d>{.position = points}, Skin{.nbRef = {2}})))};
+  sim.init();
+  sim.removeElements("beams", {.edges = {0}});
+  auto& given = sim.at<"beams/given">();
+  CHECK(given.state().position == std::vector<Eigen::Vector3d>{points[1], points[2]});
+  CHECK(given.get<Skin>().nbRef == std::vector<int>{1, 2});
+  CHECK(given.get<Skin>().indices == std::vector<int>{0, 0, 1});
+  CHECK(given.get<Skin>().weight == std::vector<double>{0.5, 0.25, 0.75});
+  CHECK(sim.at<"beams/nearest">().state().position.size() == 3);
+  sim.animate(0.01);
+}

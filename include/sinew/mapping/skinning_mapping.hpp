@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/core/component.hpp>
+#include <sinew/core/follow.hpp>
 
 #include <algorithm>
 #include <array>
@@ -44,12 +45,14 @@ struct SkinningMapping {
   static constexpr auto fields() {
     using M = SkinningMapping;
     return field_list(
-        field("initPos", &M::initPos, "m", "places of the points at rest; those of the child when not given"),
+        field("initPos", &M::initPos, "m", "places of the points at rest; those of the child when not given")
+            .oneEach(Of::points),
         field("nbRef",
               &M::nbRef,
               "",
               "how many frames carry a point: one number for all, or one for each",
-              range::atLeast(1)),
+              range::atLeast(1))
+            .oneEach(Of::points),
         field("indices",
               &M::indices,
               "",
@@ -57,6 +60,32 @@ struct SkinningMapping {
               range::nonNegative),
         field("weight", &M::weight, "", "weights of these; scaled to the sum 1", range::nonNegative),
         field("method", &M::method, "", "how motions are blended"));
+  }
+
+  /// A point goes with the last of the frames that it was given; one that was given none finds others.
+  std::vector<bool> pointsThatStay(Renumbering const& frames) const {
+    std::vector<bool> stays(restPoints.size(), indices.empty());
+    for (std::size_t i = 0; i < stays.size(); ++i)
+      for (std::size_t k = starts[i]; k < starts[i + 1]; ++k)
+        stays[i] = stays[i] || frames.stays(influences[k].frame);
+    return stays;
+  }
+  void follow(Followed const& change) {
+    if (indices.empty()) return;
+    std::vector<bool> stays;
+    std::vector<int> references;
+    for (std::size_t i = 0; i < restPoints.size(); ++i) {
+      int left = 0;
+      for (std::size_t k = starts[i]; k < starts[i + 1]; ++k) {
+        stays.push_back(change.parentPoints.stays(indices[k]));
+        left += stays.back();
+      }
+      if (left > 0) references.push_back(left);
+    }
+    const Renumbering entries = Renumbering::of(stays);
+    entries.filter(indices), entries.filter(weight);
+    for (int& frame : indices) change.parentPoints.renumber(frame);
+    nbRef = references;
   }
 
   struct Influence {
