@@ -89,7 +89,7 @@ struct BeamFEM {
     LocalTurn<S> end[2];
     Vec<S, 3> moment[2];
 
-    SINEW_INLINE Local(Rest const& rest, Frames<S, 2> const& frames) {
+    SINEW_HD Local(Rest const& rest, Frames<S, 2> const& frames) {
       using std::sqrt, sinew::sqrt;
       const S tiny(std::numeric_limits<lane_scalar<Real>>::min());
       Turn<S> node[2];
@@ -122,7 +122,7 @@ struct BeamFEM {
   //   w_x = (sum a_i.w_i - A_y w_y - A_z w_z) / A_x,   a_i = (q_w, v_z, -v_y),   A = a_0 + a_1,
   // while w_y, w_z are those of the chord.
   template <class S>
-  SINEW_INLINE static FrameForces<S, 2> forces(Rest const& rest, Frames<S, 2> const& frames) {
+  SINEW_HD static FrameForces<S, 2> forces(Rest const& rest, Frames<S, 2> const& frames) {
     const Local<S> local(rest, frames);
     Vec<S, 3> torque[2], a[2];
     for (int i = 0; i < 2; ++i) {

@@ -9,7 +9,8 @@
 namespace sinew {
 
 // What corotational elements between frames share: rotations as unit quaternions over scalars, lanes and dual
-// numbers, and the rotation vectors that are their deformation.
+// numbers, and the rotation vectors that are their deformation. What is long is not inlined: compilers would
+// do so in each of many places.
 
 /// Rotation by a unit quaternion w + v.
 template <class S>
@@ -73,7 +74,7 @@ struct LocalTurn {
 
   LocalTurn() = default;
   /// Of turns by less than 180 degrees.
-  SINEW_INLINE explicit LocalTurn(Turn<S> const& of) : turn(of) {
+  SINEW_HD explicit LocalTurn(Turn<S> const& of) : turn(of) {
     using T = std::decay_t<decltype(value_of(of.w))>;
     const auto flip = value_of(of.w) < T(0);
     turn.w = select(flip, S(-turn.w), turn.w);
@@ -152,8 +153,8 @@ SINEW_INLINE void seed(Frames<Dual<T, M>, N>& frames, int i, Deriv const& dx, in
 
 /// df = k K dx of an element whose forces<S>(frames) are exact for dual numbers too.
 template <int N, class Real, class Deriv, class Forces>
-SINEW_INLINE void frame_dforce(FrameState<Real, N> const& state, Deriv const (&dx)[N], Deriv (&df)[N], Real k,
-                               Forces const& forces) {
+SINEW_HD void frame_dforce(FrameState<Real, N> const& state, Deriv const (&dx)[N], Deriv (&df)[N], Real k,
+                           Forces const& forces) {
   using S = Dual<Real, 1>;
   Frames<S, N> frames = state.template frames<S>();
   for (int i = 0; i < N; ++i) seed(frames, i, dx[i], 0);
@@ -171,8 +172,8 @@ SINEW_INLINE void frame_dforce(FrameState<Real, N> const& state, Deriv const (&d
 
 /// Block (i, j) of k K, two columns at a time: more slopes do not fit into registers.
 template <int N, class Real, class Forces>
-SINEW_INLINE Mat<Real, 6> frame_block(FrameState<Real, N> const& state, int i, int j, Real k,
-                                      Forces const& forces) {
+SINEW_HD Mat<Real, 6> frame_block(FrameState<Real, N> const& state, int i, int j, Real k,
+                                  Forces const& forces) {
   constexpr int together = 2;
   using S = Dual<Real, together>;
   Mat<Real, 6> block;

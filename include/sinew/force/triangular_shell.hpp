@@ -86,7 +86,7 @@ struct TriangularShell {
  private:
   static constexpr int lower(int i, int j) { return i >= j ? i * (i + 1) / 2 + j : j * (j + 1) / 2 + i; }
   template <int N, class S, int M>
-  SINEW_INLINE static void multiply(Real const (&k)[M], S const (&d)[N], S (&f)[N]) {
+  SINEW_HD static void multiply(Real const (&k)[M], S const (&d)[N], S (&f)[N]) {
     for (int i = 0; i < N; ++i) {
       f[i] = k[lower(i, 0)] * d[0];
       for (int j = 1; j < N; ++j) f[i] += k[lower(i, j)] * d[j];
@@ -110,7 +110,7 @@ struct TriangularShell {
     S stretch[9], pull[9];  // m, K_m m
     S bend[6], moment[6];   // b, K_b b
 
-    SINEW_INLINE Local(Rest const& rest, Frames<S, 3> const& frames) {
+    SINEW_HD Local(Rest const& rest, Frames<S, 3> const& frames) {
       using std::sqrt, sinew::sqrt;
       const S tiny(std::numeric_limits<lane_scalar<Real>>::min());
       const Mat<S, 3> edges = frame_of(frames.place[1], frames.place[2]);
@@ -147,7 +147,7 @@ struct TriangularShell {
 
    private:
     // the turn of a node against the axes, by less than 180 degrees
-    SINEW_INLINE LocalTurn<S> turned(Turn<S> const& node) const {
+    SINEW_HD LocalTurn<S> turned(Turn<S> const& node) const {
       using std::sqrt, sinew::sqrt;
       Vec<S, 3> column[3];  // R = axes' node, of which quaternions have tr R = 4 w^2 - 1, R - R' = 4 w [v]x
       for (int c = 0; c < 3; ++c) {
@@ -171,7 +171,7 @@ struct TriangularShell {
   // rest, h those as they are now. The moment of all that pulls at the nodes is undone by forces that make
   // that turn.
   template <class S>
-  SINEW_INLINE static FrameForces<S, 3> forces(Rest const& rest, Frames<S, 3> const& frames) {
+  SINEW_HD static FrameForces<S, 3> forces(Rest const& rest, Frames<S, 3> const& frames) {
     const Local<S> local(rest, frames);
     Vec<S, 3> torque[3], whole(S(0), S(0), S(0));
     for (int k = 0; k < 3; ++k) {
