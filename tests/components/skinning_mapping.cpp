@@ -9,7 +9,7 @@ using one::says;
 
 namespace {
 
-using Frames = Rigid3d::VecCoord;
+using SkinFrames = Rigid3d::VecCoord;
 using Points = Vec3d::VecCoord;
 using Skin = SkinningMapping<Rigid3d, Vec3d>;
 
@@ -18,19 +18,19 @@ Rigid3d::Coord frame(Eigen::Vector3d const& center, Eigen::Vector3d const& turn 
   Rigid3d::increment(c, (Rigid3d::Deriv() << center, turn).finished());
   return c;
 }
-Skin ready(Skin skin, Frames const& frames, Points points) {
+Skin ready(Skin skin, SkinFrames const& frames, Points points) {
   check_fields(skin, "skin");
   const Points given = points;
   skin.init({"/bones", frames, {}}, {"/bones/skin", given, {}}, points);
   return skin;
 }
-Points applied(Skin& skin, Frames const& frames) {
+Points applied(Skin& skin, SkinFrames const& frames) {
   Points x(skin.restPoints.size());
   skin.apply(x, frames);
   return x;
 }
 
-const Frames bones{
+const SkinFrames bones{
     frame({0, 0, 0}, {0.1, 0.2, 0.3}), frame({1, 0, 0}, {0, -1, 0.5}), frame({2, 0.5, 0}), frame({2, 2, 1})};
 const Points skin{{0.1, 0.2, 0}, {0.5, -0.3, 0.1}, {1.2, 0.4, 0.2}, {2, 1, 0.5}, {1, 0, 0}};
 
@@ -44,7 +44,7 @@ TEST_CASE("frames at rest leave the skin as it is, and carry it along as one bod
     // one motion of all frames
     const Eigen::Quaterniond turn(Eigen::AngleAxisd(2.5, Eigen::Vector3d(1, 2, -1).normalized()));
     const Eigen::Vector3d shift(3, -1, 2);
-    Frames moved = bones;
+    SkinFrames moved = bones;
     for (auto& f : moved) {
       f.center = turn * f.center + shift;
       f.orientation = turn * f.orientation;
@@ -55,10 +55,10 @@ TEST_CASE("frames at rest leave the skin as it is, and carry it along as one bod
 }
 
 TEST_CASE("two frames of equal weight, one turned: linear skin shrinks, that of dual quaternions does not") {
-  const Frames rest{frame({0, 0, 0}), frame({0, 0, 0})};
+  const SkinFrames rest{frame({0, 0, 0}), frame({0, 0, 0})};
   const Points point{{0, 1, 0.7}};
   for (const double angle : {0.5, 2.0, 3.0}) {
-    const Frames turned{rest[0], frame({0, 0, 0}, {0, 0, angle})};
+    const SkinFrames turned{rest[0], frame({0, 0, 0}, {0, 0, angle})};
     Skin linear = ready({.nbRef = {2}, .indices = {0, 1}, .weight = {3, 3}}, rest, point);
     Skin dual =
         ready({.nbRef = {2}, .indices = {0, 1}, .weight = {1, 1}, .method = SkinningMethod::dualQuaternion},
@@ -75,15 +75,15 @@ TEST_CASE("two frames of equal weight, one turned: linear skin shrinks, that of 
       ready({.nbRef = {2}, .indices = {0, 1}, .weight = {1, 1}, .method = SkinningMethod::dualQuaternion},
             rest,
             point);
-  const Frames turned{rest[0], frame({0, 0, 0}, {0, 0, 4.0})};
+  const SkinFrames turned{rest[0], frame({0, 0, 0}, {0, 0, 4.0})};
   const double back = (4.0 - 2 * 3.14159265358979323846) / 2;
   CHECK((applied(dual, turned)[0] - Eigen::Vector3d(-std::sin(back), std::cos(back), 0.7)).norm() < 1e-14);
 }
 
 TEST_CASE("a screw of two frames is half a screw between them") {
   // the second frame is shifted along and turned about an axis through (2, 0, 0)
-  const Frames rest{frame({0, 0, 0}), frame({2, 0, 0})};
-  const Frames moved{rest[0], frame({2, 0, 0.6}, {0, 0, 1.0})};
+  const SkinFrames rest{frame({0, 0, 0}), frame({2, 0, 0})};
+  const SkinFrames moved{rest[0], frame({2, 0, 0.6}, {0, 0, 1.0})};
   Skin dual =
       ready({.nbRef = {2}, .indices = {0, 1}, .weight = {1, 1}, .method = SkinningMethod::dualQuaternion},
             rest,
@@ -140,7 +140,7 @@ TEST_CASE("springs on a skin move its frames: matrix-free and assembled solvers 
 }
 
 TEST_CASE("bad skins are named") {
-  auto with = [](Skin mapping, Frames const& frames = bones) {
+  auto with = [](Skin mapping, SkinFrames const& frames = bones) {
     return [=] { ready(mapping, frames, skin); };
   };
   CHECK(one::message(with({})).empty());
@@ -157,5 +157,5 @@ TEST_CASE("bad skins are named") {
        {"weights of point 2 are all 0"});
   says(with({.nbRef = {1}, .indices = {0, 1, 2, 3, 3}, .weight = {1, 1, -1, 1, 1}}), {"weight[2] is -1"});
   says(with({.nbRef = {1}, .indices = {0, 1, 2, 3, -3}, .weight = {1, 1, 1, 1, 1}}), {"indices[4] is -3"});
-  says(with({}, Frames{}), {"the parent has no frames"});
+  says(with({}, SkinFrames{}), {"the parent has no frames"});
 }
