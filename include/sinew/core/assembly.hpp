@@ -61,15 +61,19 @@ struct MultiMappedDofs {
 
   template <class F>
   void expand(int point, F&& f) const {
-    [&]<std::size_t... K>(std::index_sequence<K...>) {
-      (mapping.parts[K].forEachJacobianBlock(
-           point,
-           [&](int above, auto const& j) {
-             std::get<K>(parents).expand(above, [&](int dof, auto const& jAbove) { f(dof, (j * jAbove)); });
-           }),
-       ...);
-    }
-    (std::index_sequence_for<Parent...>{});
+    expandParts(point, f, std::index_sequence_for<Parent...>{});
+  }
+
+ private:
+  template <class F, std::size_t... K>
+  void expandParts(int point, F& f, std::index_sequence<K...>) const {
+    (expandPart(mapping.parts[K], std::get<K>(parents), point, f), ...);
+  }
+  template <class Part, class P, class F>
+  static void expandPart(Part const& part, P const& parent, int point, F& f) {
+    part.forEachJacobianBlock(point, [&](int above, auto const& j) {
+      parent.expand(above, [&](int dof, auto const& jAbove) { f(dof, (j * jAbove)); });
+    });
   }
 };
 
