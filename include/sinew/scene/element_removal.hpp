@@ -37,7 +37,7 @@ class ElementRemoval {
   TopologyChange const& change() const { return ofTopology_.at(topology_); }
 
   void apply() {
-    traverse(root_, on<AnyRole>([this](auto& c, auto const& scope) { follow(c, scope); }));
+    traverse(root_, on<AnyRole>([this](auto& c, auto const& scope) { this->follow(c, scope); }));
   }
 
   InitAgain touched() const {
