@@ -105,6 +105,12 @@ TEST_CASE("tetrahedra that stay keep their past; values of elements split from h
   CHECK(split.youngModulus == std::vector<double>(6, 2));
 }
 
+TEST_CASE("values of elements stay where no element of the topology goes") {
+  MeshMatrixMass<Vec3d> mass{.massDensity = {1, 2, 3}};
+  follow_fields(mass, {{}, {}, {}, {}});
+  CHECK(mass.massDensity == std::vector<double>{1, 2, 3});
+}
+
 TEST_CASE("pressure goes with the triangles that are named, and does not turn to all") {
   SurfacePressureForceField<Vec3d> pressure{.pressure = 1, .triangleIndices = {2}};
   TopologyChange change;

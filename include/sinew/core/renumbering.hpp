@@ -96,12 +96,11 @@ struct TopologyChange {
 
   /// The entries that stay of a list of `size`, with one entry for each element of a dimension (1, 2, 3):
   /// simplices first, and then as many entries for each other element as there must be, since a component may
-  /// split hexahedra or quads into simplices.
+  /// split hexahedra or quads into simplices. Of dimension 0, of a topology without elements, nothing goes.
   Renumbering ofDimension(int dimension, std::size_t size) const {
+    if (dimension == 0) return {};
     constexpr int simplex[] = {0, 1, 3}, other[] = {-1, 2, 4};
-    Renumbering const& simplices = elements[std::size_t(simplex[dimension - 1])];
-    std::vector<bool> stays;
-    for (const Index n : simplices.now) stays.push_back(n >= 0);
+    std::vector<bool> stays = elements[std::size_t(simplex[dimension - 1])].stays();
     if (dimension > 1) {
       Renumbering const& others = elements[std::size_t(other[dimension - 1])];
       const std::size_t rest = size > stays.size() ? size - stays.size() : 0, count = others.now.size();
