@@ -59,14 +59,7 @@ struct CylinderGridTopology {
         field("hexahedra", &T::hexahedra, "", "the cells").also("hexas"));
   }
 
-  TopologyView view() const {
-    return {.positions = position,
-            .edges = edges,
-            .triangles = triangles,
-            .quads = quads,
-            .hexahedra = hexahedra,
-            .grid = points};
-  }
+  TopologyView view() const { return detail::grid_view(*this); }
 
   /// Throws Error on an axis of no length, fewer than two points across, or more than 2^24 in all.
   void generate(std::string_view where) {

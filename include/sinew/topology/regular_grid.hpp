@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <sinew/core/error.hpp>
-#include <sinew/core/mesh.hpp>
+#include <sinew/core/component.hpp>
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -142,6 +141,16 @@ void make_grid_elements(Topology& t) {
       }
     });
   if (t.computeEdgeList) for_grid_lines(t.points, [&](Index p, Index q) { t.edges.push_back({p, q}); });
+}
+/// What components see of a topology made by make_grid_elements.
+template <class Topology>
+TopologyView grid_view(Topology const& t) {
+  return {.positions = t.position,
+          .edges = t.edges,
+          .triangles = t.triangles,
+          .quads = t.quads,
+          .hexahedra = t.hexahedra,
+          .grid = t.points};
 }
 
 }  // namespace detail

@@ -71,14 +71,7 @@ struct RegularGridTopology {
         field("hexahedra", &T::hexahedra, "", "the cells, x fastest").also("hexas"));
   }
 
-  TopologyView view() const {
-    return {.positions = position,
-            .edges = edges,
-            .triangles = triangles,
-            .quads = quads,
-            .hexahedra = hexahedra,
-            .grid = points};
-  }
+  TopologyView view() const { return detail::grid_view(*this); }
 
   /// Throws Error when the box is empty in a direction of several points, or above 2^24 points.
   void generate(std::string_view where) {
