@@ -3,6 +3,7 @@
 
 #include <sinew/core/lanes.hpp>
 #include <sinew/core/platform.hpp>
+#include <sinew/core/small_matrix.hpp>
 
 #include <Eigen/Geometry>
 #include <string_view>
