@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/scene/checks.hpp>
+#include <sinew/scene/collision.hpp>
 #include <sinew/scene/element_removal.hpp>
 #include <sinew/scene/mechanical_operations.hpp>
 
@@ -93,6 +94,7 @@ class Simulation {
   long step_ = 0;
   bool initialised_ = false, visualsAreCurrent_ = false;
   static constexpr NoScope above_{};
+  static constexpr bool collides = detail::primitive_kinds<RootScope>() != 0;
 
   static RootScope scopeOf(Root& root) { return {root, above_}; }
   RootScope rootScope() { return scopeOf(root_); }
@@ -177,6 +179,8 @@ class Simulation {
   static void initComponent(C& c, S const& scope) {
     if constexpr (HasRole<C, role::Topology>) {
       scope.withContext([&](auto const& context) { c.init(context); });
+    } else if constexpr (HasRole<C, role::CollisionModel>) {
+      c.init(scope.template context<typename C::DataTypes>());
     } else if constexpr (JoinsTwo<C>) {
       using D = typename C::DataTypes;
       scope.withEnds(c, [&](auto const& a, auto const& b) {
@@ -238,6 +242,15 @@ class Simulation {
       using VecDeriv = std::decay_t<decltype(a.velocity)>;
       for (auto* end : {&a, &b}) end->externalForce = VecDeriv(end->size(), VecDeriv::value_type::Zero());
     });
+    // contacts may come to be between any two
+    int solvers = 0;
+    traverse(scope, on<role::CollisionModel>([&](auto& model, auto const&) { solvers = std::max(solvers, model.surface.solver + 1); }));
+    if (solvers > 1)
+      traverse(scope, on<role::CollisionModel>([](auto& model, auto const& s) {
+                 using D = typename std::decay_t<decltype(model)>::DataTypes;
+                 auto& state = s.template state<D>();
+                 if (model.surface.solver >= 0) state.externalForce.assign(state.size(), D::Deriv::Zero());
+               }));
   }
   void computeLoose(RootScope const& scope, double dt) const {
     forEachLoose(scope, [](auto&, auto& a, auto& b) {
@@ -247,6 +260,42 @@ class Simulation {
     const MechanicalParams p{.time = time_, .dt = dt};
     forEachLoose(scope, [&](auto& c, auto& a, auto& b) {
       c.addForce(p, a.externalForce, b.externalForce, a.position, b.position, a.velocity, b.velocity);
+    });
+    if constexpr (collides) addLooseContacts(scope);
+  }
+  // contacts between two solvers are such interactions
+  static void addLooseContacts(RootScope const& scope) {
+    auto withModels = [&](auto&& f) {
+      traverse(scope, on<role::CollisionModel>([&](auto& model, auto const& s) {
+                 using D = typename std::decay_t<decltype(model)>::DataTypes;
+                 auto& state = s.template state<D>();
+                 if (!state.externalForce.empty()) f(model, state, std::type_identity<D>{});
+               }));
+    };
+    withModels([](auto&, auto& state, auto) { vec::clear(state.externalForce); });
+    traverse(scope, on<role::ContactManager>([&](auto& manager, auto const&) {
+               withModels([]<class D>(auto& model, auto& state, std::type_identity<D>) {
+                 see_touched<D>(model.surface, state.position, state.velocity);
+               });
+               manager.addForces([](auto const& contact) { return contact.loose; });
+               withModels([]<class D>(auto& model, auto& state, std::type_identity<D>) {
+                 if (model.simulated) add_forces<D>(state.externalForce, model.surface);
+               });
+             }));
+  }
+  // contacts of a step that begins; a matrix in which other points are joined is formed anew
+  void detectContacts(RootScope const& scope, double dt) const {
+    Collision<RootScope>{scope}.detect(dt, [&](auto const& solved, bool) {
+      auto visit = on<role::OdeSolver>([&](auto& ode) {
+        if constexpr (std::decay_t<decltype(ode)>::implicit)
+          solved.withLinearSolver([&](auto& linear) {
+            if constexpr (needs_pattern<std::decay_t<decltype(linear)>>) {
+              MechanicalOperations<std::decay_t<decltype(solved)>> operations(solved, time_, dt);
+              linear.init(operations);
+            }
+          });
+      });
+      solved.forEachComponent(visit);
     });
   }
 
@@ -334,6 +383,7 @@ void Simulation<Root>::animate(double dt) {
     throw Error("Simulation::animate", text("dt is ", dt, " s, but must be a finite number greater than 0"));
   if constexpr (proved) {
     const auto scope = rootScope();
+    if constexpr (collides) detectContacts(scope, dt);
     computeLoose(scope, dt);
     integrate(scope, dt);
     time_ += dt;
@@ -394,6 +444,7 @@ void Simulation<Root>::initScene(RootScope const& scope, InitAgain const& again)
              s.ifNew(c, again, [&] { initComponent(c, s); });
            }));
   scope.raise();
+  Collision<RootScope>{scope}.init();
   initSolvers(scope, again);
   scope.raise();
   initLoose(scope);

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/collision/contact_assembly.hpp>
+#include <sinew/collision/penalty_contact.hpp>
+#include <sinew/collision/stick_contact.hpp>
+#include <sinew/core/component.hpp>
+
+#include <span>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace sinew {
+
+/// Keeps the contacts from step to step and has them answered: by the response of a model that names one, else
+/// by its own. A contact is known again by the vertices that meet; what its response remembers goes with it.
+/// Contacts stand in the order of their keys, whatever the order in which they were found.
+///
+/// `Responses`: laws of force (ContactLaw), and what changes components that are touched (TouchResponse).
+/// Two models together have the stiffness k1 k2 / (contact distance), the sum of frictions and of dampings, as
+/// in SOFA.
+template <class... Responses>
+struct ContactManager {
+  using Role = role::ContactManager;
+  static constexpr std::string_view className = "DefaultContactManager";
+  static constexpr std::string_view aliases = "CollisionResponse";
+
+  std::string response = "PenalityContactForceField";
+  int capacity = 1000;
+  std::tuple<Responses...> responses{};
+
+  static constexpr auto fields() {
+    using M = ContactManager;
+    return field_list(field("response", &M::response, "", "class that answers contacts of models which name none"),
+                      field("capacity", &M::capacity, "", "contacts for which there is room from the start; more are allowed, and make a step allocate",
+                            range::atLeast(0)));
+  }
+
+  // of the steps
+  std::vector<Contact> contacts{}, found{};
+  std::vector<CollisionSurface*> surfaces{};  // in the order of the scene, of this step
+  std::vector<int> points{};
+  ContactAssembly assembly{};
+  long grown = 0;              // how often there was no room
+  bool couplingChanged = false;  // since the last step: other vertices meet than before
+
+  static constexpr int count = int(sizeof...(Responses));
+  static std::string names() {
+    std::string all;
+    ((all += text(all.empty() ? "" : ", ", Responses::className)), ...);
+    return all;
+  }
+  /// Place of a response among those of this manager; -1 where it has none of that name.
+  static int find(std::string_view name) {
+    int place = -1, i = 0;
+    auto look = [&]<class R>(R const*) {
+      bool same = R::className == name;
+      for_each_name(class_aliases<R>(), [&](std::string_view other) { same = same || other == name; });
+      if (same && place < 0) place = i;
+      ++i;
+    };
+    (look(static_cast<Responses const*>(nullptr)), ...);
+    return place;
+  }
+
+  void init(std::string const& where, std::vector<CollisionSurface*> const& all) {
+    surfaces = all;
+    contacts.clear();
+    found.clear();
+    contacts.reserve(std::size_t(capacity));
+    found.reserve(std::size_t(capacity));
+    grown = 0;
+    auto known = [&](std::string_view place, std::string_view name) {
+      if (find(name) < 0)
+        throw Error(place, text("contacts are to be answered by '", name, "', which this contact manager does not have; take one of: ", names()));
+    };
+    known(where, response);
+    for (auto const* s : surfaces)
+      if (!s->response.empty()) known(s->path, s->response);
+  }
+
+  /// f(response) for the one that answers a contact.
+  template <class F>
+  void withResponse(Contact const& c, F&& f) const {
+    [&]<std::size_t... I>(std::index_sequence<I...>) { ((c.response == int(I) ? f(std::get<I>(responses)) : void()), ...); }
+    (std::index_sequence_for<Responses...>{});
+  }
+
+  /// What the responses remember of the step that has ended, the surfaces being where it has brought them.
+  void settle(std::vector<CollisionSurface*> const& all) {
+    surfaces.assign(all.begin(), all.end());
+    for (Contact& c : contacts)
+      withResponse(c, [&](auto const& law) {
+        if constexpr (requires { law.settle(c, c.start); }) law.settle(c, displacement(c));
+      });
+  }
+
+  void add(Contact const& c) {
+    if (found.size() == found.capacity()) ++grown;
+    found.push_back(c);
+  }
+
+  /// The contacts that were found take the place of those before.
+  void manage(double dt) {
+    const auto before = [](Contact const& x, Contact const& y) {
+      const ContactKey kx = x.key(), ky = y.key();
+      if (kx != ky) return kx < ky;
+      if (x.distance != y.distance) return x.distance < y.distance;
+      return std::pair(x.a.element, x.b.element) < std::pair(y.a.element, y.b.element);
+    };
+    std::sort(found.begin(), found.end(), before);
+    // the same vertices meet in several pairs of primitives: once is enough
+    found.erase(std::unique(found.begin(), found.end(), [](Contact const& x, Contact const& y) { return x.key() == y.key(); }),
+                found.end());
+    couplingChanged = found.size() != contacts.size();
+    auto old = contacts.begin();
+    for (Contact& c : found) {
+      while (old != contacts.end() && old->key() < c.key()) ++old;
+      const bool again = old != contacts.end() && old->key() == c.key();
+      couplingChanged = couplingChanged || !again;
+      describe(c, *surfaces[std::size_t(c.a.surface)], *surfaces[std::size_t(c.b.surface)]);
+      c.start = displacement(c);
+      if (again) remember(c, *old);
+    }
+    contacts.swap(found);
+    found.clear();
+    std::apply([dt](auto&... r) { (setStep(r, dt), ...); }, responses);
+    for (auto* s : surfaces) s->forgetTouched();
+    for (Contact const& c : contacts)
+      for (ContactSide const* side : {&c.a, &c.b})
+        for (int k = 0; k < side->corners(); ++k)
+          surfaces[std::size_t(side->surface)]->touch(side->vertices[std::size_t(k)]);
+  }
+
+  /// f(response, state, touched points of it) for the contacts of responses that change what they touch.
+  template <class F>
+  void forEachTouchResponse(F&& f) {
+    for (int r = 0; r < count; ++r)
+      for (std::size_t s = 0; s < surfaces.size(); ++s) {
+        points.clear();
+        for (Contact const& c : contacts)
+          if (c.response == r && c.distance < c.limit)
+            for (ContactSide const* side : {&c.a, &c.b})
+              if (side->surface == int(s))
+                for (int k = 0; k < side->corners(); ++k) points.push_back(side->vertices[std::size_t(k)]);
+        if (points.empty()) continue;
+        std::sort(points.begin(), points.end());
+        points.erase(std::unique(points.begin(), points.end()), points.end());
+        Contact any;
+        any.response = r;
+        withResponse(any, [&](auto const& response) { f(response, surfaces[s]->state, std::span<int const>(points)); });
+      }
+  }
+
+  /// Forces on the vertices of all contacts that `chosen` picks.
+  template <class Chosen>
+  void addForces(Chosen&& chosen) {
+    for (Contact& c : contacts) {
+      if (!chosen(c)) continue;
+      auto& a = *surfaces[std::size_t(c.a.surface)];
+      auto& b = *surfaces[std::size_t(c.b.surface)];
+      withResponse(c, [&](auto const& law) {
+        if constexpr (requires { law.evaluate(c, c.start, c.start); })
+          law.evaluate(c, displacement(c), rate_of(c.b, b, b.velocity, b.spin) - rate_of(c.a, a, a.velocity, a.spin));
+      });
+      add_force(c.b, b, c.force);
+      add_force(c.a, a, -c.force);
+    }
+  }
+  /// The same for the change of the forces, k K dx + b B dx; what no solver moves stays where it is.
+  template <class Chosen>
+  void addDForces(double k, double b, Chosen&& chosen) const {
+    for (Contact const& c : contacts) {
+      if (!chosen(c)) continue;
+      auto& first = *surfaces[std::size_t(c.a.surface)];
+      auto& second = *surfaces[std::size_t(c.b.surface)];
+      Eigen::Vector3d du(0, 0, 0);
+      if (second.solver == c.solver && second.simulated) du += rate_of(c.b, second, second.dx, second.turn);
+      if (first.solver == c.solver && first.simulated) du -= rate_of(c.a, first, first.dx, first.turn);
+      const Eigen::Vector3d df = -(k * (c.stiffnessMatrix * du) + b * (c.dampingMatrix * du));
+      add_force(c.b, second, df);
+      add_force(c.a, first, -df);
+    }
+  }
+  /// The blocks of those contacts in the matrix of a solver, after its models have given their vertices to
+  /// `assembly`.
+  template <AssemblyPhase Phase, class Matrix, class Chosen>
+  void assemble(Matrix& matrix, double k, double b, Chosen&& chosen) {
+    assembly.sort();
+    for (Contact const& c : contacts)
+      if (chosen(c)) assembly.add<Phase>(matrix, c, surfaces, k, b);
+  }
+
+ private:
+  Eigen::Vector3d displacement(Contact const& c) const {
+    return position_of(c.b, *surfaces[std::size_t(c.b.surface)]) - position_of(c.a, *surfaces[std::size_t(c.a.surface)]);
+  }
+  template <class R>
+  static void setStep(R& response, double dt) {
+    if constexpr (requires { response.dt = dt; }) response.dt = dt;
+  }
+  void describe(Contact& c, CollisionSurface const& a, CollisionSurface const& b) const {
+    const double reach = c.limit + a.radiusOf(c.a.element) + b.radiusOf(c.b.element);
+    c.stiffness = a.stiffness * b.stiffness / (reach > 0 ? reach : 1);
+    c.friction = a.friction + b.friction;
+    c.damping = a.damping + b.damping;
+    c.response = std::max(0, find(!a.response.empty() ? a.response : !b.response.empty() ? b.response : response));
+    const int sa = a.simulated ? a.solver : -1, sb = b.simulated ? b.solver : -1;
+    c.loose = sa >= 0 && sb >= 0 && sa != sb;
+    c.solver = c.loose ? -1 : std::max(sa, sb);
+    c.implicit = !c.loose && (sa >= 0 ? a.implicit : b.implicit);
+  }
+  static void remember(Contact& c, Contact const& old) {
+    c.slip = old.slip;
+    c.memory = old.memory;
+  }
+};
+
+}  // namespace sinew
