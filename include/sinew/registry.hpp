@@ -116,9 +116,16 @@ using StandardTopologies =
 using MadeMeshes =
     Registry<CubeTopology, CylinderGridTopology, SphereGridTopology, GridMeshCreator, MeshSubdivision>;
 
+template <class D>
+using PointCollisionModels = Registry<PointCollisionModel<D>, LineCollisionModel<D>,
+                                      TriangleCollisionModel<D>, SphereCollisionModel<D>>;
+using StandardCollision =
+    Registry<DefaultPipeline, BruteForceBroadPhase, BVHNarrowPhase, MinProximityIntersection,
+             DefaultContactManager, PointCollisionModels<Vec3d>, SphereCollisionModel<Rigid3d>>;
+
 /// Every component that Sinew brings, over the DataTypes that scenes use.
 struct Standard : Registry<Gravity, StandardTopologies, MadeMeshes, VisualModel, StandardEngines,
-                           StandardForces, StandardMappings, StandardSolvers> {};
+                           StandardForces, StandardMappings, StandardSolvers, StandardCollision> {};
 
 /// The same over the rarer DataTypes too: what the law suites prove.
 struct Extended

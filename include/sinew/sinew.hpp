@@ -2,6 +2,15 @@
 #pragma once
 
 // All of Sinew that needs no other package than Eigen and Boost.Hana.
+#include <sinew/collision/brute_force_broad_phase.hpp>
+#include <sinew/collision/bvh_narrow_phase.hpp>
+#include <sinew/collision/contact_manager.hpp>
+#include <sinew/collision/default_pipeline.hpp>
+#include <sinew/collision/line_collision_model.hpp>
+#include <sinew/collision/min_proximity_intersection.hpp>
+#include <sinew/collision/point_collision_model.hpp>
+#include <sinew/collision/sphere_collision_model.hpp>
+#include <sinew/collision/triangle_collision_model.hpp>
 #include <sinew/constraint/affine_movement.hpp>
 #include <sinew/constraint/attach.hpp>
 #include <sinew/constraint/fixed_constraint.hpp>

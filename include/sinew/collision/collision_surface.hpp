@@ -6,6 +6,7 @@
 #include <sinew/core/data_types.hpp>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <string>
 #include <vector>
@@ -13,9 +14,9 @@
 namespace sinew {
 
 /// What detection and response know of a collision model: its primitives over vertices in world space, each
-/// with a radius around it, and how they behave in contact. A model is to its surface what a mapping is to its
-/// child: positions and velocities go down, forces come up. Surfaces are alike for all DataTypes, so that what
-/// is between them is compiled once.
+/// with a radius around it, and how they behave in contact. A model is to its surface what a mapping is to
+/// its child: positions and velocities go down, forces come up. Surfaces are alike for all DataTypes, so that
+/// what is between them is compiled once.
 struct CollisionSurface {
   // of the model, at init
   int corners = 0;  // of a primitive: 1 point or sphere, 2 segment, 3 triangle
@@ -28,10 +29,17 @@ struct CollisionSurface {
   std::vector<double> radius{};                // of each element; empty: 0
   std::string path{};                          // for messages
   void const* state = nullptr;
-  int number = -1;                             // among the surfaces of the scene, in their order
-  int solver = -1;                             // which of the ODE solvers moves it; none: -1
-  bool implicit = false;                       // that solver is an implicit one
-  unsigned companions = 0;  // numbers of corners, as bits, of the models of points, lines and triangles on this state
+  int number = -1;        // among the surfaces of the scene, in their order
+  int solver = -1;        // which of the ODE solvers moves it; none: -1
+  bool implicit = false;  // that solver is an implicit one
+  unsigned companions =
+      0;  // numbers of corners, as bits, of the models of points, lines and triangles on this state
+
+  // around the primitives, from the elements
+  std::vector<std::array<int, 3>> across{};  // of triangles: the corner opposite to the edge behind each
+                                             // corner in the neighbour; -1: none
+  std::vector<int> firstAround{},
+      around{};  // the vertices joined to each vertex by edges, in compressed rows
 
   // vertices, now
   std::vector<Eigen::Vector3d> position{}, velocity{}, force{}, dx{};
@@ -54,7 +62,69 @@ struct CollisionSurface {
     return all;
   }
 
+  /// Whether the distance d from a place of this surface, on the primitive over these vertices of an element,
+  /// to somewhere else is the least one around it, and not only on this element: where it is not, a neighbour
+  /// is nearer (the filter of Duriez, LocalMinDistance).
+  bool isLocalMinimum(int element, std::array<int, 3> const& vertices, Eigen::Vector3d const& d) const {
+    if (corners == 1 || vertices[2] >= 0) return true;
+    auto towards = [&](Eigen::Vector3d const& way) { return d.dot(way) > 1e-9 * d.norm() * way.norm(); };
+    if (vertices[1] < 0) {
+      const auto v = std::size_t(vertices[0]);
+      for (int k = firstAround[v]; k < firstAround[v + 1]; ++k)
+        if (towards(position[std::size_t(around[std::size_t(k)])] - position[v])) return false;
+      return true;
+    }
+    if (corners == 2) return true;
+    auto const& e = elements[std::size_t(element)];
+    for (std::size_t c = 0; c < 3; ++c) {
+      const int p = e[c], q = e[(c + 1) % 3], other = across[std::size_t(element)][c];
+      if (!((p == vertices[0] && q == vertices[1]) || (q == vertices[0] && p == vertices[1])) || other < 0)
+        continue;
+      const Eigen::Vector3d edge = position[std::size_t(q)] - position[std::size_t(p)];
+      const Eigen::Vector3d way = position[std::size_t(other)] - position[std::size_t(p)];
+      return !towards(way - (way.dot(edge) / std::max(edge.squaredNorm(), 1e-300)) * edge);
+    }
+    return true;
+  }
+
+  void findNeighbours(std::size_t vertices) {
+    std::vector<std::array<int, 3>> edges;  // first, second vertex, 3 * triangle + corner
+    for (int e = 0; e < int(size()); ++e)
+      for (int c = 0; c < (corners == 3 ? 3 : corners - 1); ++c) {
+        const auto [p, q] = std::minmax(elements[std::size_t(e)][std::size_t(c)],
+                                        elements[std::size_t(e)][std::size_t((c + 1) % corners)]);
+        edges.push_back({p, q, 3 * e + c});
+      }
+    std::sort(edges.begin(), edges.end());
+    across.assign(corners == 3 ? size() : 0, {-1, -1, -1});
+    firstAround.assign(vertices + 1, 0);
+    auto same = [&](std::size_t i, std::size_t j) {
+      return edges[i][0] == edges[j][0] && edges[i][1] == edges[j][1];
+    };
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      if (i > 0 && same(i, i - 1)) continue;
+      ++firstAround[std::size_t(edges[i][0]) + 1];
+      ++firstAround[std::size_t(edges[i][1]) + 1];
+    }
+    for (std::size_t v = 0; v < vertices; ++v) firstAround[v + 1] += firstAround[v];
+    around.assign(std::size_t(firstAround[vertices]), -1);
+    auto next = firstAround;
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      if (corners == 3)  // of two triangles at an edge; more than two are beyond this filter
+        for (const std::size_t j : {i + 1, i - 1})
+          if (j < edges.size() && same(i, j)) {
+            const int there = edges[j][2];
+            across[std::size_t(edges[i][2] / 3)][std::size_t(edges[i][2] % 3)] =
+                elements[std::size_t(there / 3)][std::size_t((there % 3 + 2) % 3)];
+          }
+      if (i > 0 && same(i, i - 1)) continue;
+      around[std::size_t(next[std::size_t(edges[i][0])]++)] = edges[i][1];
+      around[std::size_t(next[std::size_t(edges[i][1])]++)] = edges[i][0];
+    }
+  }
+
   void resize(std::size_t vertices) {
+    findNeighbours(vertices);
     const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
     for (auto* v : {&position, &velocity, &force, &dx}) v->assign(vertices, zero);
     if (rigid)
@@ -100,7 +170,8 @@ void see(CollisionSurface& s, std::size_t i, typename D::Coord const& x, typenam
   s.velocity[i] = v.template head<3>().template cast<double>();
   if constexpr (D::rigid) {
     s.spin[i] = v.template tail<3>().template cast<double>();
-    s.orientation[i] = Eigen::Quaterniond(x.orientation.w(), x.orientation.x(), x.orientation.y(), x.orientation.z());
+    s.orientation[i] =
+        Eigen::Quaterniond(x.orientation.w(), x.orientation.x(), x.orientation.y(), x.orientation.z());
   }
 }
 template <class D>

@@ -43,9 +43,9 @@ struct Contact {
 
   // of the two models together
   double stiffness = 0, friction = 0, damping = 0;
-  int response = 0;     // place among the responses of the manager
-  int solver = -1;      // the ODE solver that sees it as part of its system
-  bool loose = false;   // between two solvers: for both a force that stays as it is during the step
+  int response = 0;       // place among the responses of the manager
+  int solver = -1;        // the ODE solver that sees it as part of its system
+  bool loose = false;     // between two solvers: for both a force that stays as it is during the step
   bool implicit = false;  // the solver takes what the force will be at the end of the step
 
   // memory of the response: the tangential displacement that friction holds against, and any other scalar
@@ -78,16 +78,19 @@ inline Eigen::Vector3d lever_of(ContactSide const& side, CollisionSurface const&
   return s.orientation[std::size_t(side.vertices[0])] * side.lever;
 }
 /// A rate of a side from those of the vertices: velocity and spin, or dx and turn.
-inline Eigen::Vector3d rate_of(ContactSide const& side, CollisionSurface const& s, std::vector<Eigen::Vector3d> const& linear,
+inline Eigen::Vector3d rate_of(ContactSide const& side, CollisionSurface const& s,
+                               std::vector<Eigen::Vector3d> const& linear,
                                std::vector<Eigen::Vector3d> const& angular) {
   Eigen::Vector3d v(0, 0, 0);
-  for (std::size_t c = 0; c < 3 && side.vertices[c] >= 0; ++c) v += side.weights[c] * linear[std::size_t(side.vertices[c])];
+  for (std::size_t c = 0; c < 3 && side.vertices[c] >= 0; ++c)
+    v += side.weights[c] * linear[std::size_t(side.vertices[c])];
   if (s.rigid) v += angular[std::size_t(side.vertices[0])].cross(lever_of(side, s));
   return v;
 }
 /// Brings a force at a side to the vertices.
 inline void add_force(ContactSide const& side, CollisionSurface& s, Eigen::Vector3d const& f) {
-  for (std::size_t c = 0; c < 3 && side.vertices[c] >= 0; ++c) s.force[std::size_t(side.vertices[c])] += side.weights[c] * f;
+  for (std::size_t c = 0; c < 3 && side.vertices[c] >= 0; ++c)
+    s.force[std::size_t(side.vertices[c])] += side.weights[c] * f;
   if (s.rigid) s.torque[std::size_t(side.vertices[0])] += lever_of(side, s).cross(f);
 }
 

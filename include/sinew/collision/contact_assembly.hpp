@@ -40,7 +40,8 @@ struct ContactAssembly {
   }
 
   template <AssemblyPhase Phase, class Matrix>
-  void add(Matrix& matrix, Contact const& c, std::vector<CollisionSurface*> const& surfaces, double k, double b) {
+  void add(Matrix& matrix, Contact const& c, std::vector<CollisionSurface*> const& surfaces, double k,
+           double b) {
     blocks_.clear();
     addSide(c.a, *surfaces[std::size_t(c.a.surface)], -1);
     addSide(c.b, *surfaces[std::size_t(c.b.surface)], 1);
@@ -50,7 +51,8 @@ struct ContactAssembly {
         if constexpr (Phase == AssemblyPhase::pattern) matrix.announce(x.dof, y.dof, x.columns, y.columns);
         if constexpr (Phase == AssemblyPhase::add) {
           const Eigen::Matrix<double, 6, 6> all = x.rows.transpose() * kb * y.rows;
-          matrix.add(x.dof, y.dof, Eigen::Matrix<double, -1, -1, 0, 6, 6>(all.topLeftCorner(x.columns, y.columns)));
+          matrix.add(
+              x.dof, y.dof, Eigen::Matrix<double, -1, -1, 0, 6, 6>(all.topLeftCorner(x.columns, y.columns)));
         }
       }
   }
@@ -66,8 +68,12 @@ struct ContactAssembly {
     for (int corner = 0; corner < side.corners(); ++corner) {
       const int vertex = side.vertices[std::size_t(corner)];
       const double w = sign * side.weights[std::size_t(corner)];
-      auto e = std::lower_bound(entries.begin(), entries.end(), std::pair(side.surface, vertex),
-                                [](Entry const& x, std::pair<int, int> const& key) { return std::pair(x.surface, x.vertex) < key; });
+      auto e = std::lower_bound(entries.begin(),
+                                entries.end(),
+                                std::pair(side.surface, vertex),
+                                [](Entry const& x, std::pair<int, int> const& key) {
+                                  return std::pair(x.surface, x.vertex) < key;
+                                });
       for (; e != entries.end() && e->surface == side.surface && e->vertex == vertex; ++e) {
         Block block{e->dof, e->columns, {}};
         block.rows = w * e->rows.topRows<3>();

@@ -13,13 +13,13 @@
 
 namespace sinew {
 
-/// Keeps the contacts from step to step and has them answered: by the response of a model that names one, else
-/// by its own. A contact is known again by the vertices that meet; what its response remembers goes with it.
-/// Contacts stand in the order of their keys, whatever the order in which they were found.
+/// Keeps the contacts from step to step and has them answered: by the response of a model that names one,
+/// else by its own. A contact is known again by the vertices that meet; what its response remembers goes with
+/// it. Contacts stand in the order of their keys, whatever the order in which they were found.
 ///
 /// `Responses`: laws of force (ContactLaw), and what changes components that are touched (TouchResponse).
-/// Two models together have the stiffness k1 k2 / (contact distance), the sum of frictions and of dampings, as
-/// in SOFA.
+/// Two models together have the stiffness k1 k2 / (contact distance), the sum of frictions and of dampings,
+/// as in SOFA.
 template <class... Responses>
 struct ContactManager {
   using Role = role::ContactManager;
@@ -32,9 +32,13 @@ struct ContactManager {
 
   static constexpr auto fields() {
     using M = ContactManager;
-    return field_list(field("response", &M::response, "", "class that answers contacts of models which name none"),
-                      field("capacity", &M::capacity, "", "contacts for which there is room from the start; more are allowed, and make a step allocate",
-                            range::atLeast(0)));
+    return field_list(
+        field("response", &M::response, "", "class that answers contacts of models which name none"),
+        field("capacity",
+              &M::capacity,
+              "",
+              "contacts for which there is room from the start; more are allowed, and make a step allocate",
+              range::atLeast(0)));
   }
 
   // of the steps
@@ -42,8 +46,13 @@ struct ContactManager {
   std::vector<CollisionSurface*> surfaces{};  // in the order of the scene, of this step
   std::vector<int> points{};
   ContactAssembly assembly{};
-  long grown = 0;              // how often there was no room
-  bool couplingChanged = false;  // since the last step: other vertices meet than before
+  struct OfVertex {
+    std::array<int, 4> key;  // surfaces, side, vertex
+    int contact;
+  };
+  std::vector<OfVertex> ofVertices{};  // contacts of single vertices
+  long grown = 0;                      // how often there was no room
+  bool couplingChanged = false;        // since the last step: other vertices meet than before
 
   static constexpr int count = int(sizeof...(Responses));
   static std::string names() {
@@ -70,10 +79,15 @@ struct ContactManager {
     found.clear();
     contacts.reserve(std::size_t(capacity));
     found.reserve(std::size_t(capacity));
+    ofVertices.reserve(2 * std::size_t(capacity));
     grown = 0;
     auto known = [&](std::string_view place, std::string_view name) {
       if (find(name) < 0)
-        throw Error(place, text("contacts are to be answered by '", name, "', which this contact manager does not have; take one of: ", names()));
+        throw Error(place,
+                    text("contacts are to be answered by '",
+                         name,
+                         "', which this contact manager does not have; take one of: ",
+                         names()));
     };
     known(where, response);
     for (auto const* s : surfaces)
@@ -83,7 +97,9 @@ struct ContactManager {
   /// f(response) for the one that answers a contact.
   template <class F>
   void withResponse(Contact const& c, F&& f) const {
-    [&]<std::size_t... I>(std::index_sequence<I...>) { ((c.response == int(I) ? f(std::get<I>(responses)) : void()), ...); }
+    [&]<std::size_t... I>(std::index_sequence<I...>) {
+      ((c.response == int(I) ? f(std::get<I>(responses)) : void()), ...);
+    }
     (std::index_sequence_for<Responses...>{});
   }
 
@@ -111,9 +127,12 @@ struct ContactManager {
     };
     std::sort(found.begin(), found.end(), before);
     // the same vertices meet in several pairs of primitives: once is enough
-    found.erase(std::unique(found.begin(), found.end(), [](Contact const& x, Contact const& y) { return x.key() == y.key(); }),
+    found.erase(std::unique(found.begin(),
+                            found.end(),
+                            [](Contact const& x, Contact const& y) { return x.key() == y.key(); }),
                 found.end());
     couplingChanged = found.size() != contacts.size();
+    listVertices();
     auto old = contacts.begin();
     for (Contact& c : found) {
       while (old != contacts.end() && old->key() < c.key()) ++old;
@@ -121,7 +140,10 @@ struct ContactManager {
       couplingChanged = couplingChanged || !again;
       describe(c, *surfaces[std::size_t(c.a.surface)], *surfaces[std::size_t(c.b.surface)]);
       c.start = displacement(c);
-      if (again) remember(c, *old);
+      if (again)
+        remember(c, *old);
+      else if (Contact const* before = ofSameVertex(c))
+        remember(c, *before);
     }
     contacts.swap(found);
     found.clear();
@@ -149,7 +171,9 @@ struct ContactManager {
         points.erase(std::unique(points.begin(), points.end()), points.end());
         Contact any;
         any.response = r;
-        withResponse(any, [&](auto const& response) { f(response, surfaces[s]->state, std::span<int const>(points)); });
+        withResponse(any, [&](auto const& response) {
+          f(response, surfaces[s]->state, std::span<int const>(points));
+        });
       }
   }
 
@@ -162,7 +186,8 @@ struct ContactManager {
       auto& b = *surfaces[std::size_t(c.b.surface)];
       withResponse(c, [&](auto const& law) {
         if constexpr (requires { law.evaluate(c, c.start, c.start); })
-          law.evaluate(c, displacement(c), rate_of(c.b, b, b.velocity, b.spin) - rate_of(c.a, a, a.velocity, a.spin));
+          law.evaluate(
+              c, displacement(c), rate_of(c.b, b, b.velocity, b.spin) - rate_of(c.a, a, a.velocity, a.spin));
       });
       add_force(c.b, b, c.force);
       add_force(c.a, a, -c.force);
@@ -194,8 +219,36 @@ struct ContactManager {
 
  private:
   Eigen::Vector3d displacement(Contact const& c) const {
-    return position_of(c.b, *surfaces[std::size_t(c.b.surface)]) - position_of(c.a, *surfaces[std::size_t(c.a.surface)]);
+    return position_of(c.b, *surfaces[std::size_t(c.b.surface)]) -
+           position_of(c.a, *surfaces[std::size_t(c.a.surface)]);
   }
+  // a vertex that slides from one triangle to the next goes on with the same contact
+  static std::array<int, 4> vertexKey(Contact const& c, int side) {
+    return {c.a.surface, c.b.surface, side, (side == 0 ? c.a : c.b).vertices[0]};
+  }
+  void listVertices() {
+    ofVertices.clear();
+    for (std::size_t i = 0; i < contacts.size(); ++i)
+      for (int side = 0; side < 2; ++side)
+        if ((side == 0 ? contacts[i].a : contacts[i].b).corners() == 1)
+          ofVertices.push_back({vertexKey(contacts[i], side), int(i)});
+    std::sort(ofVertices.begin(), ofVertices.end(), [](OfVertex const& x, OfVertex const& y) {
+      return std::pair(x.key, x.contact) < std::pair(y.key, y.contact);
+    });
+  }
+  Contact const* ofSameVertex(Contact const& c) const {
+    for (int side = 0; side < 2; ++side) {
+      if ((side == 0 ? c.a : c.b).corners() != 1) continue;
+      const auto key = vertexKey(c, side);
+      const auto first =
+          std::lower_bound(ofVertices.begin(), ofVertices.end(), key, [](OfVertex const& x, auto const& k) {
+            return x.key < k;
+          });
+      if (first != ofVertices.end() && first->key == key) return &contacts[std::size_t(first->contact)];
+    }
+    return nullptr;
+  }
+
   template <class R>
   static void setStep(R& response, double dt) {
     if constexpr (requires { response.dt = dt; }) response.dt = dt;
@@ -205,7 +258,10 @@ struct ContactManager {
     c.stiffness = a.stiffness * b.stiffness / (reach > 0 ? reach : 1);
     c.friction = a.friction + b.friction;
     c.damping = a.damping + b.damping;
-    c.response = std::max(0, find(!a.response.empty() ? a.response : !b.response.empty() ? b.response : response));
+    c.response = std::max(0,
+                          find(!a.response.empty()   ? a.response
+                               : !b.response.empty() ? b.response
+                                                     : response));
     const int sa = a.simulated ? a.solver : -1, sb = b.simulated ? b.solver : -1;
     c.loose = sa >= 0 && sb >= 0 && sa != sb;
     c.solver = c.loose ? -1 : std::max(sa, sb);
@@ -216,5 +272,8 @@ struct ContactManager {
     c.memory = old.memory;
   }
 };
+
+/// What scene files have.
+using DefaultContactManager = ContactManager<PenalityContactForceField, StickContactForceField>;
 
 }  // namespace sinew

@@ -21,9 +21,16 @@ struct ContinuousIntersection {
 
   static constexpr auto fields() {
     using I = ContinuousIntersection;
-    return field_list(
-        field("alarmDistance", &I::alarmDistance, "m", "contacts are looked for up to this distance", range::nonNegative),
-        field("contactDistance", &I::contactDistance, "m", "distance below which the response acts", range::nonNegative));
+    return field_list(field("alarmDistance",
+                            &I::alarmDistance,
+                            "m",
+                            "contacts are looked for up to this distance",
+                            range::nonNegative),
+                      field("contactDistance",
+                            &I::contactDistance,
+                            "m",
+                            "distance below which the response acts",
+                            range::nonNegative));
   }
 
   double reach() const { return std::max(alarmDistance, contactDistance); }
@@ -33,24 +40,30 @@ struct ContinuousIntersection {
     const auto a = pair.cornersA();
     const auto b = pair.cornersB();
     const double limit = contactDistance + pair.proximity();
-    Contact now = contact_at(pair, a, b);
-    now.limit = limit;
-    if (now.distance <= limit) return now;
+    auto now = contact_at(pair, a, b);
+    if (now) now->limit = limit;
+    if (now && now->distance <= limit) return now;
     auto moved = [&](auto corners, CollisionSurface const& s, int element, double time) {
       for (std::size_t c = 0; c < corners.size(); ++c)
         corners[c] += time * s.velocity[std::size_t(s.elements[std::size_t(element)][c])];
       return corners;
     };
-    const auto impact = time_of_impact(a, moved(a, pair.a, pair.elementA, pair.dt), b, moved(b, pair.b, pair.elementB, pair.dt),
+    const auto impact = time_of_impact(a,
+                                       moved(a, pair.a, pair.elementA, pair.dt),
+                                       b,
+                                       moved(b, pair.b, pair.elementB, pair.dt),
                                        pair.thickness() + limit);
     if (!impact) {
-      if (now.distance > reach() + pair.proximity()) return std::nullopt;
+      if (!now || now->distance > reach() + pair.proximity()) return std::nullopt;
       return now;
     }
     const double time = *impact * pair.dt;
-    Contact then = contact_at(pair, moved(a, pair.a, pair.elementA, time), moved(b, pair.b, pair.elementB, time));
-    then.limit = limit;
-    then.distance = then.normal.dot(position_of(then.b, pair.b) - position_of(then.a, pair.a)) - then.thickness;
+    auto then =
+        contact_at(pair, moved(a, pair.a, pair.elementA, time), moved(b, pair.b, pair.elementB, time), false);
+    if (!then) return std::nullopt;
+    then->limit = limit;
+    then->distance =
+        then->normal.dot(position_of(then->b, pair.b) - position_of(then->a, pair.a)) - then->thickness;
     return then;
   }
 };

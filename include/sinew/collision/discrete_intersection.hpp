@@ -22,9 +22,9 @@ struct DiscreteIntersection {
     const auto a = pair.cornersA();
     const auto b = pair.cornersB();
     if (pair.thickness() == 0 && !overlap(a, b)) return std::nullopt;
-    Contact contact = contact_at(pair, a, b);
-    contact.limit = pair.proximity();
-    if (contact.distance > contact.limit) return std::nullopt;
+    auto contact = contact_at(pair, a, b);
+    if (!contact || contact->distance > pair.proximity()) return std::nullopt;
+    contact->limit = pair.proximity();
     return contact;
   }
 };

@@ -11,9 +11,10 @@ template <class D>
 struct PointCollisionModel {
   using Role = role::CollisionModel;
   using DataTypes = D;
-  static_assert(D::spatial == 3, "Sinew: collision models are in space; take Vec3d, Vec3f, Rigid3d or Rigid3f.");
+  static_assert(D::spatial == 3,
+                "Sinew: collision models are in space; take Vec3d, Vec3f, Rigid3d or Rigid3f.");
   static constexpr std::string_view className = "PointCollisionModel";
-  static constexpr std::string_view aliases = "Point PointModel TPointModel PointSet PointMesh";
+  static constexpr std::string_view aliases = "Point PointModel PointMeshModel PointSetModel TPointModel";
   static constexpr int corners = 1;
 
   bool active = true, moving = true, simulated = true, selfCollision = false, bothSide = true;
@@ -30,7 +31,10 @@ struct PointCollisionModel {
     surface.radius.clear();
     describe_surface(*this, surface, context.where, context.rest.size());
     if (surface.elements.empty())
-      throw Error(context.where, text(component_name<PointCollisionModel>(), ": there is no point to collide with; give the node points, or a topology that has some"));
+      throw Error(
+          context.where,
+          text(component_name<PointCollisionModel>(),
+               ": there is no point to collide with; give the node points, or a topology that has some"));
   }
 };
 

@@ -11,7 +11,8 @@ template <class D>
 struct SphereCollisionModel {
   using Role = role::CollisionModel;
   using DataTypes = D;
-  static_assert(D::spatial == 3, "Sinew: collision models are in space; take Vec3d, Vec3f, Rigid3d or Rigid3f.");
+  static_assert(D::spatial == 3,
+                "Sinew: collision models are in space; take Vec3d, Vec3f, Rigid3d or Rigid3f.");
   static constexpr std::string_view className = "SphereCollisionModel";
   static constexpr std::string_view aliases = "Sphere SphereModel TSphereModel";
   static constexpr int corners = 1;
@@ -27,7 +28,8 @@ struct SphereCollisionModel {
     using M = SphereCollisionModel;
     return collision_model_fields<M>(
         field("radius", &M::radius, "m", "radius of all spheres", range::positive),
-        field("listRadius", &M::listRadius, "m", "radius of each sphere, instead", range::positive).oneEach(Of::points));
+        field("listRadius", &M::listRadius, "m", "radius of each sphere, instead", range::positive)
+            .oneEach(Of::points));
   }
 
   CollisionSurface surface{};
@@ -35,8 +37,13 @@ struct SphereCollisionModel {
   void init(InitContext<D> const& context) {
     const std::size_t n = context.rest.size();
     if (!listRadius.empty() && listRadius.size() != n)
-      throw Error(context.where, text(component_name<SphereCollisionModel>(), ": listRadius has ", listRadius.size(), " entries for ", n,
-                                      " points; give one for each, or none"));
+      throw Error(context.where,
+                  text(component_name<SphereCollisionModel>(),
+                       ": listRadius has ",
+                       listRadius.size(),
+                       " entries for ",
+                       n,
+                       " points; give one for each, or none"));
     surface.elements = points_of(context.topology, n);
     surface.radius = listRadius;
     if (surface.radius.empty()) surface.radius.assign(n, radius);

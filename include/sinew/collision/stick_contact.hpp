@@ -5,8 +5,8 @@
 
 namespace sinew {
 
-/// What has come nearer than the contact distance sticks there, by springs along and across the surface, until
-/// it is pulled away farther than the alarm distance: F = -k (u - u0) - c u', u0 from the first touch.
+/// What has come nearer than the contact distance sticks there, by springs along and across the surface,
+/// until it is pulled away farther than the alarm distance: F = -k (u - u0) - c u', u0 from the first touch.
 struct StickContactForceField {
   static constexpr std::string_view className = "StickContactForceField";
   static constexpr std::string_view aliases = "stick StickContact";

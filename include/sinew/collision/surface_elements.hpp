@@ -18,8 +18,8 @@ inline std::vector<Corners> points_of(TopologyView const&, std::size_t points) {
   return all;
 }
 
-/// The triangles of a topology, quads cut in two; where it has neither, those of the surface of its tetrahedra
-/// and hexahedra, turned outwards.
+/// The triangles of a topology, quads cut in two; where it has neither, those of the surface of its
+/// tetrahedra and hexahedra, turned outwards.
 inline std::vector<Corners> triangles_of(TopologyView const& t, std::size_t = 0) {
   std::vector<Corners> all(t.triangles.begin(), t.triangles.end());
   auto quad = [&](int a, int b, int c, int d) {

@@ -11,9 +11,11 @@ template <class D>
 struct TriangleCollisionModel {
   using Role = role::CollisionModel;
   using DataTypes = D;
-  static_assert(D::spatial == 3, "Sinew: collision models are in space; take Vec3d, Vec3f, Rigid3d or Rigid3f.");
+  static_assert(D::spatial == 3,
+                "Sinew: collision models are in space; take Vec3d, Vec3f, Rigid3d or Rigid3f.");
   static constexpr std::string_view className = "TriangleCollisionModel";
-  static constexpr std::string_view aliases = "Triangle TriangleModel TTriangleModel TriangleMesh TriangleSet";
+  static constexpr std::string_view aliases =
+      "Triangle TriangleModel TriangleMeshModel TriangleSetModel TTriangleModel";
   static constexpr int corners = 3;
 
   bool active = true, moving = true, simulated = true, selfCollision = false, bothSide = false;
@@ -30,7 +32,10 @@ struct TriangleCollisionModel {
     surface.radius.clear();
     describe_surface(*this, surface, context.where, context.rest.size());
     if (surface.elements.empty())
-      throw Error(context.where, text(component_name<TriangleCollisionModel>(), ": there is no triangle to collide with; give the node points, or a topology that has some"));
+      throw Error(
+          context.where,
+          text(component_name<TriangleCollisionModel>(),
+               ": there is no triangle to collide with; give the node points, or a topology that has some"));
   }
 };
 

@@ -326,12 +326,15 @@ constexpr bool component() {
         "Sinew: a component with role::Mapping does not fulfil the concept Mapping of core/component.hpp.");
     return Mapping<C> && mapping<C, S>();
   } else if constexpr (std::is_same_v<R, role::CollisionModel>) {
-    static_assert(CollisionModel<C>,
-                  "Sinew: a component with role::CollisionModel does not fulfil that concept of core/component.hpp.");
+    static_assert(
+        CollisionModel<C>,
+        "Sinew: a component with role::CollisionModel does not fulfil that concept of core/component.hpp.");
     constexpr bool managed = has_contact_manager<S>();
-    static_assert(managed,
-                  "Sinew: a collision model has no DefaultPipeline above it that would look for its contacts. Put one into the root, with a "
-                  "BruteForceBroadPhase, a BVHNarrowPhase, a MinProximityIntersection and a DefaultContactManager.");
+    static_assert(
+        managed,
+        "Sinew: a collision model has no DefaultPipeline above it that would look for its contacts. Put one "
+        "into the root, with a "
+        "BruteForceBroadPhase, a BVHNarrowPhase, a MinProximityIntersection and a DefaultContactManager.");
     return CollisionModel<C> && managed && acts_on_state<C, S>();
   } else if constexpr (std::is_same_v<R, role::OdeSolver>) {
     static_assert(OdeSolver<C>,
@@ -350,17 +353,21 @@ constexpr bool component() {
 /// A node that has one stage of collision detection has all of them, once.
 template <class N>
 constexpr bool whole_pipeline() {
-  constexpr std::array stages{N::template count<role::CollisionPipeline>, N::template count<role::BroadPhase>,
-                            N::template count<role::NarrowPhase>, N::template count<role::Intersection>,
-                            N::template count<role::ContactManager>};
+  constexpr std::array stages{N::template count<role::CollisionPipeline>,
+                              N::template count<role::BroadPhase>,
+                              N::template count<role::NarrowPhase>,
+                              N::template count<role::Intersection>,
+                              N::template count<role::ContactManager>};
   constexpr bool same = [stages] {
     for (const int n : stages)
       if (n != stages[0] || n > 1) return false;
     return true;
   }();
   static_assert(same,
-                "Sinew: collision detection needs one of each stage in its node: a DefaultPipeline, a broad phase (BruteForceBroadPhase), a "
-                "narrow phase (BVHNarrowPhase), an intersection method (MinProximityIntersection), a DefaultContactManager.");
+                "Sinew: collision detection needs one of each stage in its node: a DefaultPipeline, a broad "
+                "phase (BruteForceBroadPhase), a "
+                "narrow phase (BVHNarrowPhase), an intersection method (MinProximityIntersection), a "
+                "DefaultContactManager.");
   return same;
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <sinew/core/error.hpp>
 #include <sinew/collision/collision_surface.hpp>
 #include <sinew/collision/contact.hpp>
+#include <sinew/core/error.hpp>
 #include <sinew/scene/scope.hpp>
 
 #include <utility>
@@ -24,7 +24,8 @@ constexpr unsigned primitive_kinds(std::type_identity<Node<Name, hana::tuple<Cs.
     else
       return 0;
   };
-  return (0u | ... | of(std::type_identity<Cs>{})) | (0u | ... | primitive_kinds<typename ScopeOf<Ns, S>::type>());
+  return (0u | ... | of(std::type_identity<Cs>{})) |
+         (0u | ... | primitive_kinds<typename ScopeOf<Ns, S>::type>());
 }
 template <class S>
 constexpr unsigned primitive_kinds() {
@@ -35,14 +36,22 @@ constexpr unsigned primitive_kinds() {
 }
 template <unsigned Kinds>
 constexpr auto kind_sequence() {
-  if constexpr (Kinds == 0b0010u) return std::index_sequence<1>{};
-  else if constexpr (Kinds == 0b0100u) return std::index_sequence<2>{};
-  else if constexpr (Kinds == 0b1000u) return std::index_sequence<3>{};
-  else if constexpr (Kinds == 0b0110u) return std::index_sequence<1, 2>{};
-  else if constexpr (Kinds == 0b1010u) return std::index_sequence<1, 3>{};
-  else if constexpr (Kinds == 0b1100u) return std::index_sequence<2, 3>{};
-  else if constexpr (Kinds == 0b1110u) return std::index_sequence<1, 2, 3>{};
-  else return std::index_sequence<>{};
+  if constexpr (Kinds == 0b0010u)
+    return std::index_sequence<1>{};
+  else if constexpr (Kinds == 0b0100u)
+    return std::index_sequence<2>{};
+  else if constexpr (Kinds == 0b1000u)
+    return std::index_sequence<3>{};
+  else if constexpr (Kinds == 0b0110u)
+    return std::index_sequence<1, 2>{};
+  else if constexpr (Kinds == 0b1010u)
+    return std::index_sequence<1, 3>{};
+  else if constexpr (Kinds == 0b1100u)
+    return std::index_sequence<2, 3>{};
+  else if constexpr (Kinds == 0b1110u)
+    return std::index_sequence<1, 2, 3>{};
+  else
+    return std::index_sequence<>{};
 }
 
 // f(component) for the first with a role in the node of a scope
@@ -80,14 +89,18 @@ struct Collision {
         if (s->state == other->state && other->radius.empty()) s->companions |= 1u << other->corners;
     traverse(root, on<role::CollisionPipeline>([&](auto& pipeline, auto const& scope) {
                auto missing = [&](std::string_view stage, std::string_view such) {
-                 throw Error(scope.path(), text("DefaultPipeline: its node has no ", stage, "; add one, such as ", such));
+                 throw Error(scope.path(),
+                             text("DefaultPipeline: its node has no ", stage, "; add one, such as ", such));
                };
-               if (!detail::with_first<role::BroadPhase>(scope, [](auto&) {})) missing("broad phase", "BruteForceBroadPhase");
-               if (!detail::with_first<role::NarrowPhase>(scope, [](auto&) {})) missing("narrow phase", "BVHNarrowPhase");
+               if (!detail::with_first<role::BroadPhase>(scope, [](auto&) {}))
+                 missing("broad phase", "BruteForceBroadPhase");
+               if (!detail::with_first<role::NarrowPhase>(scope, [](auto&) {}))
+                 missing("narrow phase", "BVHNarrowPhase");
                if (!detail::with_first<role::Intersection>(scope, [](auto&) {}))
                  missing("intersection method", "MinProximityIntersection");
                collect(pipeline, scope);
-               if (!detail::with_first<role::ContactManager>(scope, [&](auto& manager) { manager.init(scope.path(), pipeline.surfaces); }))
+               if (!detail::with_first<role::ContactManager>(
+                       scope, [&](auto& manager) { manager.init(scope.path(), pipeline.surfaces); }))
                  missing("contact manager", "DefaultContactManager");
                pipeline.near.reserve(pipeline.surfaces.size() * (pipeline.surfaces.size() + 1) / 2);
              }));
@@ -95,35 +108,40 @@ struct Collision {
                bool managed = false;
                scope.withContacts([&](auto&) { managed = true; });
                if (!managed)
-                 throw Error(scope.path(), text(component_name<std::decay_t<decltype(model)>>(),
-                                                ": no node above has a DefaultPipeline, and nothing would look for its contacts; add one to the root"));
+                 throw Error(scope.path(),
+                             text(component_name<std::decay_t<decltype(model)>>(),
+                                  ": no node above has a DefaultPipeline, and nothing would look for its "
+                                  "contacts; add one to the root"));
              }));
   }
 
-  /// The contacts of a step of dt that begins, and what they change at once. `newPattern(scope)` is called for
-  /// the nodes with a solver in whose matrix other vertices meet now.
+  /// The contacts of a step of dt that begins, and what they change at once. `newPattern(scope)` is called
+  /// for the nodes with a solver in whose matrix other vertices meet now.
   template <class F>
   void detect(double dt, F&& newPattern) const {
-    traverse(root, on<role::CollisionPipeline>([&](auto& pipeline, auto const& scope) {
-               collect(pipeline, scope);
-               detail::with_first<role::ContactManager>(scope, [&](auto& manager) { manager.settle(pipeline.surfaces); });
-               detail::with_first<role::Intersection>(scope, [&](auto const& intersection) {
-                 for (auto* s : pipeline.surfaces)
-                   s->enclose(intersection.reach() / 2, intersection.continuous ? dt : 0);
-               });
-               detail::with_first<role::BroadPhase>(scope, [&](auto& broad) { pipeline.findNear(broad); });
-               detail::with_first<role::ContactManager>(scope, [&](auto& manager) {
-                 detail::with_first<role::NarrowPhase>(scope, [&](auto& narrow) {
-                   detail::with_first<role::Intersection>(scope, [&](auto const& intersection) {
-                     using S = std::decay_t<decltype(scope)>;
-                     pipeline.findContacts(detail::kind_sequence<detail::primitive_kinds<S>()>(), narrow, intersection, manager, dt);
-                   });
-                 });
-                 manager.manage(dt);
-                 touch(manager);
-                 if (manager.couplingChanged) forEachSolver(root, newPattern);
-               });
-             }));
+    traverse(
+        root, on<role::CollisionPipeline>([&](auto& pipeline, auto const& scope) {
+          collect(pipeline, scope);
+          detail::with_first<role::ContactManager>(scope,
+                                                   [&](auto& manager) { manager.settle(pipeline.surfaces); });
+          detail::with_first<role::Intersection>(scope, [&](auto const& intersection) {
+            for (auto* s : pipeline.surfaces)
+              s->enclose(intersection.reach() / 2, intersection.continuous ? dt : 0);
+          });
+          detail::with_first<role::BroadPhase>(scope, [&](auto& broad) { pipeline.findNear(broad); });
+          detail::with_first<role::ContactManager>(scope, [&](auto& manager) {
+            detail::with_first<role::NarrowPhase>(scope, [&](auto& narrow) {
+              detail::with_first<role::Intersection>(scope, [&](auto const& intersection) {
+                using S = std::decay_t<decltype(scope)>;
+                pipeline.findContacts(
+                    detail::kind_sequence<detail::primitive_kinds<S>()>(), narrow, intersection, manager, dt);
+              });
+            });
+            manager.manage(dt);
+            touch(manager);
+            if (manager.couplingChanged) forEachSolver(root, newPattern);
+          });
+        }));
   }
 
  private:

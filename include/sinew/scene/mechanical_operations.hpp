@@ -340,7 +340,8 @@ struct MechanicalOperations {
   void withContacts(F&& f) {
     root.withContacts([&](auto& manager) {
       int solver = -1;
-      traverse(root, on<role::CollisionModel>([&](auto& model, auto const&) { solver = model.surface.solver; }));
+      traverse(root,
+               on<role::CollisionModel>([&](auto& model, auto const&) { solver = model.surface.solver; }));
       if (solver >= 0 && !manager.contacts.empty()) f(manager, solver);
     });
   }
@@ -382,7 +383,8 @@ struct MechanicalOperations {
                        manager.assembly.template addVertices<D>(model.surface, dofs);
                      });
                  }));
-        manager.template assemble<Phase>(matrix, p.k, p.b, [=](auto const& contact) { return contact.solver == solver; });
+        manager.template assemble<Phase>(
+            matrix, p.k, p.b, [=](auto const& contact) { return contact.solver == solver; });
       });
   }
 

@@ -244,7 +244,9 @@ class Simulation {
     });
     // contacts may come to be between any two
     int solvers = 0;
-    traverse(scope, on<role::CollisionModel>([&](auto& model, auto const&) { solvers = std::max(solvers, model.surface.solver + 1); }));
+    traverse(scope, on<role::CollisionModel>([&](auto& model, auto const&) {
+               solvers = std::max(solvers, model.surface.solver + 1);
+             }));
     if (solvers > 1)
       traverse(scope, on<role::CollisionModel>([](auto& model, auto const& s) {
                  using D = typename std::decay_t<decltype(model)>::DataTypes;
