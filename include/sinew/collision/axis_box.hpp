@@ -72,8 +72,8 @@ struct BasicAxisBox {
   }
   Real distance(BasicAxisBox const& other) const { return std::sqrt(squaredDistance(other)); }
 
-  /// Where the ray origin + t direction, 0 <= t <= end, enters the box; more than `end` where it does not. A
-  /// ray along a side touches.
+  /// Where the ray origin + t direction, 0 <= t <= end, enters the box; infinity where it does not. A ray
+  /// along a side touches.
   Real rayEntry(Point const& origin, Point const& direction, Real end) const {
     Real from = 0, to = end;
     for (int c = 0; c < 3; ++c) {
@@ -81,9 +81,9 @@ struct BasicAxisBox {
         if (!(min[c] <= origin[c] && origin[c] <= max[c])) return std::numeric_limits<Real>::infinity();
         continue;
       }
-      const Real a = (min[c] - origin[c]) / direction[c], b = (max[c] - origin[c]) / direction[c];
-      from = std::max(from, std::min(a, b));
-      to = std::min(to, std::max(a, b));
+      const bool up = direction[c] > 0;
+      from = std::max(from, ((up ? min[c] : max[c]) - origin[c]) / direction[c]);
+      to = std::min(to, ((up ? max[c] : min[c]) - origin[c]) / direction[c]);
     }
     return from <= to ? from : std::numeric_limits<Real>::infinity();
   }

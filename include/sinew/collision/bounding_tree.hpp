@@ -23,9 +23,9 @@ namespace sinew {
 /// one walk forwards without a stack, and a refit one walk backwards.
 ///
 /// A primitive with an empty box is absent: no query reports it. Other boxes must be finite: building and
-/// refitting throw Error, and the tree stays as it was. Trees and the order of answers depend on nothing but the
-/// boxes since the last build. Queries are const and may run side by side. Nothing allocates while n is at
-/// most its largest value so far.
+/// refitting throw Error, and the tree stays as it was. Trees and the order of answers depend on nothing but
+/// the boxes since the last build. Queries are const and may run side by side. Nothing allocates while n is
+/// at most its largest value so far.
 template <class Real>
 class BasicBoundingTree {
  public:
@@ -53,7 +53,11 @@ class BasicBoundingTree {
   void refit(std::span<Box const> primitives, std::string_view where = "BoundingTree") {
     if (primitives.size() != slots.size())
       throw Error(where,
-                  text("refit got ", primitives.size(), " boxes, but the tree was built for ", slots.size(), "; build it anew"));
+                  text("refit got ",
+                       primitives.size(),
+                       " boxes, but the tree was built for ",
+                       slots.size(),
+                       "; build it anew"));
     check(primitives, where);
     for (std::size_t s = 0; s < slots.size(); ++s) slots[s] = Packed::of(primitives[std::size_t(numbers[s])]);
     cost = fit();
@@ -82,8 +86,8 @@ class BasicBoundingTree {
     });
   }
 
-  /// report(i, j) for each primitive i of this and j of the other tree whose boxes are within `margin` of each
-  /// other along every axis; each pair once.
+  /// report(i, j) for each primitive i of this and j of the other tree whose boxes are within `margin` of
+  /// each other along every axis; each pair once.
   template <class F>
   void pairs(BasicBoundingTree const& other, Real margin, F&& report) const {
     if (nodes.empty() || other.nodes.empty()) return;
@@ -159,7 +163,8 @@ class BasicBoundingTree {
   };
 
   // Fewer cost refits and walks, more cost comparisons: for 4, 8 and 16 a step with 10,000 balls takes 0.94,
-  // 0.73 and 0.62 ms with AVX-512 and 1.18, 1.08 and 1.10 ms with SSE2; rays and single boxes like small leaves.
+  // 0.73 and 0.62 ms with AVX-512 and 1.18, 1.08 and 1.10 ms with SSE2; rays and single boxes like small
+  // leaves.
   static constexpr int leafSize = 8;
   static constexpr int bins = 16;
   // below it ranges are halved as they lie: trees are never deeper than this and log2(n)
@@ -186,8 +191,20 @@ class BasicBoundingTree {
       }
       if (number && (bounded || box.empty())) continue;
       throw Error(where,
-                  text("box ", i, " reaches from (", box.min[0], ", ", box.min[1], ", ", box.min[2], ") to (", box.max[0], ", ",
-                       box.max[1], ", ", box.max[2],
+                  text("box ",
+                       i,
+                       " reaches from (",
+                       box.min[0],
+                       ", ",
+                       box.min[1],
+                       ", ",
+                       box.min[2],
+                       ") to (",
+                       box.max[0],
+                       ", ",
+                       box.max[1],
+                       ", ",
+                       box.max[2],
                        "), which is not finite; has the simulation diverged? Take a smaller time step, or an "
                        "empty box for what is absent"));
     }
@@ -208,8 +225,8 @@ class BasicBoundingTree {
   }
   // report(i, j) for i in a leaf of tree `from` and j in a node of this from `node` on
   template <class F>
-  SINEW_INLINE void pairs_with_leaf(BasicBoundingTree const& from, Link const& leaf, Packed const& box, int node, Real margin,
-                                    F&& report) const {
+  SINEW_INLINE void pairs_with_leaf(BasicBoundingTree const& from, Link const& leaf, Packed const& box,
+                                    int node, Real margin, F&& report) const {
     leaves_near(node, box.exchanged(), margin, [&](Link const& mine, Packed const& around) {
       const Packed room = around.exchanged();
       for (int a = leaf.first; a < leaf.last; ++a) {
@@ -228,15 +245,17 @@ class BasicBoundingTree {
       Real entry;
       int node;
     };
+    // what is missed or absent is infinitely far away
+    auto within = [&](Real e) { return e <= end && e < std::numeric_limits<Real>::infinity(); };
     std::array<Waiting, stackSize> stack;
     int top = 0;
     if (!nodes.empty()) stack[top++] = {entry(nodes[0]), 0};
     while (top > 0) {
       const Waiting w = stack[--top];
-      if (!(w.entry <= end)) continue;
+      if (!within(w.entry)) continue;
       if (is_leaf(w.node)) {
         for (int s = links[w.node].first; s < links[w.node].last; ++s)
-          if (entry(slots[s]) <= end) end = visit(numbers[s], end);
+          if (within(entry(slots[s]))) end = visit(numbers[s], end);
         continue;
       }
       Waiting near{entry(nodes[w.node + 1]), w.node + 1}, far{0, links[w.node + 1].next};

@@ -7,8 +7,8 @@
 namespace sinew {
 
 /// A box as one vector, (-min, max, inf, inf), as search structures hold it. The box around two is one
-/// maximum; the gaps between two along the axes are -(a + b'), where b' has the halves of b exchanged: one sum
-/// and one comparison, eight lanes wide.
+/// maximum; the gaps between two along the axes are -(a + b'), where b' has the halves of b exchanged: one
+/// sum and one comparison, eight lanes wide.
 template <class Real>
 struct alignas(8 * sizeof(Real)) PackedBox {
   Real h[8];
@@ -37,8 +37,8 @@ struct alignas(8 * sizeof(Real)) PackedBox {
     }
   }
 
-  /// BasicAxisBox::overlaps of this box and of that which `exchanged` comes from: the same differences, so the
-  /// same answer to the last bit.
+  /// BasicAxisBox::overlaps of this box and of that which `exchanged` comes from: the same differences, so
+  /// the same answer to the last bit.
   SINEW_INLINE bool overlaps(PackedBox const& exchanged, Real margin) const {
     [[maybe_unused]] Real const* b = exchanged.h;
 #if defined(__AVX512F__)
