@@ -13,7 +13,7 @@ using PointSprings = Registry<StiffSpringForceField<D>, StiffSpringForceField<D,
                               MeshSpringForceField<D>, RegularGridSpringForceField<D>>;
 template <class D>
 using RigidLoads = Registry<ConstantForceField<D>, LinearForceField<D>, RestShapeSpringsForceField<D>,
-                            PlaneForceField<D>, UniformVelocityDampingForceField<D>>;
+                            PlaneForceField<D>, UniformVelocityDampingForceField<D>, VirtualCoupling<D>>;
 template <class D>
 using PointLoads = Registry<RigidLoads<D>, SphereForceField<D>>;
 template <class D>

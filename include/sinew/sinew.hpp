@@ -64,6 +64,7 @@
 #include <sinew/force/triangle_fem.hpp>
 #include <sinew/force/triangular_shell.hpp>
 #include <sinew/force/uniform_velocity_damping.hpp>
+#include <sinew/force/virtual_coupling.hpp>
 #include <sinew/mapping/barycentric_mapping.hpp>
 #include <sinew/mapping/beam_linear_mapping.hpp>
 #include <sinew/mapping/center_of_mass_mapping.hpp>
