@@ -14,8 +14,9 @@ template <class Real, std::size_t NA, std::size_t NB>
 struct MovingPair {
   Simplex<Real, NA> startA, motionA, a;
   Simplex<Real, NB> startB, motionB, b;
-  Real size = 0;   // largest coordinate of a start or a motion: what rounding is relative to
-  Real speed = 0;  // nothing of a comes nearer to anything of b faster than this (Li et al. 2021)
+  Real extent = 0;  // largest coordinate of an edge at time 0
+  Real size = 0;    // largest coordinate of a start or a motion: what rounding is relative to
+  Real speed = 0;   // nothing of a comes nearer to anything of b faster than this (Li et al. 2021)
 
   MovingPair(Simplex<Real, NA> const& a0, Simplex<Real, NA> const& a1, Simplex<Real, NB> const& b0,
              Simplex<Real, NB> const& b1) {
@@ -25,8 +26,10 @@ struct MovingPair {
         start[i] = from[i] - a0[0];
         motion[i] = to[i] - from[i];
         common += motion[i] / Real(NA + NB);
-        for (Eigen::Index k = 0; k < 3; ++k)
+        for (Eigen::Index k = 0; k < 3; ++k) {
+          extent = std::max(extent, std::abs(from[i][k] - from[0][k]));
           size = std::max({size, std::abs(start[i][k]), std::abs(motion[i][k])});
+        }
       }
     };
     prepare(a0, a1, startA, motionA);
@@ -63,7 +66,8 @@ struct MovingPair {
 
 /// A time at or before the first one at which the distance of a and b falls to `thickness`, their points
 /// moving from a0, b0 at time 0 straight to a1, b1 at time 1; nullopt where the distance stays above it.
-/// Vertex and face, edge and edge, and all other pairs of 1, 2 or 3 points.
+/// Vertex and face, edge and edge, and all other pairs of 1, 2 or 3 points. Places are finite,
+/// the thickness is not negative.
 ///
 /// Never late, at any speed: time advances by steps after which a and b are surely apart still (conservative
 /// advancement, Mirtich 1996): the longest of those in which they stay on two sides of a slab across the line
@@ -72,16 +76,19 @@ struct MovingPair {
 /// Potential Contact). Near the end of the approach these are Newton's steps.
 ///
 /// Early by little: at the time found the distance is above `thickness`, by at most
-///   sigma = max(relativeGap (d0 - thickness), 32 eps size),
-/// d0 the distance at time 0, size the largest length or motion: so an approach that comes as near as this is
-/// reported though it may turn back. After maxIterations steps the time reached is the answer, which is
-/// earlier. 0 where d0 exceeds the thickness by less than 32 eps size, or not at all, whatever the motion.
+///   sigma = max(relativeGap min(d0 - thickness, max(thickness, extent)), 32 eps size),
+/// d0 the distance at time 0, extent the largest coordinate of an edge then (two points without thickness:
+/// d0), size the largest coordinate of a distance or a motion. So an approach that comes as near as this is
+/// reported, though it may turn back or pass by. Rounding moves the distance by an eighth of sigma at most.
+/// After maxIterations steps the time reached is the answer, which is earlier; two steps are usual, more than
+/// 100 rare (turning needles). 0 where d0 exceeds the thickness by less than 32 eps size, or not at all,
+/// whatever the motion.
 template <class Real, std::size_t NA, std::size_t NB>
 std::optional<Real> time_of_impact(std::array<Vec<Real, 3>, NA> const& a0,
                                    std::array<Vec<Real, 3>, NA> const& a1,
                                    std::array<Vec<Real, 3>, NB> const& b0,
                                    std::array<Vec<Real, 3>, NB> const& b1, Real thickness = 0,
-                                   Real relativeGap = Real(1e-3), int maxIterations = 100) {
+                                   Real relativeGap = Real(1e-3), int maxIterations = 1000) {
   detail::MovingPair<Real, NA, NB> pair(a0, a1, b0, b1);
   const Real least = 32 * std::numeric_limits<Real>::epsilon() * pair.size;
   Real t = 0, sigma = least;
@@ -91,7 +98,8 @@ std::optional<Real> time_of_impact(std::array<Vec<Real, 3>, NA> const& a0,
     const Real distance = std::sqrt(closest.squaredDistance);
     if (i == 0) {
       if (!(distance > thickness + least)) return Real(0);
-      sigma = std::max(least, relativeGap * (distance - thickness));
+      const Real start = distance - thickness, scale = std::max(thickness, pair.extent);
+      sigma = std::max(least, relativeGap * (scale > 0 ? std::min(start, scale) : start));
     }
     if (distance <= thickness + sigma) return t;
     const Real gap = thickness + sigma / 2;
