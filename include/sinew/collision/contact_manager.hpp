@@ -41,8 +41,15 @@ struct ContactManager {
               range::atLeast(0)));
   }
 
+  std::vector<Contact> contacts{};  // rising by key
+
+  static constexpr auto state() {
+    return field_list(field(
+        "contacts", &ContactManager::contacts, "", "contacts of the last step, and what they remember"));
+  }
+
   // of the steps
-  std::vector<Contact> contacts{}, found{};
+  std::vector<Contact> found{};
   std::vector<CollisionSurface*> surfaces{};  // in the order of the scene, of this step
   std::vector<int> points{};
   ContactAssembly assembly{};
@@ -75,7 +82,6 @@ struct ContactManager {
 
   void init(std::string const& where, std::vector<CollisionSurface*> const& all) {
     surfaces = all;
-    contacts.clear();
     found.clear();
     contacts.reserve(std::size_t(capacity));
     found.reserve(std::size_t(capacity));
@@ -92,6 +98,16 @@ struct ContactManager {
     known(where, response);
     for (auto const* s : surfaces)
       if (!s->response.empty()) known(s->path, s->response);
+    for (std::size_t i = 0; i < contacts.size(); ++i)
+      if (!fits(contacts[i].a) || !fits(contacts[i].b) || contacts[i].response < 0 ||
+          contacts[i].response >= count)
+        throw Error(where,
+                    text(component_name<ContactManager>(),
+                         ": contact ",
+                         i,
+                         " of the checkpoint is between primitives that this scene does not have; take the "
+                         "checkpoint with the "
+                         "scene that it was made of"));
   }
 
   /// f(response) for the one that answers a contact.
@@ -103,7 +119,8 @@ struct ContactManager {
     (std::index_sequence_for<Responses...>{});
   }
 
-  /// What the responses remember of the step that has ended, the surfaces being where it has brought them.
+  /// What the responses remember of the step that has ended, the surfaces being where it, and what has moved
+  /// since, has brought them.
   void settle(std::vector<CollisionSurface*> const& all) {
     surfaces.assign(all.begin(), all.end());
     for (Contact& c : contacts)
@@ -111,6 +128,8 @@ struct ContactManager {
         if constexpr (requires { law.settle(c, c.start); }) law.settle(c, displacement(c));
       });
   }
+
+  void forget() { contacts.clear(); }
 
   void add(Contact const& c) {
     if (found.size() == found.capacity()) ++grown;
@@ -135,15 +154,16 @@ struct ContactManager {
     listVertices();
     auto old = contacts.begin();
     for (Contact& c : found) {
-      while (old != contacts.end() && old->key() < c.key()) ++old;
-      const bool again = old != contacts.end() && old->key() == c.key();
+      const ContactKey key = c.key();
+      while (old != contacts.end() && old->key() < key) ++old;
+      const bool again = old != contacts.end() && old->key() == key;
       couplingChanged = couplingChanged || !again;
       describe(c, *surfaces[std::size_t(c.a.surface)], *surfaces[std::size_t(c.b.surface)]);
       c.start = displacement(c);
       if (again)
         remember(c, *old);
-      else if (Contact const* before = ofSameVertex(c))
-        remember(c, *before);
+      else if (Contact const* other = ofSameVertex(key))
+        remember(c, *other);
     }
     contacts.swap(found);
     found.clear();
@@ -218,33 +238,44 @@ struct ContactManager {
   }
 
  private:
+  bool fits(ContactSide const& side) const {
+    if (side.surface < 0 || side.surface >= int(surfaces.size())) return false;
+    auto const& s = *surfaces[std::size_t(side.surface)];
+    bool all = side.element >= 0 && side.element < int(s.size()) && side.vertices[0] >= 0;
+    for (const int v : side.vertices) all = all && v < int(s.position.size());
+    return all;
+  }
   Eigen::Vector3d displacement(Contact const& c) const {
     return position_of(c.b, *surfaces[std::size_t(c.b.surface)]) -
            position_of(c.a, *surfaces[std::size_t(c.a.surface)]);
   }
-  // a vertex that slides from one triangle to the next goes on with the same contact
-  static std::array<int, 4> vertexKey(Contact const& c, int side) {
-    return {c.a.surface, c.b.surface, side, (side == 0 ? c.a : c.b).vertices[0]};
+  // a vertex that slides from one triangle to the next goes on with the same contact; -1 stands before
+  // vertices
+  static std::array<int, 4> vertexKey(ContactKey const& k, int side) {
+    return {k.surfaces[0], k.surfaces[1], side, k.vertices[std::size_t(side == 0 ? 2 : 5)]};
+  }
+  static bool ofOneVertex(ContactKey const& k, int side) {
+    return k.vertices[std::size_t(side == 0 ? 1 : 4)] < 0;
   }
   void listVertices() {
     ofVertices.clear();
     for (std::size_t i = 0; i < contacts.size(); ++i)
       for (int side = 0; side < 2; ++side)
-        if ((side == 0 ? contacts[i].a : contacts[i].b).corners() == 1)
-          ofVertices.push_back({vertexKey(contacts[i], side), int(i)});
+        if (const ContactKey key = contacts[i].key(); ofOneVertex(key, side))
+          ofVertices.push_back({vertexKey(key, side), int(i)});
     std::sort(ofVertices.begin(), ofVertices.end(), [](OfVertex const& x, OfVertex const& y) {
       return std::pair(x.key, x.contact) < std::pair(y.key, y.contact);
     });
   }
-  Contact const* ofSameVertex(Contact const& c) const {
+  Contact const* ofSameVertex(ContactKey const& key) const {
     for (int side = 0; side < 2; ++side) {
-      if ((side == 0 ? c.a : c.b).corners() != 1) continue;
-      const auto key = vertexKey(c, side);
-      const auto first =
-          std::lower_bound(ofVertices.begin(), ofVertices.end(), key, [](OfVertex const& x, auto const& k) {
+      if (!ofOneVertex(key, side)) continue;
+      const auto wanted = vertexKey(key, side);
+      const auto first = std::lower_bound(
+          ofVertices.begin(), ofVertices.end(), wanted, [](OfVertex const& x, auto const& k) {
             return x.key < k;
           });
-      if (first != ofVertices.end() && first->key == key) return &contacts[std::size_t(first->contact)];
+      if (first != ofVertices.end() && first->key == wanted) return &contacts[std::size_t(first->contact)];
     }
     return nullptr;
   }

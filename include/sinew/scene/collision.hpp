@@ -72,9 +72,10 @@ template <class RootScope>
 struct Collision {
   RootScope const& root;
 
-  /// After all components are initialised. Throws Error where a stage is missing, and where there are models
+  /// After all components are initialised; contacts forget what they remember where that is not the first
+  /// time. Throws Error where a stage is missing, and where there are models
   /// without a pipeline above them.
-  void init() const {
+  void init(bool again) const {
     std::vector<CollisionSurface*> all;
     traverse(root, on<role::CollisionModel>([&](auto& model, auto const& scope) {
                model.surface.state = scope.stateAddress();
@@ -99,8 +100,10 @@ struct Collision {
                if (!detail::with_first<role::Intersection>(scope, [](auto&) {}))
                  missing("intersection method", "MinProximityIntersection");
                collect(pipeline, scope);
-               if (!detail::with_first<role::ContactManager>(
-                       scope, [&](auto& manager) { manager.init(scope.path(), pipeline.surfaces); }))
+               if (!detail::with_first<role::ContactManager>(scope, [&](auto& manager) {
+                     if (again) manager.forget();
+                     manager.init(scope.path(), pipeline.surfaces);
+                   }))
                  missing("contact manager", "DefaultContactManager");
                pipeline.near.reserve(pipeline.surfaces.size() * (pipeline.surfaces.size() + 1) / 2);
              }));

@@ -438,6 +438,7 @@ template <class Root>
 void Simulation<Root>::reset() {
   if (!initialised_) throw Error("Simulation::reset", "the scene is not initialised; call init() first");
   traverse(rootScope(), on<role::State>([](auto& s, auto const&) { s.reset(); }));
+  traverse(rootScope(), on<role::ContactManager>([](auto& manager, auto const&) { manager.forget(); }));
   time_ = 0;
   step_ = 0;
   propagate();
@@ -492,7 +493,7 @@ void Simulation<Root>::initScene(RootScope const& scope, InitAgain const& again)
              s.ifNew(c, again, [&] { initComponent(c, s); });
            }));
   scope.raise();
-  Collision<RootScope>{scope}.init();
+  Collision<RootScope>{scope}.init(bool(again));
   initSolvers(scope, again);
   scope.raise();
   initLoose(scope);
