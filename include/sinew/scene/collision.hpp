@@ -100,10 +100,8 @@ struct Collision {
                if (!detail::with_first<role::Intersection>(scope, [](auto&) {}))
                  missing("intersection method", "MinProximityIntersection");
                collect(pipeline, scope);
-               if (!detail::with_first<role::ContactManager>(scope, [&](auto& manager) {
-                     if (again) manager.forget();
-                     manager.init(scope.path(), pipeline.surfaces);
-                   }))
+               if (!detail::with_first<role::ContactManager>(
+                       scope, [&](auto& manager) { manager.init(scope.path(), pipeline.surfaces, again); }))
                  missing("contact manager", "DefaultContactManager");
                pipeline.near.reserve(pipeline.surfaces.size() * (pipeline.surfaces.size() + 1) / 2);
              }));
@@ -156,6 +154,7 @@ struct Collision {
                using D = typename std::decay_t<decltype(model)>::DataTypes;
                auto const& state = s.template state<D>();
                see<D>(model.surface, state.position, state.velocity);
+               model.surface.state = &state;
                model.surface.number = int(pipeline.surfaces.size());
                pipeline.surfaces.push_back(&model.surface);
              }));
