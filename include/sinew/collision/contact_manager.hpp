@@ -52,9 +52,9 @@ struct ContactManager {
     std::array<int, 4> key;  // surfaces, side, vertex
     int contact;
   };
-  std::vector<OfVertex> ofVertices{};  // contacts of single vertices
-  long grown = 0;                      // how often there was no room
-  bool couplingChanged = false;        // since the last step: other vertices meet than before
+  std::vector<OfVertex> ofVertices{};     // contacts of single vertices
+  long grown = 0;                         // how often there was no room
+  bool couplingChanged = false;           // since the last step: other vertices meet than before
   std::vector<Attachment> attachments{};  // places that are held from outside
   std::vector<Contact> keptContacts{};    // those that follow a change of the scene, until init
   std::vector<Attachment> keptAttachments{};
