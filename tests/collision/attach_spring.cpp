@@ -34,15 +34,15 @@ auto plate(Linear linear) {
   return contact_scene(
       near,
       0,
-      node<"body">(EulerImplicitSolver{},
-                   linear,
-                   MechanicalObject<Rigid3d>{.position = {Rigid3d::Coord{}}},
-                   UniformMass<Rigid3d>{.vertexMass = RigidMass<double, 3>{2}},
-                   node<"plate">(topology,
-                                 MechanicalObject<Vec3d>{
-                                     .position = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}},
-                                 RigidMapping<Rigid3d, Vec3d>{},
-                                 TriangleCollisionModel<Vec3d>{})));
+      node<"body">(
+          EulerImplicitSolver{},
+          linear,
+          MechanicalObject<Rigid3d>{.position = {Rigid3d::Coord{}}},
+          UniformMass<Rigid3d>{.vertexMass = RigidMass<double, 3>{2}},
+          node<"plate">(topology,
+                        MechanicalObject<Vec3d>{.position = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}},
+                        RigidMapping<Rigid3d, Vec3d>{},
+                        TriangleCollisionModel<Vec3d>{})));
 }
 
 }  // namespace
@@ -204,7 +204,8 @@ TEST_CASE("what cannot be attached is refused, and changes nothing") {
   other = hit;
   other.path = "/root/elsewhere";
   CHECK_THROWS_AS(sim.attach(other), Error);
-  CHECK_THROWS_WITH(sim.attach(*sim.pick({3, 0, 6}, {0, 0, -1})), Catch::Contains("no force moves this model"));
+  CHECK_THROWS_WITH(sim.attach(*sim.pick({3, 0, 6}, {0, 0, -1})),
+                    Catch::Contains("no force moves this model"));
   CHECK(sim.root().get<Contacts>().attachments.empty());
   const int spring = sim.attach(hit);
   CHECK_THROWS_AS(sim.pull(spring, {nan, 0, 0}), Error);

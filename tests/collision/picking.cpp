@@ -18,22 +18,21 @@ auto scene() {
       near,
       0,
       floor_node(100, 0),
-      node<"things">(
-          EulerImplicitSolver{},
-          CGLinearSolver<>{},
-          node<"ball">(MechanicalObject<Vec3d>{.position = {{5, 5, 3}, {0, 0, 3}}},
-                       UniformMass<Vec3d>{},
-                       SphereCollisionModel<Vec3d>{.radius = 1}),
-          node<"wire">(MeshTopology{.edges = {{0, 1}, {1, 2}}},
-                       MechanicalObject<Vec3d>{.position = {{-1, 0, 5}, {3, 0, 5}, {3, 4, 5}}},
-                       UniformMass<Vec3d>{},
-                       LineCollisionModel<Vec3d>{}),
-          node<"points">(MechanicalObject<Vec3d>{.position = {{-2, -2, 6}, {2, 2, 6}}},
-                         UniformMass<Vec3d>{},
-                         PointCollisionModel<Vec3d>{}),
-          node<"away">(MechanicalObject<Vec3d>{.position = {{0, 0, 8}}},
-                       UniformMass<Vec3d>{},
-                       SphereCollisionModel<Vec3d>{.active = false, .radius = 1})));
+      node<"things">(EulerImplicitSolver{},
+                     CGLinearSolver<>{},
+                     node<"ball">(MechanicalObject<Vec3d>{.position = {{5, 5, 3}, {0, 0, 3}}},
+                                  UniformMass<Vec3d>{},
+                                  SphereCollisionModel<Vec3d>{.radius = 1}),
+                     node<"wire">(MeshTopology{.edges = {{0, 1}, {1, 2}}},
+                                  MechanicalObject<Vec3d>{.position = {{-1, 0, 5}, {3, 0, 5}, {3, 4, 5}}},
+                                  UniformMass<Vec3d>{},
+                                  LineCollisionModel<Vec3d>{}),
+                     node<"points">(MechanicalObject<Vec3d>{.position = {{-2, -2, 6}, {2, 2, 6}}},
+                                    UniformMass<Vec3d>{},
+                                    PointCollisionModel<Vec3d>{}),
+                     node<"away">(MechanicalObject<Vec3d>{.position = {{0, 0, 8}}},
+                                  UniformMass<Vec3d>{},
+                                  SphereCollisionModel<Vec3d>{.active = false, .radius = 1})));
 }
 
 }  // namespace
@@ -70,8 +69,7 @@ TEST_CASE("a ray picks the nearest of several models") {
   CHECK(!hit->simulated);
   Point there(0, 0, 0);
   for (std::size_t c = 0; c < 3; ++c)
-    there += hit->place.weights[c] *
-             sim.at<"floor">().state().position[std::size_t(hit->place.vertices[c])];
+    there += hit->place.weights[c] * sim.at<"floor">().state().position[std::size_t(hit->place.vertices[c])];
   CHECK((there - Point(1, 2, 0)).norm() < 1e-12);
   CHECK(hit->place.weights[0] + hit->place.weights[1] + hit->place.weights[2] == Approx(1));
   // and points
@@ -135,11 +133,11 @@ TEST_CASE("all of a wavy sheet is picked where it is after steps, as by brute fo
     const Ray ray{eye, (aim - eye).normalized()};
     double nearest = inf;
     for (auto const& t : sheet.triangles)
-      nearest = std::min(nearest,
-                         ray_triangle(ray,
-                                      {x[std::size_t(t[0])], x[std::size_t(t[1])], x[std::size_t(t[2])]},
-                                      {t[0], t[1], t[2]})
-                             .distance);
+      nearest = std::min(
+          nearest,
+          ray_triangle(
+              ray, {x[std::size_t(t[0])], x[std::size_t(t[1])], x[std::size_t(t[2])]}, {t[0], t[1], t[2]})
+              .distance);
     const auto hit = sim.pick(eye, aim - eye);
     REQUIRE(bool(hit) == (nearest < inf));
     if (!hit) continue;

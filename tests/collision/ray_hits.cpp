@@ -2,9 +2,9 @@
 // Where rays meet single primitives: against closed forms.
 #include <sinew/collision/ray_hits.hpp>
 
-#include "catch.hpp"
 #include <random>
 #include <vector>
+#include "catch.hpp"
 
 using namespace sinew;
 using Point = Eigen::Vector3d;
@@ -94,8 +94,7 @@ TEST_CASE("no ray slips between the triangles of a fan, through their edges and 
   for (int i = 0; i < 20000; ++i) {
     // four triangles around a corner, in a square seen from a point before it
     const Point middle(random(-0.3, 0.3), random(-0.3, 0.3), random(-0.2, 0.2));
-    const std::array<Point, 5> p{
-        middle, Point(-1, -1, 0), Point(1, -1, 0), Point(1, 1, 0), Point(-1, 1, 0)};
+    const std::array<Point, 5> p{middle, Point(-1, -1, 0), Point(1, -1, 0), Point(1, 1, 0), Point(-1, 1, 0)};
     const Point eye(random(-0.1, 0.1), random(-0.1, 0.1), random(2, 4));
     const std::size_t k = 1 + random.engine() % 4;
     const double s = i % 3 == 0 ? 0 : random(0, 0.9);

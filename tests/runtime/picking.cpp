@@ -10,8 +10,8 @@ using namespace sinew;
 namespace {
 
 using Bodies = Registry<Gravity, EulerImplicitSolver, CGLinearSolver<>, TetrahedronTopology,
-                        MechanicalObject<Vec3d>, MechanicalObject<Rigid3d>, UniformMass<Vec3d>, TetrahedronFEMForceField<Vec3d>,
-                        FixedConstraint<Vec3d>, StandardCollision>;
+                        MechanicalObject<Vec3d>, MechanicalObject<Rigid3d>, UniformMass<Vec3d>,
+                        TetrahedronFEMForceField<Vec3d>, FixedConstraint<Vec3d>, StandardCollision>;
 
 TetrahedronTopology topology() { return {{{0, 1, 2, 3}}}; }
 MechanicalObject<Vec3d> state() { return {.position = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}; }
@@ -31,21 +31,21 @@ auto runtime() {
   return Simulation{std::move(root)};
 }
 auto typed() {
-  return Simulation{node<"root">(
-      Gravity{{0, 0, -10}},
-      DefaultPipeline{},
-      BruteForceBroadPhase{},
-      BVHNarrowPhase{},
-      near,
-      DefaultContactManager{},
-      node<"body">(EulerImplicitSolver{},
-                   solver,
-                   topology(),
-                   state(),
-                   UniformMass<Vec3d>{.vertexMass = 2},
-                   TetrahedronFEMForceField<Vec3d>{.youngModulus = {3000}, .poissonRatio = 0.3},
-                   FixedConstraint<Vec3d>{.indices = {0}},
-                   TriangleCollisionModel<Vec3d>{}))};
+  return Simulation{
+      node<"root">(Gravity{{0, 0, -10}},
+                   DefaultPipeline{},
+                   BruteForceBroadPhase{},
+                   BVHNarrowPhase{},
+                   near,
+                   DefaultContactManager{},
+                   node<"body">(EulerImplicitSolver{},
+                                solver,
+                                topology(),
+                                state(),
+                                UniformMass<Vec3d>{.vertexMass = 2},
+                                TetrahedronFEMForceField<Vec3d>{.youngModulus = {3000}, .poissonRatio = 0.3},
+                                FixedConstraint<Vec3d>{.indices = {0}},
+                                TriangleCollisionModel<Vec3d>{}))};
 }
 
 }  // namespace

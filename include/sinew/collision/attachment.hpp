@@ -11,10 +11,11 @@ namespace sinew {
 /// and it acts as that of a contact does: on any model of any state, implicitly under an implicit solver.
 struct Attachment {
   int id = 0;
-  double stiffness = 0, damping = 0;                 // [N/m], [N s/m]
+  double stiffness = 0, damping = 0;                   // [N/m], [N s/m]
   Eigen::Vector3d target{0, 0, 0}, velocity{0, 0, 0};  // of the other end
-  Eigen::Vector3d offset{0, 0, 0};  // from the place on the surface to p: from the centre of a particle to its skin
-  Contact contact{};                // its side b is the place; it has no side a
+  Eigen::Vector3d offset{
+      0, 0, 0};       // from the place on the surface to p: from the centre of a particle to its skin
+  Contact contact{};  // its side b is the place; it has no side a
 
   void evaluate(CollisionSurface const& s) {
     const Eigen::Vector3d p = position_of(contact.b, s) + offset,

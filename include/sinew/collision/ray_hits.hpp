@@ -60,7 +60,7 @@ inline RayHit ray_segment(Ray const& ray, std::array<Eigen::Vector3d, 2> const& 
   };
   consider(0);
   consider(1);
-  if (ee > 0) consider(-ew / ee);                            // nearest to the origin
+  if (ee > 0) consider(-ew / ee);                              // nearest to the origin
   if (across > 1e-14 * ee) consider((ed * dw - ew) / across);  // nearest to the line
   return best;
 }
@@ -81,9 +81,7 @@ inline RayHit ray_triangle(Ray const& ray, std::array<Eigen::Vector3d, 3> const&
     const double along = q[c][z] / ray.direction[z];
     flat[c] = {q[c][x] - along * ray.direction[x], q[c][y] - along * ray.direction[y]};
   }
-  auto area = [&](std::size_t i, std::size_t j) {
-    return flat[i][0] * flat[j][1] - flat[i][1] * flat[j][0];
-  };
+  auto area = [&](std::size_t i, std::size_t j) { return flat[i][0] * flat[j][1] - flat[i][1] * flat[j][0]; };
   // twice that of an edge with the ray, which is also the weight of the corner opposite
   auto side = [&](std::size_t i, std::size_t j) {
     return corners[i] < corners[j] ? area(i, j) : -area(j, i);

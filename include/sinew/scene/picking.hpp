@@ -14,11 +14,11 @@ namespace sinew {
 
 /// What a ray meets first.
 struct Pick {
-  std::string path{};  // of the node of the collision model
-  int model = -1;      // its number among the collision models of the scene, in their order
-  ContactSide place{};       // element, and the vertices with their weights
+  std::string path{};   // of the node of the collision model
+  int model = -1;       // its number among the collision models of the scene, in their order
+  ContactSide place{};  // element, and the vertices with their weights
   Eigen::Vector3d point{0, 0, 0};
-  double distance = 0;  // from the origin of the ray
+  double distance = 0;     // from the origin of the ray
   bool simulated = false;  // an ODE solver moves it, and forces on the model act on it
 };
 
@@ -35,12 +35,13 @@ struct Picking {
 
   /// The nearest hit up to `maxDistance`: triangles and spheres where the ray meets them, lines and points
   /// where it passes within `tolerance` of them. Models that are not active are not seen.
-  std::optional<Pick> pick(Eigen::Vector3d const& origin, Eigen::Vector3d const& direction, double maxDistance,
-                           double tolerance) const {
+  std::optional<Pick> pick(Eigen::Vector3d const& origin, Eigen::Vector3d const& direction,
+                           double maxDistance, double tolerance) const {
     auto wrong = [](auto const&... what) { throw Error("Simulation::pick", text(what...)); };
     const double length = direction.norm();
     if (!origin.allFinite()) wrong("the origin of the ray is not finite");
-    if (!(length > 0) || !std::isfinite(length)) wrong("the direction of the ray has no length, or is not finite");
+    if (!(length > 0) || !std::isfinite(length))
+      wrong("the direction of the ray has no length, or is not finite");
     if (!(maxDistance >= 0)) wrong("maxDistance is ", maxDistance, " m, but must be at least 0");
     if (!(tolerance >= 0) || !std::isfinite(tolerance))
       wrong("tolerance is ", tolerance, " m, but must be finite and at least 0");
@@ -157,7 +158,8 @@ struct Picking {
     });
     return best;
   }
-  static void describe(Pick& pick, Ray const& ray, CollisionSurface const& s, int element, RayHit const& hit) {
+  static void describe(Pick& pick, Ray const& ray, CollisionSurface const& s, int element,
+                       RayHit const& hit) {
     ContactSide& side = pick.place;
     side.element = element;
     int n = 0;
@@ -172,8 +174,7 @@ struct Picking {
     // of what has no surface, the place itself
     const Eigen::Vector3d place = position_of(side, s);
     if (s.corners == 2 || (s.corners == 1 && s.radius.empty())) pick.point = place;
-    if (s.rigid)
-      side.lever = s.orientation[std::size_t(side.vertices[0])].conjugate() * (pick.point - place);
+    if (s.rigid) side.lever = s.orientation[std::size_t(side.vertices[0])].conjugate() * (pick.point - place);
   }
   // surfaces are numbered from the pipeline on that they are below
   int numberBelowManager(CollisionSurface const& wanted) const {

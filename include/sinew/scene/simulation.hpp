@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/scene/carving.hpp>
 #include <sinew/scene/checks.hpp>
 #include <sinew/scene/collision.hpp>
 #include <sinew/scene/element_removal.hpp>
@@ -90,9 +91,11 @@ class Simulation {
   /// Removes elements of the topology of the node at a path from the root ("liver"), and with them faces and
   /// edges that are left without an element, and points (plan_element_removal). All that refers to them
   /// follows: states lose the points, components the entries of their lists, mapped states what was mapped
-  /// from there; what stays keeps its order, and everything around it is initialised again from the rest
-  /// positions. Returns what became of points and elements. Throws Error where there is no such topology or
-  /// element, and where what is left is no scene: nothing has changed then.
+  /// from there; the surface that collides, and one that is looked at or listed whole beside the volume,
+  /// becomes that of what is left; contacts and attachments of what stays go on; what stays keeps its order,
+  /// and everything around it is initialised again from the rest positions. Returns what became of points and
+  /// elements. Throws Error where there is no such topology or element, and where what is left is no scene:
+  /// nothing has changed then.
   TopologyChange removeElements(std::string_view path, ElementNumbers const& elements);
 
   /// What the ray from `origin` along `direction` meets first of the collision models, where they are now, up
@@ -133,7 +136,8 @@ class Simulation {
   long step_ = 0;
   bool initialised_ = false, visualsAreCurrent_ = false;
   static constexpr NoScope above_{};
-  static constexpr bool collides = detail::primitive_kinds<RootScope>() != 0;
+  static constexpr bool collides = detail::primitive_kinds<RootScope>() != 0,
+                        carves = detail::has_role_below<role::Carving, RootScope>();
 
   static RootScope scopeOf(Root& root) { return {root, above_}; }
   RootScope rootScope() { return scopeOf(root_); }
@@ -370,6 +374,27 @@ class Simulation {
     });
     if (moved) MechanicalOperations(scope, time_, dt).propagate(vec_id::position, vec_id::velocity);
   }
+  // removes what tools touch; says whether something went
+  bool carve() {
+    const auto scope = rootScope();
+    const std::vector<Carved> all = Carving<RootScope>{scope}.touched();
+    long removed = 0;
+    for (Carved const& c : all) {
+      if (c.count == 0) continue;
+      try {
+        removeElements(c.path, c.elements);
+      } catch (Error const& error) {
+        throw Error(text("carving at step ", step_, " (time ", time_, " s)"),
+                    text(c.count, " elements of '", c.path, "' cannot be removed: ", error.what()));
+      }
+      removed += long(c.count);
+    }
+    if (removed > 0)
+      traverse(scope, on<role::Carving>([&](auto& carving, auto const&) {
+                 if (carving.active) carving.removed += removed;
+               }));
+    return removed > 0;
+  }
 
   // each ODE solver integrates its subtree and propagates; where there is none, the children are looked at
   template <class S>
@@ -468,6 +493,8 @@ void Simulation<Root>::animate(double dt) {
     const auto scope = rootScope();
     beginStep(scope, dt);
     if constexpr (collides) detectContacts(scope, dt);
+    if constexpr (collides && carves)
+      if (carve()) detectContacts(scope, dt);
     computeLoose(scope, dt);
     integrate(scope, dt);
     time_ += dt;
@@ -537,6 +564,8 @@ void Simulation<Root>::initScene(RootScope const& scope, InitAgain const& again)
            }));
   scope.raise();
   Collision<RootScope>{scope}.init(bool(again));
+  if constexpr (collides && carves)
+    if (again.touched.empty()) Carving<RootScope>{scope}.check();
   initSolvers(scope, again);
   scope.raise();
   initLoose(scope);
