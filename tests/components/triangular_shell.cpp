@@ -50,8 +50,8 @@ VecCoord moved(VecCoord x, VecDeriv const& dx, double h = 1) {
   return x;
 }
 
-const Corners corners{Vector2d(0.1, 0.2), Vector2d(1.3, 0), Vector2d(0.4, 0.9)};
-double area(Corners const& p) {
+const PlaneTriangle<double> corners{Vector2d(0.1, 0.2), Vector2d(1.3, 0), Vector2d(0.4, 0.9)};
+double area(PlaneTriangle<double> const& p) {
   const Vector2d a = p[1] - p[0], b = p[2] - p[0];
   return (a[0] * b[1] - a[1] * b[0]) / 2;
 }

@@ -69,13 +69,15 @@ struct TriangularShell {
     const Eigen::Quaterniond turn(axes);
     for (int i = 0; i < 3; ++i)
       store(x[i].orientation.template cast<double>().conjugate() * turn, rest.toAxes[i]);
-    const Corners corners{Eigen::Vector2d(0, 0),
-                          Eigen::Vector2d(a.norm(), 0),
-                          Eigen::Vector2d(axes.col(0).dot(b), axes.col(1).dot(b))};
+    const PlaneTriangle<double> corners{Eigen::Vector2d(0, 0),
+                                        Eigen::Vector2d(a.norm(), 0),
+                                        Eigen::Vector2d(axes.col(0).dot(b), axes.col(1).dot(b))};
     rest.corner[0] = Real(corners[1][0]);
     rest.corner[1] = Real(corners[2][0]), rest.corner[2] = Real(corners[2][1]);
-    const Eigen::Matrix<double, 9, 9> membrane = membrane_stiffness(corners, E, nu, thickness);
-    const Eigen::Matrix<double, 6, 6> plate = plate_stiffness(corners, E, nu, thickness);
+    const Eigen::Matrix<double, 9, 9> membrane =
+        membrane_stiffness(corners, double(E), double(nu), double(thickness));
+    const Eigen::Matrix<double, 6, 6> plate =
+        plate_stiffness(corners, double(E), double(nu), double(thickness));
     for (int i = 0; i < 9; ++i)
       for (int j = 0; j <= i; ++j) rest.membrane[lower(i, j)] = Real(membrane(i, j));
     for (int i = 0; i < 6; ++i)
