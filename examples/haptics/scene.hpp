@@ -55,7 +55,7 @@ template <class Sim>
 sinew::ToolState haptic_step(Sim& sim, sinew::ToolTarget const& target, double dt) {
   using namespace sinew;
   auto& tool = sim.template at<"tool">();
-  tool.template get<VirtualCoupling<Rigid3d>>().follow(target.pose, target.velocity);
+  tool.template get<VirtualCoupling<Rigid3d>>().setTarget(target.pose, target.velocity);
   sim.animate(dt);
   return {tool.state().position[0], tool.state().velocity[0]};
 }

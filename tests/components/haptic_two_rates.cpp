@@ -53,7 +53,7 @@ void run(Hand& hand, HapticController c, double wall, double dt, double seconds,
     c.observe(time, hand.read(time));
     if (i % perStep == 0) {
       const ToolTarget target = c.reading.ahead(dt);
-      coupling.follow(target.pose, target.velocity);
+      coupling.setTarget(target.pose, target.velocity);
       sim.animate(dt);
       result = {sim.root().state().position[0], sim.root().state().velocity[0], time + dt};
     }

@@ -46,10 +46,10 @@ TEST_CASE("a virtual coupling draws points to its target by k d and c v") {
   CHECK(f[0].norm() == 0);
   CHECK((f[1] - Vector3d(-200 * 0.01 - 0.3, -200 * 0.02, -0.6)).norm() < 1e-13);
   CHECK(c.potentialEnergy({{5, 5, 5}, {1.01, 0.02, 0}}) == Approx(100 * 5e-4));
-  c.follow({1.01, 0.02, 0}, {0.1, 0, 0.2});
+  c.setTarget({1.01, 0.02, 0}, {0.1, 0, 0.2});
   CHECK(force(c, {{5, 5, 5}, {1.01, 0.02, 0}}, {{1, 1, 1}, {0.1, 0, 0.2}})[1].norm() == 0);
   c.enabled = false;
-  c.follow({9, 9, 9}, {9, 9, 9});
+  c.setTarget({9, 9, 9}, {9, 9, 9});
   CHECK(force(c, {{5, 5, 5}, {1, 0, 0}})[1].norm() == 0);
   CHECK(product(c, {{1, 1, 1}, {1, 1, 1}}, 1, 1)[1].norm() == 0);
   CHECK(c.potentialEnergy({{5, 5, 5}, {1, 0, 0}}) == 0);
@@ -157,7 +157,7 @@ TEST_CASE("a tool follows a target at constant velocity without lag, at any step
     for (int i = 1; i <= steps; ++i) {
       target = {};
       Rigid3d::increment(target, i * h * v);  // at the end of the step
-      coupling.follow(target, v);
+      coupling.setTarget(target, v);
       sim.animate(h);
     }
     CHECK(Rigid3d::difference(target, sim.root().state().position[0]).norm() < 1e-9);
@@ -198,8 +198,16 @@ TEST_CASE("a virtual coupling refuses bad input, and keeps its target where it i
   refuses(VirtualCoupling<Rigid3d>{.angularStiffness = -2}, {{}}, {}, {"angularStiffness is -2"});
 
   auto c = ready(C{}, rest);
-  c.follow({1, 2, 3}, {0, 0, 0});
-  one::says([&] { c.follow({one::notANumber, 0, 0}, {0, 0, 0}); }, {"VirtualCoupling<Vec3d>", "not finite"});
-  one::says([&] { c.follow({0, 0, 0}, {0, one::notANumber, 0}); }, {"not finite"});
+  c.setTarget({1, 2, 3}, {0, 0, 0});
+  one::says(
+      [&] {
+        c.setTarget({one::notANumber, 0, 0}, {0, 0, 0});
+      },
+      {"VirtualCoupling<Vec3d>", "not finite"});
+  one::says([&] { c.setTarget({0, 0, 0}, {0, one::notANumber, 0}); }, {"not finite"});
   CHECK(c.place[0] == Vector3d(1, 2, 3));
+  // initialised again, as after a change of the scene or from a checkpoint
+  C again{.target = c.target, .targetVelocity = c.targetVelocity};
+  again = ready(again, rest);
+  CHECK(again.place[0] == Vector3d(1, 2, 3));
 }

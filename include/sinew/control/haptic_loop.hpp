@@ -35,7 +35,7 @@ struct HapticStatistics {
 ///   HapticLoop loop(device, {.stiffness = 800});
 ///   loop.start();
 ///   loop.run(60, 0.01, [&](ToolTarget const& target) {   // 60 s, in steps of 0.01 s
-///     coupling.follow(target.pose, target.velocity);     // a VirtualCoupling in the scene
+///     coupling.setTarget(target.pose, target.velocity);     // a VirtualCoupling in the scene
 ///     sim.animate(0.01);
 ///     return ToolState{tool.position[0], tool.velocity[0]};
 ///   });

@@ -14,7 +14,7 @@ namespace sinew {
 ///   f = -k d - c (v - v_t),  torque = -k_a t - c_a (w - w_t),  d = x - x_t                     [N], [N m]
 /// with t the rotation vector of q q_t^-1. An implicit step has all of it in its matrix, so that any
 /// stiffness and damping are stable in the simulation; of a turn in space the tangent is the symmetric part.
-/// follow() sets the target from outside, between steps: that of the end of the step, for a tool that lags
+/// setTarget() sets the target from outside, between steps: that of the end of the step, for a tool that lags
 /// least. Without a target the tool is drawn to its rest position.
 template <class D>
 struct VirtualCoupling {
@@ -92,6 +92,7 @@ struct VirtualCoupling {
     sized("target", target.size());
     sized("targetVelocity", targetVelocity.size());
     place.clear(), speed.clear();
+    target.reserve(1), targetVelocity.reserve(1);  // for setTarget
     for (std::size_t i = 0; i < n; ++i) {
       place.push_back(target.empty() ? context.rest[std::size_t(points[i])] : one(target, i));
       speed.push_back(targetVelocity.empty() ? Deriv(Deriv::Zero()) : one(targetVelocity, i));
@@ -106,10 +107,11 @@ struct VirtualCoupling {
 
   /// Where the device is, after init, for all points. Throws Error where that is not finite, and leaves the
   /// target as it was.
-  void follow(Coord const& x, Deriv const& v) {
+  void setTarget(Coord const& x, Deriv const& v) {
     if (!D::finite(x) || !v.allFinite())
       throw Error(component_name<VirtualCoupling>(),
                   "the target to follow is not finite; check the pose of the device");
+    target.assign(1, x), targetVelocity.assign(1, v);  // a checkpoint has them
     for (auto& p : place) p = x;
     for (auto& s : speed) s = v;
   }
