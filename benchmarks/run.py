@@ -121,7 +121,7 @@ def families(build, rounds):
 def collision(build, rounds):
     rows = []
     for program, target in (("bench_collision", "this processor"), ("bench_collision_portable", "any x86-64, as the other two are")):
-        print(f"\ncollision: microseconds a step, medians of {rounds} rounds in turn; Sinew compiled for {target}")
+        print(f"\ncollision: microseconds of the processor a step, medians of {rounds} rounds in turn; Sinew compiled for {target}")
         print(f"  {'scene':22} {'boxes':>8} {'pairs':>7} {'Sinew':>10} {'Bullet':>10} {'FCL':>10}  ns a box")
         for line in output(build / program, rounds).splitlines():
             scene, boxes, pairs, *times = line.split("; ")

@@ -59,7 +59,7 @@ TEST_CASE("a ray meets the first ball") {
   }
   CHECK(met > 1000);
   // what lies behind a hit is not asked
-  CHECK(asked < 10 * 20 * 300);
+  CHECK(asked < 4000);  // of 6000 rays; 4224 with the far child first
 }
 
 TEST_CASE("a ray reports all boxes that it enters, and stops when told") {
@@ -109,7 +109,7 @@ TEST_CASE("the nearest ball to a point, over 50 steps") {
     }
   }
   CHECK(none > 100);
-  CHECK(asked < 20 * 50 * 50);
+  CHECK(asked < 5 * 50 * 50);
 }
 
 TEST_CASE("of several at one distance the first is the nearest") {

@@ -55,10 +55,13 @@ std::vector<BoxPair> all_pairs(Boxes const& boxes, Real margin) {
   return pairs;
 }
 
-/// Which bodies may touch, from their boxes. A tree over the bodies, refitted from step to step: it was
-/// faster than a sweep along a sorted axis, eight comparisons at a time, for 1,000 balls (by 1.4), 10,000
-/// (by 2) and 100,000 (by 6), and has no bad directions. Bodies may come, go and jump; one with an empty box
-/// is absent.
+/// Which bodies may touch, from their boxes: the part of a collision pipeline that is called broad phase.
+/// Bodies may come, go and jump; one with an empty box is absent.
+///
+/// A tree over the bodies, refitted from step to step. Against sweep and prune, along the axis of largest
+/// extent and with eight comparisons at a time (AVX-512), its speed was 0.8, 1.2 and 3.3 times for 1,000,
+/// 10,000 and 100,000 balls in a cube, 0.8, 0.8 and 1.2 times on a plane, and 0.4 times for balls in a row.
+/// It has no arrangement that is bad for it, and does not need such registers.
 template <class Real>
 class BasicBroadPhase {
  public:
