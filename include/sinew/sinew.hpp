@@ -2,6 +2,17 @@
 #pragma once
 
 // All of Sinew that needs no other package than Eigen and Boost.Hana.
+#include <sinew/collision/brute_force_broad_phase.hpp>
+#include <sinew/collision/bvh_narrow_phase.hpp>
+#include <sinew/collision/contact_manager.hpp>
+#include <sinew/collision/continuous_intersection.hpp>
+#include <sinew/collision/default_pipeline.hpp>
+#include <sinew/collision/discrete_intersection.hpp>
+#include <sinew/collision/line_collision_model.hpp>
+#include <sinew/collision/min_proximity_intersection.hpp>
+#include <sinew/collision/point_collision_model.hpp>
+#include <sinew/collision/sphere_collision_model.hpp>
+#include <sinew/collision/triangle_collision_model.hpp>
 #include <sinew/constraint/affine_movement.hpp>
 #include <sinew/constraint/attach.hpp>
 #include <sinew/constraint/fixed_constraint.hpp>
@@ -55,6 +66,7 @@
 #include <sinew/force/triangle_fem.hpp>
 #include <sinew/force/triangular_shell.hpp>
 #include <sinew/force/uniform_velocity_damping.hpp>
+#include <sinew/force/virtual_coupling.hpp>
 #include <sinew/mapping/barycentric_mapping.hpp>
 #include <sinew/mapping/beam_linear_mapping.hpp>
 #include <sinew/mapping/center_of_mass_mapping.hpp>

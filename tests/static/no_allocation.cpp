@@ -5,6 +5,8 @@
 #include "one_tetrahedron/scene.hpp"
 #include "string_on_rigid/scene.hpp"
 
+#include <sinew/control/hand_device.hpp>
+#include <sinew/control/haptic_loop.hpp>
 #include <sinew/topology/regular_grid.hpp>
 
 #include <atomic>
@@ -129,4 +131,33 @@ TEST_CASE("no step after init allocates, not even the first") {
   for (const auto format : {StateFormat::text, StateFormat::binary})
     CHECK(allocations_of(replay(folder / "state", format)) == 0);
   CHECK(std::filesystem::file_size(folder / "state") > 3 * 65536 / 2);
+}
+
+TEST_CASE("the thread of a haptic loop does not allocate") {
+  struct Counted : HandDevice<Rigid3d::Coord (*)(double)> {
+    std::atomic<long> reads{0};
+    DeviceState read(double time) {
+      ++reads;
+      return HandDevice::read(time);
+    }
+  } device;
+  device.target = [](double time) {
+    Rigid3d::Coord pose;
+    pose.center[0] = 0.01 * time;
+    return pose;
+  };
+  HapticController settings;
+  settings.deviceMass = device.mass;
+  HapticLoop loop(device, settings);
+  loop.start();
+  auto ticks = [&](long n) {
+    for (const long until = device.reads + n; device.reads < until;) {
+      loop.publish({loop.target().pose, loop.target().velocity});
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  };
+  ticks(20);
+  const long before = allocations;
+  ticks(100);
+  CHECK(allocations == before);
 }

@@ -30,6 +30,13 @@ struct OdeSolver;
 struct LinearSolver;
 struct StepCallback;  // called before and after each step
 struct Engine;        // makes its outputs from its fields before the scene starts: loaders, selections
+// the stages of collision detection and response, in one node
+struct CollisionPipeline;  // composes them
+struct BroadPhase;         // which models are near each other
+struct NarrowPhase;        // which of their primitives are
+struct Intersection;       // where two primitives meet
+struct ContactManager;     // what answers it
+struct CollisionModel;     // primitives over the points of a state
 }  // namespace role
 
 template <class C, class R>
@@ -259,6 +266,19 @@ inline constexpr bool stands_beside = requires {
 template <class C>
 concept LinearSolver = HasRole<C, role::LinearSolver> && requires {
   { C::auxiliary } -> std::convertible_to<Auxiliary>;
+};
+
+/// A linear solver that keeps a matrix, whose pattern is fixed at init and when contacts join other points;
+/// one that does not says so.
+template <class C>
+inline constexpr bool needs_pattern = !requires { requires !C::needsPattern; };
+
+/// Primitives over the points of a state, at init; the rest is done with its `surface` (collision/).
+template <class C, class D = typename C::DataTypes>
+concept CollisionModel = HasRole<C, role::CollisionModel> && requires(C m, InitContext<D> c) {
+  { C::corners } -> std::convertible_to<int>;
+  m.init(c);
+  m.surface.elements;
 };
 
 }  // namespace sinew

@@ -53,13 +53,21 @@ struct RuntimeChecker {
             fail("joins bodies under different ODE solvers; put it and both bodies below one solver");
         }
     } else if constexpr (HasRole<C, role::ForceField> || HasRole<C, role::Mass> ||
-                         HasRole<C, role::ProjectiveConstraint> || WatchesState<C>) {
+                         HasRole<C, role::ProjectiveConstraint> || HasRole<C, role::CollisionModel> ||
+                         WatchesState<C>) {
       state<typename C::DataTypes>(
           scope,
           "what it acts on",
           "has no state to act on; put it into a node with a MechanicalObject, or below one");
       if (HasRole<C, role::ProjectiveConstraint> && scope.stateScope().mapped())
         fail("acts on a mapped state, which follows its parent; constrain the parent instead");
+      if constexpr (HasRole<C, role::CollisionModel>) {
+        bool managed = false;
+        scope.withContacts([&](auto&) { managed = true; });
+        if (!managed)
+          fail("has no DefaultPipeline above it that would look for its contacts; put one into the root, with a "
+               "BruteForceBroadPhase, a BVHNarrowPhase, a MinProximityIntersection and a DefaultContactManager");
+      }
     } else if constexpr (HasRole<C, role::Mapping>) {
       if constexpr (HasParents<C>)
         mappingWithParents(c);
@@ -178,7 +186,7 @@ struct RuntimeChecker {
 template <class R>
 void runtime_checks(RuntimeScope<R> const& scope) {
   auto& node = scope.node;
-  RuntimeEntry<R>* first[5]{};
+  RuntimeEntry<R>* first[10]{};
   for (auto& entry : node.components()) {
     auto one = [&]<class Role>(int slot, std::string_view what) {
       if (!entry.component.template is<Role>()) return;
@@ -202,6 +210,11 @@ void runtime_checks(RuntimeScope<R> const& scope) {
     one.template operator()<role::Mass>(2, "mass");
     one.template operator()<role::OdeSolver>(3, "ODE solver");
     one.template operator()<role::Topology>(4, "topology");
+    one.template operator()<role::CollisionPipeline>(5, "collision pipeline");
+    one.template operator()<role::BroadPhase>(6, "broad phase");
+    one.template operator()<role::NarrowPhase>(7, "narrow phase");
+    one.template operator()<role::Intersection>(8, "intersection method");
+    one.template operator()<role::ContactManager>(9, "contact manager");
   }
   std::set<std::string_view> names;
   for (auto const& child : node.children())

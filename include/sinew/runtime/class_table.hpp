@@ -46,9 +46,15 @@ enum class RoleKind {
   odeSolver,
   linearSolver,
   stepCallback,
-  engine
+  engine,
+  collisionPipeline,
+  broadPhase,
+  narrowPhase,
+  intersection,
+  contactManager,
+  collisionModel
 };
-inline constexpr std::array<std::string_view, 13> enum_names(RoleKind) {
+inline constexpr std::array<std::string_view, 19> enum_names(RoleKind) {
   return {"context",
           "topology",
           "state",
@@ -61,7 +67,13 @@ inline constexpr std::array<std::string_view, 13> enum_names(RoleKind) {
           "ODE solver",
           "linear solver",
           "step callback",
-          "engine"};
+          "engine",
+          "collision pipeline",
+          "broad phase",
+          "narrow phase",
+          "intersection method",
+          "contact manager",
+          "collision model"};
 }
 template <class Role>
 constexpr RoleKind role_kind() {
@@ -80,6 +92,12 @@ constexpr RoleKind role_kind() {
   is.template operator()<role::LinearSolver>();
   is.template operator()<role::StepCallback>();
   is.template operator()<role::Engine>();
+  is.template operator()<role::CollisionPipeline>();
+  is.template operator()<role::BroadPhase>();
+  is.template operator()<role::NarrowPhase>();
+  is.template operator()<role::Intersection>();
+  is.template operator()<role::ContactManager>();
+  is.template operator()<role::CollisionModel>();
   return RoleKind(found);
 }
 

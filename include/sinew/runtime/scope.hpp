@@ -282,6 +282,13 @@ struct RuntimeScope {
       if (entry.component.template visit<role::LinearSolver>(f)) return;
     above().withLinearSolver(f);
   }
+  template <class F>
+  void withContacts(F&& f) const {
+    if (atMount) return;
+    for (auto& entry : node.components())
+      if (entry.component.template visit<role::ContactManager>(f)) return;
+    above().withContacts(f);
+  }
 
  private:
   void addSurroundings(std::vector<void const*>& all) const {

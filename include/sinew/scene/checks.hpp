@@ -3,6 +3,8 @@
 
 #include <sinew/scene/scope.hpp>
 
+#include <array>
+
 namespace sinew::checks {
 
 // What a typed scene must fulfil, on types alone. Each check asserts with one sentence and returns whether it
@@ -34,6 +36,14 @@ constexpr bool has_linear_solver() {
     return false;
   else
     return S::NodeType::template count<role::LinearSolver> > 0 || has_linear_solver<typename S::Above>();
+}
+
+template <class S>
+constexpr bool has_contact_manager() {
+  if constexpr (std::is_same_v<S, NoScope>)
+    return false;
+  else
+    return S::NodeType::template count<role::ContactManager> > 0 || has_contact_manager<typename S::Above>();
 }
 
 /// Tetrahedra are in reach of components of this scope that act on its points.
@@ -317,6 +327,17 @@ constexpr bool component() {
         Mapping<C>,
         "Sinew: a component with role::Mapping does not fulfil the concept Mapping of core/component.hpp.");
     return Mapping<C> && mapping<C, S>();
+  } else if constexpr (std::is_same_v<R, role::CollisionModel>) {
+    static_assert(
+        CollisionModel<C>,
+        "Sinew: a component with role::CollisionModel does not fulfil that concept of core/component.hpp.");
+    constexpr bool managed = has_contact_manager<S>();
+    static_assert(
+        managed,
+        "Sinew: a collision model has no DefaultPipeline above it that would look for its contacts. Put one "
+        "into the root, with a "
+        "BruteForceBroadPhase, a BVHNarrowPhase, a MinProximityIntersection and a DefaultContactManager.");
+    return CollisionModel<C> && managed && acts_on_state<C, S>();
   } else if constexpr (std::is_same_v<R, role::OdeSolver>) {
     static_assert(OdeSolver<C>,
                   "Sinew: a component with role::OdeSolver does not fulfil the concept OdeSolver of "
@@ -331,6 +352,27 @@ constexpr bool component() {
   }
 }
 
+/// A node that has one stage of collision detection has all of them, once.
+template <class N>
+constexpr bool whole_pipeline() {
+  constexpr std::array stages{N::template count<role::CollisionPipeline>,
+                              N::template count<role::BroadPhase>,
+                              N::template count<role::NarrowPhase>,
+                              N::template count<role::Intersection>,
+                              N::template count<role::ContactManager>};
+  constexpr bool same = [stages] {
+    for (const int n : stages)
+      if (n != stages[0] || n > 1) return false;
+    return true;
+  }();
+  static_assert(same,
+                "Sinew: collision detection needs one of each stage in its node: a DefaultPipeline, a broad "
+                "phase (BruteForceBroadPhase), a "
+                "narrow phase (BVHNarrowPhase), an intersection method (MinProximityIntersection), a "
+                "DefaultContactManager.");
+  return same;
+}
+
 template <class S>
 constexpr bool one_of_each() {
   using N = typename S::NodeType;
@@ -342,7 +384,7 @@ constexpr bool one_of_each() {
   static_assert(mapping, "Sinew: a node has two mappings; its state can follow one parent.");
   static_assert(mass, "Sinew: a node has two masses. Keep one.");
   static_assert(solver, "Sinew: a node has two ODE solvers. Keep one.");
-  return state && mapping && mass && solver;
+  return state && mapping && mass && solver && whole_pipeline<N>();
 }
 
 /// Proves the scene below a scope.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/collision/collision_surface.hpp>
 #include <sinew/core/assembly.hpp>
 #include <sinew/scene/scope.hpp>
 #include <sinew/state/vector_operations.hpp>
@@ -101,6 +102,7 @@ struct MechanicalOperations {
             c.addForce(params, s[f], s[x], s[v]);
           }
         }));
+    addContactForces(f, x, v);
     accumulate(f, [f](auto& mapping, auto& child, auto&) {
       if constexpr (HasGeometricStiffness<std::decay_t<decltype(mapping)>>) mapping.updateK(child[f]);
     });
@@ -168,6 +170,7 @@ struct MechanicalOperations {
                  }
                }
              }));
+    if (p.k != 0 || p.b != 0) addContactDForces(r, dx, p);
     accumulate(r, [&](auto& mapping, auto&, auto& parent) {
       if constexpr (HasGeometricStiffness<std::decay_t<decltype(mapping)>>)
         if (p.k != 0) mapping.addKx(parent[r], parent[dx], p.k);
@@ -332,6 +335,59 @@ struct MechanicalOperations {
     return MatrixSink<Phase, Matrix, Dofs>{matrix, first, second};
   }
 
+  // f(contact manager, number of this solver), if there are collision models below it
+  template <class F>
+  void withContacts(F&& f) {
+    root.withContacts([&](auto& manager) {
+      int solver = -1;
+      traverse(root,
+               on<role::CollisionModel>([&](auto& model, auto const&) { solver = model.surface.solver; }));
+      if (solver >= 0 && manager.acts()) f(manager, solver);
+    });
+  }
+  void addContactForces(DerivId f, CoordId x, DerivId v) {
+    withContacts([&](auto& manager, int solver) {
+      traverse(root, on<role::CollisionModel>([&](auto& model, auto const& scope) {
+                 auto& s = stateOf(model, scope);
+                 see_touched<DataTypesOf<decltype(s)>>(model.surface, s[x], s[v]);
+               }));
+      manager.addForces([=](auto const& contact) { return contact.solver == solver; });
+      scatterContactForces(f);
+    });
+  }
+  void addContactDForces(DerivId r, DerivId dx, MechanicalParams const& p) {
+    withContacts([&](auto& manager, int solver) {
+      traverse(root, on<role::CollisionModel>([&](auto& model, auto const& scope) {
+                 auto& s = stateOf(model, scope);
+                 see_touched<DataTypesOf<decltype(s)>>(model.surface, s[dx]);
+               }));
+      manager.addDForces(p.k, p.b, [=](auto const& contact) { return contact.solver == solver; });
+      scatterContactForces(r);
+    });
+  }
+  void scatterContactForces(DerivId f) {
+    traverse(root, on<role::CollisionModel>([&](auto& model, auto const& scope) {
+               auto& s = stateOf(model, scope);
+               if (model.simulated) add_forces<DataTypesOf<decltype(s)>>(s[f], model.surface);
+             }));
+  }
+  template <AssemblyPhase Phase, class Matrix>
+  void assembleContacts(Matrix& matrix, MechanicalParams const& p) {
+    if constexpr (Phase != AssemblyPhase::bind)
+      withContacts([&](auto& manager, int solver) {
+        manager.assembly.entries.clear();
+        traverse(root, on<role::CollisionModel>([&](auto& model, auto const& scope) {
+                   using D = typename std::decay_t<decltype(model)>::DataTypes;
+                   if (model.simulated)
+                     scope.template withDofs<D>([&](auto const& dofs) {
+                       manager.assembly.template addVertices<D>(model.surface, dofs);
+                     });
+                 }));
+        manager.template assemble<Phase>(
+            matrix, p.k, p.b, [=](auto const& contact) { return contact.solver == solver; });
+      });
+  }
+
   template <AssemblyPhase Phase, class Matrix>
   void assemblePhase(Matrix& matrix, MatrixFactors factors) {
     const MechanicalParams p{.time = time, .dt = dt, .m = factors.m, .b = factors.b, .k = factors.k};
@@ -364,6 +420,7 @@ struct MechanicalOperations {
               withSink(a, b, [&](auto const& sink) { c.addToMatrix(p, sink); });
             });
         }));
+    assembleContacts<Phase>(matrix, p);
   }
 };
 

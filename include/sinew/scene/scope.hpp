@@ -19,6 +19,8 @@ struct NoScope {
   static Eigen::Vector3d gravity() { return Eigen::Vector3d::Zero(); }
   static TopologyView topology() { return {}; }
   static void const* topologyAddress() { return nullptr; }
+  template <class F>
+  static void withContacts(F&&) {}
 };
 
 /// Whether an init is the first one, or that of a scene that has changed, in which these components have to
@@ -290,6 +292,14 @@ struct Scope {
       f(node.template first<role::LinearSolver>());
     else
       above.withLinearSolver(f);
+  }
+  /// f(contact manager) with the nearest one, from this node upwards, if there is one.
+  template <class F>
+  void withContacts(F&& f) const {
+    if constexpr (always<role::ContactManager>)
+      f(node.template first<role::ContactManager>());
+    else
+      above.withContacts(f);
   }
 
  private:

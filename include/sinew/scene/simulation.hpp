@@ -2,8 +2,10 @@
 #pragma once
 
 #include <sinew/scene/checks.hpp>
+#include <sinew/scene/collision.hpp>
 #include <sinew/scene/element_removal.hpp>
 #include <sinew/scene/mechanical_operations.hpp>
+#include <sinew/scene/picking.hpp>
 
 namespace sinew {
 
@@ -29,7 +31,8 @@ class Simulation {
   /// no longer finite after the step.
   void animate(double dt);
 
-  /// Back to positions and velocities as they were after init, at time 0.
+  /// Back to positions and velocities as they were after init, at time 0; contacts are forgotten, and what
+  /// was attached is released.
   void reset();
 
   /// What records completes its files. Throws Error where one could not be written. Without that, the end of
@@ -92,16 +95,58 @@ class Simulation {
   /// element, and where what is left is no scene: nothing has changed then.
   TopologyChange removeElements(std::string_view path, ElementNumbers const& elements);
 
+  /// What the ray from `origin` along `direction` meets first of the collision models, where they are now, up
+  /// to maxDistance [m]: triangles and spheres, from outside or inside, and lines and points that it passes
+  /// within `tolerance` of. Throws Error where the ray is not one.
+  std::optional<Pick> pick(Eigen::Vector3d const& origin, Eigen::Vector3d const& direction,
+                           double maxDistance = std::numeric_limits<double>::infinity(),
+                           double tolerance = 0) {
+    initialisedFor("pick");
+    return picking([&](auto const& p) { return p.pick(origin, direction, maxDistance, tolerance); });
+  }
+  /// Holds a picked place by a spring whose other end, at first where the place is, pull() moves. It acts as
+  /// a contact does, through mappings and implicitly under an implicit solver. Returns the number by which it
+  /// is pulled and released; throws Error where the settings are wrong, where the place is gone, and where no
+  /// solver moves the model.
+  int attach(Pick const& place, AttachSettings const& settings = {}) {
+    initialisedFor("attach");
+    return picking([&](auto const& p) { return p.attach(place, settings); });
+  }
+  /// Moves the other end of an attachment, which has this velocity there (its damping asks for it). False,
+  /// and nothing is done, where there is no such attachment: it was released, or what it held was removed.
+  bool pull(int attachment, Eigen::Vector3d const& target,
+            Eigen::Vector3d const& velocity = Eigen::Vector3d::Zero()) {
+    return picking([&](auto const& p) { return p.pull(attachment, target, velocity); });
+  }
+  /// Lets go. False where there was no such attachment.
+  bool release(int attachment) {
+    return picking([&](auto const& p) { return p.release(attachment); });
+  }
+  /// An attachment as it is, with its force on the body at the last evaluation; null where there is none.
+  Attachment const* attachment(int id) {
+    return picking([&](auto const& p) { return p.find(id); });
+  }
+
  private:
   Root root_;
   double time_ = 0;
   long step_ = 0;
   bool initialised_ = false, visualsAreCurrent_ = false;
   static constexpr NoScope above_{};
+  static constexpr bool collides = detail::primitive_kinds<RootScope>() != 0;
 
   static RootScope scopeOf(Root& root) { return {root, above_}; }
   RootScope rootScope() { return scopeOf(root_); }
 
+  void initialisedFor(std::string_view what) const {
+    if (!initialised_)
+      throw Error(text("Simulation::", what), "the scene is not initialised; call init() first");
+  }
+  template <class F>
+  auto picking(F&& f) {
+    const auto scope = rootScope();
+    return f(Picking<RootScope>{scope});
+  }
   template <class F>
   auto over(F&& f) {
     const auto scope = rootScope();
@@ -182,6 +227,8 @@ class Simulation {
   static void initComponent(C& c, S const& scope) {
     if constexpr (HasRole<C, role::Topology>) {
       scope.withContext([&](auto const& context) { c.init(context); });
+    } else if constexpr (HasRole<C, role::CollisionModel>) {
+      c.init(scope.template context<typename C::DataTypes>());
     } else if constexpr (JoinsTwo<C>) {
       using D = typename C::DataTypes;
       scope.withEnds(c, [&](auto const& a, auto const& b) {
@@ -243,6 +290,17 @@ class Simulation {
       using VecDeriv = std::decay_t<decltype(a.velocity)>;
       for (auto* end : {&a, &b}) end->externalForce = VecDeriv(end->size(), VecDeriv::value_type::Zero());
     });
+    // contacts may come to be between any two
+    int solvers = 0;
+    traverse(scope, on<role::CollisionModel>([&](auto& model, auto const&) {
+               solvers = std::max(solvers, model.surface.solver + 1);
+             }));
+    if (solvers > 1)
+      traverse(scope, on<role::CollisionModel>([](auto& model, auto const& s) {
+                 using D = typename std::decay_t<decltype(model)>::DataTypes;
+                 auto& state = s.template state<D>();
+                 if (model.surface.solver >= 0) state.externalForce.assign(state.size(), D::Deriv::Zero());
+               }));
   }
   void computeLoose(RootScope const& scope, double dt) const {
     forEachLoose(scope, [](auto&, auto& a, auto& b) {
@@ -252,6 +310,42 @@ class Simulation {
     const MechanicalParams p{.time = time_, .dt = dt};
     forEachLoose(scope, [&](auto& c, auto& a, auto& b) {
       c.addForce(p, a.externalForce, b.externalForce, a.position, b.position, a.velocity, b.velocity);
+    });
+    if constexpr (collides) addLooseContacts(scope);
+  }
+  // contacts between two solvers are such interactions
+  static void addLooseContacts(RootScope const& scope) {
+    auto withModels = [&](auto&& f) {
+      traverse(scope, on<role::CollisionModel>([&](auto& model, auto const& s) {
+                 using D = typename std::decay_t<decltype(model)>::DataTypes;
+                 auto& state = s.template state<D>();
+                 if (!state.externalForce.empty()) f(model, state, std::type_identity<D>{});
+               }));
+    };
+    withModels([](auto&, auto& state, auto) { vec::clear(state.externalForce); });
+    traverse(scope, on<role::ContactManager>([&](auto& manager, auto const&) {
+               withModels([]<class D>(auto& model, auto& state, std::type_identity<D>) {
+                 see_touched<D>(model.surface, state.position, state.velocity);
+               });
+               manager.addForces([](auto const& contact) { return contact.loose; });
+               withModels([]<class D>(auto& model, auto& state, std::type_identity<D>) {
+                 if (model.simulated) add_forces<D>(state.externalForce, model.surface);
+               });
+             }));
+  }
+  // contacts of a step that begins; a matrix in which other points are joined is formed anew
+  void detectContacts(RootScope const& scope, double dt) const {
+    Collision<RootScope>{scope}.detect(dt, [&](auto const& solved, bool) {
+      auto visit = on<role::OdeSolver>([&](auto& ode) {
+        if constexpr (std::decay_t<decltype(ode)>::implicit)
+          solved.withLinearSolver([&](auto& linear) {
+            if constexpr (needs_pattern<std::decay_t<decltype(linear)>>) {
+              MechanicalOperations<std::decay_t<decltype(solved)>> operations(solved, time_, dt);
+              linear.init(operations);
+            }
+          });
+      });
+      solved.forEachComponent(visit);
     });
   }
 
@@ -373,6 +467,7 @@ void Simulation<Root>::animate(double dt) {
   if constexpr (proved) {
     const auto scope = rootScope();
     beginStep(scope, dt);
+    if constexpr (collides) detectContacts(scope, dt);
     computeLoose(scope, dt);
     integrate(scope, dt);
     time_ += dt;
@@ -386,6 +481,7 @@ template <class Root>
 void Simulation<Root>::reset() {
   if (!initialised_) throw Error("Simulation::reset", "the scene is not initialised; call init() first");
   traverse(rootScope(), on<role::State>([](auto& s, auto const&) { s.reset(); }));
+  traverse(rootScope(), on<role::ContactManager>([](auto& manager, auto const&) { manager.forget(); }));
   time_ = 0;
   step_ = 0;
   propagate();
@@ -440,6 +536,7 @@ void Simulation<Root>::initScene(RootScope const& scope, InitAgain const& again)
              s.ifNew(c, again, [&] { initComponent(c, s); });
            }));
   scope.raise();
+  Collision<RootScope>{scope}.init(bool(again));
   initSolvers(scope, again);
   scope.raise();
   initLoose(scope);

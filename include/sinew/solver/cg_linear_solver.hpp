@@ -16,7 +16,7 @@ struct CGLinearSolver {
   static constexpr std::string_view className = "CGLinearSolver";
   static constexpr std::string_view templateName = Matrix::name;
   static constexpr std::string_view aliases = "CGSolver ConjugateGradient";
-  static constexpr bool matrixFree = std::is_same_v<Matrix, GraphScattered>;
+  static constexpr bool matrixFree = std::is_same_v<Matrix, GraphScattered>, needsPattern = !matrixFree;
   static constexpr Auxiliary auxiliary{.derivs = matrixFree ? 3 : 0};
 
   int iterations = 25;      // at most

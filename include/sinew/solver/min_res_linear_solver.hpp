@@ -18,7 +18,7 @@ struct MinResLinearSolver {
   static constexpr std::string_view className = "MinResLinearSolver";
   static constexpr std::string_view templateName = Matrix::name;
   static constexpr std::string_view aliases = "MINRESSolver MinResSolver";
-  static constexpr bool matrixFree = std::is_same_v<Matrix, GraphScattered>;
+  static constexpr bool matrixFree = std::is_same_v<Matrix, GraphScattered>, needsPattern = !matrixFree;
   static constexpr Auxiliary auxiliary{.derivs = matrixFree ? 4 : 0};
 
   int iterations = 25;      // at most

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/collision/collision_surface.hpp>
+#include <sinew/core/component.hpp>
+
+#include <string>
+
+namespace sinew {
+
+/// The fields that all collision models have, and those of one kind behind them.
+template <class M, class... More>
+constexpr auto collision_model_fields(More... more) {
+  return field_list(
+      field("active", &M::active, "", "takes part in collisions"),
+      field("moving", &M::moving, "", "moves: two models that do not are never compared"),
+      field("simulated", &M::simulated, "", "feels the forces of its contacts"),
+      field("selfCollision",
+            &M::selfCollision,
+            "",
+            "collides with itself; primitives that share a point do not"),
+      field("bothSide",
+            &M::bothSide,
+            "",
+            "both sides of a triangle are outside; else only the one from which its corners go round "
+            "counterclockwise"),
+      field("group", &M::group, "", "models that have a group in common do not collide with each other"),
+      field("proximity", &M::proximity, "m", "thickness around the primitives", range::nonNegative),
+      field("contactStiffness",
+            &M::contactStiffness,
+            "N/m",
+            "stiffness of contacts: that of a pair is the product of two, over the contact distance",
+            range::nonNegative),
+      field("contactFriction",
+            &M::contactFriction,
+            "",
+            "coefficient of friction: that of a pair is the sum",
+            range::nonNegative),
+      field("contactDamping",
+            &M::contactDamping,
+            "N s/m",
+            "damping of contacts along their normal: that of a pair is the sum",
+            range::nonNegative),
+      field("contactResponse",
+            &M::contactResponse,
+            "",
+            "class that answers contacts of this model; that of the contact manager when not given"),
+      more...);
+}
+
+/// What a model says of itself to detection and response.
+template <class M>
+void describe_surface(M const& model, CollisionSurface& surface, std::string const& where,
+                      std::size_t vertices) {
+  surface.corners = M::corners;
+  surface.rigid = M::DataTypes::rigid;
+  surface.active = model.active;
+  surface.moving = model.moving;
+  surface.simulated = model.simulated;
+  surface.selfCollision = model.selfCollision;
+  surface.bothSide = model.bothSide;
+  surface.group = model.group;
+  surface.proximity = model.proximity;
+  surface.stiffness = model.contactStiffness;
+  surface.friction = model.contactFriction;
+  surface.damping = model.contactDamping;
+  surface.response = model.contactResponse;
+  surface.path = where;
+  surface.resize(vertices);
+}
+
+}  // namespace sinew

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/collision/axis_box.hpp>
+#include <sinew/collision/bounding_tree.hpp>
+#include <sinew/core/data_types.hpp>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
+
+namespace sinew {
+
+/// What detection and response know of a collision model: its primitives over vertices in world space, each
+/// with a radius around it, and how they behave in contact. A model is to its surface what a mapping is to
+/// its child: positions and velocities go down, forces come up. Surfaces are alike for all DataTypes, so that
+/// what is between them is compiled once.
+struct CollisionSurface {
+  // of the model, at init
+  int corners = 0;  // of a primitive: 1 point or sphere, 2 segment, 3 triangle
+  bool rigid = false;
+  bool active = true, moving = true, simulated = true, selfCollision = false, bothSide = true;
+  double proximity = 0, stiffness = 10, friction = 0, damping = 0;
+  std::string response{};    // the class that answers its contacts; the manager's own where empty
+  std::vector<int> group{};  // models that share one do not collide
+  std::vector<std::array<int, 3>> elements{};  // their corners, -1 behind the last
+  std::vector<double> radius{};                // of each element; empty: 0
+  std::string path{};                          // for messages
+  void const* state = nullptr;
+  int number = -1;        // among the surfaces of the scene, in their order
+  int solver = -1;        // which of the ODE solvers moves it; none: -1
+  bool implicit = false;  // that solver is an implicit one
+  unsigned companions =
+      0;  // numbers of corners, as bits, of the models of points, lines and triangles on this state
+
+  // around the primitives, from the elements
+  std::vector<std::array<int, 3>> across{};  // of triangles: the corner opposite to the edge behind each
+                                             // corner in the neighbour; -1: none
+  std::vector<int> firstAround{},
+      around{};  // the vertices joined to each vertex by edges, in compressed rows
+
+  // vertices, now
+  std::vector<Eigen::Vector3d> position{}, velocity{}, force{}, dx{};
+  std::vector<Eigen::Vector3d> spin{}, torque{}, turn{};  // of rigids: angular velocity, ..., angular dx
+  std::vector<Eigen::Quaterniond> orientation{};          // of rigids
+  std::vector<int> touched{};                             // vertices with contacts
+  std::vector<char> isTouched{};
+
+  std::vector<AxisBox> boxes{};  // of the elements
+  AxisBox box{};
+  BoundingTree tree{};
+
+  std::size_t size() const { return elements.size(); }
+  double radiusOf(int element) const { return radius.empty() ? 0 : radius[std::size_t(element)]; }
+  /// The corners of an element.
+  template <std::size_t N>
+  std::array<Eigen::Vector3d, N> corner(std::vector<Eigen::Vector3d> const& of, int element) const {
+    std::array<Eigen::Vector3d, N> all;
+    for (std::size_t c = 0; c < N; ++c) all[c] = of[std::size_t(elements[std::size_t(element)][c])];
+    return all;
+  }
+
+  /// Whether the distance d from a place of this surface, on the primitive over these vertices of an element,
+  /// to somewhere else is the least one around it, and not only on this element: where it is not, a neighbour
+  /// is nearer (the filter of Duriez, LocalMinDistance).
+  bool isLocalMinimum(int element, std::array<int, 3> const& vertices, Eigen::Vector3d const& d) const {
+    if (corners == 1 || vertices[2] >= 0) return true;
+    auto towards = [&](Eigen::Vector3d const& way) { return d.dot(way) > 1e-9 * d.norm() * way.norm(); };
+    if (vertices[1] < 0) {
+      const auto v = std::size_t(vertices[0]);
+      for (int k = firstAround[v]; k < firstAround[v + 1]; ++k)
+        if (towards(position[std::size_t(around[std::size_t(k)])] - position[v])) return false;
+      return true;
+    }
+    if (corners == 2) return true;
+    auto const& e = elements[std::size_t(element)];
+    for (std::size_t c = 0; c < 3; ++c) {
+      const int p = e[c], q = e[(c + 1) % 3], other = across[std::size_t(element)][c];
+      if (!((p == vertices[0] && q == vertices[1]) || (q == vertices[0] && p == vertices[1])) || other < 0)
+        continue;
+      const Eigen::Vector3d edge = position[std::size_t(q)] - position[std::size_t(p)];
+      const Eigen::Vector3d way = position[std::size_t(other)] - position[std::size_t(p)];
+      return !towards(way - (way.dot(edge) / std::max(edge.squaredNorm(), 1e-300)) * edge);
+    }
+    return true;
+  }
+
+  void findNeighbours(std::size_t vertices) {
+    std::vector<std::array<int, 3>> edges;  // first, second vertex, 3 * triangle + corner
+    for (int e = 0; e < int(size()); ++e)
+      for (int c = 0; c < (corners == 3 ? 3 : corners - 1); ++c) {
+        const auto [p, q] = std::minmax(elements[std::size_t(e)][std::size_t(c)],
+                                        elements[std::size_t(e)][std::size_t((c + 1) % corners)]);
+        edges.push_back({p, q, 3 * e + c});
+      }
+    std::sort(edges.begin(), edges.end());
+    across.assign(corners == 3 ? size() : 0, {-1, -1, -1});
+    firstAround.assign(vertices + 1, 0);
+    auto same = [&](std::size_t i, std::size_t j) {
+      return edges[i][0] == edges[j][0] && edges[i][1] == edges[j][1];
+    };
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      if (i > 0 && same(i, i - 1)) continue;
+      ++firstAround[std::size_t(edges[i][0]) + 1];
+      ++firstAround[std::size_t(edges[i][1]) + 1];
+    }
+    for (std::size_t v = 0; v < vertices; ++v) firstAround[v + 1] += firstAround[v];
+    around.assign(std::size_t(firstAround[vertices]), -1);
+    auto next = firstAround;
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      if (corners == 3)  // of two triangles at an edge; more than two are beyond this filter
+        for (const std::size_t j : {i + 1, i - 1})
+          if (j < edges.size() && same(i, j)) {
+            const int there = edges[j][2];
+            across[std::size_t(edges[i][2] / 3)][std::size_t(edges[i][2] % 3)] =
+                elements[std::size_t(there / 3)][std::size_t((there % 3 + 2) % 3)];
+          }
+      if (i > 0 && same(i, i - 1)) continue;
+      around[std::size_t(next[std::size_t(edges[i][0])]++)] = edges[i][1];
+      around[std::size_t(next[std::size_t(edges[i][1])]++)] = edges[i][0];
+    }
+  }
+
+  void resize(std::size_t vertices) {
+    findNeighbours(vertices);
+    const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
+    for (auto* v : {&position, &velocity, &force, &dx}) v->assign(vertices, zero);
+    if (rigid)
+      for (auto* v : {&spin, &torque, &turn}) v->assign(vertices, zero);
+    if (rigid) orientation.assign(vertices, Eigen::Quaterniond::Identity());
+    touched.clear();
+    touched.reserve(vertices);
+    isTouched.assign(vertices, 0);
+    boxes.resize(size());
+  }
+
+  void forgetTouched() {
+    for (const int i : touched) isTouched[std::size_t(i)] = 0;
+    touched.clear();
+  }
+  void touch(int vertex) {
+    if (isTouched[std::size_t(vertex)]) return;
+    isTouched[std::size_t(vertex)] = 1;
+    touched.push_back(vertex);
+  }
+
+  /// Boxes of the elements where they are, or on their way during dt, with what is around them.
+  void enclose(double margin, double dt) {
+    box = AxisBox{};
+    for (std::size_t e = 0; e < size(); ++e) {
+      AxisBox b;
+      for (int c = 0; c < corners; ++c) {
+        const auto v = std::size_t(elements[e][std::size_t(c)]);
+        b.include(position[v]);
+        if (dt > 0) b.include(position[v] + dt * velocity[v]);
+      }
+      boxes[e] = b.grown(proximity + margin + radiusOf(int(e)));
+      box.include(boxes[e]);
+    }
+    tree.update(boxes);
+  }
+};
+
+/// Positions and velocities of a vertex of a surface from those of a point of its state.
+template <class D>
+void see(CollisionSurface& s, std::size_t i, typename D::Coord const& x, typename D::Deriv const& v) {
+  s.position[i] = D::center(x).template cast<double>();
+  s.velocity[i] = v.template head<3>().template cast<double>();
+  if constexpr (D::rigid) {
+    s.spin[i] = v.template tail<3>().template cast<double>();
+    s.orientation[i] =
+        Eigen::Quaterniond(x.orientation.w(), x.orientation.x(), x.orientation.y(), x.orientation.z());
+  }
+}
+template <class D>
+void see(CollisionSurface& s, typename D::VecCoord const& x, typename D::VecDeriv const& v) {
+  for (std::size_t i = 0; i < x.size(); ++i) see<D>(s, i, x[i], v[i]);
+}
+/// The same where there are contacts; and forces are zero there.
+template <class D>
+void see_touched(CollisionSurface& s, typename D::VecCoord const& x, typename D::VecDeriv const& v) {
+  for (const int t : s.touched) {
+    const auto i = std::size_t(t);
+    see<D>(s, i, x[i], v[i]);
+    s.force[i].setZero();
+    if constexpr (D::rigid) s.torque[i].setZero();
+  }
+}
+template <class D>
+void see_touched(CollisionSurface& s, typename D::VecDeriv const& dx) {
+  for (const int t : s.touched) {
+    const auto i = std::size_t(t);
+    s.dx[i] = dx[i].template head<3>().template cast<double>();
+    s.force[i].setZero();
+    if constexpr (D::rigid) {
+      s.turn[i] = dx[i].template tail<3>().template cast<double>();
+      s.torque[i].setZero();
+    }
+  }
+}
+/// f += the forces on the vertices.
+template <class D>
+void add_forces(typename D::VecDeriv& f, CollisionSurface const& s) {
+  using Real = typename D::Real;
+  for (const int t : s.touched) {
+    const auto i = std::size_t(t);
+    f[i].template head<3>() += s.force[i].template cast<Real>();
+    if constexpr (D::rigid) f[i].template tail<3>() += s.torque[i].template cast<Real>();
+  }
+}
+
+}  // namespace sinew

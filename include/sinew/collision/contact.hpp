@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/collision/collision_surface.hpp>
+#include <sinew/core/fields.hpp>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <compare>
+#include <concepts>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace sinew {
+
+/// A place on a surface: on the primitive over up to three vertices, with their weights; on a rigid also away
+/// from its centre.
+struct ContactSide {
+  int surface = -1, element = -1;
+  std::array<int, 3> vertices{-1, -1, -1};  // those of weight 0 are left out
+  std::array<double, 3> weights{0, 0, 0};
+  Eigen::Vector3d lever{0, 0, 0};  // from the centre of the rigid, in its axes
+
+  static constexpr auto fields() {
+    using S = ContactSide;
+    return field_list(field("surface", &S::surface, "", "model, in the order of the scene"),
+                      field("element", &S::element, "", "primitive of it"),
+                      field("vertices", &S::vertices, "", "its vertices, -1 behind the last"),
+                      field("weights", &S::weights, "", "of the vertices"),
+                      field("lever", &S::lever, "m", "from the centre of a rigid, in its axes"));
+  }
+  int corners() const { return 3 - int(vertices[1] < 0) - int(vertices[2] < 0); }
+};
+
+/// By what a contact is known again in the next step, and in which order contacts stand: surfaces in the
+/// order of the scene, and the vertices that meet.
+struct ContactKey {
+  std::array<int, 2> surfaces;
+  std::array<int, 6> vertices;
+  auto operator<=>(ContactKey const&) const = default;
+};
+
+/// Two places near each other. All is measured along u = p_b - p_a.
+struct Contact {
+  ContactSide a{}, b{};
+  Eigen::Vector3d normal{0, 0, 0};  // from a to b, of length 1
+  double thickness = 0;             // radii of the two: the surfaces are n.u - thickness apart
+  double limit = 0;                 // the response acts below this distance
+  double distance = 0;              // at detection
+
+  // of the two models together
+  double stiffness = 0, friction = 0, damping = 0;
+  int response = 0;       // place among the responses of the manager
+  int solver = -1;        // the ODE solver that sees it as part of its system
+  bool loose = false;     // between two solvers: for both a force that stays as it is during the step
+  bool implicit = false;  // the solver takes what the force will be at the end of the step
+
+  // memory of the response: the tangential displacement that friction holds against, and any other scalar
+  Eigen::Vector3d slip{0, 0, 0}, slide{0, 0, 0};  // ..., and the way it slid in the last step
+  double memory = 0;
+
+  // since detection
+  Eigen::Vector3d start{0, 0, 0};  // u at detection
+  // from the response, at the last evaluation: the way it slides; force on b, and -dF/du, -dF/du', both
+  // symmetric
+  Eigen::Vector3d sliding{0, 0, 0};
+  Eigen::Vector3d force{0, 0, 0};
+  Eigen::Matrix3d stiffnessMatrix = Eigen::Matrix3d::Zero(), dampingMatrix = Eigen::Matrix3d::Zero();
+
+  static constexpr auto fields() {
+    using C = Contact;
+    return field_list(field("a", &C::a, "", "first side"),
+                      field("b", &C::b, "", "second side"),
+                      field("normal", &C::normal, "", "from a to b"),
+                      field("thickness", &C::thickness, "m", "radii of the two"),
+                      field("limit", &C::limit, "m", "distance below which the response acts"),
+                      field("distance", &C::distance, "m", "at detection"),
+                      field("stiffness", &C::stiffness, "N/m", "of the two together"),
+                      field("friction", &C::friction, "", "coefficient"),
+                      field("damping", &C::damping, "N s/m", "along the normal"),
+                      field("response", &C::response, "", "place among the responses"),
+                      field("slip", &C::slip, "m", "tangential displacement since it sticks"),
+                      field("slide", &C::slide, "m", "the way it slid before"),
+                      field("memory", &C::memory, "", "of other responses"),
+                      field("start", &C::start, "m", "displacement at detection"),
+                      field("sliding", &C::sliding, "m", "the way it slides"));
+  }
+
+  ContactKey key() const {
+    ContactKey k{{a.surface, b.surface}, {}};
+    for (std::size_t c = 0; c < 3; ++c) k.vertices[c] = a.vertices[c], k.vertices[3 + c] = b.vertices[c];
+    for (auto first : {k.vertices.begin(), k.vertices.begin() + 3}) std::sort(first, first + 3);
+    return k;
+  }
+};
+
+/// p of a side, and its velocity.
+inline Eigen::Vector3d position_of(ContactSide const& side, CollisionSurface const& s) {
+  Eigen::Vector3d p(0, 0, 0);
+  for (std::size_t c = 0; c < 3 && side.vertices[c] >= 0; ++c)
+    p += side.weights[c] * s.position[std::size_t(side.vertices[c])];
+  if (s.rigid) p += s.orientation[std::size_t(side.vertices[0])] * side.lever;
+  return p;
+}
+inline Eigen::Vector3d lever_of(ContactSide const& side, CollisionSurface const& s) {
+  return s.orientation[std::size_t(side.vertices[0])] * side.lever;
+}
+/// A rate of a side from those of the vertices: velocity and spin, or dx and turn.
+inline Eigen::Vector3d rate_of(ContactSide const& side, CollisionSurface const& s,
+                               std::vector<Eigen::Vector3d> const& linear,
+                               std::vector<Eigen::Vector3d> const& angular) {
+  Eigen::Vector3d v(0, 0, 0);
+  for (std::size_t c = 0; c < 3 && side.vertices[c] >= 0; ++c)
+    v += side.weights[c] * linear[std::size_t(side.vertices[c])];
+  if (s.rigid) v += angular[std::size_t(side.vertices[0])].cross(lever_of(side, s));
+  return v;
+}
+/// Brings a force at a side to the vertices.
+inline void add_force(ContactSide const& side, CollisionSurface& s, Eigen::Vector3d const& f) {
+  for (std::size_t c = 0; c < 3 && side.vertices[c] >= 0; ++c)
+    s.force[std::size_t(side.vertices[c])] += side.weights[c] * f;
+  if (s.rigid) s.torque[std::size_t(side.vertices[0])] += lever_of(side, s).cross(f);
+}
+
+/// What answers a contact by a force: evaluate(contact, u, u') sets force, stiffnessMatrix and dampingMatrix
+/// for the relative displacement u and velocity u'; settle(contact, u) what it remembers for the next step.
+template <class R>
+concept ContactLaw = requires(R const r, Contact c, Eigen::Vector3d u) {
+  { R::className } -> std::convertible_to<std::string_view>;
+  r.evaluate(c, u, u);
+  r.settle(c, u);
+};
+/// What answers a contact by changing a component C that stands on a touched state, in its own way:
+/// touch(component, points) with the touched points of that state.
+template <class R, class C>
+concept TouchResponse = requires(R const r, C c, std::span<int const> points) {
+  r.touch(c, points);
+};
+
+}  // namespace sinew

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/collision/contact.hpp>
+#include <sinew/core/assembly.hpp>
+
+namespace sinew {
+
+/// Adds contacts to the matrix of a solver, as J' (k K + b B) J with the Jacobian J of u = p_b - p_a: first
+/// the models say on which degrees of freedom their touched vertices depend, then the contacts add their
+/// blocks.
+struct ContactAssembly {
+  struct Entry {
+    int surface, vertex, dof, columns;
+    Eigen::Matrix<double, 6, 6> rows;  // of the linear and, of a rigid, the angular velocity of the vertex
+  };
+  std::vector<Entry> entries{};  // rising by surface and vertex
+
+  /// The touched vertices of a surface, whose degrees of freedom are `dofs`.
+  template <class D, class Dofs>
+  void addVertices(CollisionSurface const& s, Dofs const& dofs) {
+    for (const int vertex : s.touched)
+      dofs.expand(vertex, [&](int dof, auto const& j) {
+        Entry e{s.number, vertex, dof, 0, {}};
+        if constexpr (std::is_same_v<std::decay_t<decltype(j)>, IdentityJacobian>) {
+          e.columns = D::size;
+          e.rows.setIdentity();
+        } else {
+          e.columns = int(j.cols());
+          for (int c = 0; c < e.columns; ++c)
+            for (int r = 0; r < D::size; ++r) e.rows(r, c) = double(j(r, c));
+        }
+        entries.push_back(e);
+      });
+  }
+  void sort() {
+    std::stable_sort(entries.begin(), entries.end(), [](Entry const& x, Entry const& y) {
+      return std::pair(x.surface, x.vertex) < std::pair(y.surface, y.vertex);
+    });
+  }
+
+  template <AssemblyPhase Phase, class Matrix>
+  void add(Matrix& matrix, Contact const& c, std::vector<CollisionSurface*> const& surfaces, double k,
+           double b) {
+    blocks_.clear();
+    if (c.a.surface >= 0) addSide(c.a, *surfaces[std::size_t(c.a.surface)], -1);
+    addSide(c.b, *surfaces[std::size_t(c.b.surface)], 1);
+    const Eigen::Matrix3d kb = -(k * c.stiffnessMatrix + b * c.dampingMatrix);
+    for (Block const& x : blocks_)
+      for (Block const& y : blocks_) {
+        if constexpr (Phase == AssemblyPhase::pattern) matrix.announce(x.dof, y.dof, x.columns, y.columns);
+        if constexpr (Phase == AssemblyPhase::add) {
+          const Eigen::Matrix<double, 6, 6> all = x.rows.transpose() * kb * y.rows;
+          matrix.add(
+              x.dof, y.dof, Eigen::Matrix<double, -1, -1, 0, 6, 6>(all.topLeftCorner(x.columns, y.columns)));
+        }
+      }
+  }
+
+ private:
+  struct Block {
+    int dof, columns;
+    Eigen::Matrix<double, 3, 6> rows;
+  };
+  std::vector<Block> blocks_{};
+
+  void addSide(ContactSide const& side, CollisionSurface const& s, double sign) {
+    for (int corner = 0; corner < side.corners(); ++corner) {
+      const int vertex = side.vertices[std::size_t(corner)];
+      const double w = sign * side.weights[std::size_t(corner)];
+      auto e = std::lower_bound(entries.begin(),
+                                entries.end(),
+                                std::pair(side.surface, vertex),
+                                [](Entry const& x, std::pair<int, int> const& key) {
+                                  return std::pair(x.surface, x.vertex) < key;
+                                });
+      for (; e != entries.end() && e->surface == side.surface && e->vertex == vertex; ++e) {
+        Block block{e->dof, e->columns, {}};
+        block.rows = w * e->rows.topRows<3>();
+        if (s.rigid) {
+          const Eigen::Vector3d r = lever_of(side, s);
+          for (int column = 0; column < e->columns; ++column)
+            block.rows.col(column) += w * e->rows.col(column).tail<3>().cross(r);
+        }
+        for (int column = e->columns; column < 6; ++column) block.rows.col(column).setZero();
+        blocks_.push_back(block);
+      }
+    }
+  }
+};
+
+}  // namespace sinew

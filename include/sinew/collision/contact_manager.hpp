@@ -1,0 +1,385 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/collision/attachment.hpp>
+#include <sinew/collision/contact_assembly.hpp>
+#include <sinew/collision/penalty_contact.hpp>
+#include <sinew/collision/stick_contact.hpp>
+#include <sinew/core/component.hpp>
+
+#include <span>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace sinew {
+
+/// Keeps the contacts from step to step and has them answered: by the response of a model that names one,
+/// else by its own. A contact is known again by the vertices that meet; what its response remembers goes with
+/// it. Contacts stand in the order of their keys, whatever the order in which they were found.
+///
+/// `Responses`: laws of force (ContactLaw), and what changes components that are touched (TouchResponse).
+/// Two models together have the stiffness k1 k2 / (contact distance), the sum of frictions and of dampings,
+/// as in SOFA.
+template <class... Responses>
+struct ContactManager {
+  using Role = role::ContactManager;
+  static constexpr std::string_view className = "DefaultContactManager";
+  static constexpr std::string_view aliases = "CollisionResponse";
+
+  std::string response = "PenalityContactForceField";
+  int capacity = 1000;
+  std::tuple<Responses...> responses{};
+
+  static constexpr auto fields() {
+    using M = ContactManager;
+    return field_list(
+        field("response", &M::response, "", "class that answers contacts of models which name none"),
+        field("capacity",
+              &M::capacity,
+              "",
+              "contacts for which there is room from the start; more are allowed, and make a step allocate",
+              range::atLeast(0)));
+  }
+
+  std::vector<Contact> contacts{};  // rising by key
+
+  static constexpr auto state() {
+    return field_list(field(
+        "contacts", &ContactManager::contacts, "", "contacts of the last step, and what they remember"));
+  }
+
+  // of the steps
+  std::vector<Contact> found{};
+  std::vector<CollisionSurface*> surfaces{};  // in the order of the scene, of this step
+  std::vector<int> points{};
+  ContactAssembly assembly{};
+  struct OfVertex {
+    std::array<int, 4> key;  // surfaces, side, vertex
+    int contact;
+  };
+  std::vector<OfVertex> ofVertices{};     // contacts of single vertices
+  long grown = 0;                         // how often there was no room
+  bool couplingChanged = false;           // since the last step: other vertices meet than before
+  std::vector<Attachment> attachments{};  // places that are held from outside
+  std::vector<Contact> keptContacts{};    // those that follow a change of the scene, until init
+  std::vector<Attachment> keptAttachments{};
+  bool coupleAnew = false;  // whatever the contacts are
+  int lastAttachment = 0;
+
+  static constexpr int count = int(sizeof...(Responses));
+  static std::string names() {
+    std::string all;
+    ((all += text(all.empty() ? "" : ", ", Responses::className)), ...);
+    return all;
+  }
+  /// Place of a response among those of this manager; -1 where it has none of that name.
+  static int find(std::string_view name) {
+    int place = -1, i = 0;
+    auto look = [&]<class R>(R const*) {
+      bool same = R::className == name;
+      for_each_name(class_aliases<R>(), [&](std::string_view other) { same = same || other == name; });
+      if (same && place < 0) place = i;
+      ++i;
+    };
+    (look(static_cast<Responses const*>(nullptr)), ...);
+    return place;
+  }
+
+  void init(std::string const& where, std::vector<CollisionSurface*> const& all, bool again = false) {
+    surfaces = all;
+    if (again) {
+      contacts = std::exchange(keptContacts, {});
+      attachments = std::exchange(keptAttachments, {});
+    }
+    coupleAnew = acts();
+    found.clear();
+    contacts.reserve(std::size_t(capacity));
+    found.reserve(std::size_t(capacity));
+    ofVertices.reserve(2 * std::size_t(capacity));
+    attachments.reserve(8);
+    grown = 0;
+    auto known = [&](std::string_view place, std::string_view name) {
+      if (find(name) < 0)
+        throw Error(place,
+                    text("contacts are to be answered by '",
+                         name,
+                         "', which this contact manager does not have; take one of: ",
+                         names()));
+    };
+    known(where, response);
+    for (auto const* s : surfaces)
+      if (!s->response.empty()) known(s->path, s->response);
+    for (std::size_t i = 0; i < contacts.size(); ++i)
+      if (!fits(contacts[i].a) || !fits(contacts[i].b) || contacts[i].response < 0 ||
+          contacts[i].response >= count)
+        throw Error(where,
+                    text(component_name<ContactManager>(),
+                         ": contact ",
+                         i,
+                         " of the checkpoint is between primitives that this scene does not have; take the "
+                         "checkpoint with the "
+                         "scene that it was made of"));
+  }
+
+  bool acts() const { return !contacts.empty() || !attachments.empty(); }
+  /// As if nothing had ever touched.
+  void forget() {
+    coupleAnew = coupleAnew || acts();
+    contacts.clear();
+    attachments.clear();
+  }
+
+  /// Holds a place from now on: the attachment with a number, which nothing else has.
+  void attach(Attachment const& a) {
+    attachments.push_back(a);
+    coupleAnew = true;
+  }
+  Attachment* attachment(int id) {
+    for (Attachment& a : attachments)
+      if (a.id == id) return &a;
+    return nullptr;
+  }
+  /// Lets go; says whether it was held.
+  bool release(int id) {
+    const bool held = std::erase_if(attachments, [id](Attachment const& a) { return a.id == id; }) > 0;
+    coupleAnew = coupleAnew || held;
+    return held;
+  }
+
+  /// What touches goes on when vertices go, those of surface s being renumbered by `of(s)`: contacts of what
+  /// stays keep what they remember.
+  template <class Of>
+  void follow(Of&& of) {
+    auto stays = [&](Contact& c) {
+      for (ContactSide* side : {&c.a, &c.b})
+        for (int k = 0; side->surface >= 0 && k < side->corners(); ++k) {
+          auto const& renumbering = of(side->surface);
+          int& vertex = side->vertices[std::size_t(k)];
+          if (!renumbering.stays(vertex)) return false;
+          renumbering.renumber(vertex);
+        }
+      return true;
+    };
+    keptContacts.clear();
+    keptAttachments.clear();
+    for (Contact c : contacts)
+      if (stays(c)) keptContacts.push_back(c);
+    for (Attachment a : attachments)
+      if (stays(a.contact)) keptAttachments.push_back(a);
+  }
+
+  /// f(response) for the one that answers a contact.
+  template <class F>
+  void withResponse(Contact const& c, F&& f) const {
+    [&]<std::size_t... I>(std::index_sequence<I...>) {
+      ((c.response == int(I) ? f(std::get<I>(responses)) : void()), ...);
+    }
+    (std::index_sequence_for<Responses...>{});
+  }
+
+  /// What the responses remember of the step that has ended, the surfaces being where it, and what has moved
+  /// since, has brought them.
+  void settle(std::vector<CollisionSurface*> const& all) {
+    surfaces.assign(all.begin(), all.end());
+    for (Contact& c : contacts)
+      withResponse(c, [&](auto const& law) {
+        if constexpr (requires { law.settle(c, c.start); }) law.settle(c, displacement(c));
+      });
+  }
+
+  void add(Contact const& c) {
+    if (found.size() == found.capacity()) ++grown;
+    found.push_back(c);
+  }
+
+  /// The contacts that were found take the place of those before.
+  void manage(double dt) {
+    const auto before = [](Contact const& x, Contact const& y) {
+      const ContactKey kx = x.key(), ky = y.key();
+      if (kx != ky) return kx < ky;
+      if (x.distance != y.distance) return x.distance < y.distance;
+      return std::pair(x.a.element, x.b.element) < std::pair(y.a.element, y.b.element);
+    };
+    std::sort(found.begin(), found.end(), before);
+    // the same vertices meet in several pairs of primitives: once is enough
+    found.erase(std::unique(found.begin(),
+                            found.end(),
+                            [](Contact const& x, Contact const& y) { return x.key() == y.key(); }),
+                found.end());
+    couplingChanged = std::exchange(coupleAnew, false) || found.size() != contacts.size();
+    listVertices();
+    auto old = contacts.begin();
+    for (Contact& c : found) {
+      const ContactKey key = c.key();
+      while (old != contacts.end() && old->key() < key) ++old;
+      const bool again = old != contacts.end() && old->key() == key;
+      couplingChanged = couplingChanged || !again;
+      describe(c, *surfaces[std::size_t(c.a.surface)], *surfaces[std::size_t(c.b.surface)]);
+      c.start = displacement(c);
+      if (again)
+        remember(c, *old);
+      else if (Contact const* other = ofSameVertex(key))
+        remember(c, *other);
+    }
+    contacts.swap(found);
+    found.clear();
+    std::apply([dt](auto&... r) { (setStep(r, dt), ...); }, responses);
+    for (auto* s : surfaces) s->forgetTouched();
+    auto touch = [&](ContactSide const& side) {
+      for (int k = 0; k < side.corners(); ++k)
+        surfaces[std::size_t(side.surface)]->touch(side.vertices[std::size_t(k)]);
+    };
+    for (Contact const& c : contacts) touch(c.a), touch(c.b);
+    for (Attachment& a : attachments) {
+      touch(a.contact.b);
+      find_solver(a.contact, nullptr, surfaces[std::size_t(a.contact.b.surface)]);
+    }
+  }
+
+  /// f(response, state, touched points of it) for the contacts of responses that change what they touch.
+  template <class F>
+  void forEachTouchResponse(F&& f) {
+    for (int r = 0; r < count; ++r)
+      for (std::size_t s = 0; s < surfaces.size(); ++s) {
+        points.clear();
+        for (Contact const& c : contacts)
+          if (c.response == r && c.distance < c.limit)
+            for (ContactSide const* side : {&c.a, &c.b})
+              if (side->surface == int(s))
+                for (int k = 0; k < side->corners(); ++k) points.push_back(side->vertices[std::size_t(k)]);
+        if (points.empty()) continue;
+        std::sort(points.begin(), points.end());
+        points.erase(std::unique(points.begin(), points.end()), points.end());
+        Contact any;
+        any.response = r;
+        withResponse(any, [&](auto const& response) {
+          f(response, surfaces[s]->state, std::span<int const>(points));
+        });
+      }
+  }
+
+  /// Forces on the vertices of all contacts that `chosen` picks.
+  template <class Chosen>
+  void addForces(Chosen&& chosen) {
+    for (Contact& c : contacts) {
+      if (!chosen(c)) continue;
+      auto& a = *surfaces[std::size_t(c.a.surface)];
+      auto& b = *surfaces[std::size_t(c.b.surface)];
+      withResponse(c, [&](auto const& law) {
+        if constexpr (requires { law.evaluate(c, c.start, c.start); })
+          law.evaluate(
+              c, displacement(c), rate_of(c.b, b, b.velocity, b.spin) - rate_of(c.a, a, a.velocity, a.spin));
+      });
+      add_force(c.b, b, c.force);
+      add_force(c.a, a, -c.force);
+    }
+    for (Attachment& a : attachments) {
+      if (!chosen(a.contact)) continue;
+      auto& s = *surfaces[std::size_t(a.contact.b.surface)];
+      a.evaluate(s);
+      add_force(a.contact.b, s, a.contact.force);
+    }
+  }
+  /// The same for the change of the forces, k K dx + b B dx; what no solver moves stays where it is.
+  template <class Chosen>
+  void addDForces(double k, double b, Chosen&& chosen) const {
+    for (Contact const& c : contacts) {
+      if (!chosen(c)) continue;
+      auto& first = *surfaces[std::size_t(c.a.surface)];
+      auto& second = *surfaces[std::size_t(c.b.surface)];
+      Eigen::Vector3d du(0, 0, 0);
+      if (second.solver == c.solver && second.simulated) du += rate_of(c.b, second, second.dx, second.turn);
+      if (first.solver == c.solver && first.simulated) du -= rate_of(c.a, first, first.dx, first.turn);
+      const Eigen::Vector3d df = -(k * (c.stiffnessMatrix * du) + b * (c.dampingMatrix * du));
+      add_force(c.b, second, df);
+      add_force(c.a, first, -df);
+    }
+    for (Attachment const& a : attachments) {
+      if (!chosen(a.contact)) continue;
+      auto& s = *surfaces[std::size_t(a.contact.b.surface)];
+      const Eigen::Vector3d du = rate_of(a.contact.b, s, s.dx, s.turn);
+      add_force(a.contact.b, s, -(k * a.stiffness + b * a.damping) * du);
+    }
+  }
+  /// The blocks of those contacts in the matrix of a solver, after its models have given their vertices to
+  /// `assembly`.
+  template <AssemblyPhase Phase, class Matrix, class Chosen>
+  void assemble(Matrix& matrix, double k, double b, Chosen&& chosen) {
+    assembly.sort();
+    for (Contact const& c : contacts)
+      if (chosen(c)) assembly.add<Phase>(matrix, c, surfaces, k, b);
+    for (Attachment const& a : attachments)
+      if (chosen(a.contact)) assembly.add<Phase>(matrix, a.contact, surfaces, k, b);
+  }
+
+ private:
+  bool fits(ContactSide const& side) const {
+    if (side.surface < 0 || side.surface >= int(surfaces.size())) return false;
+    auto const& s = *surfaces[std::size_t(side.surface)];
+    bool all = side.vertices[0] >= 0;
+    for (const int v : side.vertices) all = all && v < int(s.position.size());
+    return all;
+  }
+  Eigen::Vector3d displacement(Contact const& c) const {
+    return position_of(c.b, *surfaces[std::size_t(c.b.surface)]) -
+           position_of(c.a, *surfaces[std::size_t(c.a.surface)]);
+  }
+  // a vertex that slides from one triangle to the next goes on with the same contact; -1 stands before
+  // vertices
+  static std::array<int, 4> vertexKey(ContactKey const& k, int side) {
+    return {k.surfaces[0], k.surfaces[1], side, k.vertices[std::size_t(side == 0 ? 2 : 5)]};
+  }
+  static bool ofOneVertex(ContactKey const& k, int side) {
+    return k.vertices[std::size_t(side == 0 ? 1 : 4)] < 0;
+  }
+  void listVertices() {
+    ofVertices.clear();
+    for (std::size_t i = 0; i < contacts.size(); ++i)
+      for (int side = 0; side < 2; ++side)
+        if (const ContactKey key = contacts[i].key(); ofOneVertex(key, side))
+          ofVertices.push_back({vertexKey(key, side), int(i)});
+    std::sort(ofVertices.begin(), ofVertices.end(), [](OfVertex const& x, OfVertex const& y) {
+      return std::pair(x.key, x.contact) < std::pair(y.key, y.contact);
+    });
+  }
+  Contact const* ofSameVertex(ContactKey const& key) const {
+    for (int side = 0; side < 2; ++side) {
+      if (!ofOneVertex(key, side)) continue;
+      const auto wanted = vertexKey(key, side);
+      const auto first = std::lower_bound(
+          ofVertices.begin(), ofVertices.end(), wanted, [](OfVertex const& x, auto const& k) {
+            return x.key < k;
+          });
+      if (first != ofVertices.end() && first->key == wanted) return &contacts[std::size_t(first->contact)];
+    }
+    return nullptr;
+  }
+
+  template <class R>
+  static void setStep(R& response, double dt) {
+    if constexpr (requires { response.dt = dt; }) response.dt = dt;
+  }
+  void describe(Contact& c, CollisionSurface const& a, CollisionSurface const& b) const {
+    const double reach = c.limit + a.radiusOf(c.a.element) + b.radiusOf(c.b.element);
+    c.stiffness = a.stiffness * b.stiffness / (reach > 0 ? reach : 1);
+    c.friction = a.friction + b.friction;
+    c.damping = a.damping + b.damping;
+    c.response = std::max(0,
+                          find(!a.response.empty()   ? a.response
+                               : !b.response.empty() ? b.response
+                                                     : response));
+    find_solver(c, &a, &b);
+  }
+  static void remember(Contact& c, Contact const& old) {
+    c.slip = old.slip;
+    c.slide = old.slide;
+    c.memory = old.memory;
+  }
+};
+
+/// What scene files have.
+using DefaultContactManager = ContactManager<PenalityContactForceField, StickContactForceField>;
+
+}  // namespace sinew

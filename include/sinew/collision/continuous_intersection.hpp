@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/collision/proximity.hpp>
+#include <sinew/collision/time_of_impact.hpp>
+#include <sinew/core/component.hpp>
+
+namespace sinew {
+
+/// Contacts between primitives that are near each other, or will be during the step when their corners go on
+/// as fast as they are: at the time of their first impact, by conservative advancement (time_of_impact.hpp),
+/// so that nothing is passed through, however fast. An implicit solver meets them at the end of the step.
+struct ContinuousIntersection {
+  using Role = role::Intersection;
+  static constexpr std::string_view className = "ContinuousIntersection";
+  static constexpr std::string_view aliases = "CCDTightInclusionIntersection";
+  static constexpr bool continuous = true;
+
+  double alarmDistance = 1;
+  double contactDistance = 0.5;
+
+  static constexpr auto fields() {
+    using I = ContinuousIntersection;
+    return field_list(field("alarmDistance",
+                            &I::alarmDistance,
+                            "m",
+                            "contacts are looked for up to this distance",
+                            range::nonNegative),
+                      field("contactDistance",
+                            &I::contactDistance,
+                            "m",
+                            "distance below which the response acts",
+                            range::nonNegative));
+  }
+
+  double reach() const { return std::max(alarmDistance, contactDistance); }
+
+  template <std::size_t NA, std::size_t NB>
+  std::optional<Contact> intersect(PrimitivePair<NA, NB> const& pair) const {
+    const auto a = pair.cornersA();
+    const auto b = pair.cornersB();
+    const double limit = contactDistance + pair.proximity();
+    auto now = contact_at(pair, a, b);
+    if (now) now->limit = limit;
+    if (now && now->distance <= limit) return now;
+    auto moved = [&](auto corners, CollisionSurface const& s, int element, double time) {
+      for (std::size_t c = 0; c < corners.size(); ++c)
+        corners[c] += time * s.velocity[std::size_t(s.elements[std::size_t(element)][c])];
+      return corners;
+    };
+    const auto impact = time_of_impact(a,
+                                       moved(a, pair.a, pair.elementA, pair.dt),
+                                       b,
+                                       moved(b, pair.b, pair.elementB, pair.dt),
+                                       pair.thickness() + limit);
+    if (!impact) {
+      if (!now || now->distance > reach() + pair.proximity()) return std::nullopt;
+      return now;
+    }
+    const double time = *impact * pair.dt;
+    auto then =
+        contact_at(pair, moved(a, pair.a, pair.elementA, time), moved(b, pair.b, pair.elementB, time), false);
+    if (!then) return std::nullopt;
+    then->limit = limit;
+    then->distance =
+        then->normal.dot(position_of(then->b, pair.b) - position_of(then->a, pair.a)) - then->thickness;
+    return then;
+  }
+};
+
+}  // namespace sinew

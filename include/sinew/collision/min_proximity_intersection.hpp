@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/collision/proximity.hpp>
+#include <sinew/core/component.hpp>
+
+namespace sinew {
+
+/// Contacts between primitives that are nearer to each other than the alarm distance, at their closest
+/// points. The response acts from the contact distance on. Both are between the surfaces, radii and the
+/// proximities of the two models taken off.
+struct MinProximityIntersection {
+  using Role = role::Intersection;
+  static constexpr std::string_view className = "MinProximityIntersection";
+  static constexpr std::string_view aliases = "NewProximityIntersection LocalMinDistance";
+  static constexpr bool continuous = false;
+
+  double alarmDistance = 1;
+  double contactDistance = 0.5;
+
+  static constexpr auto fields() {
+    using I = MinProximityIntersection;
+    return field_list(field("alarmDistance",
+                            &I::alarmDistance,
+                            "m",
+                            "contacts are looked for up to this distance",
+                            range::nonNegative),
+                      field("contactDistance",
+                            &I::contactDistance,
+                            "m",
+                            "distance below which the response acts",
+                            range::nonNegative));
+  }
+
+  double reach() const { return std::max(alarmDistance, contactDistance); }
+
+  template <std::size_t NA, std::size_t NB>
+  std::optional<Contact> intersect(PrimitivePair<NA, NB> const& pair) const {
+    auto contact = contact_at(pair, pair.cornersA(), pair.cornersB());
+    if (!contact || contact->distance > reach() + pair.proximity()) return std::nullopt;
+    contact->limit = contactDistance + pair.proximity();
+    return contact;
+  }
+};
+
+}  // namespace sinew

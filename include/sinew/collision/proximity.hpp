@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/collision/closest_points.hpp>
+#include <sinew/collision/contact.hpp>
+
+#include <cmath>
+#include <optional>
+
+namespace sinew {
+
+/// Two primitives of two surfaces, seen by an intersection method: their corners, and the way these go during
+/// the step.
+template <std::size_t NA, std::size_t NB>
+struct PrimitivePair {
+  CollisionSurface const &a, &b;
+  int elementA, elementB;
+  double dt;
+
+  auto cornersA() const { return a.corner<NA>(a.position, elementA); }
+  auto cornersB() const { return b.corner<NB>(b.position, elementB); }
+  double thickness() const { return a.radiusOf(elementA) + b.radiusOf(elementB); }
+  double proximity() const { return a.proximity + b.proximity; }
+};
+
+namespace detail {
+
+template <std::size_t N>
+void set_side(ContactSide& side, CollisionSurface const& s, int element, Eigen::Vector3d const& weights) {
+  side.element = element;
+  int n = 0;
+  for (std::size_t c = 0; c < N; ++c)
+    if (weights[Eigen::Index(c)] > 0) {
+      side.vertices[std::size_t(n)] = s.elements[std::size_t(element)][c];
+      side.weights[std::size_t(n++)] = weights[Eigen::Index(c)];
+    }
+}
+
+// the outer normal of a triangle whose inside is meant by the point; zero where it is not
+template <std::size_t N>
+Eigen::Vector3d outer_normal(CollisionSurface const& s, std::array<Eigen::Vector3d, N> const& p,
+                             Eigen::Vector3d const& weights) {
+  if constexpr (N == 3)
+    if (!s.bothSide && weights.minCoeff() > 0) {
+      const Eigen::Vector3d n = (p[1] - p[0]).cross(p[2] - p[0]);
+      const double length = n.norm();
+      if (length > 0) return n / length;
+    }
+  return {0, 0, 0};
+}
+
+}  // namespace detail
+
+/// The contact of two primitives at their closest points, the corners being at `a` and `b`; none where a
+/// neighbour of one of them is nearer there, unless that is not asked (`onlyLocalMinima`). Where a corner or
+/// the inside of an edge is nearest to the inside of a triangle of a one-sided surface (bothSide = false),
+/// the normal is that of the triangle, and the distance is negative behind it.
+template <std::size_t NA, std::size_t NB>
+std::optional<Contact> contact_at(PrimitivePair<NA, NB> const& pair, std::array<Eigen::Vector3d, NA> const& a,
+                                  std::array<Eigen::Vector3d, NB> const& b, bool onlyLocalMinima = true) {
+  const auto closest = closest_points(a, b);
+  Contact contact;
+  detail::set_side<NA>(contact.a, pair.a, pair.elementA, closest.weightsA);
+  detail::set_side<NB>(contact.b, pair.b, pair.elementB, closest.weightsB);
+  const Eigen::Vector3d between = closest.pointB - closest.pointA;
+  if (onlyLocalMinima && (!pair.a.isLocalMinimum(pair.elementA, contact.a.vertices, between) ||
+                          !pair.b.isLocalMinimum(pair.elementB, contact.b.vertices, -between)))
+    return std::nullopt;
+  const Eigen::Vector3d outOfA = detail::outer_normal(pair.a, a, closest.weightsA),
+                        outOfB = detail::outer_normal(pair.b, b, closest.weightsB);
+  const bool faceA = outOfA.squaredNorm() > 0, faceB = outOfB.squaredNorm() > 0;
+  contact.normal = faceA == faceB ? Eigen::Vector3d(contact_direction(a, b, closest))
+                   : faceA        ? outOfA
+                                  : Eigen::Vector3d(-outOfB);
+  contact.thickness = pair.thickness();
+  contact.distance = contact.normal.dot(between) - contact.thickness;
+  // what touches a sphere or a thick rigid does so on its skin
+  auto toSkin = [&](ContactSide& side, CollisionSurface const& s, double along) {
+    if (s.rigid)
+      side.lever = s.orientation[std::size_t(side.vertices[0])].conjugate() * (along * contact.normal);
+  };
+  toSkin(contact.a, pair.a, pair.a.radiusOf(pair.elementA));
+  toSkin(contact.b, pair.b, -pair.b.radiusOf(pair.elementB));
+  if (pair.a.rigid) contact.thickness -= pair.a.radiusOf(pair.elementA);
+  if (pair.b.rigid) contact.thickness -= pair.b.radiusOf(pair.elementB);
+  return contact;
+}
+
+}  // namespace sinew

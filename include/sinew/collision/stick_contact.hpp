@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/collision/contact.hpp>
+
+namespace sinew {
+
+/// What has come nearer than the contact distance sticks there, by springs along and across the surface,
+/// until it is pulled away farther than the alarm distance: F = -k (u - u0) - c u', u0 from the first touch.
+struct StickContactForceField {
+  static constexpr std::string_view className = "StickContactForceField";
+  static constexpr std::string_view aliases = "stick StickContact";
+
+  double dt = 0;
+
+  void evaluate(Contact& c, Eigen::Vector3d const& u, Eigen::Vector3d const& rate) const {
+    c.force.setZero();
+    c.stiffnessMatrix.setZero();
+    c.dampingMatrix.setZero();
+    if (c.memory == 0 && !(c.distance < c.limit)) return;
+    c.force = -c.stiffness * (c.slip + (u - c.start)) - c.damping * rate;
+    c.stiffnessMatrix.diagonal().setConstant(c.stiffness);
+    c.dampingMatrix.diagonal().setConstant(c.damping);
+  }
+  /// memory: 1 since it sticks; slip: u - u0.
+  void settle(Contact& c, Eigen::Vector3d const& u) const {
+    if (c.memory == 0 && !(c.distance < c.limit)) return;
+    c.memory = 1;
+    c.slip += u - c.start;
+  }
+};
+
+}  // namespace sinew

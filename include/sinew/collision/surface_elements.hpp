@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/component.hpp>
+#include <sinew/topology/border.hpp>
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+namespace sinew {
+
+using PrimitiveCorners = std::array<int, 3>;  // of a primitive, -1 behind the last
+
+inline std::vector<PrimitiveCorners> points_of(TopologyView const&, std::size_t points) {
+  std::vector<PrimitiveCorners> all;
+  for (int i = 0; i < int(points); ++i) all.push_back({i, -1, -1});
+  return all;
+}
+
+/// The surface of the volume elements of a topology, turned outwards, whatever of it is listed, so that it is
+/// that of what is left when some are removed; then the triangles and quads that are no part of it. Quads
+/// are cut in two.
+inline std::vector<PrimitiveCorners> triangles_of(TopologyView const& t, std::size_t = 0) {
+  std::vector<PrimitiveCorners> all, known;
+  auto quad = [](Quad const& q) {
+    return std::array<PrimitiveCorners, 2>{{{q[0], q[1], q[2]}, {q[0], q[2], q[3]}}};
+  };
+  const Border border = border_of(t.tetrahedra, t.hexahedra);
+  all.assign(border.triangles.begin(), border.triangles.end());
+  for (PrimitiveCorners const& c : all) known.push_back(sorted_corners(c));
+  for (Quad const& q : border.quads) {
+    for (PrimitiveCorners const& c : quad(q)) all.push_back(c);
+    for (std::size_t i = 0; i < 4; ++i)
+      known.push_back(sorted_corners(PrimitiveCorners{q[i], q[(i + 1) % 4], q[(i + 2) % 4]}));
+  }
+  std::sort(known.begin(), known.end());
+  auto add = [&](PrimitiveCorners const& c) {
+    if (!std::binary_search(known.begin(), known.end(), sorted_corners(c))) all.push_back(c);
+  };
+  for (Triangle const& c : t.triangles) add(c);
+  for (Quad const& q : t.quads)
+    for (PrimitiveCorners const& c : quad(q)) add(c);
+  return all;
+}
+
+/// The edges of a topology; where it has none, those of its triangles (triangles_of), each once.
+inline std::vector<PrimitiveCorners> lines_of(TopologyView const& t, std::size_t = 0) {
+  std::vector<PrimitiveCorners> all;
+  for (Edge const& e : t.edges) all.push_back({e[0], e[1], -1});
+  if (!all.empty()) return all;
+  for (PrimitiveCorners const& triangle : triangles_of(t))
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto [a, b] = std::minmax(triangle[c], triangle[(c + 1) % 3]);
+      all.push_back({a, b, -1});
+    }
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+}  // namespace sinew

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/collision/collision_surface.hpp>
+#include <sinew/collision/contact.hpp>
+#include <sinew/core/error.hpp>
+#include <sinew/scene/scope.hpp>
+
+#include <utility>
+#include <vector>
+
+namespace sinew {
+
+namespace detail {
+
+/// The numbers of corners of the primitives below a scope, as bits. A runtime tree may have all.
+template <class S>
+constexpr unsigned primitive_kinds();
+template <class S, FixedString Name, class... Cs, class... Ns>
+constexpr unsigned primitive_kinds(std::type_identity<Node<Name, hana::tuple<Cs...>, hana::tuple<Ns...>>>) {
+  auto of = []<class C>(std::type_identity<C>) -> unsigned {
+    if constexpr (HasRole<C, role::CollisionModel>)
+      return 1u << C::corners;
+    else
+      return 0;
+  };
+  return (0u | ... | of(std::type_identity<Cs>{})) |
+         (0u | ... | primitive_kinds<typename ScopeOf<Ns, S>::type>());
+}
+template <class S>
+constexpr unsigned primitive_kinds() {
+  if constexpr (requires { S::provedAtInit; })
+    return 0b1110u;
+  else
+    return primitive_kinds<S>(std::type_identity<typename S::NodeType>{});
+}
+template <unsigned Kinds>
+constexpr auto kind_sequence() {
+  if constexpr (Kinds == 0b0010u)
+    return std::index_sequence<1>{};
+  else if constexpr (Kinds == 0b0100u)
+    return std::index_sequence<2>{};
+  else if constexpr (Kinds == 0b1000u)
+    return std::index_sequence<3>{};
+  else if constexpr (Kinds == 0b0110u)
+    return std::index_sequence<1, 2>{};
+  else if constexpr (Kinds == 0b1010u)
+    return std::index_sequence<1, 3>{};
+  else if constexpr (Kinds == 0b1100u)
+    return std::index_sequence<2, 3>{};
+  else if constexpr (Kinds == 0b1110u)
+    return std::index_sequence<1, 2, 3>{};
+  else
+    return std::index_sequence<>{};
+}
+
+// f(component) for the first with a role in the node of a scope
+template <class Role, class S, class F>
+bool with_first(S const& scope, F&& f) {
+  bool found = false;
+  auto visit = on<Role>([&](auto& c) {
+    if (!std::exchange(found, true)) f(c);
+  });
+  scope.forEachComponent(visit);
+  return found;
+}
+
+}  // namespace detail
+
+/// Collision detection in a scene: what its DefaultPipeline asks of the tree.
+template <class RootScope>
+struct Collision {
+  RootScope const& root;
+
+  /// After all components are initialised; contacts forget what they remember where that is not the first
+  /// time. Throws Error where a stage is missing, and where there are models
+  /// without a pipeline above them.
+  void init(bool again) const {
+    std::vector<CollisionSurface*> all;
+    traverse(root, on<role::CollisionModel>([&](auto& model, auto const& scope) {
+               model.surface.state = scope.stateAddress();
+               model.surface.solver = -1;
+               model.surface.companions = 0;
+               all.push_back(&model.surface);
+             }));
+    int solvers = 0;
+    numberSolvers(root, solvers);
+    for (auto* s : all)
+      for (auto const* other : all)
+        if (s->state == other->state && other->radius.empty()) s->companions |= 1u << other->corners;
+    traverse(root, on<role::CollisionPipeline>([&](auto& pipeline, auto const& scope) {
+               auto missing = [&](std::string_view stage, std::string_view such) {
+                 throw Error(scope.path(),
+                             text("DefaultPipeline: its node has no ", stage, "; add one, such as ", such));
+               };
+               if (!detail::with_first<role::BroadPhase>(scope, [](auto&) {}))
+                 missing("broad phase", "BruteForceBroadPhase");
+               if (!detail::with_first<role::NarrowPhase>(scope, [](auto&) {}))
+                 missing("narrow phase", "BVHNarrowPhase");
+               if (!detail::with_first<role::Intersection>(scope, [](auto&) {}))
+                 missing("intersection method", "MinProximityIntersection");
+               collect(pipeline, scope);
+               if (!detail::with_first<role::ContactManager>(
+                       scope, [&](auto& manager) { manager.init(scope.path(), pipeline.surfaces, again); }))
+                 missing("contact manager", "DefaultContactManager");
+               pipeline.near.reserve(pipeline.surfaces.size() * (pipeline.surfaces.size() + 1) / 2);
+             }));
+    traverse(root, on<role::CollisionModel>([&](auto& model, auto const& scope) {
+               bool managed = false;
+               scope.withContacts([&](auto&) { managed = true; });
+               if (!managed)
+                 throw Error(scope.path(),
+                             text(component_name<std::decay_t<decltype(model)>>(),
+                                  ": no node above has a DefaultPipeline, and nothing would look for its "
+                                  "contacts; add one to the root"));
+             }));
+  }
+
+  /// The contacts of a step of dt that begins, and what they change at once. `newPattern(scope)` is called
+  /// for the nodes with a solver in whose matrix other vertices meet now.
+  template <class F>
+  void detect(double dt, F&& newPattern) const {
+    traverse(
+        root, on<role::CollisionPipeline>([&](auto& pipeline, auto const& scope) {
+          collect(pipeline, scope);
+          detail::with_first<role::ContactManager>(scope,
+                                                   [&](auto& manager) { manager.settle(pipeline.surfaces); });
+          detail::with_first<role::Intersection>(scope, [&](auto const& intersection) {
+            for (auto* s : pipeline.surfaces)
+              s->enclose(intersection.reach() / 2, intersection.continuous ? dt : 0);
+          });
+          detail::with_first<role::BroadPhase>(scope, [&](auto& broad) { pipeline.findNear(broad); });
+          detail::with_first<role::ContactManager>(scope, [&](auto& manager) {
+            detail::with_first<role::NarrowPhase>(scope, [&](auto& narrow) {
+              detail::with_first<role::Intersection>(scope, [&](auto const& intersection) {
+                using S = std::decay_t<decltype(scope)>;
+                pipeline.findContacts(
+                    detail::kind_sequence<detail::primitive_kinds<S>()>(), narrow, intersection, manager, dt);
+              });
+            });
+            manager.manage(dt);
+            touch(manager);
+            if (manager.couplingChanged) forEachSolver(root, newPattern);
+          });
+        }));
+  }
+
+ private:
+  // where the models are now
+  template <class Pipeline, class S>
+  static void collect(Pipeline& pipeline, S const& scope) {
+    pipeline.surfaces.clear();
+    traverse(scope, on<role::CollisionModel>([&](auto& model, auto const& s) {
+               using D = typename std::decay_t<decltype(model)>::DataTypes;
+               auto const& state = s.template state<D>();
+               see<D>(model.surface, state.position, state.velocity);
+               model.surface.state = &state;
+               model.surface.number = int(pipeline.surfaces.size());
+               pipeline.surfaces.push_back(&model.surface);
+             }));
+  }
+
+  template <class S>
+  static void numberSolvers(S const& scope, int& solvers) {
+    forEachSolver(scope, [&](auto const& solved, bool implicit) {
+      traverse(solved, on<role::CollisionModel>([&](auto& model, auto const&) {
+                 model.surface.solver = solvers;
+                 model.surface.implicit = implicit;
+               }));
+      ++solvers;
+    });
+  }
+  // f(scope, implicit) for the nodes whose subtrees the solvers integrate
+  template <class S, class F>
+  static void forEachSolver(S const& scope, F&& f) {
+    bool solved = false;
+    auto visit = on<role::OdeSolver>([&](auto& ode) {
+      if constexpr (!stands_beside<std::decay_t<decltype(ode)>>) {
+        solved = true;
+        f(scope, std::decay_t<decltype(ode)>::implicit);
+      }
+    });
+    scope.forEachComponent(visit);
+    if constexpr (!S::template always<role::OdeSolver>)
+      if (!solved) scope.forEachChild([&](auto const& child) { forEachSolver(child, f); });
+  }
+
+  // responses that change what stands on the touched states
+  template <class Manager>
+  void touch(Manager& manager) const {
+    manager.forEachTouchResponse([&](auto const& response, void const* state, std::span<int const> points) {
+      traverse(root, on<role::ForceField>([&](auto& c, auto const& scope) {
+                 if constexpr (TouchResponse<std::decay_t<decltype(response)>, std::decay_t<decltype(c)>>)
+                   if (scope.stateAddress() == state) response.touch(c, points);
+               }));
+    });
+  }
+};
+
+}  // namespace sinew
