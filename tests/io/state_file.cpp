@@ -132,6 +132,7 @@ TEST_CASE("what is wrong with a text of states is said with its line") {
   using files::replaced;
   says("# nothing\n", "tool.state", "no whole frame");
   says("\n\n", "tool.state", "no whole frame");
+  says("  ", "tool.state", "no whole frame");
   says("X= 0 0 0 1 0 0\n", "tool.state:1", "expected the time of the first frame");
   says("hello\n" + sample, "tool.state:1", "expected the time of the first frame, \"T= 0\", found \"hello\"");
   says(replaced(sample, "T= 0.5", "T= half"), "tool.state:4", "expected the time of a frame, found \"half\"");
@@ -359,7 +360,7 @@ TEST_CASE("a disk that is full is said with the file") {
   // a limit on the size of files: the part stays, and what was there
   TempFolder folder;
   const std::string path = folder.write("f", "old");
-  std::signal(SIGXFSZ, SIG_IGN);
+  auto const handler = std::signal(SIGXFSZ, SIG_IGN);
   struct rlimit before, small;
   REQUIRE(::getrlimit(RLIMIT_FSIZE, &before) == 0);
   small = before, small.rlim_cur = 100000;
@@ -373,6 +374,7 @@ TEST_CASE("a disk that is full is said with the file") {
     });
   }
   REQUIRE(::setrlimit(RLIMIT_FSIZE, &before) == 0);
+  std::signal(SIGXFSZ, handler);
   files::check_says(
       error, path, "could not be written: File too large; what was recorded before is in " + path + ".part");
   CHECK(io::read_file(path) == "old");

@@ -6,7 +6,6 @@
 #include <sinew/core/euler.hpp>
 #include <sinew/io/state_file.hpp>
 
-#include <cstring>
 #include <vector>
 
 namespace sinew {
@@ -180,20 +179,14 @@ struct ReadState {
       auto frames =
           io::read_state_file<Real>(filename.path, io::state_layout<D>(trajectory.points), allowTruncated);
       trajectory.times = std::move(frames.times);
-      take(frames.positions, trajectory.positions);
-      take(frames.velocities, trajectory.velocities);
+      for (std::size_t i = 0; i < frames.positions.size(); i += io::coord_numbers<D>)
+        trajectory.positions.push_back(io::coord_of<D>(&frames.positions[i]));
+      for (std::size_t i = 0; i < frames.velocities.size(); i += std::size_t(D::size))
+        trajectory.velocities.push_back(Eigen::Map<typename D::Deriv const>(&frames.velocities[i]));
     } catch (Error const& error) {
       throw Error(where, error.what());
     }
   }
-  // a position or velocity is its numbers, one after the other
-  template <class V>
-  static void take(std::vector<Real> const& numbers, std::vector<V>& to) {
-    to.resize(numbers.size() * sizeof(Real) / sizeof(V));
-    if (!to.empty())
-      std::memcpy(static_cast<void*>(to.data()), numbers.data(), numbers.size() * sizeof(Real));
-  }
-
   // x -> R s x + t
   void transform(std::string const& where) {
     const Eigen::Vector3d none(0, 0, 0);

@@ -25,6 +25,7 @@ struct WriteState {
   using Role = role::StepCallback;
   using DataTypes = D;
   using Real = typename D::Real;
+  using VecCoord = typename D::VecCoord;
   static constexpr std::string_view className = "WriteState";
   static constexpr bool actsBeforeStep = true;
 
@@ -84,6 +85,7 @@ struct WriteState {
   double nextDue = 0;  // number of the next of the times at which a frame is due
   long stamp = 0;
   std::string where{};
+  std::vector<Real> restNumbers{}, positionNumbers{};  // without gaps
   std::size_t pointsBefore = 0;  // that the state had in frames that are there; 0: as many as now
 
   void init(InitContext<D> const& context) {
@@ -97,6 +99,9 @@ struct WriteState {
             text("time[", k, "] is ", time[k], " s, not after time[", k - 1, "]; put them in rising order"));
     auto layout = io::state_layout<D>(context.rest.size());
     layout.has = {writeX0, writeX, writeV, writeF};
+    if (!io::dense_coord<D>)
+      for (auto* dense : {&restNumbers, &positionNumbers})
+        dense->resize(layout.numbers(io::StateLayout::position));
     const bool binary = format == StateFormat::binary;
     if (writer && writer->writes(filename, layout, binary)) return;
     pointsBefore = writer ? writer->points() : 0;
@@ -160,18 +165,28 @@ struct WriteState {
     while (nextDue < double(time.size()) && reached >= time[std::size_t(nextDue)]) ++nextDue;
     if (time.empty() && nextDue == 0 && reached >= 0) ++nextDue;
     if (nextDue >= given && period > 0)
-      nextDue = std::max(nextDue, given + std::floor((reached - last) / period));
+      nextDue = std::max(nextDue, given + std::floor((reached - last) / std::max(period, 1e-6 * dt)));
     return nextDue > before;
   }
   template <class State>
   void record(double now, State const& state) {
     auto numbers = [](auto const& vector) { return reinterpret_cast<Real const*>(vector.data()); };
+    auto places = [&](VecCoord const& x, std::vector<Real>& dense) {
+      if constexpr (io::dense_coord<D>) {
+        return numbers(x);
+      } else {
+        for (std::size_t i = 0; i < x.size(); ++i)
+          dense[3 * i] = x[i].center[0], dense[3 * i + 1] = x[i].center[1],
+                    dense[3 * i + 2] = x[i].orientation;
+        return static_cast<Real const*>(dense.data());
+      }
+    };
     try {
       writer->add(std::size_t(recorded),
                   stamp,
                   now,
-                  {numbers(state.restPosition),
-                   numbers(state.position),
+                  {places(state.restPosition, restNumbers),
+                   places(state.position, positionNumbers),
                    numbers(state.velocity),
                    numbers(state.force)});
     } catch (Error const& error) {

@@ -59,14 +59,35 @@ struct StateLayout {
   }
   std::uint32_t flags() const { return has[0] * 1u + has[1] * 2u + has[2] * 4u + has[3] * 8u; }
 };
+
+/// How many numbers a position has.
+template <class D>
+inline constexpr std::size_t coord_numbers = !D::rigid         ? D::size
+                                             : D::spatial == 3 ? 7
+                                                               : 3;
+/// Positions that are their numbers, without a gap; a rigid body in the plane may have one behind it.
+template <class D>
+inline constexpr bool dense_coord = sizeof(typename D::Coord) == coord_numbers<D> * sizeof(typename D::Real);
+
 template <class D>
 StateLayout state_layout(std::size_t points) {
-  using Real = typename D::Real;
-  static_assert(sizeof(typename D::Coord) % sizeof(Real) == 0);
-  return {std::string(data_types_name<D>::value),
-          points,
-          sizeof(typename D::Coord) / sizeof(Real),
-          std::size_t(D::size)};
+  return {std::string(data_types_name<D>::value), points, coord_numbers<D>, std::size_t(D::size)};
+}
+
+/// A position from its numbers.
+template <class D>
+typename D::Coord coord_of(typename D::Real const* numbers) {
+  typename D::Coord x = D::zero();
+  if constexpr (!D::rigid) {
+    for (int i = 0; i < D::size; ++i) x[i] = numbers[i];
+  } else {
+    for (int i = 0; i < D::spatial; ++i) x.center[i] = numbers[i];
+    if constexpr (D::spatial == 3)
+      for (int i = 0; i < 4; ++i) x.orientation.coeffs()[i] = numbers[3 + i];
+    else
+      x.orientation = numbers[2];
+  }
+  return x;
 }
 
 /// Frames of a file, one after the other. Velocities are there for all frames or none.
@@ -270,7 +291,8 @@ class FramesOfText {
       const std::size_t word = std::min(rest.find_first_not_of(" \t"), rest.size());
       if (rest.substr(word).starts_with("T=")) {
         frames_.begins.push_back(at), lines.push_back(line + 1);
-      } else if (frames_.begins.empty() && rest[word] != '#' && rest[word] != '\n' && rest[word] != '\r') {
+      } else if (frames_.begins.empty() && word < rest.size() && rest[word] != '#' && rest[word] != '\n' &&
+                 rest[word] != '\r') {
         TextReader in(path_, rest, line + 1);
         in.word();
         throw in.expected("the time of the first frame, \"T= 0\"");

@@ -42,7 +42,7 @@ class StateWriter {
   ~StateWriter() {
     try {
       finish();
-    } catch (Error const&) {
+    } catch (std::exception const&) {
     }
   }
 
