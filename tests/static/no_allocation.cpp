@@ -82,6 +82,45 @@ auto joints(Linear linear) {
                    StiffSpringForceField<Vec3d>{{{.first = 0, .second = 1, .length = 1}}}))};
 }
 
+// bodies that fall on a floor and on each other, in front of and behind the first contact
+template <class Intersection>
+auto contacts(Intersection intersection) {
+  MeshTopology floor;
+  floor.triangles = {{0, 1, 2}, {0, 2, 3}};
+  std::vector<Eigen::Vector3d> balls;
+  for (int i = 0; i < 20; ++i) balls.push_back({0.3 * (i % 5), 0.35 * (i / 5 % 2), 0.3 + 0.4 * (i / 10)});
+  MeshTopology box;
+  box.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 1, 4}};
+  return Simulation{node<"root">(
+      Gravity{{0, 0, -10}},
+      DefaultPipeline{},
+      BruteForceBroadPhase{},
+      BVHNarrowPhase{},
+      intersection,
+      DefaultContactManager{},
+      node<"floor">(
+          floor,
+          MechanicalObject<Vec3d>{.position = {{-9, -9, 0}, {9, -9, 0}, {9, 9, 0}, {-9, 9, 0}}},
+          TriangleCollisionModel<Vec3d>{.moving = false, .simulated = false, .contactFriction = 0.2}),
+      node<"bodies">(
+          EulerImplicitSolver{},
+          CGLinearSolver<>{},
+          node<"balls">(MechanicalObject<Vec3d>{.position = balls, .velocity = {{0, 0, -5}}},
+                        UniformMass<Vec3d>{},
+                        SphereCollisionModel<Vec3d>{.selfCollision = true, .radius = 0.15}),
+          node<"tool">(
+              MechanicalObject<Rigid3d>{.position = Rigid3d::VecCoord(1)},
+              UniformMass<Rigid3d>{},
+              SphereCollisionModel<Rigid3d>{.radius = 0.2},
+              node<"skin">(box,
+                           MechanicalObject<Vec3d>{
+                               .position = {{0, 0, 0.2}, {1, 0, 0.2}, {1, 1, 0.2}, {0, 1, 0.2}, {0, 0, 1}}},
+                           RigidMapping<Rigid3d, Vec3d>{},
+                           TriangleCollisionModel<Vec3d>{},
+                           LineCollisionModel<Vec3d>{},
+                           PointCollisionModel<Vec3d>{}))))};
+}
+
 // a tool that is moved and recorded, and pulls at a point
 auto replay(std::string file, StateFormat format) {
   return Simulation{node<"root">(
@@ -126,6 +165,10 @@ TEST_CASE("no step after init allocates, not even the first") {
             .updateStep = 3, .precondition = PreconditionerMethod::ldl, .warp = true})) == 0);
   CHECK(allocations_of(joints(CGLinearSolver<>{})) == 0);
   CHECK(allocations_of(joints(SparseLDLSolver<CompressedRowSparseMatrixMat3x3d>{})) == 0);
+  CHECK(allocations_of(contacts(MinProximityIntersection{.alarmDistance = 0.1, .contactDistance = 0.05})) ==
+        0);
+  CHECK(allocations_of(contacts(ContinuousIntersection{.alarmDistance = 0.1, .contactDistance = 0.05})) == 0);
+  CHECK(allocations_of(contacts(DiscreteIntersection{})) == 0);
   // what is recorded is more than its buffer
   const files::TempFolder folder;
   for (const auto format : {StateFormat::text, StateFormat::binary})

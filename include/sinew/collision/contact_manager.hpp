@@ -97,6 +97,7 @@ struct ContactManager {
     found.clear();
     contacts.reserve(std::size_t(capacity));
     found.reserve(std::size_t(capacity));
+    points.reserve(3 * std::size_t(capacity));
     ofVertices.reserve(2 * std::size_t(capacity));
     attachments.reserve(8);
     grown = 0;
@@ -241,23 +242,8 @@ struct ContactManager {
   /// f(response, state, touched points of it) for the contacts of responses that change what they touch.
   template <class F>
   void forEachTouchResponse(F&& f) {
-    for (int r = 0; r < count; ++r)
-      for (std::size_t s = 0; s < surfaces.size(); ++s) {
-        points.clear();
-        for (Contact const& c : contacts)
-          if (c.response == r && c.distance < c.limit)
-            for (ContactSide const* side : {&c.a, &c.b})
-              if (side->surface == int(s))
-                for (int k = 0; k < side->corners(); ++k) points.push_back(side->vertices[std::size_t(k)]);
-        if (points.empty()) continue;
-        std::sort(points.begin(), points.end());
-        points.erase(std::unique(points.begin(), points.end()), points.end());
-        Contact any;
-        any.response = r;
-        withResponse(any, [&](auto const& response) {
-          f(response, surfaces[s]->state, std::span<int const>(points));
-        });
-      }
+    [&]<std::size_t... I>(std::index_sequence<I...>) { (forEachTouched<I>(f), ...); }
+    (std::index_sequence_for<Responses...>{});
   }
 
   /// Forces on the vertices of all contacts that `chosen` picks.
@@ -325,6 +311,22 @@ struct ContactManager {
   Eigen::Vector3d displacement(Contact const& c) const {
     return position_of(c.b, *surfaces[std::size_t(c.b.surface)]) -
            position_of(c.a, *surfaces[std::size_t(c.a.surface)]);
+  }
+  template <std::size_t R, class F>
+  void forEachTouched(F& f) {
+    if constexpr (!ContactLaw<std::tuple_element_t<R, std::tuple<Responses...>>>)
+      for (std::size_t s = 0; s < surfaces.size(); ++s) {
+        points.clear();
+        for (Contact const& c : contacts)
+          if (c.response == int(R) && c.distance < c.limit)
+            for (ContactSide const* side : {&c.a, &c.b})
+              if (side->surface == int(s))
+                for (int k = 0; k < side->corners(); ++k) points.push_back(side->vertices[std::size_t(k)]);
+        if (points.empty()) continue;
+        std::sort(points.begin(), points.end());
+        points.erase(std::unique(points.begin(), points.end()), points.end());
+        f(std::get<R>(responses), surfaces[s]->state, std::span<int const>(points));
+      }
   }
   // a vertex that slides from one triangle to the next goes on with the same contact; -1 stands before
   // vertices

@@ -100,6 +100,7 @@ struct Collision {
                if (!detail::with_first<role::Intersection>(scope, [](auto&) {}))
                  missing("intersection method", "MinProximityIntersection");
                collect(pipeline, scope);
+               for (auto* s : pipeline.surfaces) s->enclose(0, 0);  // makes room
                if (!detail::with_first<role::ContactManager>(
                        scope, [&](auto& manager) { manager.init(scope.path(), pipeline.surfaces, again); }))
                  missing("contact manager", "DefaultContactManager");

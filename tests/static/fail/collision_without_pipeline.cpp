@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSL-1.0
+// expect: Sinew: a collision model has no DefaultPipeline above it
+#include <sinew/sinew.hpp>
+
+using namespace sinew;
+
+int main() {
+  Simulation sim{
+      node<"root">(MechanicalObject<Vec3d>{}, UniformMass<Vec3d>{}, SphereCollisionModel<Vec3d>{})};
+  sim.init();
+  sim.animate(0.1);
+}
