@@ -18,7 +18,7 @@ template <class S>
 constexpr unsigned primitive_kinds();
 template <class S, FixedString Name, class... Cs, class... Ns>
 constexpr unsigned primitive_kinds(std::type_identity<Node<Name, hana::tuple<Cs...>, hana::tuple<Ns...>>>) {
-  auto of = []<class C>(std::type_identity<C>) -> unsigned {
+  [[maybe_unused]] auto of = []<class C>(std::type_identity<C>) -> unsigned {  // a node may have no component
     if constexpr (HasRole<C, role::CollisionModel>)
       return 1u << C::corners;
     else
