@@ -3,8 +3,9 @@
 
 namespace sinew {
 using StandardSimulation = Simulation<RuntimeNode<Standard>>;
-template void Simulation<RuntimeNode<Standard>>::init();
+template void Simulation<RuntimeNode<Standard>>::init(double, long);
 template void Simulation<RuntimeNode<Standard>>::initScene(RootScope const&, InitAgain const&);
 template void Simulation<RuntimeNode<Standard>>::reset();
+template void Simulation<RuntimeNode<Standard>>::finish();
 template void Simulation<RuntimeNode<Standard>>::updateVisual();
 }  // namespace sinew

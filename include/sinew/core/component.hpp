@@ -28,7 +28,7 @@ struct ProjectiveConstraint;
 struct Mapping;
 struct OdeSolver;
 struct LinearSolver;
-struct StepCallback;  // called at the end of each step
+struct StepCallback;  // called before and after each step
 struct Engine;        // makes its outputs from its fields before the scene starts: loaders, selections
 // the stages of collision detection and response, in one node
 struct CollisionPipeline;  // composes them
@@ -102,6 +102,32 @@ ForceProperties properties_of(C const& c) {
 struct StepInfo {
   long step;
   double time, dt;
+};
+
+/// The step that is about to be made.
+struct StepAhead {
+  long step;              // its number, from 1
+  double begin, end, dt;  // [s]
+  bool solved;            // an ODE solver moves the state
+};
+
+/// A component that acts on its state before a step, whatever its role (`actsBeforeStep`): a recorder, a
+/// replay, a controller, a haptic device. It has one of these, called with the state on which it acts before
+/// any solver works; first all beforeStep of a scene, from the root to the leaves, then all beginStep.
+///   beforeStep(ahead, state)   looks at the state as the last step has left it;
+///   beginStep(ahead, state)    may move it, and returns whether it did: what is mapped from it then follows.
+template <class C>
+concept ActsBeforeStep = requires {
+  requires C::actsBeforeStep;
+  typename C::DataTypes;
+};
+
+/// A component that watches the state on which it acts: init(context), as force fields have it, and
+/// endStep(step, state, kineticEnergy) after each step, where kineticEnergy() is that of the state's mass. It
+/// may have finish(), which Simulation::finish() calls.
+template <class C>
+concept WatchesState = HasRole<C, role::StepCallback> && requires {
+  typename C::DataTypes;
 };
 
 /// What an assembled or matrix-free system is made of: m M + b B + k K.

@@ -53,7 +53,8 @@ struct RuntimeChecker {
             fail("joins bodies under different ODE solvers; put it and both bodies below one solver");
         }
     } else if constexpr (HasRole<C, role::ForceField> || HasRole<C, role::Mass> ||
-                         HasRole<C, role::ProjectiveConstraint> || HasRole<C, role::CollisionModel>) {
+                         HasRole<C, role::ProjectiveConstraint> || HasRole<C, role::CollisionModel> ||
+                         WatchesState<C>) {
       state<typename C::DataTypes>(
           scope,
           "what it acts on",

@@ -64,7 +64,6 @@ inline constexpr std::array withoutMeaning =
                                      "OBJExporter",
                                      "STLExporter",
                                      "BlenderExporter",
-                                     "WriteState",
                                      "WriteTopology",
                                      "OglCylinderModel",
                                      "OglTexture2D",

@@ -12,12 +12,13 @@ namespace sinew {
 
 using StandardSimulation = Simulation<RuntimeNode<Standard>>;
 
-extern template void Simulation<RuntimeNode<Standard>>::init();
+extern template void Simulation<RuntimeNode<Standard>>::init(double, long);
 extern template void Simulation<RuntimeNode<Standard>>::initScene(RootScope const&, InitAgain const&);
 extern template TopologyChange Simulation<RuntimeNode<Standard>>::removeElements(std::string_view,
                                                                                  ElementNumbers const&);
 extern template void Simulation<RuntimeNode<Standard>>::animate(double);
 extern template void Simulation<RuntimeNode<Standard>>::reset();
+extern template void Simulation<RuntimeNode<Standard>>::finish();
 extern template void Simulation<RuntimeNode<Standard>>::propagate();
 extern template void Simulation<RuntimeNode<Standard>>::updateVisual();
 extern template double Simulation<RuntimeNode<Standard>>::kineticEnergy();

@@ -588,6 +588,7 @@ class SceneReader {
       case RoleKind::mass:
       case RoleKind::forceField:
       case RoleKind::interactionForceField:
+      case RoleKind::stepCallback:
       case RoleKind::projectiveConstraint: {
         Place const* acted = owner;
         const bool joins = endsDiffer(item);

@@ -137,8 +137,7 @@ void save_scene(Simulation<RuntimeNode<R>>& simulation, double dt, std::string c
 template <class R>
 Simulation<RuntimeNode<R>> start(ReadScene<R> scene) {
   Simulation<RuntimeNode<R>> simulation(std::move(scene.root));
-  simulation.init();
-  simulation.continueFrom(scene.time, scene.step);
+  simulation.init(scene.time, scene.step);
   return simulation;
 }
 

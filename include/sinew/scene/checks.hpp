@@ -290,6 +290,8 @@ constexpr bool component() {
                   "Sinew: a component with role::ForceField does not fulfil the concept ForceField of "
                   "core/component.hpp.");
     return ForceField<C> && acts_on_state<C, S>();
+  } else if constexpr (WatchesState<C>) {
+    return acts_on_state<C, S>();
   } else if constexpr (std::is_same_v<R, role::Mass>) {
     static_assert(
         Mass<C>,

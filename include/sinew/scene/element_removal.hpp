@@ -265,7 +265,7 @@ class ElementRemoval {
       return any;
     } else if constexpr (HasRole<C, role::Topology> || HasRole<C, role::State> ||
                          HasRole<C, role::ForceField> || HasRole<C, role::Mass> ||
-                         HasRole<C, role::ProjectiveConstraint>) {
+                         HasRole<C, role::ProjectiveConstraint> || WatchesState<C>) {
       return scope.stateAddress() && touchedStates_.contains(scope.stateAddress());
     } else {
       return false;

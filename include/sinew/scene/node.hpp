@@ -35,9 +35,13 @@ RoleVisitor<F, Roles...> on(F f) {
 }
 /// Stands for all roles: on<AnyRole>(f).
 struct AnyRole;
+/// Stands for all components that act before a step, whatever their roles.
+struct BeforeStep;
 template <class C, class... Roles>
-inline constexpr bool has_any_role =
-    ((std::is_same_v<typename C::Role, Roles> || std::is_same_v<Roles, AnyRole>) || ...);
+inline constexpr bool has_any_role = ((std::is_same_v<typename C::Role, Roles> ||
+                                       std::is_same_v<Roles, AnyRole> ||
+                                       (std::is_same_v<Roles, BeforeStep> && ActsBeforeStep<C>)) ||
+                                      ...);
 
 /// A node of a typed scene: plain data, composed by node<"name">(...).
 template <FixedString Name, class Components, class Children>

@@ -22,8 +22,9 @@ class Simulation {
   explicit Simulation(Root root) : root_(std::move(root)) {}
 
   /// Checks all fields, sizes all states, initialises all components. Throws Error, naming node, component
-  /// and field; the simulation then stays uninitialised.
-  void init();
+  /// and field; the simulation then stays uninitialised. Another time and step than 0 are those of a
+  /// checkpoint.
+  void init(double time = 0, long step = 0);
 
   /// Advances the scene by dt seconds. Throws Error where dt is not a positive number, and where a state is
   /// no longer finite after the step.
@@ -31,6 +32,10 @@ class Simulation {
 
   /// Back to positions and velocities as they were after init, at time 0.
   void reset();
+
+  /// What records completes its files. Throws Error where one could not be written. Without that, the end of
+  /// the simulation completes them, as well as it can.
+  void finish();
 
   double time() const { return time_; }
   long step() const { return step_; }
@@ -189,7 +194,7 @@ class Simulation {
         });
       });
     } else if constexpr (HasRole<C, role::ForceField> || HasRole<C, role::Mass> ||
-                         HasRole<C, role::ProjectiveConstraint>) {
+                         HasRole<C, role::ProjectiveConstraint> || WatchesState<C>) {
       withContext<C, typename C::DataTypes>(scope, [&](auto const& context) { c.init(context); });
     }
   }
@@ -301,6 +306,28 @@ class Simulation {
     });
   }
 
+  // f(component, state, step) for what acts before a step
+  template <class S, class F>
+  static void forEachAhead(S const& scope, StepAhead ahead, F&& f) {
+    auto solver = on<role::OdeSolver>([&](auto&) { ahead.solved = true; });
+    scope.forEachComponent(solver);
+    auto visit = on<BeforeStep>(
+        [&](auto& c) { f(c, scope.template state<typename std::decay_t<decltype(c)>::DataTypes>(), ahead); });
+    scope.forEachComponent(visit);
+    scope.forEachChild([&](auto const& child) { forEachAhead(child, ahead, f); });
+  }
+  void beginStep(RootScope const& scope, double dt) {
+    const StepAhead ahead{step_ + 1, time_, time_ + dt, dt, false};
+    forEachAhead(scope, ahead, [](auto& c, auto& state, StepAhead const& step) {
+      if constexpr (requires { c.beforeStep(step, state); }) c.beforeStep(step, state);
+    });
+    bool moved = false;
+    forEachAhead(scope, ahead, [&](auto& c, auto& state, StepAhead const& step) {
+      if constexpr (requires { c.beginStep(step, state); }) moved = c.beginStep(step, state) || moved;
+    });
+    if (moved) MechanicalOperations(scope, time_, dt).propagate(vec_id::position, vec_id::velocity);
+  }
+
   // each ODE solver integrates its subtree and propagates; where there is none, the children are looked at
   template <class S>
   void integrate(S const& scope, double dt) {
@@ -321,6 +348,17 @@ class Simulation {
   void endStep(C& c, S const& scope, double dt) const {
     if constexpr (HasRole<C, role::State>) {
       if (!scope.mapped()) checkFinite(c, scope);
+    } else if constexpr (WatchesState<C>) {
+      using D = typename C::DataTypes;
+      auto& state = scope.template state<D>();
+      c.endStep(StepInfo{step_, time_, dt}, state, [&] {
+        double energy = 0;
+        scope.stateScope().withMass([&](auto& mass) {
+          if constexpr (std::is_same_v<typename std::decay_t<decltype(mass)>::DataTypes, D>)
+            energy = mass.kineticEnergy(state.position, state.velocity);
+        });
+        return energy;
+      });
     } else {
       const StepInfo info{step_, time_, dt};
       if constexpr (std::is_invocable_v<decltype(c.call)&, StepInfo const&, decltype(scope.node)>)
@@ -348,12 +386,12 @@ class Simulation {
 // Outside the class, so that a program may have them instantiated in one place: runtime/precompiled.hpp.
 
 template <class Root>
-void Simulation<Root>::init() {
+void Simulation<Root>::init(double time, long step) {
   if constexpr (proved) {
     initialised_ = false;
     initScene(rootScope(), {});
-    time_ = 0;
-    step_ = 0;
+    time_ = time;
+    step_ = step;
     propagate();
     initialised_ = true;
   }
@@ -385,6 +423,7 @@ void Simulation<Root>::animate(double dt) {
     throw Error("Simulation::animate", text("dt is ", dt, " s, but must be a finite number greater than 0"));
   if constexpr (proved) {
     const auto scope = rootScope();
+    beginStep(scope, dt);
     if constexpr (collides) detectContacts(scope, dt);
     computeLoose(scope, dt);
     integrate(scope, dt);
@@ -402,6 +441,13 @@ void Simulation<Root>::reset() {
   time_ = 0;
   step_ = 0;
   propagate();
+}
+
+template <class Root>
+void Simulation<Root>::finish() {
+  traverse(rootScope(), on<role::StepCallback>([](auto& c, auto const&) {
+             if constexpr (requires { c.finish(); }) c.finish();
+           }));
 }
 
 template <class Root>
