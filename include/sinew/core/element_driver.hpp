@@ -4,6 +4,7 @@
 #include <sinew/core/assembly.hpp>
 #include <sinew/core/data_types.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <vector>
@@ -78,6 +79,36 @@ struct ElementDriver {
       std::memcpy(static_cast<void*>(&pack.rest), interleaved, sizeof interleaved);
       std::memset(static_cast<void*>(&pack.tangent), 0, sizeof pack.tangent);
     }
+  }
+
+  std::size_t size() const {
+    return packs.empty() ? 0 : W * (packs.size() - 1) + std::size_t(packs.back().active);
+  }
+
+  /// Takes away the elements for which gone(their points) holds, and returns how many those were. The others
+  /// keep their order and their places in the matrix; their tangents are those of the next forces. Allocates
+  /// nothing.
+  template <class Gone>
+  std::size_t removeIf(Gone&& gone) {
+    const std::size_t n = size();
+    std::size_t stay = 0;
+    int last = 0;
+    for (Pack const& pack : packs)
+      for (auto const& ends : pack.index) last = std::max(last, *std::max_element(ends, ends + W));
+    for (std::size_t e = 0; e < n; ++e) {
+      Indices points;
+      for (int k = 0; k < arity; ++k) points[std::size_t(k)] = packs[e / W].index[k][e % W];
+      if (!gone(points)) move(e, stay++);
+    }
+    packs.erase(packs.begin() + std::ptrdiff_t((stay + W - 1) / W), packs.end());
+    if (!slots.empty()) slots.erase(slots.begin() + std::ptrdiff_t(packs.size()), slots.end());
+    for (std::size_t e = stay; e < W * packs.size(); ++e) move(stay - 1, e);
+    for (Pack& pack : packs) {
+      pack.active = W, pack.hasLast = false;
+      for (auto const& ends : pack.index) pack.hasLast |= std::find(ends, ends + W, last) != ends + W;
+    }
+    if (!packs.empty()) packs.back().active = int(stay - W * (packs.size() - 1));
+    return n - stay;
   }
 
   /// The same first point for all ends, where an element has one body.
@@ -167,6 +198,23 @@ struct ElementDriver {
   }
 
  private:
+  // an element to the place of another
+  void move(std::size_t from, std::size_t to) {
+    if (from == to) return;
+    Pack &a = packs[from / W], &b = packs[to / W];
+    const std::size_t l = from % W, m = to % W;
+    for (std::size_t r = 0; r < sizeof(Rest) / sizeof(Real); ++r)
+      std::memcpy(reinterpret_cast<char*>(&b.rest) + (r * W + m) * sizeof(Real),
+                  reinterpret_cast<char const*>(&a.rest) + (r * W + l) * sizeof(Real),
+                  sizeof(Real));
+    for (auto k = 0; k < arity; ++k) b.index[k][m] = a.index[k][l];
+    if (slots.empty()) return;
+    for (int p = 0; p < pairs; ++p) {
+      slots[to / W].slot[p][m] = slots[from / W].slot[p][l];
+      set(slots[to / W].transposed[p], int(m), lane(slots[from / W].transposed[p], int(l)));
+    }
+  }
+
   template <class Value>
   static constexpr int realsOf = int(sizeof(Value) / sizeof(Real));
 

@@ -32,6 +32,7 @@ requires std::is_floating_point_v<T> SINEW_INLINE T select(bool mask, T a, T b) 
 SINEW_INLINE bool any(bool mask) { return mask; }
 SINEW_INLINE bool both(bool a, bool b) { return a && b; }
 SINEW_INLINE void set(bool& mask, int, bool value) { mask = value; }
+SINEW_INLINE bool lane(bool mask, int) { return mask; }
 template <class T>
 requires std::is_floating_point_v<T> SINEW_INLINE T lane(T a, int) { return a; }
 template <int N, class T>
@@ -117,6 +118,10 @@ SINEW_INLINE LaneMask<T, W> both(LaneMask<T, W> a, LaneMask<T, W> b) {
 template <class T, int W>
 SINEW_INLINE void set(LaneMask<T, W>& mask, int lane, bool value) {
   mask.bits[lane] = value ? -1 : 0;
+}
+template <class T, int W>
+SINEW_INLINE bool lane(LaneMask<T, W> mask, int i) {
+  return mask.bits[i] != 0;
 }
 
 template <class T, int W>
