@@ -72,6 +72,10 @@ template <class D>
 using CoreBodies =
     Registry<CorePoints<D>, MeshSpringForceField<D>, TetrahedronFEMForceField<D>, HexahedronFEMForceField<D>>;
 
+// states over time, from files and to files
+template <class D>
+using Playback = Registry<ReadState<D>, WriteState<D>>;
+
 using StandardForces =
     Registry<SpatialComponents<Vec3d>, RigidComponents<Rigid3d>, SpatialRigids<Rigid3d>, CorePoints<Vec1d>,
              CorePoints<Vec2d>, PlaneForceField<Vec2d>, CorePoints<Vec6d>, CoreRigids<Rigid2d>,
@@ -125,7 +129,8 @@ using StandardCollision =
 
 /// Every component that Sinew brings, over the DataTypes that scenes use.
 struct Standard : Registry<Gravity, StandardTopologies, MadeMeshes, VisualModel, StandardEngines,
-                           StandardForces, StandardMappings, StandardSolvers, StandardCollision> {};
+                           StandardForces, StandardMappings, StandardSolvers, StandardCollision,
+                           Playback<Vec3d>, Playback<Rigid3d>> {};
 
 /// The same over the rarer DataTypes too: what the law suites prove.
 struct Extended
@@ -135,6 +140,7 @@ struct Extended
                SpatialRigids<Rigid3f>, IdentityMapping<Rigid2f, Rigid2f>, RigidMapping<Rigid2d, Vec2f>,
                RigidMapping<Rigid2f, Vec2f>, RigidMapping<Rigid2f, Vec2d>, DistanceMapping<Vec3f, Vec1f>,
                VolumeMapping<Vec3f, Vec1f>, CenterOfMassMapping<Vec3d, Vec3f>,
-               SkinningMapping<Rigid3f, Vec3f>> {};
+               SkinningMapping<Rigid3f, Vec3f>, Playback<Vec1d>, Playback<Vec2d>, Playback<Vec6d>,
+               Playback<Vec3f>, Playback<Rigid2d>, Playback<Rigid3f>> {};
 
 }  // namespace sinew

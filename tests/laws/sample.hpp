@@ -195,6 +195,14 @@ void for_each_variant(Random& random, F&& use) {
     if constexpr (requires { c.movements; }) fill(c.movements, false);
     if constexpr (requires { c.velocities; }) fill(c.velocities, true);
     if constexpr (requires { c.coordinates; }) c.coordinates.assign(1, 0);
+    // all points, on a way of their own
+    if constexpr (requires { c.keyPositions; }) {
+      using D = typename C::DataTypes;
+      c.keyPositions.clear(), c.keyVelocities.clear();
+      for (int i = 0; i < 3 * Body::n; ++i) c.keyPositions.push_back(coord<D>(random));
+      c.shift = 0.1;
+      if constexpr (D::spatial != 3) c.scalePos = 1, c.rotation.setZero(), c.translation.setZero();
+    }
   }
   if constexpr (requires { c.endConstraintTime; }) c.beginConstraintTime = 0, c.endConstraintTime = 2;
   if constexpr (requires { c.minDistValidity; }) c.minDistValidity = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // Counts every allocation, by operator new or malloc, while scenes step after init.
 #include "catch.hpp"
+#include "io/files.hpp"
 #include "one_tetrahedron/scene.hpp"
 #include "string_on_rigid/scene.hpp"
 
@@ -79,6 +80,21 @@ auto joints(Linear linear) {
                    StiffSpringForceField<Vec3d>{{{.first = 0, .second = 1, .length = 1}}}))};
 }
 
+// a tool that is moved and recorded, and pulls at a point
+auto replay(std::string file, StateFormat format) {
+  return Simulation{node<"root">(
+      node<"tool">(
+          MechanicalObject<Rigid3d>{.position = Rigid3d::VecCoord(20)},
+          ReadState<Rigid3d>{.keyTimes = {0, 1},
+                             .keyPositions = Rigid3d::VecCoord(40),
+                             .interpolation = Interpolation::cubic},
+          WriteState<Rigid3d>{.filename = std::move(file), .writeV = true, .format = format},
+          node<"tip">(MechanicalObject<Vec3d>{.position = {{0, 0.5, 0}}}, RigidMapping<Rigid3d, Vec3d>{})),
+      node<"point">(
+          EulerExplicitSolver{}, MechanicalObject<Vec3d>{.position = {{0, 1, 0}}}, UniformMass<Vec3d>{}),
+      StiffSpringForceField<Vec3d, Between<"tool/tip", "point">>{{{0, 0, 10, 0, 0.1}}})};
+}
+
 }  // namespace
 
 TEST_CASE("the counter counts") {
@@ -108,4 +124,9 @@ TEST_CASE("no step after init allocates, not even the first") {
             .updateStep = 3, .precondition = PreconditionerMethod::ldl, .warp = true})) == 0);
   CHECK(allocations_of(joints(CGLinearSolver<>{})) == 0);
   CHECK(allocations_of(joints(SparseLDLSolver<CompressedRowSparseMatrixMat3x3d>{})) == 0);
+  // what is recorded is more than its buffer
+  const files::TempFolder folder;
+  for (const auto format : {StateFormat::text, StateFormat::binary})
+    CHECK(allocations_of(replay(folder / "state", format)) == 0);
+  CHECK(std::filesystem::file_size(folder / "state") > 3 * 65536 / 2);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // One step of a scene with springs, a rigid, mappings (one of them not linear, one with two parents), an
-// interaction, an attachment and an implicit solver, and nothing else: what the compiler makes of it is
-// searched for indirect calls.
+// interaction, an attachment, a state that is replayed and recorded, and an implicit solver, and nothing
+// else: what the compiler makes of it is searched for indirect calls.
 #include <sinew/sinew.hpp>
 
 using namespace sinew;
@@ -13,6 +13,7 @@ inline auto scene() {
       CGLinearSolver<CompressedRowSparseMatrixMat3x3d>{},
       StiffSpringForceField<Vec3d, Between<"string", "brick/corner">>{},
       AttachProjectiveConstraint<Vec3d, Between<"string", "other">>{},
+      node<"tool">(MechanicalObject<Rigid3d>{}, ReadState<Rigid3d>{}, WriteState<Rigid3d>{}),
       node<"string">(MechanicalObject<Vec3d>{},
                      UniformMass<Vec3d>{},
                      StiffSpringForceField<Vec3d>{},

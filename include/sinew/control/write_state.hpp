@@ -163,7 +163,7 @@ struct WriteState {
                    numbers(state.velocity),
                    numbers(state.force)});
     } catch (Error const& error) {
-      throw Error(where, error.what());
+      throw Error(where, error.std::runtime_error::what());  // no indirect call in a step
     }
     ++recorded;
   }
