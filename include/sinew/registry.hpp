@@ -13,7 +13,7 @@ using PointSprings = Registry<StiffSpringForceField<D>, StiffSpringForceField<D,
                               MeshSpringForceField<D>, RegularGridSpringForceField<D>>;
 template <class D>
 using RigidLoads = Registry<ConstantForceField<D>, LinearForceField<D>, RestShapeSpringsForceField<D>,
-                            PlaneForceField<D>, UniformVelocityDampingForceField<D>>;
+                            PlaneForceField<D>, UniformVelocityDampingForceField<D>, VirtualCoupling<D>>;
 template <class D>
 using PointLoads = Registry<RigidLoads<D>, SphereForceField<D>>;
 template <class D>
@@ -125,12 +125,13 @@ using PointCollisionModels = Registry<PointCollisionModel<D>, LineCollisionModel
                                       TriangleCollisionModel<D>, SphereCollisionModel<D>>;
 using StandardCollision =
     Registry<DefaultPipeline, BruteForceBroadPhase, BVHNarrowPhase, MinProximityIntersection,
-             DefaultContactManager, PointCollisionModels<Vec3d>, SphereCollisionModel<Rigid3d>>;
+             DiscreteIntersection, ContinuousIntersection, DefaultContactManager, PointCollisionModels<Vec3d>,
+             SphereCollisionModel<Rigid3d>>;
 
 /// Every component that Sinew brings, over the DataTypes that scenes use.
-struct Standard : Registry<Gravity, StandardTopologies, MadeMeshes, VisualModel, StandardEngines,
-                           StandardForces, StandardMappings, StandardSolvers, StandardCollision,
-                           Playback<Vec3d>, Playback<Rigid3d>> {};
+struct Standard
+    : Registry<Gravity, StandardTopologies, MadeMeshes, VisualModel, StandardEngines, StandardForces,
+               StandardMappings, StandardSolvers, StandardCollision, Playback<Vec3d>, Playback<Rigid3d>> {};
 
 /// The same over the rarer DataTypes too: what the law suites prove.
 struct Extended

@@ -5,7 +5,9 @@
 #include <sinew/collision/brute_force_broad_phase.hpp>
 #include <sinew/collision/bvh_narrow_phase.hpp>
 #include <sinew/collision/contact_manager.hpp>
+#include <sinew/collision/continuous_intersection.hpp>
 #include <sinew/collision/default_pipeline.hpp>
+#include <sinew/collision/discrete_intersection.hpp>
 #include <sinew/collision/line_collision_model.hpp>
 #include <sinew/collision/min_proximity_intersection.hpp>
 #include <sinew/collision/point_collision_model.hpp>
@@ -64,6 +66,7 @@
 #include <sinew/force/triangle_fem.hpp>
 #include <sinew/force/triangular_shell.hpp>
 #include <sinew/force/uniform_velocity_damping.hpp>
+#include <sinew/force/virtual_coupling.hpp>
 #include <sinew/mapping/barycentric_mapping.hpp>
 #include <sinew/mapping/beam_linear_mapping.hpp>
 #include <sinew/mapping/center_of_mass_mapping.hpp>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <catch2/catch.hpp>
 #include <sinew/collision/brute_force_broad_phase.hpp>
 #include <sinew/collision/bvh_narrow_phase.hpp>
 #include <sinew/collision/contact_manager.hpp>
@@ -18,6 +17,7 @@
 #include <sinew/solver/euler_implicit.hpp>
 #include <sinew/state/mechanical_object.hpp>
 #include <sinew/topology/mesh_topology.hpp>
+#include "catch.hpp"
 
 namespace sinew {
 

@@ -229,6 +229,12 @@ void for_each_variant(Random& random, F&& use) {
     c.indexPairs.resize(7);
     for (std::size_t i = 0; i < 7; ++i) c.indexPairs[i] = {int(i) % 3, random.index(9)};
   }
+  // an energy is that of a body at rest, beside a target at rest; of bodies that turn, a tangent is proved at
+  // their rest positions, which are then the target
+  if constexpr (requires { c.target, c.targetVelocity; }) {
+    c.targetVelocity.clear();
+    if constexpr (C::turns) c.target.clear();
+  }
   if constexpr (requires { c.restLengths; }) c.restLengths.clear();  // those of the rest positions
   if constexpr (requires { c.fixedDirections; }) c.fixedDirections.back() = c.fixedDirections.size() == 1;
   bool any = false;

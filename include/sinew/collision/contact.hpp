@@ -49,12 +49,14 @@ struct Contact {
   bool implicit = false;  // the solver takes what the force will be at the end of the step
 
   // memory of the response: the tangential displacement that friction holds against, and any other scalar
-  Eigen::Vector3d slip{0, 0, 0};
+  Eigen::Vector3d slip{0, 0, 0}, slide{0, 0, 0};  // ..., and the way it slid in the last step
   double memory = 0;
 
   // since detection
   Eigen::Vector3d start{0, 0, 0};  // u at detection
-  // from the response, at the last evaluation: force on b, and -dF/du, -dF/du', both symmetric
+  // from the response, at the last evaluation: the way it slides; force on b, and -dF/du, -dF/du', both
+  // symmetric
+  Eigen::Vector3d sliding{0, 0, 0};
   Eigen::Vector3d force{0, 0, 0};
   Eigen::Matrix3d stiffnessMatrix = Eigen::Matrix3d::Zero(), dampingMatrix = Eigen::Matrix3d::Zero();
 

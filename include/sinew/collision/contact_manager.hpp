@@ -269,6 +269,7 @@ struct ContactManager {
   }
   static void remember(Contact& c, Contact const& old) {
     c.slip = old.slip;
+    c.slide = old.slide;
     c.memory = old.memory;
   }
 };

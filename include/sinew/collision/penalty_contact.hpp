@@ -39,6 +39,7 @@ struct PenalityContactForceField {
   void evaluate(Contact& c, Eigen::Vector3d const& u, Eigen::Vector3d const& rate) const {
     const double gap = c.normal.dot(u) - c.thickness, gapRate = c.normal.dot(rate);
     c.force.setZero();
+    c.sliding.setZero();
     c.stiffnessMatrix.setZero();
     c.dampingMatrix.setZero();
     const double ahead = c.implicit ? std::min(gap, gap + dt * gapRate) : gap;
@@ -56,13 +57,15 @@ struct PenalityContactForceField {
     const Eigen::Vector3d way = c.slip + (u - c.start),
                           next = c.implicit ? Eigen::Vector3d(way + dt * rate) : way;
     const detail::Friction friction(c, next, c.stiffness * std::max(0.0, c.limit - ahead));
-    if (!friction.slides) {
+    // where it would slide back it has come to rest in between, and sticks for a step
+    if (!friction.slides || friction.slip.dot(c.slide) < 0) {
       c.force -= c.stiffness * (way - c.normal.dot(way) * c.normal);
       c.stiffnessMatrix += c.stiffness * along;
     } else {
       // the force keeps its size and turns with the direction t: -dF/du = k m/|s| (I - nn' - tt'), but for a
       // part that goes with the normal force and is not symmetric
       c.force -= c.stiffness * friction.slip;
+      c.sliding = friction.slip;
       if (friction.most > 0) {
         const Eigen::Vector3d t = friction.slip / friction.most;
         c.stiffnessMatrix +=
@@ -71,9 +74,10 @@ struct PenalityContactForceField {
     }
   }
   void settle(Contact& c, Eigen::Vector3d const& u) const {
+    if (!(c.friction > 0)) return;
     const double push = c.stiffness * std::max(0.0, c.limit + c.thickness - c.normal.dot(u));
-    c.slip = c.friction > 0 ? detail::Friction(c, c.slip + (u - c.start), push).slip
-                            : Eigen::Vector3d(Eigen::Vector3d::Zero());
+    c.slip = detail::Friction(c, c.slip + (u - c.start), push).slip;
+    c.slide = c.sliding;
   }
 };
 

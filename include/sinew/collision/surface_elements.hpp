@@ -10,18 +10,18 @@
 
 namespace sinew {
 
-using Corners = std::array<int, 3>;  // of a primitive, -1 behind the last
+using PrimitiveCorners = std::array<int, 3>;  // of a primitive, -1 behind the last
 
-inline std::vector<Corners> points_of(TopologyView const&, std::size_t points) {
-  std::vector<Corners> all;
+inline std::vector<PrimitiveCorners> points_of(TopologyView const&, std::size_t points) {
+  std::vector<PrimitiveCorners> all;
   for (int i = 0; i < int(points); ++i) all.push_back({i, -1, -1});
   return all;
 }
 
 /// The triangles of a topology, quads cut in two; where it has neither, those of the surface of its
 /// tetrahedra and hexahedra, turned outwards.
-inline std::vector<Corners> triangles_of(TopologyView const& t, std::size_t = 0) {
-  std::vector<Corners> all(t.triangles.begin(), t.triangles.end());
+inline std::vector<PrimitiveCorners> triangles_of(TopologyView const& t, std::size_t = 0) {
+  std::vector<PrimitiveCorners> all(t.triangles.begin(), t.triangles.end());
   auto quad = [&](int a, int b, int c, int d) {
     all.push_back({a, b, c});
     all.push_back({a, c, d});
@@ -65,11 +65,11 @@ inline std::vector<Corners> triangles_of(TopologyView const& t, std::size_t = 0)
 }
 
 /// The edges of a topology; where it has none, those of its triangles (triangles_of), each once.
-inline std::vector<Corners> lines_of(TopologyView const& t, std::size_t = 0) {
-  std::vector<Corners> all;
+inline std::vector<PrimitiveCorners> lines_of(TopologyView const& t, std::size_t = 0) {
+  std::vector<PrimitiveCorners> all;
   for (Edge const& e : t.edges) all.push_back({e[0], e[1], -1});
   if (!all.empty()) return all;
-  for (Corners const& triangle : triangles_of(t))
+  for (PrimitiveCorners const& triangle : triangles_of(t))
     for (std::size_t c = 0; c < 3; ++c) {
       const auto [a, b] = std::minmax(triangle[c], triangle[(c + 1) % 3]);
       all.push_back({a, b, -1});

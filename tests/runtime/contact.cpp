@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSL-1.0
+// Contacts in a runtime tree read from a file, and in the typed scene: the same bits.
+#include <sinew/registry.hpp>
+#include <sinew/runtime/read_scene.hpp>
+#include <sinew/runtime/runtime.hpp>
+
+#include "catch.hpp"
+
+using namespace sinew;
+
+namespace {
+
+using Bodies = Registry<Gravity, EulerImplicitSolver, CGLinearSolver<>, MeshTopology, MechanicalObject<Vec3d>,
+                        MechanicalObject<Rigid3d>, UniformMass<Vec3d>, StandardCollision>;
+
+constexpr std::string_view scene = R"(
+<Node name="root" dt="0.01" gravity="0 0 -10">
+  <DefaultPipeline/>
+  <BruteForceBroadPhase/>
+  <BVHNarrowPhase/>
+  <MinProximityIntersection alarmDistance="0.2" contactDistance="0.1"/>
+  <CollisionResponse response="PenalityContactForceField"/>
+  <Node name="floor">
+    <MeshTopology triangles="0 1 2  0 2 3"/>
+    <MechanicalObject template="Vec3d" position="-10 -10 0  10 -10 0  10 10 0  -10 10 0"/>
+    <TriangleCollisionModel moving="false" simulated="false" contactStiffness="1000" contactFriction="0.2"/>
+  </Node>
+  <Node name="balls">
+    <EulerImplicitSolver/>
+    <CGLinearSolver iterations="25" tolerance="1e-9" threshold="0"/>
+    <MechanicalObject template="Vec3d" position="0 0.3 0.65  0.2 0.1 1.7" velocity="0.5 0 0  0 0 0"/>
+    <UniformMass vertexMass="2"/>
+    <SphereCollisionModel selfCollision="true" radius="0.5" contactStiffness="100" contactDamping="5"/>
+  </Node>
+</Node>)";
+
+auto typed() {
+  MeshTopology topology;
+  topology.triangles = {{0, 1, 2}, {0, 2, 3}};
+  return Simulation{node<"root">(
+      Gravity{{0, 0, -10}},
+      DefaultPipeline{},
+      BruteForceBroadPhase{},
+      BVHNarrowPhase{},
+      MinProximityIntersection{.alarmDistance = 0.2, .contactDistance = 0.1},
+      DefaultContactManager{},
+      node<"floor">(
+          topology,
+          MechanicalObject<Vec3d>{.position = {{-10, -10, 0}, {10, -10, 0}, {10, 10, 0}, {-10, 10, 0}}},
+          TriangleCollisionModel<Vec3d>{
+              .moving = false, .simulated = false, .contactStiffness = 1000, .contactFriction = 0.2}),
+      node<"balls">(
+          EulerImplicitSolver{},
+          CGLinearSolver<>{.iterations = 25, .tolerance = 1e-9},
+          MechanicalObject<Vec3d>{.position = {{0, 0.3, 0.65}, {0.2, 0.1, 1.7}},
+                                  .velocity = {{0.5, 0, 0}, {0, 0, 0}}},
+          UniformMass<Vec3d>{.vertexMass = 2},
+          SphereCollisionModel<Vec3d>{
+              .selfCollision = true, .contactStiffness = 100, .contactDamping = 5, .radius = 0.5}))};
+}
+
+}  // namespace
+
+TEST_CASE("contacts in a scene file and in a typed scene: the same bits") {
+  auto read = parse_scene<Bodies>("balls.scn", std::string(scene));
+  Simulation sim{std::move(read.root)};
+  auto fixed = typed();
+  sim.init();
+  fixed.init();
+  std::size_t most = 0;
+  for (int i = 0; i < 300; ++i) {
+    sim.animate(0.01);
+    fixed.animate(0.01);
+    most = std::max(most, fixed.root().get<DefaultContactManager>().contacts.size());
+    auto& state = *sim.root().find_node("balls")->get<MechanicalObject<Vec3d>>();
+    REQUIRE(state.position == fixed.at<"balls">().state().position);
+  }
+  CHECK(most == 2);
+}
+
+TEST_CASE("a collision model without a pipeline says what is missing") {
+  RuntimeNode<Bodies> root("root");
+  root.add(MechanicalObject<Vec3d>{.position = {{0, 0, 0}}});
+  root.add(SphereCollisionModel<Vec3d>{});
+  Simulation sim{std::move(root)};
+  CHECK_THROWS_WITH(sim.init(),
+                    Catch::Contains("DefaultPipeline") && Catch::Contains("SphereCollisionModel"));
+}
+
+TEST_CASE("a stage that is missing, and a response that there is not, are named") {
+  RuntimeNode<Bodies> root("root");
+  root.add(DefaultPipeline{});
+  root.add(BruteForceBroadPhase{});
+  root.add(MinProximityIntersection{});
+  SECTION("narrow phase") {
+    root.add(DefaultContactManager{});
+    CHECK_THROWS_WITH((Simulation{std::move(root)}.init()),
+                      Catch::Contains("narrow phase") && Catch::Contains("BVHNarrowPhase"));
+  }
+  SECTION("response") {
+    root.add(BVHNarrowPhase{});
+    root.add(DefaultContactManager{.response = "Nothing"});
+    CHECK_THROWS_WITH((Simulation{std::move(root)}.init()),
+                      Catch::Contains("'Nothing'") && Catch::Contains("PenalityContactForceField"));
+  }
+}
