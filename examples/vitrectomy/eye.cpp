@@ -83,18 +83,20 @@ Eye make_eye(EyeOptions const& o) {
   auto spring = [&](std::vector<Spring>& to, int i, int j, double stiffness) {
     to.push_back({i, j, stiffness, 0, (natural[std::size_t(i)] - natural[std::size_t(j)]).norm()});
   };
+  // kind by kind, so that springs which follow each other have no end in common
   auto band = [&](int first, int last, double k) {
-    for (int i = first; i <= last; ++i)
-      for (int j = 0; j < m; ++j) {
-        spring(eye.springs, at(i, j), at(i, j + 1), k);
-        spring(eye.springs, at(i, j), at(i, j + 2), k / 2);  // against bending
-        if (i < last) {
-          spring(eye.springs, at(i, j), at(i + 1, j), k);
-          spring(eye.springs, at(i, j), at(i + 1, j + 1), k);
-          spring(eye.springs, at(i, j + 1), at(i + 1, j), k);
-        }
-        if (i + 1 < last) spring(eye.springs, at(i, j), at(i + 2, j), k / 2);
-      }
+    auto each = [&](int height, auto&& add) {
+      for (int i = first; i + height <= last; ++i)
+        for (int j = 0; j < m; ++j) add(i, j);
+    };
+    auto& to = eye.springs;
+    each(0, [&](int i, int j) { spring(to, at(i, j), at(i, j + 1), k); });
+    each(1, [&](int i, int j) { spring(to, at(i, j), at(i + 1, j), k); });
+    each(1, [&](int i, int j) { spring(to, at(i, j), at(i + 1, j + 1), k); });
+    each(1, [&](int i, int j) { spring(to, at(i, j + 1), at(i + 1, j), k); });
+    // against bending
+    each(0, [&](int i, int j) { spring(to, at(i, j), at(i, j + 2), k / 2); });
+    each(2, [&](int i, int j) { spring(to, at(i, j), at(i + 2, j), k / 2); });
   };
   band(0, rows - 1, o.stiffness);
   band(scar, scar + 1, o.scarStiffness);
