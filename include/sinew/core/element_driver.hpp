@@ -4,6 +4,7 @@
 #include <sinew/core/assembly.hpp>
 #include <sinew/core/data_types.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <vector>
@@ -78,6 +79,36 @@ struct ElementDriver {
       std::memcpy(static_cast<void*>(&pack.rest), interleaved, sizeof interleaved);
       std::memset(static_cast<void*>(&pack.tangent), 0, sizeof pack.tangent);
     }
+  }
+
+  std::size_t size() const {
+    return packs.empty() ? 0 : W * (packs.size() - 1) + std::size_t(packs.back().active);
+  }
+
+  /// Takes away the elements for which gone(their points) holds, and returns how many those were. The others
+  /// keep their order and their places in the matrix; their tangents are those of the next forces. Allocates
+  /// nothing.
+  template <class Gone>
+  std::size_t removeIf(Gone&& gone) {
+    const std::size_t n = size();
+    std::size_t stay = 0;
+    int last = 0;
+    for (Pack const& pack : packs)
+      for (auto const& ends : pack.index) last = std::max(last, *std::max_element(ends, ends + W));
+    for (std::size_t e = 0; e < n; ++e) {
+      Indices points;
+      for (int k = 0; k < arity; ++k) points[std::size_t(k)] = packs[e / W].index[k][e % W];
+      if (!gone(points)) move(e, stay++);
+    }
+    packs.erase(packs.begin() + std::ptrdiff_t((stay + W - 1) / W), packs.end());
+    if (!slots.empty()) slots.erase(slots.begin() + std::ptrdiff_t(packs.size()), slots.end());
+    for (std::size_t e = stay; e < W * packs.size(); ++e) move(stay - 1, e);
+    for (Pack& pack : packs) {
+      pack.active = W, pack.hasLast = false;
+      for (auto const& ends : pack.index) pack.hasLast |= std::find(ends, ends + W, last) != ends + W;
+    }
+    if (!packs.empty()) packs.back().active = int(stay - W * (packs.size() - 1));
+    return n - stay;
   }
 
   /// The same first point for all ends, where an element has one body.
@@ -167,6 +198,23 @@ struct ElementDriver {
   }
 
  private:
+  // an element to the place of another
+  void move(std::size_t from, std::size_t to) {
+    if (from == to) return;
+    Pack &a = packs[from / W], &b = packs[to / W];
+    const std::size_t l = from % W, m = to % W;
+    for (std::size_t r = 0; r < sizeof(Rest) / sizeof(Real); ++r)
+      std::memcpy(reinterpret_cast<char*>(&b.rest) + (r * W + m) * sizeof(Real),
+                  reinterpret_cast<char const*>(&a.rest) + (r * W + l) * sizeof(Real),
+                  sizeof(Real));
+    for (auto k = 0; k < arity; ++k) b.index[k][m] = a.index[k][l];
+    if (slots.empty()) return;
+    for (int p = 0; p < pairs; ++p) {
+      slots[to / W].slot[p][m] = slots[from / W].slot[p][l];
+      set(slots[to / W].transposed[p], int(m), lane(slots[from / W].transposed[p], int(l)));
+    }
+  }
+
   template <class Value>
   static constexpr int realsOf = int(sizeof(Value) / sizeof(Real));
 
@@ -182,25 +230,34 @@ struct ElementDriver {
                   reinterpret_cast<L*>(&to[k]));
         return;
       }
-    for (int k = 0; k < arity; ++k) {
-      alignas(64) Real buffer[n][W];
-      for (int l = 0; l < W; ++l) {
-        Real const* const value = reinterpret_cast<Real const*>(from[std::size_t(k)] + pack.index[k][l]);
-        for (int c = 0; c < n; ++c) buffer[c][l] = value[c];
-      }
-      std::memcpy(static_cast<void*>(&to[k]), buffer, sizeof buffer);
-    }
+    if constexpr (W == 1)
+      for (int k = 0; k < arity; ++k) to[k] = from[std::size_t(k)][pack.index[k][0]];
+    else
+      for (int k = 0; k < arity; ++k)
+        for (int l = 0; l < W; ++l) {
+          Real const* const value = reinterpret_cast<Real const*>(from[std::size_t(k)] + pack.index[k][l]);
+          for (int c = 0; c < n; ++c) reinterpret_cast<L*>(&to[k])[c].set(l, value[c]);
+        }
   }
 
   SINEW_INLINE static void scatter(Pack const& pack, typename DL::Deriv const (&from)[arity],
                                    Derivs const& to) {
-    constexpr int n = realsOf<Deriv>;
-    for (int k = 0; k < arity; ++k) {
-      alignas(64) Real buffer[n][W];
-      std::memcpy(buffer, static_cast<void const*>(&from[k]), sizeof buffer);
-      for (int l = 0; l < pack.active; ++l) {
-        Real* const value = reinterpret_cast<Real*>(to[std::size_t(k)] + pack.index[k][l]);
-        for (int c = 0; c < n; ++c) value[c] += buffer[c][l];
+    if constexpr (W == 1) {
+      for (int k = 0; k < arity; ++k) to[std::size_t(k)][pack.index[k][0]] += from[k];
+    } else {
+      constexpr int n = realsOf<Deriv>;
+      alignas(64) Real ofLane[arity][W][(n + 3) / 4 * 4];
+      [&]<int... K>(std::integer_sequence<int, K...>) {
+        (transpose<n>(reinterpret_cast<L const*>(&from[K]), ofLane[K]), ...);
+      }
+      (std::make_integer_sequence<int, arity>{});
+      for (int k = 0; k < arity; ++k) {
+        Deriv* const first = to[std::size_t(k)];
+        auto add = [&](int l) { addTo<n>(reinterpret_cast<Real*>(first + pack.index[k][l]), ofLane[k][l]); };
+        if (pack.active == W)
+          for (int l = 0; l < W; ++l) add(l);
+        else
+          for (int l = 0; l < pack.active; ++l) add(l);
       }
     }
   }
@@ -220,19 +277,23 @@ struct ElementDriver {
   }
   static constexpr int pairNumber(int i, int j) { return i * arity - i * (i - 1) / 2 + j - i; }
 
-  // to[0..N) += from[0..N), four at a time
+  // to[0..N) += from[0..N), four at a time, then two
   template <int N, class Target>
   SINEW_INLINE static void addTo(Target* to, Real const* from) {
-    constexpr int fours = std::is_same_v<Target, Real> ? N / 4 : 0;
-    typedef Real Four __attribute__((vector_size(4 * sizeof(Real))));
-    for (int i = 0; i < fours; ++i) {
-      Four sum, more;
-      std::memcpy(&sum, to + 4 * i, sizeof sum);
-      std::memcpy(&more, from + 4 * i, sizeof more);
-      sum += more;
-      std::memcpy(to + 4 * i, &sum, sizeof sum);
-    }
-    for (int i = 4 * fours; i < N; ++i) to[i] += Target(from[i]);
+    constexpr int fours = std::is_same_v<Target, Real> ? N / 4 : 0,
+                  twos = std::is_same_v<Target, Real> ? N / 2 - 2 * fours : 0, alone = 4 * fours + 2 * twos;
+    for (int i = 0; i < fours; ++i) addSome<4>(to + 4 * i, from + 4 * i);
+    for (int i = 0; i < twos; ++i) addSome<2>(to + 4 * fours, from + 4 * fours);
+    for (int i = alone; i < N; ++i) to[i] += Target(from[i]);
+  }
+  template <int N>
+  SINEW_INLINE static void addSome(Real* to, Real const* from) {
+    typedef Real Some __attribute__((vector_size(N * sizeof(Real))));
+    Some sum, more;
+    std::memcpy(&sum, to, sizeof sum);
+    std::memcpy(&more, from, sizeof more);
+    sum += more;
+    std::memcpy(to, &sum, sizeof sum);
   }
 
   template <class Sink>

@@ -32,6 +32,7 @@ requires std::is_floating_point_v<T> SINEW_INLINE T select(bool mask, T a, T b) 
 SINEW_INLINE bool any(bool mask) { return mask; }
 SINEW_INLINE bool both(bool a, bool b) { return a && b; }
 SINEW_INLINE void set(bool& mask, int, bool value) { mask = value; }
+SINEW_INLINE bool lane(bool mask, int) { return mask; }
 template <class T>
 requires std::is_floating_point_v<T> SINEW_INLINE T lane(T a, int) { return a; }
 template <int N, class T>
@@ -118,6 +119,10 @@ template <class T, int W>
 SINEW_INLINE void set(LaneMask<T, W>& mask, int lane, bool value) {
   mask.bits[lane] = value ? -1 : 0;
 }
+template <class T, int W>
+SINEW_INLINE bool lane(LaneMask<T, W> mask, int i) {
+  return mask.bits[i] != 0;
+}
 
 template <class T, int W>
 SINEW_INLINE Lanes<T, W> sqrt(Lanes<T, W> a) {
@@ -181,6 +186,41 @@ SINEW_INLINE typename Lanes<T, W>::Vector interleaved(typename Lanes<T, W>::Vect
 
 }  // namespace detail
 
+namespace detail {
+
+// vectors of four as parts of a wider one; by way of memory they would be stored and loaded in different
+// sizes, which processors do slowly
+template <class T>
+using Four = typename Lanes<T, 4>::Vector;
+template <class T, int W, int... I>
+SINEW_INLINE Four<T> four_of(typename Lanes<T, W>::Vector const& v, int number,
+                             std::integer_sequence<int, I...>) {
+  if constexpr (W == 4) {
+    return v;
+  } else {
+    Four<T> part{};
+    ((number == I ? void(part = __builtin_shufflevector(v, v, 4 * I, 4 * I + 1, 4 * I + 2, 4 * I + 3))
+                  : void()),
+     ...);
+    return part;
+  }
+}
+template <class T, int W>
+SINEW_INLINE typename Lanes<T, W>::Vector join_fours(Four<T> const (&part)[W / 4]) {
+  if constexpr (W == 4) {
+    return part[0];
+  } else if constexpr (W == 8) {
+    return __builtin_shufflevector(part[0], part[1], 0, 1, 2, 3, 4, 5, 6, 7);
+  } else {
+    static_assert(W == 16);
+    const auto low = __builtin_shufflevector(part[0], part[1], 0, 1, 2, 3, 4, 5, 6, 7);
+    const auto high = __builtin_shufflevector(part[2], part[3], 0, 1, 2, 3, 4, 5, 6, 7);
+    return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+  }
+}
+
+}  // namespace detail
+
 /// out[l] = lane l of the N values `in`, filled up with zeros to a multiple of four: W short vectors from N
 /// of lanes.
 template <int N, class T, int W>
@@ -199,10 +239,11 @@ SINEW_INLINE void transpose(Lanes<T, W> const* in, T (&out)[W][(N + 3) / 4 * 4])
                          detail::interleaved<2, W / 2, T, W>(low0, low1),
                          detail::interleaved<2, 0, T, W>(high0, high1),
                          detail::interleaved<2, W / 2, T, W>(high0, high1)};
-      for (int l = 0; l < W; ++l)
-        std::memcpy(&out[l][4 * g],
-                    reinterpret_cast<char const*>(&rows[l / (W / 4)]) + (l % (W / 4)) * 4 * sizeof(T),
-                    4 * sizeof(T));
+      for (int l = 0; l < W; ++l) {
+        const detail::Four<T> row =
+            detail::four_of<T, W>(rows[l / (W / 4)], l % (W / 4), std::make_integer_sequence<int, W / 4>{});
+        std::memcpy(&out[l][4 * g], &row, sizeof row);
+      }
     }
   } else {
     for (int l = 0; l < W; ++l)
@@ -232,11 +273,11 @@ requires(W >= 4) SINEW_INLINE void gather3(T const* from, int const (&index)[W],
   using V = typename Lanes<T, W>::Vector;
   constexpr int each = W / 4;  // points a vector holds, four scalars each
   V rows[4];
-  for (int r = 0; r < 4; ++r)
-    for (int k = 0; k < each; ++k)
-      std::memcpy(reinterpret_cast<char*>(&rows[r]) + 4 * k * int(sizeof(T)),
-                  from + 3 * index[r * each + k],
-                  4 * sizeof(T));
+  for (int r = 0; r < 4; ++r) {
+    detail::Four<T> points[each];
+    for (int k = 0; k < each; ++k) std::memcpy(&points[k], from + 3 * index[r * each + k], sizeof points[k]);
+    rows[r] = detail::join_fours<T, W>(points);
+  }
   const V xy0 = detail::alternating<2, 0, T, W>(rows[0], rows[1]),
           zw0 = detail::alternating<2, 1, T, W>(rows[0], rows[1]);
   const V xy1 = detail::alternating<2, 0, T, W>(rows[2], rows[3]),

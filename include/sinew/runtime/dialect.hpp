@@ -313,6 +313,10 @@ inline constexpr std::array standsFor = std::to_array<StandsFor>(
      {"TriangularBendingFEMForceField", "TriangularShellForceField", "bending", "0"},
      {"NodalLinearDampingForceField", "UniformVelocityDampingForceField", "implicit", "1"}});
 
+/// The implicit Euler solver of the first SOFA, which has its conjugate gradients in it.
+inline constexpr std::array implicitWithCG =
+    std::to_array<std::string_view>({"CGImplicit", "CGImplicitSolver", "CgImplicit", "CgImplicitSolver"});
+
 /// What SOFA's NewtonRaphsonSolver says of the search where its element says nothing.
 inline constexpr std::array newtonDefaults =
     std::to_array<std::array<std::string_view, 2>>({{"maxNbIterationsNewton", "1"},

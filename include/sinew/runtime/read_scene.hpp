@@ -246,7 +246,7 @@ class SceneReader {
         place.preconditioners.push_back(&child);
       } else if (tag == "BoxConstraint") {
         boxConstraint(place, child);
-      } else if (tag == "CGImplicit" || tag == "CGImplicitSolver") {
+      } else if (dialect::has(dialect::implicitWithCG, tag)) {
         cgImplicit(place, child);
       } else if (auto item = makeItem(place, child)) {
         place.items.push_back(std::move(item));

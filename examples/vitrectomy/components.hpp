@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/force/stiff_spring.hpp>
+
+#include <algorithm>
+#include <span>
+
+namespace examples {
+
+/// Springs that can be cut: a StiffSpringForceField that loses some while the scene runs, for good.
+template <class D>
+struct CuttableSpringForceField {
+  using Role = sinew::role::ForceField;
+  using DataTypes = D;
+  using VecCoord = typename D::VecCoord;
+  using VecDeriv = typename D::VecDeriv;
+  static constexpr std::string_view className = "CuttableSpringForceField";
+
+  std::vector<sinew::Spring> springs{};  // those that are left
+
+  static constexpr auto fields() {
+    return sinew::field_list(sinew::field("springs",
+                                          &CuttableSpringForceField::springs,
+                                          "",
+                                          "the springs: two points, stiffness, damping, length")
+                                 .also("spring"));
+  }
+
+  sinew::StiffSpringForceField<D> uncut{};
+
+  void init(sinew::InitContext<D> const& context) {
+    uncut.springs = springs;
+    uncut.init(context);
+    uncut.springs.clear();
+  }
+
+  /// Removes the springs that have an end among these points, which rise. Allocates nothing.
+  void cut(std::span<int const> points) {
+    auto among = [points](int i) { return std::binary_search(points.begin(), points.end(), i); };
+    uncut.driver.removeIf([&](auto const& ends) { return among(ends[0]) || among(ends[1]); });
+    std::erase_if(springs, [&](auto const& s) { return among(s.first) || among(s.second); });
+  }
+
+  void addForce(sinew::MechanicalParams const& p, VecDeriv& f, VecCoord const& x, VecDeriv const& v) {
+    uncut.addForce(p, f, x, v);
+  }
+  void addDForce(sinew::MechanicalParams const& p, VecDeriv& df, VecDeriv const& dx) const {
+    uncut.addDForce(p, df, dx);
+  }
+  double potentialEnergy(VecCoord const& x) const { return uncut.potentialEnergy(x); }
+  template <class Sink>
+  void addToMatrix(sinew::MechanicalParams const& p, Sink const& sink) {
+    uncut.addToMatrix(p, sink);
+  }
+};
+
+/// Answers contact by cutting, in the place of a force.
+struct SpringRemovalContact {
+  static constexpr std::string_view className = "SpringRemovalContact";
+
+  template <class D>
+  void touch(CuttableSpringForceField<D>& springs, std::span<int const> points) const {
+    springs.cut(points);
+  }
+};
+
+}  // namespace examples
