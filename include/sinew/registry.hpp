@@ -125,8 +125,8 @@ using PointCollisionModels = Registry<PointCollisionModel<D>, LineCollisionModel
                                       TriangleCollisionModel<D>, SphereCollisionModel<D>>;
 using StandardCollision =
     Registry<DefaultPipeline, BruteForceBroadPhase, BVHNarrowPhase, MinProximityIntersection,
-             DiscreteIntersection, ContinuousIntersection, DefaultContactManager, PointCollisionModels<Vec3d>,
-             SphereCollisionModel<Rigid3d>>;
+             DiscreteIntersection, ContinuousIntersection, DefaultContactManager, CarvingManager,
+             PointCollisionModels<Vec3d>, SphereCollisionModel<Rigid3d>>;
 
 /// Every component that Sinew brings, over the DataTypes that scenes use.
 struct Standard

@@ -4,6 +4,7 @@
 // All of Sinew that needs no other package than Eigen and Boost.Hana.
 #include <sinew/collision/brute_force_broad_phase.hpp>
 #include <sinew/collision/bvh_narrow_phase.hpp>
+#include <sinew/collision/carving_manager.hpp>
 #include <sinew/collision/contact_manager.hpp>
 #include <sinew/collision/continuous_intersection.hpp>
 #include <sinew/collision/default_pipeline.hpp>
@@ -81,6 +82,7 @@
 #include <sinew/mass/diagonal_mass.hpp>
 #include <sinew/mass/mesh_matrix_mass.hpp>
 #include <sinew/mass/uniform_mass.hpp>
+#include <sinew/scene/mouse_interactor.hpp>
 #include <sinew/scene/simulation.hpp>
 #include <sinew/solver/bdf2.hpp>
 #include <sinew/solver/central_difference.hpp>

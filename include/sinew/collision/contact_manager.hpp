@@ -89,10 +89,8 @@ struct ContactManager {
 
   void init(std::string const& where, std::vector<CollisionSurface*> const& all, bool again = false) {
     surfaces = all;
-    if (again) {
-      contacts = std::exchange(keptContacts, {});
-      attachments = std::exchange(keptAttachments, {});
-    }
+    if (again) contacts = std::exchange(keptContacts, {});
+    attachments = std::exchange(keptAttachments, {});
     coupleAnew = acts();
     found.clear();
     contacts.reserve(std::size_t(capacity));

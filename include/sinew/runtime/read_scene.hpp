@@ -1016,7 +1016,11 @@ class SceneReader {
     given.insert(field->name);
     try {
       std::string linked;
-      if (isLink(a.value)) {
+      if (isLink(a.value) && item.info->role == RoleKind::carving) {
+        const Target model = follow(item, a.value);  // a model, by its node
+        linked = (model.item ? model.item->place : model.place)->path();
+        linked.erase(0, linked.find('/', 1));  // from the root on
+      } else if (isLink(a.value)) {
         linked = valueOf(follow(item, a.value));
         item.links[std::string(field->name)] = a.value;
       }

@@ -23,16 +23,19 @@ class RemovedBorder {
  public:
   RemovedBorder() = default;
   RemovedBorder(TopologyView const& before, std::array<std::vector<bool>, element_kinds> const& stays) {
-    auto kept = [](auto const& list, std::vector<bool> const& stay) {
-      std::vector<std::decay_t<decltype(list[0])>> left;
+    const Border was = border_of(before.tetrahedra, before.hexahedra);
+    // of what goes: its faces that were border go too, and those of what it leaves are laid bare
+    auto gone = [](auto const& list, std::vector<bool> const& stay) {
+      std::vector<std::decay_t<decltype(list[0])>> all;
       for (std::size_t e = 0; e < list.size(); ++e)
-        if (stay[e]) left.push_back(list[e]);
-      return left;
+        if (!stay[e]) all.push_back(list[e]);
+      return all;
     };
-    const Border was = border_of(before.tetrahedra, before.hexahedra),
-                 is = border_of(kept(before.tetrahedra, stays[3]), kept(before.hexahedra, stays[4]));
-    triangles_.set(was.triangles, is.triangles);
-    quads_.set(was.quads, is.quads);
+    const auto tetrahedra = gone(before.tetrahedra, stays[3]);
+    const auto hexahedra = gone(before.hexahedra, stays[4]);
+    const Border ofGone = border_of(tetrahedra, hexahedra);
+    triangles_.set(was.triangles, ofGone.triangles);
+    quads_.set(was.quads, ofGone.quads);
   }
 
   BorderLists listed(std::span<Triangle const> triangles, std::span<Quad const> quads) const {
@@ -60,7 +63,7 @@ class RemovedBorder {
   template <std::size_t N>
   struct Faces {
     using Face = std::array<Index, N>;
-    std::vector<Face> before{}, keys{}, keysAfter{}, bare{};
+    std::vector<Face> before{}, keys{}, keysGone{}, bare{};
 
     static std::vector<Face> sortedKeys(std::span<Face const> faces) {
       std::vector<Face> all;
@@ -69,12 +72,15 @@ class RemovedBorder {
       std::sort(all.begin(), all.end());
       return all;
     }
-    void set(std::vector<Face> const& was, std::vector<Face> const& is) {
+    void set(std::vector<Face> const& was, std::vector<Face> const& ofGone) {
       before = was;
       keys = sortedKeys(was);
-      keysAfter = sortedKeys(is);
-      for (Face const& f : is)
-        if (!std::binary_search(keys.begin(), keys.end(), sorted_corners(f))) bare.push_back(f);
+      keysGone = sortedKeys(ofGone);
+      for (Face f : ofGone)
+        if (!std::binary_search(keys.begin(), keys.end(), sorted_corners(f))) {
+          std::reverse(f.begin(), f.end());  // seen from what stays
+          bare.push_back(f);
+        }
     }
     int listed(std::span<Face const> faces) const {
       if (faces.empty() || faces.size() != keys.size() || sortedKeys(faces) != keys) return 0;
@@ -88,7 +94,7 @@ class RemovedBorder {
       return 0;
     }
     bool stays(Face const& f) const {
-      return std::binary_search(keysAfter.begin(), keysAfter.end(), sorted_corners(f));
+      return !std::binary_search(keysGone.begin(), keysGone.end(), sorted_corners(f));
     }
     void mark(std::span<Face const> faces, std::vector<bool>& stay) const {
       for (std::size_t f = 0; f < faces.size(); ++f)

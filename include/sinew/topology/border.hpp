@@ -30,28 +30,41 @@ namespace detail {
 template <std::size_t N, std::size_t Faces, class Elements>
 std::vector<std::array<Index, N>> border_faces(Elements const& elements,
                                                std::size_t const (&corners)[Faces][N]) {
-  struct Face {
-    std::array<Index, N> key;
-    std::size_t number;  // Faces * element + face
-  };
-  std::vector<Face> faces;
-  faces.reserve(Faces * elements.size());
+  using Face = std::array<Index, N>;
+  const std::size_t count = Faces * elements.size();
   auto face = [&](std::size_t number) {
-    std::array<Index, N> f;
+    Face f;
     for (std::size_t c = 0; c < N; ++c) f[c] = elements[number / Faces][corners[number % Faces][c]];
     return f;
   };
-  for (std::size_t i = 0; i < Faces * elements.size(); ++i) faces.push_back({sorted_corners(face(i)), i});
-  std::sort(faces.begin(), faces.end(), [](Face const& a, Face const& b) {
-    return a.key != b.key ? a.key < b.key : a.number < b.number;
-  });
+  // faces at their lowest point, so that only a few at a time are to be sorted
+  struct Keyed {
+    Face key;
+    std::size_t number;  // Faces * element + face
+  };
+  Index points = 0;
+  for (auto const& e : elements) points = std::max(points, 1 + *std::max_element(e.begin(), e.end()));
+  std::vector<std::size_t> first(std::size_t(points) + 1, 0);
+  for (std::size_t i = 0; i < count; ++i) ++first[std::size_t(sorted_corners(face(i))[0]) + 1];
+  for (std::size_t p = 0; p < std::size_t(points); ++p) first[p + 1] += first[p];
+  std::vector<Keyed> faces(count);
+  auto next = first;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Face key = sorted_corners(face(i));
+    faces[next[std::size_t(key[0])]++] = {key, i};
+  }
   std::vector<std::size_t> once;
-  for (std::size_t i = 0, next; i < faces.size(); i = next) {
-    for (next = i + 1; next < faces.size() && faces[next].key == faces[i].key;) ++next;
-    if (next == i + 1) once.push_back(faces[i].number);
+  for (std::size_t p = 0; p < std::size_t(points); ++p) {
+    const auto begin = faces.begin() + std::ptrdiff_t(first[p]),
+               end = faces.begin() + std::ptrdiff_t(first[p + 1]);
+    std::sort(begin, end, [](Keyed const& a, Keyed const& b) { return a.key < b.key; });
+    for (auto f = begin, behind = begin; f != end; f = behind) {
+      for (behind = f + 1; behind != end && behind->key == f->key;) ++behind;
+      if (behind == f + 1) once.push_back(f->number);
+    }
   }
   std::sort(once.begin(), once.end());
-  std::vector<std::array<Index, N>> border;
+  std::vector<Face> border;
   border.reserve(once.size());
   for (const std::size_t number : once) border.push_back(face(number));
   return border;
