@@ -272,7 +272,9 @@ concept LinearSolver = HasRole<C, role::LinearSolver> && requires {
 /// A linear solver that keeps a matrix, whose pattern is fixed at init and when contacts join other points;
 /// one that does not says so.
 template <class C>
-inline constexpr bool needs_pattern = !requires { requires !C::needsPattern; };
+inline constexpr bool needs_pattern = !requires {
+  requires !C::needsPattern;
+};
 
 /// Primitives over the points of a state, at init; the rest is done with its `surface` (collision/).
 template <class C, class D = typename C::DataTypes>

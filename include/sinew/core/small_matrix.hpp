@@ -7,9 +7,9 @@
 #include <type_traits>
 
 // Sums, multiples and products of Eigen's matrices of fixed size, by value. Eigen's own operators return
-// expressions, each a type of its own that costs the compiler 5 to 10 ms: half of the time of a file with many
-// laws. For matrices that live in registers the value is what the optimiser makes of the expression anyway.
-// Code inside namespace sinew finds these operators before Eigen's; dynamic sizes stay Eigen's.
+// expressions, each a type of its own that costs the compiler 5 to 10 ms: half of the time of a file with
+// many laws. For matrices that live in registers the value is what the optimiser makes of the expression
+// anyway. Code inside namespace sinew finds these operators before Eigen's; dynamic sizes stay Eigen's.
 namespace sinew {
 
 namespace detail {
@@ -20,10 +20,12 @@ std::false_type is_matrix(void const*);
 
 /// A matrix, or an expression of one, whose size is known to the compiler.
 template <class A>
-concept FixedMatrix = decltype(detail::is_matrix(static_cast<A const*>(nullptr)))::value && (int(A::SizeAtCompileTime) > 0);
+concept FixedMatrix = decltype(detail::is_matrix(static_cast<A const*>(nullptr)))::value &&
+                      (int(A::SizeAtCompileTime) > 0);
 
 template <class A, class B>
-concept FixedMatrices = FixedMatrix<A> && FixedMatrix<B> && std::is_same_v<typename A::Scalar, typename B::Scalar>;
+concept FixedMatrices =
+    FixedMatrix<A> && FixedMatrix<B> && std::is_same_v<typename A::Scalar, typename B::Scalar>;
 
 template <class S, class A>
 concept ScalarOf = FixedMatrix<A> && !FixedMatrix<S> && std::is_convertible_v<S const&, typename A::Scalar>;
@@ -36,8 +38,10 @@ using Value = Eigen::Matrix<typename A::Scalar, R, C>;
 /// The matrix itself where its entries lie in memory, else its value: no entry is computed twice.
 template <class A>
 SINEW_INLINE decltype(auto) entries(A const& a) {
-  if constexpr ((int(A::Flags) & int(Eigen::DirectAccessBit)) != 0) return (a);
-  else return Value<A>(a);
+  if constexpr ((int(A::Flags) & int(Eigen::DirectAccessBit)) != 0)
+    return (a);
+  else
+    return Value<A>(a);
 }
 
 /// The matrix M with the entries f(i, j).
@@ -58,15 +62,16 @@ SINEW_INLINE M matrix_of(F const& f) {
 
 template <class A, class B>
 constexpr void same_size() {
-  static_assert(int(A::RowsAtCompileTime) == int(B::RowsAtCompileTime) && int(A::ColsAtCompileTime) == int(B::ColsAtCompileTime),
+  static_assert(int(A::RowsAtCompileTime) == int(B::RowsAtCompileTime) &&
+                    int(A::ColsAtCompileTime) == int(B::ColsAtCompileTime),
                 "SINEW: the matrices of a sum differ in size");
 }
 
 }  // namespace detail
 
 template <class A, class B>
-requires FixedMatrices<A, B>
-SINEW_INLINE detail::Value<A> operator+(A const& left, B const& right) {
+requires FixedMatrices<A, B> SINEW_INLINE detail::Value<A>
+operator+(A const& left, B const& right) {
   detail::same_size<A, B>();
   auto const& a = detail::entries(left);
   auto const& b = detail::entries(right);
@@ -74,8 +79,8 @@ SINEW_INLINE detail::Value<A> operator+(A const& left, B const& right) {
 }
 
 template <class A, class B>
-requires FixedMatrices<A, B>
-SINEW_INLINE detail::Value<A> operator-(A const& left, B const& right) {
+requires FixedMatrices<A, B> SINEW_INLINE detail::Value<A>
+operator-(A const& left, B const& right) {
   detail::same_size<A, B>();
   auto const& a = detail::entries(left);
   auto const& b = detail::entries(right);
@@ -89,21 +94,19 @@ SINEW_INLINE detail::Value<A> operator-(A const& matrix) {
 }
 
 template <class A, class S>
-requires ScalarOf<S, A>
-SINEW_INLINE detail::Value<A> operator*(A const& matrix, S const& factor) {
+requires ScalarOf<S, A> SINEW_INLINE detail::Value<A>
+operator*(A const& matrix, S const& factor) {
   auto const& a = detail::entries(matrix);
   const typename A::Scalar s(factor);
   return detail::matrix_of<detail::Value<A>>([&](int i, int j) { return a.coeff(i, j) * s; });
 }
 template <class S, class A>
-requires ScalarOf<S, A>
-SINEW_INLINE detail::Value<A> operator*(S const& factor, A const& matrix) {
-  return matrix * factor;
-}
+requires ScalarOf<S, A> SINEW_INLINE detail::Value<A>
+operator*(S const& factor, A const& matrix) { return matrix * factor; }
 
 template <class A, class S>
-requires ScalarOf<S, A>
-SINEW_INLINE detail::Value<A> operator/(A const& matrix, S const& divisor) {
+requires ScalarOf<S, A> SINEW_INLINE detail::Value<A>
+operator/(A const& matrix, S const& divisor) {
   auto const& a = detail::entries(matrix);
   const typename A::Scalar s(divisor);
   return detail::matrix_of<detail::Value<A>>([&](int i, int j) { return a.coeff(i, j) / s; });
@@ -112,8 +115,10 @@ SINEW_INLINE detail::Value<A> operator/(A const& matrix, S const& divisor) {
 /// Not of a row and a column, whose product Eigen lets become a scalar.
 template <class A, class B>
 requires(FixedMatrices<A, B> && (int(A::RowsAtCompileTime) > 1 || int(B::ColsAtCompileTime) > 1))
-SINEW_INLINE detail::Value<A, A::RowsAtCompileTime, B::ColsAtCompileTime> operator*(A const& left, B const& right) {
-  static_assert(int(A::ColsAtCompileTime) == int(B::RowsAtCompileTime), "SINEW: the sizes of the factors of a product do not fit");
+    SINEW_INLINE detail::Value<A, A::RowsAtCompileTime, B::ColsAtCompileTime>
+operator*(A const& left, B const& right) {
+  static_assert(int(A::ColsAtCompileTime) == int(B::RowsAtCompileTime),
+                "SINEW: the sizes of the factors of a product do not fit");
   auto const& a = detail::entries(left);
   auto const& b = detail::entries(right);
   return detail::matrix_of<detail::Value<A, A::RowsAtCompileTime, B::ColsAtCompileTime>>([&](int i, int j) {

@@ -445,7 +445,8 @@ class Baker {
     if (infoOf(entry).severalParents) {
       constexpr std::string_view linked = "LinkedParents>";
       if (!name.ends_with(linked))
-        throw Error(node.path(), text(name, " names its parents in a way that a typed scene has not; remove it"));
+        throw Error(node.path(),
+                    text(name, " names its parents in a way that a typed scene has not; remove it"));
       name.resize(name.size() - linked.size());
       return text(name, "Parents<", parentsOf(node, entry), ">>");
     }

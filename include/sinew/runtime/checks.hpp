@@ -65,8 +65,11 @@ struct RuntimeChecker {
         bool managed = false;
         scope.withContacts([&](auto&) { managed = true; });
         if (!managed)
-          fail("has no DefaultPipeline above it that would look for its contacts; put one into the root, with a "
-               "BruteForceBroadPhase, a BVHNarrowPhase, a MinProximityIntersection and a DefaultContactManager");
+          fail(
+              "has no DefaultPipeline above it that would look for its contacts; put one into the root, with "
+              "a "
+              "BruteForceBroadPhase, a BVHNarrowPhase, a MinProximityIntersection and a "
+              "DefaultContactManager");
       }
     } else if constexpr (HasRole<C, role::Mapping>) {
       if constexpr (HasParents<C>)
@@ -117,7 +120,8 @@ struct RuntimeChecker {
       auto const& parents = scope.endsOf(entry);
       for (std::size_t k = 0; k < parents.size(); ++k) {
         const std::string who = text("its parent at '", m.parents.paths[k], "'");
-        if (!parents[k]) fail(text("there is no node for ", who, "; give the path from the node of the mapping"));
+        if (!parents[k])
+          fail(text("there is no node for ", who, "; give the path from the node of the mapping"));
         const RuntimeScope<R> parent(*parents[k]);
         state<typename M::In>(parent, who, text(who, " has no MechanicalObject"));
         if (parent.stateScope().atMount) continue;

@@ -244,8 +244,8 @@ struct RuntimeScope {
         f(mapping, child, parentScope().template state<In>());
     });
   }
-  /// The nodes that an interaction joins, or that a mapping with several parents follows; nulls where there is
-  /// none at a path.
+  /// The nodes that an interaction joins, or that a mapping with several parents follows; nulls where there
+  /// is none at a path.
   std::vector<RuntimeNode<R>*> const& endsOf(RuntimeEntry<R>& entry) const {
     if (entry.ends.empty())
       entry.component.template visit<role::InteractionForceField, role::ProjectiveConstraint, role::Mapping>(
@@ -329,14 +329,17 @@ struct RuntimeScope {
         part.forEachJacobianBlock(point, [&](int pointAbove, auto const& j) {
           auto chain = [&](int dof, int columns, double const* entries) {
             detail::with_jacobian<typename M::Out::Real, M::In::size>(
-                columns, entries, [&](auto const& jAbove) { detail::emit(visitor, dof, (j * jAbove).eval()); });
+                columns, entries, [&](auto const& jAbove) {
+                  detail::emit(visitor, dof, (j * jAbove).eval());
+                });
           };
           parent.expand(pointAbove, detail::jacobian_visitor(chain));
         });
       };
       if constexpr (HasParents<M>)
-        forEachParent(mapping,
-                      [&](std::size_t k, RuntimeScope const& parent) { expandPart(mapping.parts[k], parent); });
+        forEachParent(mapping, [&](std::size_t k, RuntimeScope const& parent) {
+          expandPart(mapping.parts[k], parent);
+        });
       else
         expandPart(mapping, above().stateScope());
     });
