@@ -124,7 +124,7 @@ template <class D>
 using PointCollisionModels = Registry<PointCollisionModel<D>, LineCollisionModel<D>,
                                       TriangleCollisionModel<D>, SphereCollisionModel<D>>;
 using StandardCollision =
-    Registry<DefaultPipeline, BruteForceBroadPhase, BVHNarrowPhase, MinProximityIntersection,
+    Registry<DefaultPipeline, BruteForceBroadPhase, TreeBroadPhase, BVHNarrowPhase, MinProximityIntersection,
              DiscreteIntersection, ContinuousIntersection, DefaultContactManager, CarvingManager,
              PointCollisionModels<Vec3d>, SphereCollisionModel<Rigid3d>>;
 

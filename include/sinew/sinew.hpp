@@ -13,6 +13,7 @@
 #include <sinew/collision/min_proximity_intersection.hpp>
 #include <sinew/collision/point_collision_model.hpp>
 #include <sinew/collision/sphere_collision_model.hpp>
+#include <sinew/collision/tree_broad_phase.hpp>
 #include <sinew/collision/triangle_collision_model.hpp>
 #include <sinew/constraint/affine_movement.hpp>
 #include <sinew/constraint/attach.hpp>

@@ -86,9 +86,7 @@ inline constexpr std::array withoutMeaning =
                                      "DisplayFlagsSetting"});
 
 /// Constraints solved by multipliers, and kinds of collision models and stages that are not there yet.
-inline constexpr std::array notYet = std::to_array<std::string_view>({"DirectSAP",
-                                                                      "IncrSAP",
-                                                                      "DirectSAPNarrowPhase",
+inline constexpr std::array notYet = std::to_array<std::string_view>({"DirectSAPNarrowPhase",
                                                                       "RayTraceDetection",
                                                                       "RayTraceNarrowPhase",
                                                                       "CollisionGroupManager",
