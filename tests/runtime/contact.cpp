@@ -11,8 +11,10 @@ using namespace sinew;
 
 namespace {
 
-using Bodies = Registry<Gravity, EulerImplicitSolver, CGLinearSolver<>, MeshTopology, MechanicalObject<Vec3d>,
-                        MechanicalObject<Rigid3d>, UniformMass<Vec3d>, StandardCollision>;
+using Bodies =
+    Registry<Gravity, EulerImplicitSolver, CGLinearSolver<>,
+             SparseLDLSolver<CompressedRowSparseMatrixMat3x3d>, MeshTopology, MechanicalObject<Vec3d>,
+             MechanicalObject<Rigid3d>, UniformMass<Vec3d>, StandardCollision>;
 
 constexpr std::string_view scene = R"(
 <Node name="root" dt="0.01" gravity="0 0 -10">
@@ -35,7 +37,8 @@ constexpr std::string_view scene = R"(
   </Node>
 </Node>)";
 
-auto typed() {
+template <class LinearSolver>
+auto typed(LinearSolver linear) {
   MeshTopology topology;
   topology.triangles = {{0, 1, 2}, {0, 2, 3}};
   return Simulation{node<"root">(
@@ -52,7 +55,7 @@ auto typed() {
               .moving = false, .simulated = false, .contactStiffness = 1000, .contactFriction = 0.2}),
       node<"balls">(
           EulerImplicitSolver{},
-          CGLinearSolver<>{.iterations = 25, .tolerance = 1e-9},
+          linear,
           MechanicalObject<Vec3d>{.position = {{0, 0.3, 0.65}, {0.2, 0.1, 1.7}},
                                   .velocity = {{0.5, 0, 0}, {0, 0, 0}}},
           UniformMass<Vec3d>{.vertexMass = 2},
@@ -62,21 +65,35 @@ auto typed() {
 
 }  // namespace
 
-TEST_CASE("contacts in a scene file and in a typed scene: the same bits") {
-  auto read = parse_scene<Bodies>("balls.scn", std::string(scene));
+// the same bits for 300 steps
+template <class LinearSolver>
+void compare(std::string const& content, LinearSolver linear) {
+  auto read = parse_scene<Bodies>("balls.scn", content);
   Simulation sim{std::move(read.root)};
-  auto fixed = typed();
+  auto fixed = typed(linear);
   sim.init();
   fixed.init();
   std::size_t most = 0;
   for (int i = 0; i < 300; ++i) {
     sim.animate(0.01);
     fixed.animate(0.01);
-    most = std::max(most, fixed.root().get<DefaultContactManager>().contacts.size());
-    auto& state = *sim.root().find_node("balls")->get<MechanicalObject<Vec3d>>();
-    REQUIRE(state.position == fixed.at<"balls">().state().position);
+    most = std::max(most, fixed.root().template get<DefaultContactManager>().contacts.size());
+    auto& state = *sim.root().find_node("balls")->template get<MechanicalObject<Vec3d>>();
+    REQUIRE(state.position == fixed.template at<"balls">().state().position);
   }
   CHECK(most == 2);
+}
+
+TEST_CASE("contacts in a scene file and in a typed scene: the same bits") {
+  compare(std::string(scene), CGLinearSolver<>{.iterations = 25, .tolerance = 1e-9});
+}
+
+TEST_CASE("contacts in the matrix of a direct solver, in a scene file and in a typed scene: the same bits") {
+  std::string direct(scene);
+  const std::size_t at = direct.find("<CGLinearSolver");
+  direct.replace(
+      at, direct.find("/>", at) - at, R"(<SparseLDLSolver template="CompressedRowSparseMatrixMat3x3d")");
+  compare(direct, SparseLDLSolver<CompressedRowSparseMatrixMat3x3d>{});
 }
 
 TEST_CASE("a collision model without a pipeline says what is missing") {

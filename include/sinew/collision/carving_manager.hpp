@@ -41,6 +41,8 @@ struct CarvingManager {
             .also("surfaceModel"));
   }
 
+  // after init: paths from the root of the scene on
+  std::string tool{}, body{};
   // of the steps
   long removed = 0;       // elements so far
   std::string message{};  // what could not be removed in the last step in which something could not

@@ -20,16 +20,11 @@ struct ContactAssembly {
   template <class D, class Dofs>
   void addVertices(CollisionSurface const& s, Dofs const& dofs) {
     for (const int vertex : s.touched)
-      dofs.expand(vertex, [&](int dof, auto const& j) {
-        Entry e{s.number, vertex, dof, 0, {}};
-        if constexpr (std::is_same_v<std::decay_t<decltype(j)>, IdentityJacobian>) {
-          e.columns = D::size;
-          e.rows.setIdentity();
-        } else {
-          e.columns = int(j.cols());
-          for (int c = 0; c < e.columns; ++c)
-            for (int r = 0; r < D::size; ++r) e.rows(r, c) = double(j(r, c));
-        }
+      expand_point(dofs, vertex, [&](int dof, int columns, double const* j) {
+        Entry e{s.number, vertex, dof, columns == 0 ? D::size : columns, {}};
+        e.rows.setIdentity();
+        for (int c = 0; c < columns; ++c)
+          for (int r = 0; r < D::size; ++r) e.rows(r, c) = j[D::size * c + r];
         entries.push_back(e);
       });
   }

@@ -77,6 +77,21 @@ struct MultiMappedDofs {
   }
 };
 
+/// f(dof, columns, entries) for each block of the Jacobian of a point, in doubles and column by column; no
+/// columns and no entries for the identity. Other kinds of degrees of freedom have overloads.
+template <class Dofs, class F>
+void expand_point(Dofs const& dofs, int point, F&& f) {
+  dofs.expand(point, [&](int dof, auto const& j) {
+    using J = std::decay_t<decltype(j)>;
+    if constexpr (std::is_same_v<J, IdentityJacobian>) {
+      f(dof, 0, static_cast<double const*>(nullptr));
+    } else {
+      const Mat<double, J::RowsAtCompileTime, J::ColsAtCompileTime> entries = j.template cast<double>();
+      f(dof, int(J::ColsAtCompileTime), entries.data());
+    }
+  });
+}
+
 /// Adds element blocks K between points i and j to A as J_i' K J_j. `A` and `B` are the degrees of freedom of
 /// the two ends of an interaction; one body has the same twice.
 template <AssemblyPhase Phase, class Matrix, class A, class B = A>

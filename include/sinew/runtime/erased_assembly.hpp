@@ -113,6 +113,14 @@ struct ErasedDofs {
   int offset = 0, size = 0;  // of an independent state, whose `expand` is null
 };
 
+template <class F>
+void expand_point(ErasedDofs const& dofs, int point, F&& f) {
+  if (dofs.expand)
+    dofs.expand(dofs.self, point, detail::jacobian_visitor(f));
+  else
+    f(dofs.offset + point * dofs.size, 0, static_cast<double const*>(nullptr));
+}
+
 /// What MatrixSink is to typed trees, with the Jacobians found at run time and the matrix out of sight: one
 /// instantiation serves all mappings and matrices, and computes the same bits.
 template <AssemblyPhase Phase>
@@ -132,8 +140,8 @@ struct ErasedSink {
       using Real = typename K::Scalar;
       constexpr int n = K::RowsAtCompileTime;
       const Mat<Real, n> block = k;
-      expand(SideI == 0 ? first : second, i, [&](int row, int columnsI, double const* ji) {
-        expand(SideJ == 0 ? first : second, j, [&](int column, int columnsJ, double const* jj) {
+      expand_point(SideI == 0 ? first : second, i, [&](int row, int columnsI, double const* ji) {
+        expand_point(SideJ == 0 ? first : second, j, [&](int column, int columnsJ, double const* jj) {
           detail::place_block<Phase, Real, n>(target, row, column, columnsI, ji, columnsJ, jj, block);
         });
       });
@@ -141,15 +149,6 @@ struct ErasedSink {
   }
   // constraints act on independent states
   void fix(int) const {}
-
- private:
-  template <class F>
-  static void expand(ErasedDofs const& dofs, int point, F&& f) {
-    if (dofs.expand)
-      dofs.expand(dofs.self, point, detail::jacobian_visitor(f));
-    else
-      f(dofs.offset + point * dofs.size, 0, nullptr);
-  }
 };
 
 namespace detail {
@@ -181,6 +180,10 @@ template <int N>
 struct RuntimeDofs {
   DirectDofs<N> direct;
 };
+template <int N, class F>
+void expand_point(RuntimeDofs<N> const& dofs, int point, F&& f) {
+  expand_point(dofs.direct, point, f);
+}
 namespace detail {
 template <int N>
 ErasedDofs erased(RuntimeDofs<N> const& dofs) {

@@ -71,7 +71,7 @@ struct Carving {
     std::vector<Carved> all;
     traverse(root, on<role::Carving>([&](auto& carving, auto const& scope) {
                if (!carving.active) return;
-               scope.withContacts([&](auto const& manager) { find(carving, scope.path(), manager, all); });
+               scope.withContacts([&](auto const& manager) { find(carving, manager, all); });
              }));
     return all;
   }
@@ -84,7 +84,7 @@ struct Carving {
   }
 
   template <class C, class S>
-  void check(C const& carving, S const& scope) const {
+  void check(C& carving, S const& scope) const {
     auto wrong = [&](auto const&... what) {
       throw Error(scope.path(), text(component_name<C>(), ": ", what...));
     };
@@ -93,8 +93,8 @@ struct Carving {
     if (!detects) wrong("no node above has a DefaultPipeline, whose contacts it needs; add one to its node");
     if (carving.toolModel.empty())
       wrong("toolModel is not given; name the node of the tool's collision model");
-    const std::string tool = path_from(scope.path(), carving.toolModel),
-                      body = path_from(scope.path(), carving.surfaceModelPath);
+    std::string const &tool = carving.tool = path_from(scope.path(), carving.toolModel),
+                      &body = carving.body = path_from(scope.path(), carving.surfaceModelPath);
     bool hasTool = false, hasBody = false;
     std::string models;
     traverse(root, on<role::CollisionModel>([&](auto const& model, auto const& s) {
@@ -160,13 +160,12 @@ struct Carving {
   }
 
   template <class C, class Manager>
-  void find(C& carving, std::string const& where, Manager const& manager, std::vector<Carved>& all) const {
+  void find(C& carving, Manager const& manager, std::vector<Carved>& all) const {
     auto near = [&](Contact const& c) {
       return carving.carvingDistance ? c.distance <= *carving.carvingDistance : c.distance < c.limit;
     };
     if (std::none_of(manager.contacts.begin(), manager.contacts.end(), near)) return;
-    const std::string tool = path_from(where, carving.toolModel),
-                      body = path_from(where, carving.surfaceModelPath);
+    std::string const &tool = carving.tool, &body = carving.body;
     for (std::size_t s = 0; s < manager.surfaces.size(); ++s) {
       CollisionSurface const& surface = *manager.surfaces[s];
       if (surface.corners != 3 || isBelow(surface.path, tool) || !isBelow(surface.path, body)) continue;

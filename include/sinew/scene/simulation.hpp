@@ -108,9 +108,9 @@ class Simulation {
     return picking([&](auto const& p) { return p.pick(origin, direction, maxDistance, tolerance); });
   }
   /// Holds a picked place by a spring whose other end, at first where the place is, pull() moves. It acts as
-  /// a contact does, through mappings and implicitly under an implicit solver. Returns the number by which it
-  /// is pulled and released; throws Error where the settings are wrong, where the place is gone, and where no
-  /// solver moves the model.
+  /// a contact does, through mappings and implicitly under an implicit solver. change() releases it. Returns
+  /// the number by which it is pulled and released; throws Error where the settings are wrong, where the
+  /// place is gone, and where no solver moves the model.
   int attach(Pick const& place, AttachSettings const& settings = {}) {
     initialisedFor("attach");
     return picking([&](auto const& p) { return p.attach(place, settings); });
