@@ -280,11 +280,12 @@ struct ElementDriver {
   // to[0..N) += from[0..N), four at a time, then two
   template <int N, class Target>
   SINEW_INLINE static void addTo(Target* to, Real const* from) {
-    constexpr int fours = std::is_same_v<Target, Real> ? N / 4 : 0,
-                  twos = std::is_same_v<Target, Real> ? N / 2 - 2 * fours : 0, alone = 4 * fours + 2 * twos;
-    for (int i = 0; i < fours; ++i) addSome<4>(to + 4 * i, from + 4 * i);
-    for (int i = 0; i < twos; ++i) addSome<2>(to + 4 * fours, from + 4 * fours);
-    for (int i = alone; i < N; ++i) to[i] += Target(from[i]);
+    int i = 0;
+    if constexpr (std::is_same_v<Target, Real>) {
+      for (; i + 4 <= N; i += 4) addSome<4>(to + i, from + i);
+      if (i + 2 <= N) addSome<2>(to + i, from + i), i += 2;
+    }
+    for (; i < N; ++i) to[i] += Target(from[i]);
   }
   template <int N>
   SINEW_INLINE static void addSome(Real* to, Real const* from) {
