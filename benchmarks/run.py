@@ -118,6 +118,21 @@ def families(build, rounds):
     return rows
 
 
+def collision(build, rounds):
+    rows = []
+    for program, target in (("bench_collision", "this processor"), ("bench_collision_portable", "any x86-64, as the other two are")):
+        print(f"\ncollision: microseconds a step, medians of {rounds} rounds in turn; Sinew compiled for {target}")
+        print(f"  {'scene':22} {'boxes':>8} {'pairs':>7} {'Sinew':>10} {'Bullet':>10} {'FCL':>10}  ns a box")
+        for line in output(build / program, rounds).splitlines():
+            scene, boxes, pairs, *times = line.split("; ")
+            row = {"scene": scene, "for": target, "boxes": int(boxes), "pairs": int(pairs)}
+            row.update({name: float(time) for name, time in zip(("sinew", "bullet", "fcl"), times) if time != "-"})
+            rows.append(row)
+            print(f"  {scene:22} {boxes:>8} {pairs:>7}" + "".join(f" {row[k]:10.1f}" if k in row else f" {'-':>10}" for k in ("sinew", "bullet", "fcl"))
+                  + f" {1000 * row['sinew'] / row['boxes']:9.1f}")
+    return rows
+
+
 def main():
     here = pathlib.Path(__file__).resolve().parent
     parser = argparse.ArgumentParser(description=__doc__)
@@ -125,7 +140,7 @@ def main():
     parser.add_argument("--meshes", type=pathlib.Path, nargs="*", help="tetrahedral meshes (.msh); default: blocks made here")
     parser.add_argument("--yardstick", type=pathlib.Path, help="C++ source of a program to compare the liver with")
     parser.add_argument("--rounds", type=int, default=5)
-    parser.add_argument("--only", choices=["fem", "by-hand", "vitrectomy", "runtime", "families", "compile"], help="one table instead of all")
+    parser.add_argument("--only", choices=["fem", "by-hand", "vitrectomy", "runtime", "families", "collision", "compile"], help="one table instead of all")
     parser.add_argument("--json", type=pathlib.Path, default=pathlib.Path("out/bench.json"))
     arguments = parser.parse_args()
     for mesh in arguments.meshes or []:
@@ -168,6 +183,8 @@ def main():
             ]
         if arguments.only in (None, "families"):
             results["families"] = families(arguments.build, 2 * arguments.rounds + 1)
+        if arguments.only in (None, "collision"):
+            results["collision"] = collision(arguments.build, arguments.rounds)
         if arguments.only in (None, "compile"):
             results["compile"] = measure.table()
     arguments.json.parent.mkdir(parents=True, exist_ok=True)

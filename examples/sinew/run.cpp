@@ -41,6 +41,8 @@ class Outputs {
     writing([&] {
       if (pictures_) files = pictures_->paths();
       if (record_) record_->finish(), files.push_back(options_.record);
+      scene_.simulation.finish();
+      addRecorded(scene_.simulation.root(), files);
       // what diverged is nothing to go on from
       if (good && !options_.save.empty()) {
         sinew::save_scene(scene_.simulation, scene_.dt, options_.save);
@@ -55,6 +57,17 @@ class Outputs {
   Scene& scene_;
   std::optional<Pictures> pictures_{};
   std::optional<sinew::RecordWriter> record_{};
+
+  // what components of the scene have written
+  template <class Node>
+  static void addRecorded(Node const& node, std::vector<std::string>& files) {
+    for (auto const& entry : node.components())
+      entry.component.template visit<sinew::role::StepCallback>([&](auto const& c) {
+        if constexpr (requires { c.writer->frames(); })
+          if (c.writer && c.writer->frames() > 0) files.push_back(c.filename);
+      });
+    for (auto const& child : node.children()) addRecorded(*child, files);
+  }
 
   // finds out before a long run, not after it
   static void mayWrite(std::string const& path) {

@@ -3,6 +3,7 @@
 #include <sinew/registry.hpp>
 #include <sinew/runtime/read_scene.hpp>
 #include <sinew/runtime/runtime.hpp>
+#include <sinew/runtime/save_scene.hpp>
 
 #include "catch.hpp"
 
@@ -103,4 +104,34 @@ TEST_CASE("a stage that is missing, and a response that there is not, are named"
     CHECK_THROWS_WITH((Simulation{std::move(root)}.init()),
                       Catch::Contains("'Nothing'") && Catch::Contains("PenalityContactForceField"));
   }
+}
+
+TEST_CASE("a checkpoint in the middle of contacts with friction goes on bit by bit") {
+  auto read = parse_scene<Bodies>("balls.scn", std::string(scene));
+  Simulation sim{std::move(read.root)};
+  sim.init();
+  for (int i = 0; i < 60; ++i) sim.animate(0.01);
+  REQUIRE(!sim.root().get<DefaultContactManager>()->contacts.empty());
+  auto again = parse_scene<Bodies>("checkpoint.scn", scene_text(sim, 0.01));
+  Simulation other{std::move(again.root)};
+  other.init();
+  for (int i = 0; i < 100; ++i) {
+    sim.animate(0.01);
+    other.animate(0.01);
+    REQUIRE(other.root().find_node("balls")->get<MechanicalObject<Vec3d>>()->position ==
+            sim.root().find_node("balls")->get<MechanicalObject<Vec3d>>()->position);
+  }
+}
+
+TEST_CASE("contacts of a checkpoint that are not of its scene are refused") {
+  RuntimeNode<Bodies> root("root");
+  root.add(DefaultPipeline{});
+  root.add(BruteForceBroadPhase{});
+  root.add(BVHNarrowPhase{});
+  root.add(MinProximityIntersection{});
+  DefaultContactManager manager;
+  manager.contacts.resize(1);
+  manager.contacts[0].a.surface = 7;
+  root.add(manager);
+  CHECK_THROWS_WITH((Simulation{std::move(root)}.init()), Catch::Contains("checkpoint"));
 }

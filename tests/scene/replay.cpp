@@ -17,6 +17,7 @@
 #include <sinew/solver/euler_explicit.hpp>
 #include <sinew/solver/euler_implicit.hpp>
 #include <sinew/state/mechanical_object.hpp>
+#include <sinew/topology/mesh_topology.hpp>
 
 using namespace sinew;
 using Eigen::Vector3d;
@@ -418,4 +419,34 @@ TEST_CASE("keys at equal times, and a time shift") {
   CHECK(sim.root().state().position[0][0] == 0.5);
   sim.animate(0.25);
   CHECK(sim.root().state().position[0][0] == 1);
+}
+
+TEST_CASE("a record or a replay of a body that loses points says so") {
+  TempFolder folder;
+  auto scene = [](auto... more) {
+    return Simulation{
+        node<"root">(node<"body">(MeshTopology{.edges = {{0, 1}, {1, 2}}},
+                                  MechanicalObject<Vec3d>{.position = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}},
+                                  more...))};
+  };
+  auto sim = scene(EulerExplicitSolver{}, UniformMass<Vec3d>{}, WriteState<Vec3d>{.filename = folder / "f"});
+  sim.init();
+  for (int i = 0; i < 5; ++i) sim.animate(dt);
+  sim.removeElements("body", {.edges = {1}});
+  CHECK(sim.at<"body">().state().size() == 2);
+  says([&] { sim.animate(dt); }, {"/root/body: WriteState<Vec3d>", "has 2 points, and had 3"});
+  // what was recorded is there
+  CHECK(io::read_state_file<double>(folder / "f", io::state_layout<Vec3d>(3)).times.size() == 6);
+  // from the start it may
+  sim.reset();
+  sim.animate(dt);
+  sim.finish();
+  CHECK(io::read_state_file<double>(folder / "f", io::state_layout<Vec3d>(2)).times.size() == 2);
+
+  auto replay =
+      scene(ReadState<Vec3d>{.keyTimes = {0}, .keyPositions = Vec3d::VecCoord(3, Vector3d(0, 0, 0))});
+  replay.init();
+  says([&] { replay.removeElements("body", {.edges = {1}}); },
+       {"/root/body: ReadState<Vec3d>", "each of 2 points"});
+  CHECK(replay.at<"body">().state().size() == 3);
 }

@@ -6,6 +6,8 @@
 #include "string_on_rigid/scene.hpp"
 #include "vitrectomy/scene.hpp"
 
+#include <sinew/control/hand_device.hpp>
+#include <sinew/control/haptic_loop.hpp>
 #include <sinew/topology/regular_grid.hpp>
 
 #include <atomic>
@@ -141,4 +143,33 @@ TEST_CASE("no step of the vitrectomy allocates, not even those in which springs 
   const long after = allocations;
   CHECK(after == before);
   CHECK(sim.at<"eye">().get<examples::CuttableSpringForceField<Vec3d>>().springs.empty());
+}
+
+TEST_CASE("the thread of a haptic loop does not allocate") {
+  struct Counted : HandDevice<Rigid3d::Coord (*)(double)> {
+    std::atomic<long> reads{0};
+    DeviceState read(double time) {
+      ++reads;
+      return HandDevice::read(time);
+    }
+  } device;
+  device.target = [](double time) {
+    Rigid3d::Coord pose;
+    pose.center[0] = 0.01 * time;
+    return pose;
+  };
+  HapticController settings;
+  settings.deviceMass = device.mass;
+  HapticLoop loop(device, settings);
+  loop.start();
+  auto ticks = [&](long n) {
+    for (const long until = device.reads + n; device.reads < until;) {
+      loop.publish({loop.target().pose, loop.target().velocity});
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  };
+  ticks(20);
+  const long before = allocations;
+  ticks(100);
+  CHECK(allocations == before);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/collision/collision_surface.hpp>
+#include <sinew/core/fields.hpp>
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -22,6 +23,14 @@ struct ContactSide {
   std::array<double, 3> weights{0, 0, 0};
   Eigen::Vector3d lever{0, 0, 0};  // from the centre of the rigid, in its axes
 
+  static constexpr auto fields() {
+    using S = ContactSide;
+    return field_list(field("surface", &S::surface, "", "model, in the order of the scene"),
+                      field("element", &S::element, "", "primitive of it"),
+                      field("vertices", &S::vertices, "", "its vertices, -1 behind the last"),
+                      field("weights", &S::weights, "", "of the vertices"),
+                      field("lever", &S::lever, "m", "from the centre of a rigid, in its axes"));
+  }
   int corners() const { return 3 - int(vertices[1] < 0) - int(vertices[2] < 0); }
 };
 
@@ -59,6 +68,25 @@ struct Contact {
   Eigen::Vector3d sliding{0, 0, 0};
   Eigen::Vector3d force{0, 0, 0};
   Eigen::Matrix3d stiffnessMatrix = Eigen::Matrix3d::Zero(), dampingMatrix = Eigen::Matrix3d::Zero();
+
+  static constexpr auto fields() {
+    using C = Contact;
+    return field_list(field("a", &C::a, "", "first side"),
+                      field("b", &C::b, "", "second side"),
+                      field("normal", &C::normal, "", "from a to b"),
+                      field("thickness", &C::thickness, "m", "radii of the two"),
+                      field("limit", &C::limit, "m", "distance below which the response acts"),
+                      field("distance", &C::distance, "m", "at detection"),
+                      field("stiffness", &C::stiffness, "N/m", "of the two together"),
+                      field("friction", &C::friction, "", "coefficient"),
+                      field("damping", &C::damping, "N s/m", "along the normal"),
+                      field("response", &C::response, "", "place among the responses"),
+                      field("slip", &C::slip, "m", "tangential displacement since it sticks"),
+                      field("slide", &C::slide, "m", "the way it slid before"),
+                      field("memory", &C::memory, "", "of other responses"),
+                      field("start", &C::start, "m", "displacement at detection"),
+                      field("sliding", &C::sliding, "m", "the way it slides"));
+  }
 
   ContactKey key() const {
     ContactKey k{{a.surface, b.surface}, {}};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/collision/attachment.hpp>
 #include <sinew/collision/contact_assembly.hpp>
 #include <sinew/collision/penalty_contact.hpp>
 #include <sinew/collision/stick_contact.hpp>
@@ -9,6 +10,7 @@
 #include <span>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace sinew {
@@ -41,8 +43,15 @@ struct ContactManager {
               range::atLeast(0)));
   }
 
+  std::vector<Contact> contacts{};  // rising by key
+
+  static constexpr auto state() {
+    return field_list(field(
+        "contacts", &ContactManager::contacts, "", "contacts of the last step, and what they remember"));
+  }
+
   // of the steps
-  std::vector<Contact> contacts{}, found{};
+  std::vector<Contact> found{};
   std::vector<CollisionSurface*> surfaces{};  // in the order of the scene, of this step
   std::vector<int> points{};
   ContactAssembly assembly{};
@@ -50,9 +59,14 @@ struct ContactManager {
     std::array<int, 4> key;  // surfaces, side, vertex
     int contact;
   };
-  std::vector<OfVertex> ofVertices{};  // contacts of single vertices
-  long grown = 0;                      // how often there was no room
-  bool couplingChanged = false;        // since the last step: other vertices meet than before
+  std::vector<OfVertex> ofVertices{};     // contacts of single vertices
+  long grown = 0;                         // how often there was no room
+  bool couplingChanged = false;           // since the last step: other vertices meet than before
+  std::vector<Attachment> attachments{};  // places that are held from outside
+  std::vector<Contact> keptContacts{};    // those that follow a change of the scene, until init
+  std::vector<Attachment> keptAttachments{};
+  bool coupleAnew = false;  // whatever the contacts are
+  int lastAttachment = 0;
 
   static constexpr int count = int(sizeof...(Responses));
   static std::string names() {
@@ -73,13 +87,19 @@ struct ContactManager {
     return place;
   }
 
-  void init(std::string const& where, std::vector<CollisionSurface*> const& all) {
+  void init(std::string const& where, std::vector<CollisionSurface*> const& all, bool again = false) {
     surfaces = all;
-    contacts.clear();
+    if (again) {
+      contacts = std::exchange(keptContacts, {});
+      attachments = std::exchange(keptAttachments, {});
+    }
+    coupleAnew = acts();
     found.clear();
     contacts.reserve(std::size_t(capacity));
     found.reserve(std::size_t(capacity));
     ofVertices.reserve(2 * std::size_t(capacity));
+    points.reserve(6 * std::size_t(capacity));
+    attachments.reserve(8);
     grown = 0;
     auto known = [&](std::string_view place, std::string_view name) {
       if (find(name) < 0)
@@ -92,6 +112,63 @@ struct ContactManager {
     known(where, response);
     for (auto const* s : surfaces)
       if (!s->response.empty()) known(s->path, s->response);
+    for (std::size_t i = 0; i < contacts.size(); ++i)
+      if (!fits(contacts[i].a) || !fits(contacts[i].b) || contacts[i].response < 0 ||
+          contacts[i].response >= count)
+        throw Error(where,
+                    text(component_name<ContactManager>(),
+                         ": contact ",
+                         i,
+                         " of the checkpoint is between primitives that this scene does not have; take the "
+                         "checkpoint with the "
+                         "scene that it was made of"));
+  }
+
+  bool acts() const { return !contacts.empty() || !attachments.empty(); }
+  /// As if nothing had ever touched.
+  void forget() {
+    coupleAnew = coupleAnew || acts();
+    contacts.clear();
+    attachments.clear();
+  }
+
+  /// Holds a place from now on: the attachment with a number, which nothing else has.
+  void attach(Attachment const& a) {
+    attachments.push_back(a);
+    coupleAnew = true;
+  }
+  Attachment* attachment(int id) {
+    for (Attachment& a : attachments)
+      if (a.id == id) return &a;
+    return nullptr;
+  }
+  /// Lets go; says whether it was held.
+  bool release(int id) {
+    const bool held = std::erase_if(attachments, [id](Attachment const& a) { return a.id == id; }) > 0;
+    coupleAnew = coupleAnew || held;
+    return held;
+  }
+
+  /// What touches goes on when vertices go, those of surface s being renumbered by `of(s)`: contacts of what
+  /// stays keep what they remember.
+  template <class Of>
+  void follow(Of&& of) {
+    auto stays = [&](Contact& c) {
+      for (ContactSide* side : {&c.a, &c.b})
+        for (int k = 0; side->surface >= 0 && k < side->corners(); ++k) {
+          auto const& renumbering = of(side->surface);
+          int& vertex = side->vertices[std::size_t(k)];
+          if (!renumbering.stays(vertex)) return false;
+          renumbering.renumber(vertex);
+        }
+      return true;
+    };
+    keptContacts.clear();
+    keptAttachments.clear();
+    for (Contact c : contacts)
+      if (stays(c)) keptContacts.push_back(c);
+    for (Attachment a : attachments)
+      if (stays(a.contact)) keptAttachments.push_back(a);
   }
 
   /// f(response) for the one that answers a contact.
@@ -103,7 +180,8 @@ struct ContactManager {
     (std::index_sequence_for<Responses...>{});
   }
 
-  /// What the responses remember of the step that has ended, the surfaces being where it has brought them.
+  /// What the responses remember of the step that has ended, the surfaces being where it, and what has moved
+  /// since, has brought them.
   void settle(std::vector<CollisionSurface*> const& all) {
     surfaces.assign(all.begin(), all.end());
     for (Contact& c : contacts)
@@ -131,28 +209,34 @@ struct ContactManager {
                             found.end(),
                             [](Contact const& x, Contact const& y) { return x.key() == y.key(); }),
                 found.end());
-    couplingChanged = found.size() != contacts.size();
+    couplingChanged = std::exchange(coupleAnew, false) || found.size() != contacts.size();
     listVertices();
     auto old = contacts.begin();
     for (Contact& c : found) {
-      while (old != contacts.end() && old->key() < c.key()) ++old;
-      const bool again = old != contacts.end() && old->key() == c.key();
+      const ContactKey key = c.key();
+      while (old != contacts.end() && old->key() < key) ++old;
+      const bool again = old != contacts.end() && old->key() == key;
       couplingChanged = couplingChanged || !again;
       describe(c, *surfaces[std::size_t(c.a.surface)], *surfaces[std::size_t(c.b.surface)]);
       c.start = displacement(c);
       if (again)
         remember(c, *old);
-      else if (Contact const* before = ofSameVertex(c))
-        remember(c, *before);
+      else if (Contact const* other = ofSameVertex(key))
+        remember(c, *other);
     }
     contacts.swap(found);
     found.clear();
     std::apply([dt](auto&... r) { (setStep(r, dt), ...); }, responses);
     for (auto* s : surfaces) s->forgetTouched();
-    for (Contact const& c : contacts)
-      for (ContactSide const* side : {&c.a, &c.b})
-        for (int k = 0; k < side->corners(); ++k)
-          surfaces[std::size_t(side->surface)]->touch(side->vertices[std::size_t(k)]);
+    auto touch = [&](ContactSide const& side) {
+      for (int k = 0; k < side.corners(); ++k)
+        surfaces[std::size_t(side.surface)]->touch(side.vertices[std::size_t(k)]);
+    };
+    for (Contact const& c : contacts) touch(c.a), touch(c.b);
+    for (Attachment& a : attachments) {
+      touch(a.contact.b);
+      find_solver(a.contact, nullptr, surfaces[std::size_t(a.contact.b.surface)]);
+    }
   }
 
   /// f(response, state, touched points of it) for the contacts of responses that change what they touch.
@@ -192,6 +276,12 @@ struct ContactManager {
       add_force(c.b, b, c.force);
       add_force(c.a, a, -c.force);
     }
+    for (Attachment& a : attachments) {
+      if (!chosen(a.contact)) continue;
+      auto& s = *surfaces[std::size_t(a.contact.b.surface)];
+      a.evaluate(s);
+      add_force(a.contact.b, s, a.contact.force);
+    }
   }
   /// The same for the change of the forces, k K dx + b B dx; what no solver moves stays where it is.
   template <class Chosen>
@@ -207,6 +297,12 @@ struct ContactManager {
       add_force(c.b, second, df);
       add_force(c.a, first, -df);
     }
+    for (Attachment const& a : attachments) {
+      if (!chosen(a.contact)) continue;
+      auto& s = *surfaces[std::size_t(a.contact.b.surface)];
+      const Eigen::Vector3d du = rate_of(a.contact.b, s, s.dx, s.turn);
+      add_force(a.contact.b, s, -(k * a.stiffness + b * a.damping) * du);
+    }
   }
   /// The blocks of those contacts in the matrix of a solver, after its models have given their vertices to
   /// `assembly`.
@@ -215,36 +311,49 @@ struct ContactManager {
     assembly.sort();
     for (Contact const& c : contacts)
       if (chosen(c)) assembly.add<Phase>(matrix, c, surfaces, k, b);
+    for (Attachment const& a : attachments)
+      if (chosen(a.contact)) assembly.add<Phase>(matrix, a.contact, surfaces, k, b);
   }
 
  private:
+  bool fits(ContactSide const& side) const {
+    if (side.surface < 0 || side.surface >= int(surfaces.size())) return false;
+    auto const& s = *surfaces[std::size_t(side.surface)];
+    bool all = side.vertices[0] >= 0;
+    for (const int v : side.vertices) all = all && v < int(s.position.size());
+    return all;
+  }
   Eigen::Vector3d displacement(Contact const& c) const {
     return position_of(c.b, *surfaces[std::size_t(c.b.surface)]) -
            position_of(c.a, *surfaces[std::size_t(c.a.surface)]);
   }
-  // a vertex that slides from one triangle to the next goes on with the same contact
-  static std::array<int, 4> vertexKey(Contact const& c, int side) {
-    return {c.a.surface, c.b.surface, side, (side == 0 ? c.a : c.b).vertices[0]};
+  // a vertex that slides from one triangle to the next goes on with the same contact; -1 stands before
+  // vertices
+  static std::array<int, 4> vertexKey(ContactKey const& k, int side) {
+    return {k.surfaces[0], k.surfaces[1], side, k.vertices[std::size_t(side == 0 ? 2 : 5)]};
+  }
+  static bool ofOneVertex(ContactKey const& k, int side) {
+    return k.vertices[std::size_t(side == 0 ? 1 : 4)] < 0;
   }
   void listVertices() {
     ofVertices.clear();
     for (std::size_t i = 0; i < contacts.size(); ++i)
       for (int side = 0; side < 2; ++side)
-        if ((side == 0 ? contacts[i].a : contacts[i].b).corners() == 1)
-          ofVertices.push_back({vertexKey(contacts[i], side), int(i)});
+        if (const ContactKey key = contacts[i].key(); ofOneVertex(key, side))
+          ofVertices.push_back({vertexKey(key, side), int(i)});
     std::sort(ofVertices.begin(), ofVertices.end(), [](OfVertex const& x, OfVertex const& y) {
       return std::pair(x.key, x.contact) < std::pair(y.key, y.contact);
     });
   }
-  Contact const* ofSameVertex(Contact const& c) const {
+  Contact const* ofSameVertex(ContactKey const& key) const {
     for (int side = 0; side < 2; ++side) {
-      if ((side == 0 ? c.a : c.b).corners() != 1) continue;
-      const auto key = vertexKey(c, side);
-      const auto first =
-          std::lower_bound(ofVertices.begin(), ofVertices.end(), key, [](OfVertex const& x, auto const& k) {
+      if (!ofOneVertex(key, side)) continue;
+      const auto wanted = vertexKey(key, side);
+      const auto first = std::lower_bound(
+          ofVertices.begin(), ofVertices.end(), wanted, [](OfVertex const& x, auto const& k) {
             return x.key < k;
           });
-      if (first != ofVertices.end() && first->key == key) return &contacts[std::size_t(first->contact)];
+      if (first != ofVertices.end() && first->key == wanted) return &contacts[std::size_t(first->contact)];
     }
     return nullptr;
   }
@@ -262,10 +371,7 @@ struct ContactManager {
                           find(!a.response.empty()   ? a.response
                                : !b.response.empty() ? b.response
                                                      : response));
-    const int sa = a.simulated ? a.solver : -1, sb = b.simulated ? b.solver : -1;
-    c.loose = sa >= 0 && sb >= 0 && sa != sb;
-    c.solver = c.loose ? -1 : std::max(sa, sb);
-    c.implicit = !c.loose && (sa >= 0 ? a.implicit : b.implicit);
+    find_solver(c, &a, &b);
   }
   static void remember(Contact& c, Contact const& old) {
     c.slip = old.slip;

@@ -84,6 +84,7 @@ struct WriteState {
   double nextDue = 0;  // number of the next of the times at which a frame is due
   long stamp = 0;
   std::string where{};
+  std::size_t pointsBefore = 0;  // that the state had in frames that are there; 0: as many as now
 
   void init(InitContext<D> const& context) {
     where = text(context.where, ": ", component_name<WriteState>());
@@ -94,11 +95,13 @@ struct WriteState {
         throw Error(
             where,
             text("time[", k, "] is ", time[k], " s, not after time[", k - 1, "]; put them in rising order"));
-    if (writer && writer->path() == filename && writer->points() == context.rest.size()) return;
+    auto layout = io::state_layout<D>(context.rest.size());
+    layout.has = {writeX0, writeX, writeV, writeF};
+    const bool binary = format == StateFormat::binary;
+    if (writer && writer->writes(filename, layout, binary)) return;
+    pointsBefore = writer ? writer->points() : 0;
     try {
-      auto layout = io::state_layout<D>(context.rest.size());
-      layout.has = {writeX0, writeX, writeV, writeF};
-      writer = std::make_shared<io::StateWriter<Real>>(filename, layout, format == StateFormat::binary);
+      writer = std::make_shared<io::StateWriter<Real>>(filename, std::move(layout), binary);
     } catch (Error const& error) {
       throw Error(where, error.what());
     }
@@ -110,8 +113,17 @@ struct WriteState {
   void beforeStep(StepAhead const& step, State const& state) {
     if (step.step == 1) {
       recorded = 0, stopped = false, lastEnergy = 0, nextLook = -1;
-      nextDue = 0;
+      nextDue = 0, pointsBefore = 0;
     }
+    if (recorded > 0 && pointsBefore > 0 && pointsBefore != writer->points())
+      throw Error(
+          where,
+          text("the state has ",
+               writer->points(),
+               " points, and had ",
+               pointsBefore,
+               " when the record began; all frames of a file have the same points. Take this component out "
+               "of the scene (Simulation::change), or put another one there"));
     if (recorded == 0 && step.step == 1) {
       if (due(step.begin, step.dt)) record(step.begin, state);
     } else if (nextDue == 0 && !everyStep()) {

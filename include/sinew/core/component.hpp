@@ -37,6 +37,7 @@ struct NarrowPhase;        // which of their primitives are
 struct Intersection;       // where two primitives meet
 struct ContactManager;     // what answers it
 struct CollisionModel;     // primitives over the points of a state
+struct Carving;            // which elements go where something touches
 }  // namespace role
 
 template <class C, class R>

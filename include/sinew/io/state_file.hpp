@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/data_types.hpp>
 #include <sinew/io/output_file.hpp>
 #include <sinew/io/text_reader.hpp>
 
@@ -47,6 +48,7 @@ struct StateLayout {
   std::string dataTypes{};                       // "Vec3d"
   std::size_t points = 0, coord = 0, deriv = 0;  // numbers of a position and of a velocity
   std::array<bool, 4> has{};
+  bool operator==(StateLayout const&) const = default;
 
   std::size_t numbers(int part) const { return points * (part < velocity ? coord : deriv); }
   /// Of a frame.

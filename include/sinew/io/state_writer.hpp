@@ -96,7 +96,9 @@ class StateWriter {
     if (!device_ && ::rename(name_.c_str(), path_.c_str()) != 0) fail();
   }
 
-  std::string const& path() const { return path_; }
+  bool writes(std::string_view path, StateLayout const& layout, bool binary) const {
+    return path == path_ && layout == layout_ && binary == binary_;
+  }
   std::size_t points() const { return layout_.points; }
   std::size_t frames() const { return frames_; }
 

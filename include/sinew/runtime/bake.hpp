@@ -514,7 +514,7 @@ class Baker {
         "sinew;\n\n";
     cpp += constant("double", "dt", safe_cpp(write_value(scene_.dt))) + "  // [s]\n";
     if (scene_.step > 0 && std::isfinite(scene_.time)) {
-      cpp += "// a checkpoint: after init(), continueFrom() these\n";
+      cpp += "// a checkpoint: init(startTime, startStep)\n";
       cpp += constant("double", "startTime", safe_cpp(write_value(scene_.time))) + "  // [s]\n";
       cpp += constant("long", "startStep", std::to_string(scene_.step)) + '\n';
     }

@@ -52,9 +52,10 @@ enum class RoleKind {
   narrowPhase,
   intersection,
   contactManager,
-  collisionModel
+  collisionModel,
+  carving
 };
-inline constexpr std::array<std::string_view, 19> enum_names(RoleKind) {
+inline constexpr std::array<std::string_view, 20> enum_names(RoleKind) {
   return {"context",
           "topology",
           "state",
@@ -73,7 +74,8 @@ inline constexpr std::array<std::string_view, 19> enum_names(RoleKind) {
           "narrow phase",
           "intersection method",
           "contact manager",
-          "collision model"};
+          "collision model",
+          "carving"};
 }
 template <class Role>
 constexpr RoleKind role_kind() {
@@ -98,6 +100,7 @@ constexpr RoleKind role_kind() {
   is.template operator()<role::Intersection>();
   is.template operator()<role::ContactManager>();
   is.template operator()<role::CollisionModel>();
+  is.template operator()<role::Carving>();
   return RoleKind(found);
 }
 

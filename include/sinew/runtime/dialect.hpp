@@ -268,6 +268,8 @@ inline constexpr std::array attributesWithoutMeaningOf =
                                 {"AffineMovementConstraint", "meshIndices"},
                                 {"TetrahedronFEMForceField", "indices"},
                                 {"BoxROI", "indices"},
+                                {"WriteState", "DOFsX"},
+                                {"WriteState", "DOFsV"},
                                 {"SparseLDLSolver", "iterations"},
                                 {"SparseLDLSolver", "tolerance"},
                                 {"SparseLDLSolver", "threshold"},

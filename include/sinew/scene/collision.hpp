@@ -72,9 +72,10 @@ template <class RootScope>
 struct Collision {
   RootScope const& root;
 
-  /// After all components are initialised. Throws Error where a stage is missing, and where there are models
+  /// After all components are initialised; contacts forget what they remember where that is not the first
+  /// time. Throws Error where a stage is missing, and where there are models
   /// without a pipeline above them.
-  void init() const {
+  void init(bool again) const {
     std::vector<CollisionSurface*> all;
     traverse(root, on<role::CollisionModel>([&](auto& model, auto const& scope) {
                model.surface.state = scope.stateAddress();
@@ -100,9 +101,10 @@ struct Collision {
                  missing("intersection method", "MinProximityIntersection");
                collect(pipeline, scope);
                if (!detail::with_first<role::ContactManager>(
-                       scope, [&](auto& manager) { manager.init(scope.path(), pipeline.surfaces); }))
+                       scope, [&](auto& manager) { manager.init(scope.path(), pipeline.surfaces, again); }))
                  missing("contact manager", "DefaultContactManager");
                pipeline.near.reserve(pipeline.surfaces.size() * (pipeline.surfaces.size() + 1) / 2);
+               for (auto* s : pipeline.surfaces) s->enclose(0, 0);  // the trees are built
              }));
     traverse(root, on<role::CollisionModel>([&](auto& model, auto const& scope) {
                bool managed = false;
@@ -153,6 +155,7 @@ struct Collision {
                using D = typename std::decay_t<decltype(model)>::DataTypes;
                auto const& state = s.template state<D>();
                see<D>(model.surface, state.position, state.velocity);
+               model.surface.state = &state;
                model.surface.number = int(pipeline.surfaces.size());
                pipeline.surfaces.push_back(&model.surface);
              }));

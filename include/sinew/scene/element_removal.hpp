@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/core/follow.hpp>
+#include <sinew/scene/removed_border.hpp>
 #include <sinew/scene/scope.hpp>
 #include <sinew/topology/removal_plan.hpp>
 
@@ -20,8 +21,9 @@ inline constexpr bool editable_topology = requires(T t) {
 };
 
 /// Takes elements out of one topology of a scene, with all that refers to them; the scene then has to be
-/// initialised again where touched() says. Works on a scene that may be thrown away: an Error leaves it half
-/// changed.
+/// initialised again where touched() says. Triangles and quads that are the whole border of the volume, of a
+/// visual model or of a topology on which no forces act, become that of what is left; others only go. Works
+/// on a scene that may be thrown away: an Error leaves it half changed.
 template <class RootScope>
 class ElementRemoval {
  public:
@@ -63,6 +65,10 @@ class ElementRemoval {
   std::map<void const*, Renumbering> ofState_{};  // and of visual models
   std::map<void const*, TopologyChange> ofTopology_{};
   std::set<void const*> touchedStates_{};  // states and visual models around which something changes
+  std::set<void const*> samePoints_{};     // those whose points are the points of the topology, one by one
+  std::set<void const*> mechanical_{};     // topologies on which forces and masses act
+  RemovedBorder border_{};
+  std::map<void const*, BorderLists> borders_{};  // of the topologies and visual models that are the border
 
   void find(std::string_view path) {
     const std::string wanted = text(root_.path(), path.empty() ? "" : "/", path);
@@ -129,7 +135,13 @@ class ElementRemoval {
       if (all[t].address == topology_) first = t;
       views.push_back(all[t].view);
     }
-    record(state_, plan_element_removal(points_, views, first, gone), all);
+    RemovalPlan whole = plan_element_removal(points_, views, first, gone);
+    border_ = {views[first], whole.elements[first]};
+    samePoints_.insert(state_);
+    traverse(root_, on<role::ForceField, role::Mass>([this](auto&, auto const& scope) {
+               mechanical_.insert(scope.topologyAddress());
+             }));
+    record(state_, std::move(whole), all);
     const bool left = std::any_of(change().elements.begin(), change().elements.end(), [](auto const& kind) {
       return !kind.kept.empty();
     });
@@ -147,18 +159,29 @@ class ElementRemoval {
                scope.withMapped(mapping, [&](auto& part, auto& child, auto& parent) {
                  if (!touchedStates_.contains(&parent)) return;
                  mapped = &child;
+                 if constexpr (requires { std::decay_t<decltype(part)>::samePoints; })
+                   if (samePoints_.contains(&parent)) copyOfBody(child);
                  stays.resize(sizeOf(child), true);
                  const std::vector<bool> here = pointsThatStay(part, scope, child, parent);
                  for (std::size_t i = 0; i < stays.size(); ++i) stays[i] = stays[i] && here[i];
                });
                if (!mapped) return;
                touchedStates_.insert(mapped);
-               if (std::find(stays.begin(), stays.end(), false) == stays.end()) return;
                const auto over = topologiesOver(mapped);
+               if (!(samePoints_.contains(mapped) && !over.empty()) &&
+                   std::find(stays.begin(), stays.end(), false) == stays.end())
+                 return;
                std::vector<TopologyView> views;
                for (Topology const& t : over) views.push_back(t.view);
                record(mapped, plan_point_removal(stays, views), over);
              }));
+  }
+  template <class Child>
+  void copyOfBody(Child const& child) {
+    samePoints_.insert(&child);
+    if constexpr (HasRole<Child, role::VisualModel>)
+      if (const BorderLists lists = border_.listed(child.mesh.triangles, child.mesh.quads); lists.any())
+        borders_[&child] = lists;
   }
   template <class M, class S, class Child, class Parent>
   std::vector<bool> pointsThatStay(M const& mapping, S const& scope, Child const& child,
@@ -180,9 +203,16 @@ class ElementRemoval {
       return child.size();
   }
 
-  void record(void const* state, RemovalPlan const& plan, std::vector<Topology> const& topologies) {
+  void record(void const* state, RemovalPlan plan, std::vector<Topology> const& topologies) {
     ofState_[state] = Renumbering::of(plan.points);
     for (std::size_t t = 0; t < topologies.size(); ++t) {
+      Topology const& here = topologies[t];
+      if (samePoints_.contains(state) && here.editable && here.view.tetrahedra.empty() &&
+          here.view.hexahedra.empty() && !mechanical_.contains(here.address)) {
+        const BorderLists lists = border_.listed(here.view.triangles, here.view.quads);
+        if (lists.any()) borders_[here.address] = lists;
+        border_.mark(lists, here.view, plan.elements[t]);
+      }
       ofTopology_[topologies[t].address] = plan.change(t);
       if (!topologies[t].editable && plan.change(t).changes())
         throw Error(topologies[t].path,
@@ -206,10 +236,31 @@ class ElementRemoval {
   template <class C, class S>
   void follow(C& c, S const& scope) const {
     if constexpr (HasRole<C, role::State> || HasRole<C, role::VisualModel>) {
+      const auto border = borders_.find(&c);
+      if constexpr (HasRole<C, role::VisualModel>)
+        if (border != borders_.end()) border_.takeAway(border->second, c.mesh.triangles, c.mesh.quads);
       if (ofState(&c).changes()) c.follow(ofState(&c));
+      if constexpr (HasRole<C, role::VisualModel>)
+        if (border != borders_.end())
+          border_.layBare(border->second, change().points, &c.mesh.triangles, &c.mesh.quads);
     } else if constexpr (HasRole<C, role::Topology>) {
-      if constexpr (editable_topology<C>)
+      if constexpr (editable_topology<C>) {
         if (ofTopology(&c).changes()) follow(c.edit(), ofTopology(&c));
+        if (const auto border = borders_.find(&c); border != borders_.end())
+          border_.layBare(border->second, change().points, c.edit().triangles, c.edit().quads);
+      }
+    } else if constexpr (HasRole<C, role::CollisionModel>) {
+      follow_fields(c,
+                    {ofState(scope.stateAddress()),
+                     ofState(scope.stateAddress()),
+                     {},
+                     ofTopology(scope.topologyAddress())});
+    } else if constexpr (HasRole<C, role::ContactManager>) {
+      std::vector<Renumbering const*> surfaces;
+      traverse(scope, on<role::CollisionModel>([&](auto&, auto const& s) {
+                 surfaces.push_back(&ofState(s.stateAddress()));
+               }));
+      c.follow([&](int s) -> Renumbering const& { return *surfaces[std::size_t(s)]; });
     } else if constexpr (HasRole<C, role::Mapping>) {
       void const* mapped = nullptr;
       bool any = false;
@@ -265,7 +316,8 @@ class ElementRemoval {
       return any;
     } else if constexpr (HasRole<C, role::Topology> || HasRole<C, role::State> ||
                          HasRole<C, role::ForceField> || HasRole<C, role::Mass> ||
-                         HasRole<C, role::ProjectiveConstraint> || WatchesState<C>) {
+                         HasRole<C, role::ProjectiveConstraint> || HasRole<C, role::CollisionModel> ||
+                         WatchesState<C>) {
       return scope.stateAddress() && touchedStates_.contains(scope.stateAddress());
     } else {
       return false;

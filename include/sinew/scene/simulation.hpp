@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/scene/carving.hpp>
 #include <sinew/scene/checks.hpp>
 #include <sinew/scene/collision.hpp>
 #include <sinew/scene/element_removal.hpp>
 #include <sinew/scene/mechanical_operations.hpp>
+#include <sinew/scene/picking.hpp>
 
 namespace sinew {
 
@@ -30,7 +32,8 @@ class Simulation {
   /// no longer finite after the step.
   void animate(double dt);
 
-  /// Back to positions and velocities as they were after init, at time 0.
+  /// Back to positions and velocities as they were after init, at time 0; contacts are forgotten, and what
+  /// was attached is released.
   void reset();
 
   /// What records completes its files. Throws Error where one could not be written. Without that, the end of
@@ -88,10 +91,44 @@ class Simulation {
   /// Removes elements of the topology of the node at a path from the root ("liver"), and with them faces and
   /// edges that are left without an element, and points (plan_element_removal). All that refers to them
   /// follows: states lose the points, components the entries of their lists, mapped states what was mapped
-  /// from there; what stays keeps its order, and everything around it is initialised again from the rest
-  /// positions. Returns what became of points and elements. Throws Error where there is no such topology or
-  /// element, and where what is left is no scene: nothing has changed then.
+  /// from there; the surface that collides, and one that is looked at or listed whole beside the volume,
+  /// becomes that of what is left; contacts and attachments of what stays go on; what stays keeps its order,
+  /// and everything around it is initialised again from the rest positions. Returns what became of points and
+  /// elements. Throws Error where there is no such topology or element, and where what is left is no scene:
+  /// nothing has changed then.
   TopologyChange removeElements(std::string_view path, ElementNumbers const& elements);
+
+  /// What the ray from `origin` along `direction` meets first of the collision models, where they are now, up
+  /// to maxDistance [m]: triangles and spheres, from outside or inside, and lines and points that it passes
+  /// within `tolerance` of. Throws Error where the ray is not one.
+  std::optional<Pick> pick(Eigen::Vector3d const& origin, Eigen::Vector3d const& direction,
+                           double maxDistance = std::numeric_limits<double>::infinity(),
+                           double tolerance = 0) {
+    initialisedFor("pick");
+    return picking([&](auto const& p) { return p.pick(origin, direction, maxDistance, tolerance); });
+  }
+  /// Holds a picked place by a spring whose other end, at first where the place is, pull() moves. It acts as
+  /// a contact does, through mappings and implicitly under an implicit solver. Returns the number by which it
+  /// is pulled and released; throws Error where the settings are wrong, where the place is gone, and where no
+  /// solver moves the model.
+  int attach(Pick const& place, AttachSettings const& settings = {}) {
+    initialisedFor("attach");
+    return picking([&](auto const& p) { return p.attach(place, settings); });
+  }
+  /// Moves the other end of an attachment, which has this velocity there (its damping asks for it). False,
+  /// and nothing is done, where there is no such attachment: it was released, or what it held was removed.
+  bool pull(int attachment, Eigen::Vector3d const& target,
+            Eigen::Vector3d const& velocity = Eigen::Vector3d::Zero()) {
+    return picking([&](auto const& p) { return p.pull(attachment, target, velocity); });
+  }
+  /// Lets go. False where there was no such attachment.
+  bool release(int attachment) {
+    return picking([&](auto const& p) { return p.release(attachment); });
+  }
+  /// An attachment as it is, with its force on the body at the last evaluation; null where there is none.
+  Attachment const* attachment(int id) {
+    return picking([&](auto const& p) { return p.find(id); });
+  }
 
  private:
   Root root_;
@@ -99,11 +136,21 @@ class Simulation {
   long step_ = 0;
   bool initialised_ = false, visualsAreCurrent_ = false;
   static constexpr NoScope above_{};
-  static constexpr bool collides = detail::primitive_kinds<RootScope>() != 0;
+  static constexpr bool collides = detail::primitive_kinds<RootScope>() != 0,
+                        carves = detail::has_role_below<role::Carving, RootScope>();
 
   static RootScope scopeOf(Root& root) { return {root, above_}; }
   RootScope rootScope() { return scopeOf(root_); }
 
+  void initialisedFor(std::string_view what) const {
+    if (!initialised_)
+      throw Error(text("Simulation::", what), "the scene is not initialised; call init() first");
+  }
+  template <class F>
+  auto picking(F&& f) {
+    const auto scope = rootScope();
+    return f(Picking<RootScope>{scope});
+  }
   template <class F>
   auto over(F&& f) {
     const auto scope = rootScope();
@@ -327,6 +374,27 @@ class Simulation {
     });
     if (moved) MechanicalOperations(scope, time_, dt).propagate(vec_id::position, vec_id::velocity);
   }
+  // removes what tools touch; says whether something went
+  bool carve() {
+    const auto scope = rootScope();
+    const std::vector<Carved> all = Carving<RootScope>{scope}.touched();
+    long removed = 0;
+    for (Carved const& c : all) {
+      if (c.count == 0) continue;
+      try {
+        removeElements(c.path, c.elements);
+      } catch (Error const& error) {
+        throw Error(text("carving at step ", step_, " (time ", time_, " s)"),
+                    text(c.count, " elements of '", c.path, "' cannot be removed: ", error.what()));
+      }
+      removed += long(c.count);
+    }
+    if (removed > 0)
+      traverse(scope, on<role::Carving>([&](auto& carving, auto const&) {
+                 if (carving.active) carving.removed += removed;
+               }));
+    return removed > 0;
+  }
 
   // each ODE solver integrates its subtree and propagates; where there is none, the children are looked at
   template <class S>
@@ -425,6 +493,8 @@ void Simulation<Root>::animate(double dt) {
     const auto scope = rootScope();
     beginStep(scope, dt);
     if constexpr (collides) detectContacts(scope, dt);
+    if constexpr (collides && carves)
+      if (carve()) detectContacts(scope, dt);
     computeLoose(scope, dt);
     integrate(scope, dt);
     time_ += dt;
@@ -438,6 +508,7 @@ template <class Root>
 void Simulation<Root>::reset() {
   if (!initialised_) throw Error("Simulation::reset", "the scene is not initialised; call init() first");
   traverse(rootScope(), on<role::State>([](auto& s, auto const&) { s.reset(); }));
+  traverse(rootScope(), on<role::ContactManager>([](auto& manager, auto const&) { manager.forget(); }));
   time_ = 0;
   step_ = 0;
   propagate();
@@ -492,7 +563,9 @@ void Simulation<Root>::initScene(RootScope const& scope, InitAgain const& again)
              s.ifNew(c, again, [&] { initComponent(c, s); });
            }));
   scope.raise();
-  Collision<RootScope>{scope}.init();
+  Collision<RootScope>{scope}.init(bool(again));
+  if constexpr (collides && carves)
+    if (again.touched.empty()) Carving<RootScope>{scope}.check();
   initSolvers(scope, again);
   scope.raise();
   initLoose(scope);

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "options.hpp"
+
+#include <CLI/CLI.hpp>
+
+namespace examples {
+
+bool read_options(int argc, char** argv, HapticOptions& options, int& status) {
+  CLI::App app{
+      "A simulated hand holds a haptic device, which holds a tool, which pokes a soft block: a loop of 1 kHz "
+      "beside a simulation of corotational finite elements. Prints how well the loop kept its time."};
+  app.add_option("--seconds", options.seconds, "How long to run, in real time")->capture_default_str();
+  app.add_option("--dt", options.dt, "Seconds a step of the simulation")->capture_default_str();
+  app.add_option("--rate", options.rate, "Ticks of the haptic loop a second")->capture_default_str();
+  app.add_option("--cells", options.cells, "Cells along each side of the block, of 6 tetrahedra each")
+      ->capture_default_str()
+      ->check(CLI::Range(2, 60));
+  app.add_option("--young", options.youngModulus, "Young's modulus [Pa]")->capture_default_str();
+  app.add_option("--poisson", options.poissonRatio, "Poisson's ratio")->capture_default_str();
+  app.add_option("--iterations", options.iterations, "Conjugate-gradient iterations a step")
+      ->capture_default_str();
+  app.add_option("--priority", options.priority, "Of SCHED_FIFO, 1 to 99; 0 for an ordinary thread")
+      ->capture_default_str();
+  try {
+    app.parse(argc, argv);
+  } catch (CLI::ParseError const& e) {
+    status = app.exit(e);
+    return false;
+  }
+  return true;
+}
+
+}  // namespace examples

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/collision/contact.hpp>
+#include <sinew/scene/element_removal.hpp>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
+
+namespace sinew {
+
+/// The path of a node, from the path of another one: "tool/tip" is below that, "../tool" beside it, and
+/// "/tool" and "@/tool" are below the root.
+inline std::string path_from(std::string_view where, std::string_view path) {
+  std::string at(where);
+  if (path.starts_with('@')) path.remove_prefix(1);
+  if (path.starts_with('/')) at = at.substr(0, at.find('/', 1));
+  while (!path.empty()) {
+    const std::size_t end = path.find('/');
+    const std::string_view step = path.substr(0, end);
+    path.remove_prefix(end == path.npos ? path.size() : end + 1);
+    if (step == "..")
+      at.resize(at.find_last_of('/') == at.npos ? 0 : at.find_last_of('/'));
+    else if (!step.empty() && step != ".")
+      at.append("/").append(step);
+  }
+  return at;
+}
+
+namespace detail {
+
+/// Whether there may be a component of a role below a scope.
+template <class Role, class S>
+constexpr bool has_role_below();
+template <class Role, class S, FixedString Name, class... Cs, class... Ns>
+constexpr bool has_role_below(std::type_identity<Node<Name, hana::tuple<Cs...>, hana::tuple<Ns...>>>) {
+  return (false || ... || HasRole<Cs, Role>) ||
+         (false || ... || has_role_below<Role, typename ScopeOf<Ns, S>::type>());
+}
+template <class Role, class S>
+constexpr bool has_role_below() {
+  if constexpr (requires { S::provedAtInit; })
+    return true;
+  else
+    return has_role_below<Role, S>(std::type_identity<typename S::NodeType>{});
+}
+
+}  // namespace detail
+
+/// What is to be removed from the topology of the node at a path from the root.
+struct Carved {
+  std::string path{};
+  ElementNumbers elements{};
+  std::size_t count = 0;
+};
+
+/// Which elements the tools of the carving managers of a scene touch.
+template <class RootScope>
+struct Carving {
+  RootScope const& root;
+
+  /// Throws Error where a manager has no tool, or nothing to carve.
+  void check() const {
+    traverse(root, on<role::Carving>([&](auto& carving, auto const& scope) { check(carving, scope); }));
+  }
+
+  /// After detection. Empty where nothing is touched.
+  std::vector<Carved> touched() const {
+    std::vector<Carved> all;
+    traverse(root, on<role::Carving>([&](auto& carving, auto const& scope) {
+               if (!carving.active) return;
+               scope.withContacts([&](auto const& manager) { find(carving, scope.path(), manager, all); });
+             }));
+    return all;
+  }
+
+ private:
+  using Corners = std::array<int, 3>;
+
+  static bool isBelow(std::string const& path, std::string const& above) {
+    return path.starts_with(above) && (path.size() == above.size() || path[above.size()] == '/');
+  }
+
+  template <class C, class S>
+  void check(C const& carving, S const& scope) const {
+    auto wrong = [&](auto const&... what) {
+      throw Error(scope.path(), text(component_name<C>(), ": ", what...));
+    };
+    bool detects = false;
+    scope.withContacts([&](auto&) { detects = true; });
+    if (!detects) wrong("no node above has a DefaultPipeline, whose contacts it needs; add one to its node");
+    if (carving.toolModel.empty())
+      wrong("toolModel is not given; name the node of the tool's collision model");
+    const std::string tool = path_from(scope.path(), carving.toolModel),
+                      body = path_from(scope.path(), carving.surfaceModelPath);
+    bool hasTool = false, hasBody = false;
+    std::string models;
+    traverse(root, on<role::CollisionModel>([&](auto const& model, auto const& s) {
+               const std::string path = s.path();
+               models += text(models.empty() ? "" : ", ", path);
+               if (isBelow(path, tool))
+                 hasTool = true;
+               else if (isBelow(path, body) && model.surface.corners == 3)
+                 hasBody = hasBody || bodyUnder(s.stateAddress()).address;
+             }));
+    if (!hasTool)
+      wrong("toolModel leads to ", tool, ", where there is no collision model; there is one at: ", models);
+    if (!hasBody)
+      wrong("there is nothing to carve: at or below ",
+            body,
+            " no triangle collision model is over elements that can be removed; give the body a "
+            "TriangleCollisionModel over a topology that lists its elements");
+    traverse(root, on<role::Intersection>([&](auto const& intersection, auto const&) {
+               if (carving.carvingDistance && *carving.carvingDistance > intersection.reach())
+                 wrong("carvingDistance is ",
+                       *carving.carvingDistance,
+                       " m, but contacts are looked for up to ",
+                       intersection.reach(),
+                       " m only; raise the alarm distance");
+             }));
+  }
+
+  struct Body {
+    void const* address = nullptr;  // of the topology whose elements are removed
+    TopologyView view{};
+    std::string path{};
+  };
+  /// Of the editable topologies over a state, and over those of whose points its own are copies, the one with
+  /// elements of the highest dimension; of several the first of the uppermost.
+  Body bodyUnder(void const* state) const {
+    Body best;
+    int highest = 1;
+    void const* stateOfBest = nullptr;
+    while (state) {
+      traverse(root, on<role::Topology>([&](auto& t, auto const& scope) {
+                 if constexpr (editable_topology<std::decay_t<decltype(t)>>) {
+                   if (scope.pointsAddress() != state) return;
+                   const TopologyView view = t.view();
+                   const int dimension = !view.tetrahedra.empty() || !view.hexahedra.empty() ? 3
+                                         : !view.triangles.empty() || !view.quads.empty()    ? 2
+                                                                                             : 0;
+                   if (dimension < highest || (dimension == highest && stateOfBest == state) || dimension < 2)
+                     return;
+                   highest = dimension, stateOfBest = state;
+                   best = {&t, view, scope.path()};
+                 }
+               }));
+      void const* above = nullptr;
+      traverse(root, on<role::Mapping>([&](auto& mapping, auto const& scope) {
+                 if constexpr (requires { std::decay_t<decltype(mapping)>::samePoints; })
+                   scope.withMapped(mapping, [&](auto&, auto& child, auto& parent) {
+                     if (&child == state) above = &parent;
+                   });
+               }));
+      state = above;
+    }
+    return best;
+  }
+
+  template <class C, class Manager>
+  void find(C& carving, std::string const& where, Manager const& manager, std::vector<Carved>& all) const {
+    auto near = [&](Contact const& c) {
+      return carving.carvingDistance ? c.distance <= *carving.carvingDistance : c.distance < c.limit;
+    };
+    if (std::none_of(manager.contacts.begin(), manager.contacts.end(), near)) return;
+    const std::string tool = path_from(where, carving.toolModel),
+                      body = path_from(where, carving.surfaceModelPath);
+    for (std::size_t s = 0; s < manager.surfaces.size(); ++s) {
+      CollisionSurface const& surface = *manager.surfaces[s];
+      if (surface.corners != 3 || isBelow(surface.path, tool) || !isBelow(surface.path, body)) continue;
+      std::vector<Corners> triangles;
+      for (Contact const& c : manager.contacts) {
+        if (!near(c)) continue;
+        for (auto [mine, other] : {std::pair(&c.a, &c.b), std::pair(&c.b, &c.a)})
+          if (mine->surface == int(s) && isBelow(manager.surfaces[std::size_t(other->surface)]->path, tool))
+            triangles.push_back(sorted_corners(surface.elements[std::size_t(mine->element)]));
+      }
+      if (triangles.empty()) continue;
+      const Body under = bodyUnder(surface.state);
+      if (under.address) remove(carving, under, triangles, all);
+    }
+  }
+
+  // the elements of a body over the corners of one of the triangles
+  template <class C>
+  void remove(C& carving, Body const& body, std::vector<Corners>& triangles, std::vector<Carved>& all) const {
+    std::sort(triangles.begin(), triangles.end());
+    const std::string path = body.path.substr(std::min(body.path.size(), root.path().size() + 1));
+    auto entry = std::find_if(all.begin(), all.end(), [&](Carved const& c) { return c.path == path; });
+    if (entry == all.end()) entry = all.insert(all.end(), Carved{path, {}, 0});
+
+    auto collect = [&](auto const& list, std::vector<Index>& numbers) {
+      for (std::size_t e = 0; e < list.size(); ++e)
+        if (isOver(list[e], triangles)) numbers.push_back(Index(e));
+      std::sort(numbers.begin(), numbers.end());
+      numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+    };
+    ElementNumbers& gone = entry->elements;
+    const bool volume = !body.view.tetrahedra.empty() || !body.view.hexahedra.empty();
+    if (volume) {
+      collect(body.view.tetrahedra, gone.tetrahedra);
+      collect(body.view.hexahedra, gone.hexahedra);
+    } else {
+      collect(body.view.triangles, gone.triangles);
+      collect(body.view.quads, gone.quads);
+    }
+    auto count = [](auto const& a, auto const& b) { return a.size() + b.size(); };
+    entry->count = volume ? count(gone.tetrahedra, gone.hexahedra) : count(gone.triangles, gone.quads);
+    if (entry->count < (volume ? count(body.view.tetrahedra, body.view.hexahedra)
+                               : count(body.view.triangles, body.view.quads)))
+      return;
+    for (auto* numbers : {&gone.tetrahedra, &gone.hexahedra, &gone.triangles, &gone.quads})
+      if (!numbers->empty()) {
+        numbers->erase(numbers->begin());
+        break;
+      }
+    --entry->count;
+    carving.message = text("the last element of ", body.path, " stays: a body cannot be without");
+  }
+  template <std::size_t N>
+  static bool isOver(std::array<Index, N> const& element, std::vector<Corners> const& triangles) {
+    auto is = [&](std::size_t i, std::size_t j, std::size_t k) {
+      return std::binary_search(
+          triangles.begin(), triangles.end(), sorted_corners(Corners{element[i], element[j], element[k]}));
+    };
+    for (std::size_t i = 0; i < N; ++i)
+      for (std::size_t j = i + 1; j < N; ++j)
+        for (std::size_t k = j + 1; k < N; ++k)
+          if (is(i, j, k)) return true;
+    return false;
+  }
+};
+
+}  // namespace sinew

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/component.hpp>
+#include <sinew/topology/border.hpp>
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <vector>
+
+namespace sinew {
+
+/// Which lists of faces are the whole border of a volume: 1 turned outwards, -1 inwards, 0 they are not.
+struct BorderLists {
+  int triangles = 0, quads = 0;
+  bool any() const { return triangles != 0 || quads != 0; }
+};
+
+/// What becomes of the border of volume elements of which some go: faces go with them, and others are laid
+/// bare. All in the numbers of the points before.
+class RemovedBorder {
+ public:
+  RemovedBorder() = default;
+  RemovedBorder(TopologyView const& before, std::array<std::vector<bool>, element_kinds> const& stays) {
+    auto kept = [](auto const& list, std::vector<bool> const& stay) {
+      std::vector<std::decay_t<decltype(list[0])>> left;
+      for (std::size_t e = 0; e < list.size(); ++e)
+        if (stay[e]) left.push_back(list[e]);
+      return left;
+    };
+    const Border was = border_of(before.tetrahedra, before.hexahedra),
+                 is = border_of(kept(before.tetrahedra, stays[3]), kept(before.hexahedra, stays[4]));
+    triangles_.set(was.triangles, is.triangles);
+    quads_.set(was.quads, is.quads);
+  }
+
+  BorderLists listed(std::span<Triangle const> triangles, std::span<Quad const> quads) const {
+    return {triangles_.listed(triangles), quads_.listed(quads)};
+  }
+  /// Marks what goes of the lists of a topology.
+  void mark(BorderLists const& is, TopologyView const& view,
+            std::array<std::vector<bool>, element_kinds>& stays) const {
+    if (is.triangles) triangles_.mark(view.triangles, stays[1]);
+    if (is.quads) quads_.mark(view.quads, stays[2]);
+  }
+  /// Takes what goes out of lists.
+  void takeAway(BorderLists const& is, std::vector<Triangle>& triangles, std::vector<Quad>& quads) const {
+    if (is.triangles) std::erase_if(triangles, [this](auto const& f) { return !triangles_.stays(f); });
+    if (is.quads) std::erase_if(quads, [this](auto const& f) { return !quads_.stays(f); });
+  }
+  /// Puts what is laid bare behind lists that have followed already, in the numbers of the points now.
+  void layBare(BorderLists const& is, Renumbering const& points, std::vector<Triangle>* triangles,
+               std::vector<Quad>* quads) const {
+    if (is.triangles) triangles_.layBare(is.triangles, points, *triangles);
+    if (is.quads) quads_.layBare(is.quads, points, *quads);
+  }
+
+ private:
+  template <std::size_t N>
+  struct Faces {
+    using Face = std::array<Index, N>;
+    std::vector<Face> before{}, keys{}, keysAfter{}, bare{};
+
+    static std::vector<Face> sortedKeys(std::span<Face const> faces) {
+      std::vector<Face> all;
+      all.reserve(faces.size());
+      for (Face const& f : faces) all.push_back(sorted_corners(f));
+      std::sort(all.begin(), all.end());
+      return all;
+    }
+    void set(std::vector<Face> const& was, std::vector<Face> const& is) {
+      before = was;
+      keys = sortedKeys(was);
+      keysAfter = sortedKeys(is);
+      for (Face const& f : is)
+        if (!std::binary_search(keys.begin(), keys.end(), sorted_corners(f))) bare.push_back(f);
+    }
+    int listed(std::span<Face const> faces) const {
+      if (faces.empty() || faces.size() != keys.size() || sortedKeys(faces) != keys) return 0;
+      const Face key = sorted_corners(faces[0]);
+      for (Face const& f : before)
+        if (sorted_corners(f) == key) {
+          // the corner behind the first one, both ways round
+          const std::size_t at = std::size_t(std::find(f.begin(), f.end(), faces[0][0]) - f.begin());
+          return f[(at + 1) % N] == faces[0][1] ? 1 : -1;
+        }
+      return 0;
+    }
+    bool stays(Face const& f) const {
+      return std::binary_search(keysAfter.begin(), keysAfter.end(), sorted_corners(f));
+    }
+    void mark(std::span<Face const> faces, std::vector<bool>& stay) const {
+      for (std::size_t f = 0; f < faces.size(); ++f)
+        if (!stays(faces[f])) stay[f] = false;
+    }
+    void layBare(int turned, Renumbering const& points, std::vector<Face>& faces) const {
+      for (Face f : bare) {
+        if (turned < 0) std::reverse(f.begin(), f.end());
+        for (Index& i : f) points.renumber(i);
+        faces.push_back(f);
+      }
+    }
+  };
+  Faces<3> triangles_{};
+  Faces<4> quads_{};
+};
+
+}  // namespace sinew

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSL-1.0
+// Counts what the steps of a scene allocate in which something is pulled: all memory comes from operator new.
+#include <sinew/force/tetrahedron_fem.hpp>
+#include <sinew/topology/tetrahedron_topology.hpp>
+
+#include "contact_scene.hpp"
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+namespace {
+std::atomic<long> allocations{0};
+
+void* counted(std::size_t size, std::size_t alignment) {
+  ++allocations;
+  void* p = std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+  if (!p) throw std::bad_alloc();
+  return p;
+}
+}  // namespace
+
+void* operator new(std::size_t size) { return counted(size ? size : 1, alignof(std::max_align_t)); }
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  return counted(size, std::size_t(alignment));
+}
+// GCC would call the pair mismatched where it inlines one of the two
+[[gnu::noinline]] void operator delete(void* p) noexcept { std::free(p); }
+[[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+[[gnu::noinline]] void operator delete(void* p, std::align_val_t) noexcept { std::free(p); }
+[[gnu::noinline]] void operator delete(void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
+
+using namespace sinew;
+
+TEST_CASE("neither a step in which something is pulled nor attaching, pulling and releasing allocate") {
+  auto sim = contact_scene(
+      MinProximityIntersection{.alarmDistance = 0.2, .contactDistance = 0.1},
+      10,
+      floor_node(1000, 0.1),
+      node<"body">(EulerImplicitSolver{},
+                   CGLinearSolver<>{},
+                   TetrahedronTopology{{{0, 1, 2, 3}}},
+                   MechanicalObject<Vec3d>{.position = {{0, 0, 0.3}, {1, 0, 0.3}, {0, 1, 0.3}, {0, 0, 1.3}}},
+                   UniformMass<Vec3d>{.vertexMass = 2},
+                   TetrahedronFEMForceField<Vec3d>{.youngModulus = {3000}, .poissonRatio = 0.3},
+                   TriangleCollisionModel<Vec3d>{.contactStiffness = 100}));
+  sim.init();
+  const auto hit = *sim.pick({3, 3, 3}, {-1, -1, -1});
+  for (int i = 0; i < 200; ++i) sim.animate(0.01);
+  const long before = allocations;
+  int touched = 0;
+  for (int round = 0; round < 20; ++round) {
+    const int spring = sim.attach(hit, {.stiffness = 500, .damping = 5});
+    for (int i = 0; i < 10; ++i) {
+      sim.pull(spring, hit.point + 0.01 * i * Eigen::Vector3d(1, 1, 1));
+      sim.animate(0.01);
+      touched += int(sim.root().get<Contacts>().contacts.size());
+    }
+    sim.release(spring);
+    for (int i = 0; i < 50; ++i) sim.animate(0.01);
+  }
+  CHECK(allocations == before);
+  CHECK(touched > 0);
+}
