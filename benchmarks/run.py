@@ -140,7 +140,7 @@ def main():
     parser.add_argument("--meshes", type=pathlib.Path, nargs="*", help="tetrahedral meshes (.msh); default: blocks made here")
     parser.add_argument("--yardstick", type=pathlib.Path, help="C++ source of a program to compare the liver with")
     parser.add_argument("--rounds", type=int, default=5)
-    parser.add_argument("--only", choices=["fem", "by-hand", "runtime", "families", "collision", "compile"], help="one table instead of all")
+    parser.add_argument("--only", choices=["fem", "by-hand", "vitrectomy", "runtime", "families", "collision", "compile"], help="one table instead of all")
     parser.add_argument("--json", type=pathlib.Path, default=pathlib.Path("out/bench.json"))
     arguments = parser.parse_args()
     for mesh in arguments.meshes or []:
@@ -169,6 +169,11 @@ def main():
             results["by_hand"] = [
                 {"name": line.split()[0], "ratio": float(re.search(r"ratio ([\d.]+)", line)[1])} for line in text.splitlines()
             ]
+        if arguments.only in (None, "vitrectomy"):
+            print(f"\nthe vitrectomy against the same by hand, medians of {arguments.rounds} rounds in turn")
+            text = output(arguments.build / "bench_vitrectomy", arguments.rounds)
+            print("  " + text.replace("\n", "\n  ").rstrip())
+            results["vitrectomy"] = [float(ratio) for ratio in re.findall(r"ratio ([\d.]+)", text)]
         if arguments.only in (None, "runtime"):
             print("\nruntime tree against typed tree of the same scene, medians of 11 rounds in turn")
             text = output(arguments.build / "bench_runtime")

@@ -17,6 +17,7 @@ subjects = {
     "example string_on_rigid": (root / "examples/string_on_rigid/main.cpp"),
     "example one_tetrahedron": (root / "examples/one_tetrahedron/main.cpp"),
     "example liver": (root / "examples/liver/main.cpp"),
+    "example vitrectomy": (root / "examples/vitrectomy/main.cpp"),
 }
 
 

@@ -2,6 +2,7 @@
 #include "scene.hpp"
 
 #include "options.hpp"
+#include "picture.hpp"
 #include "support/progress.hpp"
 
 #include <sinew/io/pvd_series.hpp>
@@ -95,6 +96,10 @@ int main(int argc, char** argv) try {
   const long steps = std::lround(options.time / options.dt);
   const auto step_at = [&](double time) { return std::lround(time / options.dt); };
   const long begin = step_at(eye.cutBegins), end = step_at(eye.cutEnds), before = step_at(eye.times[1]);
+  std::vector<examples::Panel> panels;
+  auto draw = [&](char const* title) {
+    panels.push_back({title, sim.at<"eye">().state().position, uncut(sim)});
+  };
   examples::Progress progress(steps);
   examples::Stopwatch stepping;
   for (long i = 1; i <= steps; ++i) {
@@ -103,12 +108,15 @@ int main(int argc, char** argv) try {
     stepping.stop();
     if (pictures && i % options.every == 0) pictures->add(sim);
     progress.at(i);
-    if (i == before) report("before", eye, sim);
+    if (i == before) report("before", eye, sim), draw("before");
+    if (i == (begin + end) / 2) draw("half of it is cut");
     for (const int quarter : {1, 2, 3})
       if (i == begin + quarter * (end - begin) / 4) report("during the cut", eye, sim);
     if (i == end) report("all around", eye, sim);
   }
   report("after", eye, sim);
+  draw("after");
+  if (!options.picture.empty()) examples::write_picture(eye, panels, 4, options.picture);
   std::printf("%ld steps of %g s in %.3f s: %.0f steps/s, %.1f times real time\n",
               steps,
               options.dt,

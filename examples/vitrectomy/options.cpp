@@ -21,6 +21,8 @@ bool read_options(int argc, char** argv, VitrectomyOptions& options, int& status
       ->check(CLI::PositiveNumber);
   app.add_option("--output", options.output, "Folder to write to; '' writes nothing")->capture_default_str();
   app.add_option(
+      "--picture", options.picture, "Draw the eye before, during and after the cut to this file (.svg)");
+  app.add_option(
       "--write-scene",
       options.sceneData,
       "Only write the data of vitrectomy.scn (membranes, springs, tool, its movement) to this folder");

@@ -11,6 +11,7 @@ struct VitrectomyOptions {
   double time = 7, dt = 0.005;
   int every = 10;  // steps from one picture to the next
   std::string output = "out/vitrectomy";
+  std::string picture{};    // file for a drawing of the surgery; empty: none
   std::string sceneData{};  // where to write the data of vitrectomy.scn; empty: nowhere
 };
 

@@ -4,6 +4,7 @@
 #include "io/files.hpp"
 #include "one_tetrahedron/scene.hpp"
 #include "string_on_rigid/scene.hpp"
+#include "vitrectomy/scene.hpp"
 
 #include <sinew/control/hand_device.hpp>
 #include <sinew/control/haptic_loop.hpp>
@@ -174,6 +175,17 @@ TEST_CASE("no step after init allocates, not even the first") {
   for (const auto format : {StateFormat::text, StateFormat::binary})
     CHECK(allocations_of(replay(folder / "state", format)) == 0);
   CHECK(std::filesystem::file_size(folder / "state") > 3 * 65536 / 2);
+}
+
+TEST_CASE("no step of the vitrectomy allocates, not even those in which springs are cut") {
+  const auto eye = examples::make_eye({.sectors = 24});
+  auto sim = examples::vitrectomy_scene(eye);
+  sim.init();
+  const long before = allocations;
+  while (sim.time() < eye.cutEnds) sim.animate(0.005);
+  const long after = allocations;
+  CHECK(after == before);
+  CHECK(sim.at<"eye">().get<examples::CuttableSpringForceField<Vec3d>>().springs.empty());
 }
 
 TEST_CASE("the thread of a haptic loop does not allocate") {

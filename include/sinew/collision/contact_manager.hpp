@@ -97,6 +97,7 @@ struct ContactManager {
     found.reserve(std::size_t(capacity));
     points.reserve(3 * std::size_t(capacity));
     ofVertices.reserve(2 * std::size_t(capacity));
+    points.reserve(6 * std::size_t(capacity));
     attachments.reserve(8);
     grown = 0;
     auto known = [&](std::string_view place, std::string_view name) {

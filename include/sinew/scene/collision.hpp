@@ -105,6 +105,7 @@ struct Collision {
                        scope, [&](auto& manager) { manager.init(scope.path(), pipeline.surfaces, again); }))
                  missing("contact manager", "DefaultContactManager");
                pipeline.near.reserve(pipeline.surfaces.size() * (pipeline.surfaces.size() + 1) / 2);
+               for (auto* s : pipeline.surfaces) s->enclose(0, 0);  // the trees are built
              }));
     traverse(root, on<role::CollisionModel>([&](auto& model, auto const& scope) {
                bool managed = false;
