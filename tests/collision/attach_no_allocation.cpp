@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // Counts what the steps of a scene allocate in which something is pulled: all memory comes from operator new.
+#include <sinew/collision/carving_manager.hpp>
 #include <sinew/force/tetrahedron_fem.hpp>
 #include <sinew/topology/tetrahedron_topology.hpp>
 
@@ -37,6 +38,10 @@ TEST_CASE("neither a step in which something is pulled nor attaching, pulling an
       MinProximityIntersection{.alarmDistance = 0.2, .contactDistance = 0.1},
       10,
       floor_node(1000, 0.1),
+      // what is touched, but not by the tool, stays
+      CarvingManager{.active = true, .toolModel = "tool"},
+      node<"tool">(MechanicalObject<Vec3d>{.position = {{0, 0, 9}}},
+                   SphereCollisionModel<Vec3d>{.simulated = false}),
       node<"body">(EulerImplicitSolver{},
                    CGLinearSolver<>{},
                    TetrahedronTopology{{{0, 1, 2, 3}}},
@@ -45,7 +50,7 @@ TEST_CASE("neither a step in which something is pulled nor attaching, pulling an
                    TetrahedronFEMForceField<Vec3d>{.youngModulus = {3000}, .poissonRatio = 0.3},
                    TriangleCollisionModel<Vec3d>{.contactStiffness = 100}));
   sim.init();
-  const auto hit = *sim.pick({3, 3, 3}, {-1, -1, -1});
+  const auto hit = *sim.pick({3, 3, 3}, {-1, -1, -1}, 10);
   for (int i = 0; i < 200; ++i) sim.animate(0.01);
   const long before = allocations;
   int touched = 0;

@@ -3,6 +3,9 @@
 
 namespace sinew {
 using StandardSimulation = Simulation<RuntimeNode<Standard>>;
+// carving calls it; change.cpp has it
+extern template TopologyChange Simulation<RuntimeNode<Standard>>::removeElements(std::string_view,
+                                                                                 ElementNumbers const&);
 template void Simulation<RuntimeNode<Standard>>::animate(double);
 template void Simulation<RuntimeNode<Standard>>::propagate();
 template double Simulation<RuntimeNode<Standard>>::kineticEnergy();

@@ -564,7 +564,7 @@ void Simulation<Root>::initScene(RootScope const& scope, InitAgain const& again)
            }));
   scope.raise();
   Collision<RootScope>{scope}.init(bool(again));
-  if constexpr (collides && carves)
+  if constexpr (carves)
     if (again.touched.empty()) Carving<RootScope>{scope}.check();
   initSolvers(scope, again);
   scope.raise();
