@@ -43,7 +43,7 @@ struct ContactAssembly {
   void add(Matrix& matrix, Contact const& c, std::vector<CollisionSurface*> const& surfaces, double k,
            double b) {
     blocks_.clear();
-    addSide(c.a, *surfaces[std::size_t(c.a.surface)], -1);
+    if (c.a.surface >= 0) addSide(c.a, *surfaces[std::size_t(c.a.surface)], -1);
     addSide(c.b, *surfaces[std::size_t(c.b.surface)], 1);
     const Eigen::Matrix3d kb = -(k * c.stiffnessMatrix + b * c.dampingMatrix);
     for (Block const& x : blocks_)

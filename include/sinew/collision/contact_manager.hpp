@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/collision/attachment.hpp>
 #include <sinew/collision/contact_assembly.hpp>
 #include <sinew/collision/penalty_contact.hpp>
 #include <sinew/collision/stick_contact.hpp>
@@ -9,6 +10,7 @@
 #include <span>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace sinew {
@@ -53,6 +55,11 @@ struct ContactManager {
   std::vector<OfVertex> ofVertices{};  // contacts of single vertices
   long grown = 0;                      // how often there was no room
   bool couplingChanged = false;        // since the last step: other vertices meet than before
+  std::vector<Attachment> attachments{};  // places that are held from outside
+  std::vector<Contact> keptContacts{};    // those that follow a change of the scene, until init
+  std::vector<Attachment> keptAttachments{};
+  bool coupleAnew = false;  // whatever the contacts are
+  int lastAttachment = 0;
 
   static constexpr int count = int(sizeof...(Responses));
   static std::string names() {
@@ -75,11 +82,14 @@ struct ContactManager {
 
   void init(std::string const& where, std::vector<CollisionSurface*> const& all) {
     surfaces = all;
-    contacts.clear();
+    contacts = std::exchange(keptContacts, {});
+    attachments = std::exchange(keptAttachments, {});
+    coupleAnew = acts();
     found.clear();
     contacts.reserve(std::size_t(capacity));
     found.reserve(std::size_t(capacity));
     ofVertices.reserve(2 * std::size_t(capacity));
+    attachments.reserve(8);
     grown = 0;
     auto known = [&](std::string_view place, std::string_view name) {
       if (find(name) < 0)
@@ -92,6 +102,53 @@ struct ContactManager {
     known(where, response);
     for (auto const* s : surfaces)
       if (!s->response.empty()) known(s->path, s->response);
+  }
+
+  bool acts() const { return !contacts.empty() || !attachments.empty(); }
+  /// As if nothing had ever touched.
+  void forget() {
+    coupleAnew = coupleAnew || acts();
+    contacts.clear();
+    attachments.clear();
+  }
+
+  /// Holds a place from now on: the attachment with a number, which nothing else has.
+  void attach(Attachment const& a) {
+    attachments.push_back(a);
+    coupleAnew = true;
+  }
+  Attachment* attachment(int id) {
+    for (Attachment& a : attachments)
+      if (a.id == id) return &a;
+    return nullptr;
+  }
+  /// Lets go; says whether it was held.
+  bool release(int id) {
+    const bool held = std::erase_if(attachments, [id](Attachment const& a) { return a.id == id; }) > 0;
+    coupleAnew = coupleAnew || held;
+    return held;
+  }
+
+  /// What touches goes on when vertices go, those of surface s being renumbered by `of(s)`: contacts of what
+  /// stays keep what they remember.
+  template <class Of>
+  void follow(Of&& of) {
+    auto stays = [&](Contact& c) {
+      for (ContactSide* side : {&c.a, &c.b})
+        for (int k = 0; side->surface >= 0 && k < side->corners(); ++k) {
+          auto const& renumbering = of(side->surface);
+          int& vertex = side->vertices[std::size_t(k)];
+          if (!renumbering.stays(vertex)) return false;
+          renumbering.renumber(vertex);
+        }
+      return true;
+    };
+    keptContacts.clear();
+    keptAttachments.clear();
+    for (Contact c : contacts)
+      if (stays(c)) keptContacts.push_back(c);
+    for (Attachment a : attachments)
+      if (stays(a.contact)) keptAttachments.push_back(a);
   }
 
   /// f(response) for the one that answers a contact.
@@ -131,7 +188,7 @@ struct ContactManager {
                             found.end(),
                             [](Contact const& x, Contact const& y) { return x.key() == y.key(); }),
                 found.end());
-    couplingChanged = found.size() != contacts.size();
+    couplingChanged = std::exchange(coupleAnew, false) || found.size() != contacts.size();
     listVertices();
     auto old = contacts.begin();
     for (Contact& c : found) {
@@ -149,10 +206,15 @@ struct ContactManager {
     found.clear();
     std::apply([dt](auto&... r) { (setStep(r, dt), ...); }, responses);
     for (auto* s : surfaces) s->forgetTouched();
-    for (Contact const& c : contacts)
-      for (ContactSide const* side : {&c.a, &c.b})
-        for (int k = 0; k < side->corners(); ++k)
-          surfaces[std::size_t(side->surface)]->touch(side->vertices[std::size_t(k)]);
+    auto touch = [&](ContactSide const& side) {
+      for (int k = 0; k < side.corners(); ++k)
+        surfaces[std::size_t(side.surface)]->touch(side.vertices[std::size_t(k)]);
+    };
+    for (Contact const& c : contacts) touch(c.a), touch(c.b);
+    for (Attachment& a : attachments) {
+      touch(a.contact.b);
+      find_solver(a.contact, nullptr, surfaces[std::size_t(a.contact.b.surface)]);
+    }
   }
 
   /// f(response, state, touched points of it) for the contacts of responses that change what they touch.
@@ -192,6 +254,12 @@ struct ContactManager {
       add_force(c.b, b, c.force);
       add_force(c.a, a, -c.force);
     }
+    for (Attachment& a : attachments) {
+      if (!chosen(a.contact)) continue;
+      auto& s = *surfaces[std::size_t(a.contact.b.surface)];
+      a.evaluate(s);
+      add_force(a.contact.b, s, a.contact.force);
+    }
   }
   /// The same for the change of the forces, k K dx + b B dx; what no solver moves stays where it is.
   template <class Chosen>
@@ -207,6 +275,12 @@ struct ContactManager {
       add_force(c.b, second, df);
       add_force(c.a, first, -df);
     }
+    for (Attachment const& a : attachments) {
+      if (!chosen(a.contact)) continue;
+      auto& s = *surfaces[std::size_t(a.contact.b.surface)];
+      const Eigen::Vector3d du = rate_of(a.contact.b, s, s.dx, s.turn);
+      add_force(a.contact.b, s, -(k * a.stiffness + b * a.damping) * du);
+    }
   }
   /// The blocks of those contacts in the matrix of a solver, after its models have given their vertices to
   /// `assembly`.
@@ -215,6 +289,8 @@ struct ContactManager {
     assembly.sort();
     for (Contact const& c : contacts)
       if (chosen(c)) assembly.add<Phase>(matrix, c, surfaces, k, b);
+    for (Attachment const& a : attachments)
+      if (chosen(a.contact)) assembly.add<Phase>(matrix, a.contact, surfaces, k, b);
   }
 
  private:
@@ -262,10 +338,7 @@ struct ContactManager {
                           find(!a.response.empty()   ? a.response
                                : !b.response.empty() ? b.response
                                                      : response));
-    const int sa = a.simulated ? a.solver : -1, sb = b.simulated ? b.solver : -1;
-    c.loose = sa >= 0 && sb >= 0 && sa != sb;
-    c.solver = c.loose ? -1 : std::max(sa, sb);
-    c.implicit = !c.loose && (sa >= 0 ? a.implicit : b.implicit);
+    find_solver(c, &a, &b);
   }
   static void remember(Contact& c, Contact const& old) {
     c.slip = old.slip;

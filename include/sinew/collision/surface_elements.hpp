@@ -2,10 +2,10 @@
 #pragma once
 
 #include <sinew/core/component.hpp>
+#include <sinew/topology/border.hpp>
 
 #include <algorithm>
 #include <array>
-#include <map>
 #include <vector>
 
 namespace sinew {
@@ -18,49 +18,29 @@ inline std::vector<PrimitiveCorners> points_of(TopologyView const&, std::size_t 
   return all;
 }
 
-/// The triangles of a topology, quads cut in two; where it has neither, those of the surface of its
-/// tetrahedra and hexahedra, turned outwards.
+/// The surface of the volume elements of a topology, turned outwards, whatever of it is listed, so that it is
+/// that of what is left when some are removed; then the triangles and quads that are no part of it. Quads
+/// are cut in two.
 inline std::vector<PrimitiveCorners> triangles_of(TopologyView const& t, std::size_t = 0) {
-  std::vector<PrimitiveCorners> all(t.triangles.begin(), t.triangles.end());
-  auto quad = [&](int a, int b, int c, int d) {
-    all.push_back({a, b, c});
-    all.push_back({a, c, d});
+  std::vector<PrimitiveCorners> all, known;
+  auto quad = [](Quad const& q) {
+    return std::array<PrimitiveCorners, 2>{{{q[0], q[1], q[2]}, {q[0], q[2], q[3]}}};
   };
-  for (Quad const& q : t.quads) quad(q[0], q[1], q[2], q[3]);
-  if (!all.empty()) return all;
-
-  // a face of one volume element only is on the surface; kept in the order in which elements give them
-  std::map<std::vector<int>, int> times;
-  auto key = [](std::vector<int> face) {
-    std::sort(face.begin(), face.end());
-    return face;
+  const Border border = border_of(t.tetrahedra, t.hexahedra);
+  all.assign(border.triangles.begin(), border.triangles.end());
+  for (PrimitiveCorners const& c : all) known.push_back(sorted_corners(c));
+  for (Quad const& q : border.quads) {
+    for (PrimitiveCorners const& c : quad(q)) all.push_back(c);
+    for (std::size_t i = 0; i < 4; ++i)
+      known.push_back(sorted_corners(PrimitiveCorners{q[i], q[(i + 1) % 4], q[(i + 2) % 4]}));
+  }
+  std::sort(known.begin(), known.end());
+  auto add = [&](PrimitiveCorners const& c) {
+    if (!std::binary_search(known.begin(), known.end(), sorted_corners(c))) all.push_back(c);
   };
-  std::vector<std::vector<int>> faces;
-  auto add = [&](std::vector<int> face) {
-    ++times[key(face)];
-    faces.push_back(std::move(face));
-  };
-  for (Tetrahedron const& e : t.tetrahedra) {
-    add({e[0], e[2], e[1]});
-    add({e[0], e[1], e[3]});
-    add({e[1], e[2], e[3]});
-    add({e[0], e[3], e[2]});
-  }
-  for (Hexahedron const& e : t.hexahedra) {
-    add({e[0], e[3], e[2], e[1]});
-    add({e[4], e[5], e[6], e[7]});
-    add({e[0], e[1], e[5], e[4]});
-    add({e[1], e[2], e[6], e[5]});
-    add({e[2], e[3], e[7], e[6]});
-    add({e[3], e[0], e[4], e[7]});
-  }
-  for (auto const& face : faces) {
-    if (times[key(face)] != 1) continue;
-    if (face.size() == 3)
-      all.push_back({face[0], face[1], face[2]});
-    else
-      quad(face[0], face[1], face[2], face[3]);
-  }
+  for (Triangle const& c : t.triangles) add(c);
+  for (Quad const& q : t.quads)
+    for (PrimitiveCorners const& c : quad(q)) add(c);
   return all;
 }
 

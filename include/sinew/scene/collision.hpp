@@ -153,6 +153,7 @@ struct Collision {
                using D = typename std::decay_t<decltype(model)>::DataTypes;
                auto const& state = s.template state<D>();
                see<D>(model.surface, state.position, state.velocity);
+               model.surface.state = &state;
                model.surface.number = int(pipeline.surfaces.size());
                pipeline.surfaces.push_back(&model.surface);
              }));

@@ -342,7 +342,7 @@ struct MechanicalOperations {
       int solver = -1;
       traverse(root,
                on<role::CollisionModel>([&](auto& model, auto const&) { solver = model.surface.solver; }));
-      if (solver >= 0 && !manager.contacts.empty()) f(manager, solver);
+      if (solver >= 0 && manager.acts()) f(manager, solver);
     });
   }
   void addContactForces(DerivId f, CoordId x, DerivId v) {

@@ -5,6 +5,7 @@
 #include <sinew/scene/collision.hpp>
 #include <sinew/scene/element_removal.hpp>
 #include <sinew/scene/mechanical_operations.hpp>
+#include <sinew/scene/picking.hpp>
 
 namespace sinew {
 
@@ -30,7 +31,8 @@ class Simulation {
   /// no longer finite after the step.
   void animate(double dt);
 
-  /// Back to positions and velocities as they were after init, at time 0.
+  /// Back to positions and velocities as they were after init, at time 0; contacts are forgotten, and what
+  /// was attached is released.
   void reset();
 
   /// What records completes its files. Throws Error where one could not be written. Without that, the end of
@@ -93,6 +95,38 @@ class Simulation {
   /// element, and where what is left is no scene: nothing has changed then.
   TopologyChange removeElements(std::string_view path, ElementNumbers const& elements);
 
+  /// What the ray from `origin` along `direction` meets first of the collision models, where they are now, up
+  /// to maxDistance [m]: triangles and spheres, from outside or inside, and lines and points that it passes
+  /// within `tolerance` of. Throws Error where the ray is not one.
+  std::optional<Pick> pick(Eigen::Vector3d const& origin, Eigen::Vector3d const& direction,
+                           double maxDistance = std::numeric_limits<double>::infinity(),
+                           double tolerance = 0) {
+    initialisedFor("pick");
+    return picking([&](auto const& p) { return p.pick(origin, direction, maxDistance, tolerance); });
+  }
+  /// Holds a picked place by a spring whose other end, at first where the place is, pull() moves. It acts as
+  /// a contact does, through mappings and implicitly under an implicit solver. Returns the number by which it
+  /// is pulled and released; throws Error where the settings are wrong, where the place is gone, and where no
+  /// solver moves the model.
+  int attach(Pick const& place, AttachSettings const& settings = {}) {
+    initialisedFor("attach");
+    return picking([&](auto const& p) { return p.attach(place, settings); });
+  }
+  /// Moves the other end of an attachment, which has this velocity there (its damping asks for it). False,
+  /// and nothing is done, where there is no such attachment: it was released, or what it held was removed.
+  bool pull(int attachment, Eigen::Vector3d const& target,
+            Eigen::Vector3d const& velocity = Eigen::Vector3d::Zero()) {
+    return picking([&](auto const& p) { return p.pull(attachment, target, velocity); });
+  }
+  /// Lets go. False where there was no such attachment.
+  bool release(int attachment) {
+    return picking([&](auto const& p) { return p.release(attachment); });
+  }
+  /// An attachment as it is, with its force on the body at the last evaluation; null where there is none.
+  Attachment const* attachment(int id) {
+    return picking([&](auto const& p) { return p.find(id); });
+  }
+
  private:
   Root root_;
   double time_ = 0;
@@ -104,6 +138,15 @@ class Simulation {
   static RootScope scopeOf(Root& root) { return {root, above_}; }
   RootScope rootScope() { return scopeOf(root_); }
 
+  void initialisedFor(std::string_view what) const {
+    if (!initialised_)
+      throw Error(text("Simulation::", what), "the scene is not initialised; call init() first");
+  }
+  template <class F>
+  auto picking(F&& f) {
+    const auto scope = rootScope();
+    return f(Picking<RootScope>{scope});
+  }
   template <class F>
   auto over(F&& f) {
     const auto scope = rootScope();
@@ -438,6 +481,7 @@ template <class Root>
 void Simulation<Root>::reset() {
   if (!initialised_) throw Error("Simulation::reset", "the scene is not initialised; call init() first");
   traverse(rootScope(), on<role::State>([](auto& s, auto const&) { s.reset(); }));
+  traverse(rootScope(), on<role::ContactManager>([](auto& manager, auto const&) { manager.forget(); }));
   time_ = 0;
   step_ = 0;
   propagate();

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace sinew {
+
+/// The half-line origin + t direction, t >= 0, with a direction of length 1: t is a distance.
+struct Ray {
+  Eigen::Vector3d origin, direction;
+
+  Eigen::Vector3d at(double t) const { return origin + t * direction; }
+};
+
+/// Where a ray meets a primitive: the distance along it, and the weights of the corners.
+struct RayHit {
+  double distance = std::numeric_limits<double>::infinity();
+  std::array<double, 3> weights{1, 0, 0};
+
+  explicit operator bool() const { return distance < std::numeric_limits<double>::infinity(); }
+};
+
+/// Where it enters the sphere, or leaves that in which it begins.
+inline RayHit ray_sphere(Ray const& ray, Eigen::Vector3d const& center, double radius) {
+  const Eigen::Vector3d d = center - ray.origin;
+  const double along = d.dot(ray.direction);
+  const double half = radius * radius - (d - along * ray.direction).squaredNorm();
+  if (!(half >= 0)) return {};
+  const double h = std::sqrt(half), t = along >= h ? along - h : along + h;
+  if (!(t >= 0)) return {};
+  return {t, {1, 0, 0}};
+}
+
+/// Where it is nearest to a point, if it passes within `tolerance` of it.
+inline RayHit ray_point(Ray const& ray, Eigen::Vector3d const& point, double tolerance) {
+  const double t = std::max(0.0, (point - ray.origin).dot(ray.direction));
+  if (!((point - ray.at(t)).norm() <= tolerance)) return {};
+  return {t, {1, 0, 0}};
+}
+
+/// Where it is nearest to a segment, if it passes within `tolerance` of it; of a segment along the ray at its
+/// first point.
+inline RayHit ray_segment(Ray const& ray, std::array<Eigen::Vector3d, 2> const& p, double tolerance) {
+  const Eigen::Vector3d e = p[1] - p[0], w = p[0] - ray.origin;
+  const double ee = e.squaredNorm(), ed = e.dot(ray.direction), ew = e.dot(w), dw = ray.direction.dot(w);
+  const double across = ee - ed * ed;  // ee sin^2 of the angle between
+  RayHit best;
+  double least = std::numeric_limits<double>::infinity();
+  auto consider = [&](double s) {
+    s = std::clamp(s, 0.0, 1.0);
+    const double t = std::max(0.0, dw + s * ed);
+    const double distance = (w + s * e - t * ray.direction).norm();
+    if (!(distance <= tolerance) || distance > least || (distance == least && t >= best.distance)) return;
+    least = distance;
+    best = {t, {1 - s, s, 0}};
+  };
+  consider(0);
+  consider(1);
+  if (ee > 0) consider(-ew / ee);                            // nearest to the origin
+  if (across > 1e-14 * ee) consider((ed * dw - ew) / across);  // nearest to the line
+  return best;
+}
+
+/// Where it goes through a triangle, from either side. No ray passes between triangles that share an edge or
+/// a corner (Woop, Benthin and Wald 2013): they are sheared along the ray into a plane, where each vertex is
+/// at the same place for all, and the test of an edge is the same number for both of its triangles,
+/// `corners` being the numbers of the vertices. A triangle seen from its edge, or without area, is not hit.
+inline RayHit ray_triangle(Ray const& ray, std::array<Eigen::Vector3d, 3> const& p,
+                           std::array<int, 3> const& corners) {
+  Eigen::Index z = 0;
+  ray.direction.cwiseAbs().maxCoeff(&z);
+  const Eigen::Index x = (z + 1) % 3, y = (z + 2) % 3;
+  std::array<Eigen::Vector3d, 3> q;
+  std::array<std::array<double, 2>, 3> flat;
+  for (std::size_t c = 0; c < 3; ++c) {
+    q[c] = p[c] - ray.origin;
+    const double along = q[c][z] / ray.direction[z];
+    flat[c] = {q[c][x] - along * ray.direction[x], q[c][y] - along * ray.direction[y]};
+  }
+  auto area = [&](std::size_t i, std::size_t j) {
+    return flat[i][0] * flat[j][1] - flat[i][1] * flat[j][0];
+  };
+  // twice that of an edge with the ray, which is also the weight of the corner opposite
+  auto side = [&](std::size_t i, std::size_t j) {
+    return corners[i] < corners[j] ? area(i, j) : -area(j, i);
+  };
+  const std::array<double, 3> w{side(1, 2), side(2, 0), side(0, 1)};
+  if (!((w[0] >= 0 && w[1] >= 0 && w[2] >= 0) || (w[0] <= 0 && w[1] <= 0 && w[2] <= 0))) return {};
+  const double sum = w[0] + w[1] + w[2];
+  if (sum == 0) return {};
+  RayHit hit{0, {w[0] / sum, w[1] / sum, w[2] / sum}};
+  for (std::size_t c = 0; c < 3; ++c) hit.distance += hit.weights[c] * q[c].dot(ray.direction);
+  if (!(hit.distance >= 0)) return {};
+  return hit;
+}
+
+}  // namespace sinew
