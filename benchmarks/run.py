@@ -133,6 +133,23 @@ def collision(build, rounds):
     return rows
 
 
+# steps a second that Faure et al. 2007 give for their laparoscopy, on a processor of that time
+PAPER_2007 = {"1800": 65, "30000": 4, "17x8x10": 110, "20x10x12": 67, "24x13x15": 37}
+
+
+def laparoscopy(build, steps):
+    print(f"\nlaparoscopy: steps a second over the first {steps} steps of the script (a tenth of them for 30000 tetrahedra)")
+    print(f"  {'liver':16} {'paper 2007':>10} {'steps/s':>10} {'detection':>10} {'contacts':>10} {'the rest':>10}")
+    rows = []
+    for line in output(build / "bench_laparoscopy", steps).splitlines():
+        model, resolution, *figures = line.split("; ")
+        rate, detection, response, rest = (float(x) for x in figures)
+        rows.append({"model": model, "resolution": resolution, "steps_per_second": rate, "paper": PAPER_2007[resolution],
+                     "detection": detection, "response": response, "rest": rest})
+        print(f"  {model + ' ' + resolution:16} {PAPER_2007[resolution]:10} {rate:10.1f}" + "".join(f" {100 * x:8.1f} %" for x in (detection, response, rest)))
+    return rows
+
+
 def main():
     here = pathlib.Path(__file__).resolve().parent
     parser = argparse.ArgumentParser(description=__doc__)
@@ -140,7 +157,7 @@ def main():
     parser.add_argument("--meshes", type=pathlib.Path, nargs="*", help="tetrahedral meshes (.msh); default: blocks made here")
     parser.add_argument("--yardstick", type=pathlib.Path, help="C++ source of a program to compare the liver with")
     parser.add_argument("--rounds", type=int, default=5)
-    parser.add_argument("--only", choices=["fem", "by-hand", "vitrectomy", "runtime", "families", "collision", "compile"], help="one table instead of all")
+    parser.add_argument("--only", choices=["fem", "by-hand", "vitrectomy", "runtime", "families", "collision", "laparoscopy", "compile"], help="one table instead of all")
     parser.add_argument("--json", type=pathlib.Path, default=pathlib.Path("out/bench.json"))
     arguments = parser.parse_args()
     for mesh in arguments.meshes or []:
@@ -185,6 +202,8 @@ def main():
             results["families"] = families(arguments.build, 2 * arguments.rounds + 1)
         if arguments.only in (None, "collision"):
             results["collision"] = collision(arguments.build, arguments.rounds)
+        if arguments.only in (None, "laparoscopy"):
+            results["laparoscopy"] = laparoscopy(arguments.build, 200 * arguments.rounds)
         if arguments.only in (None, "compile"):
             results["compile"] = measure.table()
     arguments.json.parent.mkdir(parents=True, exist_ok=True)

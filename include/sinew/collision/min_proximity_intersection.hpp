@@ -37,7 +37,9 @@ struct MinProximityIntersection {
   template <std::size_t NA, std::size_t NB>
   std::optional<Contact> intersect(PrimitivePair<NA, NB> const& pair) const {
     auto contact = contact_at(pair, pair.cornersA(), pair.cornersB());
-    if (!contact || contact->distance > reach() + pair.proximity()) return std::nullopt;
+    // as far behind a one-sided triangle as in front of it: what is farther is on the other side of the body
+    if (!contact || contact->start.norm() > reach() + pair.proximity() + pair.thickness())
+      return std::nullopt;
     contact->limit = contactDistance + pair.proximity();
     return contact;
   }

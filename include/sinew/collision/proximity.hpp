@@ -60,9 +60,10 @@ std::optional<Contact> contact_at(PrimitivePair<NA, NB> const& pair, std::array<
                                   std::array<Eigen::Vector3d, NB> const& b, bool onlyLocalMinima = true) {
   const auto closest = closest_points(a, b);
   Contact contact;
+  contact.start = closest.pointB - closest.pointA;
   detail::set_side<NA>(contact.a, pair.a, pair.elementA, closest.weightsA);
   detail::set_side<NB>(contact.b, pair.b, pair.elementB, closest.weightsB);
-  const Eigen::Vector3d between = closest.pointB - closest.pointA;
+  const Eigen::Vector3d between = contact.start;
   if (onlyLocalMinima && (!pair.a.isLocalMinimum(pair.elementA, contact.a.vertices, between) ||
                           !pair.b.isLocalMinimum(pair.elementB, contact.b.vertices, -between)))
     return std::nullopt;
