@@ -186,13 +186,16 @@ struct Collision {
       if (!solved) scope.forEachChild([&](auto const& child) { forEachSolver(child, f); });
   }
 
+  template <class R, class C>
+  static void touch(R const& response, C& component, std::span<int const> points) {
+    if constexpr (TouchResponse<R, C>) response.touch(component, points);
+  }
   // responses that change what stands on the touched states
   template <class Manager>
   void touch(Manager& manager) const {
     manager.forEachTouchResponse([&](auto const& response, void const* state, std::span<int const> points) {
       traverse(root, on<role::ForceField>([&](auto& c, auto const& scope) {
-                 if constexpr (TouchResponse<std::decay_t<decltype(response)>, std::decay_t<decltype(c)>>)
-                   if (scope.stateAddress() == state) response.touch(c, points);
+                 if (scope.stateAddress() == state) touch(response, c, points);
                }));
     });
   }
