@@ -187,6 +187,10 @@ struct Collision {
       if (!solved) scope.forEachChild([&](auto const& child) { forEachSolver(child, f); });
   }
 
+  template <class R, class C>
+  static void touch(R const& response, C& component, std::span<int const> points) {
+    if constexpr (TouchResponse<R, C>) response.touch(component, points);
+  }
   // responses that change what stands on the touched states
   template <class Manager>
   void touch(Manager& manager) const {
