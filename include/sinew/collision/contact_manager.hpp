@@ -56,7 +56,7 @@ struct ContactManager {
   std::vector<int> points{};
   ContactAssembly assembly{};
   struct OfVertex {
-    std::array<int, 4> key;  // surfaces, side, vertex
+    std::array<int, 5> key;  // surfaces, side, vertex, corner of its hull
     int contact;
   };
   std::vector<OfVertex> ofVertices{};     // contacts of single vertices
@@ -326,13 +326,17 @@ struct ContactManager {
     return position_of(c.b, *surfaces[std::size_t(c.b.surface)]) -
            position_of(c.a, *surfaces[std::size_t(c.a.surface)]);
   }
-  // a vertex that slides from one triangle to the next goes on with the same contact; -1 stands before
-  // vertices
-  static std::array<int, 4> vertexKey(ContactKey const& k, int side) {
-    return {k.surfaces[0], k.surfaces[1], side, k.vertices[std::size_t(side == 0 ? 2 : 5)]};
+  // a vertex, or a corner of a hull, that slides from one triangle to the next goes on with the same contact;
+  // -1 stands before vertices
+  static std::array<int, 5> vertexKey(ContactKey const& k, int side) {
+    return {k.surfaces[0],
+            k.surfaces[1],
+            side,
+            k.vertices[std::size_t(side == 0 ? 2 : 5)],
+            k.features[std::size_t(side == 0 ? 0 : 2)]};
   }
   static bool ofOneVertex(ContactKey const& k, int side) {
-    return k.vertices[std::size_t(side == 0 ? 1 : 4)] < 0;
+    return k.vertices[std::size_t(side == 0 ? 1 : 4)] < 0 && k.features[std::size_t(side == 0 ? 1 : 3)] == -1;
   }
   void listVertices() {
     ofVertices.clear();
