@@ -182,6 +182,28 @@ TEST_CASE("a plate, a needle and a point are hulls, too") {
   check({{0, 0, 0}, {0, 0, 0}}, 1);
 }
 
+TEST_CASE("a ray picks a hull where it enters it, or leaves it") {
+  const auto place = askew();
+  auto sim = contact_scene(near, 0, still(box_corners({1, 1, 0.5}), place));
+  sim.init();
+  auto pick = [&](V const& from, V const& along) {
+    return sim.pick(place.orientation * from + place.center, place.orientation * along);
+  };
+  const auto top = pick({0.2, 0.3, 4}, {0, 0, -1});
+  REQUIRE(top);
+  CHECK(top->distance == Approx(3.5).margin(1e-9));
+  CHECK((top->place.lever - V(0.2, 0.3, 0.5)).norm() < 1e-9);
+  const V to(1, -0.4, 0.2), from(5, 1, 2);
+  const auto side = pick(from, to - from);
+  REQUIRE(side);
+  CHECK((side->place.lever - to).norm() < 1e-9);
+  const auto inside = pick({0.2, 0.3, 0.1}, {1, 0, 0});
+  REQUIRE(inside);
+  CHECK(inside->distance == Approx(0.8).margin(1e-9));
+  CHECK(!pick({0.2, 0.3, 4}, {0, 0, 1}));
+  CHECK(!pick({1.01, 0.3, 4}, {0, 0, -1}));
+}
+
 TEST_CASE("a hull without points, or with wrong ones, says so") {
   auto message = [](ConvexCollisionModel<Rigid3d> model) {
     auto sim = contact_scene(near, 0, free_body<Rigid3d>({rigid_at({0, 0, 0})}, model));

@@ -107,3 +107,33 @@ TEST_CASE("a box on a slope holds up to the angle of Coulomb, and slides beyond"
     CHECK((v1 - v0) / 2 == Approx(a).epsilon(0.01));
   }
 }
+
+TEST_CASE("a round can stands on 8 places of its rim") {
+  std::vector<Eigen::Vector3d> rim;
+  for (int k = 0; k < 40; ++k) {
+    const double angle = 2 * std::acos(-1.0) * k / 40;
+    for (const double z : {-0.4, 0.4}) rim.push_back({0.5 * std::cos(angle), 0.5 * std::sin(angle), z});
+  }
+  auto sim = contact_scene(
+      near,
+      10,
+      floor_node(50, 0.3),
+      node<"can">(
+          EulerImplicitSolver{},
+          CGLinearSolver<>{.iterations = 100, .tolerance = 1e-14},
+          MechanicalObject<Rigid3d>{.position = {rigid_at({0.3, 0.2, 0.449})}},
+          UniformMass<Rigid3d>{
+              .vertexMass = RigidMass<double, 3>{2, Eigen::Matrix3d(0.2 * Eigen::Matrix3d::Identity())}},
+          ConvexCollisionModel<Rigid3d>{.contactStiffness = 50, .contactDamping = 50, .points = rim}));
+  sim.init();
+  for (int i = 0; i < 2000; ++i) sim.animate(0.01);
+  const auto settled = sim.at<"can">().state().position[0];
+  for (int i = 0; i < 500; ++i) sim.animate(0.01);
+  auto const& x = sim.at<"can">().state().position[0];
+  CHECK((x.center - settled.center).norm() < 1e-9);
+  const Eigen::Vector3d up = x.orientation * Eigen::Vector3d::UnitZ();
+  CHECK((up - Eigen::Vector3d::UnitZ()).norm() < 1e-4);
+  const std::size_t contacts = sim.root().get<Contacts>().contacts.size();
+  CHECK(contacts >= 7);
+  CHECK(contacts <= 16);  // 8 for each triangle of the floor
+}
