@@ -104,3 +104,23 @@ TEST_CASE("two fast edges that cross are stopped by each other") {
             1e-9 * 1000);
   }
 }
+
+TEST_CASE("a tool that is driven through a ball within a step takes it along") {
+  // the wall comes 2 m in a step, from the left of the ball to its right
+  auto sim = contact_scene(ahead,
+                           0,
+                           wall(1e6),
+                           node<"ball">(EulerImplicitSolver{},
+                                        CGLinearSolver<>{.iterations = 50, .tolerance = 1e-14},
+                                        MechanicalObject<Vec3d>{.position = {{1, 0.1, 0.2}}},
+                                        UniformMass<Vec3d>{.vertexMass = 1e-3},
+                                        SphereCollisionModel<Vec3d>{.contactStiffness = 1e3, .radius = 0.1}));
+  sim.init();
+  auto& tool = sim.at<"wall">().state();
+  for (std::size_t i = 0; i < tool.position.size(); ++i) {
+    tool.position[i][0] += 2;
+    tool.velocity[i] = Eigen::Vector3d(200, 0, 0);
+  }
+  sim.animate(0.01);
+  CHECK(sim.at<"ball">().state().position[0][0] > 2);
+}

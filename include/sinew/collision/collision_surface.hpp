@@ -3,11 +3,13 @@
 
 #include <sinew/collision/axis_box.hpp>
 #include <sinew/collision/bounding_tree.hpp>
+#include <sinew/collision/convex_hull.hpp>
 #include <sinew/core/data_types.hpp>
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,7 +21,7 @@ namespace sinew {
 /// what is between them is compiled once.
 struct CollisionSurface {
   // of the model, at init
-  int corners = 0;  // of a primitive: 1 point or sphere, 2 segment, 3 triangle
+  int corners = 0;  // of a primitive: 1 point or sphere, 2 segment, 3 triangle; 0 a hull
   bool rigid = false;
   bool active = true, moving = true, simulated = true, selfCollision = false, bothSide = true;
   double proximity = 0, stiffness = 10, friction = 0, damping = 0;
@@ -27,7 +29,8 @@ struct CollisionSurface {
   std::vector<int> group{};  // models that share one do not collide
   std::vector<std::array<int, 3>> elements{};  // their corners, -1 behind the last
   std::vector<double> radius{};                // of each element; empty: 0
-  std::string path{};                          // for messages
+  std::optional<ConvexHull> hull{};  // of each element, in the axes of its rigid, where corners is 0
+  std::string path{};                // for messages
   void const* state = nullptr;
   int number = -1;        // among the surfaces of the scene, in their order
   int solver = -1;        // which of the ODE solvers moves it; none: -1
@@ -66,7 +69,7 @@ struct CollisionSurface {
   /// to somewhere else is the least one around it, and not only on this element: where it is not, a neighbour
   /// is nearer (the filter of Duriez, LocalMinDistance).
   bool isLocalMinimum(int element, std::array<int, 3> const& vertices, Eigen::Vector3d const& d) const {
-    if (corners == 1 || vertices[2] >= 0) return true;
+    if (corners < 2 || vertices[2] >= 0) return true;
     auto towards = [&](Eigen::Vector3d const& way) { return d.dot(way) > 1e-9 * d.norm() * way.norm(); };
     if (vertices[1] < 0) {
       const auto v = std::size_t(vertices[0]);
@@ -154,12 +157,26 @@ struct CollisionSurface {
       for (int c = 0; c < corners; ++c) {
         const auto v = std::size_t(elements[e][std::size_t(c)]);
         b.include(position[v]);
-        if (dt > 0) b.include(position[v] + dt * velocity[v]);
+        if (dt > 0) b.include(position[v] + (solver < 0 ? -dt : dt) * velocity[v]);
       }
+      if (hull) b = hullBox(std::size_t(elements[e][0]), dt);
       boxes[e] = b.grown(proximity + margin + radiusOf(int(e)));
       box.include(boxes[e]);
     }
     tree.update(boxes);
+  }
+
+ private:
+  AxisBox hullBox(std::size_t v, double dt) const {
+    const Eigen::Matrix3d turned = orientation[v].toRotationMatrix();
+    AxisBox b;
+    for (auto const& p : hull->points()) b.include(position[v] + turned * p);
+    if (!(dt > 0)) return b;
+    AxisBox way = b;
+    way.include(b.min + dt * velocity[v]);
+    way.include(b.max + dt * velocity[v]);
+    // a point at r turns by |w| r dt at most
+    return way.grown(dt * spin[v].norm() * hull->reach());
   }
 };
 

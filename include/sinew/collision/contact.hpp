@@ -22,6 +22,8 @@ struct ContactSide {
   std::array<int, 3> vertices{-1, -1, -1};  // those of weight 0 are left out
   std::array<double, 3> weights{0, 0, 0};
   Eigen::Vector3d lever{0, 0, 0};  // from the centre of the rigid, in its axes
+  // of a hull: its corner i as {i, -1}, its edge from i to j as {i, j}, a face as {-2, -2}
+  std::array<int, 2> feature{-1, -1};
 
   static constexpr auto fields() {
     using S = ContactSide;
@@ -29,16 +31,18 @@ struct ContactSide {
                       field("element", &S::element, "", "primitive of it"),
                       field("vertices", &S::vertices, "", "its vertices, -1 behind the last"),
                       field("weights", &S::weights, "", "of the vertices"),
-                      field("lever", &S::lever, "m", "from the centre of a rigid, in its axes"));
+                      field("lever", &S::lever, "m", "from the centre of a rigid, in its axes"),
+                      field("feature", &S::feature, "", "of a hull: its corner, or the two of its edge"));
   }
   int corners() const { return 3 - int(vertices[1] < 0) - int(vertices[2] < 0); }
 };
 
 /// By what a contact is known again in the next step, and in which order contacts stand: surfaces in the
-/// order of the scene, and the vertices that meet.
+/// order of the scene, the vertices that meet, and the corners and edges of hulls.
 struct ContactKey {
   std::array<int, 2> surfaces;
   std::array<int, 6> vertices;
+  std::array<int, 4> features{-1, -1, -1, -1};
   auto operator<=>(ContactKey const&) const = default;
 };
 
@@ -89,7 +93,7 @@ struct Contact {
   }
 
   ContactKey key() const {
-    ContactKey k{{a.surface, b.surface}, {}};
+    ContactKey k{{a.surface, b.surface}, {}, {a.feature[0], a.feature[1], b.feature[0], b.feature[1]}};
     for (std::size_t c = 0; c < 3; ++c) k.vertices[c] = a.vertices[c], k.vertices[3 + c] = b.vertices[c];
     for (auto first : {k.vertices.begin(), k.vertices.begin() + 3}) std::sort(first, first + 3);
     return k;

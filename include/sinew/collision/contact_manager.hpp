@@ -7,6 +7,7 @@
 #include <sinew/collision/stick_contact.hpp>
 #include <sinew/core/component.hpp>
 
+#include <array>
 #include <span>
 #include <string>
 #include <tuple>
@@ -56,7 +57,7 @@ struct ContactManager {
   std::vector<int> points{};
   ContactAssembly assembly{};
   struct OfVertex {
-    std::array<int, 4> key;  // surfaces, side, vertex
+    std::array<int, 5> key;  // surfaces, side, vertex, corner of its hull
     int contact;
   };
   std::vector<OfVertex> ofVertices{};     // contacts of single vertices
@@ -327,13 +328,17 @@ struct ContactManager {
         f(std::get<R>(responses), surfaces[s]->state, std::span<int const>(points));
       }
   }
-  // a vertex that slides from one triangle to the next goes on with the same contact; -1 stands before
-  // vertices
-  static std::array<int, 4> vertexKey(ContactKey const& k, int side) {
-    return {k.surfaces[0], k.surfaces[1], side, k.vertices[std::size_t(side == 0 ? 2 : 5)]};
+  // a vertex, or a corner of a hull, that slides from one triangle to the next goes on with the same contact;
+  // -1 stands before vertices
+  static std::array<int, 5> vertexKey(ContactKey const& k, int side) {
+    return {k.surfaces[0],
+            k.surfaces[1],
+            side,
+            k.vertices[std::size_t(side == 0 ? 2 : 5)],
+            k.features[std::size_t(side == 0 ? 0 : 2)]};
   }
   static bool ofOneVertex(ContactKey const& k, int side) {
-    return k.vertices[std::size_t(side == 0 ? 1 : 4)] < 0;
+    return k.vertices[std::size_t(side == 0 ? 1 : 4)] < 0 && k.features[std::size_t(side == 0 ? 1 : 3)] == -1;
   }
   void listVertices() {
     ofVertices.clear();
@@ -372,6 +377,9 @@ struct ContactManager {
                                : !b.response.empty() ? b.response
                                                      : response));
     find_solver(c, &a, &b);
+    // what changes components is no force, and no solver needs to know
+    constexpr std::array isForce{ContactLaw<Responses>...};
+    if (!isForce[std::size_t(c.response)]) c.solver = -1, c.loose = false;
   }
   static void remember(Contact& c, Contact const& old) {
     c.slip = old.slip;

@@ -34,6 +34,7 @@ struct ContinuousIntersection {
   }
 
   double reach() const { return std::max(alarmDistance, contactDistance); }
+  double limit() const { return contactDistance; }
 
   template <std::size_t NA, std::size_t NB>
   std::optional<Contact> intersect(PrimitivePair<NA, NB> const& pair) const {
@@ -43,14 +44,16 @@ struct ContinuousIntersection {
     auto now = contact_at(pair, a, b);
     if (now) now->limit = limit;
     if (now && now->distance <= limit) return now;
+    // what no solver moves stands where it will be at the end of the step, and comes from before
     auto moved = [&](auto corners, CollisionSurface const& s, int element, double time) {
+      if (s.solver < 0) time -= pair.dt;
       for (std::size_t c = 0; c < corners.size(); ++c)
         corners[c] += time * s.velocity[std::size_t(s.elements[std::size_t(element)][c])];
       return corners;
     };
-    const auto impact = time_of_impact(a,
+    const auto impact = time_of_impact(moved(a, pair.a, pair.elementA, 0),
                                        moved(a, pair.a, pair.elementA, pair.dt),
-                                       b,
+                                       moved(b, pair.b, pair.elementB, 0),
                                        moved(b, pair.b, pair.elementB, pair.dt),
                                        pair.thickness() + limit);
     if (!impact) {

@@ -3,51 +3,14 @@
 
 // Needs libccd (Debian: libccd-dev; BSD licence). Not in sinew.hpp; CMake's target sinew::ccd, there where
 // libccd is installed, brings it.
+#include <sinew/collision/convex_hull.hpp>
 #include <sinew/collision/overlap.hpp>
-#include <sinew/core/error.hpp>
 
 #include <ccd/ccd.h>
 
-#include <string_view>
 #include <utility>
-#include <vector>
 
 namespace sinew {
-
-/// The convex hull of points in body axes [m]; they may be coplanar, collinear or one. Points inside do no
-/// harm but cost time: a support takes one product each.
-class ConvexHull {
- public:
-  /// Throws Error where there is no point, or one that is not finite.
-  explicit ConvexHull(std::vector<Vec<double, 3>> corners, std::string_view where = "ConvexHull")
-      : points_(std::move(corners)) {
-    if (points_.empty()) throw Error(where, "a convex hull has no points; give it at least 1");
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      if (!points_[i].allFinite())
-        throw Error(
-            where,
-            text("point ", i, " of a convex hull is not finite; mend the mesh or the table it is from"));
-      middle_ += points_[i] / double(points_.size());
-    }
-    for (auto const& p : points_) radius_ = std::max(radius_, (p - middle_).norm());
-  }
-  std::vector<Vec<double, 3>> const& points() const { return points_; }
-  Vec<double, 3> const& middle() const { return middle_; }
-  /// Of the ball around middle().
-  double radius() const { return radius_; }
-  /// The first point that is farthest along d.
-  std::size_t support(Vec<double, 3> const& d) const {
-    std::size_t best = 0;
-    for (std::size_t i = 1; i < points_.size(); ++i)
-      if (points_[i].dot(d) > points_[best].dot(d)) best = i;
-    return best;
-  }
-
- private:
-  std::vector<Vec<double, 3>> points_;
-  Vec<double, 3> middle_{0, 0, 0};
-  double radius_ = 0;
-};
 
 /// A hull at a place: body axes to world axes by `pose`, whose quaternion is of unit length. The hull
 /// outlives it.

@@ -81,11 +81,16 @@ struct DefaultPipeline {
     narrow.pairs(a, b, [&](int elementA, int elementB) {
       ++boxTests;
       if (adjacent(a, elementA, b, elementB)) return;
-      auto contact = intersection.intersect(PrimitivePair<NA, NB>{a, b, elementA, elementB, dt});
-      if (!contact) return;
-      contact->a.surface = i;
-      contact->b.surface = j;
-      manager.add(*contact);
+      const PrimitivePair<NA, NB> pair{a, b, elementA, elementB, dt};
+      auto add = [&](Contact& contact) {
+        contact.a.surface = i;
+        contact.b.surface = j;
+        manager.add(contact);
+      };
+      if constexpr (NA == 0 || NB == 0)
+        HullContacts<NA, NB>::find(pair, intersection, add);
+      else if (auto contact = intersection.intersect(pair))
+        add(*contact);
     });
   }
 };

@@ -16,6 +16,7 @@ struct DiscreteIntersection {
   static constexpr auto fields() { return field_list(); }
 
   static double reach() { return 0; }
+  static double limit() { return 0; }
 
   template <std::size_t NA, std::size_t NB>
   std::optional<Contact> intersect(PrimitivePair<NA, NB> const& pair) const {

@@ -33,6 +33,7 @@ struct MinProximityIntersection {
   }
 
   double reach() const { return std::max(alarmDistance, contactDistance); }
+  double limit() const { return contactDistance; }
 
   template <std::size_t NA, std::size_t NB>
   std::optional<Contact> intersect(PrimitivePair<NA, NB> const& pair) const {

@@ -51,6 +51,11 @@ Eigen::Vector3d outer_normal(CollisionSurface const& s, std::array<Eigen::Vector
 
 }  // namespace detail
 
+/// Finds the contacts of pairs with a hull, which is the primitive of 0 corners: find(pair, intersection
+/// method, add). Declared here only: hull_contacts.hpp, which needs libccd, defines it for who has hulls.
+template <std::size_t NA, std::size_t NB>
+struct HullContacts;
+
 /// The contact of two primitives at their closest points, the corners being at `a` and `b`; none where a
 /// neighbour of one of them is nearer there, unless that is not asked (`onlyLocalMinima`). Where a corner or
 /// the inside of an edge is nearest to the inside of a triangle of a one-sided surface (bothSide = false),

@@ -35,6 +35,11 @@ inline RayHit ray_sphere(Ray const& ray, Eigen::Vector3d const& center, double r
   return {t, {1, 0, 0}};
 }
 
+/// Where it enters a hull, or leaves that in which it begins: of(ray, surface, element, end), up to the
+/// distance `end`. Declared here only: hull_contacts.hpp, which needs libccd, defines it for who has hulls.
+template <class Hulls>
+struct HullRay;
+
 /// Where it is nearest to a point, if it passes within `tolerance` of it.
 inline RayHit ray_point(Ray const& ray, Eigen::Vector3d const& point, double tolerance) {
   const double t = std::max(0.0, (point - ray.origin).dot(ray.direction));

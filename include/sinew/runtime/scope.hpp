@@ -17,6 +17,7 @@ void runtime_checks(RuntimeScope<R> const& scope);
 template <class R>
 struct RuntimeScope {
   using NodeType = RuntimeNode<R>;
+  using Classes = R;
   static constexpr bool provedAtInit = true, isVisual = false;
   NodeType& node;
   bool atMount = false;

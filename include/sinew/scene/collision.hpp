@@ -4,6 +4,7 @@
 #include <sinew/collision/collision_surface.hpp>
 #include <sinew/collision/contact.hpp>
 #include <sinew/core/error.hpp>
+#include <sinew/core/registry.hpp>
 #include <sinew/scene/scope.hpp>
 
 #include <utility>
@@ -13,45 +14,39 @@ namespace sinew {
 
 namespace detail {
 
-/// The numbers of corners of the primitives below a scope, as bits. A runtime tree may have all.
+template <class C>
+constexpr unsigned primitive_kind() {
+  if constexpr (HasRole<C, role::CollisionModel>)
+    return 1u << C::corners;
+  else
+    return 0;
+}
+/// The numbers of corners of the primitives below a scope, as bits. A runtime tree may have all that its
+/// registry has.
 template <class S>
 constexpr unsigned primitive_kinds();
 template <class S, FixedString Name, class... Cs, class... Ns>
 constexpr unsigned primitive_kinds(std::type_identity<Node<Name, hana::tuple<Cs...>, hana::tuple<Ns...>>>) {
-  [[maybe_unused]] auto of = []<class C>(std::type_identity<C>) -> unsigned {  // a node may have no component
-    if constexpr (HasRole<C, role::CollisionModel>)
-      return 1u << C::corners;
-    else
-      return 0;
-  };
-  return (0u | ... | of(std::type_identity<Cs>{})) |
-         (0u | ... | primitive_kinds<typename ScopeOf<Ns, S>::type>());
+  return (0u | ... | primitive_kind<Cs>()) | (0u | ... | primitive_kinds<typename ScopeOf<Ns, S>::type>());
 }
 template <class S>
 constexpr unsigned primitive_kinds() {
-  if constexpr (requires { S::provedAtInit; })
-    return 0b1110u;
-  else
+  if constexpr (requires { S::provedAtInit; }) {
+    unsigned kinds = 0;
+    for_each_registered<typename S::Classes>([&]<class C>() constexpr { kinds |= primitive_kind<C>(); });
+    return kinds;
+  } else {
     return primitive_kinds<S>(std::type_identity<typename S::NodeType>{});
+  }
 }
-template <unsigned Kinds>
+template <unsigned Kinds, std::size_t Next = 0, std::size_t... Found>
 constexpr auto kind_sequence() {
-  if constexpr (Kinds == 0b0010u)
-    return std::index_sequence<1>{};
-  else if constexpr (Kinds == 0b0100u)
-    return std::index_sequence<2>{};
-  else if constexpr (Kinds == 0b1000u)
-    return std::index_sequence<3>{};
-  else if constexpr (Kinds == 0b0110u)
-    return std::index_sequence<1, 2>{};
-  else if constexpr (Kinds == 0b1010u)
-    return std::index_sequence<1, 3>{};
-  else if constexpr (Kinds == 0b1100u)
-    return std::index_sequence<2, 3>{};
-  else if constexpr (Kinds == 0b1110u)
-    return std::index_sequence<1, 2, 3>{};
+  if constexpr (Next > 3)
+    return std::index_sequence<Found...>{};
+  else if constexpr ((Kinds >> Next & 1u) != 0)
+    return kind_sequence<Kinds, Next + 1, Found..., Next>();
   else
-    return std::index_sequence<>{};
+    return kind_sequence<Kinds, Next + 1, Found...>();
 }
 
 // f(component) for the first with a role in the node of a scope
@@ -87,7 +82,8 @@ struct Collision {
     numberSolvers(root, solvers);
     for (auto* s : all)
       for (auto const* other : all)
-        if (s->state == other->state && other->radius.empty()) s->companions |= 1u << other->corners;
+        if (s->state == other->state && other->radius.empty() && other->corners > 0)
+          s->companions |= 1u << other->corners;
     traverse(root, on<role::CollisionPipeline>([&](auto& pipeline, auto const& scope) {
                auto missing = [&](std::string_view stage, std::string_view such) {
                  throw Error(scope.path(),
@@ -188,7 +184,7 @@ struct Collision {
   }
 
   template <class R, class C>
-  static void touch(R const& response, C& component, std::span<int const> points) {
+  static void touchOne(R const& response, C& component, std::span<int const> points) {
     if constexpr (TouchResponse<R, C>) response.touch(component, points);
   }
   // responses that change what stands on the touched states
@@ -196,7 +192,7 @@ struct Collision {
   void touch(Manager& manager) const {
     manager.forEachTouchResponse([&](auto const& response, void const* state, std::span<int const> points) {
       traverse(root, on<role::ForceField>([&](auto& c, auto const& scope) {
-                 if (scope.stateAddress() == state) touch(response, c, points);
+                 if (scope.stateAddress() == state) touchOne(response, c, points);
                }));
     });
   }

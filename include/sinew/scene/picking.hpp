@@ -4,6 +4,7 @@
 #include <sinew/collision/attachment.hpp>
 #include <sinew/collision/ray_hits.hpp>
 #include <sinew/core/error.hpp>
+#include <sinew/scene/collision.hpp>
 #include <sinew/scene/scope.hpp>
 
 #include <optional>
@@ -144,7 +145,9 @@ struct Picking {
     std::pair<int, RayHit> best{-1, {}};
     s.tree.ray(ray.origin, ray.direction, end, [&](int e, double until) {
       RayHit hit;
-      if (s.corners == 3)
+      if (s.corners == 0)
+        hit = rayHull(ray, s, e, until);
+      else if (s.corners == 3)
         hit = ray_triangle(ray, s.corner<3>(s.position, e), s.elements[std::size_t(e)]);
       else if (s.corners == 2)
         hit = ray_segment(ray, s.corner<2>(s.position, e), tolerance);
@@ -158,12 +161,19 @@ struct Picking {
     });
     return best;
   }
+  template <class Surface>
+  static RayHit rayHull(Ray const& ray, Surface const& s, int element, double end) {
+    if constexpr ((detail::primitive_kinds<RootScope>() & 1u) != 0)
+      return HullRay<Surface>::of(ray, s, element, end);
+    else
+      return {};
+  }
   static void describe(Pick& pick, Ray const& ray, CollisionSurface const& s, int element,
                        RayHit const& hit) {
     ContactSide& side = pick.place;
     side.element = element;
     int n = 0;
-    for (int c = 0; c < s.corners; ++c)
+    for (int c = 0; c < std::max(1, s.corners); ++c)
       if (hit.weights[std::size_t(c)] > 0) {
         side.vertices[std::size_t(n)] = s.elements[std::size_t(element)][std::size_t(c)];
         side.weights[std::size_t(n++)] = hit.weights[std::size_t(c)];

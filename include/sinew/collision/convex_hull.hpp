@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/data_types.hpp>
+#include <sinew/core/error.hpp>
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace sinew {
+
+/// The convex hull of points in body axes [m]; they may be coplanar, collinear or one. Points inside do no
+/// harm but cost time: a support takes one product each.
+class ConvexHull {
+ public:
+  /// Throws Error where there is no point, or one that is not finite.
+  explicit ConvexHull(std::vector<Vec<double, 3>> corners, std::string_view where = "ConvexHull")
+      : points_(std::move(corners)) {
+    if (points_.empty()) throw Error(where, "a convex hull has no points; give it at least 1");
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      if (!points_[i].allFinite())
+        throw Error(
+            where,
+            text("point ", i, " of a convex hull is not finite; mend the mesh or the table it is from"));
+      middle_ += points_[i] / double(points_.size());
+    }
+    for (auto const& p : points_) {
+      radius_ = std::max(radius_, (p - middle_).norm());
+      reach_ = std::max(reach_, p.norm());
+    }
+  }
+  std::vector<Vec<double, 3>> const& points() const { return points_; }
+  Vec<double, 3> const& middle() const { return middle_; }
+  /// Of the ball around middle().
+  double radius() const { return radius_; }
+  /// Of the ball around the origin of the axes.
+  double reach() const { return reach_; }
+  /// The first point that is farthest along d.
+  std::size_t support(Vec<double, 3> const& d) const {
+    std::size_t best = 0;
+    for (std::size_t i = 1; i < points_.size(); ++i)
+      if (points_[i].dot(d) > points_[best].dot(d)) best = i;
+    return best;
+  }
+
+ private:
+  std::vector<Vec<double, 3>> points_;
+  Vec<double, 3> middle_{0, 0, 0};
+  double radius_ = 0, reach_ = 0;
+};
+
+}  // namespace sinew
