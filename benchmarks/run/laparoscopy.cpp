@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
-// Steps of the laparoscopy a second, on one thread, at the resolutions of the paper of 2007. Prints lines of:
-// model; resolution of the liver; steps a second; shares of detection, contact forces and the rest (the
-// solvers with all other forces).
+// Steps of the laparoscopy a second of processor time, on one thread, at the resolutions of the paper of
+// 2007. Prints lines of: model; resolution of the liver; steps a second; shares of detection, contact forces
+// and the rest (the solvers with all other forces).
 #include "laparoscopy.hpp"
 
 #include <cstdio>

@@ -67,7 +67,7 @@ inline auto skin(sinew::Mesh const& mesh, int group, bool selfCollision, Laparos
 
 /// Liver and intestines in the abdomen, the ribs over them, and a tool that a script moves. `Organs`:
 /// FemOrgans or GridOrgans, with the bodies made for it.
-template <class Organs, class Manager = sinew::DefaultContactManager>
+template <class Organs, class Manager = sinew::DefaultContactManager, class Matrix = sinew::GraphScattered>
 auto laparoscopy_scene(LaparoscopyBodies const& b, LaparoscopyScene const& s = {}) {
   using namespace sinew;
   MeshTopology wall, ribs, shaft;
@@ -86,7 +86,7 @@ auto laparoscopy_scene(LaparoscopyBodies const& b, LaparoscopyScene const& s = {
       Manager{},
       node<"organs">(
           EulerImplicitSolver{.rayleighStiffness = s.rayleighStiffness, .rayleighMass = 0.1},
-          CGLinearSolver<>{.iterations = s.iterations, .tolerance = 1e-6},
+          CGLinearSolver<Matrix>{.iterations = s.iterations, .tolerance = 1e-6},
           Organs::template organ<"liver">(b.liver, s.liverModulus, skin(b.liver.skin, 1, false, s)),
           Organs::template organ<"intestines">(
               b.intestines,

@@ -29,8 +29,9 @@ struct ContactAssembly {
       });
   }
   void sort() {
-    std::stable_sort(entries.begin(), entries.end(), [](Entry const& x, Entry const& y) {
-      return std::pair(x.surface, x.vertex) < std::pair(y.surface, y.vertex);
+    // (stable_sort would allocate, and not as aligned as the matrices are where vectors are wide)
+    std::sort(entries.begin(), entries.end(), [](Entry const& x, Entry const& y) {
+      return std::array{x.surface, x.vertex, x.dof} < std::array{y.surface, y.vertex, y.dof};
     });
   }
 
