@@ -77,14 +77,12 @@ void print_field(std::string& out, FieldWords const& f, bool input) {
 
 void print_page(Entry const& e) {
   auto const& c = e.first();
-  std::string out = text(c.name,
-                         ", ",
-                         c.role == sinew::RoleKind::engine || c.role == sinew::RoleKind::odeSolver ||
-                                 c.role == sinew::RoleKind::interactionForceField
-                             ? "an "
-                             : "a ",
-                         e.role(),
-                         "\n");
+  std::string out =
+      text(c.name,
+           ", ",
+           std::string_view("aeiouO").find(e.role().front()) != std::string_view::npos ? "an " : "a ",
+           e.role(),
+           "\n");
   out += text("  ", wrapped(words_of(c.role).explanation, 2), '\n');
   if (!c.aliases.empty()) out += text("  other names: ", wrapped(commas(c.aliases), 15), '\n');
   if (const auto types = e.dataTypes(); !types.empty())

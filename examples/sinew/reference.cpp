@@ -58,7 +58,14 @@ RoleWords words_of(sinew::RoleKind role) {
        {"Callbacks", "Watch the state of the node, or the nearest above, before and after each step."},
        {"Loaders, selections and other engines",
         "Make data, once, from files or other data; others link to it, as in "
-        "position=\"@loader.position\"."}});
+        "position=\"@loader.position\"."},
+       {"Collision pipelines", "Compose collision detection from the stages that stand in the same node."},
+       {"Broad phases", "Find the collision models that are near each other."},
+       {"Narrow phases", "Find the primitives of two collision models that are near each other."},
+       {"Intersection methods", "Say where two primitives meet."},
+       {"Contact managers", "Keep the contacts from step to step, and have them answered."},
+       {"Collision models", "Primitives over the points of the state of the node."},
+       {"Carving", "Takes away what tools touch."}});
   static_assert(all.size() == enum_names(sinew::RoleKind{}).size());
   return all[std::size_t(role)];
 }
