@@ -152,3 +152,11 @@ TEST_CASE("contacts of a checkpoint that are not of its scene are refused") {
   root.add(manager);
   CHECK_THROWS_WITH((Simulation{std::move(root)}.init()), Catch::Contains("checkpoint"));
 }
+
+TEST_CASE("a collision model is over what the state is over") {
+  auto read =
+      parse_scene<Bodies>("rigid.scn", R"(<Node><DefaultPipeline/><BruteForceBroadPhase/><BVHNarrowPhase/>
+    <MinProximityIntersection/><DefaultContactManager/>
+    <Node name="ball"><MechanicalObject template="Rigid3d" position="0 0 0  0 0 0 1"/><SphereCollisionModel radius="0.5"/></Node></Node>)");
+  CHECK(read.root.find_node("ball")->get<SphereCollisionModel<Rigid3d>>());
+}

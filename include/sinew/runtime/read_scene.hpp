@@ -589,6 +589,7 @@ class SceneReader {
       case RoleKind::forceField:
       case RoleKind::interactionForceField:
       case RoleKind::stepCallback:
+      case RoleKind::collisionModel:
       case RoleKind::projectiveConstraint: {
         Place const* acted = owner;
         const bool joins = endsDiffer(item);
