@@ -4,6 +4,7 @@
 #include <sinew/core/registry.hpp>
 #include <sinew/scene/node.hpp>
 
+#include <algorithm>
 #include <array>
 #include <string>
 #include <utility>
@@ -28,25 +29,19 @@ constexpr ComponentOperations component_operations() {
 }
 template <class... Cs>
 constexpr auto all_component_operations(TypeList<Cs...>) {
-  return std::array{component_operations<Cs>()...};
+  // the type in words: the compiler would deduce it by a fold, which clang nests 256 deep at most
+  return std::array<ComponentOperations, sizeof...(Cs)>{component_operations<Cs>()...};
 }
 
-// the classes of a list with one of the roles
-template <class... Found, class C, class... Roles>
-auto add_if_role(TypeList<Found...>, Item<C>, TypeList<Roles...>) {
-  if constexpr (has_any_role<C, Roles...>)
-    return TypeList<Found..., C>{};
-  else
-    return TypeList<Found...>{};
-}
-template <class Found, class Roles>
-struct Filtered {};
-template <class Found, class Roles, class C>
-auto operator+(Filtered<Found, Roles>, Item<C> item) {
-  return Filtered<decltype(add_if_role(Found{}, item, Roles{})), Roles>{};
-}
-template <class Found, class Roles>
-Found found_in(Filtered<Found, Roles>);
+// the class at a place of a list, by the base that has its number
+template <std::size_t I, class C>
+struct Placed {};
+template <class Numbers, class... Cs>
+struct Places;
+template <std::size_t... I, class... Cs>
+struct Places<std::index_sequence<I...>, Cs...> : Placed<I, Cs>... {};
+template <std::size_t I, class C>
+std::type_identity<C> placed_at(Placed<I, C> const*);
 
 /// The classes of a list with one of the roles, and the place of each class of the list among them (-1:
 /// none). Found once for each set of roles: what is visited is instantiated for these classes alone.
@@ -54,14 +49,25 @@ template <class List, class... Roles>
 struct WithRole;
 template <class... Cs, class... Roles>
 struct WithRole<TypeList<Cs...>, Roles...> {
-  using Classes = decltype(found_in((Filtered<TypeList<>, TypeList<Roles...>>{} + ... + Item<Cs>{})));
+  static constexpr std::array<bool, sizeof...(Cs)> has{has_any_role<Cs, Roles...>...};
+  static constexpr std::size_t count = std::size_t(std::count(has.begin(), has.end(), true));
   static constexpr auto places = [] {
-    const bool has[] = {has_any_role<Cs, Roles...>...};
     std::array<short, sizeof...(Cs)> all{};
     short next = 0;
     for (std::size_t i = 0; i < all.size(); ++i) all[i] = has[i] ? next++ : short(-1);
     return all;
   }();
+  static constexpr auto numbers = [] {
+    std::array<std::size_t, count> all{};
+    for (std::size_t i = 0, next = 0; i < has.size(); ++i)
+      if (has[i]) all[next++] = i;
+    return all;
+  }();
+  using All = Places<std::index_sequence_for<Cs...>, Cs...>;
+  template <std::size_t... K>
+  static auto select(std::index_sequence<K...>)
+      -> TypeList<typename decltype(placed_at<numbers[K]>(static_cast<All const*>(nullptr)))::type...>;
+  using Classes = decltype(select(std::make_index_sequence<count>{}));
 };
 
 template <class C, class F>
