@@ -202,8 +202,10 @@ TEST_CASE("CGImplicit is implicit Euler with conjugate gradients") {
   CHECK(in<EulerImplicitSolver>(other).rayleighMass == 0);
   CHECK(in<CGLinearSolver<>>(other).threshold == 1e-10);
   CHECK(other.root.components().size() == 3);  // with gravity
-  for (auto const* name : {"CGImplicitSolver", "CgImplicit", "CgImplicitSolver"})
-    CHECK(in<EulerImplicitSolver>(node(text("<", name, " vdamping='0.2'/>"))).vdamping == 0.2);
+  for (auto const* name : {"CGImplicitSolver", "CgImplicit", "CgImplicitSolver"}) {
+    auto one = node(text("<", name, " vdamping='0.2'/>"));
+    CHECK(in<EulerImplicitSolver>(one).vdamping == 0.2);
+  }
   CHECK_THAT(wrong("<CGImplicit maxiter='3'/>"), Catch::Contains("has no attribute 'maxiter'"));
 }
 
