@@ -6,6 +6,10 @@
 #include <Eigen/Core>
 #include <type_traits>
 
+#if defined(__CUDACC__)
+#pragma nv_diag_suppress 1675  // nvcc unrolls by itself, and does not know the pragma of g++ and clang
+#endif
+
 // Sums, multiples and products of Eigen's matrices of fixed size, by value. Eigen's own operators return
 // expressions, each a type of its own that costs the compiler 5 to 10 ms: half of the time of a file with
 // many laws. For matrices that live in registers the value is what the optimiser makes of the expression
