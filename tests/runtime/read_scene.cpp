@@ -112,7 +112,7 @@ TEST_CASE("what has no meaning here is accepted, and said once") {
     <RequiredPlugin name="A"/> <RequiredPlugin name="B"/> <VisualStyle displayFlags="showForceFields"/>
     <TetrahedronSetGeometryAlgorithms drawTetrahedra="1"/>
     <MechanicalObject showObject="1" drawMode="2" printLog="0"/>
-    <SphereModel radius="1"/> <SphereCollisionModel radius="1"/>
+    <OBBModel extents="1 1 1"/> <CapsuleModel radius="1"/>
     <Node name="off" activated="0"><Nonsense/></Node>
   </Node>)");
   CHECK(scene.ignored.size() == 4);
