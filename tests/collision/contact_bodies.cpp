@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // Contact of rigids, of mapped surfaces, of bodies under two solvers, and what sticks.
+#include <sinew/force/stiff_spring.hpp>
 #include <sinew/mapping/rigid_mapping.hpp>
 #include <sinew/solver/euler_explicit.hpp>
 
@@ -175,4 +176,21 @@ TEST_CASE("models that share a group, and bodies that do not move, do not collid
   CHECK(balls({1, 3}, {2, 3}, true) == 0);
   CHECK(balls({}, {}, true) == 1);
   CHECK(balls({}, {}, false) == 0);
+}
+
+TEST_CASE("between two solvers springs and contacts act together") {
+  auto ball = [](double x) { return MechanicalObject<Vec3d>{.position = {{x, 0, 0}}}; };
+  const SphereCollisionModel<Vec3d> sphere{.contactStiffness = 10, .radius = 0.5};
+  auto sim =
+      contact_scene(near,
+                    0,
+                    StiffSpringForceField<Vec3d, Between<"a", "b">>{
+                        {{.first = 0, .second = 0, .stiffness = 3, .length = 1}}},
+                    node<"a">(EulerExplicitSolver{}, ball(0), UniformMass<Vec3d>{.vertexMass = 2}, sphere),
+                    node<"b">(EulerExplicitSolver{}, ball(2), UniformMass<Vec3d>{.vertexMass = 1}, sphere));
+  sim.init();
+  // 1 m apart they do not touch; the spring, 1 m too long, pulls with 3 N
+  sim.animate(0.01);
+  CHECK(sim.at<"a">().state().velocity[0][0] == Approx(0.01 * 3 / 2.0));
+  CHECK(sim.at<"b">().state().velocity[0][0] == Approx(-0.01 * 3));
 }

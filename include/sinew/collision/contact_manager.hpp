@@ -55,6 +55,8 @@ struct ContactManager {
   std::vector<Contact> found{};
   std::vector<CollisionSurface*> surfaces{};  // in the order of the scene, of this step
   std::vector<int> points{};
+  int answer = 0;              // place of the response of this manager,
+  std::vector<int> answers{};  // and of that of each model; -1 for one that names none
   ContactAssembly assembly{};
   struct OfVertex {
     std::array<int, 5> key;  // surfaces, side, vertex, corner of its hull
@@ -96,7 +98,6 @@ struct ContactManager {
     found.clear();
     contacts.reserve(std::size_t(capacity));
     found.reserve(std::size_t(capacity));
-    points.reserve(3 * std::size_t(capacity));
     ofVertices.reserve(2 * std::size_t(capacity));
     points.reserve(6 * std::size_t(capacity));
     attachments.reserve(8);
@@ -110,8 +111,13 @@ struct ContactManager {
                          names()));
     };
     known(where, response);
-    for (auto const* s : surfaces)
-      if (!s->response.empty()) known(s->path, s->response);
+    answer = find(response);
+    answers.assign(surfaces.size(), -1);
+    for (std::size_t s = 0; s < surfaces.size(); ++s) {
+      if (surfaces[s]->response.empty()) continue;
+      known(surfaces[s]->path, surfaces[s]->response);
+      answers[s] = find(surfaces[s]->response);
+    }
     for (std::size_t i = 0; i < contacts.size(); ++i)
       if (!fits(contacts[i].a) || !fits(contacts[i].b) || contacts[i].response < 0 ||
           contacts[i].response >= count)
@@ -372,10 +378,8 @@ struct ContactManager {
     c.stiffness = a.stiffness * b.stiffness / (reach > 0 ? reach : 1);
     c.friction = a.friction + b.friction;
     c.damping = a.damping + b.damping;
-    c.response = std::max(0,
-                          find(!a.response.empty()   ? a.response
-                               : !b.response.empty() ? b.response
-                                                     : response));
+    const int ofA = answers[std::size_t(c.a.surface)], ofB = answers[std::size_t(c.b.surface)];
+    c.response = ofA >= 0 ? ofA : ofB >= 0 ? ofB : answer;
     find_solver(c, &a, &b);
     // what changes components is no force, and no solver needs to know
     constexpr std::array isForce{ContactLaw<Responses>...};

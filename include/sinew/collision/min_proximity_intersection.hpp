@@ -18,19 +18,7 @@ struct MinProximityIntersection {
   double alarmDistance = 1;
   double contactDistance = 0.5;
 
-  static constexpr auto fields() {
-    using I = MinProximityIntersection;
-    return field_list(field("alarmDistance",
-                            &I::alarmDistance,
-                            "m",
-                            "contacts are looked for up to this distance",
-                            range::nonNegative),
-                      field("contactDistance",
-                            &I::contactDistance,
-                            "m",
-                            "distance below which the response acts",
-                            range::nonNegative));
-  }
+  static constexpr auto fields() { return proximity_fields<MinProximityIntersection>(); }
 
   double reach() const { return std::max(alarmDistance, contactDistance); }
   double limit() const { return contactDistance; }

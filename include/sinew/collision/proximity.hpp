@@ -51,6 +51,21 @@ Eigen::Vector3d outer_normal(CollisionSurface const& s, std::array<Eigen::Vector
 
 }  // namespace detail
 
+/// The fields of an intersection method that looks for what is near.
+template <class I>
+constexpr auto proximity_fields() {
+  return field_list(field("alarmDistance",
+                          &I::alarmDistance,
+                          "m",
+                          "contacts are looked for up to this distance",
+                          range::nonNegative),
+                    field("contactDistance",
+                          &I::contactDistance,
+                          "m",
+                          "distance below which the response acts",
+                          range::nonNegative));
+}
+
 /// Finds the contacts of pairs with a hull, which is the primitive of 0 corners: find(pair, intersection
 /// method, add). Declared here only: hull_contacts.hpp, which needs libccd, defines it for who has hulls.
 template <std::size_t NA, std::size_t NB>

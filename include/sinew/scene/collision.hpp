@@ -67,9 +67,9 @@ template <class RootScope>
 struct Collision {
   RootScope const& root;
 
-  /// After all components are initialised; contacts forget what they remember where that is not the first
-  /// time. Throws Error where a stage is missing, and where there are models
-  /// without a pipeline above them.
+  /// After all components are initialised; where that is not the first time, contacts go on that have
+  /// followed the change. Throws Error where a stage is missing, and where there are models without a
+  /// pipeline above them.
   void init(bool again) const {
     std::vector<CollisionSurface*> all;
     traverse(root, on<role::CollisionModel>([&](auto& model, auto const& scope) {
@@ -96,7 +96,6 @@ struct Collision {
                if (!detail::with_first<role::Intersection>(scope, [](auto&) {}))
                  missing("intersection method", "MinProximityIntersection");
                collect(pipeline, scope);
-               for (auto* s : pipeline.surfaces) s->enclose(0, 0);  // makes room
                if (!detail::with_first<role::ContactManager>(
                        scope, [&](auto& manager) { manager.init(scope.path(), pipeline.surfaces, again); }))
                  missing("contact manager", "DefaultContactManager");
@@ -195,10 +194,6 @@ struct Collision {
                  if (scope.stateAddress() == state) touchOne(response, c, points);
                }));
     });
-  }
-  template <class R, class C>
-  static void touch(R const& response, C& component, std::span<int const> points) {
-    if constexpr (TouchResponse<R, C>) response.touch(component, points);
   }
 };
 

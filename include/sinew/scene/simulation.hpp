@@ -307,10 +307,7 @@ class Simulation {
                }));
   }
   void computeLoose(RootScope const& scope, double dt) const {
-    forEachLoose(scope, [](auto&, auto& a, auto& b) {
-      vec::clear(a.externalForce);
-      vec::clear(b.externalForce);
-    });
+    traverse(scope, on<role::State>([](auto& s, auto const&) { vec::clear(s.externalForce); }));
     const MechanicalParams p{.time = time_, .dt = dt};
     forEachLoose(scope, [&](auto& c, auto& a, auto& b) {
       c.addForce(p, a.externalForce, b.externalForce, a.position, b.position, a.velocity, b.velocity);
@@ -326,7 +323,6 @@ class Simulation {
                  if (!state.externalForce.empty()) f(model, state, std::type_identity<D>{});
                }));
     };
-    withModels([](auto&, auto& state, auto) { vec::clear(state.externalForce); });
     traverse(scope, on<role::ContactManager>([&](auto& manager, auto const&) {
                withModels([]<class D>(auto& model, auto& state, std::type_identity<D>) {
                  see_touched<D>(model.surface, state.position, state.velocity);
