@@ -3,12 +3,59 @@
 
 #include <sinew/scene/scope.hpp>
 
-#include <array>
+#include <type_traits>
 
 namespace sinew::checks {
 
-// What a typed scene must fulfil, on types alone. Each check asserts with one sentence and returns whether it
-// holds, so that Simulation can leave out what would only repeat the mistake in other words.
+/// What can be wrong in a typed scene, in the order of the sentences of scene/mistakes.hpp.
+enum class Mistake {
+  none,
+  twoStates,
+  twoMappings,
+  twoMasses,
+  twoSolvers,
+  partOfPipeline,
+  noState,
+  otherDataTypes,
+  noTetrahedra,
+  constraintOnMapped,
+  constraintAcrossSolvers,
+  noEnd,
+  endWithoutState,
+  endOfOtherDataTypes,
+  noChild,
+  noParent,
+  mappingIn,
+  mappingOut,
+  noParentTetrahedra,
+  linkedParents,
+  noParentNode,
+  parentComesLater,
+  parentWithoutState,
+  parentOfOtherDataTypes,
+  parentsAcrossSolvers,
+  noPipeline,
+  noLinearSolver,
+  notState,
+  notForceField,
+  notMass,
+  notProjectiveConstraint,
+  notInteractionConstraint,
+  notInteractionForceField,
+  notMapping,
+  notMultiMapping,
+  notCollisionModel,
+  notOdeSolver
+};
+
+template <Mistake, class C, FixedString Node>
+struct Wrong;
+/// What stands where Wrong would, in a scene without a mistake.
+struct Right {};
+
+// What a typed scene must fulfil, on types alone. Each check returns the first mistake that it finds; nothing
+// is asserted here (scene/mistakes.hpp says it), and Simulation leaves out what would only repeat the mistake
+// in other words.
 
 /// The nearest scope from S upwards that owns a state; NoScope where none does.
 template <class S>
@@ -53,7 +100,8 @@ constexpr bool has_tetrahedra() {
     return false;
   } else {
     using N = typename S::NodeType;
-    if constexpr (N::template count < role::Topology >> 0) return requires {
+    constexpr bool topology = N::template count < role::Topology >> 0;
+    if constexpr (topology) return requires {
         FirstOf<N, role::Topology>::hasTetrahedra;
       };
     else if constexpr (S::ownsState)
@@ -64,26 +112,15 @@ constexpr bool has_tetrahedra() {
 }
 
 template <class C, class S>
-constexpr bool acts_on_state() {
-  static_assert(S::hasState,
-                "Sinew: a force field, mass or constraint has no state to act on. Put it into a node with a "
-                "MechanicalObject, "
-                "or below one.");
-  if constexpr (!S::hasState) {
-    return false;
-  } else {
-    constexpr bool same = std::is_same_v<typename C::DataTypes, DataTypesAt<S>>;
-    static_assert(same,
-                  "Sinew: a component and the MechanicalObject it acts on have different DataTypes. Give "
-                  "both the same, such "
-                  "as Vec3d.");
-    constexpr bool tetrahedra = !requires { C::needsTetrahedra; }
-    || has_tetrahedra<S>();
-    static_assert(tetrahedra,
-                  "Sinew: a component needs tetrahedra, and its node has no topology with tetrahedra. Add a "
-                  "TetrahedronTopology to the node.");
-    return same && tetrahedra;
-  }
+constexpr Mistake acts_on_state() {
+  if constexpr (!S::hasState)
+    return Mistake::noState;
+  else if constexpr (!std::is_same_v<typename C::DataTypes, DataTypesAt<S>>)
+    return Mistake::otherDataTypes;
+  else if constexpr (requires { C::needsTetrahedra; })
+    return has_tetrahedra<S>() ? Mistake::none : Mistake::noTetrahedra;
+  else
+    return Mistake::none;
 }
 
 /// The scope at a path below S; NoScope where there is none.
@@ -141,46 +178,30 @@ constexpr bool comes_before() {
 }
 
 template <class C, class S, FixedString Path>
-constexpr bool mapping_parent() {
+constexpr Mistake mapping_parent() {
   using Parent = typename decltype(find_reach<S, Path>())::type;
-  constexpr bool found = !std::is_same_v<Parent, NoScope>;
-  static_assert(
-      found,
-      "Sinew: a parent of a mapping is no node. Its paths begin in the node of the mapping, go up by "
-      "\"..\" and down by names (\"../left\"); look for a misspelt name.");
-  if constexpr (!found) {
-    return false;
-  } else {
-    constexpr bool before = comes_before<S, Path>();
-    static_assert(before,
-                  "Sinew: a mapping comes before one of its parents, which it follows. Put its node behind "
-                  "those of its parents.");
-    static_assert(Parent::hasState, "Sinew: a parent of a mapping is a node without a MechanicalObject.");
-    if constexpr (!before || !Parent::hasState) {
-      return false;
-    } else {
-      constexpr bool in = std::is_same_v<typename C::In, DataTypesAt<Parent>>;
-      static_assert(in, "Sinew: the In of a mapping differs from the DataTypes of one of its parents.");
-      constexpr bool together = S::isVisual || std::is_same_v<Solver<S>, Solver<Parent>>;
-      static_assert(
-          together,
-          "Sinew: a mapping has parents under different ODE solvers. Put it and its parents below one "
-          "solver.");
-      return in && together;
-    }
-  }
+  if constexpr (std::is_same_v<Parent, NoScope>)
+    return Mistake::noParentNode;
+  else if constexpr (!comes_before<S, Path>())
+    return Mistake::parentComesLater;
+  else if constexpr (!Parent::hasState)
+    return Mistake::parentWithoutState;
+  else if constexpr (!std::is_same_v<typename C::In, DataTypesAt<Parent>>)
+    return Mistake::parentOfOtherDataTypes;
+  else if constexpr (!S::isVisual && !std::is_same_v<Solver<S>, Solver<Parent>>)
+    return Mistake::parentsAcrossSolvers;
+  else
+    return Mistake::none;
 }
 template <class C, class S, FixedString... Paths>
-constexpr bool mapping_parents(Parents<Paths...>) {
-  return (mapping_parent<C, S, Paths>() && ...);
+constexpr Mistake mapping_parents(Parents<Paths...>) {
+  Mistake m = Mistake::none;
+  (void)(((m = mapping_parent<C, S, Paths>()) == Mistake::none) && ...);
+  return m;
 }
 template <class C, class S>
-constexpr bool mapping_parents(LinkedParents) {
-  constexpr bool typed = !HasParents<C>;  // false
-  static_assert(typed,
-                "Sinew: a mapping in a typed scene names its parents in its type: Parents<\"../left\", "
-                "\"../right\">.");
-  return typed;
+constexpr Mistake mapping_parents(LinkedParents) {
+  return Mistake::linkedParents;
 }
 
 /// The Out of a mapping is that of the state, or visual model, in its node.
@@ -193,217 +214,163 @@ constexpr bool mapping_out() {
 }
 
 template <class C, class S>
-constexpr bool mapping_with_parents() {
-  constexpr bool child = S::ownsState || S::isVisual;
-  static_assert(child,
-                "Sinew: a mapping has no child: its node has neither a MechanicalObject nor a VisualModel.");
-  if constexpr (!child) {
-    return false;
+constexpr Mistake mapping() {
+  if constexpr (!S::ownsState && !S::isVisual) {
+    return Mistake::noChild;
+  } else if constexpr (HasParents<C>) {
+    return mapping_out<C, S>() ? mapping_parents<C, S>(typename C::Parents{}) : Mistake::mappingOut;
+  } else if constexpr (!S::Above::hasState) {
+    return Mistake::noParent;
+  } else if constexpr (!std::is_same_v<typename C::In, DataTypesAt<typename S::Above>>) {
+    return Mistake::mappingIn;
+  } else if constexpr (!mapping_out<C, S>()) {
+    return Mistake::mappingOut;
+  } else if constexpr (requires { C::needsParentTetrahedra; }) {
+    return has_tetrahedra<Owner<typename S::Above>>() ? Mistake::none : Mistake::noParentTetrahedra;
   } else {
-    constexpr bool out = mapping_out<C, S>();
-    static_assert(out,
-                  "Sinew: the Out of a mapping differs from the DataTypes of its child, the MechanicalObject "
-                  "in its node (Vec3f for a VisualModel).");
-    return out && mapping_parents<C, S>(typename C::Parents{});
-  }
-}
-
-template <class C, class S>
-constexpr bool mapping() {
-  constexpr bool child = S::ownsState || S::isVisual, parent = S::Above::hasState;
-  static_assert(child,
-                "Sinew: a mapping has no child: its node has neither a MechanicalObject nor a VisualModel.");
-  static_assert(parent, "Sinew: a mapping has no parent: no node above it has a MechanicalObject.");
-  if constexpr (!child || !parent) {
-    return false;
-  } else {
-    constexpr bool in = std::is_same_v<typename C::In, DataTypesAt<typename S::Above>>;
-    static_assert(in,
-                  "Sinew: the In of a mapping differs from the DataTypes of its parent, the MechanicalObject "
-                  "above it.");
-    constexpr bool out = mapping_out<C, S>();
-    static_assert(out,
-                  "Sinew: the Out of a mapping differs from the DataTypes of its child, the MechanicalObject "
-                  "in its node (Vec3f "
-                  "for a VisualModel).");
-    constexpr bool tetrahedra = !requires { C::needsParentTetrahedra; }
-    || has_tetrahedra<Owner<typename S::Above>>();
-    static_assert(tetrahedra,
-                  "Sinew: a mapping needs tetrahedra, and its parent has no topology with tetrahedra.");
-    return in && out && tetrahedra;
+    return Mistake::none;
   }
 }
 
 template <class C, class End>
-constexpr bool interaction_end() {
-  constexpr bool found = !std::is_same_v<End, NoScope>;
-  static_assert(found,
-                "Sinew: an end of an interaction is no node. Its paths are names joined by '/', from the "
-                "children of the node of "
-                "the interaction on; look for a misspelt name.");
-  if constexpr (!found) {
-    return false;
-  } else {
-    static_assert(End::hasState, "Sinew: an end of an interaction is a node without a MechanicalObject.");
-    if constexpr (!End::hasState) {
-      return false;
-    } else {
-      constexpr bool same = std::is_same_v<typename C::DataTypes, DataTypesAt<End>>;
-      static_assert(
-          same,
-          "Sinew: an interaction and the MechanicalObject at one of its ends have different DataTypes.");
-      return same;
-    }
-  }
+constexpr Mistake interaction_end() {
+  if constexpr (std::is_same_v<End, NoScope>)
+    return Mistake::noEnd;
+  else if constexpr (!End::hasState)
+    return Mistake::endWithoutState;
+  else if constexpr (!std::is_same_v<typename C::DataTypes, DataTypesAt<End>>)
+    return Mistake::endOfOtherDataTypes;
+  else
+    return Mistake::none;
 }
 
 template <class C, class S>
-constexpr bool interaction_constraint() {
+constexpr Mistake interaction() {
+  constexpr auto first = interaction_end<C, AtPath<S, C::Ends::first>>();
+  return first != Mistake::none ? first : interaction_end<C, AtPath<S, C::Ends::second>>();
+}
+
+template <class C, class S>
+constexpr Mistake interaction_constraint() {
   using A = AtPath<S, C::Ends::first>;
   using B = AtPath<S, C::Ends::second>;
-  if constexpr (!interaction_end<C, A>() || !interaction_end<C, B>()) {
-    return false;
-  } else {
-    constexpr bool independent = !Owner<A>::isMapped && !Owner<B>::isMapped;
-    static_assert(independent,
-                  "Sinew: a projective constraint acts on a mapped state, which follows its parent. "
-                  "Constrain the parent instead.");
-    constexpr bool together = std::is_same_v<Solver<S>, Solver<A>> && std::is_same_v<Solver<S>, Solver<B>>;
-    static_assert(
-        together,
-        "Sinew: a constraint joins bodies under different ODE solvers. Put it and both bodies below "
-        "one solver.");
-    return independent && together;
-  }
+  constexpr auto ends = interaction<C, S>();
+  if constexpr (ends != Mistake::none)
+    return ends;
+  else if constexpr (Owner<A>::isMapped || Owner<B>::isMapped)
+    return Mistake::constraintOnMapped;
+  else if constexpr (!std::is_same_v<Solver<S>, Solver<A>> || !std::is_same_v<Solver<S>, Solver<B>>)
+    return Mistake::constraintAcrossSolvers;
+  else
+    return Mistake::none;
 }
 
 template <class C, class S>
-constexpr bool component() {
+constexpr Mistake component() {
   using R = typename C::Role;
   if constexpr (std::is_same_v<R, role::State>) {
-    static_assert(
-        State<C>,
-        "Sinew: a component with role::State does not fulfil the concept State of core/component.hpp.");
-    return State<C>;
+    return State<C> ? Mistake::none : Mistake::notState;
   } else if constexpr (std::is_same_v<R, role::ForceField>) {
-    static_assert(ForceField<C>,
-                  "Sinew: a component with role::ForceField does not fulfil the concept ForceField of "
-                  "core/component.hpp.");
-    return ForceField<C> && acts_on_state<C, S>();
+    return ForceField<C> ? acts_on_state<C, S>() : Mistake::notForceField;
   } else if constexpr (WatchesState<C>) {
     return acts_on_state<C, S>();
   } else if constexpr (std::is_same_v<R, role::Mass>) {
-    static_assert(
-        Mass<C>,
-        "Sinew: a component with role::Mass does not fulfil the concept Mass of core/component.hpp.");
-    return Mass<C> && acts_on_state<C, S>();
+    return Mass<C> ? acts_on_state<C, S>() : Mistake::notMass;
   } else if constexpr (std::is_same_v<R, role::ProjectiveConstraint> && JoinsTwo<C>) {
-    static_assert(InteractionConstraint<C>,
-                  "Sinew: a component with role::ProjectiveConstraint does not fulfil that concept of "
-                  "core/component.hpp.");
-    return InteractionConstraint<C> && interaction_constraint<C, S>();
+    return InteractionConstraint<C> ? interaction_constraint<C, S>() : Mistake::notInteractionConstraint;
   } else if constexpr (std::is_same_v<R, role::ProjectiveConstraint>) {
-    static_assert(ProjectiveConstraint<C>,
-                  "Sinew: a component with role::ProjectiveConstraint does not fulfil that concept of "
-                  "core/component.hpp.");
-    constexpr bool independent = !Owner<S>::isMapped;
-    static_assert(independent,
-                  "Sinew: a projective constraint acts on a mapped state, which follows its parent. "
-                  "Constrain the parent instead.");
-    return ProjectiveConstraint<C> && independent && acts_on_state<C, S>();
+    if constexpr (!ProjectiveConstraint<C>)
+      return Mistake::notProjectiveConstraint;
+    else
+      return Owner<S>::isMapped ? Mistake::constraintOnMapped : acts_on_state<C, S>();
   } else if constexpr (std::is_same_v<R, role::InteractionForceField>) {
-    static_assert(InteractionForceField<C>,
-                  "Sinew: a component with role::InteractionForceField does not fulfil that concept of "
-                  "core/component.hpp.");
-    return InteractionForceField<C> && interaction_end<C, AtPath<S, C::Ends::first>>() &&
-           interaction_end<C, AtPath<S, C::Ends::second>>();
-  } else if constexpr (std::is_same_v<R, role::Mapping> && HasParents<C>) {
-    static_assert(MultiMapping<C>,
-                  "Sinew: a component with role::Mapping and several parents does not fulfil the concept "
-                  "MultiMapping of core/component.hpp.");
-    return MultiMapping<C> && mapping_with_parents<C, S>();
+    return InteractionForceField<C> ? interaction<C, S>() : Mistake::notInteractionForceField;
   } else if constexpr (std::is_same_v<R, role::Mapping>) {
-    static_assert(
-        Mapping<C>,
-        "Sinew: a component with role::Mapping does not fulfil the concept Mapping of core/component.hpp.");
-    return Mapping<C> && mapping<C, S>();
+    if constexpr (HasParents<C>)
+      return MultiMapping<C> ? mapping<C, S>() : Mistake::notMultiMapping;
+    else
+      return Mapping<C> ? mapping<C, S>() : Mistake::notMapping;
   } else if constexpr (std::is_same_v<R, role::CollisionModel>) {
-    static_assert(
-        CollisionModel<C>,
-        "Sinew: a component with role::CollisionModel does not fulfil that concept of core/component.hpp.");
-    constexpr bool managed = has_contact_manager<S>();
-    static_assert(
-        managed,
-        "Sinew: a collision model has no DefaultPipeline above it that would look for its contacts. Put one "
-        "into the root, with a "
-        "BruteForceBroadPhase, a BVHNarrowPhase, a MinProximityIntersection and a DefaultContactManager.");
-    return CollisionModel<C> && managed && acts_on_state<C, S>();
+    if constexpr (!CollisionModel<C>)
+      return Mistake::notCollisionModel;
+    else
+      return has_contact_manager<S>() ? acts_on_state<C, S>() : Mistake::noPipeline;
   } else if constexpr (std::is_same_v<R, role::OdeSolver>) {
-    static_assert(OdeSolver<C>,
-                  "Sinew: a component with role::OdeSolver does not fulfil the concept OdeSolver of "
-                  "core/component.hpp.");
-    constexpr bool linear = !C::implicit || has_linear_solver<S>();
-    static_assert(linear,
-                  "Sinew: an implicit solver has no linear solver. Add one, such as CGLinearSolver<>, to its "
-                  "node or above.");
-    return OdeSolver<C> && linear;
+    if constexpr (!OdeSolver<C>)
+      return Mistake::notOdeSolver;
+    else
+      return !C::implicit || has_linear_solver<S>() ? Mistake::none : Mistake::noLinearSolver;
   } else {
-    return true;
+    return Mistake::none;
   }
 }
 
-/// A node that has one stage of collision detection has all of them, once.
+/// A node has one state, mapping, mass and solver at most; and one stage of collision detection brings all of
+/// them, once.
 template <class N>
-constexpr bool whole_pipeline() {
-  constexpr std::array stages{N::template count<role::CollisionPipeline>,
-                              N::template count<role::BroadPhase>,
-                              N::template count<role::NarrowPhase>,
-                              N::template count<role::Intersection>,
-                              N::template count<role::ContactManager>};
-  constexpr bool same = [stages] {
-    for (const int n : stages)
-      if (n != stages[0] || n > 1) return false;
-    return true;
-  }();
-  static_assert(same,
-                "Sinew: collision detection needs one of each stage in its node: a DefaultPipeline, a broad "
-                "phase (BruteForceBroadPhase), a "
-                "narrow phase (BVHNarrowPhase), an intersection method (MinProximityIntersection), a "
-                "DefaultContactManager.");
-  return same;
+constexpr Mistake one_of_each() {
+  const auto stages = {N::template count<role::CollisionPipeline>,
+                       N::template count<role::BroadPhase>,
+                       N::template count<role::NarrowPhase>,
+                       N::template count<role::Intersection>,
+                       N::template count<role::ContactManager>};
+  if (N::template count<role::State> + N::template count < role::VisualModel >> 1) return Mistake::twoStates;
+  if (N::template count < role::Mapping >> 1) return Mistake::twoMappings;
+  if (N::template count < role::Mass >> 1) return Mistake::twoMasses;
+  if (N::template count<role::OdeSolver> - N::solversBeside > 1) return Mistake::twoSolvers;
+  for (const int n : stages)
+    if (n != *stages.begin() || n > 1) return Mistake::partOfPipeline;
+  return Mistake::none;
 }
 
+/// The first mistake of the scene below a scope, as the type that says it.
 template <class S>
-constexpr bool one_of_each() {
-  using N = typename S::NodeType;
-  constexpr bool state = N::template count<role::State> + N::template count<role::VisualModel> <= 1;
-  constexpr bool mapping = N::template count<role::Mapping> <= 1, mass = N::template count<role::Mass> <= 1,
-                 solver = N::template count<role::OdeSolver> - N::solversBeside <= 1;
-  static_assert(state,
-                "Sinew: a node has two states. Give each MechanicalObject or VisualModel a node of its own.");
-  static_assert(mapping, "Sinew: a node has two mappings; its state can follow one parent.");
-  static_assert(mass, "Sinew: a node has two masses. Keep one.");
-  static_assert(solver, "Sinew: a node has two ODE solvers. Keep one.");
-  return state && mapping && mass && solver && whole_pipeline<N>();
+constexpr auto scene();
+
+template <class R>
+inline constexpr bool right = std::is_same_v<R, std::type_identity<Right>>;
+
+template <class First, class... Others>
+constexpr auto first_wrong(First first, Others... others) {
+  if constexpr (!right<First> || sizeof...(Others) == 0)
+    return first;
+  else
+    return checks::first_wrong(others...);
 }
 
-/// Proves the scene below a scope.
-template <class S>
-constexpr bool scene();
+template <Mistake M, class C, class S>
+constexpr auto verdict() {
+  if constexpr (M == Mistake::none)
+    return std::type_identity<Right>{};
+  else
+    return std::type_identity<Wrong<M, C, S::NodeType::name>>{};
+}
 
 template <class S, FixedString Name, class... Cs, class... Ns>
-constexpr bool parts(std::type_identity<Node<Name, hana::tuple<Cs...>, hana::tuple<Ns...>>>) {
-  return (true && ... && component<Cs, S>()) && (true && ... && scene<typename ScopeOf<Ns, S>::type>());
+constexpr auto parts(std::type_identity<Node<Name, hana::tuple<Cs...>, hana::tuple<Ns...>>>) {
+  if constexpr (((component<Cs, S>() == Mistake::none) && ...) &&
+                (right<decltype(scene<typename ScopeOf<Ns, S>::type>())> && ...))
+    return std::type_identity<Right>{};
+  else
+    return checks::first_wrong(verdict<component<Cs, S>(), Cs, S>()...,
+                               scene<typename ScopeOf<Ns, S>::type>()...);
 }
 
 template <class S>
-constexpr bool scene() {
-  if constexpr (requires { S::provedAtInit; })
-    return true;
-  else if constexpr (!one_of_each<S>())
-    return false;
-  else
-    return parts<S>(std::type_identity<typename S::NodeType>{});
+constexpr auto scene() {
+  if constexpr (requires { S::provedAtInit; }) {
+    return std::type_identity<Right>{};
+  } else {
+    constexpr auto node = one_of_each<typename S::NodeType>();
+    if constexpr (node != Mistake::none)
+      return verdict<node, void, S>();
+    else
+      return parts<S>(std::type_identity<typename S::NodeType>{});
+  }
 }
+
+/// Right, or what is wrong in a scene.
+template <class S>
+using Verdict = typename decltype(scene<S>())::type;
 
 }  // namespace sinew::checks

@@ -141,7 +141,9 @@ auto node(Parts... parts) {
       "a Role, a className and fields().");
   static_assert(Name.view().find('/') == std::string_view::npos && !Name.view().empty(),
                 "Sinew: the name of a node is not empty and has no '/', which separates names in a path.");
-  if constexpr (((Component<Parts> || is_node<Parts>)&&...)) {
+  if constexpr (!((Component<Parts> || is_node<Parts>)&&...)) {
+    return Node<Name, hana::tuple<>, hana::tuple<>>{};  // nothing else fails
+  } else {
     hana::tuple<Parts...> all(std::move(parts)...);
     auto child = [](auto const& part) { return hana::bool_c<is_node<std::decay_t<decltype(part)>>>; };
     auto component = [](auto const& part) { return hana::bool_c<!is_node<std::decay_t<decltype(part)>>>; };

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+// first, since their sentences come behind "In file included from"
+#include <sinew/scene/node.hpp>
+
+#include <sinew/scene/mistakes.hpp>
+
 #include <sinew/scene/carving.hpp>
-#include <sinew/scene/checks.hpp>
 #include <sinew/scene/collision.hpp>
 #include <sinew/scene/element_removal.hpp>
 #include <sinew/scene/mechanical_operations.hpp>
@@ -17,11 +21,12 @@ template <class Root>
 class Simulation {
  public:
   using RootScope = typename ScopeOf<Root, NoScope>::type;
-  /// The scene fulfils scene/checks.hpp. Where it does not, an assertion has said why, and the rest stays
+  /// The scene fulfils scene/checks.hpp. Where it does not, the constructor says why, and the rest stays
   /// away.
-  static constexpr bool proved = checks::scene<RootScope>();
+  using Verdict = checks::Verdict<RootScope>;
+  static constexpr bool proved = std::is_same_v<Verdict, checks::Right>;
 
-  explicit Simulation(Root root) : root_(std::move(root)) {}
+  explicit Simulation(Root root, Verdict = {}) : root_(std::move(root)) {}
 
   /// Checks all fields, sizes all states, initialises all components. Throws Error, naming node, component
   /// and field; the simulation then stays uninitialised. Another time and step than 0 are those of a

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 // expect: Sinew: a constraint joins bodies under different ODE solvers.
-#include <sinew/sinew.hpp>
+#include <sinew/constraint/attach.hpp>
+#include <sinew/mass/uniform_mass.hpp>
+#include <sinew/scene/simulation.hpp>
+#include <sinew/solver/euler_explicit.hpp>
+#include <sinew/state/mechanical_object.hpp>
 
 using namespace sinew;
 

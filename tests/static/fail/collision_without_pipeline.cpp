@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 // expect: Sinew: a collision model has no DefaultPipeline above it
-#include <sinew/sinew.hpp>
+#include <sinew/collision/default_pipeline.hpp>
+#include <sinew/collision/sphere_collision_model.hpp>
+#include <sinew/mass/uniform_mass.hpp>
+#include <sinew/scene/simulation.hpp>
+#include <sinew/state/mechanical_object.hpp>
 
 using namespace sinew;
 

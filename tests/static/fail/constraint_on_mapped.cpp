@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
 // expect: Sinew: a projective constraint acts on a mapped state
-#include <sinew/sinew.hpp>
+#include <sinew/constraint/fixed_constraint.hpp>
+#include <sinew/mapping/identity_mapping.hpp>
+#include <sinew/mass/uniform_mass.hpp>
+#include <sinew/scene/simulation.hpp>
+#include <sinew/solver/euler_explicit.hpp>
+#include <sinew/state/mechanical_object.hpp>
 
 using namespace sinew;
 

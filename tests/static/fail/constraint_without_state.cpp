@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 // expect: Sinew: a force field, mass or constraint has no state to act on.
-#include <sinew/sinew.hpp>
+#include <sinew/constraint/fixed_constraint.hpp>
+#include <sinew/scene/simulation.hpp>
+#include <sinew/solver/euler_explicit.hpp>
 
 using namespace sinew;
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 // expect: Sinew: an implicit solver has no linear solver.
-#include <sinew/sinew.hpp>
+#include <sinew/mass/uniform_mass.hpp>
+#include <sinew/scene/simulation.hpp>
+#include <sinew/solver/euler_implicit.hpp>
+#include <sinew/state/mechanical_object.hpp>
 
 using namespace sinew;
 

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
 // expect: Sinew: the Out of a mapping differs
-#include <sinew/sinew.hpp>
+#include <sinew/mapping/identity_mapping.hpp>
+#include <sinew/mass/uniform_mass.hpp>
+#include <sinew/scene/simulation.hpp>
+#include <sinew/solver/euler_explicit.hpp>
+#include <sinew/state/mechanical_object.hpp>
+#include <sinew/visual/visual_model.hpp>
 
 using namespace sinew;
 

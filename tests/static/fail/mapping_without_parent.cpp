@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 // expect: Sinew: a mapping has no parent
-#include <sinew/sinew.hpp>
+#include <sinew/mapping/identity_mapping.hpp>
+#include <sinew/scene/simulation.hpp>
+#include <sinew/solver/euler_explicit.hpp>
+#include <sinew/state/mechanical_object.hpp>
 
 using namespace sinew;
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 // expect: takes components and child nodes
-#include <sinew/sinew.hpp>
+#include <sinew/scene/simulation.hpp>
+#include <sinew/solver/euler_explicit.hpp>
+#include <sinew/state/mechanical_object.hpp>
 
 using namespace sinew;
 

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 // expect: Sinew: a mapping has parents under different ODE solvers.
-#include <sinew/sinew.hpp>
+#include <sinew/mapping/subset_multi_mapping.hpp>
+#include <sinew/mass/uniform_mass.hpp>
+#include <sinew/scene/simulation.hpp>
+#include <sinew/solver/euler_explicit.hpp>
+#include <sinew/state/mechanical_object.hpp>
 
 using namespace sinew;
 

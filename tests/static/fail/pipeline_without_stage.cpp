@@ -1,6 +1,13 @@
 // SPDX-License-Identifier: BSL-1.0
 // expect: Sinew: collision detection needs one of each stage in its node
-#include <sinew/sinew.hpp>
+#include <sinew/collision/brute_force_broad_phase.hpp>
+#include <sinew/collision/contact_manager.hpp>
+#include <sinew/collision/default_pipeline.hpp>
+#include <sinew/collision/min_proximity_intersection.hpp>
+#include <sinew/collision/sphere_collision_model.hpp>
+#include <sinew/mass/uniform_mass.hpp>
+#include <sinew/scene/simulation.hpp>
+#include <sinew/state/mechanical_object.hpp>
 
 using namespace sinew;
 

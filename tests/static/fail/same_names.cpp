@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 // expect: Sinew: two children of a node have the same name
-#include <sinew/sinew.hpp>
+#include <sinew/scene/simulation.hpp>
+#include <sinew/solver/euler_explicit.hpp>
+#include <sinew/state/mechanical_object.hpp>
 
 using namespace sinew;
 
