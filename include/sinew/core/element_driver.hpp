@@ -14,12 +14,13 @@ namespace sinew {
 /// Runs an element law over all elements of a body on one core: packs W elements into lanes, gathers their
 /// points, calls the law, scatters what it returns. `Law<D>` knows one element and offers
 ///   arity, usesVelocity              how many points it has; whether force reads v
+///   oneByOne (optional)              it is too little work for lanes, see element_lanes
 ///   Rest, Tangent                    what force needs; what dforce and block need of the last force
 ///   energy, force, dforce, block     see StiffSpring and TetrahedronFEM for their arguments
 /// The tangent is symmetric: block(j, i) = block(i, j)', and only i <= j is asked for.
 /// `Rest` holds nothing but scalars (or Eigen objects of them), so that W of them interleave into one of
 /// lanes.
-template <template <class> class LawOf, class D, int W = lane_width<D>()>
+template <template <class> class LawOf, class D, int W = element_lanes<LawOf, D>()>
 struct ElementDriver {
   using Real = typename D::Real;
   using Coord = typename D::Coord;
