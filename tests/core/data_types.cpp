@@ -16,6 +16,14 @@ static_assert(data_types_name<WithLanes<Vec3f, 1>>::value == "Vec3fx1" &&
               data_types_name<WithLanes<Vec3d, 16>>::value == "Vec3dx16");
 static_assert(lane_width<Vec3d>() == native_width<double> && lane_width<Vec3f>() == native_width<float> &&
               lane_width<Rigid3d>() == 1 && lane_width<WithLanes<Vec3d, 2>>() == 2);
+template <class D>
+struct HeavyLaw {};
+template <class D>
+struct LightLaw {
+  static constexpr bool oneByOne = true;
+};
+static_assert(element_lanes<HeavyLaw, Vec3d>() == native_width<double> &&
+              element_lanes<LightLaw, Vec3d>() == 1 && element_lanes<LightLaw, WithLanes<Vec3d, 2>>() == 2);
 
 TEST_CASE("increment and difference of rigid positions undo each other") {
   Rigid3d::Coord a;

@@ -15,7 +15,7 @@ using Sink = MatrixSink<Phase, Matrix, DirectDofs<3>>;
 
 template <class D>
 struct Springs {
-  using Driver = ElementDriver<SpringLaw, D>;
+  using Driver = ElementDriver<SpringLaw, D, lane_width<D>()>;
   std::vector<typename Driver::Indices> points{};
   std::vector<typename Driver::Rest> rest{};
 
@@ -32,7 +32,7 @@ struct Springs {
 TEMPLATE_TEST_CASE("elements that are removed leave what a driver of the others has", "", Vec3d,
                    (WithLanes<Vec3d, 1>), (WithLanes<Vec3d, 2>)) {
   using D = TestType;
-  using Driver = ElementDriver<SpringLaw, D>;
+  using Driver = ElementDriver<SpringLaw, D, lane_width<D>()>;
   constexpr int n = 23;
   typename D::VecCoord x;
   typename D::VecDeriv v;

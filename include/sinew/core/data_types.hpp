@@ -171,6 +171,18 @@ constexpr int lane_width() {
     return D::rigid ? 1 : native_width<typename D::Real>;
 }
 
+/// How many elements of `Law` over D a driver takes at a time. A law whose arithmetic is little beside
+/// fetching points and bringing back forces says `static constexpr bool oneByOne = true`: lanes cost it more
+/// than they gain.
+template <template <class> class LawOf, class D>
+constexpr int element_lanes() {
+  if constexpr (
+      !requires { D::lanes; } && requires { LawOf<D>::oneByOne; })
+    return 1;
+  else
+    return lane_width<D>();
+}
+
 using Vec1d = VecTypes<1, double>;
 using Vec2d = VecTypes<2, double>;
 using Vec3d = VecTypes<3, double>;

@@ -14,12 +14,13 @@ namespace sinew {
 /// Runs an element law over all elements of a body on one core: packs W elements into lanes, gathers their
 /// points, calls the law, scatters what it returns. `Law<D>` knows one element and offers
 ///   arity, usesVelocity              how many points it has; whether force reads v
+///   oneByOne (optional)              it is too little work for lanes, see element_lanes
 ///   Rest, Tangent                    what force needs; what dforce and block need of the last force
 ///   energy, force, dforce, block     see StiffSpring and TetrahedronFEM for their arguments
 /// The tangent is symmetric: block(j, i) = block(i, j)', and only i <= j is asked for.
 /// `Rest` holds nothing but scalars (or Eigen objects of them), so that W of them interleave into one of
 /// lanes.
-template <template <class> class LawOf, class D, int W = lane_width<D>()>
+template <template <class> class LawOf, class D, int W = element_lanes<LawOf, D>()>
 struct ElementDriver {
   using Real = typename D::Real;
   using Coord = typename D::Coord;
@@ -240,25 +241,30 @@ struct ElementDriver {
         }
   }
 
-  SINEW_INLINE static void scatter(Pack const& pack, typename DL::Deriv const (&from)[arity],
-                                   Derivs const& to) {
+  SINEW_INLINE static void scatter(Pack const& pack, typename DL::Deriv (&from)[arity], Derivs const& to) {
+    constexpr int n = realsOf<Deriv>;
     if constexpr (W == 1) {
-      for (int k = 0; k < arity; ++k) to[std::size_t(k)][pack.index[k][0]] += from[k];
+      for (int k = 0; k < arity; ++k) {
+        to[std::size_t(k)][pack.index[k][0]] += from[k];
+      }
+    } else if constexpr (n == 3 && W >= 4) {
+      if (pack.active != W) [[unlikely]]
+        for (int k = 0; k < arity; ++k)
+          for (int c = 0; c < n; ++c)
+            for (int l = pack.active; l < W; ++l) from[k][c].set(l, Real(0));
+      [&]<int... K>(std::integer_sequence<int, K...>) {
+        (add3(reinterpret_cast<L const*>(&from[K]), reinterpret_cast<Real*>(to[K]), pack.index[K]), ...);
+      }
+      (std::make_integer_sequence<int, arity>{});
     } else {
-      constexpr int n = realsOf<Deriv>;
       alignas(64) Real ofLane[arity][W][(n + 3) / 4 * 4];
       [&]<int... K>(std::integer_sequence<int, K...>) {
         (transpose<n>(reinterpret_cast<L const*>(&from[K]), ofLane[K]), ...);
       }
       (std::make_integer_sequence<int, arity>{});
-      for (int k = 0; k < arity; ++k) {
-        Deriv* const first = to[std::size_t(k)];
-        auto add = [&](int l) { addTo<n>(reinterpret_cast<Real*>(first + pack.index[k][l]), ofLane[k][l]); };
-        if (pack.active == W)
-          for (int l = 0; l < W; ++l) add(l);
-        else
-          for (int l = 0; l < pack.active; ++l) add(l);
-      }
+      for (int k = 0; k < arity; ++k)
+        for (int l = 0; l < pack.active; ++l)
+          addTo<n>(reinterpret_cast<Real*>(to[std::size_t(k)] + pack.index[k][l]), ofLane[k][l]);
     }
   }
 

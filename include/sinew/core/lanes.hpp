@@ -266,6 +266,32 @@ SINEW_INLINE typename Lanes<T, W>::Vector alternating(typename Lanes<T, W>::Vect
 
 }  // namespace detail
 
+/// Point l at to + 3 * index[l] += lane l of the three components `from`; lane after lane, where points are
+/// the same.
+template <class T, int W>
+requires(W >= 4) SINEW_INLINE void add3(Lanes<T, W> const* from, T* to, int const (&index)[W]) {
+  using V = typename Lanes<T, W>::Vector;
+  typedef T Two __attribute__((vector_size(2 * sizeof(T))));
+  const V xy0 = detail::interleaved<1, 0, T, W>(from[0].v, from[1].v),
+          xy1 = detail::interleaved<1, W / 2, T, W>(from[0].v, from[1].v);
+  [&]<int... I>(std::integer_sequence<int, I...>) {
+    (
+        [&] {
+          constexpr int at = 2 * (I % (W / 2));
+          V const& pairs = I < W / 2 ? xy0 : xy1;
+          const Two more = __builtin_shufflevector(pairs, pairs, at, at + 1);
+          T* const point = to + 3 * index[I];
+          Two sum;
+          std::memcpy(&sum, point, sizeof sum);
+          sum += more;
+          std::memcpy(point, &sum, sizeof sum);
+          point[2] += from[2].v[I];
+        }(),
+        ...);
+  }
+  (std::make_integer_sequence<int, W>{});
+}
+
 /// to[c] = lanes of component c of W points, point l at from + 3 * index[l]. One scalar behind each point is
 /// read.
 template <class T, int W>

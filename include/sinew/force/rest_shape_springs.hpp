@@ -21,7 +21,7 @@ struct RestShapeSpring {
   using Coord = typename D::Coord;
   using Deriv = typename D::Deriv;
   static constexpr int arity = 1;
-  static constexpr bool usesVelocity = false;
+  static constexpr bool usesVelocity = false, oneByOne = true;
   static constexpr bool turns = D::rigid && D::spatial == 3;
 
   struct Rest {

@@ -75,11 +75,19 @@ struct LumpedMass {
 
   /// f += factor M dx
   void addMDx(VecDeriv& f, VecCoord const& x, VecDeriv const& dx, Real factor) const {
-    for (std::size_t i = 0; i < f.size(); ++i) f[i] += factor * multiply(at(i), x[i], dx[i]);
+    if constexpr (D::rigid)
+      for (std::size_t i = 0; i < f.size(); ++i) f[i] += factor * multiply(at(i), x[i], dx[i]);
+    else
+      forEachScalar(
+          f, mass, [&](Real& fi, Real m, Real d) { fi += factor * m * d; }, dx);
   }
   /// a = M^-1 f
   void accFromF(VecDeriv& a, VecCoord const& x, VecDeriv const& f) const {
-    for (std::size_t i = 0; i < f.size(); ++i) a[i] = multiply(inverseAt(i), x[i], f[i]);
+    if constexpr (D::rigid)
+      for (std::size_t i = 0; i < f.size(); ++i) a[i] = multiply(inverseAt(i), x[i], f[i]);
+    else
+      forEachScalar(
+          a, inverse, [](Real& ai, Real w, Real fi) { ai = w * fi; }, f);
   }
   double kineticEnergy(VecCoord const& x, VecDeriv const& v) const {
     double sum = 0;
@@ -114,6 +122,24 @@ struct LumpedMass {
   }
 
  private:
+  // change(to, mass, from) for each component of each point: a loop that becomes one over registers
+  template <class Change>
+  static void forEachScalar(VecDeriv& to, std::vector<Real> const& mass, Change const& change,
+                            VecDeriv const& from) {
+    constexpr int n = D::size;
+    const std::size_t points = to.size();
+    if (points == 0) return;
+    Real* const r = to.data()->data();
+    Real const* const a = from.data()->data();
+    if (mass.size() == 1) {
+      const Real m = mass[0];
+      for (std::size_t k = 0; k < points * n; ++k) change(r[k], m, a[k]);
+    } else {
+      Real const* const m = mass.data();
+      for (std::size_t i = 0; i < points; ++i)
+        for (std::size_t c = 0; c < n; ++c) change(r[n * i + c], m[i], a[n * i + c]);
+    }
+  }
   static Deriv multiply(MassType const& m, Coord const& x, Deriv const& dx) {
     if constexpr (D::rigid) {
       Deriv r;
