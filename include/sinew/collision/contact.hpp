@@ -61,8 +61,9 @@ struct Contact {
   bool loose = false;     // between two solvers: for both a force that stays as it is during the step
   bool implicit = false;  // the solver takes what the force will be at the end of the step
 
-  // memory of the response: the tangential displacement that friction holds against, and any other scalar
-  Eigen::Vector3d slip{0, 0, 0}, slide{0, 0, 0};  // ..., and the way it slid in the last step
+  // memory of the response: the tangential displacement that friction holds against, the unit vector of the
+  // way it slid in the last step, and any other scalar
+  Eigen::Vector3d slip{0, 0, 0}, slide{0, 0, 0};
   double memory = 0;
 
   // since detection
@@ -86,10 +87,10 @@ struct Contact {
                       field("damping", &C::damping, "N s/m", "along the normal"),
                       field("response", &C::response, "", "place among the responses"),
                       field("slip", &C::slip, "m", "tangential displacement since it sticks"),
-                      field("slide", &C::slide, "m", "the way it slid before"),
-                      field("memory", &C::memory, "", "of other responses"),
+                      field("slide", &C::slide, "", "the way it slid before"),
+                      field("memory", &C::memory, "", "of the response"),
                       field("start", &C::start, "m", "displacement at detection"),
-                      field("sliding", &C::sliding, "m", "the way it slides"));
+                      field("sliding", &C::sliding, "", "the way it slides"));
   }
 
   ContactKey key() const {

@@ -30,6 +30,13 @@ struct Friction {
 /// where s is the tangential displacement since the contact sticks, cut to |k s| <= mu N (Cundall, Strack
 /// 1979). Under an implicit solver the contact acts from where the step will bring it below the limit, with
 /// the force that then is right at the end of the step, and so stops what is fast within one step.
+///
+/// One linear step has to know beforehand whether the contact sticks or slides. It goes on as at the end of
+/// the step before: what stuck within the cone sticks, by a spring that is as implicit as the normal one;
+/// what left the cone slides, against mu N of the end of the step before, until it has turned back within a
+/// step. Asked of the velocity at the start of the step instead, a spring with k dt^2 > m would slide and
+/// stick in turn for ever; and the N of where that velocity would lead is, in an impact, 1 + k dt^2/m times
+/// what it will be.
 struct PenalityContactForceField {
   static constexpr std::string_view className = "PenalityContactForceField";
   static constexpr std::string_view aliases = "PenalityContact PenaltyContact FrictionContact default";
@@ -52,32 +59,50 @@ struct PenalityContactForceField {
     c.stiffnessMatrix = c.stiffness * nn;
     c.dampingMatrix = c.damping * nn;
     if (!(c.friction > 0)) return;
-    // whether it slides is asked of the end of an implicit step, too: at the edge of the cone it would stick
-    // for ever
     const Eigen::Vector3d way = c.slip + (u - c.start),
                           next = c.implicit ? Eigen::Vector3d(way + dt * rate) : way;
-    const detail::Friction friction(c, next, c.stiffness * std::max(0.0, c.limit - ahead));
-    // where it would slide back it has come to rest in between, and sticks for a step
-    if (!friction.slides || friction.slip.dot(c.slide) < 0) {
+    const detail::Friction friction(c, next, elasticPush(c, u));
+    const bool stuck = c.implicit && c.memory != 0 && c.slide.isZero(0);
+    if (stuck || !friction.slides) {
       c.force -= c.stiffness * (way - c.normal.dot(way) * c.normal);
       c.stiffnessMatrix += c.stiffness * along;
-    } else {
-      // the force keeps its size and turns with the direction t: -dF/du = k m/|s| (I - nn' - tt'), but for a
-      // part that goes with the normal force and is not symmetric
-      c.force -= c.stiffness * friction.slip;
-      c.sliding = friction.slip;
-      if (friction.most > 0) {
-        const Eigen::Vector3d t = friction.slip / friction.most;
-        c.stiffnessMatrix +=
-            (c.stiffness * friction.most / friction.way.norm()) * (along - t * t.transpose());
-      }
+      return;
     }
+    c.sliding = friction.way.normalized();
+    const Eigen::Vector3d along1 = along * rate;
+    const double most = c.stiffness * friction.most, speed = along1.norm();
+    if (c.implicit && c.memory > 1 && most > 0 && speed > 0) {
+      // mu N / |v| v, in which only v is of the end of the step: what an impact brings to rest does not turn
+      c.force -= most / speed * along1;
+      c.dampingMatrix += most / speed * along;
+      return;
+    }
+    // the force keeps its size and turns with the direction t: -dF/du = k m/|s| (I - nn' - tt'), but for a
+    // part that goes with the normal force and is not symmetric
+    c.force -= most * c.sliding;
+    c.stiffnessMatrix += (most / friction.way.norm()) * (along - c.sliding * c.sliding.transpose());
   }
+  /// slip: s at the end of the step; slide: the way it slides, 0 where it sticks.
   void settle(Contact& c, Eigen::Vector3d const& u) const {
     if (!(c.friction > 0)) return;
-    const double push = c.stiffness * std::max(0.0, c.limit + c.thickness - c.normal.dot(u));
-    c.slip = detail::Friction(c, c.slip + (u - c.start), push).slip;
-    c.slide = c.sliding;
+    const Eigen::Vector3d moved = u - c.start;
+    const double push = elasticPush(c, u);
+    const detail::Friction friction(c, c.slip + moved, push);
+    const bool slid = !c.sliding.isZero(0), turnedBack = moved.dot(c.sliding) <= 0;
+    c.slip = friction.slip;
+    c.slide.setZero();
+    if (push > 0 && (slid ? !turnedBack : friction.slides)) c.slide = friction.way.normalized();
+    c.memory = push > 2 * elasticPush(c, c.start) ? 1 + impactSteps
+               : push > 0                         ? std::max(1.0, c.memory - 1)
+                                                  : 0;
+  }
+
+ private:
+  // memory of a contact that pushes: 1, and for how many steps an impact goes on, from where it pushes twice
+  // as much as a step before
+  static constexpr double impactSteps = 4;
+  static double elasticPush(Contact const& c, Eigen::Vector3d const& u) {
+    return c.stiffness * std::max(0.0, c.limit + c.thickness - c.normal.dot(u));
   }
 };
 
