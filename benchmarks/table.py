@@ -1,0 +1,237 @@
+# SPDX-License-Identifier: BSL-1.0
+"""The table: speed against a yardstick and against SOFA, time to one accuracy, shares of what the processor can do, growth
+with the size, and builds for other processors. Each function runs its programs, prints a table and returns its rows."""
+import pathlib
+import statistics
+
+from tools import block_mesh, fail, output, print_table, programs
+
+# SOFA v26 (-O3 -march=native, double, one thread), in times of the steps a second that the yardstick makes with
+# liver2.msh: measured on one machine in one run. By tetrahedra, by grid, by scene
+SOFA_FEM = {596: 0.94, 1493: 0.395, 29478: 0.0202}
+SOFA_GRID = {"17x8x10": 0.131, "20x10x12": 0.0735, "24x13x15": 0.0368}
+SOFA_SMALL = {"tetrahedron": 15.5, "pendulum": 19.3}
+# what is aimed at, in times SOFA
+AIM_FEM, AIM_FEM_FLOAT, AIM_GRID, AIM_SMALL = 8, 10, 10, 50
+LIVER2 = (507, 1493)
+# blocks of about the sizes of the meshes that SOFA was measured with, in cells
+BLOCKS = {"block-600": (5, 5, 4), "block-1500": (25, 5, 2), "block-29478": (17, 17, 17)}
+
+
+def meshes_of(named, folder):
+    return named or [block_mesh(folder / f"{name}.msh", *cells) for name, cells in BLOCKS.items()]
+
+
+def nearest(sizes, size):
+    """The one of `sizes` that is within 5 % of a size, or None."""
+    return next((known for known in sizes if abs(known - size) < 0.05 * known), None)
+
+
+class Reference:
+    """The speed of the yardstick with liver2.msh, or with a block of that size, from which that of SOFA follows."""
+
+    def __init__(self, yardstick, meshes, folder):
+        self.yardstick, self.mesh = yardstick, None
+        for mesh in meshes:
+            if yardstick.run(mesh, 1)[:2] == LIVER2:
+                self.mesh = mesh
+        if not self.mesh:
+            self.mesh = block_mesh(folder / "reference.msh", *BLOCKS["block-1500"])
+            print("liver2.msh (507 points, 1,493 tetrahedra) is not among the meshes: SOFA's line is from a block of 1,500, and rough")
+        self.steps = max(20, int(self.yardstick.run(self.mesh, 50)[2] / 2))
+
+    def __call__(self):
+        return self.yardstick.run(self.mesh, self.steps)[2]
+
+
+def in_turn(command, rounds, reference=None, other=None):
+    """Runs a program that takes a number of steps last and prints `kind rate ...` a line, in rounds, after the reference and another program.
+
+    Returns for each kind its row: median rate, rate by that of the reference round by round, by that of the other, and what
+    else it printed last; and the rate of the other.
+    """
+    first = output(*command, 5)
+    steps = max(20, int(min(float(line.split()[1]) for line in first.splitlines()) / 2))
+    rates, by_reference, by_other, rest, others = {}, {}, {}, {}, []
+    for _ in range(rounds):
+        base = reference() if reference else None
+        if other:
+            others.append(other(steps))
+        for line in output(*command, steps).splitlines():
+            kind, rate, *rest[kind] = line.split()
+            rates.setdefault(kind, []).append(float(rate))
+            if base:
+                by_reference.setdefault(kind, []).append(float(rate) / base)
+            if other:
+                by_other.setdefault(kind, []).append(float(rate) / others[-1][2])
+    median = statistics.median
+    rows = [{"kind": kind, "steps_per_second": median(rates[kind]),
+             "by_reference": median(by_reference[kind]) if reference else None,
+             "by_other": median(by_other[kind]) if other else None,
+             "place": [float(x) for x in rest[kind]]} for kind in rates]
+    return rows, others
+
+
+def against_sofa(row, factor, aim):
+    """Adds how a row compares with SOFA, where that can be told."""
+    row["aim"] = aim
+    if factor and row["by_reference"]:
+        row["times_sofa"] = row["by_reference"] / factor
+    return row
+
+
+def times(value, digits=2):
+    return f"{value:.{digits}f}" if value is not None else "-"
+
+
+def distance(a, b):
+    return max(abs(x - y) for x, y in zip(a, b))
+
+
+def fem(build, meshes, yardstick, reference, rounds):
+    all_rows, lines = [], []
+    for mesh in meshes:
+        output(build / "bench_fem", mesh, 1)  # says what is wrong with a mesh
+        rows, others = in_turn([build / "bench_fem", mesh], rounds, reference, (lambda steps: yardstick.run(mesh, steps)) if yardstick else None)
+        size = None
+        if others:
+            size = others[-1][1]
+            rate = statistics.median(o[2] for o in others)
+            lines.append([mesh.name, "yardstick", f"{rate:,.1f}", "1", "-", "-", "-"])
+            all_rows.append({"mesh": mesh.name, "kind": "yardstick", "steps_per_second": rate})
+        factor = SOFA_FEM.get(nearest(SOFA_FEM, size)) if size else None
+        for row in rows:
+            single = row["kind"].startswith("float")
+            against_sofa(row, factor, AIM_FEM_FLOAT if single else AIM_FEM)
+            row |= {"mesh": mesh.name, "times_yardstick": row["by_other"]}
+            if others:
+                row["distance"] = distance(row["place"], others[-1][3])
+            lines.append([mesh.name, row["kind"], f"{row['steps_per_second']:,.1f}", times(row["by_other"]), times(row.get("times_sofa"), 1), row["aim"],
+                          f"{row['distance']:.0e}" if others else "-"])
+            all_rows.append(row)
+    print_table(f"one corotational body, 25 iterations a step, medians of {rounds} rounds in turn",
+                ["mesh", "kind", "steps/s", "x yardstick", "x SOFA", "aim", "point 100 is off by [m]"], lines)
+    return all_rows
+
+
+def grids(build, reference, rounds):
+    all_rows, lines = [], []
+    for name, factor in SOFA_GRID.items():
+        rows, _ = in_turn([build / "bench_grid", *name.split("x")], rounds, reference)
+        for row in rows:
+            against_sofa(row, factor, AIM_GRID)
+            row |= {"grid": name, "distance": distance(row["place"], rows[0]["place"])}
+            lines.append([name, row["kind"], f"{row['steps_per_second']:,.1f}", times(row.get("times_sofa"), 1), row["aim"], f"{row['distance']:.0e}"])
+            all_rows.append(row)
+    print_table(f"grids of springs, 25 iterations a step, medians of {rounds} rounds in turn",
+                ["grid", "kind", "steps/s", "x SOFA", "aim", "point 100 is off by [m]"], lines)
+    return all_rows
+
+
+def small(build, reference, rounds):
+    rows, _ = in_turn([build / "bench_small"], rounds, reference)
+    lines = []
+    for row in rows:
+        against_sofa(row, SOFA_SMALL[row["kind"].split("-")[0]], AIM_SMALL)
+        lines.append([row["kind"], f"{row['steps_per_second']:,.0f}", times(row.get("times_sofa"), 1), row["aim"]])
+    print_table(f"scenes of a few points, medians of {rounds} rounds in turn", ["scene", "steps/s", "x SOFA", "aim"], lines)
+    return rows
+
+
+def accuracy(build, meshes, rounds):
+    rows, lines = [], []
+    for mesh in meshes:
+        for young in (3000, 300000):
+            found = [line.split() for line in output(build / "bench_accuracy", mesh, young, rounds).splitlines()]
+            plain = float(found[0][1])
+            best = min(float(f[1]) for f in found)
+            for name, seconds, iterations, off in found:
+                seconds = float(seconds)
+                rows.append({"mesh": mesh.name, "young": young, "solver": name, "seconds": seconds, "iterations": float(iterations), "distance": float(off)})
+                words = f"{1e3 * seconds:.3g}"
+                lines.append([mesh.name, young, name, f"**{words}**" if seconds == best else words, "-" if name == "ldl" else iterations, f"{plain / seconds:.2f}", off])
+    print_table(f"a step to a relative residual of 1e-6, medians of {rounds} rounds of 10 steps in turn",
+                ["mesh", "E [Pa]", "solver", "ms/step", "iterations", "x plain CG", "off by [m]"], lines)
+    return rows
+
+
+def roofline(build, rounds, sizes=(17, 55)):
+    rows, lines = [], []
+    for cells in sizes:
+        first, *found = [line.split() for line in output(build / "bench_roofline", cells, rounds).splitlines()]
+        peak = float(first[1])
+        for name, *figures in found:
+            seconds, flops, size, bandwidth = (float(x) for x in figures)
+            of_memory, of_peak = size / seconds / bandwidth, flops / seconds / peak
+            rows.append({"tetrahedra": 6 * cells**3, "loop": name, "seconds": seconds, "flops": flops, "bytes": size, "bandwidth": bandwidth, "peak": peak,
+                         "share": max(of_memory, of_peak), "bound": "memory" if of_memory > of_peak else "peak"})
+            lines.append([f"{6 * cells**3:,}", name, f"{1e6 * seconds:,.0f}", f"{size / 1e6:.1f}", f"{flops / 1e6:.1f}", f"{size / seconds / 1e9:.1f}",
+                          f"{bandwidth / 1e9:.1f}", f"{flops / seconds / 1e9:.1f}", f"{peak / 1e9:.0f}", f"{100 * max(of_memory, of_peak):.0f} % of {rows[-1]['bound']}"])
+    print_table(f"what the loops of a step reach, medians of {rounds} rounds", ["tetrahedra", "loop", "us", "MB", "Mflop", "GB/s", "triad GB/s", "Gflop/s", "peak", "share"],
+                lines)
+    return rows
+
+
+def growth(build, rounds, sizes=(6, 12, 26, 55)):
+    rows, lines = [], []
+    for cells in sizes:
+        runs = [[float(x) for x in output(build / "bench_growth", cells).split()] for _ in range(rounds if cells < 30 else 1)]
+        n, points, step, iteration, resident, most, arrays, least = (statistics.median(column) for column in zip(*runs))
+        rows.append({"tetrahedra": n, "points": points, "step": step, "iteration": iteration, "resident": resident, "most": most, "arrays": arrays, "least": least})
+        lines.append([f"{n:,.0f}", f"{points:,.0f}", f"{1e9 * step / n:.0f}", f"{1e9 * iteration / n:.1f}", *(f"{x / n:,.0f}" for x in (resident, most, arrays, least)),
+                      f"{arrays / least:.2f}"])
+    print_table("growth: nanoseconds and bytes a tetrahedron", ["tetrahedra", "points", "ns, step", "ns, iteration", "bytes after init", "bytes at most", "of a step's arrays",
+                                                                "the method needs", "ratio"], lines)
+    return rows
+
+
+# levels of x86-64: what /proc/cpuinfo lists for those that have them
+LEVELS = {"v2": {"sse4_2", "ssse3", "popcnt", "cx16"}, "v3": {"avx2", "bmi1", "bmi2", "f16c", "fma", "movbe"},
+          "v4": {"avx512f", "avx512bw", "avx512cd", "avx512dq", "avx512vl"}}
+# how far builds may be apart after 20 steps: what rounding makes of 25 iterations that have not converged
+APART = {"double": 1e-7, "float": 1e-2}
+
+
+def portability(build, rounds):
+    flags = set()
+    for line in pathlib.Path("/proc/cpuinfo").read_text().splitlines():
+        if line.startswith("flags"):
+            flags = set(line.split(":")[1].split())
+    usable, has = [], True
+    for level, needed in LEVELS.items():
+        has = has and needed <= flags
+        if has:
+            usable.append(level)
+        else:
+            print(f"\nthis processor is no x86-64-{level}: that build is left out")
+    kinds = programs(build, [f"bench_portable_{kind}" for kind in (*usable, "native", "native_fast")])
+    if len(kinds) < 2:
+        print(f"\nno builds for levels of x86-64 in {build}: none to compare")
+        return []
+    speed, places, registers = {}, {}, {}
+    for _ in range(rounds):
+        for program in kinds:
+            kind = program.removeprefix("bench_portable_")
+            for line in output(build / program, 10, 60).splitlines():
+                first, *rest = line.split()
+                if first == "bytes":
+                    registers[kind] = int(rest[0])
+                elif first == "at":
+                    places[kind, rest[0]] = [float(x) for x in rest[1:]]
+                else:
+                    speed.setdefault((first, kind), []).append(float(rest[0]))
+    names = [program.removeprefix("bench_portable_") for program in kinds]
+    rows, lines = [], []
+    for scene in dict.fromkeys(scene for scene, _ in speed):
+        line = [scene]
+        for kind in names:
+            off = distance(places[kind, scene], places[names[0], scene])
+            if off > APART["float" if "float" in scene else "double"]:
+                fail(f"{scene}: the build for {kind} is {off:.1e} m away from that for {names[0]}")
+            rate = statistics.median(speed[scene, kind])
+            rows.append({"scene": scene, "build": kind, "register_bytes": registers[kind], "steps_per_second": rate, "distance": off})
+            line.append(f"{rate:,.1f} ({off:.0e})")
+        lines.append(line)
+    print_table(f"steps a second of builds for levels of x86-64 (how far off the first after 20 steps [m]), medians of {rounds} rounds in turn",
+                ["scene", *(f"{kind}, {registers[kind]} bytes" for kind in names)], lines)
+    return rows
