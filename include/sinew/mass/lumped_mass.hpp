@@ -65,7 +65,8 @@ struct LumpedMass {
   void addForce(MechanicalParams const& p, VecDeriv& f, VecCoord const& x, VecDeriv const& v) const {
     const Vec<Real, linear> g = p.gravity.head<linear>().template cast<Real>();
     for (std::size_t i = 0; i < f.size(); ++i) {
-      f[i].template head<linear>() += scalar(at(i)) * g;
+      const Real m = scalar(at(i));
+      for (int c = 0; c < linear; ++c) f[i][c] += m * g[c];
       if constexpr (angular == 3) {
         const Vec<Real, 3> w = v[i].template tail<3>();
         f[i].template tail<3>() -= w.cross(worldInertia(at(i), x[i]) * w);

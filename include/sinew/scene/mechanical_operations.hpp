@@ -58,6 +58,18 @@ struct MechanicalOperations {
     forEachIndependent([&](auto& s) { sum += vec::dot(s[a], s[b]); });
     return sum;
   }
+  /// r = a + f r
+  void turn(DerivId r, DerivId a, double f) {
+    forEachIndependent([&](auto& s) { vec::turn(vec::flat(s[r]), vec::flat(s[a]), real(s, f)); });
+  }
+  /// x += f p, r -= f q; returns r.r.
+  double advance(DerivId x, DerivId p, DerivId r, DerivId q, double f) {
+    double sum = 0;
+    forEachIndependent([&](auto& s) {
+      sum += vec::advance(vec::flat(s[x]), vec::flat(s[p]), vec::flat(s[r]), vec::flat(s[q]), real(s, f));
+    });
+    return sum;
+  }
   /// rate = time derivative of theta, where a position moved by theta has velocity v; v itself but for rigid
   /// bodies.
   void chartRate(DerivId rate, DerivId theta, DerivId v) {

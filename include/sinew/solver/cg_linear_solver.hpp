@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/solver/linear_system.hpp>
+#include <sinew/state/vector_operations.hpp>
 
 #include <cmath>
 #include <vector>
@@ -81,15 +82,8 @@ struct CGLinearSolver {
             operations.projectResponse(q.id);
             return p.dot(q);
           },
-          [&](double alpha) {
-            x.peq(p, alpha);
-            r.peq(q, -alpha);
-            return r.dot(r);
-          },
-          [&](double beta) {
-            p.teq(beta);
-            p.peq(r);
-          });
+          [&](double alpha) { return operations.advance(x.id, p.id, r.id, q.id, alpha); },
+          [&](double beta) { operations.turn(p.id, r.id, beta); });
     } else {
       auto& s = system;
       using Real = typename Matrix::Real;
@@ -104,12 +98,8 @@ struct CGLinearSolver {
             s.matrix.multiply(s.p.data(), s.q.data());
             return double(s.p.dot(s.q));
           },
-          [&](double alpha) {
-            s.x += Real(alpha) * s.p;
-            s.r -= Real(alpha) * s.q;
-            return double(s.r.squaredNorm());
-          },
-          [&](double beta) { s.p = s.r + Real(beta) * s.p; });
+          [&](double alpha) { return vec::advance(s.x, s.p, s.r, s.q, Real(alpha)); },
+          [&](double beta) { vec::turn(s.p, s.r, Real(beta)); });
       operations.scatter(x.id, s.x);
     }
   }

@@ -4,6 +4,7 @@
 #include <sinew/core/data_types.hpp>
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <vector>
 
 namespace sinew::vec {
@@ -38,6 +39,26 @@ void eq(V& r, V const& a) {
 template <class V, class Real>
 void peq(V& r, V const& a, Real f) {
   flat(r) += f * flat(a);
+}
+
+/// r = a + f r
+template <class R, class A, class Real>
+void turn(R&& r, A const& a, Real f) {
+  r = a + f * r;
+}
+
+/// x += f p, r -= f q, and r.r: a step of conjugate gradients. Part by part, so that each stays in the
+/// nearest cache.
+template <class X, class P, class Real>
+double advance(X&& x, P const& p, X&& r, P const& q, Real f) {
+  double sum = 0;
+  for (Eigen::Index i = 0; i < x.size(); i += 512) {
+    const Eigen::Index n = std::min<Eigen::Index>(512, x.size() - i);
+    x.segment(i, n) += f * p.segment(i, n);
+    r.segment(i, n) -= f * q.segment(i, n);
+    sum += double(r.segment(i, n).squaredNorm());
+  }
+  return sum;
 }
 
 /// x <- x moved along a for the time f, for positions whose derivative is of another type
