@@ -8,6 +8,7 @@
 
 #include <sinew/control/hand_device.hpp>
 #include <sinew/control/haptic_loop.hpp>
+#include <sinew/scene/profiled.hpp>
 #include <sinew/topology/regular_grid.hpp>
 
 #include <atomic>
@@ -170,6 +171,7 @@ TEST_CASE("no step after init allocates, not even the first") {
         0);
   CHECK(allocations_of(contacts(ContinuousIntersection{.alarmDistance = 0.1, .contactDistance = 0.05})) == 0);
   CHECK(allocations_of(contacts(DiscreteIntersection{})) == 0);
+  CHECK(allocations_of(Simulation{profiled(block(CGLinearSolver<>{}).root(), Profile(1000))}) == 0);
   // what is recorded is more than its buffer
   const files::TempFolder folder;
   for (const auto format : {StateFormat::text, StateFormat::binary})

@@ -128,9 +128,9 @@ class AnyComponent {
     if (place >= 0) table[std::size_t(place)](value_, f);
     return place >= 0;
   }
-  template <class Role>
+  template <class... Roles>
   bool is() const {
-    return detail::WithRole<List, Role>::places[index()] >= 0;
+    return detail::WithRole<List, Roles...>::places[index()] >= 0;
   }
 
  private:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/profile.hpp>
 #include <sinew/runtime/any_component.hpp>
 
 #include <map>
@@ -40,6 +41,7 @@ struct RuntimeEntry {
   std::vector<void const*> surroundings{};  // states, mappings and topologies it was initialised with
   std::vector<RuntimeNode<R>*> ends{};  // of an interaction, or parents of a mapping with several: found when
                                         // first asked for
+  ProfileNumber profiled{};
 };
 
 /// A node of a scene that is composed while the program runs: components of the classes of a registry R, and
@@ -52,6 +54,7 @@ class RuntimeNode {
   std::string name;
   Mount mount{};
   std::vector<std::string> errors{};  // of the top node: what init has found wrong so far
+  Profile* profile = nullptr;         // of the top node: what times its steps; copies are not timed
 
   explicit RuntimeNode(std::string n = "root") : name(std::move(n)) {}
   RuntimeNode(RuntimeNode const& other) : name(other.name), mount(other.mount), entries_(other.entries_) {
@@ -61,6 +64,7 @@ class RuntimeNode {
   RuntimeNode(RuntimeNode&& other) noexcept
       : name(std::move(other.name)),
         mount(other.mount),
+        profile(std::exchange(other.profile, nullptr)),
         entries_(std::move(other.entries_)),
         children_(std::move(other.children_)) {
     adopt();
@@ -163,6 +167,13 @@ class RuntimeNode {
   /// "root/liver/skin".
   std::string path() const { return parent_ ? text(parent_->path(), '/', name) : text('/', name); }
 
+  /// Steps of the scene below this top node are timed from now on; null: no more. The profile has to live as
+  /// long.
+  void profileWith(Profile* timer) {
+    profile = timer;
+    if (timer) timer->reserveFor(nameFor(*timer));
+  }
+
   // what steps ask for, found once
 
   Entry* state() const { return state_; }
@@ -180,6 +191,14 @@ class RuntimeNode {
     for (auto& child : children_) child->parent_ = this;
     forgetEnds();
     refresh();
+  }
+  // names all components for a profile, and counts them
+  std::size_t nameFor(Profile& timer) {
+    std::size_t count = entries_.size();
+    for (auto& entry : entries_)
+      entry.profiled = timer.add(text(path(), '/', entry.name), entry.component.name());
+    for (auto& child : children_) count += child->nameFor(timer);
+    return count;
   }
   void forgetEnds() {
     for (auto& entry : entries_) entry.ends.clear();

@@ -19,14 +19,18 @@ struct RuntimeScope {
   using NodeType = RuntimeNode<R>;
   using Classes = R;
   static constexpr bool provedAtInit = true, isVisual = false;
+  static constexpr bool profiled = true;  // where the top node has a profile
   NodeType& node;
   bool atMount = false;
+  Profile* profile = nullptr;
 
-  RuntimeScope(NodeType& n, bool above = false) : node(n), atMount(above) {}
-  RuntimeScope(NodeType& top, NoScope const&) : node(top) { top.mount = {}; }
+  RuntimeScope(NodeType& n, bool above = false, Profile* timer = nullptr)
+      : node(n), atMount(above), profile(timer) {}
+  RuntimeScope(NodeType& top, NoScope const&) : node(top), profile(top.profile) { top.mount = {}; }
   template <class N, class A>
   RuntimeScope(NodeType& top, Scope<N, A> const& typed) : node(top) {
     using S = Scope<N, A>;
+    if constexpr (S::profiled) profile = &typed.profile();
     top.mount = {&typed,
                  [](void const* s) { return static_cast<S const*>(s)->path(); },
                  [](void const* s) { return static_cast<S const*>(s)->gravity(); },
@@ -49,10 +53,16 @@ struct RuntimeScope {
 
   template <class Role>
   static constexpr bool always = false;
+  template <class Role>
+  bool has() const {
+    for (auto const& entry : node.components())
+      if (entry.component.template is<Role>()) return true;
+    return false;
+  }
   Mount const& mount() const { return node.mount; }
 
   RuntimeScope above() const {
-    return node.parent() ? RuntimeScope(*node.parent()) : RuntimeScope(node, true);
+    return node.parent() ? RuntimeScope(*node.parent(), false, profile) : RuntimeScope(node, true, profile);
   }
   bool ownsState() const { return atMount ? mount().state != nullptr : node.state() != nullptr; }
   bool hasState() const { return ownsState() || (!atMount && above().hasState()); }
@@ -134,16 +144,26 @@ struct RuntimeScope {
 
   template <class F, class... Roles>
   void forEachComponent(RoleVisitor<F, Roles...>& visitor) const {
+    if (profile) [[unlikely]]
+      return forEachTimed(visitor);
     for (auto& entry : node.components()) entry.component.template visit<Roles...>(visitor.f);
+  }
+  Span span(Phase phase) const { return {profile, phase}; }
+  Span visit(RuntimeEntry<R>& entry) const {
+    if (!profile) return {nullptr, {}};
+    if (entry.profiled.by != profile)
+      entry.profiled = profile->add(text(path(), '/', entry.name), entry.component.name());
+    return {profile, {profile, -1 - entry.profiled.number}};
   }
   template <class F>
   void forEachChild(F&& f) const {
-    for (auto const& child : node.children()) f(RuntimeScope(*child));
+    for (auto const& child : node.children()) f(RuntimeScope(*child, false, profile));
   }
   template <class F>
   void forEachChildReversed(F&& f) const {
     auto const& children = node.children();
-    for (auto child = children.rbegin(); child != children.rend(); ++child) f(RuntimeScope(**child));
+    for (auto child = children.rbegin(); child != children.rend(); ++child)
+      f(RuntimeScope(**child, false, profile));
   }
   template <class F>
   void withMass(F&& f) const {
@@ -280,7 +300,14 @@ struct RuntimeScope {
   void withLinearSolver(F&& f) const {
     if (atMount) return;
     for (auto& entry : node.components())
-      if (entry.component.template visit<role::LinearSolver>(f)) return;
+      if (entry.component.template is<role::LinearSolver>()) {
+        const Span span = visit(entry);
+        entry.component.template visit<role::LinearSolver>(f);
+        if (profile) [[unlikely]]
+          entry.component.template visit<role::LinearSolver>(
+              [this](auto const& linear) { count_iterations(*profile, linear); });
+        return;
+      }
     above().withLinearSolver(f);
   }
   template <class F>
@@ -292,6 +319,14 @@ struct RuntimeScope {
   }
 
  private:
+  template <class F, class... Roles>
+  void forEachTimed(RoleVisitor<F, Roles...>& visitor) const {
+    for (auto& entry : node.components())
+      if (entry.component.template is<Roles...>()) {
+        const Span span = visit(entry);
+        entry.component.template visit<Roles...>(visitor.f);
+      }
+  }
   void addSurroundings(std::vector<void const*>& all) const {
     const RuntimeScope owner = stateScope();
     all.push_back(stateAddress());

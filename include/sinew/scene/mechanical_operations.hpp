@@ -83,18 +83,21 @@ struct MechanicalOperations {
 
   /// Mapped states follow their parents.
   void propagate(CoordId x, DerivId v) {
+    [[maybe_unused]] const auto span = root.span(Phase::mapping);
     forEachMapping([&](auto& mapping, auto& child, auto& parent) {
       mapping.apply(child[x], parent[x]);
       mapping.applyJ(child[v], parent[v]);
     });
   }
   void propagate(DerivId v) {
+    [[maybe_unused]] const auto span = root.span(Phase::mapping);
     forEachMapping([&](auto& mapping, auto& child, auto& parent) { mapping.applyJ(child[v], parent[v]); });
   }
 
   /// f = all forces at (x, v), with those on mapped states brought to the independent ones, and the external
   /// forces as they are.
   void computeForce(DerivId f, CoordId x, DerivId v) {
+    [[maybe_unused]] const auto span = root.span(Phase::force);
     const MechanicalParams p{.time = time, .dt = dt};
     forEachState([&](auto& s) {
       if (s[vec_id::externalForce].empty())
@@ -122,6 +125,7 @@ struct MechanicalOperations {
 
   /// a = P M^-1 f
   void accFromF(DerivId a, DerivId f, CoordId x) {
+    [[maybe_unused]] const auto span = root.span(Phase::acceleration);
     traverse(root, on<role::Mass>([&](auto& c, auto const& scope) {
                if (scope.stateScope().mapped()) return;
                auto& s = stateOf(c, scope);
@@ -148,12 +152,14 @@ struct MechanicalOperations {
 
   /// Removes forbidden displacements.
   void projectResponse(DerivId dx) {
+    [[maybe_unused]] const auto span = root.span(Phase::constraint);
     traverse(root, on<role::ProjectiveConstraint>([&](auto& c, auto const& scope) {
                withConstrained(c, scope, [&](auto&... s) { c.projectResponse(s[dx]...); });
              }));
   }
   /// Puts constrained points where they have to be at time t, with the velocity they have there.
   void projectPositionAndVelocity(double t, CoordId x, DerivId v) {
+    [[maybe_unused]] const auto span = root.span(Phase::constraint);
     traverse(root, on<role::ProjectiveConstraint>([&](auto& c, auto const& scope) {
                withConstrained(c, scope, [&]([[maybe_unused]] auto&... s) {
                  if constexpr (requires { c.projectPosition(t, s[x]...); }) c.projectPosition(t, s[x]...);
@@ -164,6 +170,7 @@ struct MechanicalOperations {
 
   /// r += (m M + b B + k K) dx, through all mappings.
   void addMBKdx(DerivId r, DerivId dx, MatrixFactors factors) {
+    [[maybe_unused]] const auto span = root.span(Phase::product);
     const MechanicalParams p{.time = time, .dt = dt, .m = factors.m, .b = factors.b, .k = factors.k};
     propagate(dx);
     forEachMapped([&](auto& s) { vec::clear(s[r]); });
@@ -217,6 +224,7 @@ struct MechanicalOperations {
   /// its pattern.
   template <class Matrix>
   void initMatrix(Matrix& matrix) {
+    [[maybe_unused]] const auto span = root.span(Phase::pattern);
     constexpr int block = Matrix::blockSize;
     int dofs = 0;
     forEachIndependent([&](auto& s) {
@@ -236,6 +244,7 @@ struct MechanicalOperations {
   /// matrix = P (m M + b B + k K) P + (I - P)
   template <class Matrix>
   void assemble(Matrix& matrix, MatrixFactors factors) {
+    [[maybe_unused]] const auto span = root.span(Phase::assembly);
     matrix.setZero();
     assemblePhase<AssemblyPhase::add>(matrix, factors);
     matrix.mirror();
@@ -313,6 +322,7 @@ struct MechanicalOperations {
   // parent)
   template <class F>
   void accumulate(DerivId f, F&& also) {
+    [[maybe_unused]] const auto span = root.span(Phase::mappingBack);
     traverse_back(root, on<role::Mapping>([&](auto& mapping, auto const& scope) {
                     withMechanicalChild(mapping, scope, [&](auto& m, auto& child, auto& parent) {
                       m.applyJT(parent[f], child[f]);
@@ -351,6 +361,7 @@ struct MechanicalOperations {
   template <class F>
   void withContacts(F&& f) {
     root.withContacts([&](auto& manager) {
+      [[maybe_unused]] const auto span = root.span(Phase::contacts);
       int solver = -1;
       traverse(root,
                on<role::CollisionModel>([&](auto& model, auto const&) { solver = model.surface.solver; }));

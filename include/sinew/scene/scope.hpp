@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/core/assembly.hpp>
+#include <sinew/core/phase.hpp>
 #include <sinew/scene/node.hpp>
 
 #include <algorithm>
@@ -14,13 +15,18 @@ namespace sinew {
 
 /// What is above the root of a scene.
 struct NoScope {
-  static constexpr bool hasState = false, isMapped = false;
+  static constexpr bool hasState = false, isMapped = false, profiled = false;
   static std::string path() { return ""; }
   static Eigen::Vector3d gravity() { return Eigen::Vector3d::Zero(); }
   static TopologyView topology() { return {}; }
   static void const* topologyAddress() { return nullptr; }
   template <class F>
   static void withContacts(F&&) {}
+  static constexpr NotTimed span(Phase) { return {}; }
+  template <class S, class C>
+  static constexpr NotTimed visit(S const&, C const&) {
+    return {};
+  }
 };
 
 /// Whether an init is the first one, or that of a scene that has changed, in which these components have to
@@ -72,10 +78,16 @@ struct Scope {
   static constexpr bool hasState = ownsState || A::hasState;
   static constexpr bool isMapped = N::template count<role::Mapping> > 0;
   static constexpr bool isVisual = N::template count<role::VisualModel> > 0;
+  static constexpr bool profiled = A::profiled;
 
   /// The node has a component of this role, whatever happens at run time.
   template <class R>
   static constexpr bool always = N::template count<R> > 0;
+  /// The node has one now.
+  template <class R>
+  static constexpr bool has() {
+    return always<R>;
+  }
 
   static constexpr bool mapped() { return isMapped; }
   static constexpr bool overParent() {
@@ -158,7 +170,23 @@ struct Scope {
 
   template <class F, class... Roles>
   void forEachComponent(RoleVisitor<F, Roles...>& visitor) const {
-    node.forEachComponent(visitor);
+    if constexpr (profiled) {
+      auto timed = on<Roles...>([&](auto& component) {
+        const auto span = visit(*this, component);
+        visitor.f(component);
+      });
+      node.forEachComponent(timed);
+    } else {
+      node.forEachComponent(visitor);
+    }
+  }
+  /// Times a phase, or what is done with a component of a scope, while the result lives, if the scene is
+  /// profiled.
+  auto span(Phase phase) const { return above.span(phase); }
+  auto& profile() const { return above.profile(); }
+  template <class S, class C>
+  auto visit(S const& scope, C const& component) const {
+    return above.visit(scope, component);
   }
   template <class F>
   void forEachChild(F&& f) const {
@@ -288,10 +316,18 @@ struct Scope {
   /// f(linear solver) with the nearest one, from this node upwards.
   template <class F>
   void withLinearSolver(F&& f) const {
-    if constexpr (always<role::LinearSolver>)
-      f(node.template first<role::LinearSolver>());
-    else
+    if constexpr (always<role::LinearSolver>) {
+      auto& linear = node.template first<role::LinearSolver>();
+      if constexpr (profiled) {
+        const auto span = visit(*this, linear);
+        f(linear);
+        count_iterations(profile(), linear);
+      } else {
+        f(linear);
+      }
+    } else {
       above.withLinearSolver(f);
+    }
   }
   /// f(contact manager) with the nearest one, from this node upwards, if there is one.
   template <class F>

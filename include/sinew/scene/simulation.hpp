@@ -23,7 +23,7 @@ class Simulation {
   using RootScope = typename ScopeOf<Root, NoScope>::type;
   /// The scene fulfils scene/checks.hpp. Where it does not, the constructor says why, and the rest stays
   /// away.
-  using Verdict = checks::Verdict<RootScope>;
+  using Verdict = checks::Verdict<typename ScopeOf<typename RootScope::NodeType, NoScope>::type>;
   static constexpr bool proved = std::is_same_v<Verdict, checks::Right>;
 
   explicit Simulation(Root root, Verdict = {}) : root_(std::move(root)) {}
@@ -144,7 +144,12 @@ class Simulation {
   static constexpr bool collides = detail::primitive_kinds<RootScope>() != 0,
                         carves = detail::has_role_below<role::Carving, RootScope>();
 
-  static RootScope scopeOf(Root& root) { return {root, above_}; }
+  static RootScope scopeOf(Root& root) {
+    if constexpr (RootScope::profiled && requires { root.aboveRoot; })
+      return {root, root.aboveRoot};
+    else
+      return {root, above_};
+  }
   RootScope rootScope() { return scopeOf(root_); }
 
   void initialisedFor(std::string_view what) const {
@@ -278,10 +283,7 @@ class Simulation {
   template <class S, class F>
   static void forEachLoose(S const& scope, F&& f) {
     if constexpr (!S::template always<role::OdeSolver>) {
-      bool solved = false;
-      auto solver = on<role::OdeSolver>([&](auto&) { solved = true; });
-      scope.forEachComponent(solver);
-      if (solved) return;
+      if (scope.template has<role::OdeSolver>()) return;
       auto visit = on<role::InteractionForceField>([&](auto& c) {
         using D = typename std::decay_t<decltype(c)>::DataTypes;
         scope.withEnds(
@@ -312,6 +314,7 @@ class Simulation {
                }));
   }
   void computeLoose(RootScope const& scope, double dt) const {
+    [[maybe_unused]] const auto span = scope.span(Phase::externalForces);
     traverse(scope, on<role::State>([](auto& s, auto const&) { vec::clear(s.externalForce); }));
     const MechanicalParams p{.time = time_, .dt = dt};
     forEachLoose(scope, [&](auto& c, auto& a, auto& b) {
@@ -340,6 +343,7 @@ class Simulation {
   }
   // contacts of a step that begins; a matrix in which other points are joined is formed anew
   void detectContacts(RootScope const& scope, double dt) const {
+    [[maybe_unused]] const auto span = scope.span(Phase::collision);
     Collision<RootScope>{scope}.detect(dt, [&](auto const& solved, bool) {
       auto visit = on<role::OdeSolver>([&](auto& ode) {
         if constexpr (std::decay_t<decltype(ode)>::implicit)
@@ -357,14 +361,14 @@ class Simulation {
   // f(component, state, step) for what acts before a step
   template <class S, class F>
   static void forEachAhead(S const& scope, StepAhead ahead, F&& f) {
-    auto solver = on<role::OdeSolver>([&](auto&) { ahead.solved = true; });
-    scope.forEachComponent(solver);
+    if (scope.template has<role::OdeSolver>()) ahead.solved = true;
     auto visit = on<BeforeStep>(
         [&](auto& c) { f(c, scope.template state<typename std::decay_t<decltype(c)>::DataTypes>(), ahead); });
     scope.forEachComponent(visit);
     scope.forEachChild([&](auto const& child) { forEachAhead(child, ahead, f); });
   }
   void beginStep(RootScope const& scope, double dt) {
+    [[maybe_unused]] const auto span = scope.span(Phase::beforeStep);
     const StepAhead ahead{step_ + 1, time_, time_ + dt, dt, false};
     forEachAhead(scope, ahead, [](auto& c, auto& state, StepAhead const& step) {
       if constexpr (requires { c.beforeStep(step, state); }) c.beforeStep(step, state);
@@ -378,6 +382,7 @@ class Simulation {
   // removes what tools touch; says whether something went
   bool carve() {
     const auto scope = rootScope();
+    [[maybe_unused]] const auto span = scope.span(Phase::carving);
     const std::vector<Carved> all = Carving<RootScope>{scope}.touched();
     long removed = 0;
     for (Carved const& c : all) {
@@ -413,6 +418,10 @@ class Simulation {
       if (!solved) scope.forEachChild([&](auto const& child) { integrate(child, dt); });
   }
 
+  void endStep(RootScope const& scope, double dt) const {
+    [[maybe_unused]] const auto span = scope.span(Phase::endStep);
+    traverse(scope, on<role::State, role::StepCallback>([&](auto& c, auto const& s) { endStep(c, s, dt); }));
+  }
   template <class C, class S>
   void endStep(C& c, S const& scope, double dt) const {
     if constexpr (HasRole<C, role::State>) {
@@ -492,6 +501,7 @@ void Simulation<Root>::animate(double dt) {
     throw Error("Simulation::animate", text("dt is ", dt, " s, but must be a finite number greater than 0"));
   if constexpr (proved) {
     const auto scope = rootScope();
+    [[maybe_unused]] const auto span = scope.span(Phase::step);
     beginStep(scope, dt);
     if constexpr (collides) detectContacts(scope, dt);
     if constexpr (collides && carves)
@@ -501,7 +511,7 @@ void Simulation<Root>::animate(double dt) {
     time_ += dt;
     ++step_;
     visualsAreCurrent_ = false;
-    traverse(scope, on<role::State, role::StepCallback>([&](auto& c, auto const& s) { endStep(c, s, dt); }));
+    endStep(scope, dt);
   }
 }
 
@@ -535,7 +545,9 @@ double Simulation<Root>::potentialEnergy() {
 template <class Root>
 void Simulation<Root>::updateVisual() {
   if (visualsAreCurrent_) return;
-  traverse(rootScope(), on<role::Mapping>([](auto& mapping, auto const& scope) {
+  const auto root = rootScope();
+  [[maybe_unused]] const auto span = root.span(Phase::visual);
+  traverse(root, on<role::Mapping>([](auto& mapping, auto const& scope) {
              scope.withMapped(mapping, [&](auto& m, auto& child, auto& parent) {
                if constexpr (HasRole<std::decay_t<decltype(child)>, role::VisualModel>)
                  m.apply(child.position, parent.position);

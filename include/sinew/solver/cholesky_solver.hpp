@@ -40,13 +40,18 @@ struct CholeskySolver {
   void solve(Operations& operations, MatrixFactors factors, MultiVecDeriv<Operations>& solution,
              MultiVecDeriv<Operations>& rhs) {
     operations.assemble(matrix, factors);
-    unpack();
-    if (const int dof = factorise(); dof >= 0)
+    const int dof = [&] {
+      [[maybe_unused]] const auto span = operations.root.span(Phase::factorisation);
+      unpack();
+      return factorise();
+    }();
+    if (dof >= 0)
       throw Error(text(operations.root.path(), ": ", className),
                   text("the matrix is singular at ",
                        dof_text(operations, dof),
                        ": nothing holds it there; fix points of the body, or give it mass or stiffness (if a "
                        "value is not finite, the simulation diverged before: take a smaller dt)"));
+    [[maybe_unused]] const auto span = operations.root.span(Phase::substitution);
     operations.gather(b, rhs.id);
     y = b.template cast<double>();
     substitute();

@@ -87,7 +87,10 @@ struct ShewchukPCGLinearSolver {
     const bool update = preconditioner.method != PreconditionerMethod::none &&
                         (age < 0 || (buildPrecond && updateStep > 0 && age + 1 >= updateStep));
     if (update || !matrixFree) operations.assemble(matrix, factors);
-    if (update) preconditioner.update(matrix);
+    if (update) {
+      [[maybe_unused]] const auto span = operations.root.span(Phase::factorisation);
+      preconditioner.update(matrix);
+    }
     age = update ? 0 : age + 1;
     if (warp && update) rotations.reset(operations);
     if (warp && age > 0) rotations.update(operations);

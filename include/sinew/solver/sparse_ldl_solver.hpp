@@ -44,7 +44,11 @@ struct SparseLDLSolver {
   void solve(Operations& operations, MatrixFactors factors, MultiVecDeriv<Operations>& solution,
              MultiVecDeriv<Operations>& rhs) {
     operations.assemble(matrix, factors);
-    if (const int dof = factor.factorise(matrix); dof >= 0)
+    const int dof = [&] {
+      [[maybe_unused]] const auto span = operations.root.span(Phase::factorisation);
+      return factor.factorise(matrix);
+    }();
+    if (dof >= 0)
       throw Error(
           text(operations.root.path(), ": ", className),
           text(
@@ -52,6 +56,7 @@ struct SparseLDLSolver {
               dof_text(operations, dof),
               ": nothing holds it there; fix points of the body, or give it mass or stiffness (if a value is "
               "not finite, the simulation diverged before: take a smaller dt)"));
+    [[maybe_unused]] const auto span = operations.root.span(Phase::substitution);
     operations.gather(b, rhs.id);
     factor.solve(b, x);
     operations.scatter(solution.id, x);
