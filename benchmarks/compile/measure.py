@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSL-1.0
-"""Time and peak memory of compiling: the umbrella header alone, and each example."""
+"""What compiling costs: processor seconds and peak memory of the umbrella header, of each layer of headers, of scenes
+that grow in nodes and in components, and of the examples; and the longest files of the last build of the tests."""
+import argparse
 import os
 import pathlib
 import shutil
@@ -8,49 +10,107 @@ import statistics
 import subprocess
 import sys
 import tempfile
-import time
 
 root = pathlib.Path(__file__).resolve().parents[2]
+layers = ["core", "topology", "linalg", "state", "force", "mass", "constraint", "mapping", "collision", "solver", "io",
+          "engine", "control", "visual", "scene", "runtime"]
+optional = {"cholmod_solver.hpp", "convex.hpp", "hull_contacts.hpp", "convex_collision_model.hpp"}  # need a package
 
-subjects = {
-    "#include <sinew/sinew.hpp>": "#include <sinew/sinew.hpp>\n",
-    "example string_on_rigid": (root / "examples/string_on_rigid/main.cpp"),
-    "example one_tetrahedron": (root / "examples/one_tetrahedron/main.cpp"),
-    "example liver": (root / "examples/liver/main.cpp"),
-    "example vitrectomy": (root / "examples/vitrectomy/main.cpp"),
-}
+
+def layer(name):
+    headers = sorted((root / "include/sinew" / name).glob("*.hpp"))
+    return "".join(f"#include <sinew/{name}/{h.name}>\n" for h in headers if h.name not in optional)
+
+
+def program(parts):
+    return ("#include <sinew/sinew.hpp>\nusing namespace sinew;\nint main() {\n  Simulation sim{node<\"root\">(\n"
+            "      EulerImplicitSolver{}, CGLinearSolver<>{},\n      " + ",\n      ".join(parts) +
+            ")};\n  sim.init();\n  sim.animate(0.1);\n}\n")
+
+
+def nodes(n):
+    """n nodes below the root, each a body of its own."""
+    return program(f'node<"body{i}">(MechanicalObject<Vec3d>{{}}, UniformMass<Vec3d>{{}}, StiffSpringForceField<Vec3d>{{}},\n'
+                   f'          FixedConstraint<Vec3d>{{}})' for i in range(n))
+
+
+def components(n):
+    """A root with n components on one state: springs, and loads, of few types, as scenes have them."""
+    return program(["MechanicalObject<Vec3d>{}", "UniformMass<Vec3d>{}"] +
+                   [("StiffSpringForceField<Vec3d>{}", "ConstantForceField<Vec3d>{}")[i % 2] for i in range(n)])
+
+
+def subjects():
+    yield "sinew.hpp alone", "#include <sinew/sinew.hpp>\n"
+    for name in layers:
+        yield f"layer {name}", layer(name)
+    for n in (1, 4, 16, 64):
+        yield f"{n} nodes", nodes(n)
+    for n in (4, 16, 64, 256):
+        yield f"{n} components", components(n)
+    yield "runtime scene, precompiled", root / "tests/install/consumer/scene.cpp"
+    for name in ("one_tetrahedron", "string_on_rigid", "liver", "vitrectomy"):
+        yield f"example {name}", root / f"examples/{name}/main.cpp"
 
 
 def compile_once(compiler, flags, source):
-    """Seconds of processor and of wall time, and peak memory in MB, of one run of the compiler."""
+    """Processor seconds of the user (of use on a machine that others use, too) and peak memory in MB."""
     command = [compiler, "-std=c++20", *flags, f"-I{root}/include", f"-I{root}/examples", "-isystem", "/usr/include/eigen3",
                "-c", str(source), "-o", "/dev/null"]
-    start = time.monotonic()
     process = subprocess.Popen(command)
     _, status, usage = os.wait4(process.pid, 0)
     if status != 0:
         sys.exit(f"bench: {' '.join(command)} failed")
-    return usage.ru_utime + usage.ru_stime, time.monotonic() - start, usage.ru_maxrss / 1024
+    return usage.ru_utime, usage.ru_maxrss / 1024
 
 
-def table(rounds=3):
+def longest_of_tests(build, count=5):
+    """The files of the tests that took longest, [s] of the clock, as ninja noted it at its last build."""
+    log = build / ".ninja_log"
+    if not log.exists():
+        return []
+    took = {}
+    for line in log.read_text().splitlines()[1:]:
+        start, end, _, name, *_ = line.split("\t")
+        if name.startswith("tests/") and name.endswith(".o"):
+            took[name] = (int(end) - int(start)) / 1000
+    return sorted(took.items(), key=lambda item: -item[1])[:count]
+
+
+def table(rounds=3, only="", compilers=("g++", "clang++"), levels=("-O0", "-O2"), build=root / "build/test-gcc"):
+    columns = [(c, level) for c in compilers if shutil.which(c) for level in levels]
+    print(f"\ncompiling: processor seconds, peak memory [MB], medians of {rounds}\n  {'':28}" +
+          "".join(f"{c + ' ' + level:>18}" for c, level in columns), flush=True)
     rows = []
-    print(f"\ncompiling at -O2 (median of {rounds}: processor seconds, wall seconds, peak memory)")
     with tempfile.TemporaryDirectory() as folder:
-        for name, subject in subjects.items():
+        for name, subject in subjects():
+            if only not in name:
+                continue
             source = subject
             if isinstance(subject, str):
                 source = pathlib.Path(folder) / "subject.cpp"
                 source.write_text(subject)
-            for compiler in ("g++", "clang++"):
-                if not shutil.which(compiler):
-                    continue
-                runs = [compile_once(compiler, ["-O2"], source) for _ in range(rounds)]
-                cpu, wall, memory = (statistics.median(column) for column in zip(*runs))
-                print(f"  {name:28} {compiler:8} {cpu:6.2f} s {wall:6.2f} s {memory:6.0f} MB")
-                rows.append({"subject": name, "compiler": compiler, "cpu_s": cpu, "wall_s": wall, "memory_mb": memory})
+            print(f"  {name:28}", end="", flush=True)
+            for compiler, level in columns:
+                runs = [compile_once(compiler, [level], source) for _ in range(rounds)]
+                seconds, memory = (statistics.median(column) for column in zip(*runs))
+                print(f"{seconds:9.2f} s {memory:6.0f}", end=" ", flush=True)
+                rows.append({"subject": name, "compiler": compiler, "level": level, "cpu_s": seconds, "memory_mb": memory})
+            print(flush=True)
+    longest = longest_of_tests(build)
+    if longest and not only:
+        print(f"  longest files of the tests at the last build in {build.name} [s of the clock]")
+        for name, seconds in longest:
+            print(f"    {seconds:7.1f}  {name}")
+            rows.append({"subject": name, "wall_s": seconds})
     return rows
 
 
 if __name__ == "__main__":
-    table()
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--only", default="", help="subjects with this in their names")
+    parser.add_argument("--rounds", type=int, default=1)
+    parser.add_argument("--compilers", nargs="+", default=["g++", "clang++"])
+    parser.add_argument("--levels", nargs="+", default=["-O0", "-O2"])
+    arguments = parser.parse_args()
+    table(arguments.rounds, arguments.only, arguments.compilers, arguments.levels)

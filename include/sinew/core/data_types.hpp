@@ -68,7 +68,7 @@ struct VecTypes {
   SINEW_INLINE static Deriv difference(Coord const& from, Coord const& to) { return to - from; }
   /// Time derivative of theta, where x = increment(x0, theta) moves with velocity v.
   SINEW_INLINE static Deriv chart_rate(Deriv const& /*theta*/, Deriv const& v) { return v; }
-  static bool finite(Coord const& x) { return x.allFinite(); }
+  static bool finite(Coord const& x) { return all_finite(x); }
 };
 
 /// Rigid bodies in space: Deriv is (linear velocity, angular velocity), both in world axes.
@@ -120,7 +120,7 @@ struct RigidTypes<3, R> {
     rate.template tail<3>() += R(-0.5) * tw + R(1) / 12 * t.cross(tw);
     return rate;
   }
-  static bool finite(Coord const& x) { return x.center.allFinite() && x.orientation.coeffs().allFinite(); }
+  static bool finite(Coord const& x) { return all_finite(x.center) && all_finite(x.orientation.coeffs()); }
 };
 
 template <class R>
@@ -148,7 +148,7 @@ struct RigidTypes<2, R> {
         to.center[0] - from.center[0], to.center[1] - from.center[1], to.orientation - from.orientation);
   }
   static Deriv chart_rate(Deriv const&, Deriv const& v) { return v; }
-  static bool finite(Coord const& x) { return x.center.allFinite() && std::isfinite(x.orientation); }
+  static bool finite(Coord const& x) { return all_finite(x.center) && std::isfinite(x.orientation); }
 };
 
 /// D, whose element laws run on W elements at a time: WithLanes<Vec3d, 1> takes them one by one. W is a power

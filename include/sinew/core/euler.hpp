@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/small_matrix.hpp>
+
 #include <Eigen/Geometry>
 #include <numbers>
 
@@ -15,10 +17,25 @@ inline Eigen::Quaterniond rotation_of_degrees(Eigen::Vector3d const& degrees) {
          Eigen::AngleAxisd(angle[0], Eigen::Vector3d::UnitX());
 }
 
+/// x -> A x + t
+struct Placement {
+  Eigen::Matrix3d linear;
+  Eigen::Vector3d translation;
+
+  Eigen::Vector3d operator*(Eigen::Vector3d const& x) const { return linear * x + translation; }
+};
+
 /// x -> R S x + t: sizes along the axes first, then the rotation, then the translation.
-inline Eigen::Affine3d placement(Eigen::Vector3d const& translation, Eigen::Vector3d const& degrees,
-                                 Eigen::Vector3d const& scale) {
-  return Eigen::Translation3d(translation) * rotation_of_degrees(degrees) * Eigen::Scaling(scale);
+inline Placement placement(Eigen::Vector3d const& translation, Eigen::Quaterniond const& rotation,
+                           Eigen::Vector3d const& scale) {
+  Placement p{rotation.toRotationMatrix(), translation};
+  for (int j = 0; j < 3; ++j)
+    for (int i = 0; i < 3; ++i) p.linear(i, j) *= scale[j];
+  return p;
+}
+inline Placement placement(Eigen::Vector3d const& translation, Eigen::Vector3d const& degrees,
+                           Eigen::Vector3d const& scale) {
+  return placement(translation, rotation_of_degrees(degrees), scale);
 }
 
 }  // namespace sinew

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/core/error.hpp>
+#include <sinew/core/small_matrix.hpp>
 
 #include <Eigen/Core>
 #include <array>
@@ -52,7 +53,7 @@ void check_indices(std::string_view where, std::string_view kind, Elements const
 /// Throws Error, naming `where` and the element, unless all coordinates are finite and all indices in range.
 inline void check_mesh(std::string_view where, Mesh const& mesh) {
   for (std::size_t i = 0; i < mesh.positions.size(); ++i)
-    if (!mesh.positions[i].allFinite())
+    if (!all_finite(mesh.positions[i]))
       throw Error(where,
                   text("point ", i, " has a coordinate that is not a finite number; correct the file"));
   const std::size_t n = mesh.positions.size();

@@ -4,6 +4,7 @@
 #include <sinew/core/platform.hpp>
 
 #include <Eigen/Core>
+#include <cmath>
 #include <type_traits>
 
 #if defined(__CUDACC__)
@@ -131,6 +132,29 @@ operator*(A const& left, B const& right) {
     for (int k = 1; k < A::ColsAtCompileTime; ++k) sum += a.coeff(i, k) * b.coeff(k, j);
     return sum;
   });
+}
+
+/// The smaller and the larger of each two entries.
+template <class A, class B>
+requires FixedMatrices<A, B> SINEW_INLINE detail::Value<A> min_of(A const& a, B const& b) {
+  detail::same_size<A, B>();
+  return detail::matrix_of<detail::Value<A>>(
+      [&](int i, int j) { return b.coeff(i, j) < a.coeff(i, j) ? b.coeff(i, j) : a.coeff(i, j); });
+}
+template <class A, class B>
+requires FixedMatrices<A, B> SINEW_INLINE detail::Value<A> max_of(A const& a, B const& b) {
+  detail::same_size<A, B>();
+  return detail::matrix_of<detail::Value<A>>(
+      [&](int i, int j) { return a.coeff(i, j) < b.coeff(i, j) ? b.coeff(i, j) : a.coeff(i, j); });
+}
+
+/// Whether no entry is infinite or no number.
+template <FixedMatrix A>
+SINEW_INLINE bool all_finite(A const& a) {
+  for (int j = 0; j < A::ColsAtCompileTime; ++j)
+    for (int i = 0; i < A::RowsAtCompileTime; ++i)
+      if (!std::isfinite(a.coeff(i, j))) return false;
+  return true;
 }
 
 }  // namespace sinew

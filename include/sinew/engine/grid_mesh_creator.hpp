@@ -54,7 +54,7 @@ struct GridMeshCreator {
     const auto [nx, ny] = resolution;
     if (double(nx) * ny > 16777216)
       throw Error(at, text("resolution is ", nx, " x ", ny, ", more than 2^24 points; make it coarser"));
-    const Eigen::Affine3d placed = placement(translation, rotation, scale3d);
+    const Placement placed = placement(translation, rotation, scale3d);
     position.clear(), quads.clear(), triangles.clear();
     for (int y = 0; y < ny; ++y)
       for (int x = 0; x < nx; ++x)

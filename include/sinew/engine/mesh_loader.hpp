@@ -116,7 +116,7 @@ struct MeshLoader {
     const std::string at = text(where, ": ", className);
     if (filename.path.empty()) throw Error(at, "filename is empty; name the file to read");
     const Eigen::Vector3d size = scale * scale3d;
-    if ((size.array() == 0).any())
+    if (size[0] == 0 || size[1] == 0 || size[2] == 0)
       throw Error(at, "scale or scale3d is 0, which would make the mesh flat; give another size");
     Mesh mesh;
     try {
@@ -147,7 +147,7 @@ struct MeshLoader {
       detail::add_sides(mesh.edges, mesh.triangles, ofTriangle);
     }
     if (onlyAttachedPoints) remove_unused_points(mesh);
-    const Eigen::Affine3d placed = placement(translation, rotation, size);
+    const Placement placed = placement(translation, rotation, size);
     for (auto& p : mesh.positions) p = placed * p;
 
     normals = detail::point_normals(mesh);

@@ -53,7 +53,7 @@ struct SphereLoader {
     } catch (Error const& error) {
       throw Error(at, error.what());
     }
-    const Eigen::Affine3d placed = placement(translation, rotation, scale);
+    const Placement placed = placement(translation, rotation, scale);
     for (auto& c : spheres.centers) c = placed * c;
     for (auto& r : spheres.radii) r *= growth;
     position = std::move(spheres.centers);

@@ -48,12 +48,16 @@ struct TransformEngine {
     const std::string at = text(where, ": ", component_name<TransformEngine>());
     if (!(quaternion.norm() > 1e-6))
       throw Error(at, "quaternion is zero; give one of length 1, such as 0 0 0 1");
-    if (inverse && (scale.array() == 0).any())
+    if (inverse && (scale[0] == 0 || scale[1] == 0 || scale[2] == 0))
       throw Error(at, "a size of scale is 0, which cannot be undone; give another one");
     Eigen::Quaterniond turn(quaternion.normalized());
     turn = turn * rotation_of_degrees(rotation);
-    Eigen::Affine3d placed = Eigen::Translation3d(translation) * turn * Eigen::Scaling(scale);
-    if (inverse) placed = placed.inverse(), turn = turn.conjugate();
+    Placement placed = placement(translation, turn, scale);
+    if (inverse) {
+      placed.linear = placed.linear.inverse().eval();
+      placed.translation = placed.linear * -translation;
+      turn = turn.conjugate();
+    }
 
     using Real = typename D::Real;
     outputPosition = inputPosition;

@@ -70,7 +70,7 @@ class StlParser {
       for (std::size_t k = 0; k < 3; ++k) {
         Eigen::Vector3d p;
         for (std::size_t c = 0; c < 3; ++c) p[Eigen::Index(c)] = number<float>(at + 4 * (3 * k + c));
-        if (!p.allFinite())
+        if (!all_finite(p))
           throw Error(
               path_,
               text("triangle ", t, " has a coordinate that is not a finite number; export the file again"));

@@ -36,7 +36,7 @@ class VtuParser {
       throw Error(file_.at(piece), "has more points than can be numbered; split the mesh");
     for (std::size_t i = 0; i < x.size(); i += 3) {
       mesh_.positions.emplace_back(x[i], x[i + 1], x[i + 2]);
-      if (!mesh_.positions.back().allFinite())
+      if (!all_finite(mesh_.positions.back()))
         throw Error(file_.at(array),
                     text("point ", i / 3, " has a coordinate that is not a finite number; correct it"));
     }

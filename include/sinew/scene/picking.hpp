@@ -40,7 +40,7 @@ struct Picking {
                            double maxDistance, double tolerance) const {
     auto wrong = [](auto const&... what) { throw Error("Simulation::pick", text(what...)); };
     const double length = direction.norm();
-    if (!origin.allFinite()) wrong("the origin of the ray is not finite");
+    if (!all_finite(origin)) wrong("the origin of the ray is not finite");
     if (!(length > 0) || !std::isfinite(length))
       wrong("the direction of the ray has no length, or is not finite");
     if (!(maxDistance >= 0)) wrong("maxDistance is ", maxDistance, " m, but must be at least 0");
@@ -117,7 +117,7 @@ struct Picking {
     return found;
   }
   bool pull(int id, Eigen::Vector3d const& target, Eigen::Vector3d const& velocity) const {
-    if (!target.allFinite() || !velocity.allFinite())
+    if (!all_finite(target) || !all_finite(velocity))
       throw Error("Simulation::pull", "the target is not finite; the attachment stays as it was");
     Attachment* a = find(id);
     if (!a) return false;

@@ -118,7 +118,7 @@ struct BccLattice {
 /// A lattice with its origin, sizes and steps, that covers the box. Throws Error on a bad box or spacing.
 inline BccLattice empty_bcc_lattice(std::string_view where, Eigen::Vector3d const& lo,
                                     Eigen::Vector3d const& hi, double spacing) {
-  if (!lo.allFinite() || !hi.allFinite() || !(lo.array() < hi.array()).all())
+  if (!all_finite(lo) || !all_finite(hi) || !(lo.array() < hi.array()).all())
     throw Error(where,
                 text("the box from (",
                      lo[0],

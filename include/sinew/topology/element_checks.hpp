@@ -4,6 +4,8 @@
 #include <sinew/core/component.hpp>
 
 #include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
 #include <span>
 #include <string>
 
@@ -22,7 +24,8 @@ void check_tetrahedra(std::string const& where, std::span<Tetrahedron const> tet
         edges.col(c) = (D::center(rest[std::size_t(tetrahedra[e][std::size_t(c) + 1])]) -
                         D::center(rest[std::size_t(tetrahedra[e][0])]))
                            .template cast<double>();
-      const double volume = edges.determinant() / 6, longest = edges.colwise().norm().maxCoeff();
+      const double volume = edges.determinant() / 6,
+                   longest = std::max({edges.col(0).norm(), edges.col(1).norm(), edges.col(2).norm()});
       if (!(std::abs(volume) > 1e-14 * longest * longest * longest))
         throw Error(where, text("tetrahedron ", e, " has no volume; move or merge its points"));
       if (volume < 0)

@@ -33,12 +33,12 @@ struct ElementBox {
   ElementBox(std::span<Eigen::Vector3d const> x, Points const& points)
       : low(x[std::size_t(points[0])]), high(low) {
     for (const Index i : points) {
-      low = low.cwiseMin(x[std::size_t(i)]);
-      high = high.cwiseMax(x[std::size_t(i)]);
+      low = min_of(low, x[std::size_t(i)]);
+      high = max_of(high, x[std::size_t(i)]);
     }
   }
   double squaredDistance(Eigen::Vector3d const& p) const {
-    return (low - p).cwiseMax(p - high).cwiseMax(0.0).squaredNorm();
+    return max_of(max_of(low - p, p - high), Eigen::Vector3d(0, 0, 0)).squaredNorm();
   }
 };
 
@@ -60,7 +60,7 @@ struct TetrahedronFit : ElementBox {
   ElementFit<4> fit(Eigen::Vector3d const& p) const {
     const Eigen::Vector3d w = inverse * (p - origin);
     const Eigen::Vector4d weights(1 - w.sum(), w[0], w[1], w[2]);
-    if (!weights.allFinite()) return {-std::numeric_limits<double>::infinity(), weights};
+    if (!all_finite(weights)) return {-std::numeric_limits<double>::infinity(), weights};
     const double least = weights.minCoeff();
     return {least < 0 ? least * size : 0, weights};
   }
@@ -71,18 +71,19 @@ struct TriangleFit : ElementBox {
   using Points = Triangle;
   static constexpr bool isDistance = true;
   Eigen::Vector3d corner[3];
-  Eigen::Matrix<double, 2, 3> toPlane;  // to the coordinates along edges 01 and 02
+  Eigen::Vector3d along[2];  // their dot products with a place are its coordinates along edges 01 and 02
 
   TriangleFit(std::span<Eigen::Vector3d const> x, Triangle const& t) : ElementBox(x, t) {
     for (std::size_t k = 0; k < 3; ++k) corner[k] = x[std::size_t(t[k])];
-    Eigen::Matrix<double, 3, 2> edges;
-    edges << corner[1] - corner[0], corner[2] - corner[0];
-    toPlane = (edges.transpose() * edges).inverse() * edges.transpose();
+    const Eigen::Vector3d a = corner[1] - corner[0], b = corner[2] - corner[0];
+    const double aa = a.dot(a), ab = a.dot(b), bb = b.dot(b), det = aa * bb - ab * ab;
+    along[0] = (bb / det) * a - (ab / det) * b;
+    along[1] = (aa / det) * b - (ab / det) * a;
   }
   ElementFit<3> fit(Eigen::Vector3d const& p) const {
-    const Eigen::Vector2d w = toPlane * (p - corner[0]);
-    const Eigen::Vector3d weights(1 - w.sum(), w[0], w[1]);
-    if (!weights.allFinite()) return {-std::numeric_limits<double>::infinity(), weights};
+    const double u = along[0].dot(p - corner[0]), v = along[1].dot(p - corner[0]);
+    const Eigen::Vector3d weights(1 - (u + v), u, v);
+    if (!all_finite(weights)) return {-std::numeric_limits<double>::infinity(), weights};
     Eigen::Vector3d nearest = weights[0] * corner[0] + weights[1] * corner[1] + weights[2] * corner[2];
     if (weights.minCoeff() < 0) {  // outside: on the nearest of the sides
       double least = std::numeric_limits<double>::infinity();
@@ -114,7 +115,7 @@ struct MultilinearFit : ElementBox {
     Place t = Place::Constant(0.5);
     for (int iteration = 0; iteration < 16; ++iteration) {
       const Place step = along(MultilinearShape<Dim>(t), p);
-      if (!step.allFinite()) break;
+      if (!all_finite(step)) break;
       const Place next = (t + step).cwiseMax(-0.5).cwiseMin(1.5);
       const bool settled = (next - t).cwiseAbs().maxCoeff() < 1e-14;
       t = next;
@@ -125,7 +126,7 @@ struct MultilinearFit : ElementBox {
     const Place rest = along(shape, p);
     const auto weights = (shape.weights + shape.derivatives * rest).eval();
     const double distance = (p - corners * shape.weights).norm();
-    if (!weights.allFinite()) return {-std::numeric_limits<double>::infinity(), weights};
+    if (!all_finite(weights)) return {-std::numeric_limits<double>::infinity(), weights};
     return {distance < 1e-12 * (high - low).norm() ? 0 : -distance, weights};
   }
 

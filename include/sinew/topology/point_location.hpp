@@ -4,6 +4,7 @@
 #include <sinew/topology/element_fit.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -28,20 +29,20 @@ struct ElementLocator {
     elements.reserve(list.size());
     for (auto const& e : list) {
       elements.emplace_back(points, e);
-      low = low.cwiseMin(elements.back().low);
-      high = high.cwiseMax(elements.back().high);
+      low = min_of(low, elements.back().low);
+      high = max_of(high, elements.back().high);
     }
     // the directions in which a sheet or a string has no extent do not count
-    const Eigen::Vector3d extent = (high - low).cwiseMax(1e-300);
+    const Eigen::Vector3d extent = max_of(high - low, Eigen::Vector3d(1e-300, 1e-300, 1e-300));
     double room = 1;
     int directions = 0;
     for (int c = 0; c < 3; ++c)
       if (extent[c] > 1e-3 * extent.maxCoeff()) room *= extent[c], ++directions;
     cell = std::max(std::pow(room / double(elements.size()), 1.0 / directions), extent.maxCoeff() / 512);
-    for (int c = 0; c < 3; ++c) count[c] = std::clamp(int(extent[c] / cell) + 1, 1, 513);
+    for (std::size_t c = 0; c < 3; ++c) count[c] = std::clamp(int(extent[Index(c)] / cell) + 1, 1, 513);
 
     // two passes: count, then fill, so that cell c holds members[start[c]] ... in the order of the elements
-    start.assign(std::size_t(count.prod()) + 1, 0);
+    start.assign(std::size_t(count[0]) * std::size_t(count[1]) * std::size_t(count[2]) + 1, 0);
     for (int pass = 0; pass < 2; ++pass) {
       std::vector<int> at = start;
       for (std::size_t e = 0; e < elements.size(); ++e)
@@ -65,8 +66,7 @@ struct ElementLocator {
     if (elements.empty()) return best;
     auto visit = [&](int i, int j, int k) {
       const Eigen::Vector3d corner = low + cell * Eigen::Vector3d(i, j, k);
-      const double far =
-          (corner - p).cwiseMax(p - corner - Eigen::Vector3d::Constant(cell)).cwiseMax(0.0).squaredNorm();
+      const double far = squared_distance(p, corner, corner + Eigen::Vector3d(cell, cell, cell));
       if (Fit::isDistance && far > best.fit.score * best.fit.score) return;
       const std::size_t c = number(i, j, k);
       for (int m = start[c]; m < start[c + 1]; ++m) {
@@ -79,17 +79,18 @@ struct ElementLocator {
     };
     // shells of cells around that of p. All that is behind the shell r is r cells from the cell of p, or from
     // the nearest one of the grid, and the angle there is obtuse
-    const Eigen::Vector3i home = cellOf(p);
-    const Eigen::Vector3d size = cell * count.cast<double>();
-    const double away = (low - p).cwiseMax(p - low - size).cwiseMax(0.0).squaredNorm();
-    int last = count.maxCoeff();
+    const auto home = cellOf(p);
+    const Eigen::Vector3d size = cell * Eigen::Vector3d(count[0], count[1], count[2]);
+    const double away = squared_distance(p, low, low + size);
+    const int most = std::max({count[0], count[1], count[2]});
+    int last = most;
     for (int r = 0; r <= last; ++r) {
       forShell(home, r, visit);
       if (best.fit.score == 0) break;
       if constexpr (Fit::isDistance) {
         if (best.fit.score * best.fit.score <= away + r * cell * r * cell) break;
       } else {
-        if (best.element >= 0 && last == count.maxCoeff()) last = std::min(last, r + 1);
+        if (best.element >= 0 && last == most) last = std::min(last, r + 1);
       }
     }
     return best;
@@ -99,27 +100,32 @@ struct ElementLocator {
   std::vector<Fit> elements{};
   Eigen::Vector3d low{0, 0, 0};
   double cell = 1;
-  Eigen::Vector3i count{1, 1, 1};
+  std::array<int, 3> count{1, 1, 1};
   std::vector<int> start{}, members{};
 
-  Eigen::Vector3i cellOf(Eigen::Vector3d const& p) const {
-    Eigen::Vector3i c;
-    for (int k = 0; k < 3; ++k) c[k] = int(std::clamp((p[k] - low[k]) / cell, 0.0, double(count[k] - 1)));
+  static double squared_distance(Eigen::Vector3d const& p, Eigen::Vector3d const& lo,
+                                 Eigen::Vector3d const& hi) {
+    return max_of(max_of(lo - p, p - hi), Eigen::Vector3d(0, 0, 0)).squaredNorm();
+  }
+  std::array<int, 3> cellOf(Eigen::Vector3d const& p) const {
+    std::array<int, 3> c;
+    for (std::size_t k = 0; k < 3; ++k)
+      c[k] = int(std::clamp((p[Index(k)] - low[Index(k)]) / cell, 0.0, double(count[k] - 1)));
     return c;
   }
   template <class F>
-  void forCells(Eigen::Vector3i a, Eigen::Vector3i b, F&& f) const {
-    a = a.cwiseMax(0);
-    b = b.cwiseMin(count - Eigen::Vector3i::Ones());
+  void forCells(std::array<int, 3> a, std::array<int, 3> b, F&& f) const {
+    for (std::size_t k = 0; k < 3; ++k) a[k] = std::max(a[k], 0), b[k] = std::min(b[k], count[k] - 1);
     for (int z = a[2]; z <= b[2]; ++z)
       for (int y = a[1]; y <= b[1]; ++y)
         for (int x = a[0]; x <= b[0]; ++x) f(number(x, y, z));
   }
   // the cells that are r away from `home` in some direction and not more in any
   template <class F>
-  void forShell(Eigen::Vector3i const& home, int r, F&& f) const {
-    const Eigen::Vector3i a = (home.array() - r).cwiseMax(0).matrix();
-    const Eigen::Vector3i b = (home.array() + r).matrix().cwiseMin(count - Eigen::Vector3i::Ones());
+  void forShell(std::array<int, 3> const& home, int r, F&& f) const {
+    std::array<int, 3> a, b;
+    for (std::size_t k = 0; k < 3; ++k)
+      a[k] = std::max(home[k] - r, 0), b[k] = std::min(home[k] + r, count[k] - 1);
     for (int z = a[2]; z <= b[2]; ++z)
       for (int y = a[1]; y <= b[1]; ++y) {
         const bool whole = r == 0 || std::abs(z - home[2]) == r || std::abs(y - home[1]) == r;

@@ -28,7 +28,7 @@ inline void check_grid(std::string_view where, std::array<int, 3> const& n, Eige
   if (double(n[0]) * n[1] * n[2] > most)
     throw Error(where,
                 text(grid, "exceeds the limit of ", most, " points (2^", mostLog2, "); make it coarser"));
-  bool room = lo.allFinite() && hi.allFinite();
+  bool room = all_finite(lo) && all_finite(hi);
   for (int c = 0; c < 3; ++c) room = room && (n[std::size_t(c)] > 1 ? lo[c] < hi[c] : lo[c] <= hi[c]);
   if (!room)
     throw Error(where,

@@ -4,15 +4,18 @@
 #include <sinew/topology/regular_grid.hpp>
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
 
 namespace sinew::detail {
 
 /// The first `dimensions` coordinates moved along the ray from the origin so that squares of half width r (or
 /// cubes) become circles (or spheres) of radius r: p max|p_i| / |p|.
 inline void round_square(Eigen::Vector3d& p, int dimensions) {
-  auto across = p.head(dimensions);
-  const double size = across.norm();
-  if (size > 0) across *= across.cwiseAbs().maxCoeff() / size;
+  double square = 0, most = 0;
+  for (int c = 0; c < dimensions; ++c) square += p[c] * p[c], most = std::max(most, std::abs(p[c]));
+  if (square > 0)
+    for (int c = 0; c < dimensions; ++c) p[c] *= most / std::sqrt(square);
 }
 
 /// Right-handed axes, the third along `axis`, the first as near to x as can be; as near to y where `axis` is
@@ -20,10 +23,10 @@ inline void round_square(Eigen::Vector3d& p, int dimensions) {
 inline Eigen::Matrix3d axes_around(std::string_view where, Eigen::Vector3d const& axis) {
   if (!(axis.norm() > 0)) throw Error(where, "axis is zero; give it a direction");
   Eigen::Matrix3d axes;
-  axes.col(2) = axis.normalized();
-  const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), y = Eigen::Vector3d::UnitY();
-  axes.col(1) = axes.col(2).cross((axes.col(2).cwiseAbs() - x).norm() < 1e-6 ? y : x).normalized();
-  axes.col(0) = axes.col(1).cross(axes.col(2));
+  const Eigen::Vector3d third = axis.normalized();
+  const bool isX = std::hypot(std::abs(third[0]) - 1, third[1], third[2]) < 1e-6;
+  const Eigen::Vector3d second = third.cross(Eigen::Vector3d(isX ? 0 : 1, isX ? 1 : 0, 0)).normalized();
+  axes.col(0) = second.cross(third), axes.col(1) = second, axes.col(2) = third;
   return axes;
 }
 

@@ -7,6 +7,7 @@
 #include <sinew/topology/regular_grid.hpp>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -23,7 +24,8 @@ inline bool triangle_meets_box(Eigen::Vector3d const (&triangle)[3], Eigen::Vect
   const Eigen::Vector3d v[3] = {triangle[0] - center, triangle[1] - center, triangle[2] - center};
   auto apart = [&](Eigen::Vector3d const& axis) {
     const double a = axis.dot(v[0]), b = axis.dot(v[1]), c = axis.dot(v[2]),
-                 reach = axis.cwiseAbs().dot(half);
+                 reach =
+                     std::abs(axis[0]) * half[0] + std::abs(axis[1]) * half[1] + std::abs(axis[2]) * half[2];
     return std::min({a, b, c}) > reach || std::max({a, b, c}) < -reach;
   };
   for (int c = 0; c < 3; ++c)
@@ -113,8 +115,8 @@ struct SparseGridTopology {
     Eigen::Vector3d lo = surface.positions[0], hi = lo;
     for (auto const& t : surface.triangles)
       for (const Index i : t) {
-        lo = lo.cwiseMin(surface.positions[std::size_t(i)]);
-        hi = hi.cwiseMax(surface.positions[std::size_t(i)]);
+        lo = min_of(lo, surface.positions[std::size_t(i)]);
+        hi = max_of(hi, surface.positions[std::size_t(i)]);
       }
     const Eigen::Vector3d margin = (hi - lo) / 100;
     lo = min.value_or(lo - margin), hi = max.value_or(hi + margin);
@@ -126,8 +128,9 @@ struct SparseGridTopology {
       grid.coordinates[c] = detail::grid_coordinates(grid.points[std::size_t(c)], lo[c], hi[c]);
     }
     grid.kinds.assign(std::size_t(grid.cells.prod()), unknown);
-    grid.slack = 1e-9 * (hi - lo).cwiseQuotient(grid.cells.cast<double>()) +
-                 1e-15 * lo.cwiseAbs().cwiseMax(hi.cwiseAbs());
+    for (int c = 0; c < 3; ++c)
+      grid.slack[c] =
+          1e-9 * (hi[c] - lo[c]) / grid.cells[c] + 1e-15 * std::max(std::abs(lo[c]), std::abs(hi[c]));
 
     for (auto const& t : surface.triangles) {
       const Eigen::Vector3d corners[3] = {surface.positions[std::size_t(t[0])],

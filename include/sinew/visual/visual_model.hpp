@@ -28,7 +28,8 @@ struct VisualModel {
   Mesh current() const {
     Mesh now = mesh;
     now.positions.resize(position.size());
-    for (std::size_t i = 0; i < position.size(); ++i) now.positions[i] = position[i].cast<double>();
+    for (std::size_t i = 0; i < position.size(); ++i)
+      now.positions[i] = {position[i][0], position[i][1], position[i][2]};
     return now;
   }
 
@@ -49,7 +50,7 @@ struct VisualModel {
   void init(std::string const& where) {
     check_mesh(text(where, ": VisualModel"), mesh);
     position.clear();
-    for (auto const& p : mesh.positions) position.push_back(p.cast<float>());
+    for (auto const& p : mesh.positions) position.emplace_back(float(p[0]), float(p[1]), float(p[2]));
   }
 };
 
