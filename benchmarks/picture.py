@@ -15,10 +15,9 @@ def escape(words):
 def panels(results):
     """(title, unit, [(name, value, aim or None)]) of each group of bars."""
     groups = []
-    compared = [(f"{row['mesh']}, {row['kind']}", row["times_sofa"], row["aim"]) for row in results.get("fem", []) if row.get("times_sofa")]
-    compared += [(f"grid {row['grid']}, {row['kind']}", row["times_sofa"], row["aim"]) for row in results.get("grids", []) if row.get("times_sofa")]
-    compared += [(row["kind"], row["times_sofa"], row["aim"]) for row in results.get("small", []) if row.get("times_sofa")]
-    groups.append(("Speed in times that of SOFA", "x", compared))
+    for table, place in (("fem", "mesh"), ("grids", "grid"), ("small", None)):
+        bars = [(", ".join(filter(None, [row.get(place), row["kind"]])), row["times_sofa"], row["aim"]) for row in results.get(table, []) if row.get("times_sofa")]
+        groups.append((f"Speed in times that of SOFA: {table}", "x", bars))
     for mesh, young in dict.fromkeys((row["mesh"], row["young"]) for row in results.get("accuracy", [])):
         bars = [(row["solver"], 1e3 * row["seconds"], None) for row in results["accuracy"] if (row["mesh"], row["young"]) == (mesh, young)]
         groups.append((f"A step to a residual of 1e-6: {mesh}, E {young:,} Pa", "ms", bars))

@@ -188,8 +188,8 @@ def growth(build, rounds, sizes=(6, 12, 26, 55)):
 # levels of x86-64: what /proc/cpuinfo lists for those that have them
 LEVELS = {"v2": {"sse4_2", "ssse3", "popcnt", "cx16"}, "v3": {"avx2", "bmi1", "bmi2", "f16c", "fma", "movbe"},
           "v4": {"avx512f", "avx512bw", "avx512cd", "avx512dq", "avx512vl"}}
-# how far builds may be apart after 20 steps: what rounding makes of 25 iterations that have not converged
-APART = {"double": 1e-7, "float": 1e-2}
+# how far builds may be apart after 20 steps [m]: rounding was seen to make 1e-13 and 3e-5
+APART = {"double": 1e-10, "float": 1e-3}
 
 
 def portability(build, rounds):

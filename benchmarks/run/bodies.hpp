@@ -72,13 +72,11 @@ double seconds_a_step(Sim& sim, int steps) {
 template <class Sim>
 void report(char const* kind, Sim sim, int steps) {
   sim.init();
-  const double time = seconds([&] {
-    for (int i = 0; i < steps; ++i) sim.animate(0.02);
-  });
+  const double time = seconds_a_step(sim, steps);
   auto const& x = sim.root().state().position;
   auto const& probe = x[std::min<std::size_t>(100, x.size() - 1)];
   std::printf(
-      "%s %.2f %.6f %.6f %.6f\n", kind, steps / time, double(probe[0]), double(probe[1]), double(probe[2]));
+      "%s %.2f %.6f %.6f %.6f\n", kind, 1 / time, double(probe[0]), double(probe[1]), double(probe[2]));
   std::fflush(stdout);
 }
 
