@@ -116,7 +116,13 @@ Options read_options(int argc, char** argv, int& status) {
       ->check(at_least(1).description(""));
   run->add_option("--save", o.run.save, "File for the scene as it is at the end, to go on from")
       ->type_name("FILE");
+  auto* profile = run->add_flag("--profile", o.run.profile, "Print where the time of the steps goes");
+  run->add_option("--trace",
+                  o.run.trace,
+                  "File for the times of all calls, which ui.perfetto.dev and chrome://tracing open")
+      ->type_name("FILE");
   add_output(*run, quiet, json);
+  profile->excludes("--quiet");
 
   auto* check = app.add_subcommand("check", "Find all mistakes in a scene, without simulating it");
   check->footer("Example:  sinew check liver.scn");

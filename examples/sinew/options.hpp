@@ -35,6 +35,8 @@ struct RunOptions {
   Duration duration{};
   std::string vtk{}, record{}, save{};
   long every = 1;
+  bool profile = false;
+  std::string trace{};
   Output output = Output::words;
 };
 struct CheckOptions {

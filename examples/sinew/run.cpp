@@ -4,8 +4,10 @@
 
 #include "support/progress.hpp"
 
+#include <sinew/io/output_file.hpp>
 #include <sinew/runtime/record.hpp>
 #include <sinew/runtime/save_scene.hpp>
+#include <sinew/scene/profile_report.hpp>
 
 #include <cmath>
 #include <cstdio>
@@ -26,7 +28,12 @@ class Outputs {
       }
       if (!options.record.empty()) record_.emplace(options.record);
       if (!options.save.empty()) mayWrite(options.save);
+      if (!options.trace.empty()) mayWrite(options.trace);
     });
+    if (!options.profile && options.trace.empty()) return;
+    // 13 MB; as a file 50 MB
+    profile_.emplace(options.trace.empty() ? 0 : 1u << 19);
+    scene.simulation.root().profileWith(&*profile_);
   }
   void add() {
     auto& simulation = scene_.simulation;
@@ -35,6 +42,8 @@ class Outputs {
       if (record_) record_->add(sinew::capture(simulation.root(), simulation.step(), simulation.time()));
     });
   }
+  /// Where the time has gone; null where nobody has asked.
+  sinew::Profile const* profile() const { return profile_ ? &*profile_ : nullptr; }
   /// Completes all files and says which they are.
   std::vector<std::string> finish(bool good) {
     std::vector<std::string> files;
@@ -48,6 +57,10 @@ class Outputs {
         sinew::save_scene(scene_.simulation, scene_.dt, options_.save);
         files.push_back(options_.save);
       }
+      if (!options_.trace.empty()) {
+        sinew::io::write_file(options_.trace, sinew::profile_trace(*profile_, options_.scene.path));
+        files.push_back(options_.trace);
+      }
     });
     return files;
   }
@@ -57,6 +70,7 @@ class Outputs {
   Scene& scene_;
   std::optional<Pictures> pictures_{};
   std::optional<sinew::RecordWriter> record_{};
+  std::optional<sinew::Profile> profile_{};
 
   // what components of the scene have written
   template <class Node>
@@ -78,8 +92,24 @@ class Outputs {
     if (::stat(folder.empty() ? "." : folder.c_str(), &info) != 0)
       throw sinew::Error(path,
                          sinew::text("cannot be written: there is no folder ", folder, "; create it first"));
+    // a file is replaced by another one of its folder, a device is written to
+    const bool device = ::stat(path.c_str(), &info) == 0 && !S_ISREG(info.st_mode);
+    if (::access(device ? path.c_str() : folder.empty() ? "." : folder.c_str(), W_OK) != 0)
+      throw sinew::Error(path, "cannot be written: it is not allowed here; choose another file or folder");
   }
 };
+
+// the lines of a profile
+std::vector<Json> profile_json(sinew::Profile const& profile) {
+  std::vector<Json> all;
+  for (auto const& line : sinew::profile_lines(profile)) {
+    Json json;
+    json.set("depth", line.depth).set(line.isPhase ? "phase" : "component", line.name);
+    if (!line.isPhase) json.set("class", line.className);
+    all.push_back(json.set("calls", line.calls).set("seconds", line.seconds).set("own", line.own));
+  }
+  return all;
+}
 
 }  // namespace
 
@@ -144,6 +174,7 @@ int run(RunOptions const& options) {
         .set("files", files)
         .set("interrupted", stopped)
         .set("errors", failure ? failure->messages : std::vector<std::string>{});
+    if (options.profile) json.set("profile", profile_json(*outputs.profile()));
     std::printf("%s\n", json.text().c_str());
   } else if (words) {
     if (done > 0)
@@ -158,6 +189,11 @@ int run(RunOptions const& options) {
                   simulation.time(),
                   kinetic,
                   potential);
+    if (options.profile) std::printf("\n%s\n", sinew::profile_table(*outputs.profile()).c_str());
+    if (outputs.profile() && outputs.profile()->eventsLeftOut() > 0)
+      std::printf("the trace has the first %zu calls; %ld later ones had no room\n",
+                  outputs.profile()->eventCount(),
+                  outputs.profile()->eventsLeftOut());
     for (auto const& file : files) std::printf("wrote %s\n", file.c_str());
     if (stopped) std::printf("interrupted; all files are complete\n");
   }

@@ -39,7 +39,7 @@ struct ProfileNumber {
 /// Where the time of steps goes: a tree of phases and components, with calls and times. Only what happens in
 /// Simulation::animate and updateVisual is counted. With room for events it also keeps when each call was.
 /// All memory is taken at the start; what does not fit any more is counted as part of what is around it, in
-/// `leftOut` and `eventsLeftOut`. Times are those of std::chrono::steady_clock [ns]: about 25 ns a reading,
+/// `leftOut` and `eventsLeftOut`. Times are those of std::chrono::steady_clock [ns]: tens of ns a reading,
 /// monotone, and without a unit to be found out, as the counter of a processor has one. One thread at a time
 /// writes to a profile.
 class Profile {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -71,13 +72,19 @@ struct WithRole<TypeList<Cs...>, Roles...> {
 };
 
 template <class C, class F>
-void call_with(void* component, F& f) {
-  f(*static_cast<C*>(component));
+void call_with(void* component, void* f) {
+  (*static_cast<F*>(f))(*static_cast<C*>(component));
 }
 template <class F, class... Cs>
 constexpr auto call_table(TypeList<Cs...>) {
-  return std::array<void (*)(void*, F&), sizeof...(Cs)>{&call_with<Cs, F>...};
+  return std::array<void (*)(void*, void*), sizeof...(Cs)>{&call_with<Cs, F>...};
 }
+
+/// What a visitor does with components of the classes that it visits: `places` of classes in `calls`.
+struct VisitTable {
+  short const* places;
+  void (*const* calls)(void* component, void* f);
+};
 
 }  // namespace detail
 
@@ -122,11 +129,24 @@ class AnyComponent {
   /// f(component), if its class has one of the roles; says whether.
   template <class... Roles, class F>
   bool visit(F&& f) const {
-    using Visited = detail::WithRole<List, Roles...>;
-    static constexpr auto table = detail::call_table<std::remove_reference_t<F>>(typename Visited::Classes{});
-    const int place = Visited::places[index()];
-    if (place >= 0) table[std::size_t(place)](value_, f);
+    return visit(visits<Roles...>(f), address_of(f));
+  }
+  bool visit(detail::VisitTable table, void* f) const {
+    const int place = table.places[index()];
+    if (place >= 0) table.calls[std::size_t(place)](value_, f);
     return place >= 0;
+  }
+  bool isVisited(detail::VisitTable table) const { return table.places[index()] >= 0; }
+  /// How f visits components; it does so by its address.
+  template <class... Roles, class F>
+  static detail::VisitTable visits(F&) {
+    using Visited = detail::WithRole<List, Roles...>;
+    static constexpr auto calls = detail::call_table<F>(typename Visited::Classes{});
+    return {Visited::places.data(), calls.data()};
+  }
+  template <class F>
+  static void* address_of(F& f) {
+    return const_cast<void*>(static_cast<void const*>(std::addressof(f)));
   }
   template <class... Roles>
   bool is() const {

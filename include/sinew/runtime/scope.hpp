@@ -145,7 +145,8 @@ struct RuntimeScope {
   template <class F, class... Roles>
   void forEachComponent(RoleVisitor<F, Roles...>& visitor) const {
     if (profile) [[unlikely]]
-      return forEachTimed(visitor);
+      return forEachTimed(AnyComponent<R>::template visits<Roles...>(visitor.f),
+                          AnyComponent<R>::address_of(visitor.f));
     for (auto& entry : node.components()) entry.component.template visit<Roles...>(visitor.f);
   }
   Span span(Phase phase) const { return {profile, phase}; }
@@ -319,12 +320,12 @@ struct RuntimeScope {
   }
 
  private:
-  template <class F, class... Roles>
-  void forEachTimed(RoleVisitor<F, Roles...>& visitor) const {
+  // one for all visitors: what is rarely asked for costs the compiler little
+  void forEachTimed(detail::VisitTable table, void* visitor) const {
     for (auto& entry : node.components())
-      if (entry.component.template is<Roles...>()) {
+      if (entry.component.isVisited(table)) {
         const Span span = visit(entry);
-        entry.component.template visit<Roles...>(visitor.f);
+        entry.component.visit(table, visitor);
       }
   }
   void addSurroundings(std::vector<void const*>& all) const {
