@@ -226,7 +226,6 @@ struct MechanicalOperations {
   void assemble(Matrix& matrix, MatrixFactors factors) {
     matrix.setZero();
     assemblePhase<AssemblyPhase::add>(matrix, factors);
-    matrix.mirror();
     traverse(root, on<role::ProjectiveConstraint>([&](auto& c, auto const& scope) {
                c.projectMatrix(constraintSink<AssemblyPhase::add>(matrix, c, scope));
              }));

@@ -100,10 +100,7 @@ struct CGLinearSolver {
       s.p = s.b;
       iterate(
           double(s.r.squaredNorm()),
-          [&] {
-            s.matrix.multiply(s.p.data(), s.q.data());
-            return double(s.p.dot(s.q));
-          },
+          [&] { return s.matrix.multiply(s.p.data(), s.q.data()); },
           [&](double alpha) {
             s.x += Real(alpha) * s.p;
             s.r -= Real(alpha) * s.q;
