@@ -110,10 +110,9 @@ struct HandLiver {
     A.setZero();
     driver.addToMatrix(law, Sink<sinew::AssemblyPhase::add>{A, {0}, {0}}, -h * (h + rs), 0);
     for (std::size_t i = 0; i < x.size(); ++i) {
-      double* const block = A.block(A.diagonal[i]);
+      double* const block = A.block(A.rowStart[i]);
       for (int c = 0; c < 3; ++c) block[4 * c] += (1 + h * rm) * mass[i];
     }
-    A.mirror();
     for (const int i : fixed)
       for (int c = 0; c < 3; ++c) A.fix(3 * i + c);
 

@@ -179,15 +179,16 @@ void add_linear(std::vector<Work>& list, std::shared_ptr<Body<D>> body) {
   s->matrix.finishPattern();
   // definite, since its diagonal dominates
   std::fill(s->matrix.values.begin(), s->matrix.values.end(), Real(0.01));
-  for (const int k : s->matrix.diagonal)
-    for (int c = 0; c < 3; ++c) s->matrix.block(k)[4 * c] = 1;
+  for (int i = 0; i < s->matrix.rows(); ++i)
+    for (int c = 0; c < 3; ++c) s->matrix.block(s->matrix.rowStart[std::size_t(i)])[4 * c] = 1;
   s->p.setConstant(Eigen::Index(3 * n + 1), Real(1));
   s->q.setZero(Eigen::Index(3 * n + 1));
   list.push_back({"vectors", "x += f y", n, [=] { vec::peq(body->f, body->v, Real(1e-3)); }});
   list.push_back({"vectors", "dot", n, [=] { s->sum += vec::dot(body->f, body->v); }});
-  list.push_back({"matrix of 3 x 3 blocks", "multiply, a block", s->matrix.columns.size(), [=] {
-                    s->matrix.multiply(s->p.data(), s->q.data());
-                  }});
+  list.push_back({"matrix of 3 x 3 blocks",
+                  "multiply, a block",
+                  s->matrix.columns.size() + s->matrix.leftColumns.size(),
+                  [=] { s->matrix.multiply(s->p.data(), s->q.data()); }});
   for (const auto method : {PreconditionerMethod::blockJacobi,
                             PreconditionerMethod::ssor,
                             PreconditionerMethod::incompleteCholesky,

@@ -48,8 +48,8 @@ int main(int argc, char** argv) try {
   const double edges = double(edges_of(sim.root().first<role::Topology>().tetrahedra).size());
   auto bytes = [](auto const& list) { return double(list.size() * sizeof list[0]); };
   auto const& m = solver.system.matrix;
-  const double arrays = bytes(m.values) + bytes(m.columns) + bytes(m.rowStart) + bytes(m.diagonal) +
-                        bytes(m.mirrored) + bytes(driver.packs) + bytes(driver.slots) + 14 * 24 * points;
+  const double arrays = bytes(m.values) + bytes(m.columns) + bytes(m.rowStart) + bytes(m.leftStart) +
+                        bytes(m.leftColumns) + bytes(m.leftSlots) + bytes(driver.packs) + bytes(driver.slots) + 14 * 24 * points;
   const double least = 76 * (points + edges) + (16 + 72 + 16) * tetrahedra + (8 * 24 + 8) * points;
 
   // an iteration is the difference of many and few

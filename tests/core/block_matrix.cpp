@@ -37,7 +37,6 @@ void check_matrix(double rounding) {
         dense.block<3, 3>(3 * r, 3 * s) += block;
       }
     }
-    a.mirror();
   };
   auto compare = [&] {
     Eigen::Matrix<Real, Eigen::Dynamic, 1> x(a.dofs() + 1), y(a.dofs());

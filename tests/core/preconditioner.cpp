@@ -40,7 +40,6 @@ Matrix chain(int n, double shift, bool ring, Eigen::MatrixXd& dense) {
       dense.block<3, 3>(3 * j, 3 * i) += k.transpose();
     }
   }
-  a.mirror();
   return a;
 }
 

@@ -199,7 +199,6 @@ struct ConstraintSuite {
             a.add(i * size, j * size, k);
             if (i != j) a.add(j * size, i * size, k.transpose().eval());
           }
-    a.mirror();
     auto times = [&](VecDeriv const& x) {
       VecDeriv in = x, out(n + 3, D::Deriv::Zero());
       in.resize(n + 3, D::Deriv::Zero());  // the last block may be filled up, and multiply reads behind it

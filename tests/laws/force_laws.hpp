@@ -118,7 +118,6 @@ struct SubjectOf : FieldSubject<D> {
     c.addToMatrix(p, MatrixSink<AssemblyPhase::bind, Matrix, Dofs>{matrix, dofs, dofs});
     matrix.setZero();
     c.addToMatrix(p, MatrixSink<AssemblyPhase::add, Matrix, Dofs>{matrix, dofs, dofs});
-    matrix.mirror();
   }
 
   struct OneLane : Subject<D> {

@@ -157,7 +157,6 @@ struct MappingSuite {
     mapping.addToMatrix(p, MatrixSink<AssemblyPhase::pattern, Matrix, DirectDofs<In::size>>{a, dofs, dofs});
     a.finishPattern();
     mapping.addToMatrix(p, MatrixSink<AssemblyPhase::add, Matrix, DirectDofs<In::size>>{a, dofs, dofs});
-    a.mirror();
     typename In::VecDeriv in = u, out(u.size() + 1, In::Deriv::Zero());
     in.push_back(In::Deriv::Zero());  // multiply reads behind it
     a.multiply(in[0].data(), out[0].data());

@@ -55,7 +55,6 @@ struct SubjectOf : Subject<D> {
     mass.addToMatrix(p, x, MatrixSink<AssemblyPhase::pattern, Matrix, Dofs>{matrix, dofs, dofs});
     matrix.finishPattern();
     mass.addToMatrix(p, x, MatrixSink<AssemblyPhase::add, Matrix, Dofs>{matrix, dofs, dofs});
-    matrix.mirror();
   }
 };
 

@@ -37,7 +37,12 @@ struct BlockLdl {
   void init(Matrix const& a, int systemDofs) {
     dofs = systemDofs;
     const int n = a.rows();
-    setOrder(minimum_degree_order(a.rowStart, a.columns));
+    std::vector<int> first{0}, columns;
+    for (int i = 0; i < n; ++i) {
+      a.forEachInRow(i, [&](int column, int, bool) { columns.push_back(column); });
+      first.push_back(int(columns.size()));
+    }
+    setOrder(minimum_degree_order(first, columns));
     analyse(a);
     std::vector<int> order;
     for (const int k : postorder(parent)) order.push_back(oldIndex[std::size_t(k)]);
@@ -64,9 +69,12 @@ struct BlockLdl {
     for (int k = 0; k < n; ++k) {
       // the column above the diagonal, and the rows of L that it reaches, in the order of elimination
       int top = n;
-      forEachBlock(a, k, [&](int i, int slot) {
-        work[std::size_t(i)] =
-            Eigen::Map<typename Matrix::Block const>(a.block(slot)).transpose().template cast<double>();
+      forEachBlock(a, k, [&](int i, int slot, bool turned) {
+        const Eigen::Map<typename Matrix::Block const> stored(a.block(slot));
+        if (turned)
+          work[std::size_t(i)] = stored.template cast<double>();
+        else
+          work[std::size_t(i)] = stored.transpose().template cast<double>();
         int length = 0;
         for (; mark[std::size_t(i)] != k && i != k; i = parent[std::size_t(i)]) {
           path[std::size_t(length++)] = i;
@@ -146,7 +154,7 @@ struct BlockLdl {
     filled.assign(n, 0);
     for (int k = 0; k < int(n); ++k) {
       mark[std::size_t(k)] = k;
-      forEachBlock(a, k, [&](int i, int) {
+      forEachBlock(a, k, [&](int i, int, bool) {
         for (; mark[std::size_t(i)] != k; i = parent[std::size_t(i)]) {
           if (parent[std::size_t(i)] < 0) parent[std::size_t(i)] = k;
           ++filled[std::size_t(i)];
@@ -155,12 +163,13 @@ struct BlockLdl {
       });
     }
   }
-  // f(new row, slot of the block across the diagonal) for the blocks of column k on and above the diagonal
+  // f(new row, slot, turned) for the blocks of column k on and above the diagonal; turned: as it stands in
+  // the slot, else transposed
   template <class F>
   void forEachBlock(Matrix const& a, int k, F&& f) const {
-    const std::size_t old = std::size_t(oldIndex[std::size_t(k)]);
-    for (int s = a.rowStart[old]; s < a.rowStart[old + 1]; ++s)
-      if (const int i = newIndex[std::size_t(a.columns[std::size_t(s)])]; i <= k) f(i, s);
+    a.forEachInRow(oldIndex[std::size_t(k)], [&](int column, int slot, bool turned) {
+      if (const int i = newIndex[std::size_t(column)]; i <= k) f(i, slot, turned);
+    });
   }
   // to = pivot^-1 by its own L D L'; returns the row of a pivot that vanishes, or -1
   int invert(Block pivot, Column const& diagonal, Block& to) {

@@ -8,14 +8,14 @@
 #include <cstddef>
 #include <cstring>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace sinew {
 
-/// Symmetric sparse matrix of dense B x B blocks in compressed rows, with a pattern that is fixed at init.
-/// Between setZero() and mirror() only the blocks on and above the diagonal are added to; mirror() then fills
-/// those below. Blocks are row-major. Rows and columns are counted in scalars where a name says `dof`, in
-/// blocks otherwise.
+/// Symmetric sparse matrix of dense B x B blocks, with a pattern that is fixed at init. Of it the blocks on
+/// and above the diagonal are stored, in compressed rows that begin with their diagonal block. Blocks are
+/// row-major. Rows and columns are counted in scalars where a name says `dof`, in blocks otherwise.
 template <class R, int B>
 struct CompressedRowSparseMatrix {
   using Real = R;
@@ -27,9 +27,9 @@ struct CompressedRowSparseMatrix {
              : (sizeof(R) == 8 ? "CompressedRowSparseMatrixd" : "CompressedRowSparseMatrixf");
 
   std::vector<int> rowStart{}, columns{};
+  std::vector<int> leftStart{}, leftColumns{};  // of the blocks left of the diagonal, which are not stored,
+  std::vector<int> leftSlots{};                 // and the slots of those across the diagonal
   std::vector<Real> values{};               // B*B a block, and one more so that kernels may read past the end
-  std::vector<int> diagonal{};              // slot of the diagonal block of each row
-  std::vector<int> mirrored{};              // slot of the block across the diagonal, for each slot
   std::vector<std::vector<int>> pattern{};  // block columns of each row, while the pattern is gathered
 
   int rows() const { return rowStart.empty() ? 0 : int(rowStart.size()) - 1; }
@@ -69,57 +69,57 @@ struct CompressedRowSparseMatrix {
   void finishPattern() {
     rowStart.assign(1, 0);
     columns.clear();
-    for (auto& row : pattern) {
-      compact(row);
-      columns.insert(columns.end(), row.begin(), row.end());
+    leftStart.assign(pattern.size() + 1, 0);
+    for (std::size_t i = 0; i < pattern.size(); ++i) {
+      compact(pattern[i]);
+      const auto diagonal = std::lower_bound(pattern[i].begin(), pattern[i].end(), int(i));
+      leftStart[i + 1] = leftStart[i] + int(diagonal - pattern[i].begin());
+      columns.insert(columns.end(), diagonal, pattern[i].end());
       rowStart.push_back(int(columns.size()));
     }
     pattern = {};
     values.assign(columns.size() * B * B + 1, Real(0));
-    diagonal.resize(std::size_t(rows()));
-    mirrored.resize(columns.size());
+    leftColumns.resize(std::size_t(leftStart.back()));
+    leftSlots.resize(leftColumns.size());
+    std::vector<int> next(leftStart.begin(), leftStart.end() - 1);
     for (int i = 0; i < rows(); ++i)
-      for (int k = rowStart[std::size_t(i)]; k < rowStart[std::size_t(i) + 1]; ++k) {
-        mirrored[std::size_t(k)] = slot(columns[std::size_t(k)], i);
-        if (columns[std::size_t(k)] == i) diagonal[std::size_t(i)] = k;
+      for (int k = rowStart[std::size_t(i)] + 1; k < rowStart[std::size_t(i) + 1]; ++k) {
+        const std::size_t left = std::size_t(next[std::size_t(columns[std::size_t(k)])]++);
+        leftColumns[left] = i;
+        leftSlots[left] = k;
       }
+    ends.assign(B == 3 ? std::size_t(rows()) : 0, End{});
   }
 
-  void setZero() {
-    for (int i = 0; i < rows(); ++i) {
-      Real* const first = block(diagonal[std::size_t(i)]);
-      std::memset(first, 0, std::size_t(block(rowStart[std::size_t(i) + 1]) - first) * sizeof(Real));
-    }
-  }
+  void setZero() { std::memset(values.data(), 0, values.size() * sizeof(Real)); }
 
-  void mirror() {
-    for (int i = 0; i < rows(); ++i)
-      for (int k = diagonal[std::size_t(i)] + 1; k < rowStart[std::size_t(i) + 1]; ++k) {
-        Real const* const upper = block(k);
-        Real* const lower = block(mirrored[std::size_t(k)]);
-        for (int r = 0; r < B; ++r)
-          for (int c = 0; c < B; ++c) lower[c * B + r] = upper[r * B + c];
-      }
-  }
-
-  /// Position of a block in `columns`, or -1 where the pattern has none.
+  /// Position of a block, or of the one across the diagonal, in `columns`; -1 where the pattern has none.
   int slot(int row, int column) const {
+    if (row > column) std::swap(row, column);
     const auto first = columns.begin() + rowStart[std::size_t(row)],
                last = columns.begin() + rowStart[std::size_t(row) + 1];
     const auto found = std::lower_bound(first, last, column);
     return found != last && *found == column ? int(found - columns.begin()) : -1;
   }
+  /// f(column, slot, turned) for each block of a row, from left to right; turned: the slot has its transpose.
+  template <class F>
+  void forEachInRow(int row, F&& f) const {
+    const std::size_t i = std::size_t(row);
+    for (int k = leftStart[i]; k < leftStart[i + 1]; ++k)
+      f(leftColumns[std::size_t(k)], leftSlots[std::size_t(k)], true);
+    for (int k = rowStart[i]; k < rowStart[i + 1]; ++k) f(columns[std::size_t(k)], k, false);
+  }
   Real* block(int slot) { return values.data() + std::ptrdiff_t(slot) * (B * B); }
   Real const* block(int slot) const { return values.data() + std::ptrdiff_t(slot) * (B * B); }
 
-  /// A(row.., column..) += K, in dofs; K of any size. What falls below the diagonal is left to
-  /// mirror().
+  /// A(row.., column..) += K, in dofs; K of any size. What falls below the diagonal is what the transpose of
+  /// K adds above it.
   template <class K>
   void add(int row, int column, K const& k) {
     const int h = int(k.rows()), w = int(k.cols());
     if constexpr (K::RowsAtCompileTime == B && K::ColsAtCompileTime == B)
       if (row == column && row % B == 0) {
-        Eigen::Map<Block>(block(diagonal[std::size_t(row / B)])) += k.template cast<Real>();
+        Eigen::Map<Block>(block(rowStart[std::size_t(row / B)])) += k.template cast<Real>();
         return;
       }
     for (int i = 0; i < h; ++i)
@@ -134,28 +134,30 @@ struct CompressedRowSparseMatrix {
       }
   }
 
-  /// Row and column `dof` become those of the identity; to be called after mirror().
+  /// Row and column `dof` become those of the identity; to be called when all has been added.
   void fix(int dof) {
     const int r = dof / B, s = dof % B;
-    for (int k = rowStart[std::size_t(r)]; k < rowStart[std::size_t(r) + 1]; ++k) {
-      const int c = columns[std::size_t(k)];
-      Real *row = block(k), *column = block(mirrored[std::size_t(k)]);
-      for (int j = 0; j < B; ++j) row[s * B + j] = column[j * B + s] = 0;
-      if (c == r) row[s * B + s] = 1;
-    }
+    forEachInRow(r, [&](int column, int slot, bool turned) {
+      Real* const entries = block(slot);
+      for (int j = 0; j < B; ++j) {
+        if (turned || column == r) entries[j * B + s] = 0;
+        if (!turned) entries[s * B + j] = 0;
+      }
+    });
+    block(rowStart[std::size_t(r)])[s * (B + 1)] = 1;
   }
 
   /// A = P A P + (I - P) on the dofs from `dof` on, with a symmetric projector P of any fixed size; to be
-  /// called after mirror(). The dofs are those of one point, and share their pattern.
+  /// called when all has been added. The dofs are those of one point, and share their pattern.
   template <class P>
   void project(int dof, P const& p) {
     constexpr int n = P::RowsAtCompileTime;
     const Mat<Real, n> projector = p.template cast<Real>();
     Mat<Real, n> own = Mat<Real, n>::Zero();
     const int r = dof / B;
-    for (int k = rowStart[std::size_t(r)]; k < rowStart[std::size_t(r) + 1]; ++k)
+    forEachInRow(r, [&](int column, int, bool) {
       for (int j = 0; j < B; ++j) {
-        const int c = columns[std::size_t(k)] * B + j;
+        const int c = column * B + j;
         Vec<Real, n> a = Vec<Real, n>::Zero();
         for (int i = 0; i < n; ++i)
           if (Real const* const entry = find(dof + i, c)) a[i] = *entry;
@@ -169,6 +171,7 @@ struct CompressedRowSparseMatrix {
           put(c, dof + i, a[i]);
         }
       }
+    });
     // columns of the own dofs that stand in blocks behind that of the first
     for (int c = (r + 1) * B; c < dof + n; ++c)
       for (int i = 0; i < n; ++i)
@@ -179,7 +182,7 @@ struct CompressedRowSparseMatrix {
   }
 
   /// A = P A P + (I - P), where P replaces each of the first coordinates of some points, whose dofs begin at
-  /// `starts`, by its mean over them; to be called after mirror().
+  /// `starts`, by its mean over them; to be called when all has been added.
   template <class Dofs>
   void projectToMean(Dofs const& starts, int coordinates) {
     const Real share = Real(1) / Real(starts.size());
@@ -195,14 +198,14 @@ struct CompressedRowSparseMatrix {
           if (Real const* const entry = find(dof + c, column)) total += *entry;
         return total;
       };
-      const std::size_t r = std::size_t((starts[0] + c) / B);
-      for (int k = rowStart[r]; k < rowStart[r + 1]; ++k)
+      forEachInRow((starts[0] + c) / B, [&](int blockColumn, int, bool) {
         for (int j = 0; j < B; ++j) {
-          const int column = columns[std::size_t(k)] * B + j;
+          const int column = blockColumn * B + j;
           if (own(column)) continue;
           const Real mean = sum(column) * share;
           for (const int dof : starts) put(dof + c, column, mean), put(column, dof + c, mean);
         }
+      });
       Real mean = 0;
       for (const int dof : starts) mean += sum(dof + c);
       mean *= share * share;
@@ -211,23 +214,24 @@ struct CompressedRowSparseMatrix {
     }
   }
 
-  /// y = A x, both of dofs() scalars, with one more scalar of any value readable behind x.
-  void multiply(Real const* x, Real* y) const {
-    if constexpr (B == 3) {
-      multiply3(x, y);
-    } else {
-      for (int i = 0; i < rows(); ++i) {
-        Vec<Real, B> sum = Vec<Real, B>::Zero();
-        for (int k = rowStart[std::size_t(i)]; k < rowStart[std::size_t(i) + 1]; ++k)
-          sum.noalias() += Eigen::Map<Block const>(block(k)) *
-                           Eigen::Map<Vec<Real, B> const>(x + columns[std::size_t(k)] * B);
-        Eigen::Map<Vec<Real, B>>(y + i * B) = sum;
-      }
-    }
+  /// y = A x, both of dofs() scalars, with one more scalar of any value readable behind x. Returns x.y.
+  double multiply(Real const* x, Real* y) {
+    if constexpr (B == 3)
+      return multiply3(x, y);
+    else
+      return multiplyAny(x, y);
   }
 
  private:
+  typedef Real Four __attribute__((vector_size(4 * sizeof(Real))));
+  // of the product: what a row multiplies with, and what blocks above have added to it
+  struct End {
+    Four x, y;
+  };
+  std::vector<End> ends{};
+
   Real* find(int row, int column) {
+    if (row / B > column / B) std::swap(row, column);
     const int s = slot(row / B, column / B);
     return s < 0 ? nullptr : block(s) + (row % B) * B + column % B;
   }
@@ -251,44 +255,71 @@ struct CompressedRowSparseMatrix {
     row.erase(std::unique(row.begin(), row.end()), row.end());
   }
 
-  // Each row of a block is loaded as four scalars and multiplied with four of x; the fourth products, of what
-  // stands behind, gather in a lane that is never read. Two blocks at a time keep six independent sums in
-  // flight.
-  void multiply3(Real const* x, Real* y) const {
-    typedef Real Four __attribute__((vector_size(4 * sizeof(Real))));
-    auto addProduct = [](Four& sum, Real const* row, Four const& p) {
-      Four a;
-      std::memcpy(&a, row, sizeof a);
-      sum += a * p;
-    };
-    auto sum = [](Four const& a) { return a[0] + a[1] + a[2]; };
-    const int n = rows();
-    int const* const column = columns.data();
-    for (int i = 0; i < n; ++i) {
-      Four a0{}, a1{}, a2{}, b0{}, b1{}, b2{};
+  double multiplyAny(Real const* x, Real* y) const {
+    using Column = Vec<Real, B>;
+    std::memset(y, 0, std::size_t(dofs()) * sizeof(Real));
+    double dot = 0;
+    for (int i = 0; i < rows(); ++i) {
+      const Column own = Eigen::Map<Column const>(x + i * B);
       int k = rowStart[std::size_t(i)];
-      const int end = rowStart[std::size_t(i) + 1];
-      Real const* v = block(k);
-      for (; k + 1 < end; k += 2, v += 18) {
-        Four p, q;
-        std::memcpy(&p, x + 3 * column[k], sizeof p);
-        std::memcpy(&q, x + 3 * column[k + 1], sizeof q);
-        addProduct(a0, v, p);
-        addProduct(a1, v + 3, p);
-        addProduct(a2, v + 6, p);
-        addProduct(b0, v + 9, q);
-        addProduct(b1, v + 12, q);
-        addProduct(b2, v + 15, q);
+      Column sum = Eigen::Map<Block const>(block(k)) * own;
+      for (++k; k < rowStart[std::size_t(i) + 1]; ++k) {
+        const Eigen::Map<Block const> a(block(k));
+        const int j = columns[std::size_t(k)] * B;
+        sum.noalias() += a * Eigen::Map<Column const>(x + j);
+        Eigen::Map<Column>(y + j).noalias() += a.transpose() * own;
       }
-      if (k < end) {
-        Four p;
-        std::memcpy(&p, x + 3 * column[k], sizeof p);
-        addProduct(a0, v, p);
-        addProduct(a1, v + 3, p);
-        addProduct(a2, v + 6, p);
-      }
-      y[3 * i] = sum(a0 + b0), y[3 * i + 1] = sum(a1 + b1), y[3 * i + 2] = sum(a2 + b2);
+      Eigen::Map<Column>(y + i * B) += sum;
+      for (int c = 0; c < B; ++c) dot += double(own[c]) * double(y[i * B + c]);
     }
+    return dot;
+  }
+
+  // Each block is read once, for its own row and, turned, for the row of its column: y_i += A x_j and y_j +=
+  // A' x_i. Its rows are loaded as four scalars; the fourth products, of what stands behind, gather in lanes
+  // that are never read. Two blocks at a time keep six independent sums in flight. Row i is complete when its
+  // turn has come: those above have left their parts in ends[i].y.
+  double multiply3(Real const* x, Real* y) {
+    typedef double Doubles __attribute__((vector_size(4 * sizeof(double))));
+    auto load = [](Four& to, Real const* from) { std::memcpy(&to, from, sizeof to); };
+    const std::size_t n = std::size_t(rows());
+    End* const end = ends.data();
+    for (std::size_t i = 0; i < n; ++i) load(end[i].x, x + 3 * i), end[i].y = Four{};
+    Real const* v = values.data();
+    int const *column = columns.data(), *start = rowStart.data();
+    Doubles dot{};
+    for (std::size_t i = 0; i < n; ++i) {
+      const Four own = end[i].x;
+      const Real x0 = own[0], x1 = own[1], x2 = own[2];
+      Four r0, r1, r2, s0, s1, s2;
+      load(r0, v), load(r1, v + 3), load(r2, v + 6);
+      Four a0 = r0 * own, a1 = r1 * own, a2 = r2 * own, b0{}, b1{}, b2{};
+      int const* const next = columns.data() + *++start;
+      for (++column, v += 9; column + 1 < next; column += 2, v += 18) {
+        End &a = end[std::size_t(column[0])], &b = end[std::size_t(column[1])];
+        load(r0, v), load(r1, v + 3), load(r2, v + 6);
+        load(s0, v + 9), load(s1, v + 12), load(s2, v + 15);
+        a0 += r0 * a.x, a1 += r1 * a.x, a2 += r2 * a.x;
+        b0 += s0 * b.x, b1 += s1 * b.x, b2 += s2 * b.x;
+        a.y += r0 * x0 + r1 * x1 + r2 * x2;
+        b.y += s0 * x0 + s1 * x1 + s2 * x2;
+      }
+      if (column < next) {
+        End& a = end[std::size_t(*column++)];
+        load(r0, v), load(r1, v + 3), load(r2, v + 6), v += 9;
+        a0 += r0 * a.x, a1 += r1 * a.x, a2 += r2 * a.x;
+        a.y += r0 * x0 + r1 * x1 + r2 * x2;
+      }
+      a0 += b0, a1 += b1, a2 += b2;
+      const Four even = __builtin_shufflevector(a0, a1, 0, 4, 2, 6),
+                 odd = __builtin_shufflevector(a0, a1, 1, 5, 3, 7);
+      const Four row =
+          (end[i].y + __builtin_shufflevector(even, a2, 0, 1, 4, 5)) +
+          (__builtin_shufflevector(odd, a2, 0, 1, 5, 5) + __builtin_shufflevector(even, a2, 2, 3, 6, 7));
+      dot += __builtin_convertvector(own, Doubles) * __builtin_convertvector(row, Doubles);
+      for (std::size_t c = 0; c < 3; ++c) y[3 * i + c] = row[c];
+    }
+    return dot[0] + dot[1] + dot[2];
   }
 };
 

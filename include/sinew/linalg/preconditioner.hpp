@@ -39,7 +39,7 @@ struct Preconditioner {
   double omega = 1;  // w of SSOR
   double shift = 0;  // of the diagonal, relative, that a factorisation needed to be positive
   std::vector<int> first{}, column{},
-      slot{};  // SSOR, IC: blocks left of the diagonal, and their slots in the matrix
+      slot{};  // SSOR, IC: blocks left of the diagonal, and the slots of their transposes in the matrix
   std::vector<Block> lower{}, inverse{};  // L with ones on its diagonal, D^-1
   BlockLdl<Matrix> factor{};
 
@@ -51,14 +51,7 @@ struct Preconditioner {
     first.assign(1, 0);
     column.clear();
     slot.clear();
-    if (triangular())
-      for (int i = 0; i < a.rows(); ++i) {
-        for (int s = a.rowStart[std::size_t(i)]; s < a.diagonal[std::size_t(i)]; ++s) {
-          column.push_back(a.columns[std::size_t(s)]);
-          slot.push_back(s);
-        }
-        first.push_back(int(column.size()));
-      }
+    if (triangular()) first = a.leftStart, column = a.leftColumns, slot = a.leftSlots;
     lower.assign(column.size(), Block::Zero());
     int longest = 0;
     for (std::size_t i = 0; i + 1 < first.size(); ++i) longest = std::max(longest, first[i + 1] - first[i]);
@@ -113,12 +106,13 @@ struct Preconditioner {
   // SSOR as L D L': L = I + w A_lower D^-1,  D^-1 <- w (2 - w) D^-1
   void scaleRows(Matrix const& a) {
     for (std::size_t p = 0; p < column.size(); ++p)
-      lower[p].noalias() = Real(omega) * Eigen::Map<typename Matrix::Block const>(a.block(slot[p])) *
+      lower[p].noalias() = Real(omega) *
+                           Eigen::Map<typename Matrix::Block const>(a.block(slot[p])).transpose() *
                            inverse[std::size_t(column[p])];
     for (Block& d : inverse) d *= Real(omega * (2 - omega));
   }
   Block diagonal(Matrix const& a, int i) const {
-    Block d = Eigen::Map<typename Matrix::Block const>(a.block(a.diagonal[std::size_t(i)]));
+    Block d = Eigen::Map<typename Matrix::Block const>(a.block(a.rowStart[std::size_t(i)]));
     for (int r = 0; r < B; ++r)
       if (i * B + r >= dofs) d(r, r) = 1;
     return d;
@@ -153,7 +147,7 @@ struct Preconditioner {
       d.diagonal() *= Real(1 + shift);
       for (int p = begin; p < end; ++p) {
         const std::size_t j = std::size_t(column[std::size_t(p)]);
-        Block u = Eigen::Map<typename Matrix::Block const>(a.block(slot[std::size_t(p)]));
+        Block u = Eigen::Map<typename Matrix::Block const>(a.block(slot[std::size_t(p)])).transpose();
         // less the products of what rows i and j have in common
         for (int q = begin, s = first[j]; q < p && s < first[j + 1];) {
           const int cq = column[std::size_t(q)], cs = column[std::size_t(s)];

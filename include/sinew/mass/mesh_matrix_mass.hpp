@@ -101,7 +101,7 @@ struct MeshMatrixMass {
       for (std::size_t i = 0; i < e.size(); ++i)
         for (std::size_t j = 0; j < e.size(); ++j) {
           const double m = density * mass(Eigen::Index(i), Eigen::Index(j));
-          values[std::size_t(consistent.slot(e[i], e[j]))] += m;
+          if (e[i] <= e[j]) values[std::size_t(consistent.slot(int(e[i]), int(e[j])))] += m;
           rows[std::size_t(e[i])] += m;
           total += m;
         }
@@ -119,13 +119,18 @@ struct MeshMatrixMass {
   }
   void addMDx(VecDeriv& f, VecCoord const& x, VecDeriv const& dx, double factor) const {
     if (lumping) return lumped.addMDx(f, x, dx, Real(factor));
-    for (int i = 0; i < consistent.rows(); ++i) f[std::size_t(i)] += Real(factor) * product(i, dx);
+    forEachPair([&](std::size_t i, std::size_t j, Real m) {
+      f[i] += Real(factor) * m * dx[j];
+      if (i != j) f[j] += Real(factor) * m * dx[i];
+    });
   }
   void accFromF(VecDeriv& a, VecCoord const& x, VecDeriv const& f) const { lumped.accFromF(a, x, f); }
   double kineticEnergy(VecCoord const& x, VecDeriv const& v) const {
     if (lumping) return lumped.kineticEnergy(x, v);
     double sum = 0;
-    for (int i = 0; i < consistent.rows(); ++i) sum += 0.5 * double(v[std::size_t(i)].dot(product(i, v)));
+    forEachPair([&](std::size_t i, std::size_t j, Real m) {
+      sum += (i == j ? 0.5 : 1) * double(m * v[i].dot(v[j]));
+    });
     return sum;
   }
 
@@ -139,7 +144,7 @@ struct MeshMatrixMass {
       if (offset % D::size == 0 && (Sink::phase == AssemblyPhase::bind || !slots.empty())) {
         std::size_t next = 0;
         for (int i = 0; i < consistent.rows(); ++i)
-          for (int k = consistent.diagonal[std::size_t(i)]; k < consistent.rowStart[std::size_t(i) + 1]; ++k)
+          for (int k = consistent.rowStart[std::size_t(i)]; k < consistent.rowStart[std::size_t(i) + 1]; ++k)
             if constexpr (Sink::phase == AssemblyPhase::bind) {
               slots.push_back(sink.matrix.slot(first + i, first + consistent.columns[std::size_t(k)]));
             } else {
@@ -151,20 +156,21 @@ struct MeshMatrixMass {
       }
     }
     if constexpr (Sink::phase != AssemblyPhase::bind)
-      for (int i = 0; i < consistent.rows(); ++i)
-        for (int k = consistent.rowStart[std::size_t(i)]; k < consistent.rowStart[std::size_t(i) + 1]; ++k) {
-          const Real m = Real(p.m * double(consistent.values[std::size_t(k)]));
-          sink.add(
-              i, consistent.columns[std::size_t(k)], Mat<Real, D::size>(Mat<Real, D::size>::Identity() * m));
-        }
+      forEachPair([&](std::size_t i, std::size_t j, Real m) {
+        const Mat<Real, D::size> block = Mat<Real, D::size>::Identity() * Real(p.m * double(m));
+        sink.add(int(i), int(j), block);
+        if (i != j) sink.add(int(j), int(i), block);
+      });
   }
 
  private:
-  Deriv product(int i, VecDeriv const& v) const {
-    Deriv sum = Deriv::Zero();
-    for (int k = consistent.rowStart[std::size_t(i)]; k < consistent.rowStart[std::size_t(i) + 1]; ++k)
-      sum += consistent.values[std::size_t(k)] * v[std::size_t(consistent.columns[std::size_t(k)])];
-    return sum;
+  // f(i, j, mass) for each pair of points i <= j
+  template <class F>
+  void forEachPair(F&& f) const {
+    for (std::size_t i = 0; i < std::size_t(consistent.rows()); ++i)
+      for (std::size_t k = std::size_t(consistent.rowStart[i]); k < std::size_t(consistent.rowStart[i + 1]);
+           ++k)
+        f(i, std::size_t(consistent.columns[k]), consistent.values[k]);
   }
 
   // f(points, number, integral of N_i N_j) for each element; returns how many there are

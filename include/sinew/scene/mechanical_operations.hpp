@@ -247,7 +247,6 @@ struct MechanicalOperations {
     [[maybe_unused]] const auto span = root.span(Phase::assembly);
     matrix.setZero();
     assemblePhase<AssemblyPhase::add>(matrix, factors);
-    matrix.mirror();
     traverse(root, on<role::ProjectiveConstraint>([&](auto& c, auto const& scope) {
                c.projectMatrix(constraintSink<AssemblyPhase::add>(matrix, c, scope));
              }));

@@ -94,10 +94,7 @@ struct CGLinearSolver {
       s.p = s.b;
       iterate(
           double(s.r.squaredNorm()),
-          [&] {
-            s.matrix.multiply(s.p.data(), s.q.data());
-            return double(s.p.dot(s.q));
-          },
+          [&] { return s.matrix.multiply(s.p.data(), s.q.data()); },
           [&](double alpha) { return vec::advance(s.x, s.p, s.r, s.q, Real(alpha)); },
           [&](double beta) { vec::turn(s.p, s.r, Real(beta)); });
       operations.scatter(x.id, s.x);

@@ -67,7 +67,7 @@ struct CholeskySolver {
       for (int s = matrix.rowStart[std::size_t(i)]; s < matrix.rowStart[std::size_t(i) + 1]; ++s)
         for (int r = 0; r < B; ++r)
           for (int c = 0; c < B; ++c)
-            lower(i * B + r, matrix.columns[std::size_t(s)] * B + c) = double(matrix.block(s)[r * B + c]);
+            lower(matrix.columns[std::size_t(s)] * B + c, i * B + r) = double(matrix.block(s)[r * B + c]);
   }
   // column by column, in place, D on the diagonal; the first dof whose pivot vanishes, or -1
   int factorise() {

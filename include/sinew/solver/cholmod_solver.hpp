@@ -163,7 +163,7 @@ struct CholmodSolver {
     constexpr int B = Matrix::blockSize;
     for (int i = 0; i < matrix.dofs(); ++i) {
       const std::size_t r = std::size_t(i / B);
-      for (int k = matrix.diagonal[r]; k < matrix.rowStart[r + 1]; ++k)
+      for (int k = matrix.rowStart[r]; k < matrix.rowStart[r + 1]; ++k)
         for (int c = 0; c < B; ++c)
           if (const int j = matrix.columns[std::size_t(k)] * B + c; j >= i)
             f(i, j, double(matrix.block(k)[i % B * B + c]));

@@ -40,18 +40,15 @@ struct PointRotations {
       for (int i = 0; i < n; ++i) {
         const int dof = s.dofOffset + i * D::size, row = dof / Matrix::blockSize;
         const std::size_t before = neighbours.size();
-        for (int k = matrix.rowStart[std::size_t(row)];
-             !D::rigid && k < matrix.rowStart[std::size_t(row) + 1];
-             ++k)
-          for (int c = 0; c < Matrix::blockSize; ++c) {
-            const int other =
-                (matrix.columns[std::size_t(k)] * Matrix::blockSize + c - s.dofOffset) / D::size;
-            if (matrix.columns[std::size_t(k)] * Matrix::blockSize + c < s.dofOffset || other >= n ||
-                other == i)
-              continue;
-            if (neighbours.size() == before || neighbours.back() != begin + other)
-              neighbours.push_back(begin + other);
-          }
+        if (!D::rigid)
+          matrix.forEachInRow(row, [&](int column, int, bool) {
+            for (int c = 0; c < Matrix::blockSize; ++c) {
+              const int otherDof = column * Matrix::blockSize + c, other = (otherDof - s.dofOffset) / D::size;
+              if (otherDof < s.dofOffset || other >= n || other == i) continue;
+              if (neighbours.size() == before || neighbours.back() != begin + other)
+                neighbours.push_back(begin + other);
+            }
+          });
         points.push_back({dof, D::spatial, vectors, int(before), int(neighbours.size())});
       }
     });
