@@ -44,7 +44,8 @@ TEST_CASE("MINRES, matrix-free and assembled, finds what L D L' finds") {
   const Run cg = run(CGLinearSolver<Matrix3d>{.tolerance = 1e-13});
   CHECK(std::is_sorted(formed.residuals.rbegin(), formed.residuals.rend()));
   for (int i = 0; i < std::min(formed.iterations(), cg.iterations()); ++i)
-    if (cg.residuals[std::size_t(i)] > 1e-9)  // below, the two runs have different right-hand sides
+    if (cg.residuals[std::size_t(i)] >
+        1.5e-8)  // sqrt(eps): below, Lanczos' vectors are not orthogonal (Paige 1980)
       CHECK(formed.residuals[std::size_t(i)] < cg.residuals[std::size_t(i)] * (1 + 1e-4));
 }
 

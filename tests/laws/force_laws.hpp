@@ -274,7 +274,7 @@ struct ForceSuite {
     productsAgree(c, blocks);
   }
   template <class Matrix>
-  void productsAgree(Subject<D>& c, Matrix const& matrix) {
+  void productsAgree(Subject<D>& c, Matrix& matrix) {
     const VecDeriv dx = sample::derivs<D>(n, random), free = product(c, dx, 0.7, 0.3);
     VecDeriv in = dx, out = zero;
     in.push_back(D::Deriv::Zero());  // multiply reads behind its end

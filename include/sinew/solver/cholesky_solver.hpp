@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/phase.hpp>
 #include <sinew/linalg/block_ldl.hpp>
 #include <sinew/solver/linear_system.hpp>
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/core/error.hpp>
+#include <sinew/core/small_matrix.hpp>
 #include <sinew/topology/implicit_surface.hpp>
 
 #include <Eigen/Core>
