@@ -124,7 +124,8 @@ struct AttachProjectiveConstraint {
       if (twoWay)
         shareMean(ends, group, [&](Member const&) { return Real(1) / Real(group.size()); });
       else
-        for (Member const& m : group.subspan(1)) of(ends, m).head(coordinates()).setZero();
+        for (Member const& m : group.subspan(1))
+          for (int c = 0; c < coordinates(); ++c) of(ends, m)[c] = 0;
     });
   }
   template <class... V>
@@ -192,7 +193,8 @@ struct AttachProjectiveConstraint {
     const typename D::Deriv first = of(ends, group[0]);
     typename D::Deriv mean = first;
     for (Member const& m : group) mean += weight(m) * (of(ends, m) - first);
-    for (Member const& m : group) of(ends, m).head(coordinates()) = mean.head(coordinates());
+    for (Member const& m : group)
+      for (int c = 0; c < coordinates(); ++c) of(ends, m)[c] = mean[c];
   }
   template <class Sink>
   std::span<int const> dofsOf(Sink const& sink, std::span<Member const> group) {
