@@ -244,9 +244,7 @@ struct ElementDriver {
   SINEW_INLINE static void scatter(Pack const& pack, typename DL::Deriv (&from)[arity], Derivs const& to) {
     constexpr int n = realsOf<Deriv>;
     if constexpr (W == 1) {
-      for (int k = 0; k < arity; ++k) {
-        to[std::size_t(k)][pack.index[k][0]] += from[k];
-      }
+      for (int k = 0; k < arity; ++k) to[std::size_t(k)][pack.index[k][0]] += from[k];
     } else if constexpr (n == 3 && W >= 4) {
       if (pack.active != W) [[unlikely]]
         for (int k = 0; k < arity; ++k)
@@ -262,9 +260,14 @@ struct ElementDriver {
         (transpose<n>(reinterpret_cast<L const*>(&from[K]), ofLane[K]), ...);
       }
       (std::make_integer_sequence<int, arity>{});
+      auto add = [&](int k, int l) {
+        addTo<n>(reinterpret_cast<Real*>(to[std::size_t(k)] + pack.index[k][l]), ofLane[k][l]);
+      };
       for (int k = 0; k < arity; ++k)
-        for (int l = 0; l < pack.active; ++l)
-          addTo<n>(reinterpret_cast<Real*>(to[std::size_t(k)] + pack.index[k][l]), ofLane[k][l]);
+        if (pack.active == W)
+          for (int l = 0; l < W; ++l) add(k, l);
+        else
+          for (int l = 0; l < pack.active; ++l) add(k, l);
     }
   }
 
