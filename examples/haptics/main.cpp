@@ -53,11 +53,16 @@ int main(int argc, char** argv) try {
 
   const long steps = std::lround(options.seconds / options.dt);
   examples::Progress progress(std::max(steps, 1l));
-  long done = 0;
+  long done = 0, touching = 0;
+  double pushed = 0;
   loop.start();
   loop.run(options.seconds, options.dt, [&](ToolTarget const& target) {
     progress.at(++done);
-    return examples::haptic_step(sim, target, options.dt);
+    const ToolState tool = examples::haptic_step(sim, target, options.dt);
+    const double push = examples::contact_force(sim).norm();
+    touching += push > 0;
+    pushed = std::max(pushed, push);
+    return tool;
   });
   loop.stop();
 
@@ -73,6 +78,8 @@ int main(int argc, char** argv) try {
   std::printf("%-34s %9.3f N, largest jump %.3f N\n", "largest force", s.largestForce, s.largestJump);
   std::printf(
       "%-34s %9.4f N m, largest jump %.4f N m\n", "largest torque", s.largestTorque, s.largestTorqueJump);
+  std::printf(
+      "%-34s %9ld of %ld, largest force %.3f N\n", "steps in which the tip touches", touching, done, pushed);
   std::printf("%-34s %9ld of %ld\n\n", "steps longer than dt", s.lateSteps, long(s.step.count()));
   std::printf("%-34s %9s %9s %9s %9s\n", "", "mean", "99 %", "99.9 %", "worst");
   row("wake after the deadline", s.late);

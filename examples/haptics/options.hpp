@@ -8,6 +8,8 @@ struct HapticOptions {
   double seconds = 60, dt = 0.01, rate = 1000;
   int cells = 7;  // along each side of the block
   double youngModulus = 4000, poissonRatio = 0.4;
+  double contactStiffness = 1000;  // of tip and skin [N/m]
+  double friction = 0.2;
   int iterations = 25;
   int priority = 80;
 };

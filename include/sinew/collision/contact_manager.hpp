@@ -16,18 +16,34 @@
 
 namespace sinew {
 
+namespace detail {
+/// The name that the first response that has one gives its manager; nothing where none has.
+template <class... Responses>
+consteval std::string_view manager_name() {
+  std::string_view name;
+  auto look = [&]<class R>(R const*) {
+    if constexpr (requires { R::managerName; })
+      if (name.empty()) name = R::managerName;
+  };
+  (look(static_cast<Responses const*>(nullptr)), ...);
+  return name;
+}
+}  // namespace detail
+
 /// Keeps the contacts from step to step and has them answered: by the response of a model that names one,
 /// else by its own. A contact is known again by the vertices that meet; what its response remembers goes with
 /// it. Contacts stand in the order of their keys, whatever the order in which they were found.
 ///
 /// `Responses`: laws of force (ContactLaw), and what changes components that are touched (TouchResponse).
 /// Two models together have the stiffness k1 k2 / (contact distance), the sum of frictions and of dampings,
-/// as in SOFA.
+/// as in SOFA. A response that has a `managerName` names the class, so that scene files may choose between it
+/// and others.
 template <class... Responses>
 struct ContactManager {
   using Role = role::ContactManager;
-  static constexpr std::string_view className = "DefaultContactManager";
-  static constexpr std::string_view aliases = "CollisionResponse";
+  static constexpr std::string_view ownName = detail::manager_name<Responses...>();
+  static constexpr std::string_view className = ownName.empty() ? "DefaultContactManager" : ownName;
+  static constexpr std::string_view aliases = ownName.empty() ? "CollisionResponse" : "";
 
   std::string response = "PenalityContactForceField";
   int capacity = 1000;

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSL-1.0
+// A contact manager of one's own beside the default one, in one registry, each by its name.
+#include <sinew/collision/brute_force_broad_phase.hpp>
+#include <sinew/collision/bvh_narrow_phase.hpp>
+#include <sinew/collision/contact_manager.hpp>
+#include <sinew/collision/default_pipeline.hpp>
+#include <sinew/collision/min_proximity_intersection.hpp>
+#include <sinew/collision/sphere_collision_model.hpp>
+#include <sinew/core/registry.hpp>
+#include <sinew/force/gravity.hpp>
+#include <sinew/mass/uniform_mass.hpp>
+#include <sinew/runtime/read_scene.hpp>
+#include <sinew/runtime/runtime.hpp>
+#include <sinew/runtime/save_scene.hpp>
+#include <sinew/solver/cg_linear_solver.hpp>
+#include <sinew/solver/euler_implicit.hpp>
+#include <sinew/state/mechanical_object.hpp>
+
+#include "catch.hpp"
+
+using namespace sinew;
+
+namespace {
+
+/// Pushes with 1 N, however deep.
+struct ConstantContact {
+  static constexpr std::string_view className = "ConstantContact";
+  static constexpr std::string_view managerName = "ConstantContactManager";
+
+  void evaluate(Contact& c, Eigen::Vector3d const&, Eigen::Vector3d const&) const {
+    c.force = c.normal;
+    c.stiffnessMatrix.setZero();
+    c.dampingMatrix.setZero();
+  }
+  void settle(Contact&, Eigen::Vector3d const&) const {}
+};
+using ConstantContactManager = ContactManager<PenalityContactForceField, ConstantContact>;
+
+struct Mine
+    : Registry<Gravity, DefaultPipeline, BruteForceBroadPhase, BVHNarrowPhase, MinProximityIntersection,
+               DefaultContactManager, ConstantContactManager, EulerImplicitSolver, CGLinearSolver<>,
+               MechanicalObject<Vec3d>, UniformMass<Vec3d>, SphereCollisionModel<Vec3d>> {};
+
+// two balls of 2 kg, 0.9 m apart and 1 m wide
+std::string balls(std::string const& manager) {
+  return R"(<Node name="root" gravity="0 0 0"><DefaultPipeline/><BruteForceBroadPhase/><BVHNarrowPhase/>
+    <MinProximityIntersection alarmDistance="0.2" contactDistance="0.1"/><)" +
+         manager + R"(/>
+    <Node name="balls"><EulerImplicitSolver/><CGLinearSolver iterations="25" tolerance="1e-12" threshold="0"/>
+      <MechanicalObject template="Vec3d" position="0 0 0  0.9 0 0"/><UniformMass vertexMass="2"/>
+      <SphereCollisionModel selfCollision="true" radius="0.5" contactStiffness="10"/></Node></Node>)";
+}
+
+// speed of the second ball after one step of 0.01 s
+double pushed(Simulation<RuntimeNode<Mine>>& sim) {
+  sim.init();
+  sim.animate(0.01);
+  return sim.root().find_node("balls")->get<MechanicalObject<Vec3d>>()->velocity[1][0];
+}
+
+}  // namespace
+
+static_assert(DefaultContactManager::className == "DefaultContactManager");
+static_assert(ConstantContactManager::className == "ConstantContactManager");
+
+TEST_CASE("a registry holds the default contact manager and one of one's own, each by its name") {
+  // k = 10 * 10 / (0.1 + 2 * 0.5) N/m is pressed by 0.2 m: each ball of m moves by v h, the two by 2 v h,
+  // m v = h (k d - 2 k h v)
+  const double k = 100 / 1.1, h = 0.01;
+  for (std::string const name : {"DefaultContactManager", "CollisionResponse"}) {
+    Simulation byDefault{parse_scene<Mine>("balls.scn", balls(name)).root};
+    CHECK(pushed(byDefault) == Approx(h * k * 0.2 / (2 + 2 * k * h * h)).epsilon(1e-9));
+  }
+  Simulation own{
+      parse_scene<Mine>("balls.scn", balls(R"(ConstantContactManager response="ConstantContact")")).root};
+  CHECK(pushed(own) == Approx(h * 1 / 2).epsilon(1e-9));
+  CHECK(own.root().get<ConstantContactManager>());
+  CHECK_FALSE(own.root().get<DefaultContactManager>());
+  Simulation same{parse_scene<Mine>("balls.scn", balls(R"(ConstantContactManager response="default")")).root};
+  CHECK(pushed(same) == Approx(h * k * 0.2 / (2 + 2 * k * h * h)).epsilon(1e-9));
+}
+
+TEST_CASE("a contact manager of one's own is saved under its name, and read again") {
+  Simulation sim{
+      parse_scene<Mine>("balls.scn", balls(R"(ConstantContactManager response="ConstantContact")")).root};
+  pushed(sim);
+  const std::string saved = scene_text(sim, 0.01);
+  CHECK_THAT(saved, Catch::Contains("<ConstantContactManager"));
+  CHECK_THAT(saved, !Catch::Contains("DefaultContactManager"));
+  Simulation again{parse_scene<Mine>("saved.scn", saved).root};
+  again.init();
+  sim.animate(0.01), again.animate(0.01);
+  CHECK(again.root().find_node("balls")->get<MechanicalObject<Vec3d>>()->velocity ==
+        sim.root().find_node("balls")->get<MechanicalObject<Vec3d>>()->velocity);
+}
+
+TEST_CASE("the default contact manager does not know the response of another one, and names what it has") {
+  Simulation sim{
+      parse_scene<Mine>("balls.scn", balls(R"(DefaultContactManager response="ConstantContact")")).root};
+  CHECK_THROWS_WITH(sim.init(),
+                    Catch::Contains("'ConstantContact'") && Catch::Contains("StickContactForceField"));
+}
