@@ -3,11 +3,13 @@
 
 #include <sinew/core/data_types.hpp>
 #include <sinew/core/error.hpp>
+#include <sinew/linalg/sliced_rows.hpp>
 
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -29,7 +31,8 @@ struct CompressedRowSparseMatrix {
   std::vector<int> rowStart{}, columns{};
   std::vector<int> leftStart{}, leftColumns{};  // of the blocks left of the diagonal, which are not stored,
   std::vector<int> leftSlots{};                 // and the slots of those across the diagonal
-  std::vector<Real> values{};               // B*B a block, and one more so that kernels may read past the end
+  // B*B a block; then a block of zeros, and one more so that kernels may read past the end
+  std::vector<Real> values{};
   std::vector<std::vector<int>> pattern{};  // block columns of each row, while the pattern is gathered
 
   int rows() const { return rowStart.empty() ? 0 : int(rowStart.size()) - 1; }
@@ -78,7 +81,7 @@ struct CompressedRowSparseMatrix {
       rowStart.push_back(int(columns.size()));
     }
     pattern = {};
-    values.assign(columns.size() * B * B + 1, Real(0));
+    values.assign((columns.size() + 1) * B * B + 1, Real(0));
     leftColumns.resize(std::size_t(leftStart.back()));
     leftSlots.resize(leftColumns.size());
     std::vector<int> next(leftStart.begin(), leftStart.end() - 1);
@@ -89,9 +92,13 @@ struct CompressedRowSparseMatrix {
         leftSlots[left] = k;
       }
     ends.assign(B == 3 ? std::size_t(rows()) : 0, End{});
+    if constexpr (sliceable) sliced.init(rowStart, columns, int(columns.size()));
   }
 
-  void setZero() { std::memset(values.data(), 0, values.size() * sizeof(Real)); }
+  void setZero() {
+    std::memset(values.data(), 0, values.size() * sizeof(Real));
+    changed();
+  }
 
   /// Position of a block, or of the one across the diagonal, in `columns`; -1 where the pattern has none.
   int slot(int row, int column) const {
@@ -109,7 +116,10 @@ struct CompressedRowSparseMatrix {
       f(leftColumns[std::size_t(k)], leftSlots[std::size_t(k)], true);
     for (int k = rowStart[i]; k < rowStart[i + 1]; ++k) f(columns[std::size_t(k)], k, false);
   }
-  Real* block(int slot) { return values.data() + std::ptrdiff_t(slot) * (B * B); }
+  Real* block(int slot) {
+    changed();
+    return values.data() + std::ptrdiff_t(slot) * (B * B);
+  }
   Real const* block(int slot) const { return values.data() + std::ptrdiff_t(slot) * (B * B); }
 
   /// A(row.., column..) += K, in dofs; K of any size. What falls below the diagonal is what the transpose of
@@ -216,6 +226,13 @@ struct CompressedRowSparseMatrix {
 
   /// y = A x, both of dofs() scalars, with one more scalar of any value readable behind x. Returns x.y.
   double multiply(Real const* x, Real* y) {
+    if constexpr (sliceable) {
+      if (sliced.suits()) {
+        if (sliced.products == 3) sliced.pack(values.data()), ++sliced.products;
+        return sliced.multiply(x, y);
+      }
+      ++sliced.products;
+    }
     if constexpr (B == 3)
       return multiply3(x, y);
     else
@@ -229,6 +246,13 @@ struct CompressedRowSparseMatrix {
     Four x, y;
   };
   std::vector<End> ends{};
+  static constexpr bool sliceable = B == 3 && SlicedRows<Real>::possible;
+  struct Nothing {};
+  [[no_unique_address]] std::conditional_t<sliceable, SlicedRows<Real>, Nothing> sliced{};
+
+  void changed() {
+    if constexpr (sliceable) sliced.products = 0;
+  }
 
   Real* find(int row, int column) {
     if (row / B > column / B) std::swap(row, column);

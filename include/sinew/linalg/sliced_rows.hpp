@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/lanes.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstring>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace sinew {
+
+/// A copy of a symmetric matrix of 3 x 3 blocks, for products in lanes where points are numbered as in a
+/// grid. W rows of blocks are a slice. For each distance d at which one of them has a block right of its
+/// diagonal there is a slab: lane l has the block (row l, row l + d), or zeros. Then what a slab multiplies
+/// with, and adds to, are W points one behind the other, and no lane is gathered (the diagonals of Saad,
+/// Iterative Methods for Sparse Linear Systems, 2003, 3.4, within slices). A block costs half of what it
+/// costs row by row.
+template <class Real>
+struct SlicedRows {
+  static constexpr int W = native_width<Real>;
+  static constexpr bool possible = W >= 4;
+  using L = lanes<Real, W>;
+
+  struct Source {
+    int of[W];  // three times the slot of the block of each lane of a slab
+  };
+  std::vector<int> sliceStart{};  // first slab of each slice; none where the pattern does not suit
+  std::vector<int> distances{};   // of each slab
+  std::vector<Source> sources{};
+  std::vector<std::array<L, 9>> blocks{};
+  std::vector<Real> x{}, y{};  // by components: all x, all y, all z
+  std::size_t stride = 0;
+  int rows = 0;
+  int products = 0;  // since the matrix last changed
+
+  /// Whether the next product should be one of slices. They are filled before the fourth, since that costs as
+  /// much as what is gained in three or four.
+  bool suits() const { return products >= 3 && !sliceStart.empty(); }
+
+  /// From the rows of a matrix, which begin with their diagonal blocks; `zero` is the slot of a block of
+  /// zeros.
+  void init(std::vector<int> const& rowStart, std::vector<int> const& columns, int zero) {
+    *this = {};
+    rows = int(rowStart.size()) - 1;
+    const std::size_t most = columns.size() + columns.size() / 5;  // of lanes, with those that are empty
+    sliceStart.push_back(0);
+    for (int first = 0; first < rows; first += W) {
+      std::map<int, Source> slice;
+      for (int i = first; i < std::min(first + W, rows); ++i)
+        for (int k = rowStart[std::size_t(i)]; k < rowStart[std::size_t(i) + 1]; ++k) {
+          const auto [at, added] = slice.try_emplace(columns[std::size_t(k)] - i);
+          if (added) std::fill(at->second.of, at->second.of + W, 3 * zero);
+          at->second.of[i - first] = 3 * k;
+        }
+      if ((distances.size() + slice.size()) * std::size_t(W) > most + std::size_t(W) * W) {
+        *this = {};
+        return;
+      }
+      append({slice.begin(), slice.end()});
+      sliceStart.push_back(int(distances.size()));
+    }
+    blocks.resize(distances.size());
+    stride = (std::size_t(rows) / W + 3) * W;
+    x.assign(3 * stride, Real(0));
+    y.assign(3 * stride, Real(0));
+  }
+
+  /// The blocks anew, from those of the matrix, row-major one behind the other.
+  void pack(Real const* values) {
+    for (std::size_t s = 0; s < sources.size(); ++s)
+      for (std::size_t r = 0; r < 3; ++r) gather3(values + 3 * r, sources[s].of, &blocks[s][3 * r]);
+  }
+
+  /// out = A in. Returns in.out. One scalar behind `in` is read.
+  double multiply(Real const* in, Real* out) {
+    using Doubles = typename Lanes<double, W>::Vector;
+    auto load = [](Real const* from) {
+      L lanes;
+      std::memcpy(&lanes.v, from, sizeof lanes.v);
+      return lanes;
+    };
+    auto store = [](Real* to, L lanes) { std::memcpy(to, &lanes.v, sizeof lanes.v); };
+    Doubles dot{};
+    Real const *const x0 = x.data(), *const x1 = x0 + stride, *const x2 = x1 + stride;
+    Real *const y0 = y.data(), *const y1 = y0 + stride, *const y2 = y1 + stride;
+    int const* const starts = sliceStart.data();
+    for (int first = 0; first < rows; first += W) begin(in, first);
+    for (int first = 0, slice = 0; first < rows; first += W, ++slice) {
+      const L own0 = load(x0 + first), own1 = load(x1 + first), own2 = load(x2 + first);
+      int s = starts[slice];
+      L const* a = blocks[std::size_t(s)].data();
+      L sum0 = a[0] * own0 + a[1] * own1 + a[2] * own2, sum1 = a[3] * own0 + a[4] * own1 + a[5] * own2,
+        sum2 = a[6] * own0 + a[7] * own1 + a[8] * own2;
+      for (++s, a += 9; s < starts[slice + 1]; ++s, a += 9) {
+        const int j = first + distances[std::size_t(s)];
+        const L other0 = load(x0 + j), other1 = load(x1 + j), other2 = load(x2 + j);
+        const L a00 = a[0], a01 = a[1], a02 = a[2], a10 = a[3], a11 = a[4], a12 = a[5], a20 = a[6],
+                a21 = a[7], a22 = a[8];
+        const L b0 = load(y0 + j) + a00 * own0 + a10 * own1 + a20 * own2,
+                b1 = load(y1 + j) + a01 * own0 + a11 * own1 + a21 * own2,
+                b2 = load(y2 + j) + a02 * own0 + a12 * own1 + a22 * own2;
+        sum0 += a00 * other0 + a01 * other1 + a02 * other2;
+        sum1 += a10 * other0 + a11 * other1 + a12 * other2;
+        sum2 += a20 * other0 + a21 * other1 + a22 * other2;
+        store(y0 + j, b0), store(y1 + j, b1), store(y2 + j, b2);
+      }
+      sum0 += load(y0 + first), sum1 += load(y1 + first), sum2 += load(y2 + first);
+      const L product = own0 * sum0 + own1 * sum1 + own2 * sum2;
+      dot += __builtin_convertvector(product.v, Doubles);
+      join(sum0, sum1, sum2, out + 3 * first, std::min(W, rows - first));
+    }
+    double total = 0;
+    for (int l = 0; l < W; ++l) total += dot[l];
+    return total;
+  }
+
+ private:
+  // Slabs of nearly the same distance add to nearly the same points: what one has written cannot be read at
+  // once in other vectors, so that those come far apart. The diagonal stays first.
+  void append(std::vector<std::pair<int, Source>> const& slice) {
+    auto add = [&](std::size_t k) {
+      distances.push_back(slice[k].first);
+      sources.push_back(slice[k].second);
+    };
+    add(0);
+    const std::size_t n = slice.size(), step = n / 4 + 1;
+    for (std::size_t from = 1; from <= step; ++from)
+      for (std::size_t k = from; k < n; k += step) add(k);
+  }
+
+  // x of W points by components, and y = 0
+  SINEW_INLINE void begin(Real const* in, int first) {
+    L of[3];
+    if (first + W <= rows) {
+      gather3(in + 3 * first, inRow.of, of);
+    } else {
+      for (L& component : of) component = L(0);
+      for (int i = first; i < rows; ++i)
+        for (int c = 0; c < 3; ++c) of[c].set(i - first, in[3 * i + c]);
+    }
+    const L zero(0);
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::size_t at = c * stride + std::size_t(first);
+      std::memcpy(&x[at], &of[c].v, sizeof of[c].v);
+      std::memcpy(&y[at], &zero.v, sizeof zero.v);
+    }
+  }
+  static constexpr Source inRow = [] {
+    Source all{};
+    for (int l = 0; l < W; ++l) all.of[l] = l;
+    return all;
+  }();
+
+  SINEW_INLINE static void join(L a, L b, L c, Real* out, int n) {
+    const L in[3] = {a, b, c};
+    alignas(64) Real points[W][4];
+    transpose<3>(in, points);
+    if (n == W)
+      for (int l = 0; l < W; ++l) std::memcpy(out + 3 * l, points[l], 3 * sizeof(Real));
+    else
+      for (int l = 0; l < n; ++l) std::memcpy(out + 3 * l, points[l], 3 * sizeof(Real));
+  }
+};
+
+}  // namespace sinew
