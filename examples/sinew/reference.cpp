@@ -65,7 +65,8 @@ RoleWords words_of(sinew::RoleKind role) {
        {"Intersection methods", "Say where two primitives meet."},
        {"Contact managers", "Keep the contacts from step to step, and have them answered."},
        {"Collision models", "Primitives over the points of the state of the node."},
-       {"Carving", "Takes away what tools touch."}});
+       {"Carving", "Takes away what tools touch."},
+       {"Execution", "By which threads of the processor the solvers of the node and its children work."}});
   static_assert(all.size() == enum_names(sinew::RoleKind{}).size());
   return all[std::size_t(role)];
 }

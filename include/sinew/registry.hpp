@@ -130,7 +130,7 @@ using StandardCollision =
 
 /// Every component that Sinew brings, over the DataTypes that scenes use.
 struct Standard
-    : Registry<Gravity, StandardTopologies, MadeMeshes, VisualModel, StandardEngines, StandardForces,
+    : Registry<Gravity, Threads, StandardTopologies, MadeMeshes, VisualModel, StandardEngines, StandardForces,
                StandardMappings, StandardSolvers, StandardCollision, Playback<Vec3d>, Playback<Rigid3d>> {};
 
 /// The same over the rarer DataTypes too: what the law suites prove.

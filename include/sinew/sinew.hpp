@@ -32,6 +32,7 @@
 #include <sinew/constraint/project_to_point.hpp>
 #include <sinew/control/read_state.hpp>
 #include <sinew/control/step_callback.hpp>
+#include <sinew/control/threads.hpp>
 #include <sinew/control/write_state.hpp>
 #include <sinew/engine/box_roi.hpp>
 #include <sinew/engine/generate_rigid_mass.hpp>

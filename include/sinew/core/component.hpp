@@ -4,6 +4,7 @@
 #include <sinew/core/data_types.hpp>
 #include <sinew/core/fields.hpp>
 #include <sinew/core/mesh.hpp>
+#include <sinew/core/part.hpp>
 #include <sinew/core/renumbering.hpp>
 #include <sinew/core/vec_id.hpp>
 
@@ -38,6 +39,7 @@ struct Intersection;       // where two primitives meet
 struct ContactManager;     // what answers it
 struct CollisionModel;     // primitives over the points of a state
 struct Carving;            // which elements go where something touches
+struct Execution;          // by which threads the solvers of the subtree work
 }  // namespace role
 
 template <class C, class R>
@@ -80,6 +82,7 @@ struct MechanicalParams {
   double time = 0, dt = 0;
   Eigen::Vector3d gravity{0, 0, 0};
   double m = 0, b = 0, k = 0;
+  Part part{};  // for a component that takes_parts
 };
 
 /// What a force field claims of itself (as `properties()`), and the law suite proves. The defaults are those

@@ -3,6 +3,7 @@
 
 #include <sinew/core/assembly.hpp>
 #include <sinew/core/data_types.hpp>
+#include <sinew/core/late_sums.hpp>
 
 #include <algorithm>
 #include <array>
@@ -52,6 +53,10 @@ struct ElementDriver {
   };
   std::vector<Pack> packs{};
   std::vector<Slots> slots{};
+  // of parts that run at once
+  int parts = 1;
+  LateSums lateForces{}, lateBlocks{};
+  mutable std::vector<Real> keptForces{}, keptBlocks{};
 
   /// The last pack is filled up with copies of its last element, which are computed and never scattered.
   void init(std::vector<Indices> const& elements, std::vector<Rest> const& rest) {
@@ -60,6 +65,7 @@ struct ElementDriver {
     constexpr std::size_t reals = sizeof(Rest) / sizeof(Real);
     packs = std::vector<Pack>((elements.size() + W - 1) / W);
     slots.clear();
+    forget();
     int last = 0;
     for (auto const& element : elements)
       for (const int i : element) last = std::max(last, i);
@@ -82,6 +88,34 @@ struct ElementDriver {
     }
   }
 
+  /// Prepares for so many parts at once, with at least so many elements each; where there are too few, there
+  /// are fewer parts.
+  void split(int threads, std::size_t least = 256) {
+    parts = int(std::min(std::size_t(threads), size() / least));
+    if (parts < 2 || threads < 2) {
+      forget();
+      return;
+    }
+    int last = 0;
+    for (Pack const& pack : packs)
+      for (auto const& ends : pack.index) last = std::max(last, *std::max_element(ends, ends + W));
+    lateForces.plan(parts, packs.size(), arity * W, std::size_t(last) + 1, [&](std::size_t p, auto&& f) {
+      for (auto const& ends : packs[p].index)
+        for (int l = 0; l < W; ++l) f(l < packs[p].active ? ends[l] : -1);
+    });
+    keptForces.resize(lateForces.roomCount() * realsOf<Deriv>);
+    lateBlocks = {};
+    if (!slots.empty()) {
+      for (Slots const& s : slots)
+        for (auto const& all : s.slot) last = std::max(last, *std::max_element(all, all + W));
+      lateBlocks.plan(parts, packs.size(), pairs * W, std::size_t(last) + 1, [&](std::size_t p, auto&& f) {
+        for (auto const& all : slots[p].slot)
+          for (int l = 0; l < W; ++l) f(l < packs[p].active ? all[l] : -1);
+      });
+    }
+    keptBlocks.resize(lateBlocks.roomCount() * D::size * D::size);
+  }
+
   std::size_t size() const {
     return packs.empty() ? 0 : W * (packs.size() - 1) + std::size_t(packs.back().active);
   }
@@ -93,6 +127,7 @@ struct ElementDriver {
   std::size_t removeIf(Gone&& gone) {
     const std::size_t n = size();
     std::size_t stay = 0;
+    forget();
     int last = 0;
     for (Pack const& pack : packs)
       for (auto const& ends : pack.index) last = std::max(last, *std::max_element(ends, ends + W));
@@ -120,33 +155,38 @@ struct ElementDriver {
     return ends;
   }
   template <class VecDeriv, class VecCoord>
-  void addForce(Law const& law, VecDeriv& f, VecCoord const& x, VecDeriv const& v) {
-    addForce(law, oneBody(f.data()), oneBody(x.data()), oneBody(v.data()));
+  void addForce(Law const& law, VecDeriv& f, VecCoord const& x, VecDeriv const& v, Part part = {}) {
+    addForce(law, oneBody(f.data()), oneBody(x.data()), oneBody(v.data()), part);
   }
   template <class VecDeriv>
-  void addDForce(Law const& law, VecDeriv& df, VecDeriv const& dx, Real k, Real b) const {
-    addDForce(law, oneBody(df.data()), oneBody(dx.data()), k, b);
+  void addDForce(Law const& law, VecDeriv& df, VecDeriv const& dx, Real k, Real b, Part part = {}) const {
+    addDForce(law, oneBody(df.data()), oneBody(dx.data()), k, b, part);
   }
   double energy(Law const& law, std::vector<Coord> const& x) const { return energy(law, oneBody(x.data())); }
 
-  void addForce(Law const& law, Derivs f, Coords x, ConstDerivs v) {
-    for (Pack& pack : packs) {
-      typename DL::Coord xs[arity];
-      typename DL::Deriv vs[arity], fs[arity];
-      gather(pack, x, xs);
-      if constexpr (Law::usesVelocity) gather(pack, v, vs);
-      law.force(pack.rest, xs, vs, fs, pack.tangent);
-      scatter(pack, fs, f);
-    }
+  /// Elements of one body may be taken in parts at once, as split() has prepared it, and then those parts
+  /// once more as late ones.
+  void addForce(Law const& law, Derivs f, Coords x, ConstDerivs v, Part part = {}) {
+    forEachPack(
+        *this, part, f, [&](Pack & pack, typename DL::Deriv(&fs)[arity]) __attribute__((always_inline)) {
+          typename DL::Coord xs[arity];
+          typename DL::Deriv vs[arity];
+          gather(pack, x, xs);
+          if constexpr (Law::usesVelocity) gather(pack, v, vs);
+          law.force(pack.rest, xs, vs, fs, pack.tangent);
+        });
   }
 
-  void addDForce(Law const& law, Derivs df, ConstDerivs dx, Real k, Real b) const {
-    for (Pack const& pack : packs) {
-      typename DL::Deriv dxs[arity], dfs[arity];
-      gather(pack, dx, dxs);
-      law.dforce(pack.rest, pack.tangent, dxs, dfs, L(k), L(b));
-      scatter(pack, dfs, df);
-    }
+  void addDForce(Law const& law, Derivs df, ConstDerivs dx, Real k, Real b, Part part = {}) const {
+    forEachPack(
+        *this,
+        part,
+        df,
+        [&](Pack const& pack, typename DL::Deriv(&dfs)[arity]) __attribute__((always_inline)) {
+          typename DL::Deriv dxs[arity];
+          gather(pack, dx, dxs);
+          law.dforce(pack.rest, pack.tangent, dxs, dfs, L(k), L(b));
+        });
   }
 
   double energy(Law const& law, Coords x) const {
@@ -163,7 +203,7 @@ struct ElementDriver {
   /// Adds k K + b B to the matrix behind the sink. SideOf[i]: on which end of an interaction point i of an
   /// element is.
   template <int... SideOf, class Sink>
-  void addToMatrix(Law const& law, Sink const& sink, Real k, Real b) {
+  void addToMatrix(Law const& law, Sink const& sink, Real k, Real b, Part part = {}) {
     using Matrix = typename Sink::MatrixType;
     constexpr bool within = ((SideOf == 0) && ...);
     if constexpr (Sink::direct && within && Matrix::blockSize == D::size &&
@@ -171,8 +211,9 @@ struct ElementDriver {
       if constexpr (Sink::phase == AssemblyPhase::bind)
         bind(sink);
       else
-        addToSlots(law, sink.matrix, k, b);
+        addToSlots(law, sink.matrix, k, b, part);
     } else if constexpr (Sink::phase != AssemblyPhase::bind) {
+      if (part.index > 0 || part.late) return;
       auto addPair = [&]<int SideI, int SideJ>(Pack const& pack, int i, int j) {
         Mat<L, D::size> block;
         if constexpr (Sink::phase == AssemblyPhase::add)
@@ -199,6 +240,60 @@ struct ElementDriver {
   }
 
  private:
+  void forget() {
+    parts = 1;
+    lateForces = lateBlocks = {};
+  }
+
+  // law(pack, what its points receive) for the packs of a part, and adds that
+  template <class Self, class OfPack>
+  static void forEachPack(Self& self, Part part, Derivs const& to, OfPack&& law) {
+    if (part.count > 1) part.count = self.parts;
+    if (part.index >= part.count) return;
+    const bool whole = part.count == 1;
+    constexpr int n = realsOf<Deriv>;
+    if (part.late) {
+      self.lateForces.addLate(part, [&](int place, std::size_t room) {
+        Real const* const kept = self.keptForces.data() + room * n;
+        for (int c = 0; c < n; ++c) reinterpret_cast<Real*>(to[0] + place)[c] += kept[c];
+      });
+      return;
+    }
+    const std::size_t end = part.end(self.packs.size());
+    for (std::size_t p = part.begin(self.packs.size()); p < end; ++p) {
+      auto& pack = self.packs[p];
+      typename DL::Deriv fs[arity];
+      law(pack, fs);
+      if (!whole && self.lateForces.firstOf[p] >= 0)
+        self.keep(pack, self.lateForces.rooms.data() + self.lateForces.firstOf[p], fs, to[0]);
+      else
+        scatter(pack, fs, to);
+    }
+  }
+  // of what points receive, what belongs to a part before is kept
+  void keep(Pack const& pack, int const* rooms, typename DL::Deriv const (&from)[arity], Deriv* to) const {
+    constexpr int n = realsOf<Deriv>;
+    for (int k = 0; k < arity; ++k)
+      for (int l = 0; l < pack.active; ++l) {
+        const int room = rooms[k * W + l];
+        L const* const values = reinterpret_cast<L const*>(&from[k]);
+        if (room >= 0)
+          for (int c = 0; c < n; ++c) keptForces[std::size_t(room * n + c)] = lane(values[c], l);
+        else
+          for (int c = 0; c < n; ++c)
+            reinterpret_cast<Real*>(to + pack.index[k][l])[c] += rounded(lane(values[c], l));
+      }
+  }
+  // r, which is not made part of a multiplication with addition: what is added at once and what is added late
+  // have the same bits
+  SINEW_INLINE static Real rounded(Real r) {
+#if defined(__GNUC__) && !defined(__clang__) && !defined(__CUDACC__) && __GNUC__ >= 12
+    return __builtin_assoc_barrier(r);
+#else
+    return r;
+#endif
+  }
+
   // an element to the place of another
   void move(std::size_t from, std::size_t to) {
     if (from == to) return;
@@ -244,7 +339,10 @@ struct ElementDriver {
   SINEW_INLINE static void scatter(Pack const& pack, typename DL::Deriv (&from)[arity], Derivs const& to) {
     constexpr int n = realsOf<Deriv>;
     if constexpr (W == 1) {
-      for (int k = 0; k < arity; ++k) to[std::size_t(k)][pack.index[k][0]] += from[k];
+      for (int k = 0; k < arity; ++k)
+        for (int c = 0; c < n; ++c)
+          reinterpret_cast<Real*>(to[std::size_t(k)] + pack.index[k][0])[c] +=
+              rounded(reinterpret_cast<Real const*>(&from[k])[c]);
     } else if constexpr (n == 3 && W >= 4) {
       if (pack.active != W) [[unlikely]]
         for (int k = 0; k < arity; ++k)
@@ -321,21 +419,41 @@ struct ElementDriver {
   }
 
   template <class Matrix>
-  void addToSlots(Law const& law, Matrix& matrix, Real k, Real b) const {
+  void addToSlots(Law const& law, Matrix& matrix, Real k, Real b, Part part) {
     constexpr int n = D::size;
-    for (std::size_t p = 0; p < packs.size(); ++p) {
+    if (part.count > 1) part.count = parts;
+    if (part.index >= part.count) return;
+    if (part.late) {
+      lateBlocks.addLate(part, [&](int slot, std::size_t room) {
+        addTo<n * n>(matrix.block(slot), keptBlocks.data() + room * n * n);
+      });
+      return;
+    }
+    const std::size_t end = part.end(packs.size());
+    for (std::size_t p = part.begin(packs.size()); p < end; ++p) {
       Pack const& pack = packs[p];
+      int const* const rooms = part.count > 1 && lateBlocks.firstOf[p] >= 0
+                                   ? lateBlocks.rooms.data() + lateBlocks.firstOf[p]
+                                   : nullptr;
       forEachPair([&]<int I, int J>() {
+        constexpr int pair = pairNumber(I, J);
         const Mat<L, n> block = law.block(pack.rest, pack.tangent, I, J, L(k), L(b));
-        auto const& turned = slots[p].transposed[pairNumber(I, J)];
+        auto const& turned = slots[p].transposed[pair];
         L rows[n * n];  // row-major, as the matrix has it
         for (int r = 0; r < n; ++r)
           for (int c = 0; c < n; ++c)
             rows[r * n + c] = I == J || r == c ? block(r, c) : select(turned, L(block(c, r)), L(block(r, c)));
         alignas(64) Real ofLane[W][(n * n + 3) / 4 * 4];
         transpose<n * n>(rows, ofLane);
+        if constexpr (W == 1)
+          for (int c = 0; c < n * n; ++c) ofLane[0][c] = rounded(ofLane[0][c]);
         for (int l = 0; l < pack.active; ++l)
-          addTo<n * n>(matrix.block(slots[p].slot[pairNumber(I, J)][l]), ofLane[l]);
+          if (rooms && rooms[pair * W + l] >= 0)
+            std::memcpy(keptBlocks.data() + std::ptrdiff_t(rooms[pair * W + l]) * n * n,
+                        ofLane[l],
+                        n * n * sizeof(Real));
+          else
+            addTo<n * n>(matrix.block(slots[p].slot[pair][l]), ofLane[l]);
       });
     }
   }

@@ -43,6 +43,7 @@ struct Quad {
 template <class D, class Kind>
 struct BendingSprings {
   using Role = role::ForceField;
+  static constexpr bool takesParts = true;
   using DataTypes = D;
   using Real = typename D::Real;
   using VecCoord = typename D::VecCoord;
@@ -92,16 +93,16 @@ struct BendingSprings {
     driver.init(ends, rest);
   }
 
-  void addForce(MechanicalParams const&, VecDeriv& f, VecCoord const& x, VecDeriv const& v) {
-    driver.addForce(Law{}, f, x, v);
+  void addForce(MechanicalParams const& p, VecDeriv& f, VecCoord const& x, VecDeriv const& v) {
+    driver.addForce(Law{}, f, x, v, p.part);
   }
   void addDForce(MechanicalParams const& p, VecDeriv& df, VecDeriv const& dx) const {
-    driver.addDForce(Law{}, df, dx, Real(p.k), Real(p.b));
+    driver.addDForce(Law{}, df, dx, Real(p.k), Real(p.b), p.part);
   }
   double potentialEnergy(VecCoord const& x) const { return driver.energy(Law{}, x); }
   template <class Sink>
   void addToMatrix(MechanicalParams const& p, Sink const& sink) {
-    driver.addToMatrix(Law{}, sink, Real(p.k), Real(p.b));
+    driver.addToMatrix(Law{}, sink, Real(p.k), Real(p.b), p.part);
   }
 
  private:

@@ -44,6 +44,7 @@ struct StiffSpringForceField {
   using WithEnds = StiffSpringForceField<D, Other>;
   static constexpr bool between = !std::is_same_v<E, Within>;
   using Role = std::conditional_t<between, role::InteractionForceField, role::ForceField>;
+  static constexpr bool takesParts = !between;
   using DataTypes = D;
   using Real = typename D::Real;
   using VecCoord = typename D::VecCoord;
@@ -127,11 +128,11 @@ struct StiffSpringForceField {
     driver.init(points, rest);
   }
 
-  void addForce(MechanicalParams const&, VecDeriv& f, VecCoord const& x, VecDeriv const& v) {
-    driver.addForce(Law{}, f, x, v);
+  void addForce(MechanicalParams const& p, VecDeriv& f, VecCoord const& x, VecDeriv const& v) {
+    driver.addForce(Law{}, f, x, v, p.part);
   }
   void addDForce(MechanicalParams const& p, VecDeriv& df, VecDeriv const& dx) const {
-    driver.addDForce(Law{}, df, dx, Real(p.k), Real(p.b));
+    driver.addDForce(Law{}, df, dx, Real(p.k), Real(p.b), p.part);
   }
   double potentialEnergy(VecCoord const& x) const { return driver.energy(Law{}, x); }
 
@@ -152,7 +153,7 @@ struct StiffSpringForceField {
     if constexpr (between)
       driver.template addToMatrix<0, 1>(Law{}, sink, Real(p.k), Real(p.b));
     else
-      driver.addToMatrix(Law{}, sink, Real(p.k), Real(p.b));
+      driver.addToMatrix(Law{}, sink, Real(p.k), Real(p.b), p.part);
   }
 
  private:

@@ -201,6 +201,7 @@ struct TetrahedronHyperelasticity {
 template <class D>
 struct TetrahedronHyperelasticityFEMForceField {
   using Role = role::ForceField;
+  static constexpr bool takesParts = true;
   using DataTypes = D;
   using Real = typename D::Real;
   using VecCoord = typename D::VecCoord;
@@ -259,16 +260,16 @@ struct TetrahedronHyperelasticityFEMForceField {
     std::copy(parameterSet.begin(), parameterSet.end(), law.material.p.begin());
     return law;
   }
-  void addForce(MechanicalParams const&, VecDeriv& f, VecCoord const& x, VecDeriv const& v) {
-    driver.addForce(law(), f, x, v);
+  void addForce(MechanicalParams const& p, VecDeriv& f, VecCoord const& x, VecDeriv const& v) {
+    driver.addForce(law(), f, x, v, p.part);
   }
   void addDForce(MechanicalParams const& p, VecDeriv& df, VecDeriv const& dx) const {
-    driver.addDForce(law(), df, dx, Real(p.k), Real(p.b));
+    driver.addDForce(law(), df, dx, Real(p.k), Real(p.b), p.part);
   }
   double potentialEnergy(VecCoord const& x) const { return driver.energy(law(), x); }
   template <class Sink>
   void addToMatrix(MechanicalParams const& p, Sink const& sink) {
-    driver.addToMatrix(law(), sink, Real(p.k), Real(p.b));
+    driver.addToMatrix(law(), sink, Real(p.k), Real(p.b), p.part);
   }
 };
 

@@ -165,6 +165,7 @@ struct TriangleFEM {
 template <class D>
 struct TriangleFEMForceField {
   using Role = role::ForceField;
+  static constexpr bool takesParts = true;
   using DataTypes = D;
   using Real = typename D::Real;
   using VecCoord = typename D::VecCoord;
@@ -248,16 +249,16 @@ struct TriangleFEMForceField {
     driver.init(triangles, rest);
   }
 
-  void addForce(MechanicalParams const&, VecDeriv& f, VecCoord const& x, VecDeriv const& v) {
-    driver.addForce(Law{method}, f, x, v);
+  void addForce(MechanicalParams const& p, VecDeriv& f, VecCoord const& x, VecDeriv const& v) {
+    driver.addForce(Law{method}, f, x, v, p.part);
   }
   void addDForce(MechanicalParams const& p, VecDeriv& df, VecDeriv const& dx) const {
-    driver.addDForce(Law{method}, df, dx, Real(p.k), Real(p.b));
+    driver.addDForce(Law{method}, df, dx, Real(p.k), Real(p.b), p.part);
   }
   double potentialEnergy(VecCoord const& x) const { return driver.energy(Law{method}, x); }
   template <class Sink>
   void addToMatrix(MechanicalParams const& p, Sink const& sink) {
-    driver.addToMatrix(Law{method}, sink, Real(p.k), Real(p.b));
+    driver.addToMatrix(Law{method}, sink, Real(p.k), Real(p.b), p.part);
   }
 };
 

@@ -3,6 +3,7 @@
 
 #include <sinew/core/data_types.hpp>
 #include <sinew/core/error.hpp>
+#include <sinew/core/part.hpp>
 #include <sinew/linalg/sliced_rows.hpp>
 
 #include <algorithm>
@@ -93,6 +94,29 @@ struct CompressedRowSparseMatrix {
       }
     ends.assign(B == 3 ? std::size_t(rows()) : 0, End{});
     if constexpr (sliceable) sliced.init(rowStart, columns, int(columns.size()));
+    dots.assign(std::size_t(rows()) / strip + 1, 0);
+    chunks.clear();
+  }
+
+  /// Prepares products by so many threads, with at least so many rows each. Where the rows are too few, there
+  /// are fewer chunks, or none.
+  void split(int threads, int least = 128) {
+    const int n = B == 3 ? std::min(threads, rows() / least) : 1;
+    chunks.clear();
+    std::size_t room = 0;
+    for (int k = 0, from = 0; n > 1 && k < n; ++k) {
+      const std::size_t blocks = columns.size() * std::size_t(k + 1) / std::size_t(n);
+      int to = int(std::lower_bound(rowStart.begin(), rowStart.end(), int(blocks)) - rowStart.begin());
+      to = k + 1 == n ? rows() : std::max(from, to / strip * strip);
+      int last = to;
+      for (int i = from; i < to; ++i)
+        last = std::max(last, columns[std::size_t(rowStart[std::size_t(i) + 1]) - 1] + 1);
+      chunks.push_back({from, to, last, room});
+      room += std::size_t(last - from);
+      from = to;
+    }
+    ends.resize(std::max(room, B == 3 ? std::size_t(rows()) : 0));
+    if constexpr (sliceable) sliced.split(std::max(n, 1));
   }
 
   void setZero() {
@@ -225,18 +249,34 @@ struct CompressedRowSparseMatrix {
   }
 
   /// y = A x, both of dofs() scalars, with one more scalar of any value readable behind x. Returns x.y.
-  double multiply(Real const* x, Real* y) {
+  double multiply(Real const* x, Real* y) { return multiply(OneThread{}, x, y); }
+  /// The same by several threads, for which split() has prepared: the same bits.
+  template <class Run>
+  double multiply([[maybe_unused]] Run const& workers, Real const* x, Real* y) {
     if constexpr (sliceable) {
       if (sliced.suits()) {
-        if (sliced.products == 3) sliced.pack(values.data()), ++sliced.products;
-        return sliced.multiply(x, y);
+        if (sliced.products == 3) sliced.pack(workers, values.data()), ++sliced.products;
+        return sliced.multiply(workers, x, y);
       }
       ++sliced.products;
     }
-    if constexpr (B == 3)
-      return multiply3(x, y);
-    else
+    if constexpr (B == 3) {
+      bool done = false;
+      if constexpr (!std::is_same_v<Run, OneThread>)
+        if (!chunks.empty()) {
+          workers.run([&](Part part) {
+            for (std::size_t k = part.begin(chunks.size()); k < part.end(chunks.size()); ++k)
+              multiplyChunk(chunks[k], x, y);
+          });
+          done = true;
+        }
+      if (!done) multiplyChunk({0, rows(), rows(), 0}, x, y);
+      double sum = 0;
+      for (const double dot : dots) sum += dot;
+      return sum;
+    } else {
       return multiplyAny(x, y);
+    }
   }
 
  private:
@@ -253,6 +293,15 @@ struct CompressedRowSparseMatrix {
   void changed() {
     if constexpr (sliceable) sliced.products = 0;
   }
+  // rows of one thread, the last column of them, and where its ends begin
+  struct Chunk {
+    int from, to, last;
+    std::size_t ends;
+  };
+  std::vector<Chunk> chunks{};
+  // x.y of so many rows each, which are added in their order
+  static constexpr int strip = 64;
+  std::vector<double> dots{};
 
   Real* find(int row, int column) {
     if (row / B > column / B) std::swap(row, column);
@@ -302,48 +351,63 @@ struct CompressedRowSparseMatrix {
   // Each block is read once, for its own row and, turned, for the row of its column: y_i += A x_j and y_j +=
   // A' x_i. Its rows are loaded as four scalars; the fourth products, of what stands behind, gather in lanes
   // that are never read. Two blocks at a time keep six independent sums in flight. Row i is complete when its
-  // turn has come: those above have left their parts in ends[i].y.
-  double multiply3(Real const* x, Real* y) {
+  // turn has come: those above have left their parts in its End. A chunk of rows does by itself what chunks
+  // above would add to it, before all else and in the same order, and what it adds to those below is lost.
+  void multiplyChunk(Chunk const& chunk, Real const* x, Real* y) {
     typedef double Doubles __attribute__((vector_size(4 * sizeof(double))));
     auto load = [](Four& to, Real const* from) { std::memcpy(&to, from, sizeof to); };
-    const std::size_t n = std::size_t(rows());
-    End* const end = ends.data();
-    for (std::size_t i = 0; i < n; ++i) load(end[i].x, x + 3 * i), end[i].y = Four{};
-    Real const* v = values.data();
-    int const *column = columns.data(), *start = rowStart.data();
-    Doubles dot{};
-    for (std::size_t i = 0; i < n; ++i) {
-      const Four own = end[i].x;
-      const Real x0 = own[0], x1 = own[1], x2 = own[2];
-      Four r0, r1, r2, s0, s1, s2;
-      load(r0, v), load(r1, v + 3), load(r2, v + 6);
-      Four a0 = r0 * own, a1 = r1 * own, a2 = r2 * own, b0{}, b1{}, b2{};
-      int const* const next = columns.data() + *++start;
-      for (++column, v += 9; column + 1 < next; column += 2, v += 18) {
-        End &a = end[std::size_t(column[0])], &b = end[std::size_t(column[1])];
+    const std::size_t from = std::size_t(chunk.from), to = std::size_t(chunk.to),
+                      last = std::size_t(chunk.last);
+    End* const own_ends = ends.data() + chunk.ends;
+    auto end = [own_ends, from](std::size_t i) -> End& { return own_ends[i - from]; };
+    for (std::size_t i = from; i < last; ++i) load(end(i).x, x + 3 * i), end(i).y = Four{};
+    if (from > 0)
+      for (std::size_t i = from; i < to; ++i)
+        for (int k = leftStart[i]; k < leftStart[i + 1] && leftColumns[std::size_t(k)] < chunk.from; ++k) {
+          Real const* const above = x + 3 * std::size_t(leftColumns[std::size_t(k)]);
+          Real const* const v = values.data() + 9 * std::ptrdiff_t(leftSlots[std::size_t(k)]);
+          Four r0, r1, r2;
+          load(r0, v), load(r1, v + 3), load(r2, v + 6);
+          end(i).y += r0 * above[0] + r1 * above[1] + r2 * above[2];
+        }
+    int const *start = rowStart.data() + from, *column = columns.data() + *start;
+    Real const* v = values.data() + 9 * std::ptrdiff_t(*start);
+    for (std::size_t i = from; i < to;) {
+      Doubles dot{};
+      double& sum = dots[i / strip];
+      for (const std::size_t stop = std::min(to, i + strip); i < stop; ++i) {
+        const Four own = end(i).x;
+        const Real x0 = own[0], x1 = own[1], x2 = own[2];
+        Four r0, r1, r2, s0, s1, s2;
         load(r0, v), load(r1, v + 3), load(r2, v + 6);
-        load(s0, v + 9), load(s1, v + 12), load(s2, v + 15);
-        a0 += r0 * a.x, a1 += r1 * a.x, a2 += r2 * a.x;
-        b0 += s0 * b.x, b1 += s1 * b.x, b2 += s2 * b.x;
-        a.y += r0 * x0 + r1 * x1 + r2 * x2;
-        b.y += s0 * x0 + s1 * x1 + s2 * x2;
+        Four a0 = r0 * own, a1 = r1 * own, a2 = r2 * own, b0{}, b1{}, b2{};
+        int const* const next = columns.data() + *++start;
+        for (++column, v += 9; column + 1 < next; column += 2, v += 18) {
+          End &a = end(std::size_t(column[0])), &b = end(std::size_t(column[1]));
+          load(r0, v), load(r1, v + 3), load(r2, v + 6);
+          load(s0, v + 9), load(s1, v + 12), load(s2, v + 15);
+          a0 += r0 * a.x, a1 += r1 * a.x, a2 += r2 * a.x;
+          b0 += s0 * b.x, b1 += s1 * b.x, b2 += s2 * b.x;
+          a.y += r0 * x0 + r1 * x1 + r2 * x2;
+          b.y += s0 * x0 + s1 * x1 + s2 * x2;
+        }
+        if (column < next) {
+          End& a = end(std::size_t(*column++));
+          load(r0, v), load(r1, v + 3), load(r2, v + 6), v += 9;
+          a0 += r0 * a.x, a1 += r1 * a.x, a2 += r2 * a.x;
+          a.y += r0 * x0 + r1 * x1 + r2 * x2;
+        }
+        a0 += b0, a1 += b1, a2 += b2;
+        const Four even = __builtin_shufflevector(a0, a1, 0, 4, 2, 6),
+                   odd = __builtin_shufflevector(a0, a1, 1, 5, 3, 7);
+        const Four row =
+            (end(i).y + __builtin_shufflevector(even, a2, 0, 1, 4, 5)) +
+            (__builtin_shufflevector(odd, a2, 0, 1, 5, 5) + __builtin_shufflevector(even, a2, 2, 3, 6, 7));
+        dot += __builtin_convertvector(own, Doubles) * __builtin_convertvector(row, Doubles);
+        for (std::size_t c = 0; c < 3; ++c) y[3 * i + c] = row[c];
       }
-      if (column < next) {
-        End& a = end[std::size_t(*column++)];
-        load(r0, v), load(r1, v + 3), load(r2, v + 6), v += 9;
-        a0 += r0 * a.x, a1 += r1 * a.x, a2 += r2 * a.x;
-        a.y += r0 * x0 + r1 * x1 + r2 * x2;
-      }
-      a0 += b0, a1 += b1, a2 += b2;
-      const Four even = __builtin_shufflevector(a0, a1, 0, 4, 2, 6),
-                 odd = __builtin_shufflevector(a0, a1, 1, 5, 3, 7);
-      const Four row =
-          (end[i].y + __builtin_shufflevector(even, a2, 0, 1, 4, 5)) +
-          (__builtin_shufflevector(odd, a2, 0, 1, 5, 5) + __builtin_shufflevector(even, a2, 2, 3, 6, 7));
-      dot += __builtin_convertvector(own, Doubles) * __builtin_convertvector(row, Doubles);
-      for (std::size_t c = 0; c < 3; ++c) y[3 * i + c] = row[c];
+      sum = dot[0] + dot[1] + dot[2];
     }
-    return dot[0] + dot[1] + dot[2];
   }
 };
 

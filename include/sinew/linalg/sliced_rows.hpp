@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/core/lanes.hpp>
+#include <sinew/core/part.hpp>
 
 #include <algorithm>
 #include <array>
@@ -32,7 +33,7 @@ struct SlicedRows {
   std::vector<int> distances{};   // of each slab
   std::vector<Source> sources{};
   std::vector<std::array<L, 9>> blocks{};
-  std::vector<Real> x{}, y{};  // by components: all x, all y, all z
+  std::vector<Real> x{};  // by components: all x, all y, all z
   std::size_t stride = 0;
   int rows = 0;
   int products = 0;  // since the matrix last changed
@@ -66,30 +67,109 @@ struct SlicedRows {
     blocks.resize(distances.size());
     stride = (std::size_t(rows) / W + 3) * W;
     x.assign(3 * stride, Real(0));
-    y.assign(3 * stride, Real(0));
+    dots.assign(slices() / strip + 1, 0);
+    split(1);
+  }
+
+  /// Prepares products by so many threads.
+  void split(int threads) {
+    chunks.clear();
+    std::size_t room = 0;
+    for (std::size_t k = 0, from = 0; from < slices(); ++k) {
+      Chunk chunk{.from = from, .to = slices(), .above = from};
+      if (int(k) + 1 < threads) {
+        const std::size_t slabs = distances.size() * (k + 1) / std::size_t(threads);
+        while (chunk.to > from && std::size_t(sliceStart[chunk.to - 1]) >= slabs) --chunk.to;
+        chunk.to = std::min(slices(), std::max(chunk.to / strip, from / strip + 1) * strip);
+      }
+      int last = int(chunk.to) * W;
+      for (std::size_t slice = 0; slice < chunk.to; ++slice)
+        for (int s = sliceStart[slice]; s < sliceStart[slice + 1]; ++s) {
+          const int end = int(slice) * W + distances[std::size_t(s)] + W;
+          if (slice >= from)
+            last = std::max(last, end);
+          else if (end > int(from) * W)
+            chunk.above = std::min(chunk.above, slice);
+        }
+      chunk.origin = std::max(0, int(from) * W - W);
+      chunk.stride = std::size_t(last - chunk.origin + W);
+      chunk.ends = room;
+      room += 3 * chunk.stride;
+      chunks.push_back(chunk);
+      from = chunk.to;
+    }
+    y.assign(room, Real(0));
   }
 
   /// The blocks anew, from those of the matrix, row-major one behind the other.
-  void pack(Real const* values) {
-    for (std::size_t s = 0; s < sources.size(); ++s)
-      for (std::size_t r = 0; r < 3; ++r) gather3(values + 3 * r, sources[s].of, &blocks[s][3 * r]);
+  template <class Run>
+  void pack(Run const& workers, Real const* values) {
+    workers.run([&](Part part) {
+      for (std::size_t s = part.begin(sources.size()); s < part.end(sources.size()); ++s)
+        for (std::size_t r = 0; r < 3; ++r) gather3(values + 3 * r, sources[s].of, &blocks[s][3 * r]);
+    });
   }
 
-  /// out = A in. Returns in.out. One scalar behind `in` is read.
-  double multiply(Real const* in, Real* out) {
+  /// out = A in. Returns in.out. One scalar behind `in` is read. The same bits however many threads there
+  /// are.
+  template <class Run>
+  double multiply(Run const& workers, Real const* in, Real* out) {
+    workers.run([&](Part part) {
+      for (std::size_t k = part.begin(slices()); k < part.end(slices()); ++k) begin(in, int(k) * W);
+    });
+    workers.run([&](Part part) {
+      for (std::size_t k = part.begin(chunks.size()); k < part.end(chunks.size()); ++k)
+        multiplyChunk(chunks[k], out);
+    });
+    double total = 0;
+    for (const double dot : dots) total += dot;
+    return total;
+  }
+
+ private:
+  // Slices of one thread. What slices from `above` on add to their rows they find out for themselves, before
+  // all else and in the same order; what they add to rows behind is lost.
+  struct Chunk {
+    std::size_t from, to, above;
+    int origin = 0;                    // the row where its part of y begins
+    std::size_t stride = 0, ends = 0;  // of that part: from one component to the next, and its place
+  };
+  std::vector<Chunk> chunks{};
+  std::vector<Real> y{};
+  static constexpr std::size_t strip = 8;  // slices whose x.y is one sum; sums are added in their order
+  std::vector<double> dots{};
+
+  std::size_t slices() const { return sliceStart.empty() ? 0 : sliceStart.size() - 1; }
+
+  SINEW_INLINE static L load(Real const* from) {
+    L lanes;
+    std::memcpy(&lanes.v, from, sizeof lanes.v);
+    return lanes;
+  }
+  SINEW_INLINE static void store(Real* to, L lanes) { std::memcpy(to, &lanes.v, sizeof lanes.v); }
+
+  void multiplyChunk(Chunk const& chunk, Real* out) {
     using Doubles = typename Lanes<double, W>::Vector;
-    auto load = [](Real const* from) {
-      L lanes;
-      std::memcpy(&lanes.v, from, sizeof lanes.v);
-      return lanes;
-    };
-    auto store = [](Real* to, L lanes) { std::memcpy(to, &lanes.v, sizeof lanes.v); };
-    Doubles dot{};
     Real const *const x0 = x.data(), *const x1 = x0 + stride, *const x2 = x1 + stride;
-    Real *const y0 = y.data(), *const y1 = y0 + stride, *const y2 = y1 + stride;
+    Real* const own = y.data() + chunk.ends;
+    std::memset(own, 0, 3 * chunk.stride * sizeof(Real));
+    Real *const y0 = own - chunk.origin, *const y1 = y0 + chunk.stride, *const y2 = y1 + chunk.stride;
+    for (std::size_t slice = chunk.above; slice < chunk.from; ++slice) {
+      const int first = int(slice) * W;
+      const L own0 = load(x0 + first), own1 = load(x1 + first), own2 = load(x2 + first);
+      for (int s = sliceStart[slice] + 1; s < sliceStart[slice + 1]; ++s) {
+        const int j = first + distances[std::size_t(s)];
+        if (j + W <= int(chunk.from) * W) continue;
+        L const* const a = blocks[std::size_t(s)].data();
+        store(y0 + j, load(y0 + j) + a[0] * own0 + a[3] * own1 + a[6] * own2);
+        store(y1 + j, load(y1 + j) + a[1] * own0 + a[4] * own1 + a[7] * own2);
+        store(y2 + j, load(y2 + j) + a[2] * own0 + a[5] * own1 + a[8] * own2);
+      }
+    }
     int const* const starts = sliceStart.data();
-    for (int first = 0; first < rows; first += W) begin(in, first);
-    for (int first = 0, slice = 0; first < rows; first += W, ++slice) {
+    Doubles dot{};
+    for (std::size_t slice = chunk.from; slice < chunk.to; ++slice) {
+      const int first = int(slice) * W;
       const L own0 = load(x0 + first), own1 = load(x1 + first), own2 = load(x2 + first);
       int s = starts[slice];
       L const* a = blocks[std::size_t(s)].data();
@@ -112,13 +192,15 @@ struct SlicedRows {
       const L product = own0 * sum0 + own1 * sum1 + own2 * sum2;
       dot += __builtin_convertvector(product.v, Doubles);
       join(sum0, sum1, sum2, out + 3 * first, std::min(W, rows - first));
+      if ((slice + 1) % strip == 0 || slice + 1 == chunk.to) {
+        double& sum = dots[slice / strip];
+        sum = 0;
+        for (int l = 0; l < W; ++l) sum += dot[l];
+        dot = Doubles{};
+      }
     }
-    double total = 0;
-    for (int l = 0; l < W; ++l) total += dot[l];
-    return total;
   }
 
- private:
   // Slabs of nearly the same distance add to nearly the same points: what one has written cannot be read at
   // once in other vectors, so that those come far apart. The diagonal stays first.
   void append(std::vector<std::pair<int, Source>> const& slice) {
@@ -132,7 +214,7 @@ struct SlicedRows {
       for (std::size_t k = from; k < n; k += step) add(k);
   }
 
-  // x of W points by components, and y = 0
+  // x of W points by components
   SINEW_INLINE void begin(Real const* in, int first) {
     L of[3];
     if (first + W <= rows) {
@@ -142,12 +224,7 @@ struct SlicedRows {
       for (int i = first; i < rows; ++i)
         for (int c = 0; c < 3; ++c) of[c].set(i - first, in[3 * i + c]);
     }
-    const L zero(0);
-    for (std::size_t c = 0; c < 3; ++c) {
-      const std::size_t at = c * stride + std::size_t(first);
-      std::memcpy(&x[at], &of[c].v, sizeof of[c].v);
-      std::memcpy(&y[at], &zero.v, sizeof zero.v);
-    }
+    for (std::size_t c = 0; c < 3; ++c) store(&x[c * stride + std::size_t(first)], of[c]);
   }
   static constexpr Source inRow = [] {
     Source all{};

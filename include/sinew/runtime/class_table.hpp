@@ -53,9 +53,10 @@ enum class RoleKind {
   intersection,
   contactManager,
   collisionModel,
-  carving
+  carving,
+  execution
 };
-inline constexpr std::array<std::string_view, 20> enum_names(RoleKind) {
+inline constexpr std::array<std::string_view, 21> enum_names(RoleKind) {
   return {"context",
           "topology",
           "state",
@@ -75,7 +76,8 @@ inline constexpr std::array<std::string_view, 20> enum_names(RoleKind) {
           "intersection method",
           "contact manager",
           "collision model",
-          "carving"};
+          "carving",
+          "execution"};
 }
 template <class Role>
 constexpr RoleKind role_kind() {
@@ -101,6 +103,7 @@ constexpr RoleKind role_kind() {
   is.template operator()<role::ContactManager>();
   is.template operator()<role::CollisionModel>();
   is.template operator()<role::Carving>();
+  is.template operator()<role::Execution>();
   return RoleKind(found);
 }
 

@@ -11,6 +11,7 @@
 
 namespace sinew {
 
+class Workers;
 template <class R>
 class RuntimeNode;
 
@@ -25,6 +26,7 @@ struct Mount {
   std::string_view dataTypes{};  // of the state above; empty: none
   void* state = nullptr;
   bool mapped = false;
+  Workers* workers = nullptr;
 };
 
 /// One component of a runtime node, and what is known of it besides.
@@ -180,12 +182,14 @@ class RuntimeNode {
   Entry* mapping() const { return mapping_; }
   Entry* visual() const { return visual_; }
   Entry* topology() const { return topology_; }
+  Entry* execution() const { return execution_; }
 
  private:
   std::vector<Entry> entries_{};
   std::vector<std::unique_ptr<RuntimeNode>> children_{};
   RuntimeNode* parent_ = nullptr;
-  Entry *state_ = nullptr, *mapping_ = nullptr, *visual_ = nullptr, *topology_ = nullptr;
+  Entry *state_ = nullptr, *mapping_ = nullptr, *visual_ = nullptr, *topology_ = nullptr,
+        *execution_ = nullptr;
 
   void adopt() {
     for (auto& child : children_) child->parent_ = this;
@@ -214,6 +218,7 @@ class RuntimeNode {
     mapping_ = first.template operator()<role::Mapping>();
     visual_ = first.template operator()<role::VisualModel>();
     topology_ = first.template operator()<role::Topology>();
+    execution_ = first.template operator()<role::Execution>();
   }
 };
 

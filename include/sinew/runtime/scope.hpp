@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/workers.hpp>
 #include <sinew/runtime/erased_assembly.hpp>
 #include <sinew/runtime/node.hpp>
 #include <sinew/scene/scope.hpp>
@@ -20,6 +21,7 @@ struct RuntimeScope {
   using Classes = R;
   static constexpr bool provedAtInit = true, isVisual = false;
   static constexpr bool profiled = true;  // where the top node has a profile
+  static constexpr bool threaded = true;  // where a node says so
   NodeType& node;
   bool atMount = false;
   Profile* profile = nullptr;
@@ -37,6 +39,7 @@ struct RuntimeScope {
                  [](void const* s) { return static_cast<S const*>(s)->topology(); },
                  [](void const* s) { return static_cast<S const*>(s)->topologyAddress(); },
                  nullptr};
+    if constexpr (S::threaded) top.mount.workers = typed.workers().workers;
     if constexpr (S::hasState) {
       auto& state = typed.stateScope().node.state();
       using D = typename std::decay_t<decltype(state)>::DataTypes;
@@ -81,6 +84,16 @@ struct RuntimeScope {
         return value;
     }
     return above().gravity();
+  }
+  SomeWorkers workers() const {
+    for (NodeType* n = &node; !atMount && n; n = n->parent())
+      if (n->execution()) {
+        SomeWorkers found;
+        n->execution()->component.template visit<role::Execution>(
+            [&](auto const& c) { found = c.workers(); });
+        return found;
+      }
+    return {node.top().mount.workers};
   }
   TopologyView topology() const {
     if (atMount) return mount().scope ? mount().topology(mount().scope) : TopologyView{};

@@ -29,8 +29,25 @@ struct MechanicalOperations {
   void giveBackCoord() { --coordsTaken; }
   void giveBackDeriv() { --derivsTaken; }
   void reserve(Auxiliary needed) {
-    forEachState([&](auto& state) { state.reserve(needed); });
+    std::size_t scalars = 0;
+    forEachState([&](auto& state) {
+      state.reserve(needed);
+      scalars = std::max(scalars, std::size_t(vec::flat(state.velocity).size()));
+    });
+    reserveSums(scalars);
   }
+
+  /// Prepares what takes part in forces and matrices for the threads of this solver.
+  void split() {
+    if constexpr (Root::threaded)
+      traverse(root, on<role::ForceField>([&](auto& c, auto const&) {
+                 if constexpr (takes_parts<std::decay_t<decltype(c)>>) c.driver.split(workers().count());
+               }));
+  }
+  /// The threads by which this solver works.
+  auto workers() const { return root.workers(); }
+  /// Room for sums over vectors of so many scalars.
+  void reserveSums(std::size_t scalars) { workers().reserveSums(scalars / std::size_t(vec::piece) + 1); }
 
   // vector mathematics
 
@@ -55,18 +72,19 @@ struct MechanicalOperations {
   }
   double dot(DerivId a, DerivId b) {
     double sum = 0;
-    forEachIndependent([&](auto& s) { sum += vec::dot(s[a], s[b]); });
+    forEachIndependent([&](auto& s) { sum += vec::dot(workers(), s[a], s[b]); });
     return sum;
   }
   /// r = a + f r
   void turn(DerivId r, DerivId a, double f) {
-    forEachIndependent([&](auto& s) { vec::turn(vec::flat(s[r]), vec::flat(s[a]), real(s, f)); });
+    forEachIndependent([&](auto& s) { vec::turn(workers(), vec::flat(s[r]), vec::flat(s[a]), real(s, f)); });
   }
   /// x += f p, r -= f q; returns r.r.
   double advance(DerivId x, DerivId p, DerivId r, DerivId q, double f) {
     double sum = 0;
     forEachIndependent([&](auto& s) {
-      sum += vec::advance(vec::flat(s[x]), vec::flat(s[p]), vec::flat(s[r]), vec::flat(s[q]), real(s, f));
+      sum += vec::advance(
+          workers(), vec::flat(s[x]), vec::flat(s[p]), vec::flat(s[r]), vec::flat(s[q]), real(s, f));
     });
     return sum;
   }
@@ -114,7 +132,7 @@ struct MechanicalOperations {
             auto& s = stateOf(c, scope);
             MechanicalParams params = p;
             if constexpr (HasRole<C, role::Mass>) params.gravity = scope.gravity();
-            c.addForce(params, s[f], s[x], s[v]);
+            inParts(c, params, [&](MechanicalParams const& part) { c.addForce(part, s[f], s[x], s[v]); });
           }
         }));
     addContactForces(f, x, v);
@@ -185,7 +203,7 @@ struct MechanicalOperations {
                    forEnds(c, scope, [&](auto& a, auto& b) { c.addDForce(p, a[r], b[r], a[dx], b[dx]); });
                  } else {
                    auto& s = stateOf(c, scope);
-                   c.addDForce(p, s[r], s[dx]);
+                   inParts(c, p, [&](MechanicalParams const& part) { c.addDForce(part, s[r], s[dx]); });
                  }
                }
              }));
@@ -286,6 +304,24 @@ struct MechanicalOperations {
   }
 
  private:
+  // f(params) for a component as a whole, or for each part of it, and again for what these add to each other
+  template <class C, class F>
+  void inParts([[maybe_unused]] C const& c, MechanicalParams const& p, F&& f) {
+    if constexpr (Root::threaded && takes_parts<C>)
+      if (c.driver.parts > 1) {
+        const auto threads = workers();
+        for (const bool late : {false, true})
+          threads.run([&](Part part) {
+            MechanicalParams own = p;
+            own.part = part;
+            own.part.late = late;
+            f(own);
+          });
+        return;
+      }
+    f(p);
+  }
+
   template <class State>
   using DataTypesOf = typename std::decay_t<State>::DataTypes;
   template <class State>
@@ -431,8 +467,13 @@ struct MechanicalOperations {
             });
           };
           if constexpr (HasRole<C, role::ForceField>)
-            scope.template withDofs<D>(
-                [&](auto const& dofs) { c.addToMatrix(p, make_sink<Phase>(matrix, dofs, dofs)); });
+            scope.template withDofs<D>([&](auto const& dofs) {
+              const auto sink = make_sink<Phase>(matrix, dofs, dofs);
+              if constexpr (Phase == AssemblyPhase::add)
+                inParts(c, p, [&](MechanicalParams const& part) { c.addToMatrix(part, sink); });
+              else
+                c.addToMatrix(p, sink);
+            });
           else if constexpr (HasRole<C, role::Mass>)
             scope.template withDofs<D>([&](auto const& dofs) {
               c.addToMatrix(p, stateOf(c, scope)[vec_id::position], make_sink<Phase>(matrix, dofs, dofs));

@@ -15,11 +15,12 @@ namespace sinew {
 
 /// What is above the root of a scene.
 struct NoScope {
-  static constexpr bool hasState = false, isMapped = false, profiled = false;
+  static constexpr bool hasState = false, isMapped = false, profiled = false, threaded = false;
   static std::string path() { return ""; }
   static Eigen::Vector3d gravity() { return Eigen::Vector3d::Zero(); }
   static TopologyView topology() { return {}; }
   static void const* topologyAddress() { return nullptr; }
+  static constexpr OneThread workers() { return {}; }
   template <class F>
   static void withContacts(F&&) {}
   static constexpr NotTimed span(Phase) { return {}; }
@@ -79,6 +80,7 @@ struct Scope {
   static constexpr bool isMapped = N::template count<role::Mapping> > 0;
   static constexpr bool isVisual = N::template count<role::VisualModel> > 0;
   static constexpr bool profiled = A::profiled;
+  static constexpr bool threaded = A::threaded || N::template count<role::Execution> > 0;
 
   /// The node has a component of this role, whatever happens at run time.
   template <class R>
@@ -103,6 +105,14 @@ struct Scope {
       return node.template first<role::Context>().gravity;
     else
       return above.gravity();
+  }
+
+  /// The threads by which solvers of this node work: those of the nearest node upwards that says so.
+  auto workers() const {
+    if constexpr (always<role::Execution>)
+      return node.template first<role::Execution>().workers();
+    else
+      return above.workers();
   }
 
   /// The nearest topology upwards, of the nodes that share this node's points.

@@ -241,6 +241,8 @@ class Simulation {
   static void initComponent(C& c, S const& scope) {
     if constexpr (HasRole<C, role::Topology>) {
       scope.withContext([&](auto const& context) { c.init(context); });
+    } else if constexpr (HasRole<C, role::Execution>) {
+      c.init();
     } else if constexpr (HasRole<C, role::CollisionModel>) {
       c.init(scope.template context<typename C::DataTypes>());
     } else if constexpr (JoinsTwo<C>) {
@@ -270,6 +272,7 @@ class Simulation {
         else
           operations.reserve(Ode::auxiliary);
         if constexpr (requires { ode.init(operations); }) ode.init(operations);
+        operations.split();
         // what a solver remembers of the last step is not that of a scene that has changed
         if constexpr (requires { ode.lastEnd; })
           if (again) ode.lastEnd = -1;

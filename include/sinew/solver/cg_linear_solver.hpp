@@ -61,6 +61,8 @@ struct CGLinearSolver {
     residuals.reserve(std::size_t(iterations) + 1);
     if constexpr (!matrixFree) {
       operations.initMatrix(system.matrix);
+      system.matrix.split(operations.workers().count());
+      operations.reserveSums(std::size_t(system.matrix.dofs()));
       for (Vector* v : {&system.x, &system.b, &system.r, &system.p, &system.q})
         v->setZero(system.matrix.dofs() + 1);  // the last stays 0: multiply reads it
     }
@@ -87,6 +89,7 @@ struct CGLinearSolver {
     } else {
       auto& s = system;
       using Real = typename Matrix::Real;
+      const auto workers = operations.workers();
       operations.assemble(s.matrix, factors);
       operations.gather(s.b, b.id);
       s.x.setZero();
@@ -94,9 +97,9 @@ struct CGLinearSolver {
       s.p = s.b;
       iterate(
           double(s.r.squaredNorm()),
-          [&] { return s.matrix.multiply(s.p.data(), s.q.data()); },
-          [&](double alpha) { return vec::advance(s.x, s.p, s.r, s.q, Real(alpha)); },
-          [&](double beta) { vec::turn(s.p, s.r, Real(beta)); });
+          [&] { return s.matrix.multiply(workers, s.p.data(), s.q.data()); },
+          [&](double alpha) { return vec::advance(workers, s.x, s.p, s.r, s.q, Real(alpha)); },
+          [&](double beta) { vec::turn(workers, s.p, s.r, Real(beta)); });
       operations.scatter(x.id, s.x);
     }
   }

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <sinew/core/data_types.hpp>
+#include <sinew/core/part.hpp>
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <cstring>
+#include <type_traits>
 #include <vector>
 
 namespace sinew::vec {
@@ -41,24 +44,79 @@ void peq(V& r, V const& a, Real f) {
   flat(r) += f * flat(a);
 }
 
-/// r = a + f r
-template <class R, class A, class Real>
-void turn(R&& r, A const& a, Real f) {
-  r = a + f * r;
+/// Vectors are taken in pieces of so many scalars: the sum of a piece has the same bits wherever it is made,
+/// and pieces are added in their order.
+inline constexpr Eigen::Index piece = 512;
+
+/// The sum of f(begin, length) over the pieces of a vector; short vectors are left to one thread.
+template <class Run, class F>
+double sum_pieces(Run const& workers, Eigen::Index size, F&& f) {
+  const auto length = [size](Eigen::Index i) { return std::min(piece, size - i); };
+  double sum = 0;
+  if constexpr (!std::is_same_v<Run, OneThread>)
+    if (workers.count() > 1 && size >= 16 * piece) {
+      const std::size_t pieces = std::size_t((size + piece - 1) / piece);
+      double* const sums = workers.sums();
+      workers.run([&](Part part) {
+        for (std::size_t k = part.begin(pieces); k < part.end(pieces); ++k)
+          sums[k] = f(Eigen::Index(k) * piece, length(Eigen::Index(k) * piece));
+      });
+      for (std::size_t k = 0; k < pieces; ++k) sum += sums[k];
+      return sum;
+    }
+  for (Eigen::Index i = 0; i < size; i += piece) sum += f(i, length(i));
+  return sum;
+}
+/// f(begin, length) for all of a vector.
+template <class Run, class F>
+void each_piece(Run const& workers, Eigen::Index size, F&& f) {
+  if constexpr (!std::is_same_v<Run, OneThread>)
+    if (workers.count() > 1 && size >= 16 * piece) {
+      workers.run([&](Part part) {
+        const auto begin = Eigen::Index(part.begin(std::size_t(size)));
+        f(begin, Eigen::Index(part.end(std::size_t(size))) - begin);
+      });
+      return;
+    }
+  f(Eigen::Index(0), size);
 }
 
-/// x += f p, r -= f q, and r.r: a step of conjugate gradients. Part by part, so that each stays in the
-/// nearest cache.
-template <class X, class P, class Real>
-double advance(X&& x, P const& p, X&& r, P const& q, Real f) {
-  double sum = 0;
-  for (Eigen::Index i = 0; i < x.size(); i += 512) {
-    const Eigen::Index n = std::min<Eigen::Index>(512, x.size() - i);
+/// a.b of a piece, in an order of its own that does not depend on where in memory the vectors are
+template <class Real>
+double dot_piece(Real const* a, Real const* b, Eigen::Index n) {
+  typedef Real Eight __attribute__((vector_size(8 * sizeof(Real))));
+  Eight sums[2] = {};
+  Eigen::Index i = 0;
+  for (; i + 16 <= n; i += 16)
+    for (int k = 0; k < 2; ++k) {
+      Eight u, v;
+      std::memcpy(&u, a + i + 8 * k, sizeof u);
+      std::memcpy(&v, b + i + 8 * k, sizeof v);
+      sums[k] += u * v;
+    }
+  const Eight both = sums[0] + sums[1];
+  Real sum = 0;
+  for (int k = 0; k < 8; ++k) sum += both[k];
+  for (; i < n; ++i) sum += a[i] * b[i];
+  return double(sum);
+}
+
+/// x += f p, r -= f q, and r.r: a step of conjugate gradients.
+template <class Run, class X, class P, class Real>
+double advance(Run const& workers, X&& x, P const& p, X&& r, P const& q, Real f) {
+  return sum_pieces(workers, x.size(), [&](Eigen::Index i, Eigen::Index n) {
     x.segment(i, n) += f * p.segment(i, n);
     r.segment(i, n) -= f * q.segment(i, n);
-    sum += double(r.segment(i, n).squaredNorm());
-  }
-  return sum;
+    return dot_piece(r.data() + i, r.data() + i, n);
+  });
+}
+
+/// r = a + f r
+template <class Run, class R, class A, class Real>
+void turn(Run const& workers, R&& r, A const& a, Real f) {
+  each_piece(workers, r.size(), [&](Eigen::Index i, Eigen::Index n) {
+    r.segment(i, n) = a.segment(i, n) + f * r.segment(i, n);
+  });
 }
 
 /// x <- x moved along a for the time f, for positions whose derivative is of another type
@@ -70,9 +128,17 @@ void increment(typename D::VecCoord& x, typename D::VecDeriv const& a, typename 
     flat(x) += f * flat(a);
 }
 
+template <class Run, class V>
+double dot(Run const& workers, V const& a, V const& b) {
+  return sum_pieces(
+      workers, flat(a).size(), [x = flat(a).data(), y = flat(b).data()](Eigen::Index i, Eigen::Index n) {
+        return dot_piece(x + i, y + i, n);
+      });
+}
+
 template <class V>
 double dot(V const& a, V const& b) {
-  return double(flat(a).dot(flat(b)));
+  return dot(OneThread{}, a, b);
 }
 
 /// First entry that is not finite, or -1. A finite sum has finite terms; a sum that overflows is looked at

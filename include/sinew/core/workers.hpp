@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/error.hpp>
+#include <sinew/core/part.hpp>
+
+#include <atomic>
+#include <exception>
+#include <memory>
+#include <system_error>
+#include <thread>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace sinew {
+
+/// Threads that wait for work, and the one of the caller, which does its share. They spin for some
+/// microseconds before they sleep, unless there are more of them than the machine has.
+class Workers {
+ public:
+  explicit Workers(int count)
+      : errors_(std::size_t(count)),
+        spins_(unsigned(count) <= std::thread::hardware_concurrency() ? 4000 : 0) {
+    threads_.reserve(std::size_t(count) - 1);
+    try {
+      for (int i = 1; i < count; ++i) threads_.emplace_back([this, i] { work(i); });
+    } catch (std::system_error const& error) {
+      stop();
+      throw Error("Threads",
+                  text("cannot start ", count, " threads (", error.what(), "); take a smaller count"));
+    }
+  }
+  Workers(Workers const&) = delete;
+  ~Workers() { stop(); }
+
+  int count() const { return int(threads_.size()) + 1; }
+
+  /// f(part) for the parts of a whole, each in a thread of its own. When all have ended, what the first of
+  /// them has thrown is thrown.
+  template <class F>
+  void run(F&& f) {
+    call_ = [](void* context, Part part) { (*static_cast<std::remove_reference_t<F>*>(context))(part); };
+    context_ = const_cast<void*>(static_cast<void const*>(std::addressof(f)));
+    busy_.store(int(threads_.size()), std::memory_order_relaxed);
+    begin();
+    doPart(0);
+    await(busy_, [](int busy) { return busy == 0; });
+    if (failed_.load(std::memory_order_relaxed)) [[unlikely]]
+      raise();
+  }
+
+  /// Room for sums of parts, which run() may fill.
+  void reserveSums(std::size_t n) {
+    if (sums_.size() < n) sums_.resize(n);
+  }
+  double* sums() { return sums_.data(); }
+  std::size_t sumCount() const { return sums_.size(); }
+
+ private:
+  std::vector<std::thread> threads_{};
+  std::vector<std::exception_ptr> errors_;
+  std::vector<double> sums_{};
+  int spins_;
+  void (*call_)(void*, Part) = nullptr;
+  void* context_ = nullptr;
+  bool ending_ = false;
+  alignas(64) std::atomic<int> round_{0};
+  alignas(64) std::atomic<int> busy_{0};
+  std::atomic<bool> failed_{false};
+
+  void begin() {
+    round_.fetch_add(1, std::memory_order_release);
+    round_.notify_all();
+  }
+  void doPart(int index) {
+    try {
+      call_(context_, Part{index, count()});
+    } catch (...) {
+      errors_[std::size_t(index)] = std::current_exception();
+      failed_.store(true, std::memory_order_relaxed);
+    }
+  }
+  void work(int index) {
+    for (int round = 0;;) {
+      await(round_, [&](int now) { return now != round; });
+      ++round;
+      if (ending_) return;
+      doPart(index);
+      if (busy_.fetch_sub(1, std::memory_order_acq_rel) == 1) busy_.notify_one();
+    }
+  }
+  template <class Done>
+  void await(std::atomic<int> const& value, Done&& done) const {
+    for (int i = 0; i < spins_; ++i) {
+      if (done(value.load(std::memory_order_acquire))) return;
+#if defined(__x86_64__) || defined(__i386__)
+      __builtin_ia32_pause();
+#elif defined(__aarch64__)
+      asm volatile("yield");
+#endif
+    }
+    for (int now; !done(now = value.load(std::memory_order_acquire));)
+      value.wait(now, std::memory_order_acquire);
+  }
+  void raise() {
+    failed_ = false;
+    std::exception_ptr first;
+    for (auto& error : errors_)
+      if (auto e = std::exchange(error, nullptr); e && !first) first = e;
+    std::rethrow_exception(first);
+  }
+  void stop() {
+    ending_ = true;
+    begin();
+    for (auto& thread : threads_) thread.join();
+  }
+};
+
+/// Workers that may be none, as the operations of a scene see them.
+struct SomeWorkers {
+  Workers* workers = nullptr;
+
+  int count() const { return workers ? workers->count() : 1; }
+  template <class F>
+  void run(F&& f) const {
+    if (workers)
+      workers->run(f);
+    else
+      f(Part{});
+  }
+  void reserveSums(std::size_t n) const {
+    if (workers) workers->reserveSums(n);
+  }
+  double* sums() const { return workers ? workers->sums() : nullptr; }
+};
+
+}  // namespace sinew
