@@ -41,6 +41,8 @@ bool read_options(int argc, char** argv, LaparoscopyOptions& options, int& statu
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
   app.add_option("--output", options.output, "Folder to write to; '' writes nothing")->capture_default_str();
+  app.add_option(
+      "--picture", options.picture, "Draw three moments of the first 18 seconds to this file (.svg)");
   try {
     app.parse(argc, argv);
   } catch (CLI::ParseError const& e) {

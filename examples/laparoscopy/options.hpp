@@ -10,8 +10,8 @@ namespace examples {
 struct LaparoscopyScene {
   int iterations = 25;
   double gravity = 2;  // the part of the weight that what is not simulated does not bear [m/s^2]
-  double rayleighStiffness = 0.05;
   double liverModulus = 6000, intestineModulus = 6000;  // [Pa]
+  double viscosity = 0.05;                              // damping of the organs per stiffness [s]
   double mesentery = 20;                                // stiffness of each tether [N/m]
   double alarmDistance = 0.003, contactDistance = 0.0015;
   double organContact = 1, wallContact = 2, toolContact = 5;  // contactStiffness
@@ -26,7 +26,7 @@ struct LaparoscopyOptions {
   LaparoscopyScene scene{};
   double time = 20, dt = 0.02;
   int every = 5;  // steps from one picture to the next
-  std::string output = "out/laparoscopy";
+  std::string output = "out/laparoscopy", picture{};
 };
 
 /// Reads the command line. False where the program should end, with `status`. Throws sinew::Error.

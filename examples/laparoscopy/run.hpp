@@ -3,6 +3,7 @@
 
 #include "measures.hpp"
 #include "options.hpp"
+#include "picture.hpp"
 #include "scene.hpp"
 
 #include "support/progress.hpp"
@@ -48,6 +49,7 @@ void run(LaparoscopyBodies const& bodies, LaparoscopyOptions const& options) {
   const long steps = std::lround(options.time / options.dt);
   LaparoscopyScript script{.length = options.scene.period};
   LaparoscopyMeasures measures;
+  std::vector<LaparoscopyPanel> panels;
   Progress progress(steps);
   Stopwatch stepping;
   picture();
@@ -58,6 +60,13 @@ void run(LaparoscopyBodies const& bodies, LaparoscopyOptions const& options) {
     stepping.stop();
     measures.look<sinew::DefaultContactManager>(sim, bodies, i % 10 == 0);
     if (i % options.every == 0) picture();
+    if (!options.picture.empty() && panels.size() < LaparoscopyScript::moments.size())
+      if (auto const& [part, title] = LaparoscopyScript::moments[panels.size()];
+          sim.time() >= part * script.length)
+        panels.push_back({sinew::text(std::round(10 * sim.time()) / 10, " s: ", title),
+                          sim.template at<"organs/liver/skin">().state().position,
+                          sim.template at<"organs/intestines/skin">().state().position,
+                          sim.template at<"tool/shaft">().state().position});
     progress.at(i);
   }
   std::printf("%ld steps of %g s in %.1f s: %.0f steps/s; lifted %d times\n",
@@ -70,19 +79,22 @@ void run(LaparoscopyBodies const& bodies, LaparoscopyOptions const& options) {
               measures.fastest,
               measures.kinetic,
               measures.potential);
-  std::printf("up to %zu contacts, nearest %.2f mm (%s); skins at least %.1f mm inside of the wall\n",
-              measures.contacts,
-              1e3 * measures.least,
-              measures.where.c_str(),
-              -1e3 * measures.farthest);
   std::printf(
-      "volumes %.2f to %.2f of those at rest; up to %d elements inverted, for up to %.1f s; ribs or "
-      "tool inside an organ: %d times\n",
+      "up to %zu contacts, deepest penetration %.2f mm (%s); skins at least %.1f mm inside of the wall\n",
+      measures.contacts,
+      1e3 * measures.deepest,
+      measures.where.c_str(),
+      -1e3 * measures.farthest);
+  std::printf(
+      "volumes of skins %.2f to %.2f of those at rest, of elements at least %.2f; up to %d elements "
+      "inverted, for up to %.1f s; ribs or tool inside an organ: %d times\n",
       measures.smallest,
       measures.largest,
+      measures.lowest,
       measures.most,
       measures.longest * 10 * options.dt,
       measures.within);
+  if (!options.picture.empty()) write_picture(bodies, panels, options.picture);
   if (series[0]) std::printf("open %s/*.pvd in ParaView\n", options.output.c_str());
 }
 

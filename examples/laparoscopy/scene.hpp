@@ -11,8 +11,11 @@ namespace examples {
 
 /// What the organs are: corotational finite elements...
 struct FemOrgans {
+  static sinew::EulerImplicitSolver solver(LaparoscopyScene const& s) {
+    return {.rayleighStiffness = s.viscosity, .rayleighMass = 0.1};
+  }
   template <sinew::FixedString Name, class... Children>
-  static auto organ(Organ const& o, double youngModulus, Children... children) {
+  static auto organ(Organ const& o, double youngModulus, double, Children... children) {
     using namespace sinew;
     return node<Name>(TetrahedronTopology{o.volume.tetrahedra},
                       MechanicalObject<Vec3d>{o.volume.positions},
@@ -23,20 +26,24 @@ struct FemOrgans {
   }
 };
 
-/// ... or grids of springs around them, as free-form deformations of the skin.
+/// ... or grids of springs around them, as free-form deformations of the skin. Their springs have dampers.
+/// With Rayleigh damping, rK K, springs that are pressed would drive what they should damp: K has F/l (I -
+/// uu') of each, which is negative then, and a grid that is crushed under the tool shakes until it breaks up.
 struct GridOrgans {
+  static sinew::EulerImplicitSolver solver(LaparoscopyScene const&) { return {.rayleighMass = 0.1}; }
   template <sinew::FixedString Name, class... Children>
-  static auto organ(Organ const& o, double youngModulus, Children... children) {
+  static auto organ(Organ const& o, double youngModulus, double viscosity, Children... children) {
     using namespace sinew;
     // a bar of cells is as stiff as one of this modulus: along it, a cell has a line and the projections of 4
     // diagonals of faces and 4 of the cube, 1 + 4/2^1.5 + 4/3^1.5 = 3.2 springs
     const double stiffness = youngModulus * o.cell * o.cell / 3.2;
-    return node<Name>(RegularGridTopology{.n = o.grid},
-                      MechanicalObject<Vec3d>{o.volume.positions},
-                      UniformMass<Vec3d>{.totalMass = 1000 * o.volumeOfSkin},
-                      RegularGridSpringForceField<Vec3d>{.stiffness = stiffness, .damping = 0},
-                      FixedConstraint<Vec3d>{.indices = o.fixed},
-                      children...);
+    return node<Name>(
+        RegularGridTopology{.n = o.grid},
+        MechanicalObject<Vec3d>{o.volume.positions},
+        UniformMass<Vec3d>{.totalMass = 1000 * o.volumeOfSkin},
+        RegularGridSpringForceField<Vec3d>{.stiffness = stiffness, .damping = viscosity * stiffness},
+        FixedConstraint<Vec3d>{.indices = o.fixed},
+        children...);
   }
 };
 
@@ -67,7 +74,8 @@ inline auto skin(sinew::Mesh const& mesh, int group, bool selfCollision, Laparos
 
 /// Liver and intestines in the abdomen, the ribs over them, and a tool that a script moves. `Organs`:
 /// FemOrgans or GridOrgans, with the bodies made for it.
-template <class Organs, class Manager = sinew::DefaultContactManager, class Matrix = sinew::GraphScattered>
+template <class Organs, class Manager = sinew::DefaultContactManager,
+          class Matrix = sinew::CompressedRowSparseMatrixMat3x3d>
 auto laparoscopy_scene(LaparoscopyBodies const& b, LaparoscopyScene const& s = {}) {
   using namespace sinew;
   MeshTopology wall, ribs, shaft;
@@ -85,12 +93,14 @@ auto laparoscopy_scene(LaparoscopyBodies const& b, LaparoscopyScene const& s = {
       MinProximityIntersection{.alarmDistance = s.alarmDistance, .contactDistance = s.contactDistance},
       Manager{},
       node<"organs">(
-          EulerImplicitSolver{.rayleighStiffness = s.rayleighStiffness, .rayleighMass = 0.1},
+          Organs::solver(s),
           CGLinearSolver<Matrix>{.iterations = s.iterations, .tolerance = 1e-6},
-          Organs::template organ<"liver">(b.liver, s.liverModulus, skin(b.liver.skin, 1, false, s)),
+          Organs::template organ<"liver">(
+              b.liver, s.liverModulus, s.viscosity, skin(b.liver.skin, 1, false, s)),
           Organs::template organ<"intestines">(
               b.intestines,
               s.intestineModulus,
+              s.viscosity,
               RestShapeSpringsForceField<Vec3d>{.points = b.intestines.tethered, .stiffness = {s.mesentery}},
               skin(b.intestines.skin, 3, true, s))),
       node<"wall">(wall,

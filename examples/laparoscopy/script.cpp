@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "script.hpp"
 
+#include <array>
+
 namespace examples {
 
 namespace {
@@ -23,8 +25,8 @@ LaparoscopyScript::Movement LaparoscopyScript::trajectory(double length) {
   static const std::array<Way, 18> ways{{
       {0, {0.02, -0.09, 0.07}},  // hovers
       {2, {-0.03, -0.01, 0.072}},
-      {3.5, {-0.03, -0.01, 0.038}},  // pushes the liver
-      {4.5, {-0.02, -0.02, 0.036}},  // slides over it
+      {3.5, {-0.03, -0.01, 0.046}},  // pushes the liver
+      {4.5, {-0.02, -0.02, 0.045}},  // slides over it
       {6, {-0.03, -0.03, 0.072}},
       {7.5, {0.06, -0.14, 0.03}},
       {8.5, {0.06, -0.13, 0}},    // pushes the intestines
@@ -35,9 +37,9 @@ LaparoscopyScript::Movement LaparoscopyScript::trajectory(double length) {
       {13.6, {0.0, -0.088, -0.035}},  // pushes one towards the liver
       {14.4, {-0.02, -0.105, 0.035}},
       {15.3, {0.05, -0.021, 0.02}},  // grasps the lower edge of the left lobe
-      {17.4, {0.04, -0.03, 0.075}},  // lifts it
-      {18.2, {0.04, -0.03, 0.075}},
-      {18.6, {0.04, -0.045, 0.072}},  // has let go
+      {17.4, {0.04, -0.03, 0.05}},   // lifts it
+      {18.2, {0.04, -0.03, 0.05}},
+      {18.6, {0.04, -0.045, 0.06}},  // has let go
       {20, {0.02, -0.09, 0.07}},
   }};
   Movement m;

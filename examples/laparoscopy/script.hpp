@@ -5,8 +5,10 @@
 #include <sinew/scene/picking.hpp>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 namespace examples {
@@ -17,6 +19,14 @@ namespace examples {
 struct LaparoscopyScript {
   static constexpr double period = 20;                                       // [s]
   static constexpr double grasps = 15.4 / period, releases = 18.3 / period;  // parts of the period
+  /// What to look at, and when, in parts of the period.
+  struct Moment {
+    double part;
+    char const* title;
+  };
+  static constexpr std::array<Moment, 3> moments{{{4 / period, "pushing the liver"},
+                                                  {13.4 / period, "between two loops"},
+                                                  {17.8 / period, "lifting the left lobe"}}};
   double length = period;
 
   struct Movement {
@@ -43,15 +53,19 @@ struct LaparoscopyScript {
     auto const& tool = sim.template at<"tool">().state();
     const auto pose = tool.position[0];
     if (close && !closed) {
-      // from within the shaft, to what is in front of the tip
-      for (const auto [x, y] :
-           {std::array{0.0, 0.0}, {0.006, 0.0}, {-0.006, 0.0}, {0.0, 0.006}, {0.0, -0.006}}) {
-        const Eigen::Vector3d from = pose.center + pose.orientation * Eigen::Vector3d(x, y, 0.03);
-        const auto pick = sim.pick(from, pose.orientation * Eigen::Vector3d(0, 0, -1), 0.05);
-        if (!pick || !pick->simulated) continue;
-        held.push_back({sim.attach(*pick, {.stiffness = 100, .damping = 1}),
-                        pose.orientation.conjugate() * (pick->point - pose.center)});
-      }
+      // from within the shaft, to what is in front of the jaws: one place in the middle, 4 and 8 around it
+      std::vector<sinew::Pick> picks;
+      for (int ring = 0; ring < 3; ++ring)
+        for (int i = 0; i < std::max(1, 4 * ring); ++i) {
+          const double angle = std::numbers::pi * i / (2 * std::max(1, ring)), r = 0.005 * ring;
+          const Eigen::Vector3d inTool(r * std::cos(angle), r * std::sin(angle), 0.03);
+          const auto pick = sim.pick(
+              pose.center + pose.orientation * inTool, pose.orientation * Eigen::Vector3d(0, 0, -1), 0.05);
+          if (pick && pick->simulated) picks.push_back(*pick);
+        }
+      for (auto const& pick : picks)
+        held.push_back({sim.attach(pick, {.stiffness = 300.0 / double(picks.size()), .damping = 0.5}),
+                        pose.orientation.conjugate() * (pick.point - pose.center)});
       graspsDone += held.empty() ? 0 : 1;
     }
     if (!close)
