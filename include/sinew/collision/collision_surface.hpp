@@ -173,8 +173,8 @@ struct CollisionSurface {
     for (auto const& p : hull->points()) b.include(position[v] + turned * p);
     if (!(dt > 0)) return b;
     AxisBox way = b;
-    way.include(b.min + dt * velocity[v]);
-    way.include(b.max + dt * velocity[v]);
+    way.include(b.min + (solver < 0 ? -dt : dt) * velocity[v]);
+    way.include(b.max + (solver < 0 ? -dt : dt) * velocity[v]);
     // a point at r turns by |w| r dt at most
     return way.grown(dt * spin[v].norm() * hull->reach());
   }

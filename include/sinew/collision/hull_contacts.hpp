@@ -12,7 +12,8 @@ namespace sinew {
 
 namespace detail {
 
-/// A primitive of N corners, or a hull (N = 0), where it will be after `time` at the velocity it has.
+/// A primitive of N corners, or a hull (N = 0), where it will be after `time` at the velocity it has; before,
+/// where it is less than 0.
 template <std::size_t N>
 struct MovedPrimitive {
   using V = Eigen::Vector3d;
@@ -39,11 +40,15 @@ struct MovedPrimitive {
     else
       return convex_view(corners, origin);
   }
-  /// No point goes faster along n [m/s].
-  double fastestAlong(V const& n) const {
+  double centreAlong(V const& n) const {
     double most = -std::numeric_limits<double>::infinity();
     for (std::size_t c = 0; c < corners.size(); ++c)
       most = std::max(most, n.dot(surface.velocity[vertex(c)]));
+    return most;
+  }
+  /// No point goes faster along n [m/s].
+  double fastestAlong(V const& n) const {
+    double most = centreAlong(n);
     if constexpr (N == 0) most += surface.spin[vertex(0)].norm() * surface.hull->reach();
     return most;
   }
@@ -298,9 +303,12 @@ struct TriangleAround {
 ///
 /// Under a continuous method, hulls that are not yet near advance by conservative advancement (Mirtich 1996):
 /// with the distance d along n, and no point of either approaching faster than w = n.(v_a - v_b) + |w_a| r_a
-/// + |w_b| r_b, they cannot meet before d / w; the contact is where they will first meet during the step. It
-/// stops that place; what a body that hits askew turns by after that, within the step, is not seen: a step in
-/// which it turns by more than about a radian is too long.
+/// + |w_b| r_b, they cannot meet before d / w; the contact is where they will first meet during the step.
+/// What no solver moves comes from where it was a step before. A body that would hit askew and turn over the
+/// place that is stopped, and so pass by, is stopped as a whole: where the centres approach by more than a
+/// fifth of the radius in a step, and would come nearer than at the impact, the contact keeps them from that
+/// without a torque. In such a step angular momentum is not kept; the next ones, in which it is slow, turn
+/// it.
 template <std::size_t NA, std::size_t NB>
 struct HullContacts {
   using V = Eigen::Vector3d;
@@ -312,8 +320,12 @@ struct HullContacts {
         "Sinew: an intersection method that meets hulls has limit(), the distance below which the "
         "response acts.");
     const double limit = method.limit() + pair.proximity(), reach = method.reach() + pair.proximity();
-    const double time = Intersection::continuous ? std::max(0.0, impact(pair, limit)) : 0;
-    contacts(pair, time, limit, time > 0 ? std::numeric_limits<double>::infinity() : reach, add);
+    if constexpr (Intersection::continuous)
+      if (const double time = impact(pair, limit); time >= 0) {
+        contacts(pair, true, time, limit, time > 0 ? std::numeric_limits<double>::infinity() : reach, add);
+        return;
+      }
+    contacts(pair, false, 0, limit, reach, add);
   }
 
  private:
@@ -324,14 +336,16 @@ struct HullContacts {
     return detail::convex_contact(a.view(origin), b.view(origin));
   }
   static V originOf(MovedA const& a, MovedB const& b) { return NA == 0 ? a.corners[0] : b.corners[0]; }
+  // when, of the time since the step began, a surface is where it is: what no solver moves is at the end
+  static double present(CollisionSurface const& s, double dt) { return s.solver < 0 ? dt : 0; }
 
-  /// When the two come nearer than `limit` [s]; -1 where they do not, during this step.
+  /// When the two come nearer than `limit` [s]: 0 where they are, -1 where they do not during this step.
   static double impact(PrimitivePair<NA, NB> const& pair, double limit) {
     double time = 0;
     const double near = limit + pair.thickness();
-    for (int i = 0; i < 200; ++i) {
-      const MovedA a(pair.a, pair.elementA, time);
-      const MovedB b(pair.b, pair.elementB, time);
+    for (int i = 0; i < 1000; ++i) {
+      const MovedA a(pair.a, pair.elementA, time - present(pair.a, pair.dt));
+      const MovedB b(pair.b, pair.elementB, time - present(pair.b, pair.dt));
       const ConvexContact c = nearest(a, b, originOf(a, b));
       const double gap = c.distance - near;
       if (gap <= 1e-3 * limit + 1e-9 * (a.size() + b.size())) return time;
@@ -343,10 +357,10 @@ struct HullContacts {
   }
 
   template <class Add>
-  static void contacts(PrimitivePair<NA, NB> const& pair, double time, double limit, double reach,
+  static void contacts(PrimitivePair<NA, NB> const& pair, bool swept, double time, double limit, double reach,
                        Add&& add) {
-    const MovedA a(pair.a, pair.elementA, time);
-    const MovedB b(pair.b, pair.elementB, time);
+    const MovedA a(pair.a, pair.elementA, swept ? time - present(pair.a, pair.dt) : 0);
+    const MovedB b(pair.b, pair.elementB, swept ? time - present(pair.b, pair.dt) : 0);
     const V origin = originOf(a, b);
     const detail::ConvexView viewA = a.view(origin), viewB = b.view(origin);
     ConvexContact c = detail::convex_contact(viewA, viewB);
@@ -379,6 +393,7 @@ struct HullContacts {
         };
     if (!look(a, c.pointA, 1, innerA) || !look(b, c.pointB, -1, innerB)) return;
     const V n = c.direction;
+    if (swept && addWhole(pair, a, b, c, origin, time, limit, add)) return;
 
     // across n, along axes of the hull, so that it shows the same corners when it moves
     Eigen::Index axis = 0;
@@ -437,6 +452,47 @@ struct HullContacts {
           n.dot(position_of(contact.b, pair.b) - position_of(contact.a, pair.a)) - contact.thickness;
       if (contact.distance <= reach) add(contact);
     }
+  }
+
+  /// The contact of the centres: `c` with all levers along the normal, and room for what the hulls turn by
+  /// in the rest of the step. False where the centres do not come so near, or are slow.
+  template <class Add>
+  static bool addWhole(PrimitivePair<NA, NB> const& pair, MovedA const& a, MovedB const& b,
+                       ConvexContact const& c, V const& origin, double time, double limit, Add&& add) {
+    const V n = c.direction;
+    double radius = std::numeric_limits<double>::infinity(), turns = 0;
+    auto regard = [&](auto const& p) {
+      if (p.surface.solver < 0 || !(p.size() > 0)) return;
+      const double reach = p.surface.hull->reach();
+      radius = std::min(radius, p.size());
+      turns += std::min(1.0, p.surface.spin[p.vertex(0)].norm() * (pair.dt - time)) * reach;
+    };
+    regard(a), regard(b);
+    const double approach = a.centreAlong(n) - b.centreAlong(n);
+    if (!(approach * pair.dt > 0.2 * radius)) return false;
+    Contact contact;
+    contact.normal = n;
+    contact.thickness = pair.thickness();
+    // where c is, n.p is that of the two, whatever the face
+    place(contact.a, a, c.pointA + origin, {-3, -3}, n, contact.thickness);
+    place(contact.b, b, V(c.pointA + c.distance * n + origin), {-3, -3}, -n, contact.thickness);
+    toCentre(contact.a, a, n), toCentre(contact.b, b, n);
+    contact.limit = limit;
+    const double gap =
+        n.dot(position_of(contact.b, pair.b) - position_of(contact.a, pair.a)) - contact.thickness;
+    const double room = std::clamp(gap - limit, 0.0, turns);
+    contact.thickness += room;
+    contact.distance = gap - room;
+    if (!(contact.distance - approach * pair.dt < limit)) return false;
+    add(contact);
+    return true;
+  }
+  template <std::size_t N>
+  static void toCentre(ContactSide& side, detail::MovedPrimitive<N> const& p, V const& n) {
+    if constexpr (N == 0)
+      if (p.surface.solver >= 0)
+        side.lever =
+            p.surface.orientation[p.vertex(0)].conjugate() * V(n.dot(p.orientation * side.lever) * n);
   }
 
   // the edge behind corner c of a triangle is that from c to c + 1
