@@ -303,6 +303,29 @@ struct ElementDriver {
     std::memcpy(to, &sum, sizeof sum);
   }
 
+  // to += block or its transpose, row-major; vectors are made of scalars in registers, since what is written
+  // scalar by scalar cannot be read back at once as a vector
+  template <int N, class Block>
+  SINEW_INLINE static void addScalars(auto* to, Block const& block, bool turned) {
+    if constexpr (N == 3 && std::is_same_v<Real*, decltype(to)>) {
+      typedef Real Four __attribute__((vector_size(4 * sizeof(Real))));
+      const Real a = turned ? block(1, 0) : block(0, 1), b = turned ? block(2, 0) : block(0, 2),
+                 c = turned ? block(0, 1) : block(1, 0), d = turned ? block(2, 1) : block(1, 2),
+                 e = turned ? block(0, 2) : block(2, 0), f = turned ? block(1, 2) : block(2, 1);
+      const Four more[2] = {{block(0, 0), a, b, c}, {block(1, 1), d, e, f}};
+      for (int i = 0; i < 2; ++i) {
+        Four sum;
+        std::memcpy(&sum, to + 4 * i, sizeof sum);
+        sum += more[i];
+        std::memcpy(to + 4 * i, &sum, sizeof sum);
+      }
+      to[8] += block(2, 2);
+    } else {
+      for (int r = 0; r < N; ++r)
+        for (int c = 0; c < N; ++c) to[r * N + c] += turned ? block(c, r) : block(r, c);
+    }
+  }
+
   template <class Sink>
   void bind(Sink const& sink) {
     slots.assign(packs.size(), Slots{});
@@ -325,6 +348,10 @@ struct ElementDriver {
       forEachPair([&]<int I, int J>() {
         const Mat<L, n> block = law.block(pack.rest, pack.tangent, I, J, L(k), L(b));
         auto const& turned = slots[p].transposed[pairNumber(I, J)];
+        if constexpr (W == 1) {
+          addScalars<n>(matrix.block(slots[p].slot[pairNumber(I, J)][0]), block, I != J && turned);
+          return;
+        }
         L rows[n * n];  // row-major, as the matrix has it
         for (int r = 0; r < n; ++r)
           for (int c = 0; c < n; ++c)
