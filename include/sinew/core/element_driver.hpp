@@ -404,6 +404,28 @@ struct ElementDriver {
     std::memcpy(to, &sum, sizeof sum);
   }
 
+  // to += block or its transpose, row-major; vectors are made of scalars in registers, since what is written
+  // scalar by scalar cannot be read back at once as a vector
+  template <int N, class Block>
+  SINEW_INLINE static void addScalars(auto* to, Block const& block, bool turned) {
+    if constexpr (N == 3 && std::is_same_v<Real*, decltype(to)>) {
+      typedef Real Four __attribute__((vector_size(4 * sizeof(Real))));
+      auto entry = [&](int r, int c) { return rounded(turned ? block(c, r) : block(r, c)); };
+      const Four more[2] = {{entry(0, 0), entry(0, 1), entry(0, 2), entry(1, 0)},
+                            {entry(1, 1), entry(1, 2), entry(2, 0), entry(2, 1)}};
+      for (int i = 0; i < 2; ++i) {
+        Four sum;
+        std::memcpy(&sum, to + 4 * i, sizeof sum);
+        sum += more[i];
+        std::memcpy(to + 4 * i, &sum, sizeof sum);
+      }
+      to[8] += entry(2, 2);
+    } else {
+      for (int r = 0; r < N; ++r)
+        for (int c = 0; c < N; ++c) to[r * N + c] += rounded(turned ? block(c, r) : block(r, c));
+    }
+  }
+
   template <class Sink>
   void bind(Sink const& sink) {
     slots.assign(packs.size(), Slots{});
@@ -439,14 +461,22 @@ struct ElementDriver {
         constexpr int pair = pairNumber(I, J);
         const Mat<L, n> block = law.block(pack.rest, pack.tangent, I, J, L(k), L(b));
         auto const& turned = slots[p].transposed[pair];
+        if constexpr (W == 1) {
+          Real* const room =
+              rooms && rooms[pair] >= 0 ? keptBlocks.data() + std::ptrdiff_t(rooms[pair]) * n * n : nullptr;
+          if (room)
+            for (int r = 0; r < n; ++r)
+              for (int c = 0; c < n; ++c) room[r * n + c] = I != J && turned ? block(c, r) : block(r, c);
+          else
+            addScalars<n>(matrix.block(slots[p].slot[pair][0]), block, I != J && turned);
+          return;
+        }
         L rows[n * n];  // row-major, as the matrix has it
         for (int r = 0; r < n; ++r)
           for (int c = 0; c < n; ++c)
             rows[r * n + c] = I == J || r == c ? block(r, c) : select(turned, L(block(c, r)), L(block(r, c)));
         alignas(64) Real ofLane[W][(n * n + 3) / 4 * 4];
         transpose<n * n>(rows, ofLane);
-        if constexpr (W == 1)
-          for (int c = 0; c < n * n; ++c) ofLane[0][c] = rounded(ofLane[0][c]);
         for (int l = 0; l < pack.active; ++l)
           if (rooms && rooms[pair * W + l] >= 0)
             std::memcpy(keptBlocks.data() + std::ptrdiff_t(rooms[pair * W + l]) * n * n,
