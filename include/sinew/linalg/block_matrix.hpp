@@ -115,7 +115,18 @@ struct CompressedRowSparseMatrix {
     ends.resize(std::max(room, B == 3 ? std::size_t(rows()) : 0));
   }
 
-  void setZero() { std::memset(values.data(), 0, values.size() * sizeof(Real)); }
+  void setZero() { setZero(OneThread{}); }
+  template <class Run>
+  void setZero(Run const& workers) {
+    auto zero = [&](Part part) {
+      const std::size_t begin = part.begin(values.size());
+      std::memset(values.data() + begin, 0, (part.end(values.size()) - begin) * sizeof(Real));
+    };
+    if (chunks.empty())
+      zero(Part{});
+    else
+      workers.run(zero);
+  }
 
   /// Position of a block, or of the one across the diagonal, in `columns`; -1 where the pattern has none.
   int slot(int row, int column) const {
