@@ -21,7 +21,7 @@ import picture  # noqa: E402
 import table  # noqa: E402
 from tools import Yardstick, fail, output  # noqa: E402
 
-TABLES = ["fem", "grids", "small", "accuracy", "roofline", "growth", "portability", "by-hand", "vitrectomy", "runtime", "families", "collision",
+TABLES = ["fem", "grids", "small", "accuracy", "roofline", "growth", "threads", "portability", "by-hand", "vitrectomy", "runtime", "families", "collision",
           "laparoscopy", "compile"]
 
 
@@ -86,6 +86,8 @@ def main():
     parser.add_argument("--meshes", type=pathlib.Path, nargs="+", metavar="FILE", help="tetrahedral meshes (.msh); default: blocks made here")
     parser.add_argument("--yardstick", type=pathlib.Path, metavar="SOURCE", help="C++ source of a program to compare bodies with")
     parser.add_argument("--compiler", default="g++", help="what compiles the yardstick (default: g++)")
+    parser.add_argument("--cells", type=int, nargs="+", default=[17, 55], metavar="N", help="cells along the cubes of the table of threads (default: 17 55)")
+    parser.add_argument("--threads", type=int, nargs="+", metavar="N", help="numbers of threads in it (default: 1, 2, 4, ... all)")
     parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument("--only", choices=TABLES, action="append", help="this table instead of all; may be repeated")
     parser.add_argument("--json", type=pathlib.Path, default=pathlib.Path("out/bench.json"))
@@ -120,6 +122,8 @@ def main():
             results["roofline"] = table.roofline(build, rounds)
         if wanted("growth"):
             results["growth"] = table.growth(build, rounds)
+        if wanted("threads"):
+            results["threads"] = table.threads(build, arguments.cells, arguments.threads)
         if wanted("portability"):
             results["portability"] = table.portability(build, rounds)
         if wanted("by-hand"):

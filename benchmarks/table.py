@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSL-1.0
 """The table: speed against a yardstick and against SOFA, time to one accuracy, shares of what the processor can do, growth
 with the size, and builds for other processors. Each function runs its programs, prints a table and returns its rows."""
+import os
 import pathlib
 import statistics
 
@@ -182,6 +183,27 @@ def growth(build, rounds, sizes=(6, 12, 26, 55)):
                       f"{arrays / least:.2f}"])
     print_table("growth: nanoseconds and bytes a tetrahedron", ["tetrahedra", "points", "ns, step", "ns, iteration", "bytes after init", "bytes at most", "of a step's arrays",
                                                                 "the method needs", "ratio"], lines)
+    return rows
+
+
+def threads(build, cells, counts, seconds=1):
+    if not counts:
+        most = len(os.sched_getaffinity(0))
+        counts = sorted({1, most, *(2**k for k in range(9) if 2**k < most)})
+    rows, lines = [], []
+    for size in cells:
+        found = [line.split() for line in output(build / "bench_threads", size, seconds, *counts).splitlines()]
+        first = {}
+        for kind, tetrahedra, count, time, bits in found:
+            count, time = int(count), float(time)
+            first.setdefault(kind, (count * time, bits))
+            speedup = first[kind][0] / time
+            rows.append({"tetrahedra": int(tetrahedra), "kind": kind, "threads": count, "step": time, "speedup": speedup, "same_bits": bits == first[kind][1]})
+            lines.append([f"{int(tetrahedra):,}", kind, count, f"{1e3 * time:.3g}", f"{speedup:.2f}", f"{100 * speedup / count:.0f} %",
+                          "same" if rows[-1]["same_bits"] else "OTHER"])
+    print_table("one corotational body by several threads, 25 iterations a step, medians of steps", ["tetrahedra", "kind", "threads", "ms/step", "speed-up", "efficiency", "bits"], lines)
+    if not all(row["same_bits"] for row in rows):
+        fail("positions after the same steps differ between numbers of threads; this is a mistake in Sinew")
     return rows
 
 

@@ -116,6 +116,11 @@ Options read_options(int argc, char** argv, int& status) {
       ->check(at_least(1).description(""));
   run->add_option("--save", o.run.save, "File for the scene as it is at the end, to go on from")
       ->type_name("FILE");
+  run->add_option("--threads",
+                  o.run.threads,
+                  "Threads that work, instead of those that the scene asks for; the results are the same")
+      ->type_name("N")
+      ->check(CLI::Range(1, 256).description(""));
   auto* profile = run->add_flag("--profile", o.run.profile, "Print where the time of the steps goes");
   run->add_option("--trace",
                   o.run.trace,

@@ -35,6 +35,7 @@ struct RunOptions {
   Duration duration{};
   std::string vtk{}, record{}, save{};
   long every = 1;
+  int threads = 0;  // as the scene says
   bool profile = false;
   std::string trace{};
   Output output = Output::words;

@@ -99,6 +99,15 @@ class Outputs {
   }
 };
 
+// all Threads of a scene have so many; the root has some
+void use_threads(Node& node, int count) {
+  bool found = node.parent() != nullptr;
+  for (auto& entry : node.components())
+    if (auto* threads = entry.component.getIf<sinew::Threads>()) threads->count = count, found = true;
+  if (!found) node.add(sinew::Threads{.count = count});
+  for (auto const& child : node.children()) use_threads(*child, count);
+}
+
 // the lines of a profile
 std::vector<Json> profile_json(sinew::Profile const& profile) {
   std::vector<Json> all;
@@ -114,7 +123,9 @@ std::vector<Json> profile_json(sinew::Profile const& profile) {
 }  // namespace
 
 int run(RunOptions const& options) {
-  Scene scene = load(options.scene);
+  auto source = read(options.scene);
+  if (options.threads > 0) use_threads(source.root, options.threads);
+  Scene scene = start(std::move(source), options.scene);
   auto& simulation = scene.simulation;
   const Count size = count(simulation.root());
   const long steps = steps_of(options.duration, scene.dt);

@@ -16,7 +16,7 @@ volatile std::sig_atomic_t pressed = 0;
 void count_below(Node const& node, Count& count) {
   ++count.nodes;
   for (auto const& entry : node.components()) {
-    count.components += !entry.component.is<sinew::role::Context>();
+    count.components += !entry.component.is<sinew::role::Context, sinew::role::Execution>();
     if (!node.mapping())
       entry.component.visit<sinew::role::State>([&](auto const& state) {
         count.degreesOfFreedom += state.size() * std::decay_t<decltype(state)>::DataTypes::size;

@@ -15,12 +15,14 @@
 
 namespace sinew {
 
-/// Threads that wait for work, and the one of the caller, which does its share. They spin for some
-/// microseconds before they sleep, unless there are more of them than the machine has.
+/// Threads that wait for work, and the one of the caller, which does its share, and that of a thread which
+/// has not come when it is done. They spin for some microseconds before they sleep, unless there are more of
+/// them than the machine has.
 class Workers {
  public:
   explicit Workers(int count)
       : errors_(std::size_t(count)),
+        taken_(std::size_t(count)),
         spins_(unsigned(count) <= std::thread::hardware_concurrency() ? 4000 : 0) {
     threads_.reserve(std::size_t(count) - 1);
     try {
@@ -36,7 +38,7 @@ class Workers {
 
   int count() const { return int(threads_.size()) + 1; }
 
-  /// f(part) for the parts of a whole, each in a thread of its own. When all have ended, what the first of
+  /// f(part) for the parts of a whole, each in one thread. When all have ended, what the first of
   /// them has thrown is thrown.
   template <class F>
   void run(F&& f) {
@@ -45,6 +47,7 @@ class Workers {
     busy_.store(int(threads_.size()), std::memory_order_relaxed);
     begin();
     doPart(0);
+    for (int i = count() - 1; i > 0; --i) take(i, round_.load(std::memory_order_relaxed));
     await(busy_, [](int busy) { return busy == 0; });
     if (failed_.load(std::memory_order_relaxed)) [[unlikely]]
       raise();
@@ -60,11 +63,16 @@ class Workers {
  private:
   std::vector<std::thread> threads_{};
   std::vector<std::exception_ptr> errors_;
+  // the round in which a part was taken last
+  struct alignas(64) Taken {
+    std::atomic<int> round{0};
+  };
+  std::vector<Taken> taken_;
   std::vector<double> sums_{};
   int spins_;
   void (*call_)(void*, Part) = nullptr;
   void* context_ = nullptr;
-  bool ending_ = false;
+  std::atomic<bool> ending_{false};
   alignas(64) std::atomic<int> round_{0};
   alignas(64) std::atomic<int> busy_{0};
   std::atomic<bool> failed_{false};
@@ -81,13 +89,21 @@ class Workers {
       failed_.store(true, std::memory_order_relaxed);
     }
   }
+  // Does a part, unless another thread does. A round lasts until all its parts are done, so that what a
+  // thread that comes late takes for the work of its round is that.
+  void take(int index, int round) {
+    int before = round - 1;
+    if (!taken_[std::size_t(index)].round.compare_exchange_strong(before, round, std::memory_order_acq_rel))
+      return;
+    doPart(index);
+    if (busy_.fetch_sub(1, std::memory_order_acq_rel) == 1) busy_.notify_one();
+  }
   void work(int index) {
     for (int round = 0;;) {
       await(round_, [&](int now) { return now != round; });
-      ++round;
-      if (ending_) return;
-      doPart(index);
-      if (busy_.fetch_sub(1, std::memory_order_acq_rel) == 1) busy_.notify_one();
+      round = round_.load(std::memory_order_acquire);
+      if (ending_.load(std::memory_order_relaxed)) return;
+      take(index, round);
     }
   }
   template <class Done>
@@ -111,7 +127,7 @@ class Workers {
     std::rethrow_exception(first);
   }
   void stop() {
-    ending_ = true;
+    ending_.store(true, std::memory_order_relaxed);
     begin();
     for (auto& thread : threads_) thread.join();
   }

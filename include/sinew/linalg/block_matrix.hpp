@@ -119,8 +119,17 @@ struct CompressedRowSparseMatrix {
     if constexpr (sliceable) sliced.split(std::max(n, 1));
   }
 
-  void setZero() {
-    std::memset(values.data(), 0, values.size() * sizeof(Real));
+  void setZero() { setZero(OneThread{}); }
+  template <class Run>
+  void setZero(Run const& workers) {
+    auto zero = [&](Part part) {
+      const std::size_t begin = part.begin(values.size());
+      std::memset(values.data() + begin, 0, (part.end(values.size()) - begin) * sizeof(Real));
+    };
+    if (chunks.empty())
+      zero(Part{});
+    else
+      workers.run(zero);
     changed();
   }
 

@@ -52,17 +52,31 @@ struct MechanicalOperations {
   // vector mathematics
 
   void clear(DerivId r) {
-    forEachIndependent([&](auto& s) { vec::clear(s[r]); });
+    forEachIndependent([&](auto& s) {
+      auto all = vec::flat(s[r]);
+      vec::each_piece(workers(), all.size(), [&](auto i, auto n) { all.segment(i, n).setZero(); });
+    });
   }
   template <class Id>
   void eq(Id r, Id a) {
-    forEachIndependent([&](auto& s) { vec::eq(s[r], s[a]); });
+    forEachIndependent([&](auto& s) {
+      auto const& from = s[a];
+      auto& to = s[r];
+      vec::each_piece(workers(), Eigen::Index(to.size()), [&](auto i, auto n) {
+        std::copy(from.begin() + i, from.begin() + i + n, to.begin() + i);
+      });
+    });
   }
   void eq(DerivId r, DerivId a, double f) {
     forEachIndependent([&](auto& s) { vec::flat(s[r]) = real(s, f) * vec::flat(s[a]); });
   }
   void peq(DerivId r, DerivId a, double f) {
-    forEachIndependent([&](auto& s) { vec::peq(s[r], s[a], real(s, f)); });
+    forEachIndependent([&](auto& s) {
+      auto to = vec::flat(s[r]);
+      const auto from = vec::flat(s[a]);
+      vec::each_piece(
+          workers(), to.size(), [&](auto i, auto n) { to.segment(i, n) += real(s, f) * from.segment(i, n); });
+    });
   }
   void peq(CoordId r, DerivId a, double f) {
     forEachIndependent([&](auto& s) { vec::increment<DataTypesOf<decltype(s)>>(s[r], s[a], real(s, f)); });
@@ -257,13 +271,20 @@ struct MechanicalOperations {
                if constexpr (requires { c.announce(sink); }) c.announce(sink);
              }));
     matrix.finishPattern();
+    if constexpr (Root::threaded && requires { matrix.split(1); }) {
+      matrix.split(workers().count());
+      reserveSums(std::size_t(dofs));
+    }
     assemblePhase<AssemblyPhase::bind>(matrix, {});
   }
   /// matrix = P (m M + b B + k K) P + (I - P)
   template <class Matrix>
   void assemble(Matrix& matrix, MatrixFactors factors) {
     [[maybe_unused]] const auto span = root.span(Phase::assembly);
-    matrix.setZero();
+    if constexpr (Root::threaded && requires { matrix.setZero(workers()); })
+      matrix.setZero(workers());
+    else
+      matrix.setZero();
     assemblePhase<AssemblyPhase::add>(matrix, factors);
     traverse(root, on<role::ProjectiveConstraint>([&](auto& c, auto const& scope) {
                c.projectMatrix(constraintSink<AssemblyPhase::add>(matrix, c, scope));

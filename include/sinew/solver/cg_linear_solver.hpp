@@ -61,8 +61,6 @@ struct CGLinearSolver {
     residuals.reserve(std::size_t(iterations) + 1);
     if constexpr (!matrixFree) {
       operations.initMatrix(system.matrix);
-      system.matrix.split(operations.workers().count());
-      operations.reserveSums(std::size_t(system.matrix.dofs()));
       for (Vector* v : {&system.x, &system.b, &system.r, &system.p, &system.q})
         v->setZero(system.matrix.dofs() + 1);  // the last stays 0: multiply reads it
     }

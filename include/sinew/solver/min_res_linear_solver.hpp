@@ -75,7 +75,7 @@ struct MinResLinearSolver {
       operations.gather(s.b, b.id);
       SystemVec<Vector> sx{s.x}, sb{s.b}, v0{s.v[0]}, v1{s.v[1]}, w0{s.w[0]}, w1{s.w[1]};
       iterate(sx, sb, &v0, &v1, &w0, &w1, [&](auto& r, auto& v) {
-        s.matrix.multiply(v.v.data(), s.product.data());
+        s.matrix.multiply(operations.workers(), v.v.data(), s.product.data());
         r.v += s.product;
       });
       operations.scatter(x.id, s.x);

@@ -124,7 +124,7 @@ struct ShewchukPCGLinearSolver {
           res,
           dir,
           product,
-          [&](auto& to, auto& from) { matrix.multiply(from.v.data(), to.v.data()); },
+          [&](auto& to, auto& from) { matrix.multiply(operations.workers(), from.v.data(), to.v.data()); },
           [&](auto& to, auto& from) {
             if (preconditioner.method == PreconditionerMethod::none) return to.eq(from);
             apply(from.v, to.v);
