@@ -2,19 +2,10 @@
 // Attached bodies, from a scene file and composed by the compiler.
 #include "same_bits.hpp"
 
-#include <sinew/runtime/bake.hpp>
-#include <sinew/runtime/save_scene.hpp>
-
 using namespace sinew;
 using Catch::Matchers::Contains;
 
 namespace {
-
-struct Few
-    : Registry<Gravity, MechanicalObject<Vec3d>, UniformMass<Vec3d>, StiffSpringForceField<Vec3d>,
-               FixedConstraint<Vec3d>, AttachProjectiveConstraint<Vec3d>,
-               AttachProjectiveConstraint<Vec3d, Linked>, IdentityMapping<Vec3d, Vec3d>, EulerImplicitSolver,
-               EulerExplicitSolver, CGLinearSolver<>, CGLinearSolver<CompressedRowSparseMatrixMat3x3d>> {};
 
 // SOLVER: of the scene; ATTACH: more attributes
 const std::string xml = R"(<Node name="root" gravity="0 -9.81 0" dt="0.01">
@@ -65,17 +56,17 @@ auto typed(bool twoWay, Solvers... solvers) {
 
 template <class Sim>
 void same(Sim a, std::string const& scene) {
-  auto b = start(parse_scene<Few>("test.scn", scene));
+  auto b = start(parse_scene<Standard>("test.scn", scene));
   a.init();
   const std::string before = same_bits::bits_of(a);
   REQUIRE(before == same_bits::bits_of(b));
   for (int i = 0; i < 100; ++i) a.animate(0.01), b.animate(0.01);
   CHECK(same_bits::bits_of(a) == same_bits::bits_of(b));
   CHECK(same_bits::bits_of(a) != before);
-  auto c = start(parse_scene<Few>("saved.scn", scene_text(b, 0.01)));
+  auto c = start(parse_scene<Standard>("saved.scn", scene_text(b, 0.01)));
   for (int i = 0; i < 20; ++i) a.animate(0.01), c.animate(0.01);
   CHECK(same_bits::bits_of(a) == same_bits::bits_of(c));
-  auto d = Simulation(to_runtime<Few>(a.root()));
+  auto d = Simulation(to_runtime<Standard>(a.root()));
   d.init();
   a.init();
   CHECK(same_bits::bits_of(a) == same_bits::bits_of(d));
@@ -94,14 +85,15 @@ TEST_CASE("attached bodies: typed and read from a file, the same bits") {
 }
 
 TEST_CASE("attached bodies are baked") {
-  const std::string cpp = bake_text<Few>(parse_scene<Few>("t.scn", with(euler, "twoWay='1'")), "t.scn");
+  const std::string cpp =
+      bake_text<Standard>(parse_scene<Standard>("t.scn", with(euler, "twoWay='1'")), "t.scn");
   CHECK_THAT(cpp,
              Contains("AttachProjectiveConstraint<Vec3d, Between<\"upper\", \"lower\">>{") &&
                  Contains(".twoWay = true"));
 }
 
 TEST_CASE("points of one body are attached in a scene file") {
-  auto sim = start(parse_scene<Few>("t.scn", R"(<Node name="root" gravity="0 0 0"><EulerExplicitSolver/>
+  auto sim = start(parse_scene<Standard>("t.scn", R"(<Node name="root" gravity="0 0 0"><EulerExplicitSolver/>
     <MechanicalObject name="dofs" position="0 0 0 2 0 0"/><UniformMass/>
     <AttachProjectiveConstraint object1="@dofs" object2="@dofs" indices1="0" indices2="1" twoWay="true"/></Node>)"));
   CHECK(sim.root().get<MechanicalObject<Vec3d>>()->position[1].x() == 1);
@@ -109,7 +101,7 @@ TEST_CASE("points of one body are attached in a scene file") {
 
 TEST_CASE("bad attachments in a scene file are named") {
   auto says = [](std::string const& scene, std::string const& words) {
-    CHECK_THROWS_WITH(start(parse_scene<Few>("t.scn", scene)), Contains("t.scn:") && Contains(words));
+    CHECK_THROWS_WITH(start(parse_scene<Standard>("t.scn", scene)), Contains("t.scn:") && Contains(words));
   };
   says(with(euler, "minimum='3'"), "has no attribute 'minimum'");
   says(with(euler, "constraintFactor='1'"), "constraintFactor 1 entries");

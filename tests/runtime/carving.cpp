@@ -1,21 +1,13 @@
 // SPDX-License-Identifier: BSL-1.0
 // A scene file in which a ball carves a block, and the typed scene: the same bits, hole by hole.
-#include <sinew/registry.hpp>
-#include <sinew/runtime/read_scene.hpp>
-#include <sinew/runtime/runtime.hpp>
 
 #include "catch.hpp"
+
+#include <sinew/runtime/precompiled.hpp>
 
 using namespace sinew;
 
 namespace {
-
-using Bodies =
-    Registry<Gravity, EulerImplicitSolver, CGLinearSolver<>, RegularGridTopology, TetrahedronTopology,
-             MeshTopology, MechanicalObject<Vec3d>, MechanicalObject<Rigid3d>, UniformMass<Vec3d>,
-             DiagonalMass<Vec3d>, TetrahedronFEMForceField<Vec3d>, FixedConstraint<Vec3d>,
-             LinearMovementConstraint<Vec3d>, BoxROI<Vec3d>, Hexa2TetraTopologicalMapping,
-             Tetra2TriangleTopologicalMapping, VisualModel, IdentityMapping<Vec3d, Vec3f>, StandardCollision>;
 
 std::string scene(std::string_view tool) {
   return text(R"(
@@ -98,7 +90,7 @@ auto typed() {
 
 TEST_CASE("a ball carves a block in a scene file and in a typed scene: the same bits") {
   for (std::string_view tool : {"@tool/ball", "@/tool/ball", "tool", "/tool"}) {
-    auto read = parse_scene<Bodies>("carving.scn", scene(tool));
+    auto read = parse_scene<Standard>("carving.scn", scene(tool));
     Simulation sim{std::move(read.root)};
     auto fixed = typed();
     sim.init(), fixed.init();

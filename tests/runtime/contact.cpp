@@ -1,20 +1,13 @@
 // SPDX-License-Identifier: BSL-1.0
 // Contacts in a runtime tree read from a file, and in the typed scene: the same bits.
-#include <sinew/registry.hpp>
-#include <sinew/runtime/read_scene.hpp>
-#include <sinew/runtime/runtime.hpp>
-#include <sinew/runtime/save_scene.hpp>
 
 #include "catch.hpp"
+
+#include <sinew/runtime/precompiled.hpp>
 
 using namespace sinew;
 
 namespace {
-
-using Bodies =
-    Registry<Gravity, EulerImplicitSolver, CGLinearSolver<>,
-             SparseLDLSolver<CompressedRowSparseMatrixMat3x3d>, MeshTopology, MechanicalObject<Vec3d>,
-             MechanicalObject<Rigid3d>, UniformMass<Vec3d>, StandardCollision>;
 
 constexpr std::string_view scene = R"(
 <Node name="root" dt="0.01" gravity="0 0 -10">
@@ -68,7 +61,7 @@ auto typed(LinearSolver linear) {
 // the same bits for 300 steps
 template <class LinearSolver>
 void compare(std::string const& content, LinearSolver linear) {
-  auto read = parse_scene<Bodies>("balls.scn", content);
+  auto read = parse_scene<Standard>("balls.scn", content);
   Simulation sim{std::move(read.root)};
   auto fixed = typed(linear);
   sim.init();
@@ -97,7 +90,7 @@ TEST_CASE("contacts in the matrix of a direct solver, in a scene file and in a t
 }
 
 TEST_CASE("a collision model without a pipeline says what is missing") {
-  RuntimeNode<Bodies> root("root");
+  RuntimeNode<Standard> root("root");
   root.add(MechanicalObject<Vec3d>{.position = {{0, 0, 0}}});
   root.add(SphereCollisionModel<Vec3d>{});
   Simulation sim{std::move(root)};
@@ -106,7 +99,7 @@ TEST_CASE("a collision model without a pipeline says what is missing") {
 }
 
 TEST_CASE("a stage that is missing, and a response that there is not, are named") {
-  RuntimeNode<Bodies> root("root");
+  RuntimeNode<Standard> root("root");
   root.add(DefaultPipeline{});
   root.add(BruteForceBroadPhase{});
   root.add(MinProximityIntersection{});
@@ -124,12 +117,12 @@ TEST_CASE("a stage that is missing, and a response that there is not, are named"
 }
 
 TEST_CASE("a checkpoint in the middle of contacts with friction goes on bit by bit") {
-  auto read = parse_scene<Bodies>("balls.scn", std::string(scene));
+  auto read = parse_scene<Standard>("balls.scn", std::string(scene));
   Simulation sim{std::move(read.root)};
   sim.init();
   for (int i = 0; i < 60; ++i) sim.animate(0.01);
   REQUIRE(!sim.root().get<DefaultContactManager>()->contacts.empty());
-  auto again = parse_scene<Bodies>("checkpoint.scn", scene_text(sim, 0.01));
+  auto again = parse_scene<Standard>("checkpoint.scn", scene_text(sim, 0.01));
   Simulation other{std::move(again.root)};
   other.init();
   for (int i = 0; i < 100; ++i) {
@@ -141,7 +134,7 @@ TEST_CASE("a checkpoint in the middle of contacts with friction goes on bit by b
 }
 
 TEST_CASE("contacts of a checkpoint that are not of its scene are refused") {
-  RuntimeNode<Bodies> root("root");
+  RuntimeNode<Standard> root("root");
   root.add(DefaultPipeline{});
   root.add(BruteForceBroadPhase{});
   root.add(BVHNarrowPhase{});
@@ -155,7 +148,7 @@ TEST_CASE("contacts of a checkpoint that are not of its scene are refused") {
 
 TEST_CASE("a collision model is over what the state is over") {
   auto read =
-      parse_scene<Bodies>("rigid.scn", R"(<Node><DefaultPipeline/><BruteForceBroadPhase/><BVHNarrowPhase/>
+      parse_scene<Standard>("rigid.scn", R"(<Node><DefaultPipeline/><BruteForceBroadPhase/><BVHNarrowPhase/>
     <MinProximityIntersection/><DefaultContactManager/>
     <Node name="ball"><MechanicalObject template="Rigid3d" position="0 0 0  0 0 0 1"/><SphereCollisionModel radius="0.5"/></Node></Node>)");
   CHECK(read.root.find_node("ball")->get<SphereCollisionModel<Rigid3d>>());

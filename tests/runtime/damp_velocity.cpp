@@ -1,21 +1,14 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "catch.hpp"
 
-#include <sinew/runtime/checks.hpp>
-#include <sinew/runtime/read_scene.hpp>
-#include <sinew/runtime/scope.hpp>
-#include <sinew/scene/simulation.hpp>
-#include <sinew/sinew.hpp>
+#include <sinew/runtime/precompiled.hpp>
 
 using namespace sinew;
 
 namespace {
 
-struct Small : Registry<Gravity, MechanicalObject<Vec3d>, UniformMass<Vec3d>, EulerExplicitSolver,
-                        BDFOdeSolver, CGLinearSolver<>, DampVelocitySolver> {};
-
 auto simulation(std::string const& solvers) {
-  auto scene = parse_scene<Small>("test.scn", "<Node gravity=\"0 -10 0\">" + solvers + R"(
+  auto scene = parse_scene<Standard>("test.scn", "<Node gravity=\"0 -10 0\">" + solvers + R"(
     <MechanicalObject position="0 0 0"/><UniformMass totalMass="1"/></Node>)");
   Simulation sim{std::move(scene.root)};
   sim.init();

@@ -2,21 +2,12 @@
 // Scenes in SOFA's dialect over a small registry, run.
 #include "catch.hpp"
 
-#include <sinew/runtime/runtime.hpp>
-#include <sinew/runtime/save_scene.hpp>
-#include <sinew/sinew.hpp>
+#include <sinew/runtime/precompiled.hpp>
 
 using namespace sinew;
 
-namespace {
-struct Small : Registry<Gravity, MeshTopology, RegularGridTopology, VisualModel, MechanicalObject<Vec3d>,
-                        UniformMass<Vec3d>, StiffSpringForceField<Vec3d>, TriangleFEMForceField<Vec3d>,
-                        FixedConstraint<Vec3d>, IdentityMapping<Vec3d, Vec3f>, EulerImplicitSolver,
-                        BDFOdeSolver, CGLinearSolver<>> {};
-}  // namespace
-
 TEST_CASE("a surface that names elements only follows the points of its mapping") {
-  auto sim = start(parse_scene<Small>("test.scn", R"(<Node gravity="0 0 -1">
+  auto sim = start(parse_scene<Standard>("test.scn", R"(<Node gravity="0 0 -1">
     <EulerImplicitSolver/> <CGLinearSolver/>
     <RegularGridTopology name="grid" n="3 3 1"/>
     <MechanicalObject velocity="1 0 0"/>
@@ -37,23 +28,23 @@ TEST_CASE("a surface that names elements only follows the points of its mapping"
     for (std::size_t i = 0; i < 9; ++i) CHECK((now.positions[i] - state.position[i]).norm() < 1e-6);
   }
   // and what is saved is the same scene
-  auto again = start(parse_scene<Small>("saved.scn", scene_text(sim, 0.1)));
+  auto again = start(parse_scene<Standard>("saved.scn", scene_text(sim, 0.1)));
   sim.animate(0.1), again.animate(0.1);
   CHECK(again.root().get<MechanicalObject<Vec3d>>()->position == state.position);
 }
 
 TEST_CASE("a checkpoint of BDF goes on bit by bit, whatever the order") {
   for (auto* order : {"1", "2", "3"}) {
-    auto sim = start(parse_scene<Small>("test.scn",
-                                        text(R"(<Node gravity="0 -1 0"><BDFOdeSolver order=")",
-                                             order,
-                                             R"("/><CGLinearSolver tolerance="1e-12"/>
+    auto sim = start(parse_scene<Standard>("test.scn",
+                                           text(R"(<Node gravity="0 -1 0"><BDFOdeSolver order=")",
+                                                order,
+                                                R"("/><CGLinearSolver tolerance="1e-12"/>
       <NewtonRaphsonSolver maxNbIterationsNewton="3"/>
       <MechanicalObject position="0 0 0  1 0 0"/><UniformMass/>
       <StiffSpringForceField spring="0 1 100 1 1"/><FixedConstraint indices="0"/></Node>)")));
     for (int i = 0; i < 7; ++i) sim.animate(0.1);
     CHECK(sim.root().get<BDFOdeSolver>()->newton.corrections.size() > 1);
-    auto again = start(parse_scene<Small>("saved.scn", scene_text(sim, 0.1)));
+    auto again = start(parse_scene<Standard>("saved.scn", scene_text(sim, 0.1)));
     for (int i = 0; i < 7; ++i) sim.animate(0.1), again.animate(0.1);
     CHECK(again.root().get<MechanicalObject<Vec3d>>()->position ==
           sim.root().get<MechanicalObject<Vec3d>>()->position);

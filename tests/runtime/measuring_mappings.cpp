@@ -2,20 +2,10 @@
 // Mappings that measure, from a scene file and composed by the compiler.
 #include "same_bits.hpp"
 
-#include <sinew/runtime/bake.hpp>
-#include <sinew/runtime/save_scene.hpp>
-
 using namespace sinew;
 using Catch::Matchers::Contains;
 
 namespace {
-
-struct Few : Registry<Gravity, MeshTopology, MechanicalObject<Vec3d>, MechanicalObject<Vec1d>,
-                      MechanicalObject<Rigid3d>, UniformMass<Vec3d>, UniformMass<Rigid3d>,
-                      RestShapeSpringsForceField<Vec1d>, ConstantForceField<Vec3d>, FixedConstraint<Vec3d>,
-                      DistanceMapping<Vec3d, Vec1d>, VolumeMapping<Vec3d, Vec1d>,
-                      CenterOfMassMapping<Vec3d, Vec3d>, RigidMapping<Rigid3d, Vec3d>, EulerImplicitSolver,
-                      CGLinearSolver<>, CGLinearSolver<CompressedRowSparseMatrixd>> {};
 
 const std::string xml = R"(<Node name="root" gravity="0 -9.81 0" dt="0.01">
   <EulerImplicitSolver rayleighStiffness="0.01"/>
@@ -94,13 +84,13 @@ auto typed(Linear linear) {
 template <class Linear>
 void same(Linear linear, std::string const& scene) {
   auto a = typed(linear);
-  auto b = start(parse_scene<Few>("test.scn", scene));
+  auto b = start(parse_scene<Standard>("test.scn", scene));
   a.init();
   REQUIRE(same_bits::bits_of(a) == same_bits::bits_of(b));
   for (int i = 0; i < 100; ++i) a.animate(0.01), b.animate(0.01);
   CHECK(same_bits::bits_of(a) == same_bits::bits_of(b));
   // a checkpoint goes on as if nothing had been
-  auto c = start(parse_scene<Few>("saved.scn", scene_text(b, 0.01)));
+  auto c = start(parse_scene<Standard>("saved.scn", scene_text(b, 0.01)));
   for (int i = 0; i < 20; ++i) a.animate(0.01), c.animate(0.01);
   CHECK(same_bits::bits_of(a) == same_bits::bits_of(c));
 }
@@ -113,14 +103,14 @@ TEST_CASE("mappings that measure: typed and read from a file, the same bits") {
 }
 
 TEST_CASE("mappings that measure are baked") {
-  const std::string cpp = bake_text<Few>(parse_scene<Few>("t.scn", scene_of("")), "t.scn");
+  const std::string cpp = bake_text<Standard>(parse_scene<Standard>("t.scn", scene_of("")), "t.scn");
   CHECK_THAT(cpp,
              Contains("DistanceMapping<Vec3d, Vec1d>{.geometricStiffness = GeometricStiffness::exact}") &&
                  Contains("RotationalStiffness::symmetrized"));
 }
 
 TEST_CASE("the centre of mass follows a mass that is changed in the middle of a simulation") {
-  auto sim = start(parse_scene<Few>("t.scn", scene_of("")));
+  auto sim = start(parse_scene<Standard>("t.scn", scene_of("")));
   auto center = [&] {
     return sim.root().find_node("block/center")->template get<MechanicalObject<Vec3d>>()->position[0];
   };

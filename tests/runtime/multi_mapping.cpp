@@ -2,19 +2,10 @@
 // Mappings with several parents, from a scene file and composed by the compiler.
 #include "same_bits.hpp"
 
-#include <sinew/runtime/bake.hpp>
-#include <sinew/runtime/save_scene.hpp>
-
 using namespace sinew;
 using Catch::Matchers::Contains;
 
 namespace {
-
-struct Few
-    : Registry<Gravity, MechanicalObject<Vec3d>, MechanicalObject<Rigid3d>, UniformMass<Vec3d>,
-               UniformMass<Rigid3d>, StiffSpringForceField<Vec3d>, FixedConstraint<Vec3d>,
-               RigidMapping<Rigid3d, Vec3d>, SubsetMultiMapping<Vec3d, Vec3d>, EulerImplicitSolver,
-               EulerExplicitSolver, CGLinearSolver<>, CGLinearSolver<CompressedRowSparseMatrixMat3x3d>> {};
 
 const std::string left = R"(<Node name="left">
     <MechanicalObject name="dofs" position="0 0 0  0 1 0"/><UniformMass vertexMass="0.4"/>
@@ -61,8 +52,8 @@ auto typed(Linear linear) {
 template <class Linear>
 void same(Linear linear, std::string const& xml) {
   auto a = typed(linear);
-  auto b = start(parse_scene<Few>("test.scn", xml));
-  auto c = Simulation(to_runtime<Few>(a.root()));
+  auto b = start(parse_scene<Standard>("test.scn", xml));
+  auto c = Simulation(to_runtime<Standard>(a.root()));
   a.init();
   c.init();
   const std::string before = same_bits::bits_of(a);
@@ -72,8 +63,8 @@ void same(Linear linear, std::string const& xml) {
   CHECK(same_bits::bits_of(a) == same_bits::bits_of(c));
   CHECK(same_bits::bits_of(a) != before);
   // checkpoints of both go on
-  auto d = start(parse_scene<Few>("saved.scn", scene_text(b, 0.01)));
-  auto e = start(parse_scene<Few>("saved.scn", scene_text(c, 0.01)));
+  auto d = start(parse_scene<Standard>("saved.scn", scene_text(b, 0.01)));
+  auto e = start(parse_scene<Standard>("saved.scn", scene_text(c, 0.01)));
   for (int i = 0; i < 20; ++i) a.animate(0.01), d.animate(0.01), e.animate(0.01);
   CHECK(same_bits::bits_of(a) == same_bits::bits_of(d));
   CHECK(same_bits::bits_of(a) == same_bits::bits_of(e));
@@ -88,14 +79,15 @@ TEST_CASE("a child of several bodies: typed and read from a file, the same bits"
 }
 
 TEST_CASE("a child of several bodies is baked") {
-  const std::string cpp = bake_text<Few>(parse_scene<Few>("t.scn", scene(left + right + joined)), "t.scn");
+  const std::string cpp =
+      bake_text<Standard>(parse_scene<Standard>("t.scn", scene(left + right + joined)), "t.scn");
   CHECK_THAT(cpp,
              Contains("SubsetMultiMapping<Vec3d, Vec3d, Parents<\"../left\", \"../right/corner\">>{") &&
                  Contains(".indexPairs = {{1, 1}, {0, 1}, {1, 0}}"));
 }
 
 TEST_CASE("a child of several bodies follows changes in the middle of a simulation") {
-  auto sim = start(parse_scene<Few>("t.scn", scene(left + right + joined)));
+  auto sim = start(parse_scene<Standard>("t.scn", scene(left + right + joined)));
   for (int i = 0; i < 10; ++i) sim.animate(0.01);
   auto points = [&](std::string_view path) {
     return sim.root().find_node(path)->template get<MechanicalObject<Vec3d>>()->position;
@@ -115,7 +107,7 @@ TEST_CASE("a child of several bodies follows changes in the middle of a simulati
 
 TEST_CASE("bad parents in a scene file are named") {
   auto says = [](std::string const& xml, std::string const& words) {
-    CHECK_THROWS_WITH(start(parse_scene<Few>("t.scn", xml)), Contains("t.scn:") && Contains(words));
+    CHECK_THROWS_WITH(start(parse_scene<Standard>("t.scn", xml)), Contains("t.scn:") && Contains(words));
   };
   auto with = [](std::string what, std::string const& by) {
     std::string xml = scene(left + right + joined);

@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: BSL-1.0
 // Picking and pulling in a runtime tree and in the typed scene: the same bits.
-#include <sinew/registry.hpp>
-#include <sinew/runtime/runtime.hpp>
 
 #include "catch.hpp"
+
+#include <sinew/runtime/precompiled.hpp>
 
 using namespace sinew;
 
 namespace {
-
-using Bodies = Registry<Gravity, EulerImplicitSolver, CGLinearSolver<>, TetrahedronTopology,
-                        MechanicalObject<Vec3d>, MechanicalObject<Rigid3d>, UniformMass<Vec3d>,
-                        TetrahedronFEMForceField<Vec3d>, FixedConstraint<Vec3d>, StandardCollision>;
 
 TetrahedronTopology topology() { return {{{0, 1, 2, 3}}}; }
 MechanicalObject<Vec3d> state() { return {.position = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}; }
@@ -19,7 +15,7 @@ constexpr MinProximityIntersection near{.alarmDistance = 0.2, .contactDistance =
 constexpr CGLinearSolver<> solver{.iterations = 25, .tolerance = 1e-9};
 
 auto runtime() {
-  RuntimeNode<Bodies> root;
+  RuntimeNode<Standard> root;
   root.add(Gravity{{0, 0, -10}}), root.add(DefaultPipeline{}), root.add(BruteForceBroadPhase{});
   root.add(BVHNarrowPhase{}), root.add(near), root.add(DefaultContactManager{});
   auto& body = root.addChild("body");

@@ -3,33 +3,15 @@
 #include "catch.hpp"
 #include "io/files.hpp"
 
-#include <sinew/constraint/fixed_constraint.hpp>
-#include <sinew/constraint/linear_movement.hpp>
-#include <sinew/control/read_state.hpp>
-#include <sinew/control/write_state.hpp>
-#include <sinew/core/registry.hpp>
-#include <sinew/force/stiff_spring.hpp>
-#include <sinew/mapping/rigid_mapping.hpp>
-#include <sinew/mass/uniform_mass.hpp>
 #include <sinew/runtime/from_typed.hpp>
-#include <sinew/runtime/read_scene.hpp>
-#include <sinew/runtime/runtime.hpp>
-#include <sinew/runtime/save_scene.hpp>
-#include <sinew/solver/cg_linear_solver.hpp>
-#include <sinew/solver/euler_implicit.hpp>
-#include <sinew/state/mechanical_object.hpp>
+#include <sinew/runtime/precompiled.hpp>
 
 using namespace sinew;
 using files::TempFolder;
 
 namespace {
 
-struct Small : Registry<Gravity, MechanicalObject<Vec3d>, MechanicalObject<Rigid3d>, UniformMass<Vec3d>,
-                        StiffSpringForceField<Vec3d>, StiffSpringForceField<Vec3d, Linked>,
-                        FixedConstraint<Vec3d>, LinearMovementConstraint<Vec3d>, RigidMapping<Rigid3d, Vec3d>,
-                        EulerImplicitSolver, CGLinearSolver<>, ReadState<Vec3d>, ReadState<Rigid3d>,
-                        WriteState<Vec3d>, WriteState<Rigid3d>> {};
-using Runtime = Simulation<RuntimeNode<Small>>;
+using Runtime = StandardSimulation;
 
 constexpr double dt = 0.01;
 
@@ -100,9 +82,9 @@ std::string scene_with(std::string_view tool) {
   <StiffSpringForceField object1="@tool/tip/points" object2="@string/points" springs="0 2 20 0.5 0.2"/>
 </Node>)");
 }
-Runtime read(std::string const& path) { return start(read_scene<Small>(path)); }
+Runtime read(std::string const& path) { return start(read_scene<Standard>(path)); }
 std::string error_of_scene(std::string_view tool) {
-  return files::error_of([&] { start(parse_scene<Small>("test.scn", scene_with(tool))); });
+  return files::error_of([&] { start(parse_scene<Standard>("test.scn", scene_with(tool))); });
 }
 void says(std::string const& message, std::initializer_list<std::string_view> words) {
   for (std::string_view word : words) {
@@ -119,7 +101,7 @@ TEST_CASE("typed and runtime trees record and replay with the same bits") {
     return pulling(keys(), WriteState<Rigid3d>{.filename = folder / name, .writeV = true});
   };
   auto typed = record("typed");
-  Runtime runtime(to_runtime<Small>(record("runtime").root()));
+  Runtime runtime(to_runtime<Standard>(record("runtime").root()));
   typed.init(), runtime.init();
   const auto all = run(typed, 100);
   CHECK(run(runtime, 100) == all);
@@ -127,7 +109,7 @@ TEST_CASE("typed and runtime trees record and replay with the same bits") {
   CHECK(io::read_file(folder / "typed") == io::read_file(folder / "runtime"));
 
   auto replay = pulling(ReadState<Rigid3d>{.filename = {folder / "typed"}});
-  Runtime other(to_runtime<Small>(replay.root()));
+  Runtime other(to_runtime<Standard>(replay.root()));
   replay.init(), other.init();
   CHECK(run(replay, 100) == all);
   CHECK(run(other, 100) == all);
@@ -165,19 +147,19 @@ TEST_CASE("a checkpoint goes on recording and replaying, with the bits of a whol
     std::vector<std::string> all;
     std::string file;
     {
-      auto whole = start(parse_scene<Small>("test.scn", scene));
+      auto whole = start(parse_scene<Standard>("test.scn", scene));
       all = run(whole, 60);
       whole.finish();
       file = io::read_file(path);
     }
     std::string saved;
     {
-      auto first = start(parse_scene<Small>("test.scn", scene));
+      auto first = start(parse_scene<Standard>("test.scn", scene));
       run(first, 25);
       saved = scene_text(first, dt);
     }
     CHECK(saved.find(period ? "recorded=\"9\"" : "recorded=\"26\"") != saved.npos);
-    auto second = start(parse_scene<Small>("saved.scn", saved));
+    auto second = start(parse_scene<Standard>("saved.scn", saved));
     CHECK(second.time() > 0.24);
     const auto rest = run(second, 35);
     CHECK(rest.front() == all[25]);
@@ -194,11 +176,11 @@ TEST_CASE("a checkpoint of points on a prescribed way starts where they were") {
     <StiffSpringForceField springs="0 1 50 0.1 0.5"/>
     <LinearMovementConstraint indices="0" keyTimes="0 1" movements="0 0 0  0 3 0"/>
   </Node>)";
-  auto whole = start(parse_scene<Small>("test.scn", scene));
+  auto whole = start(parse_scene<Standard>("test.scn", scene));
   const auto all = run(whole, 60);
-  auto first = start(parse_scene<Small>("test.scn", scene));
+  auto first = start(parse_scene<Standard>("test.scn", scene));
   run(first, 25);
-  auto second = start(parse_scene<Small>("saved.scn", scene_text(first, dt)));
+  auto second = start(parse_scene<Standard>("saved.scn", scene_text(first, dt)));
   const auto rest = run(second, 35);
   CHECK(rest.front() == all[25]);
   CHECK(rest.back() == all.back());
@@ -207,16 +189,16 @@ TEST_CASE("a checkpoint of points on a prescribed way starts where they were") {
 TEST_CASE("a scene that changes goes on recording and replaying") {
   TempFolder folder;
   auto typed = pulling(keys(), WriteState<Rigid3d>{.filename = folder / "f", .writeV = true});
-  Runtime sim(to_runtime<Small>(typed.root()));
+  Runtime sim(to_runtime<Standard>(typed.root()));
   sim.init();
   run(sim, 10);
-  sim.change([](RuntimeNode<Small>& root) {
+  sim.change([](RuntimeNode<Standard>& root) {
     root.addChild("more").add(MechanicalObject<Vec3d>{.position = {{5, 0, 0}}});
   });
   run(sim, 10);
   // a record that begins in the middle has no frame of the start, and takes nothing from an older file
   folder.write("g", "T= 0\n  X= 7 7 7\n");
-  sim.change([&](RuntimeNode<Small>& root) {
+  sim.change([&](RuntimeNode<Standard>& root) {
     root.find_node("more")->add(WriteState<Vec3d>{.filename = folder / "g"});
   });
   run(sim, 5);
@@ -228,7 +210,7 @@ TEST_CASE("a scene that changes goes on recording and replaying") {
   CHECK(frames.times[0] == Approx(0.21));
   // a change that fails leaves the record as it is
   says(files::error_of([&] {
-         sim.change([&](RuntimeNode<Small>& root) {
+         sim.change([&](RuntimeNode<Standard>& root) {
            root.find_node("more")->add(WriteState<Vec3d>{.filename = folder / "none/g"});
          });
        }),
@@ -259,11 +241,11 @@ TEST_CASE("what is wrong with ReadState and WriteState in a scene file is said w
        {"ReadState<Vec3d>", "acts on a mapped state"});
   auto lonely = [](std::string_view what) {
     return files::error_of(
-        [&] { start(parse_scene<Small>("test.scn", text("<Node name=\"root\">", what, "</Node>"))); });
+        [&] { start(parse_scene<Standard>("test.scn", text("<Node name=\"root\">", what, "</Node>"))); });
   };
   says(lonely("<WriteState filename=\"f\"/>"), {"test.scn:1:", "has no state to act on"});
   says(lonely("<ReadState filename=\"f\"/>"), {"has no state to act on"});
-  RuntimeNode<Small> root;
+  RuntimeNode<Standard> root;
   root.add(MechanicalObject<Rigid3d>{.position = {{}}});
   root.add(WriteState<Vec3d>{.filename = folder / "f"});
   Runtime sim(std::move(root));

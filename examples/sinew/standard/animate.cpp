@@ -3,6 +3,7 @@
 
 namespace sinew {
 using StandardSimulation = Simulation<RuntimeNode<Standard>>;
+extern template detail::ComponentOperations const& AnyComponent<Standard>::operations(int);
 // carving calls it; change.cpp has it
 extern template TopologyChange Simulation<RuntimeNode<Standard>>::removeElements(std::string_view,
                                                                                  ElementNumbers const&);

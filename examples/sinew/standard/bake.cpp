@@ -2,5 +2,6 @@
 #include <sinew/runtime/precompiled.hpp>
 
 namespace sinew {
+template std::string scene_text<Standard>(Simulation<RuntimeNode<Standard>>&, double);
 template std::string bake_text<Standard>(ReadScene<Standard>, std::string const&, BakeOptions const&);
 }  // namespace sinew

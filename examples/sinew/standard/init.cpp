@@ -3,6 +3,7 @@
 
 namespace sinew {
 using StandardSimulation = Simulation<RuntimeNode<Standard>>;
+extern template detail::ComponentOperations const& AnyComponent<Standard>::operations(int);
 template void Simulation<RuntimeNode<Standard>>::init(double, long);
 template void Simulation<RuntimeNode<Standard>>::initScene(RootScope const&, InitAgain const&);
 template void Simulation<RuntimeNode<Standard>>::reset();

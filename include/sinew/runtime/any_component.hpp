@@ -102,10 +102,10 @@ class AnyComponent {
     return {registered_index<R, C>, new C(std::move(component))};
   }
   /// A default one of the class at a place of the registry.
-  static AnyComponent make(int type) { return {type, operations[std::size_t(type)].make()}; }
+  static AnyComponent make(int type) { return {type, operations(type).make()}; }
 
   AnyComponent(AnyComponent const& other)
-      : type_(other.type_), value_(operations[other.index()].copy(other.value_)) {}
+      : type_(other.type_), value_(operations(other.type_).copy(other.value_)) {}
   AnyComponent(AnyComponent&& other) noexcept
       : type_(other.type_), value_(std::exchange(other.value_, nullptr)) {}
   AnyComponent& operator=(AnyComponent other) noexcept {
@@ -114,13 +114,13 @@ class AnyComponent {
     return *this;
   }
   ~AnyComponent() {
-    if (value_) operations[index()].destroy(value_);
+    if (value_) operations(type_).destroy(value_);
   }
 
   int type() const { return type_; }
   void* address() const { return value_; }
   /// "UniformMass<Vec3d>".
-  std::string name() const { return operations[index()].name(); }
+  std::string name() const { return operations(type_).name(); }
 
   template <class C>
   C* getIf() const {
@@ -156,11 +156,18 @@ class AnyComponent {
  private:
   int type_;
   void* value_;
-  static constexpr auto operations = detail::all_component_operations(List{});
+  // out of the class, so that a program which links sinew::standard has no code for it
+  static detail::ComponentOperations const& operations(int type);
 
   AnyComponent(int type, void* value) : type_(type), value_(value) {}
   std::size_t index() const { return std::size_t(type_); }
 };
+
+template <class R>
+detail::ComponentOperations const& AnyComponent<R>::operations(int type) {
+  static constexpr auto all = detail::all_component_operations(List{});
+  return all[std::size_t(type)];
+}
 
 namespace detail {
 template <class D>

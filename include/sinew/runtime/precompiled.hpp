@@ -7,10 +7,13 @@
 #include <sinew/runtime/bake.hpp>
 #include <sinew/runtime/read_scene.hpp>
 #include <sinew/runtime/runtime.hpp>
+#include <sinew/runtime/save_scene.hpp>
 
 namespace sinew {
 
 using StandardSimulation = Simulation<RuntimeNode<Standard>>;
+
+extern template detail::ComponentOperations const& AnyComponent<Standard>::operations(int);
 
 extern template void Simulation<RuntimeNode<Standard>>::init(double, long);
 extern template void Simulation<RuntimeNode<Standard>>::initScene(RootScope const&, InitAgain const&);
@@ -28,6 +31,7 @@ extern template std::vector<ClassInfo> make_class_table<Standard>();
 extern template ReadScene<Standard> read_scene<Standard>(std::string const&, ReadSceneOptions const&);
 extern template ReadScene<Standard> parse_scene<Standard>(std::string const&, std::string,
                                                           ReadSceneOptions const&);
+extern template std::string scene_text<Standard>(Simulation<RuntimeNode<Standard>>&, double);
 extern template std::string bake_text<Standard>(ReadScene<Standard>, std::string const&, BakeOptions const&);
 
 }  // namespace sinew
