@@ -89,10 +89,11 @@ struct ElementDriver {
   }
 
   /// Prepares for so many parts at once, with at least so many elements each; where there are too few, there
-  /// are fewer parts.
+  /// are fewer parts. Elements that are taken one by one are not split: there the compiler may make one
+  /// operation of the last product and the sum, which has other bits.
   void split(int threads, std::size_t least = 256) {
     parts = int(std::min(std::size_t(threads), size() / least));
-    if (parts < 2 || threads < 2) {
+    if (W == 1 || parts < 2 || threads < 2) {
       forget();
       return;
     }
@@ -166,27 +167,29 @@ struct ElementDriver {
 
   /// Elements of one body may be taken in parts at once, as split() has prepared it, and then those parts
   /// once more as late ones.
-  void addForce(Law const& law, Derivs f, Coords x, ConstDerivs v, Part part = {}) {
-    forEachPack(
-        *this, part, f, [&](Pack & pack, typename DL::Deriv(&fs)[arity]) __attribute__((always_inline)) {
-          typename DL::Coord xs[arity];
-          typename DL::Deriv vs[arity];
-          gather(pack, x, xs);
-          if constexpr (Law::usesVelocity) gather(pack, v, vs);
-          law.force(pack.rest, xs, vs, fs, pack.tangent);
-        });
+  void addForce(Law const& law, Derivs f, Coords x, ConstDerivs v, [[maybe_unused]] Part part = {}) {
+    if constexpr (W > 1)
+      if (part.count > 1) return forceInParts(law, f, x, v, part);
+    for (Pack& pack : packs) {
+      typename DL::Coord xs[arity];
+      typename DL::Deriv vs[arity], fs[arity];
+      gather(pack, x, xs);
+      if constexpr (Law::usesVelocity) gather(pack, v, vs);
+      law.force(pack.rest, xs, vs, fs, pack.tangent);
+      scatter(pack, fs, f);
+    }
   }
 
-  void addDForce(Law const& law, Derivs df, ConstDerivs dx, Real k, Real b, Part part = {}) const {
-    forEachPack(
-        *this,
-        part,
-        df,
-        [&](Pack const& pack, typename DL::Deriv(&dfs)[arity]) __attribute__((always_inline)) {
-          typename DL::Deriv dxs[arity];
-          gather(pack, dx, dxs);
-          law.dforce(pack.rest, pack.tangent, dxs, dfs, L(k), L(b));
-        });
+  void addDForce(Law const& law, Derivs df, ConstDerivs dx, Real k, Real b,
+                 [[maybe_unused]] Part part = {}) const {
+    if constexpr (W > 1)
+      if (part.count > 1) return dforceInParts(law, df, dx, k, b, part);
+    for (Pack const& pack : packs) {
+      typename DL::Deriv dxs[arity], dfs[arity];
+      gather(pack, dx, dxs);
+      law.dforce(pack.rest, pack.tangent, dxs, dfs, L(k), L(b));
+      scatter(pack, dfs, df);
+    }
   }
 
   double energy(Law const& law, Coords x) const {
@@ -210,8 +213,10 @@ struct ElementDriver {
                   Sink::phase != AssemblyPhase::pattern) {
       if constexpr (Sink::phase == AssemblyPhase::bind)
         bind(sink);
+      else if (W > 1 && part.count > 1)
+        blocksInParts(law, sink.matrix, k, b, part);
       else
-        addToSlots(law, sink.matrix, k, b, part);
+        addToSlots(law, sink.matrix, k, b);
     } else if constexpr (Sink::phase != AssemblyPhase::bind) {
       if (part.index > 0 || part.late) return;
       auto addPair = [&]<int SideI, int SideJ>(Pack const& pack, int i, int j) {
@@ -245,9 +250,33 @@ struct ElementDriver {
     lateForces = lateBlocks = {};
   }
 
+  [[gnu::noinline]] void forceInParts(Law const& law, Derivs f, Coords x, ConstDerivs v, Part part) {
+    forEachPack(
+        *this, part, f, [&](Pack & pack, typename DL::Deriv(&fs)[arity]) __attribute__((always_inline)) {
+          typename DL::Coord xs[arity];
+          typename DL::Deriv vs[arity];
+          gather(pack, x, xs);
+          if constexpr (Law::usesVelocity) gather(pack, v, vs);
+          law.force(pack.rest, xs, vs, fs, pack.tangent);
+        });
+  }
+
+  [[gnu::noinline]] void dforceInParts(Law const& law, Derivs df, ConstDerivs dx, Real k, Real b,
+                                       Part part) const {
+    forEachPack(
+        *this,
+        part,
+        df,
+        [&](Pack const& pack, typename DL::Deriv(&dfs)[arity]) __attribute__((always_inline)) {
+          typename DL::Deriv dxs[arity];
+          gather(pack, dx, dxs);
+          law.dforce(pack.rest, pack.tangent, dxs, dfs, L(k), L(b));
+        });
+  }
+
   // law(pack, what its points receive) for the packs of a part, and adds that
   template <class Self, class OfPack>
-  static void forEachPack(Self& self, Part part, Derivs const& to, OfPack&& law) {
+  SINEW_INLINE static void forEachPack(Self& self, Part part, Derivs const& to, OfPack&& law) {
     if (part.count > 1) part.count = self.parts;
     if (part.index >= part.count) return;
     const bool whole = part.count == 1;
@@ -264,14 +293,19 @@ struct ElementDriver {
       auto& pack = self.packs[p];
       typename DL::Deriv fs[arity];
       law(pack, fs);
-      if (!whole && self.lateForces.firstOf[p] >= 0)
-        self.keep(pack, self.lateForces.rooms.data() + self.lateForces.firstOf[p], fs, to[0]);
-      else
+      if (!whole && self.lateForces.firstOf[p] >= 0) [[unlikely]] {
+        // a copy, so that what others receive may stay in registers
+        typename DL::Deriv kept[arity];
+        for (int k = 0; k < arity; ++k) kept[k] = fs[k];
+        self.keep(pack, self.lateForces.rooms.data() + self.lateForces.firstOf[p], kept, to[0]);
+      } else {
         scatter(pack, fs, to);
+      }
     }
   }
   // of what points receive, what belongs to a part before is kept
-  void keep(Pack const& pack, int const* rooms, typename DL::Deriv const (&from)[arity], Deriv* to) const {
+  [[gnu::noinline]] void keep(Pack const& pack, int const* rooms, typename DL::Deriv const (&from)[arity],
+                              Deriv* to) const {
     constexpr int n = realsOf<Deriv>;
     for (int k = 0; k < arity; ++k)
       for (int l = 0; l < pack.active; ++l) {
@@ -280,20 +314,9 @@ struct ElementDriver {
         if (room >= 0)
           for (int c = 0; c < n; ++c) keptForces[std::size_t(room * n + c)] = lane(values[c], l);
         else
-          for (int c = 0; c < n; ++c)
-            reinterpret_cast<Real*>(to + pack.index[k][l])[c] += rounded(lane(values[c], l));
+          for (int c = 0; c < n; ++c) reinterpret_cast<Real*>(to + pack.index[k][l])[c] += lane(values[c], l);
       }
   }
-  // r, which is not made part of a multiplication with addition: what is added at once and what is added late
-  // have the same bits
-  SINEW_INLINE static Real rounded(Real r) {
-#if defined(__GNUC__) && !defined(__clang__) && !defined(__CUDACC__) && __GNUC__ >= 12
-    return __builtin_assoc_barrier(r);
-#else
-    return r;
-#endif
-  }
-
   // an element to the place of another
   void move(std::size_t from, std::size_t to) {
     if (from == to) return;
@@ -339,10 +362,9 @@ struct ElementDriver {
   SINEW_INLINE static void scatter(Pack const& pack, typename DL::Deriv (&from)[arity], Derivs const& to) {
     constexpr int n = realsOf<Deriv>;
     if constexpr (W == 1) {
-      for (int k = 0; k < arity; ++k)
-        for (int c = 0; c < n; ++c)
-          reinterpret_cast<Real*>(to[std::size_t(k)] + pack.index[k][0])[c] +=
-              rounded(reinterpret_cast<Real const*>(&from[k])[c]);
+      for (int k = 0; k < arity; ++k) {
+        to[std::size_t(k)][pack.index[k][0]] += from[k];
+      }
     } else if constexpr (n == 3 && W >= 4) {
       if (pack.active != W) [[unlikely]]
         for (int k = 0; k < arity; ++k)
@@ -441,7 +463,27 @@ struct ElementDriver {
   }
 
   template <class Matrix>
-  void addToSlots(Law const& law, Matrix& matrix, Real k, Real b, Part part) {
+  void addToSlots(Law const& law, Matrix& matrix, Real k, Real b) const {
+    constexpr int n = D::size;
+    for (std::size_t p = 0; p < packs.size(); ++p) {
+      Pack const& pack = packs[p];
+      forEachPair([&]<int I, int J>() {
+        const Mat<L, n> block = law.block(pack.rest, pack.tangent, I, J, L(k), L(b));
+        auto const& turned = slots[p].transposed[pairNumber(I, J)];
+        L rows[n * n];  // row-major, as the matrix has it
+        for (int r = 0; r < n; ++r)
+          for (int c = 0; c < n; ++c)
+            rows[r * n + c] = I == J || r == c ? block(r, c) : select(turned, L(block(c, r)), L(block(r, c)));
+        alignas(64) Real ofLane[W][(n * n + 3) / 4 * 4];
+        transpose<n * n>(rows, ofLane);
+        for (int l = 0; l < pack.active; ++l)
+          addTo<n * n>(matrix.block(slots[p].slot[pairNumber(I, J)][l]), ofLane[l]);
+      });
+    }
+  }
+
+  template <class Matrix>
+  [[gnu::noinline]] void blocksInParts(Law const& law, Matrix& matrix, Real k, Real b, Part part) {
     constexpr int n = D::size;
     if (part.count > 1) part.count = parts;
     if (part.index >= part.count) return;
