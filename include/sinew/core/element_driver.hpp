@@ -211,12 +211,13 @@ struct ElementDriver {
     constexpr bool within = ((SideOf == 0) && ...);
     if constexpr (Sink::direct && within && Matrix::blockSize == D::size &&
                   Sink::phase != AssemblyPhase::pattern) {
-      if constexpr (Sink::phase == AssemblyPhase::bind)
+      if constexpr (Sink::phase == AssemblyPhase::bind) {
         bind(sink);
-      else if (W > 1 && part.count > 1)
-        blocksInParts(law, sink.matrix, k, b, part);
-      else
+      } else {
+        if constexpr (W > 1)
+          if (part.count > 1) return blocksInParts(law, sink.matrix, k, b, part);
         addToSlots(law, sink.matrix, k, b);
+      }
     } else if constexpr (Sink::phase != AssemblyPhase::bind) {
       if (part.index > 0 || part.late) return;
       auto addPair = [&]<int SideI, int SideJ>(Pack const& pack, int i, int j) {
@@ -432,7 +433,7 @@ struct ElementDriver {
   SINEW_INLINE static void addScalars(auto* to, Block const& block, bool turned) {
     if constexpr (N == 3 && std::is_same_v<Real*, decltype(to)>) {
       typedef Real Four __attribute__((vector_size(4 * sizeof(Real))));
-      auto entry = [&](int r, int c) { return rounded(turned ? block(c, r) : block(r, c)); };
+      auto entry = [&](int r, int c) { return turned ? block(c, r) : block(r, c); };
       const Four more[2] = {{entry(0, 0), entry(0, 1), entry(0, 2), entry(1, 0)},
                             {entry(1, 1), entry(1, 2), entry(2, 0), entry(2, 1)}};
       for (int i = 0; i < 2; ++i) {
@@ -444,7 +445,7 @@ struct ElementDriver {
       to[8] += entry(2, 2);
     } else {
       for (int r = 0; r < N; ++r)
-        for (int c = 0; c < N; ++c) to[r * N + c] += rounded(turned ? block(c, r) : block(r, c));
+        for (int c = 0; c < N; ++c) to[r * N + c] += turned ? block(c, r) : block(r, c);
     }
   }
 
@@ -470,6 +471,10 @@ struct ElementDriver {
       forEachPair([&]<int I, int J>() {
         const Mat<L, n> block = law.block(pack.rest, pack.tangent, I, J, L(k), L(b));
         auto const& turned = slots[p].transposed[pairNumber(I, J)];
+        if constexpr (W == 1) {
+          addScalars<n>(matrix.block(slots[p].slot[pairNumber(I, J)][0]), block, I != J && turned);
+          return;
+        }
         L rows[n * n];  // row-major, as the matrix has it
         for (int r = 0; r < n; ++r)
           for (int c = 0; c < n; ++c)
@@ -503,16 +508,6 @@ struct ElementDriver {
         constexpr int pair = pairNumber(I, J);
         const Mat<L, n> block = law.block(pack.rest, pack.tangent, I, J, L(k), L(b));
         auto const& turned = slots[p].transposed[pair];
-        if constexpr (W == 1) {
-          Real* const room =
-              rooms && rooms[pair] >= 0 ? keptBlocks.data() + std::ptrdiff_t(rooms[pair]) * n * n : nullptr;
-          if (room)
-            for (int r = 0; r < n; ++r)
-              for (int c = 0; c < n; ++c) room[r * n + c] = I != J && turned ? block(c, r) : block(r, c);
-          else
-            addScalars<n>(matrix.block(slots[p].slot[pair][0]), block, I != J && turned);
-          return;
-        }
         L rows[n * n];  // row-major, as the matrix has it
         for (int r = 0; r < n; ++r)
           for (int c = 0; c < n; ++c)
