@@ -99,16 +99,18 @@ class Headers {
   /// The comment above the class of a name, or above its alias; below it, for a class that is one case of a
   /// family, that of the family.
   Found find(std::string_view name) const {
-    const std::string wanted = text("className = \"", name, '"');
+    const std::string wanted = text('"', name, '"');
     for (auto const& file : files_)
       for (std::size_t i = 0; i < file.lines.size(); ++i)
-        if (file.lines[i].find(wanted) != std::string::npos) {
+        if (const auto at = file.lines[i].find(" className = ");
+            at != std::string::npos && file.lines[i].find(wanted, at) != std::string::npos) {
           Found found{file.header, comment_above(file.lines, structAbove(file, i))};
           for (std::size_t k = 0; k < file.lines.size(); ++k)
             if (file.lines[k].starts_with(text("using ", name, " =")))
               for (auto& line : comment_above(file.lines, k)) found.comment.push_back(std::move(line));
           for (std::size_t k = 0; k < file.lines.size(); ++k)
-            if (file.lines[k].find("::className") != std::string::npos) {
+            if (file.lines[k].find("::className") != std::string::npos &&
+                structAbove(file, k) != structAbove(file, i)) {
               if (!found.comment.empty()) found.comment.emplace_back();
               for (auto& line : comment_above(file.lines, structAbove(file, k)))
                 found.comment.push_back(std::move(line));
