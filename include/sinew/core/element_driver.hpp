@@ -166,8 +166,10 @@ struct ElementDriver {
   double energy(Law const& law, std::vector<Coord> const& x) const { return energy(law, oneBody(x.data())); }
 
   /// Elements of one body may be taken in parts at once, as split() has prepared it, and then those parts
-  /// once more as late ones.
-  void addForce(Law const& law, Derivs f, Coords x, ConstDerivs v, [[maybe_unused]] Part part = {}) {
+  /// once more as late ones. (Flat: a law that has a second caller, the loop over parts, is otherwise no
+  /// longer inlined, and takes half as long again.)
+  [[gnu::flatten]] void addForce(Law const& law, Derivs f, Coords x, ConstDerivs v,
+                                 [[maybe_unused]] Part part = {}) {
     if constexpr (W > 1)
       if (part.count > 1) return forceInParts(law, f, x, v, part);
     for (Pack& pack : packs) {
@@ -180,8 +182,8 @@ struct ElementDriver {
     }
   }
 
-  void addDForce(Law const& law, Derivs df, ConstDerivs dx, Real k, Real b,
-                 [[maybe_unused]] Part part = {}) const {
+  [[gnu::flatten]] void addDForce(Law const& law, Derivs df, ConstDerivs dx, Real k, Real b,
+                                  [[maybe_unused]] Part part = {}) const {
     if constexpr (W > 1)
       if (part.count > 1) return dforceInParts(law, df, dx, k, b, part);
     for (Pack const& pack : packs) {
@@ -431,9 +433,10 @@ struct ElementDriver {
   // scalar by scalar cannot be read back at once as a vector
   template <int N, class Block>
   SINEW_INLINE static void addScalars(auto* to, Block const& block, bool turned) {
+    auto entry = [&](int r, int c) { return turned ? block(c, r) : block(r, c); };
+#if !defined(__CUDACC__)
     if constexpr (N == 3 && std::is_same_v<Real*, decltype(to)>) {
       typedef Real Four __attribute__((vector_size(4 * sizeof(Real))));
-      auto entry = [&](int r, int c) { return turned ? block(c, r) : block(r, c); };
       const Four more[2] = {{entry(0, 0), entry(0, 1), entry(0, 2), entry(1, 0)},
                             {entry(1, 1), entry(1, 2), entry(2, 0), entry(2, 1)}};
       for (int i = 0; i < 2; ++i) {
@@ -443,10 +446,11 @@ struct ElementDriver {
         std::memcpy(to + 4 * i, &sum, sizeof sum);
       }
       to[8] += entry(2, 2);
-    } else {
-      for (int r = 0; r < N; ++r)
-        for (int c = 0; c < N; ++c) to[r * N + c] += turned ? block(c, r) : block(r, c);
+      return;
     }
+#endif
+    for (int r = 0; r < N; ++r)
+      for (int c = 0; c < N; ++c) to[r * N + c] += entry(r, c);
   }
 
   template <class Sink>
