@@ -16,7 +16,6 @@
 #include <sinew/collision/broad_phase.hpp>
 
 #include <cstdlib>
-#include <ctime>
 #include <random>
 #include <string>
 
@@ -25,17 +24,6 @@ namespace bench {
 namespace {
 
 using namespace sinew;
-
-double processor_seconds(auto&& work) {
-  auto now = [] {
-    timespec t;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
-  };
-  const double start = now();
-  work();
-  return now() - start;
-}
 
 double short_fraction(double x) { return std::round(x * 65536) / 65536; }
 

@@ -4,10 +4,10 @@
 // seconds an iteration, and bytes: that the process has more after init than before the mesh, at most in
 // between, of the arrays that a step goes through, and that the method needs at least.
 //
-// Of a step: the matrix with the places of its blocks, the packs of elements, five vectors of the solver and
-// nine of the body (x, v, f, dv, b, two of Newton's method, rest and mass). At least: the half of a symmetric
-// matrix with a column for each block, for each element the numbers of its points, three gradients and two
-// moduli, and x, v, f, dv, b, r, p, q and the mass.
+// Of a step: the matrix with its copy in slices and the places of its blocks, the packs of elements, five
+// vectors of the solver and nine of the body (x, v, f, dv, b, two of Newton's method, rest and mass). At
+// least: the half of a symmetric matrix with a column for each block, for each element the numbers of its
+// points, three gradients and two moduli, and x, v, f, dv, b, r, p, q and the mass.
 #include "bodies.hpp"
 
 #include <sinew/topology/adjacency.hpp>
@@ -47,9 +47,8 @@ int main(int argc, char** argv) try {
   const double points = double(sim.root().state().size()), tetrahedra = double(driver.size());
   const double edges = double(edges_of(sim.root().first<role::Topology>().tetrahedra).size());
   auto bytes = [](auto const& list) { return double(list.size() * sizeof list[0]); };
-  auto const& m = solver.system.matrix;
-  const double arrays = bytes(m.values) + bytes(m.columns) + bytes(m.rowStart) + bytes(m.leftStart) +
-                        bytes(m.leftColumns) + bytes(m.leftSlots) + bytes(driver.packs) + bytes(driver.slots) + 14 * 24 * points;
+  const double arrays =
+      double(solver.system.matrix.bytes()) + bytes(driver.packs) + bytes(driver.slots) + 14 * 24 * points;
   const double least = 76 * (points + edges) + (16 + 72 + 16) * tetrahedra + (8 * 24 + 8) * points;
 
   // an iteration is the difference of many and few

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/follow.hpp>
 #include <sinew/force/stiff_spring.hpp>
 
 #include <algorithm>
@@ -8,7 +9,7 @@
 
 namespace examples {
 
-/// Springs that can be cut: a StiffSpringForceField that loses some while the scene runs, for good.
+/// Springs that can be cut: a StiffSpringForceField that loses some while the scene runs, until a reset.
 template <class D>
 struct CuttableSpringForceField {
   using Role = sinew::role::ForceField;
@@ -27,19 +28,46 @@ struct CuttableSpringForceField {
                                  .also("spring"));
   }
 
-  sinew::StiffSpringForceField<D> uncut{};
+  std::vector<sinew::Spring> springsAtStart{};  // where some were cut
+
+  static constexpr auto state() {
+    return sinew::field_list(sinew::field("springsAtStart",
+                                          &CuttableSpringForceField::springsAtStart,
+                                          "",
+                                          "the springs to which a reset goes, where some were cut"));
+  }
+
+  sinew::StiffSpringForceField<D> whole{}, uncut{};
 
   void init(sinew::InitContext<D> const& context) {
-    uncut.springs = springs;
-    uncut.init(context);
-    uncut.springs.clear();
+    auto start = [&](auto& field, auto const& list) {
+      field.springs = list;
+      field.init(context);
+      field.springs.clear();
+    };
+    start(whole, springsAtStart.empty() ? springs : springsAtStart);
+    start(uncut, springs);
+    springsAtStart.reserve(springs.size());
   }
+  /// All springs are there again; says whether some were not.
+  bool reset() {
+    if (springsAtStart.empty()) return false;
+    springs.swap(springsAtStart);
+    springsAtStart.clear();
+    uncut.driver = whole.driver;
+    return true;
+  }
+  /// Where points go, what was cut does not come back.
+  void follow(sinew::Followed const&) { springsAtStart.clear(); }
 
   /// Removes the springs that have an end among these points, which rise. Allocates nothing.
   void cut(std::span<int const> points) {
     auto among = [points](int i) { return std::binary_search(points.begin(), points.end(), i); };
+    auto goes = [&](sinew::Spring const& s) { return among(s.first) || among(s.second); };
+    if (std::none_of(springs.begin(), springs.end(), goes)) return;
+    if (springsAtStart.empty()) springsAtStart.assign(springs.begin(), springs.end());
     uncut.driver.removeIf([&](auto const& ends) { return among(ends[0]) || among(ends[1]); });
-    std::erase_if(springs, [&](auto const& s) { return among(s.first) || among(s.second); });
+    std::erase_if(springs, goes);
   }
 
   void addForce(sinew::MechanicalParams const& p, VecDeriv& f, VecCoord const& x, VecDeriv const& v) {

@@ -5,6 +5,12 @@
 #include <sinew/engine/mesh_vtk_loader.hpp>
 #include <sinew/sinew.hpp>
 
+// a program that links libccd may have hulls in scene files; CMake's sinew::standard says so, where it has
+// them
+#ifdef SINEW_CCD
+#include <sinew/collision/convex_collision_model.hpp>
+#endif
+
 namespace sinew {
 
 /// Components over one DataTypes of points, of rigids, and over none.
@@ -123,10 +129,15 @@ using MadeMeshes =
 template <class D>
 using PointCollisionModels = Registry<PointCollisionModel<D>, LineCollisionModel<D>,
                                       TriangleCollisionModel<D>, SphereCollisionModel<D>>;
+#ifdef SINEW_CCD
+using ConvexCollisionModels = Registry<ConvexCollisionModel<Rigid3d>>;
+#else
+using ConvexCollisionModels = Registry<>;
+#endif
 using StandardCollision =
     Registry<DefaultPipeline, BruteForceBroadPhase, TreeBroadPhase, BVHNarrowPhase, MinProximityIntersection,
              DiscreteIntersection, ContinuousIntersection, DefaultContactManager, CarvingManager,
-             PointCollisionModels<Vec3d>, SphereCollisionModel<Rigid3d>>;
+             PointCollisionModels<Vec3d>, SphereCollisionModel<Rigid3d>, ConvexCollisionModels>;
 
 /// Every component that Sinew brings, over the DataTypes that scenes use.
 struct Standard

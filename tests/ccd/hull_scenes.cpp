@@ -77,10 +77,10 @@ TEST_CASE("an aligned stack is as deep as weight over stiffness") {
   }
 }
 
-TEST_CASE("a stiff stack that starts 1 cm deep in itself and the floor gains no energy") {
+TEST_CASE("a stiff stack that starts deep in itself and the floor gains no energy, and comes to rest") {
   const double m = 3, g = 10, dt = 0.01;
   for (const double k : {2e6, 2e7})  // k dt^2/m = 67, 667
-    for (const double depth : {0.0, 0.01})
+    for (const double depth : {0.0, 0.001, 0.01})
       for (const double askew : {0.0, 1.0}) {
         INFO(k << " " << depth << " " << askew);
         const double each = std::sqrt(k * 0.05);
@@ -128,8 +128,8 @@ TEST_CASE("a stiff stack that starts 1 cm deep in itself and the floor gains no 
             speed = std::max(speed, state.velocity[b].norm() / double(b + 1));
         }
         CHECK(most < std::max(start, hops));
-        CHECK(late < hops);
-        CHECK(speed < (depth > 0 ? 2 * g * dt : 1e-9));
+        CHECK(late < 1e-9);
+        CHECK(speed < 1e-9);
         CHECK((state.position[2].center - Eigen::Vector3d(0.3, 0.2, 2.65)).norm() < 6 * 2 * g * dt * dt);
       }
 }

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
+#include <sinew/constraint/fixed_constraint.hpp>
+#include <sinew/force/constant_force.hpp>
 #include <sinew/solver/sparse_ldl_solver.hpp>
 
 #include "contact_scene.hpp"
@@ -32,6 +34,40 @@ TEST_CASE("a ball under gravity rests on a floor, as deep in it as its weight pr
   const double k = 1000 * 100 / 0.6, height = 0.5 + 0.1 - 2 * 10 / k;
   CHECK(sim.at<"ball">().state().position[0][2] == Approx(height).margin(1e-9));
   CHECK(sim.at<"ball">().state().velocity[0].norm() < 1e-9);
+}
+
+TEST_CASE("weight holds a contact, and does not glue: what is lifted or let go leaves at once") {
+  const double dt = 0.01, g = 10;
+  auto way = [&](double a, int steps) { return a * dt * dt * steps * (steps + 1) / 2; };
+  auto body = [](std::vector<Eigen::Vector3d> positions, std::vector<int> fixed, double lift) {
+    return node<"balls">(
+        EulerImplicitSolver{},
+        CGLinearSolver<>{.iterations = 50, .tolerance = 1e-14},
+        MechanicalObject<Vec3d>{.position = positions},
+        UniformMass<Vec3d>{.vertexMass = 2},
+        FixedConstraint<Vec3d>{.indices = fixed},
+        ConstantForceField<Vec3d>{.indices = {int(positions.size()) - 1}, .forces = {{0, 0, lift}}},
+        SphereCollisionModel<Vec3d>{.selfCollision = true, .contactStiffness = 3000, .radius = 0.5});
+  };
+  for (const double k : {100.0, 3000.0}) {
+    // on the floor, with a force of 1.05 times the weight: it may lose two steps of its rise
+    auto lifted = contact_scene(near, g, floor_node(k, 0), body({{0, 0, 0.599}}, {}, 0));
+    lifted.init();
+    for (int i = 0; i < 500; ++i) lifted.animate(dt);
+    const double start = lifted.at<"balls">().state().position[0][2];
+    lifted.at<"balls">().get<ConstantForceField<Vec3d>>().forces[0][2] = 2 * g * 1.05;
+    for (int i = 0; i < 50; ++i) lifted.animate(dt);
+    CHECK(lifted.at<"balls">().state().position[0][2] - start > way(0.05 * g, 48));
+
+    // below a ball that is held, against which it goes up: it may lose four steps of its fall
+    for (const double up : {0.0, 0.5, 1.0, 2.0, 5.0}) {
+      auto below = contact_scene(near, g, floor_node(k, 0), body({{0, 0, 5}, {0, 0, 3.901}}, {0}, 0));
+      below.init();
+      below.at<"balls">().state().velocity[1][2] = up * g * dt;
+      for (int i = 0; i < 30; ++i) below.animate(dt);
+      CHECK(3.901 - below.at<"balls">().state().position[1][2] > way(g, 26));
+    }
+  }
 }
 
 TEMPLATE_TEST_CASE("an assembled system has the contacts that come and go", "",

@@ -2,6 +2,7 @@
 #include <sinew/force/stiff_spring.hpp>
 
 #include "contact_scene.hpp"
+#include "scene/reset.hpp"
 
 using namespace sinew;
 
@@ -118,4 +119,26 @@ TEST_CASE("friction of an impact takes energy, and what it brings to rest does n
         CHECK(v[0][0] < coulomb + friction * 10 * dt + friction * friction / (speed - friction));
       }
     }
+}
+
+TEST_CASE("friction of what is deep already when it is found slows it, and does not throw it back") {
+  // 1 cm deep, N = k 0.01 m at the start of the step is (1 + k dt^2/m) times that of its end
+  for (const double ratio : {1.0, 10.0, 1000.0})
+    for (const double speed : {0.01, 0.4, 5.0}) {
+      INFO(ratio << " " << speed);
+      auto sim = block_on_slope(0.5, 0, ratio, 0, false, 0.09);
+      sim.init();
+      auto const& v = sim.at<"block">().state().velocity;
+      for (auto& each : sim.at<"block">().state().velocity) each = {speed, 0, -1};
+      for (int i = 0; i < 5; ++i) {
+        sim.animate(dt);
+        // the spring of what sticks at once swings back with what it took up
+        CHECK(v[0][0] >= (speed == 5 ? -1e-3 : -1) * speed);
+        CHECK(v[0][0] <= speed);
+      }
+    }
+}
+
+TEST_CASE("contacts, and the friction that they remember, go with a reset") {
+  comes_back(block_on_slope(0.5, std::atan(0.5) - 0.01, 2, 10, true, 0.11), {1, 5, 60}, 60);
 }

@@ -115,6 +115,74 @@ TEST_CASE("hexahedra carry points inside and outside, and move them affinely alo
   }
 }
 
+TEMPLATE_TEST_CASE("points in a row in one element are carried as each by itself", "", Vec3d, Vec3f) {
+  using Real = typename TestType::Real;
+  const auto g = grid({4, 3, 3});
+  const std::size_t w = CarriedRuns<Vec3d, TestType>::least;
+  Random random;
+  auto check = [&](TopologyView const& topology, auto const& elements) {
+    // runs as long as lanes, shorter and longer; each begins in another element than the last has ended
+    typename TestType::VecCoord child;
+    std::size_t runs = 0, element = 0;
+    for (const std::size_t n :
+         {std::size_t(1), w, w, w + 1, w - 1, 2 * w, 3 * w + 3, std::size_t(2), 50 * w}) {
+      auto const& e = elements[(element += 3) % elements.size()];
+      for (std::size_t i = 0; i < n; ++i) {
+        Eigen::Vector3d p(0, 0, 0);
+        double sum = 0;
+        for (const Index k : e) {
+          const double part = random(0.5, 1);
+          p += part * g.position[std::size_t(k)], sum += part;
+        }
+        child.push_back((p / sum).template cast<Real>());
+      }
+      runs += n >= w;
+    }
+    BarycentricMapping<Vec3d, TestType> mapping;
+    const auto given = child;
+    mapping.init({"/parent", g.position, topology}, {"/parent/child", given, {}}, child);
+    REQUIRE(mapping.together.runs.size() == (mapping.together.possible ? runs : 0));
+
+    // sizes are below 5: ten roundings of a sum of weights times those
+    const double rounding = 50 * double(std::numeric_limits<Real>::epsilon());
+    const Points x = shaken(g.position, 0.5);
+    typename TestType::VecCoord out(child.size()), again = out;
+    mapping.apply(out, x);
+    mapping.applyJ(again, x);
+    CHECK(out == again);
+    typename TestType::VecDeriv f;
+    Points collected = x, expected = x;
+    double worst = 0;
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      f.push_back(random.point(-1, 1).template cast<Real>());
+      Eigen::Vector3d place(0, 0, 0);
+      mapping.forEachJacobianBlock(int(i), [&](int k, Mat<Real, 3> const& block) {
+        place += block.template cast<double>() * x[std::size_t(k)];
+        expected[std::size_t(k)] += block.template cast<double>() * f[i].template cast<double>();
+      });
+      worst = std::max(worst, (out[i].template cast<double>() - place).norm());
+    }
+    CHECK(worst < rounding);
+    mapping.applyJT(collected, f);
+    worst = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) worst = std::max(worst, (collected[i] - expected[i]).norm());
+    CHECK(worst < double(w) * rounding);  // of sums of some hundred forces
+    // a translation is exact in lanes
+    Points moved = g.position;
+    for (auto& p : moved) p = {0.1, -2.7, 3.3};
+    mapping.apply(out, moved);
+    for (auto const& run : mapping.together.runs)
+      CHECK(std::all_of(out.begin() + std::ptrdiff_t(run.first),
+                        out.begin() + std::ptrdiff_t(run.end),
+                        [&](auto const& p) { return p == moved[0].template cast<Real>(); }));
+  };
+  const std::vector<Tetrahedron> tetrahedra{{0, 1, 4, 12}, {5, 6, 9, 17}, {18, 19, 22, 30}, {14, 15, 11, 3}};
+  check({.tetrahedra = tetrahedra}, tetrahedra);
+  check({.hexahedra = g.hexahedra}, g.hexahedra);
+  const std::vector<Quad> sheet{{0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {4, 5, 9, 8}, {5, 6, 10, 9}};
+  check({.quads = sheet}, sheet);
+}
+
 TEST_CASE("hexahedra of a grid carry trilinear motion exactly") {
   const auto g = grid({3, 3, 3});
   auto move = [](Eigen::Vector3d const& p) {

@@ -66,6 +66,7 @@ void check_grid(std::array<int, 3> n, double rounding) {
   using Vector = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
   const int points = n[0] * n[1] * n[2];
   Matrix a;
+  a.slicedFrom = 0;
   a.startPattern(3 * points);
   auto forEachPair = [&](auto&& f) {
     for (int i = 0; i < points; ++i)
@@ -109,6 +110,22 @@ TEST_CASE("block matrices of grids multiply alike in all products") {
   check_grid<CompressedRowSparseMatrix<double, 3>>({8, 8, 4}, 1e-14);
   check_grid<CompressedRowSparseMatrix<float, 3>>({17, 5, 4}, 1e-6);
   check_grid<CompressedRowSparseMatrix<float, 3>>({16, 4, 4}, 1e-6);
+}
+
+TEST_CASE("a small matrix of doubles has no copy of itself in slices, one of floats may have") {
+  auto bytes = [](auto a, std::size_t slicedFrom) {
+    a.slicedFrom = slicedFrom;
+    a.startPattern(300);
+    for (int i = 0; i < 99; ++i) a.announce(3 * i, 3 * i + 3, 3, 3);
+    a.finishPattern();
+    return a.bytes();
+  };
+  const CompressedRowSparseMatrix<double, 3> doubles;
+  const CompressedRowSparseMatrix<float, 3> floats;
+  CHECK(bytes(doubles, doubles.slicedFrom) == bytes(doubles, 200));
+  CHECK(bytes(floats, floats.slicedFrom) == bytes(floats, 0));
+  if constexpr (SlicedRows<float>::possible) CHECK(bytes(floats, 0) > bytes(floats, 200));
+  if constexpr (SlicedRows<double>::possible) CHECK(bytes(doubles, 199) > bytes(doubles, 200));
 }
 
 TEST_CASE("block matrices multiply as the dense one") {

@@ -38,6 +38,16 @@ void check_lanes() {
   transpose<9>(in, out);
   for (int l = 0; l < W; ++l)
     for (int c = 0; c < 12; ++c) CHECK(out[l][c] == (c < 9 ? T(100 * c + l) : T(0)));
+
+  // points one behind the other, and their components
+  T points[3 * W], back[3 * W];
+  for (int i = 0; i < 3 * W; ++i) points[i] = T(i);
+  L components[3];
+  load3(points, components);
+  for (int l = 0; l < W; ++l)
+    for (int c = 0; c < 3; ++c) CHECK(lane(components[c], l) == T(3 * l + c));
+  store3(components, back);
+  for (int i = 0; i < 3 * W; ++i) CHECK(back[i] == T(i));
 }
 
 }  // namespace

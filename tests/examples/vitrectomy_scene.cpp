@@ -48,6 +48,7 @@ TEST_CASE(
   for (int i = 0; i < 400; ++i) sim.animate(dt), typed.animate(dt);
   CHECK(cuttable.springs.size() < eye.cuttable.size());
   CHECK(bits_of(sim) == typed_bits());
+  const std::string cut = bits_of(sim);
 
   const std::size_t half = cuttable.springs.size();
   auto again = start(parse_scene<Components>("checkpoint.scn", scene_text(sim, dt)));
@@ -57,4 +58,12 @@ TEST_CASE(
   CHECK(cuttable.springs.size() < half);
   CHECK(bits_of(sim) == typed_bits());
   CHECK(bits_of(again) == typed_bits());
+
+  // a reset brings the springs back, those too that were cut before the checkpoint
+  sim.reset(), typed.reset(), again.reset();
+  CHECK(cuttable.springs.size() == eye.cuttable.size());
+  for (int i = 0; i < 400; ++i) sim.animate(dt), typed.animate(dt), again.animate(dt);
+  CHECK(bits_of(sim) == cut);
+  CHECK(bits_of(again) == cut);
+  CHECK(typed_bits() == cut);
 }

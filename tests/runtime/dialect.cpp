@@ -294,9 +294,19 @@ TEST_CASE("a visual model without vertices has those around it") {
   CHECK(in<VisualModel>(scene, "one").mesh.positions.size() == 1);
 }
 
+// Standard has no mapping from rigid bodies to such points
+using Centres = Registry<Gravity, MechanicalObject<Rigid3d>, VisualModel, IdentityMapping<Rigid3d, Vec3f>>;
+
+TEST_CASE("of a class that needs a package it is said how to get that") {
+  for (std::string name : {"ConvexCollisionModel", "BulletConvexHullModel"})
+    CHECK_THROWS_WITH(
+        parse_scene<Centres>("test.scn", "<Node>\n <" + name + " points='0 0 0'/></Node>"),
+        Catch::Contains("test.scn:2:2: there is no component <" + name +
+                        "> in this program, which was built without libccd; install that (Debian: "
+                        "libccd-dev) and build Sinew anew"));
+}
+
 TEST_CASE("a visual model without vertices has the centres of rigid bodies") {
-  // Standard has no mapping from rigid bodies to such points
-  using Centres = Registry<Gravity, MechanicalObject<Rigid3d>, VisualModel, IdentityMapping<Rigid3d, Vec3f>>;
   auto scene = parse_scene<Centres>(
       "test.scn", R"(<Node><MechanicalObject template="Rigid3" position="1 2 3 0 0 0 1  4 5 6 0 0 0 1"/>
     <Node name="points"><OglModel/><IdentityMapping/></Node></Node>)");

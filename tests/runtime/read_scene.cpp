@@ -157,6 +157,8 @@ TEST_CASE("each mistake has its sentence") {
              Catch::Contains("has no child"));
   CHECK_THAT(wrong("<Node><MechanicalObject template=\"Vec4\"/></Node>"),
              Catch::Contains("is not there over Vec4d; it is over"));
+  CHECK_THAT(wrong("<Node><MechanicalObject template=\"CudaVec3f\"/></Node>"),
+             Catch::Contains("none of the CUDA DataTypes: take Vec3f, or run the scene with"));
   CHECK_THAT(wrong_component("<TetrahedronFEMForceField template=\"Rigid3\"/>"),
              Catch::Contains("give both the same"));
   CHECK_THAT(wrong_component("<FixedConstraint indices=\"@dofs\"/>"), Catch::Contains("has no ''"));

@@ -175,3 +175,18 @@ TEST_CASE("a record or a replay of a body that loses points says so") {
        {"/root/body: ReadState<Vec3d>", "each of 2 points"});
   CHECK(replay.at<"body">().state().size() == 3);
 }
+
+TEST_CASE("a record after a reset has the bytes of the first one, forces too") {
+  TempFolder folder;
+  const std::string path = folder / "f";
+  auto sim =
+      pulling(keys(), WriteState<Rigid3d>{.filename = path, .writeX0 = true, .writeV = true, .writeF = true});
+  sim.init();
+  for (int i = 0; i < 10; ++i) sim.animate(dt);
+  sim.finish();
+  const std::string first = io::read_file(path);
+  sim.reset();
+  for (int i = 0; i < 10; ++i) sim.animate(dt);
+  sim.finish();
+  CHECK(io::read_file(path) == first);
+}

@@ -2,6 +2,8 @@
 // States that are moved as recorded, or as given at keys, in typed scenes.
 #include "replay.hpp"
 
+#include "reset.hpp"
+
 using namespace replay;
 
 TEST_CASE("a tool without a solver is, after a step, where its trajectory says, and what it carries too") {
@@ -214,4 +216,17 @@ TEST_CASE("keys at equal times, and a time shift") {
   CHECK(sim.root().state().position[0][0] == 0.5);
   sim.animate(0.25);
   CHECK(sim.root().state().position[0][0] == 1);
+}
+
+TEST_CASE("tools that are led, and movements that are prescribed, start again") {
+  comes_back(pulling(keys()), {1, 35, 130}, 130);
+  comes_back(pulling(EulerImplicitSolver{},
+                     CGLinearSolver<>{},
+                     UniformMass<Rigid3d>{},
+                     LinearMovementConstraint<Rigid3d>{
+                         .indices = {0},
+                         .keyTimes = {0, 0.2},
+                         .movements = {Rigid3d::Deriv::Zero(), Rigid3d::Deriv::Constant(0.5)}}),
+             {1, 15, 40},
+             40);
 }

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
-// Counts every allocation, by operator new or malloc, while scenes step after init.
+// Counts every allocation while scenes step after init.
+#include "static/allocations.hpp"
+
 #include "catch.hpp"
 #include "io/files.hpp"
 #include "one_tetrahedron/scene.hpp"
@@ -13,31 +15,6 @@
 
 #include <atomic>
 #include <cstdlib>
-#include <new>
-
-namespace {
-std::atomic<long> allocations{0};
-}
-
-extern "C" {
-void* __libc_malloc(std::size_t);
-void* __libc_calloc(std::size_t, std::size_t);
-void* __libc_realloc(void*, std::size_t);
-void* __libc_memalign(std::size_t, std::size_t);
-
-// operator new of the standard library ends in these
-void* malloc(std::size_t size) { return ++allocations, __libc_malloc(size); }
-void* calloc(std::size_t n, std::size_t size) { return ++allocations, __libc_calloc(n, size); }
-void* realloc(void* p, std::size_t size) { return ++allocations, __libc_realloc(p, size); }
-void* aligned_alloc(std::size_t alignment, std::size_t size) {
-  return ++allocations, __libc_memalign(alignment, size);
-}
-int posix_memalign(void** p, std::size_t alignment, std::size_t size) {
-  ++allocations;
-  *p = __libc_memalign(alignment, size);
-  return *p ? 0 : 12;
-}
-}
 
 using namespace sinew;
 

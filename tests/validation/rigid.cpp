@@ -16,11 +16,11 @@ Eigen::Vector3d angular_momentum(Sim& sim) {
   return r * inertia * r.transpose() * s.velocity[0].template tail<3>();
 }
 
-template <class Solver>
-auto spinning(Solver solver) {
+template <class... Solvers>
+auto spinning(Solvers... solvers) {
   Vec<double, 6> v;
   v << 0, 0, 0, 0.3, 2, 0.1;  // about the middle axis, where free rotation tumbles
-  Simulation sim{node<"root">(solver,
+  Simulation sim{node<"root">(solvers...,
                               MechanicalObject<Rigid3d>{.position = {{}}, .velocity = {v}},
                               UniformMass<Rigid3d>{.vertexMass = RigidMass<double, 3>{2, inertia}})};
   sim.init();
@@ -54,6 +54,44 @@ TEST_CASE("rotations have the order of their solver") {
   CHECK(std::log2(momentum_error(RungeKutta4Solver{}, 50) / momentum_error(RungeKutta4Solver{}, 100)) >= 3.8);
   CHECK(std::log2(momentum_error(RungeKutta2Solver{}, 200) / momentum_error(RungeKutta2Solver{}, 400)) >=
         1.9);
+}
+
+TEMPLATE_TEST_CASE("a body that tumbles gains no energy from steps that turn it far", "", EulerExplicitSolver,
+                   EulerImplicitSolver) {
+  auto make = [](double dt) {
+    // |w| = 2, so 0.2, 1 or 5 rad a step
+    if constexpr (TestType::implicit)
+      return std::pair{spinning(TestType{}, CGLinearSolver<>{.iterations = 20, .tolerance = 1e-14}), dt};
+    else
+      return std::pair{spinning(TestType{}), dt};
+  };
+  for (const double h : {0.1, 0.5, 2.5}) {
+    auto [sim, dt] = make(h);
+    double energy = sim.kineticEnergy(), most = 0;
+    const double start = energy;
+    bool turnedOver = false;
+    for (int i = 0; i < 10000; ++i) {
+      sim.animate(dt);
+      most = std::max(most, sim.kineticEnergy() / energy - 1);
+      energy = sim.kineticEnergy();
+      auto const& s = sim.template at<"">().state();
+      turnedOver |=
+          (s.position[0].orientation.conjugate() * Eigen::Vector3d(s.velocity[0].template tail<3>()))[1] < -1;
+    }
+    CHECK(most < 1e-12);
+    CHECK(energy > 0);
+    CHECK(energy < start);
+    CHECK((turnedOver || h > 0.1));
+  }
+  // and the angular momentum has an error of first order
+  auto momentum_error = [&](int steps) {
+    auto [sim, dt] = make(1.0 / steps);
+    const Eigen::Vector3d start = angular_momentum(sim);
+    for (int i = 0; i < steps; ++i) sim.animate(dt);
+    return (angular_momentum(sim) - start).norm();
+  };
+  CHECK(momentum_error(400) > 1e-6);
+  CHECK(std::log2(momentum_error(200) / momentum_error(400)) == Approx(1).margin(0.1));
 }
 
 TEST_CASE("a spinning symmetric top precesses as Euler says") {

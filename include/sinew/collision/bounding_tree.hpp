@@ -212,9 +212,10 @@ class BasicBoundingTree {
     }
   }
 
-  // visit(link, box) for the leaves from `node` on near a box
+  // visit(link, box) for the leaves from `node` on near a box (what is called is the host's: no SINEW_INLINE)
   template <class F>
-  SINEW_INLINE void leaves_near(int node, Packed const& query, Real margin, F&& visit) const {
+  __attribute__((always_inline)) void leaves_near(int node, Packed const& query, Real margin,
+                                                  F&& visit) const {
     for (const int end = int(nodes.size()); node < end;) {
       Link const& link = links[node];
       if (!nodes[node].overlaps(query, margin)) {
@@ -227,8 +228,9 @@ class BasicBoundingTree {
   }
   // report(i, j) for i in a leaf of tree `from` and j in a node of this from `node` on
   template <class F>
-  SINEW_INLINE void pairs_with_leaf(BasicBoundingTree const& from, Link const& leaf, Packed const& box,
-                                    int node, Real margin, F&& report) const {
+  __attribute__((always_inline)) void pairs_with_leaf(BasicBoundingTree const& from, Link const& leaf,
+                                                      Packed const& box, int node, Real margin,
+                                                      F&& report) const {
     leaves_near(node, box, margin, [&](Link const& mine, Packed const& around) {
       const Packed room = around;
       for (int a = leaf.first; a < leaf.last; ++a) {

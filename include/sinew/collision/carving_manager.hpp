@@ -46,6 +46,9 @@ struct CarvingManager {
   // of the steps
   long removed = 0;       // elements so far
   std::string message{};  // what could not be removed in the last step in which something could not
+
+  /// What is carved stays so.
+  void reset() { message.clear(); }
 };
 
 }  // namespace sinew

@@ -98,7 +98,8 @@ struct SimplexFrame {
   Real inverseAcross = 0;
 
   explicit SimplexFrame(Simplex<Real, N> const& p) : points(p) {
-    for (std::size_t k = 0; k < edgeCount; ++k) edges[k] = EdgeFrame<Real>(p, k, (k + 1) % N);
+    if constexpr (N > 1)
+      for (std::size_t k = 0; k < edgeCount; ++k) edges[k] = EdgeFrame<Real>(p, k, (k + 1) % N);
     if constexpr (N == 3) {
       auto const& u = edges[0];
       second = p[2] - p[0];

@@ -32,9 +32,10 @@ struct CollisionSurface {
   std::optional<ConvexHull> hull{};  // of each element, in the axes of its rigid, where corners is 0
   std::string path{};                // for messages
   void const* state = nullptr;
-  int number = -1;        // among the surfaces of the scene, in their order
-  int solver = -1;        // which of the ODE solvers moves it; none: -1
-  bool implicit = false;  // that solver is an implicit one
+  int number = -1;                   // among the surfaces of the scene, in their order
+  int solver = -1;                   // which of the ODE solvers moves it; none: -1
+  bool implicit = false;             // that solver is an implicit one
+  Eigen::Vector3d gravity{0, 0, 0};  // on what a solver moves
   unsigned companions =
       0;  // numbers of corners, as bits, of the models of points, lines and triangles on this state
 

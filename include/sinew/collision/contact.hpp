@@ -60,11 +60,13 @@ struct Contact {
   int solver = -1;        // the ODE solver that sees it as part of its system
   bool loose = false;     // between two solvers: for both a force that stays as it is during the step
   bool implicit = false;  // the solver takes what the force will be at the end of the step
+  double fall = 0;        // at which gravity may bring the two together [m/s^2]
 
   // memory of the response: the tangential displacement that friction holds against, the unit vector of the
   // way it slid in the last step, and any other scalar
   Eigen::Vector3d slip{0, 0, 0}, slide{0, 0, 0};
   double memory = 0;
+  bool pushed = false;  // in the last step
 
   // since detection
   Eigen::Vector3d start{0, 0, 0};  // u at detection
@@ -89,6 +91,7 @@ struct Contact {
                       field("slip", &C::slip, "m", "tangential displacement since it sticks"),
                       field("slide", &C::slide, "", "the way it slid before"),
                       field("memory", &C::memory, "", "of the response"),
+                      field("pushed", &C::pushed, "", "it pushed in the last step"),
                       field("start", &C::start, "m", "displacement at detection"),
                       field("sliding", &C::sliding, "", "the way it slides"));
   }

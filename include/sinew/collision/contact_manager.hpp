@@ -148,7 +148,7 @@ struct ContactManager {
 
   bool acts() const { return !contacts.empty() || !attachments.empty(); }
   /// As if nothing had ever touched.
-  void forget() {
+  void reset() {
     coupleAnew = coupleAnew || acts();
     contacts.clear();
     attachments.clear();
@@ -394,6 +394,7 @@ struct ContactManager {
     c.stiffness = a.stiffness * b.stiffness / (reach > 0 ? reach : 1);
     c.friction = a.friction + b.friction;
     c.damping = a.damping + b.damping;
+    c.fall = std::max({0.0, c.normal.dot(a.gravity), -c.normal.dot(b.gravity)});
     const int ofA = answers[std::size_t(c.a.surface)], ofB = answers[std::size_t(c.b.surface)];
     c.response = ofA >= 0 ? ofA : ofB >= 0 ? ofB : answer;
     find_solver(c, &a, &b);
@@ -405,6 +406,7 @@ struct ContactManager {
     c.slip = old.slip;
     c.slide = old.slide;
     c.memory = old.memory;
+    c.pushed = old.pushed;
   }
 };
 

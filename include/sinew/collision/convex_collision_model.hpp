@@ -11,9 +11,9 @@
 namespace sinew {
 
 /// The convex hull of points in the axes of a rigid, around each rigid of the state. Points inside do no harm
-/// but cost time. In one plane or on one line they are a plate or a needle, which has two sides. For scene
-/// files it stands in a registry of one's own:
-///   struct Mine : Registry<Standard, ConvexCollisionModel<Rigid3d>> {};
+/// but cost time. In one plane or on one line they are a plate or a needle, which has two sides. Scene files
+/// have it where the library sinew::standard was built with libccd; elsewhere it stands in a registry of
+/// one's own: struct Mine : Registry<Standard, ConvexCollisionModel<Rigid3d>> {};
 template <class D>
 struct ConvexCollisionModel {
   using Role = role::CollisionModel;
@@ -22,6 +22,9 @@ struct ConvexCollisionModel {
                 "Sinew: a ConvexCollisionModel is the hull of points in the axes of a rigid in space; take "
                 "Rigid3d or Rigid3f.");
   static constexpr std::string_view className = "ConvexCollisionModel";
+  // of SOFA's plugin for Bullet
+  static constexpr std::string_view aliases =
+      "TBulletConvexHullModel BulletConvexHullModel BtConvexHullModel BulletConvexHull BtConvexHull";
   static constexpr int corners = 0;
 
   bool active = true, moving = true, simulated = true, selfCollision = false, bothSide = true;
@@ -34,7 +37,8 @@ struct ConvexCollisionModel {
   static constexpr auto fields() {
     using M = ConvexCollisionModel;
     return collision_model_fields<M>(
-        field("points", &M::points, "m", "points of the hull, in the axes of the rigid").also("position"),
+        field("points", &M::points, "m", "points of the hull, in the axes of the rigid")
+            .also("position CHPoints"),
         field(
             "filename", &M::filename, "", "a mesh (.msh, .obj, .stl, .vtk) whose points they are, instead"));
   }

@@ -33,7 +33,8 @@ struct alignas(8 * sizeof(Real)) PackedBox {
 
   /// As BasicAxisBox::overlaps: the same differences, so the same answer to the last bit.
   SINEW_INLINE bool overlaps(PackedBox const& other, Real margin) const {
-#if defined(__AVX__)
+#if defined(__CUDACC__)  // whose front end has no such types
+#elif defined(__AVX__)
     if constexpr (sizeof(Real) == 8) {
       const __m256d least = _mm256_set1_pd(-margin);
       const __m256d a = _mm256_add_pd(_mm256_load_pd(low), _mm256_load_pd(other.high));

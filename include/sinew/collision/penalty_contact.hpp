@@ -29,14 +29,18 @@ struct Friction {
 ///   N n - k s,   N = max(0, k (limit - g) - c g'),
 /// where s is the tangential displacement since the contact sticks, cut to |k s| <= mu N (Cundall, Strack
 /// 1979). Under an implicit solver the contact acts from where the step will bring it below the limit, with
-/// the force that then is right at the end of the step, and so stops what is fast within one step.
+/// the force that then is right at the end of the step, and so stops what is fast within one step. What
+/// pushed in the last step also acts where it parts slower than gravity brings the two together again in this
+/// one, of which the velocity at the start does not know: stacks would hop by g dt^2.
 ///
 /// One linear step has to know beforehand whether the contact sticks or slides. It goes on as at the end of
 /// the step before: what stuck within the cone sticks, by a spring that is as implicit as the normal one;
 /// what left the cone slides, against mu N of the end of the step before, until it has turned back within a
-/// step. Asked of the velocity at the start of the step instead, a spring with k dt^2 > m would slide and
-/// stick in turn for ever; and the N of where that velocity would lead is, in an impact, 1 + k dt^2/m times
-/// what it will be.
+/// step. What pushes for the first time, or in an impact, slides against mu N in the direction of the
+/// velocity at the end of the step: found deep, N is 1 + k dt^2/m times what it will be, and would throw it
+/// back otherwise. Asked of the velocity at the start of the step instead, a spring with k dt^2 > m would
+/// slide and stick in turn for ever; and the N of where that velocity would lead is, in an impact, 1 + k
+/// dt^2/m times what it will be.
 struct PenalityContactForceField {
   static constexpr std::string_view className = "PenalityContactForceField";
   static constexpr std::string_view aliases = "PenalityContact PenaltyContact FrictionContact default";
@@ -49,7 +53,8 @@ struct PenalityContactForceField {
     c.sliding.setZero();
     c.stiffnessMatrix.setZero();
     c.dampingMatrix.setZero();
-    const double ahead = c.implicit ? std::min(gap, gap + dt * gapRate) : gap;
+    const double back = c.pushed ? dt * c.fall : 0;
+    const double ahead = c.implicit ? std::min(gap, gap + dt * (gapRate - back)) : gap;
     if (!(ahead < c.limit)) return;
     double push = c.stiffness * (c.limit - gap) - c.damping * gapRate;
     if (!c.implicit || gap < c.limit) push = std::max(0.0, push);
@@ -71,7 +76,7 @@ struct PenalityContactForceField {
     c.sliding = friction.way.normalized();
     const Eigen::Vector3d along1 = along * rate;
     const double most = c.stiffness * friction.most, speed = along1.norm();
-    if (c.implicit && c.memory > 1 && most > 0 && speed > 0) {
+    if (c.implicit && c.memory != 1 && most > 0 && speed > 0) {
       // mu N / |v| v, in which only v is of the end of the step: what an impact brings to rest does not turn
       c.force -= most / speed * along1;
       c.dampingMatrix += most / speed * along;
@@ -84,6 +89,7 @@ struct PenalityContactForceField {
   }
   /// slip: s at the end of the step; slide: the way it slides, 0 where it sticks.
   void settle(Contact& c, Eigen::Vector3d const& u) const {
+    c.pushed = c.force.dot(c.normal) > 0;
     if (!(c.friction > 0)) return;
     const Eigen::Vector3d moved = u - c.start;
     const double push = elasticPush(c, u);
@@ -92,14 +98,14 @@ struct PenalityContactForceField {
     c.slip = friction.slip;
     c.slide.setZero();
     if (push > 0 && (slid ? !turnedBack : friction.slides)) c.slide = friction.way.normalized();
-    c.memory = push > 2 * elasticPush(c, c.start) ? 1 + impactSteps
-               : push > 0                         ? std::max(1.0, c.memory - 1)
-                                                  : 0;
+    const double before = elasticPush(c, c.start);
+    const bool impact = push > 2 * before || 2 * push < before;
+    c.memory = !(push > 0) ? 0 : impact ? 1 + impactSteps : std::max(1.0, c.memory - 1);
   }
 
  private:
   // memory of a contact that pushes: 1, and for how many steps an impact goes on, from where it pushes twice
-  // as much as a step before
+  // or half as much as a step before
   static constexpr double impactSteps = 4;
   static double elasticPush(Contact const& c, Eigen::Vector3d const& u) {
     return c.stiffness * std::max(0.0, c.limit + c.thickness - c.normal.dot(u));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/core/component.hpp>
+#include <sinew/core/point_loop.hpp>
 
 #include <algorithm>
 #include <vector>
@@ -27,6 +28,19 @@ void check_points(InitContext<typename C::DataTypes> const& context, std::vector
                        ", but the state has ",
                        context.rest.size(),
                        " points, numbered from 0; correct the index"));
+}
+
+/// The points that a constraint holds: those of a list, or all; as a loop over them reads them.
+template <class C>
+auto held_points(InitContext<typename C::DataTypes> const& context, std::vector<int> const& indices,
+                 bool all) {
+  if (!all) check_points<C>(context, indices);
+  std::vector<int> held = indices;
+  if (all) {
+    held.resize(context.rest.size());
+    for (std::size_t i = 0; i < held.size(); ++i) held[i] = int(i);
+  }
+  return held;
 }
 
 /// Throws Error unless times rise and have one value each.

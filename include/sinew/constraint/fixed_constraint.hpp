@@ -12,6 +12,7 @@ template <class D>
 struct FixedConstraint {
   using Role = role::ProjectiveConstraint;
   using DataTypes = D;
+  using Deriv = typename D::Deriv;
   using VecDeriv = typename D::VecDeriv;
   static constexpr std::string_view className = "FixedConstraint";
   static constexpr std::string_view aliases = "FixedProjectiveConstraint";
@@ -28,30 +29,21 @@ struct FixedConstraint {
             "activate_projectVelocity", &F::activateProjectVelocity, "", "held points lose their velocity"));
   }
 
-  std::size_t size = 0;  // points of the state
+  typename D::template Array<int> held{};
 
-  void init(InitContext<D> const& context) {
-    if (!fixAll) check_points<FixedConstraint>(context, indices);
-    size = context.rest.size();
-  }
+  void init(InitContext<D> const& context) { held = held_points<FixedConstraint>(context, indices, fixAll); }
 
   void projectResponse(VecDeriv& dx) const {
-    forEachPoint([&](int i) { dx[std::size_t(i)].setZero(); });
+    Deriv* const to = entries(dx);
+    int const* const points = entries(held);
+    each_point<D>(held.size(), [=] SINEW_HD(int k) { to[points[k]].setZero(); });
   }
   void projectVelocity(double /*time*/, VecDeriv& v) const {
     if (activateProjectVelocity) projectResponse(v);
   }
   template <class Sink>
   void projectMatrix(Sink const& sink) const {
-    forEachPoint([&](int i) { sink.fix(i); });
-  }
-
-  template <class F>
-  void forEachPoint(F&& f) const {
-    if (fixAll)
-      for (std::size_t i = 0; i < size; ++i) f(int(i));
-    else
-      for (const int i : indices) f(i);
+    for (const int i : held) sink.fix(i);
   }
 };
 

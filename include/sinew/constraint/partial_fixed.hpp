@@ -13,6 +13,7 @@ template <class D>
 struct PartialFixedConstraint {
   using Role = role::ProjectiveConstraint;
   using DataTypes = D;
+  using Deriv = typename D::Deriv;
   using VecDeriv = typename D::VecDeriv;
   using Mask = std::array<int, D::size>;
   static constexpr std::string_view className = "PartialFixedConstraint";
@@ -38,17 +39,19 @@ struct PartialFixedConstraint {
             .also("activate_projectVelocity"));
   }
 
-  std::size_t size = 0;  // points of the state
+  typename D::template Array<int> held{};
 
   void init(InitContext<D> const& context) {
-    if (!fixAll) check_points<PartialFixedConstraint>(context, indices);
-    size = context.rest.size();
+    held = held_points<PartialFixedConstraint>(context, indices, fixAll);
   }
 
   void projectResponse(VecDeriv& dx) const {
-    forEachPoint([&](int i) {
+    Deriv* const to = entries(dx);
+    int const* const points = entries(held);
+    const Mask fixed = fixedDirections;
+    each_point<D>(held.size(), [=] SINEW_HD(int k) {
       for (int c = 0; c < D::size; ++c)
-        if (fixedDirections[std::size_t(c)]) dx[std::size_t(i)][c] = 0;
+        if (fixed[std::size_t(c)]) to[points[k]][c] = 0;
     });
   }
   void projectVelocity(double /*time*/, VecDeriv& v) const {
@@ -56,16 +59,9 @@ struct PartialFixedConstraint {
   }
   template <class Sink>
   void projectMatrix(Sink const& sink) const {
-    forEachPoint([&](int i) { sink.fix(i, fixedDirections); });
+    for (const int i : held) sink.fix(i, fixedDirections);
   }
 
-  template <class F>
-  void forEachPoint(F&& f) const {
-    if (fixAll)
-      for (std::size_t i = 0; i < size; ++i) f(int(i));
-    else
-      for (const int i : indices) f(i);
-  }
   static constexpr Mask all() {
     Mask mask{};
     for (int& m : mask) m = 1;

@@ -83,6 +83,8 @@ struct MechanicalParams {
   Eigen::Vector3d gravity{0, 0, 0};
   double m = 0, b = 0, k = 0;
   Part part{};  // for a component that takes_parts
+  // not 0: forces are for a step v += turning M^-1 f, x += turning v, and gyroscopic ones those at its end
+  double turning = 0;
 };
 
 /// What a force field claims of itself (as `properties()`), and the law suite proves. The defaults are those
@@ -132,6 +134,14 @@ concept ActsBeforeStep = requires {
 template <class C>
 concept WatchesState = HasRole<C, role::StepCallback> && requires {
   typename C::DataTypes;
+};
+
+/// A component, whatever its role, that a step leaves other than init did, in more than what the next step
+/// computes anew: reset() makes it what it was, at time 0. It may return a bool: true says that elements are
+/// there again whose places in a matrix have to be found.
+template <class C>
+concept Resettable = requires(C c) {
+  c.reset();
 };
 
 /// What an assembled or matrix-free system is made of: m M + b B + k K.

@@ -51,8 +51,10 @@ struct VecTypes {
   using Real = R;
   using Coord = Vec<R, N>;
   using Deriv = Vec<R, N>;
-  using VecCoord = std::vector<Coord>;
-  using VecDeriv = std::vector<Deriv>;
+  template <class T>
+  using Array = std::vector<T>;  // of data over which loops run
+  using VecCoord = Array<Coord>;
+  using VecDeriv = Array<Deriv>;
   using MassType = R;
   static constexpr int spatial = N < 3 ? N : 3;  // coordinates of `Coord` that are a place
   static constexpr int size = N;                 // degrees of freedom of a point
@@ -80,19 +82,21 @@ struct RigidTypes<3, R> {
   using Real = R;
   using Coord = RigidCoord3<R>;
   using Deriv = Vec<R, 6>;
-  using VecCoord = std::vector<Coord>;
-  using VecDeriv = std::vector<Deriv>;
+  template <class T>
+  using Array = std::vector<T>;  // of data over which loops run
+  using VecCoord = Array<Coord>;
+  using VecDeriv = Array<Deriv>;
   using MassType = RigidMass<R, 3>;
   static constexpr int spatial = 3, size = 6;
   static constexpr bool rigid = true;
   template <class S>
   using rebind = RigidTypes<3, S>;
 
-  static Coord zero() { return {}; }
+  SINEW_HD static Coord zero() { return {}; }
   SINEW_INLINE static Vec<R, 3> center(Coord const& x) { return x.center; }
   SINEW_INLINE static void setCenter(Coord& x, Vec<R, 3> const& c) { x.center = c; }
   /// q <- exp(w) q, with the rotation vector w in world axes; the unit length is restored.
-  static void increment(Coord& x, Deriv const& dx) {
+  SINEW_HD static void increment(Coord& x, Deriv const& dx) {
     using std::sqrt, std::cos, std::sin;
     x.center += dx.template head<3>();
     const Vec<R, 3> w = dx.template tail<3>();
@@ -103,7 +107,7 @@ struct RigidTypes<3, R> {
     turn.vec() = s * w;
     x.orientation = (turn * x.orientation).normalized();
   }
-  static Deriv difference(Coord const& from, Coord const& to) {
+  SINEW_HD static Deriv difference(Coord const& from, Coord const& to) {
     Deriv d;
     d.template head<3>() = to.center - from.center;
     Quat<R> turn = to.orientation * from.orientation.conjugate();
@@ -114,7 +118,7 @@ struct RigidTypes<3, R> {
     return d;
   }
   /// dexp^-1 of the rotation group to third order, what a fourth-order method needs (Munthe-Kaas 1999).
-  static Deriv chart_rate(Deriv const& theta, Deriv const& v) {
+  SINEW_HD static Deriv chart_rate(Deriv const& theta, Deriv const& v) {
     Deriv rate = v;
     const Vec<R, 3> t = theta.template tail<3>(), w = v.template tail<3>(), tw = t.cross(w);
     rate.template tail<3>() += R(-0.5) * tw + R(1) / 12 * t.cross(tw);
@@ -128,26 +132,28 @@ struct RigidTypes<2, R> {
   using Real = R;
   using Coord = RigidCoord2<R>;
   using Deriv = Vec<R, 3>;
-  using VecCoord = std::vector<Coord>;
-  using VecDeriv = std::vector<Deriv>;
+  template <class T>
+  using Array = std::vector<T>;  // of data over which loops run
+  using VecCoord = Array<Coord>;
+  using VecDeriv = Array<Deriv>;
   using MassType = RigidMass<R, 2>;
   static constexpr int spatial = 2, size = 3;
   static constexpr bool rigid = true;
   template <class S>
   using rebind = RigidTypes<2, S>;
 
-  static Coord zero() { return {}; }
+  SINEW_HD static Coord zero() { return {}; }
   SINEW_INLINE static Vec<R, 2> center(Coord const& x) { return x.center; }
   SINEW_INLINE static void setCenter(Coord& x, Vec<R, 2> const& c) { x.center = c; }
-  static void increment(Coord& x, Deriv const& dx) {
+  SINEW_HD static void increment(Coord& x, Deriv const& dx) {
     x.center += dx.template head<2>();
     x.orientation += dx[2];
   }
-  static Deriv difference(Coord const& from, Coord const& to) {
+  SINEW_HD static Deriv difference(Coord const& from, Coord const& to) {
     return Deriv(
         to.center[0] - from.center[0], to.center[1] - from.center[1], to.orientation - from.orientation);
   }
-  static Deriv chart_rate(Deriv const&, Deriv const& v) { return v; }
+  SINEW_HD static Deriv chart_rate(Deriv const&, Deriv const& v) { return v; }
   static bool finite(Coord const& x) { return all_finite(x.center) && std::isfinite(x.orientation); }
 };
 

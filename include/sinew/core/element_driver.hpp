@@ -16,6 +16,7 @@ namespace sinew {
 /// points, calls the law, scatters what it returns. `Law<D>` knows one element and offers
 ///   arity, usesVelocity              how many points it has; whether force reads v
 ///   oneByOne (optional)              it is too little work for lanes, see element_lanes
+///   symmetricBlocks (optional)       each block is its own transpose
 ///   Rest, Tangent                    what force needs; what dforce and block need of the last force
 ///   energy, force, dforce, block     see StiffSpring and TetrahedronFEM for their arguments
 /// The tangent is symmetric: block(j, i) = block(i, j)', and only i <= j is asked for.
@@ -166,12 +167,11 @@ struct ElementDriver {
   double energy(Law const& law, std::vector<Coord> const& x) const { return energy(law, oneBody(x.data())); }
 
   /// Elements of one body may be taken in parts at once, as split() has prepared it, and then those parts
-  /// once more as late ones. (Flat: a law that has a second caller, the loop over parts, is otherwise no
-  /// longer inlined, and takes half as long again.)
+  /// once more as late ones. All parts, and the whole, run the same compiled loop: of two copies of a law the
+  /// compiler may join other products and sums to one operation, and their last bits differ.
   [[gnu::flatten]] void addForce(Law const& law, Derivs f, Coords x, ConstDerivs v,
                                  [[maybe_unused]] Part part = {}) {
-    if constexpr (W > 1)
-      if (part.count > 1) return forceInParts(law, f, x, v, part);
+    if constexpr (W > 1) return forceInParts(law, f, x, v, part);
     for (Pack& pack : packs) {
       typename DL::Coord xs[arity];
       typename DL::Deriv vs[arity], fs[arity];
@@ -184,8 +184,7 @@ struct ElementDriver {
 
   [[gnu::flatten]] void addDForce(Law const& law, Derivs df, ConstDerivs dx, Real k, Real b,
                                   [[maybe_unused]] Part part = {}) const {
-    if constexpr (W > 1)
-      if (part.count > 1) return dforceInParts(law, df, dx, k, b, part);
+    if constexpr (W > 1) return dforceInParts(law, df, dx, k, b, part);
     for (Pack const& pack : packs) {
       typename DL::Deriv dxs[arity], dfs[arity];
       gather(pack, dx, dxs);
@@ -217,8 +216,9 @@ struct ElementDriver {
         bind(sink);
       } else {
         if constexpr (W > 1)
-          if (part.count > 1) return blocksInParts(law, sink.matrix, k, b, part);
-        addToSlots(law, sink.matrix, k, b);
+          blocksInParts(law, sink.matrix, k, b, part);
+        else
+          addToSlots(law, sink.matrix, k, b);
       }
     } else if constexpr (Sink::phase != AssemblyPhase::bind) {
       if (part.index > 0 || part.late) return;
@@ -253,7 +253,8 @@ struct ElementDriver {
     lateForces = lateBlocks = {};
   }
 
-  [[gnu::noinline]] void forceInParts(Law const& law, Derivs f, Coords x, ConstDerivs v, Part part) {
+  [[gnu::noinline, gnu::flatten]] void forceInParts(Law const& law, Derivs f, Coords x, ConstDerivs v,
+                                                    Part part) {
     forEachPack(
         *this, part, f, [&](Pack & pack, typename DL::Deriv(&fs)[arity]) __attribute__((always_inline)) {
           typename DL::Coord xs[arity];
@@ -264,8 +265,8 @@ struct ElementDriver {
         });
   }
 
-  [[gnu::noinline]] void dforceInParts(Law const& law, Derivs df, ConstDerivs dx, Real k, Real b,
-                                       Part part) const {
+  [[gnu::noinline, gnu::flatten]] void dforceInParts(Law const& law, Derivs df, ConstDerivs dx, Real k,
+                                                     Real b, Part part) const {
     forEachPack(
         *this,
         part,
@@ -453,6 +454,17 @@ struct ElementDriver {
       for (int c = 0; c < N; ++c) to[r * N + c] += entry(r, c);
   }
 
+  // the block of each lane, or its transpose, row-major as the matrix has it
+  template <bool Symmetric, class Block, class Mask, std::size_t Size>
+  SINEW_INLINE static void separate(Block const& block, Mask const& turned, Real (&ofLane)[W][Size]) {
+    constexpr int n = D::size;
+    L rows[n * n];
+    for (int r = 0; r < n; ++r)
+      for (int c = 0; c < n; ++c)
+        rows[r * n + c] = Symmetric || r == c ? block(r, c) : select(turned, L(block(c, r)), L(block(r, c)));
+    transpose<n * n>(rows, ofLane);
+  }
+
   template <class Sink>
   void bind(Sink const& sink) {
     slots.assign(packs.size(), Slots{});
@@ -470,29 +482,18 @@ struct ElementDriver {
   template <class Matrix>
   void addToSlots(Law const& law, Matrix& matrix, Real k, Real b) const {
     constexpr int n = D::size;
-    for (std::size_t p = 0; p < packs.size(); ++p) {
-      Pack const& pack = packs[p];
+    for (std::size_t p = 0; p < packs.size(); ++p)
       forEachPair([&]<int I, int J>() {
-        const Mat<L, n> block = law.block(pack.rest, pack.tangent, I, J, L(k), L(b));
-        auto const& turned = slots[p].transposed[pairNumber(I, J)];
-        if constexpr (W == 1) {
-          addScalars<n>(matrix.block(slots[p].slot[pairNumber(I, J)][0]), block, I != J && turned);
-          return;
-        }
-        L rows[n * n];  // row-major, as the matrix has it
-        for (int r = 0; r < n; ++r)
-          for (int c = 0; c < n; ++c)
-            rows[r * n + c] = I == J || r == c ? block(r, c) : select(turned, L(block(c, r)), L(block(r, c)));
-        alignas(64) Real ofLane[W][(n * n + 3) / 4 * 4];
-        transpose<n * n>(rows, ofLane);
-        for (int l = 0; l < pack.active; ++l)
-          addTo<n * n>(matrix.block(slots[p].slot[pairNumber(I, J)][l]), ofLane[l]);
+        constexpr int pair = pairNumber(I, J);
+        addScalars<n>(matrix.block(slots[p].slot[pair][0]),
+                      law.block(packs[p].rest, packs[p].tangent, I, J, k, b),
+                      I != J && slots[p].transposed[pair]);
       });
-    }
   }
 
   template <class Matrix>
-  [[gnu::noinline]] void blocksInParts(Law const& law, Matrix& matrix, Real k, Real b, Part part) {
+  [[gnu::noinline, gnu::flatten]] void blocksInParts(Law const& law, Matrix& matrix, Real k, Real b,
+                                                     Part part) {
     constexpr int n = D::size;
     if (part.count > 1) part.count = parts;
     if (part.index >= part.count) return;
@@ -512,12 +513,8 @@ struct ElementDriver {
         constexpr int pair = pairNumber(I, J);
         const Mat<L, n> block = law.block(pack.rest, pack.tangent, I, J, L(k), L(b));
         auto const& turned = slots[p].transposed[pair];
-        L rows[n * n];  // row-major, as the matrix has it
-        for (int r = 0; r < n; ++r)
-          for (int c = 0; c < n; ++c)
-            rows[r * n + c] = I == J || r == c ? block(r, c) : select(turned, L(block(c, r)), L(block(r, c)));
         alignas(64) Real ofLane[W][(n * n + 3) / 4 * 4];
-        transpose<n * n>(rows, ofLane);
+        separate<I == J>(block, turned, ofLane);
         for (int l = 0; l < pack.active; ++l)
           if (rooms && rooms[pair * W + l] >= 0)
             std::memcpy(keptBlocks.data() + std::ptrdiff_t(rooms[pair * W + l]) * n * n,

@@ -18,6 +18,12 @@ struct FixedString {
   constexpr bool operator==(FixedString const&) const = default;
 };
 
+/// A string as a type, which templates deduce. (nvcc does not deduce the string itself.)
+template <FixedString String>
+struct Named {
+  static constexpr auto value = String;
+};
+
 /// A force field inside the body of its own node.
 struct Within {
   static std::string name() { return "Within"; }

@@ -313,6 +313,67 @@ requires(W >= 4) SINEW_INLINE void gather3(T const* from, int const (&index)[W],
   to[2].v = detail::alternating<1, 0, T, W>(zw0, zw1);
 }
 
+namespace detail {
+
+// Where 3 i + c is, modulo W, is lane i of component c: 3 has an inverse modulo W, so that no two are in one
+// lane, and what is W or 2 W further comes in the same lane of the next vector.
+template <int W, int C, int... I>
+constexpr auto spread_by_three(std::integer_sequence<int, I...>) {
+  constexpr int inverse = W % 3 == 1 ? (2 * W + 1) / 3 : (W + 1) / 3;
+  return std::integer_sequence<int, (I - C + W) * inverse % W...>{};
+}
+template <int W, int C, int... I>
+constexpr auto gather_by_three(std::integer_sequence<int, I...>) {
+  return std::integer_sequence<int, (3 * I + C) % W...>{};
+}
+// lanes of a where I is not from component C, else those of b
+template <int W, int C, int From, int... I>
+constexpr auto with_component(std::integer_sequence<int, I...>) {
+  return std::integer_sequence<int, ((From + I) % 3 == C ? W : 0) + I...>{};
+}
+
+}  // namespace detail
+
+/// The three components of W points one behind the other.
+template <class T, int W>
+SINEW_INLINE void load3(T const* from, Lanes<T, W> (&to)[3]) {
+  using V = typename Lanes<T, W>::Vector;
+  constexpr auto all = std::make_integer_sequence<int, W>{};
+  V a, b, c;
+  std::memcpy(&a, from, sizeof a), std::memcpy(&b, from + W, sizeof b);
+  std::memcpy(&c, from + 2 * W, sizeof c);
+  [&]<int... C>(std::integer_sequence<int, C...>) {
+    (
+        [&] {
+          const V ab = detail::shuffle(a, b, detail::with_component<W, C, W>(all));
+          const V abc = detail::shuffle(ab, c, detail::with_component<W, C, 2 * W>(all));
+          to[C].v = detail::shuffle(abc, abc, detail::gather_by_three<W, C>(all));
+        }(),
+        ...);
+  }
+  (std::make_integer_sequence<int, 3>{});
+}
+
+/// W points one behind the other, from their three components.
+template <class T, int W>
+SINEW_INLINE void store3(Lanes<T, W> const (&from)[3], T* to) {
+  using V = typename Lanes<T, W>::Vector;
+  constexpr auto all = std::make_integer_sequence<int, W>{};
+  const V x = detail::shuffle(from[0].v, from[0].v, detail::spread_by_three<W, 0>(all)),
+          y = detail::shuffle(from[1].v, from[1].v, detail::spread_by_three<W, 1>(all)),
+          z = detail::shuffle(from[2].v, from[2].v, detail::spread_by_three<W, 2>(all));
+  [&]<int... R>(std::integer_sequence<int, R...>) {
+    (
+        [&] {
+          const V xy = detail::shuffle(x, y, detail::with_component<W, 1, R * W>(all));
+          const V xyz = detail::shuffle(xy, z, detail::with_component<W, 2, R * W>(all));
+          std::memcpy(to + R * W, &xyz, sizeof xyz);
+        }(),
+        ...);
+  }
+  (std::make_integer_sequence<int, 3>{});
+}
+
 #endif
 
 /// Bytes of the widest vector register that the compiler may use here.

@@ -32,12 +32,12 @@ struct AngularSpring {
     Mat<Real, 3> symmetric, skew;  // S, A
   };
 
-  Real energy(Rest const& rest, Coord const (&x)[2]) const {
+  SINEW_HD Real energy(Rest const& rest, Coord const (&x)[2]) const {
     return Real(0.5) * rest.stiffness * turned(rest, x).squaredNorm();
   }
 
-  void force(Rest const& rest, Coord const (&x)[2], Deriv const (&)[2], Deriv (&f)[2],
-             Tangent& tangent) const {
+  SINEW_HD void force(Rest const& rest, Coord const (&x)[2], Deriv const (&)[2], Deriv (&f)[2],
+                      Tangent& tangent) const {
     const Vec<Real, 3> t = turned(rest, x);
     for (int i = 0; i < 2; ++i) f[i].template head<3>().setZero();
     f[0].template tail<3>() = rest.stiffness * t;
@@ -48,8 +48,8 @@ struct AngularSpring {
     tangent.skew << 0, t[2] / 2, -t[1] / 2, -t[2] / 2, 0, t[0] / 2, t[1] / 2, -t[0] / 2, 0;
   }
 
-  void dforce(Rest const& rest, Tangent const& tangent, Deriv const (&dx)[2], Deriv (&df)[2], Real k,
-              Real /*b*/) const {
+  SINEW_HD void dforce(Rest const& rest, Tangent const& tangent, Deriv const (&dx)[2], Deriv (&df)[2], Real k,
+                       Real /*b*/) const {
     const Vec<Real, 3> w0 = dx[0].template tail<3>(), w1 = dx[1].template tail<3>();
     const Real factor = k * rest.stiffness;
     for (int i = 0; i < 2; ++i) df[i].template head<3>().setZero();
@@ -57,7 +57,8 @@ struct AngularSpring {
     df[1].template tail<3>() = factor * (tangent.symmetric * (w0 - w1) - tangent.skew * w0);
   }
 
-  Mat<Real, 6> block(Rest const& rest, Tangent const& tangent, int i, int j, Real k, Real /*b*/) const {
+  SINEW_HD Mat<Real, 6> block(Rest const& rest, Tangent const& tangent, int i, int j, Real k,
+                              Real /*b*/) const {
     Mat<Real, 6> block = Mat<Real, 6>::Zero();
     auto turn = block.template bottomRightCorner<3, 3>();
     turn = (i == j ? -k : k) * rest.stiffness * tangent.symmetric;
@@ -66,7 +67,7 @@ struct AngularSpring {
   }
 
  private:
-  static Vec<Real, 3> turned(Rest const& rest, Coord const (&x)[2]) {
+  SINEW_HD static Vec<Real, 3> turned(Rest const& rest, Coord const (&x)[2]) {
     Coord from;
     from.orientation = x[0].orientation * rest.turn;
     from.center = x[1].center;

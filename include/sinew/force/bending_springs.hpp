@@ -67,6 +67,8 @@ struct BendingSprings {
   using Law = typename Driver::Law;
   Driver driver{};
 
+  Law law() const { return Law{}; }
+
   void init(InitContext<D> const& context) {
     const std::string where = text(context.where, ": ", component_name<BendingSprings>());
     TopologyView const& t = context.topology;
@@ -94,15 +96,15 @@ struct BendingSprings {
   }
 
   void addForce(MechanicalParams const& p, VecDeriv& f, VecCoord const& x, VecDeriv const& v) {
-    driver.addForce(Law{}, f, x, v, p.part);
+    driver.addForce(law(), f, x, v, p.part);
   }
   void addDForce(MechanicalParams const& p, VecDeriv& df, VecDeriv const& dx) const {
-    driver.addDForce(Law{}, df, dx, Real(p.k), Real(p.b), p.part);
+    driver.addDForce(law(), df, dx, Real(p.k), Real(p.b), p.part);
   }
-  double potentialEnergy(VecCoord const& x) const { return driver.energy(Law{}, x); }
+  double potentialEnergy(VecCoord const& x) const { return driver.energy(law(), x); }
   template <class Sink>
   void addToMatrix(MechanicalParams const& p, Sink const& sink) {
-    driver.addToMatrix(Law{}, sink, Real(p.k), Real(p.b), p.part);
+    driver.addToMatrix(law(), sink, Real(p.k), Real(p.b), p.part);
   }
 
  private:

@@ -299,6 +299,8 @@ struct HexahedronFEMForceField {
   using Law = typename Driver::Law;
   Driver driver{};
 
+  Law law() const { return Law{method}; }
+
   void init(InitContext<D> const& context) {
     auto const& hexahedra = context.topology.hexahedra;
     const std::string where = text(context.where, ": ", component_name<HexahedronFEMForceField>());
@@ -335,15 +337,15 @@ struct HexahedronFEMForceField {
   }
 
   void addForce(MechanicalParams const& p, VecDeriv& f, VecCoord const& x, VecDeriv const& v) {
-    driver.addForce(Law{method}, f, x, v, p.part);
+    driver.addForce(law(), f, x, v, p.part);
   }
   void addDForce(MechanicalParams const& p, VecDeriv& df, VecDeriv const& dx) const {
-    driver.addDForce(Law{method}, df, dx, Real(p.k), Real(p.b), p.part);
+    driver.addDForce(law(), df, dx, Real(p.k), Real(p.b), p.part);
   }
-  double potentialEnergy(VecCoord const& x) const { return driver.energy(Law{method}, x); }
+  double potentialEnergy(VecCoord const& x) const { return driver.energy(law(), x); }
   template <class Sink>
   void addToMatrix(MechanicalParams const& p, Sink const& sink) {
-    driver.addToMatrix(Law{method}, sink, Real(p.k), Real(p.b), p.part);
+    driver.addToMatrix(law(), sink, Real(p.k), Real(p.b), p.part);
   }
 };
 

@@ -201,20 +201,22 @@ struct MooneyRivlin {
 
 struct ArrudaBoyce {
   // c_n of chains of 8 links
-  static constexpr double series[5] = {
-      1.0 / 2, 1.0 / (20 * 8), 11.0 / (1050 * 64), 19.0 / (7000 * 512), 519.0 / (673750.0 * 4096)};
+  static constexpr std::array<double, 5> series() {
+    return {1.0 / 2, 1.0 / (20 * 8), 11.0 / (1050 * 64), 19.0 / (7000 * 512), 519.0 / (673750.0 * 4096)};
+  }
   template <class Real, class P>
   SINEW_INLINE static detail::InvariantResponse<Real> at(P const& p, Real i1, Real, Real j, Real least) {
     const detail::Continued<Real> volume(j, least);
     const auto q = volume.power(lane_scalar<Real>(-2) / 3);
     const Real b1 = q.f * i1;
+    constexpr std::array<double, 5> c = series();
     detail::Jet<Real> phi{Real(0), Real(0), Real(0)};
     double three = 0;
     for (int n = 4; n >= 0; --n) {  // Horner
       phi.dd = phi.dd * b1 + Real(2) * phi.d;
       phi.d = phi.d * b1 + phi.f;
-      phi.f = phi.f * b1 + Real(series[n]);
-      three = three * 3 + series[n];
+      phi.f = phi.f * b1 + Real(c[std::size_t(n)]);
+      three = three * 3 + c[std::size_t(n)];
     }
     const Real mu(p[0]);
     phi = {
@@ -389,7 +391,7 @@ inline RestModuli rest_moduli(HyperelasticMaterial material, std::vector<double>
   switch (material) {
     case HyperelasticMaterial::ArrudaBoyce: {
       double slope = 0;
-      for (int n = 5; n > 0; --n) slope = 3 * slope + n * ArrudaBoyce::series[n - 1];
+      for (int n = 5; n > 0; --n) slope = 3 * slope + n * ArrudaBoyce::series()[std::size_t(n - 1)];
       return {2 * p[0] * slope, p[1]};
     }
     case HyperelasticMaterial::MooneyRivlin:
@@ -439,7 +441,7 @@ struct Hyperelastic {
   int terms = 1;  // of Ogden
   Scalar least = Scalar(0.3);
 
-  bool byStretches() const { return material == HyperelasticMaterial::Ogden; }
+  SINEW_HD bool byStretches() const { return material == HyperelasticMaterial::Ogden; }
 
   /// Not for those by stretches.
   SINEW_HD detail::InvariantResponse<Real> byInvariants(Real i1, Real i2, Real j) const {

@@ -5,6 +5,7 @@
 #include <sinew/core/element_driver.hpp>
 #include <sinew/core/ends.hpp>
 #include <sinew/core/follow.hpp>
+#include <sinew/core/point_loop.hpp>
 
 #include <limits>
 #include <vector>
@@ -255,14 +256,16 @@ struct PolynomialSpringsForceField {
 
   void addForce(MechanicalParams const&, VecDeriv& f0, VecDeriv& f1, VecCoord const& x0, VecCoord const& x1,
                 VecDeriv const& v0, VecDeriv const& v1) {
-    driver.addForce(law<Law>(), {f0.data(), f1.data()}, {x0.data(), x1.data()}, {v0.data(), v1.data()});
+    driver.addForce(
+        law<Law>(), {entries(f0), entries(f1)}, {entries(x0), entries(x1)}, {entries(v0), entries(v1)});
   }
   void addDForce(MechanicalParams const& p, VecDeriv& df0, VecDeriv& df1, VecDeriv const& dx0,
                  VecDeriv const& dx1) const {
-    driver.addDForce(law<Law>(), {df0.data(), df1.data()}, {dx0.data(), dx1.data()}, Real(p.k), Real(p.b));
+    driver.addDForce(
+        law<Law>(), {entries(df0), entries(df1)}, {entries(dx0), entries(dx1)}, Real(p.k), Real(p.b));
   }
   double potentialEnergy(VecCoord const& x0, VecCoord const& x1) const {
-    return driver.energy(law<Law>(), typename Driver::Coords{x0.data(), x1.data()});
+    return driver.energy(law<Law>(), typename Driver::Coords{entries(x0), entries(x1)});
   }
 
   template <class Sink>

@@ -20,7 +20,7 @@ struct SpringLaw {
   using Coord = typename D::Coord;
   using Deriv = typename D::Deriv;
   static constexpr int arity = 2;
-  static constexpr bool usesVelocity = true, oneByOne = true;
+  static constexpr bool usesVelocity = true, oneByOne = true, symmetricBlocks = true;
 
   struct Rest {
     Real stiffness, damping, length;

@@ -4,6 +4,7 @@
 #include <sinew/core/component.hpp>
 #include <sinew/core/element_driver.hpp>
 #include <sinew/core/ends.hpp>
+#include <sinew/core/point_loop.hpp>
 #include <sinew/force/spring_law.hpp>
 
 #include <optional>
@@ -91,6 +92,8 @@ struct StiffSpringForceField {
   using Law = typename Driver::Law;
   Driver driver{};
 
+  Law law() const { return Law{}; }
+
   void init(InitContext<D> const& context) { init(context, context); }
   void init(InitContext<D> const& a, InitContext<D> const& b) {
     const std::string where = text(a.where, ": ", component_name<StiffSpringForceField>());
@@ -129,31 +132,32 @@ struct StiffSpringForceField {
   }
 
   void addForce(MechanicalParams const& p, VecDeriv& f, VecCoord const& x, VecDeriv const& v) {
-    driver.addForce(Law{}, f, x, v, p.part);
+    driver.addForce(law(), f, x, v, p.part);
   }
   void addDForce(MechanicalParams const& p, VecDeriv& df, VecDeriv const& dx) const {
-    driver.addDForce(Law{}, df, dx, Real(p.k), Real(p.b), p.part);
+    driver.addDForce(law(), df, dx, Real(p.k), Real(p.b), p.part);
   }
-  double potentialEnergy(VecCoord const& x) const { return driver.energy(Law{}, x); }
+  double potentialEnergy(VecCoord const& x) const { return driver.energy(law(), x); }
 
   void addForce(MechanicalParams const&, VecDeriv& f0, VecDeriv& f1, VecCoord const& x0, VecCoord const& x1,
                 VecDeriv const& v0, VecDeriv const& v1) {
-    driver.addForce(Law{}, {f0.data(), f1.data()}, {x0.data(), x1.data()}, {v0.data(), v1.data()});
+    driver.addForce(
+        law(), {entries(f0), entries(f1)}, {entries(x0), entries(x1)}, {entries(v0), entries(v1)});
   }
   void addDForce(MechanicalParams const& p, VecDeriv& df0, VecDeriv& df1, VecDeriv const& dx0,
                  VecDeriv const& dx1) const {
-    driver.addDForce(Law{}, {df0.data(), df1.data()}, {dx0.data(), dx1.data()}, Real(p.k), Real(p.b));
+    driver.addDForce(law(), {entries(df0), entries(df1)}, {entries(dx0), entries(dx1)}, Real(p.k), Real(p.b));
   }
   double potentialEnergy(VecCoord const& x0, VecCoord const& x1) const {
-    return driver.energy(Law{}, typename Driver::Coords{x0.data(), x1.data()});
+    return driver.energy(law(), typename Driver::Coords{entries(x0), entries(x1)});
   }
 
   template <class Sink>
   void addToMatrix(MechanicalParams const& p, Sink const& sink) {
     if constexpr (between)
-      driver.template addToMatrix<0, 1>(Law{}, sink, Real(p.k), Real(p.b));
+      driver.template addToMatrix<0, 1>(law(), sink, Real(p.k), Real(p.b));
     else
-      driver.addToMatrix(Law{}, sink, Real(p.k), Real(p.b), p.part);
+      driver.addToMatrix(law(), sink, Real(p.k), Real(p.b), p.part);
   }
 
  private:

@@ -7,6 +7,7 @@
 #include <sinew/force/tetrahedron_rest.hpp>
 #include <sinew/force/viscoelastic_material.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <string_view>
 #include <vector>
@@ -237,6 +238,13 @@ struct TetrahedronViscoelasticityFEMForceField {
     else
       forget(0);
     memory.resize(size);
+  }
+
+  void reset() {
+    step = -1;
+    forget(0);
+    now = 0;
+    std::fill(memory.begin(), memory.end(), 0);
   }
 
   template <class Law = typename Driver::Law>

@@ -42,6 +42,11 @@ struct SlicedRows {
   /// much as what is gained in three or four.
   bool suits() const { return products >= 3 && !sliceStart.empty(); }
 
+  std::size_t bytes() const {
+    return blocks.size() * sizeof blocks[0] + sources.size() * sizeof(Source) +
+           (distances.size() + sliceStart.size()) * sizeof(int) + (x.size() + y.size()) * sizeof(Real);
+  }
+
   /// From the rows of a matrix, which begin with their diagonal blocks; `zero` is the slot of a block of
   /// zeros.
   void init(std::vector<int> const& rowStart, std::vector<int> const& columns, int zero) {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <sinew/core/component.hpp>
+#include <sinew/mapping/carried_runs.hpp>
+#include <sinew/mapping/point_weights.hpp>
 #include <sinew/topology/element_checks.hpp>
 #include <sinew/topology/point_location.hpp>
 
@@ -35,6 +37,7 @@ struct BarycentricMapping {
   };
   std::vector<Carrier> carriers{};  // one a point; those with fewer than four points end in weights of zero
   std::vector<Carrier> others{};    // the other four points of hexahedra; empty where there is none
+  CarriedRuns<In, Out> together{};  // those that have an element in common
 
   void init(InitContext<In> const& parent, InitContext<Out> const& child, typename Out::VecCoord& positions) {
     const std::string where = text(child.where, ": ", component_name<BarycentricMapping>());
@@ -65,6 +68,13 @@ struct BarycentricMapping {
           text("the topology of ", parent.where, " has no elements; give the parent a topology with some"));
     }
 
+    if constexpr (!onHost)
+      weights.init(parent.rest.size(), choices.size(), [&](auto&& add) {
+        for (std::size_t i = 0; i < choices.size(); ++i)
+          for (std::size_t k = 0; k < 8; ++k)
+            if (choices[i].weights[k] != 0)
+              add(i, std::size_t(choices[i].points[k]), Weight(choices[i].weights[k]));
+      });
     carriers.assign(choices.size(), {});
     others.assign(topology.hexahedra.empty() ? 0 : choices.size(), {});
     for (std::size_t i = 0; i < choices.size(); ++i) {
@@ -80,15 +90,28 @@ struct BarycentricMapping {
           carrier.weights[k % 4] = Weight(choices[i].weights[k]);
         }
     }
+    auto part = [this](int k) -> auto const& { return k < 4 ? carriers : others; };
+    together.init(
+        carriers.size(),
+        others.empty() ? 4 : 8,
+        [&](std::size_t i, int k) { return part(k)[i].points[std::size_t(k % 4)]; },
+        [&](std::size_t i, int k) { return part(k)[i].weights[std::size_t(k % 4)]; });
   }
 
   void apply(typename Out::VecCoord& out, typename In::VecCoord const& in) const { interpolate(out, in); }
   void applyJ(typename Out::VecDeriv& out, typename In::VecDeriv const& in) const { interpolate(out, in); }
   void applyJT(typename In::VecDeriv& in, typename Out::VecDeriv const& out) const {
-    for (auto const* list : {&carriers, &others})
-      for (std::size_t i = 0; i < list->size(); ++i)
-        for (std::size_t k = 0; k < 4; ++k)
-          in[std::size_t((*list)[i].points[k])] += (*list)[i].weights[k] * out[i].template cast<Weight>();
+    forEachRun(
+        together.leastTransposed,
+        [&](auto const& run) { together.applyTransposed(run, in, out); },
+        [&](std::size_t i) {
+          auto add = [&](Carrier const& c) {
+            for (std::size_t k = 0; k < 4; ++k)
+              in[std::size_t(c.points[k])] += c.weights[k] * out[i].template cast<Weight>();
+          };
+          add(carriers[i]);
+          if (!others.empty()) add(others[i]);
+        });
   }
   template <class F>
   void forEachJacobianBlock(int point, F&& f) const {
@@ -98,6 +121,19 @@ struct BarycentricMapping {
         if (carrier.weights[k] != 0)
           f(carrier.points[k], Mat<Real, 3>(Mat<Real, 3>::Identity() * Real(carrier.weights[k])));
       }
+  }
+
+  // with an end on a device
+  static constexpr bool onHost = MappedLoops<In, Out>::onHost;
+  PointWeights<In, Out> weights{};
+  void apply(typename Out::VecCoord& out, typename In::VecCoord const& in) const requires(!onHost) {
+    weights.apply(out, in);
+  }
+  void applyJ(typename Out::VecDeriv& out, typename In::VecDeriv const& in) const requires(!onHost) {
+    weights.apply(out, in);
+  }
+  void applyJT(typename In::VecDeriv& in, typename Out::VecDeriv const& out) const requires(!onHost) {
+    weights.applyJT(in, out);
   }
 
  private:
@@ -122,15 +158,35 @@ struct BarycentricMapping {
   };
 
   void interpolate(typename Out::VecDeriv& out, typename In::VecDeriv const& in) const {
-    for (std::size_t i = 0; i < carriers.size(); ++i) {
-      Carrier const& c = carriers[i];
-      out[i] = (c.weights[0] * in[std::size_t(c.points[0])] + c.weights[1] * in[std::size_t(c.points[1])] +
-                c.weights[2] * in[std::size_t(c.points[2])] + c.weights[3] * in[std::size_t(c.points[3])])
-                   .template cast<Real>();
+    Weight const* const x = in.data()->data();
+    forEachRun(
+        together.least,
+        [&](auto const& run) { together.apply(run, out, in); },
+        [&](std::size_t i) {
+          auto sum = [x](Carrier const& c, int k) {
+            return c.weights[0] * x[3 * c.points[0] + k] + c.weights[1] * x[3 * c.points[1] + k] +
+                   c.weights[2] * x[3 * c.points[2] + k] + c.weights[3] * x[3 * c.points[3] + k];
+          };
+          Weight place[3];
+          for (int k = 0; k < 3; ++k) place[k] = sum(carriers[i], k);
+          if (!others.empty())
+            for (int k = 0; k < 3; ++k) place[k] += sum(others[i], k);
+          for (int k = 0; k < 3; ++k) out[i][k] = Real(place[k]);
+        });
+  }
+
+  // the runs of so many points, and the points between them
+  template <class OfRun, class OfPoint>
+  SINEW_INLINE void forEachRun(std::size_t least, OfRun&& ofRun, OfPoint&& ofPoint) const {
+    std::size_t i = 0;
+    for (auto run = together.runs.begin();; ++run) {
+      while (run != together.runs.end() && run->end - run->first < least) ++run;
+      const bool last = run == together.runs.end();
+      for (const std::size_t end = last ? carriers.size() : run->first; i < end; ++i) ofPoint(i);
+      if (last) return;
+      ofRun(*run);
+      i = run->end;
     }
-    for (std::size_t i = 0; i < others.size(); ++i)
-      for (std::size_t k = 0; k < 4; ++k)
-        out[i] += (others[i].weights[k] * in[std::size_t(others[i].points[k])]).template cast<Real>();
   }
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/core/component.hpp>
+#include <sinew/mapping/mapped_loops.hpp>
 #include <sinew/mapping/point_copy.hpp>
 
 namespace sinew {
@@ -22,8 +23,10 @@ struct IdentityMapping {
 
   static constexpr auto fields() { return field_list(); }
 
-  void init(InitContext<In> const& parent, InitContext<Out> const& child,
-            typename Out::VecCoord& positions) const {
+  using Loops = MappedLoops<In, Out>;
+  Loops loops{};  // on a device
+
+  void init(InitContext<In> const& parent, InitContext<Out> const& child, typename Out::VecCoord& positions) {
     if (positions.empty()) positions.resize(parent.rest.size());
     if (positions.size() != parent.rest.size())
       throw Error(text(child.where, ": ", component_name<IdentityMapping>()),
@@ -32,16 +35,26 @@ struct IdentityMapping {
                        " points and its parent ",
                        parent.rest.size(),
                        "; give the child as many, or none"));
+    if constexpr (!Loops::onHost) loops.init(parent.rest.size(), positions.size());
   }
 
   void apply(typename Out::VecCoord& out, typename In::VecCoord const& in) const {
-    for (std::size_t i = 0; i < in.size(); ++i) Copy::position(out[i], in[i]);
+    if constexpr (Loops::onHost)
+      for (std::size_t i = 0; i < in.size(); ++i) Copy::position(out[i], in[i]);
+    else
+      loops.down(out, in, [](LoopSide) { return typename Copy::Positions{}; });
   }
   void applyJ(typename Out::VecDeriv& out, typename In::VecDeriv const& in) const {
-    for (std::size_t i = 0; i < in.size(); ++i) Copy::velocity(out[i], in[i]);
+    if constexpr (Loops::onHost)
+      for (std::size_t i = 0; i < in.size(); ++i) Copy::velocity(out[i], in[i]);
+    else
+      loops.down(out, in, [](LoopSide) { return typename Copy::Velocities{}; });
   }
   void applyJT(typename In::VecDeriv& in, typename Out::VecDeriv const& out) const {
-    for (std::size_t i = 0; i < in.size(); ++i) Copy::force(in[i], out[i]);
+    if constexpr (Loops::onHost)
+      for (std::size_t i = 0; i < in.size(); ++i) Copy::force(in[i], out[i]);
+    else
+      loops.up(in, out, [](LoopSide) { return typename Copy::Forces{}; });
   }
   template <class F>
   void forEachJacobianBlock(int point, F&& f) const {

@@ -15,7 +15,7 @@ struct PointCopy {
       centers ? In::spatial == Out::size : In::size == Out::size && In::rigid == Out::rigid;
   using Jacobian = Mat<Real, Out::size, In::size>;
 
-  static void position(typename Out::Coord& to, typename In::Coord const& from) {
+  SINEW_HD static void position(typename Out::Coord& to, typename In::Coord const& from) {
     if constexpr (centers) {
       to = from.center.template cast<Real>();
     } else if constexpr (In::rigid) {
@@ -28,12 +28,36 @@ struct PointCopy {
       to = from.template cast<Real>();
     }
   }
-  static void velocity(typename Out::Deriv& to, typename In::Deriv const& from) {
+  SINEW_HD static void velocity(typename Out::Deriv& to, typename In::Deriv const& from) {
     to = from.template head<Out::size>().template cast<Real>();
   }
-  static void force(typename In::Deriv& to, typename Out::Deriv const& from) {
+  SINEW_HD static void force(typename In::Deriv& to, typename Out::Deriv const& from) {
     to.template head<Out::size>() += from.template cast<typename In::Real>();
   }
+
+  // the same as loops of MappedLoops take it
+
+  struct Positions {
+    SINEW_HD typename Out::Coord operator()(typename In::Coord const* from, int i) const {
+      typename Out::Coord to;
+      position(to, from[i]);
+      return to;
+    }
+  };
+  struct Velocities {
+    SINEW_HD typename Out::Deriv operator()(typename In::Deriv const* from, int i) const {
+      typename Out::Deriv to;
+      velocity(to, from[i]);
+      return to;
+    }
+  };
+  struct Forces {
+    SINEW_HD typename In::Deriv operator()(typename Out::Deriv const* from, int i,
+                                           typename In::Deriv sum) const {
+      force(sum, from[i]);
+      return sum;
+    }
+  };
 };
 
 }  // namespace sinew

@@ -3,6 +3,7 @@
 
 #include <sinew/core/component.hpp>
 #include <sinew/mapping/geometric_stiffness.hpp>
+#include <sinew/mapping/rigid_loops.hpp>
 
 #include <vector>
 
@@ -50,8 +51,9 @@ struct RigidMapping {
   static constexpr int angular = In::size - N;
 
   typename Out::VecCoord local{};                            // p, and o
-  std::vector<Vec<Real, N>> rotated{};                       // r at the last apply
+  typename Out::template Array<Vec<Real, N>> rotated{};      // r at the last apply
   std::vector<Mat<typename In::Real, angular>> stiffness{};  // K_g of each body at the last updateK
+  RigidLoops<In, Out> loops{};                               // for a device
 
   void init(InitContext<In> const& parent, InitContext<Out> const& child, typename Out::VecCoord& positions) {
     const std::string where = text(child.where, ": ", component_name<RigidMapping>());
@@ -84,30 +86,55 @@ struct RigidMapping {
       }
     rotated.resize(local.size());
     stiffness.assign(parent.rest.size(), Mat<typename In::Real, angular>::Zero());
+    if constexpr (!RigidLoops<In, Out>::onHost) loops.init(parent.rest.size(), local.size(), rigidIndices);
   }
 
   void apply(typename Out::VecCoord& out, typename In::VecCoord const& in) {
-    for (std::size_t i = 0; i < local.size(); ++i) {
-      auto const& body = in[body_of(i)];
-      rotated[i] = rotation(body) * Out::center(local[i]);
-      Out::setCenter(out[i], body.center.template cast<Real>() + rotated[i]);
+    auto const* const bodies = loops.seen(in);
+    auto const* const indices = loops.indices(rigidIndices);
+    const bool one = rigidIndices.size() == 1;
+    auto const* const p = entries(std::as_const(local));
+    auto* const r = overwritten(rotated);
+    auto* const to = overwritten(out);
+    each_point<Out>(local.size(), [=] SINEW_HD(int i) {
+      auto const& body = bodies[indices[one ? 0 : i]];
+      r[i] = rotation(body) * Out::center(p[i]);
+      Out::setCenter(to[i], body.center.template cast<Real>() + r[i]);
       if constexpr (Out::rigid && N == 3)
-        out[i].orientation = (body.orientation.template cast<Real>() * local[i].orientation).normalized();
+        to[i].orientation = (body.orientation.template cast<Real>() * p[i].orientation).normalized();
       else if constexpr (Out::rigid)
-        out[i].orientation = Real(body.orientation) + local[i].orientation;
-    }
+        to[i].orientation = Real(body.orientation) + p[i].orientation;
+    });
   }
   void applyJ(typename Out::VecDeriv& out, typename In::VecDeriv const& in) const {
-    for (std::size_t i = 0; i < local.size(); ++i)
-      out[i] = jacobian(i) * in[body_of(i)].template cast<Real>();
+    auto const* const bodies = loops.seen(in);
+    auto const* const indices = loops.indices(rigidIndices);
+    const bool one = rigidIndices.size() == 1;
+    auto const* const r = entries(rotated);
+    auto* const to = overwritten(out);
+    each_point<Out>(local.size(), [=] SINEW_HD(int i) {
+      to[i] = jacobian(r[i]) * bodies[indices[one ? 0 : i]].template cast<Real>();
+    });
   }
   void applyJT(typename In::VecDeriv& in, typename Out::VecDeriv const& out) const {
-    for (std::size_t i = 0; i < local.size(); ++i)
-      in[body_of(i)] += (jacobian(i).transpose() * out[i]).template cast<typename In::Real>();
+    if constexpr (OnDevice<Out>) {
+      loops.addOnDevice(in, out, rotated, Load{});
+    } else {
+      loops.addOnHost(in, [&](typename In::Deriv* to) {
+        for (std::size_t i = 0; i < local.size(); ++i)
+          to[body_of(i)] += (jacobian(rotated[i]).transpose() * out[i]).template cast<typename In::Real>();
+      });
+    }
   }
+  // of a force on a point at r
+  struct Load {
+    SINEW_HD typename In::Deriv operator()(Vec<Real, N> const& r, typename Out::Deriv const& f) const {
+      return (jacobian(r).transpose() * f).template cast<typename In::Real>();
+    }
+  };
   template <class F>
   void forEachJacobianBlock(int point, F&& f) const {
-    f(int(body_of(std::size_t(point))), jacobian(std::size_t(point)));
+    f(int(body_of(std::size_t(point))), jacobian(rotated[std::size_t(point)]));
   }
 
   void updateK(typename Out::VecDeriv const& f) {
@@ -141,11 +168,7 @@ struct RigidMapping {
     }
   }
 
- private:
-  std::size_t body_of(std::size_t i) const {
-    return std::size_t(rigidIndices.size() == 1 ? rigidIndices[0] : rigidIndices[i]);
-  }
-  static Mat<Real, N> rotation(typename In::Coord const& body) {
+  SINEW_HD static Mat<Real, N> rotation(typename In::Coord const& body) {
     if constexpr (N == 3) {
       return body.orientation.toRotationMatrix().template cast<Real>();
     } else {
@@ -154,8 +177,7 @@ struct RigidMapping {
     }
   }
   // (I, -[r]x), and (0, I) below it for frames
-  Mat<Real, Out::size, In::size> jacobian(std::size_t i) const {
-    Vec<Real, N> const& r = rotated[i];
+  SINEW_HD static Mat<Real, Out::size, In::size> jacobian(Vec<Real, N> const& r) {
     Mat<Real, Out::size, In::size> j = Mat<Real, Out::size, In::size>::Identity();
     if constexpr (N == 3) {
       j(0, 4) = r[2], j(0, 5) = -r[1];
@@ -165,6 +187,11 @@ struct RigidMapping {
       j(0, 2) = -r[1], j(1, 2) = r[0];
     }
     return j;
+  }
+
+ private:
+  std::size_t body_of(std::size_t i) const {
+    return std::size_t(rigidIndices.size() == 1 ? rigidIndices[0] : rigidIndices[i]);
   }
 };
 

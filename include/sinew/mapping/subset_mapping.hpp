@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/core/component.hpp>
+#include <sinew/mapping/point_weights.hpp>
 
 #include <vector>
 
@@ -30,6 +31,8 @@ struct SubsetMapping {
                           .numbersOf(Of::parentPoints));
   }
 
+  PointWeights<In, Out> weights{};  // for a device
+
   void init(InitContext<In> const& parent, InitContext<Out> const& child, typename Out::VecCoord& positions) {
     const std::string where = text(child.where, ": ", component_name<SubsetMapping>());
     if (indices.empty())
@@ -50,13 +53,20 @@ struct SubsetMapping {
                        " points for ",
                        indices.size(),
                        " indices; give the child as many, or none"));
+    if constexpr (!MappedLoops<In, Out>::onHost)
+      weights.init(parent.rest.size(), indices.size(), [&](auto&& add) {
+        for (std::size_t i = 0; i < indices.size(); ++i) add(i, std::size_t(indices[i]), 1);
+      });
   }
 
   void apply(typename Out::VecCoord& out, typename In::VecCoord const& in) const { gather(out, in); }
   void applyJ(typename Out::VecDeriv& out, typename In::VecDeriv const& in) const { gather(out, in); }
   void applyJT(typename In::VecDeriv& in, typename Out::VecDeriv const& out) const {
-    for (std::size_t i = 0; i < indices.size(); ++i)
-      in[std::size_t(indices[i])] += out[i].template cast<typename In::Real>();
+    if constexpr (!MappedLoops<In, Out>::onHost)
+      weights.applyJT(in, out);
+    else
+      for (std::size_t i = 0; i < indices.size(); ++i)
+        in[std::size_t(indices[i])] += out[i].template cast<typename In::Real>();
   }
   template <class F>
   void forEachJacobianBlock(int point, F&& f) const {
@@ -79,8 +89,11 @@ struct SubsetMapping {
                      "; give indices, or the child places of points of its parent"));
   }
   void gather(typename Out::VecDeriv& out, typename In::VecDeriv const& in) const {
-    for (std::size_t i = 0; i < indices.size(); ++i)
-      out[i] = in[std::size_t(indices[i])].template cast<typename Out::Real>();
+    if constexpr (!MappedLoops<In, Out>::onHost)
+      weights.apply(out, in);
+    else
+      for (std::size_t i = 0; i < indices.size(); ++i)
+        out[i] = in[std::size_t(indices[i])].template cast<typename Out::Real>();
   }
 };
 

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <sinew/core/component.hpp>
+#include <sinew/core/point_loop.hpp>
 
 #include <Eigen/LU>
+#include <cmath>
 #include <vector>
 
 namespace sinew {
@@ -21,7 +23,7 @@ struct LumpedMass {
   using MassType = typename D::MassType;
   static constexpr int linear = D::spatial, angular = D::rigid ? D::size - D::spatial : 0;
 
-  std::vector<MassType> mass{}, inverse{};
+  typename D::template Array<MassType> mass{}, inverse{};
 
   void init(std::string const& where, std::vector<MassType> const& given) {
     mass = given;
@@ -64,28 +66,27 @@ struct LumpedMass {
   /// f += m g, and the gyroscopic torque -w x (I w) of bodies that turn.
   void addForce(MechanicalParams const& p, VecDeriv& f, VecCoord const& x, VecDeriv const& v) const {
     const Vec<Real, linear> g = p.gravity.head<linear>().template cast<Real>();
-    for (std::size_t i = 0; i < f.size(); ++i) {
-      const Real m = scalar(at(i));
-      for (int c = 0; c < linear; ++c) f[i][c] += m * g[c];
-      if constexpr (angular == 3) {
-        const Vec<Real, 3> w = v[i].template tail<3>();
-        f[i].template tail<3>() -= w.cross(worldInertia(at(i), x[i]) * w);
-      }
-    }
+    if constexpr (D::rigid || OnDevice<D>)
+      each_point<D>(
+          f.size(),
+          Weigh{g, entries(f), entries(mass), entries(x), entries(v), mass.size() > 1, Real(p.turning)});
+    else
+      for (std::size_t i = 0; i < f.size(); ++i)
+        for (int c = 0; c < linear; ++c) f[i][c] += at(i) * g[c];
   }
 
   /// f += factor M dx
   void addMDx(VecDeriv& f, VecCoord const& x, VecDeriv const& dx, Real factor) const {
-    if constexpr (D::rigid)
-      for (std::size_t i = 0; i < f.size(); ++i) f[i] += factor * multiply(at(i), x[i], dx[i]);
+    if constexpr (D::rigid || OnDevice<D>)
+      forEachPoint(f, mass, x, dx, Add{factor});
     else
       forEachScalar(
           f, mass, [&](Real& fi, Real m, Real d) { fi += factor * m * d; }, dx);
   }
   /// a = M^-1 f
   void accFromF(VecDeriv& a, VecCoord const& x, VecDeriv const& f) const {
-    if constexpr (D::rigid)
-      for (std::size_t i = 0; i < f.size(); ++i) a[i] = multiply(inverseAt(i), x[i], f[i]);
+    if constexpr (D::rigid || OnDevice<D>)
+      forEachPoint(a, inverse, x, f, Set{});
     else
       forEachScalar(
           a, inverse, [](Real& ai, Real w, Real fi) { ai = w * fi; }, f);
@@ -115,14 +116,72 @@ struct LumpedMass {
     }
   }
 
-  static Real scalar(MassType const& m) {
+  SINEW_INLINE static Real scalar(MassType const& m) {
     if constexpr (D::rigid)
       return m.mass;
     else
       return m;
   }
 
- private:
+  struct Weigh {
+    Vec<Real, linear> g;
+    Deriv* f;
+    MassType const* mass;
+    Coord const* x;
+    Deriv const* v;
+    bool each;     // has a mass of its own
+    Real turning;  // see MechanicalParams
+    SINEW_HD void operator()(int i) const {
+      MassType const& own = mass[each ? i : 0];
+      for (int c = 0; c < linear; ++c) f[i][c] += scalar(own) * g[c];
+      if constexpr (angular == 3) {
+        const Vec<Real, 3> w = v[i].template tail<3>();
+        f[i].template tail<3>() += gyroscopic(worldInertia(own, x[i]), w, turning);
+      }
+    }
+  };
+  // change(to, M from) for each point
+  struct Add {
+    Real factor;
+    SINEW_INLINE void operator()(Deriv& to, Deriv const& product) const { to += factor * product; }
+  };
+  struct Set {
+    SINEW_INLINE void operator()(Deriv& to, Deriv const& product) const { to = product; }
+  };
+  template <class Masses, class Change>
+  static void forEachPoint(VecDeriv& to, Masses const& masses, VecCoord const& x, VecDeriv const& from,
+                           Change change) {
+    Deriv* const r = entries(to);
+    MassType const* const m = entries(masses);
+    Coord const* const at = entries(x);
+    Deriv const* const a = entries(from);
+    const int step = masses.size() > 1;
+    each_point<D>(to.size(), [=] SINEW_HD(int i) { change(r[i], multiply(m[i * step], at[i], a[i])); });
+  }
+  // -w x (I w); of a step h that at its end: I (u - w)/h, where I (u - w) + h u x (I u) = 0. Then u.I u <=
+  // w.I w, and a body that turns by h u still has the energy of u (Catto, Numerical Methods, GDC 2015, with
+  // one iteration of Newton's method). Where these do not converge, beyond a radian a step, u is made no
+  // faster than w.
+  SINEW_HD static Vec<Real, 3> gyroscopic(Mat<Real, 3> const& inertia, Vec<Real, 3> const& w, Real h) {
+    using std::sqrt;
+    const Vec<Real, 3> torque = -w.cross(inertia * w);
+    if (h == Real(0) || torque.squaredNorm() == Real(0)) return torque;
+    auto cross = [](Vec<Real, 3> const& a) {
+      Mat<Real, 3> m;
+      m << Real(0), -a[2], a[1], a[2], Real(0), -a[0], -a[1], a[0], Real(0);
+      return m;
+    };
+    Vec<Real, 3> u = w;
+    for (int i = 0; i < 4; ++i) {
+      const Vec<Real, 3> momentum = inertia * u;
+      const Mat<Real, 3> slope = inertia + (cross(u) * inertia - cross(momentum)) * h;
+      u -= slope.inverse() * (momentum - inertia * w + u.cross(momentum) * h);
+    }
+    const Real before = w.dot(inertia * w), after = u.dot(inertia * u);
+    if (after > before) u *= sqrt(before / after);
+    return inertia * (u - w) * (1 / h);
+  }
+
   // change(to, mass, from) for each component of each point: a loop that becomes one over registers
   template <class Change>
   static void forEachScalar(VecDeriv& to, std::vector<Real> const& mass, Change const& change,
@@ -141,7 +200,7 @@ struct LumpedMass {
         for (std::size_t c = 0; c < n; ++c) change(r[n * i + c], m[i], a[n * i + c]);
     }
   }
-  static Deriv multiply(MassType const& m, Coord const& x, Deriv const& dx) {
+  SINEW_HD static Deriv multiply(MassType const& m, Coord const& x, Deriv const& dx) {
     if constexpr (D::rigid) {
       Deriv r;
       r.template head<linear>() = m.mass * dx.template head<linear>();
@@ -152,7 +211,7 @@ struct LumpedMass {
       return m * dx;
     }
   }
-  static auto worldInertia(MassType const& m, Coord const& x) {
+  SINEW_HD static auto worldInertia(MassType const& m, Coord const& x) {
     if constexpr (angular == 3) {
       const Mat<Real, 3> r = x.orientation.toRotationMatrix();
       return Mat<Real, 3>(r * m.inertia * r.transpose());

@@ -506,9 +506,14 @@ class Baker {
     std::string cpp = text("// The scene ",
                            cpp_literal(fs::path(path_).filename().string()),
                            ", baked by Sinew: change the scene file and bake it again.\n#pragma once\n\n");
+    const bool onDevice = locals_.find("<Cuda") != locals_.npos || tree_.find("<Cuda") != tree_.npos;
+    if (onDevice) cpp += "#include <sinew/gpu/gpu.hpp>\n\n";
     cpp += "#include <sinew/sinew.hpp>\n";
     std::set<std::string> more(options_.includes.begin(), options_.includes.end());
     if (locals_.find("MeshVTKLoader") != locals_.npos) more.insert("sinew/engine/mesh_vtk_loader.hpp");
+    if (tree_.find("ConvexCollisionModel") != tree_.npos ||
+        locals_.find("ConvexCollisionModel") != locals_.npos)
+      more.insert("sinew/collision/convex_collision_model.hpp");
     for (auto const& include : more) cpp += text("#include <", include, ">\n");
     cpp +=
         "\n#include <array>\n#include <string>\n#include <vector>\n\nnamespace baked {\n\nusing namespace "

@@ -274,8 +274,8 @@ std::vector<ClassInfo> make_class_table() {
   return table;
 }
 
-/// "Vec3d" for the names that scenes use for a template: Vec3, Vec3d, ExtVec3f, Rigid, Rigid3, ...; a
-/// mapping's two are apart by a comma; the matrices of linear solvers.
+/// "Vec3d" for the names that scenes use for a template: Vec3, Vec3d, ExtVec3f, Rigid, Rigid3, ..., and
+/// "CudaVec3f" for CudaVec3; a mapping's two are apart by a comma; the matrices of linear solvers.
 inline std::string canonical_template(std::string_view name) {
   if (const std::size_t comma = name.find(','); comma != name.npos) {
     std::string_view second = name.substr(comma + 1);
@@ -295,6 +295,7 @@ inline std::string canonical_template(std::string_view name) {
   }
   if (name.starts_with("FullMatrix") || name.starts_with("SparseMatrix") || name.starts_with("FullVector"))
     return "CompressedRowSparseMatrixd";
+  if (name == "CudaVec3" || name == "CudaRigid3") return text(name, 'f');
   if (!name.empty() && name.back() >= '0' && name.back() <= '9' &&
       (name.starts_with("Vec") || name.starts_with("Rigid")))
     return text(name, 'd');

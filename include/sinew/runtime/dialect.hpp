@@ -127,6 +127,16 @@ inline constexpr std::array notYet = std::to_array<std::string_view>({"DirectSAP
                                                                       "BlockGaussSeidelConstraintSolver",
                                                                       "ConstraintAnimationLoop"});
 
+/// Classes that need a package, and are in programs that were built where it was installed.
+struct ClassOfPackage {
+  std::string_view names, package, debian;
+};
+inline constexpr std::array classesOfPackages = std::to_array<ClassOfPackage>(
+    {{"ConvexCollisionModel TBulletConvexHullModel BulletConvexHullModel BtConvexHullModel BulletConvexHull "
+      "BtConvexHull",
+      "libccd",
+      "libccd-dev"}});
+
 inline constexpr std::array suffixesWithoutMeaning =
     std::to_array<std::string_view>({"GeometryAlgorithms", "TopologyModifier", "TopologyAlgorithms"});
 

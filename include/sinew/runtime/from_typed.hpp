@@ -35,9 +35,9 @@ void add_typed(RuntimeNode<R>& to, C const& component) {
 
 /// The runtime tree of the same components and nodes as a typed one: to save it as XML, say. The registry R
 /// has all its classes.
-template <class R, FixedString Name, class Components, class Children>
+template <class R, class Name, class Components, class Children>
 RuntimeNode<R> to_runtime(Node<Name, Components, Children> const& typed) {
-  RuntimeNode<R> node{std::string(Name.view())};
+  RuntimeNode<R> node{std::string(Name::value.view())};
   hana::for_each(typed.components, [&](auto const& component) { detail::add_typed(node, component); });
   hana::for_each(typed.children, [&](auto const& child) {
     if constexpr (requires { child.children(); })

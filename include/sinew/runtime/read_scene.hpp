@@ -435,13 +435,28 @@ class SceneReader {
       warnings_.insert(
           text(tag, ": collision and constraint solving are not simulated; the component is ignored"));
     } else {
-      const std::string message = text("there is no component <", tag, ">", suggestion(tag, classNames()));
+      const std::string message =
+          text("there is no component <", tag, ">", packageOf(tag, suggestion(tag, classNames())));
       if (options_.lenient)
         warnings_.insert(text(element.place(), ": ", message, " It is left out."));
       else
         complain(element.place(), message);
     }
     return nullptr;
+  }
+  // what to do about a class that is not there for want of a package; else `otherwise`
+  static std::string packageOf(std::string_view tag, std::string otherwise) {
+    for (auto const& c : dialect::classesOfPackages) {
+      bool named = false;
+      for_each_name(c.names, [&](std::string_view name) { named = named || name == tag; });
+      if (named)
+        return text(" in this program, which was built without ",
+                    c.package,
+                    "; install that (Debian: ",
+                    c.debian,
+                    ") and build Sinew anew");
+    }
+    return otherwise;
   }
   std::vector<std::string_view> classNames() const {
     std::vector<std::string_view> names;
@@ -532,14 +547,27 @@ class SceneReader {
     std::string known;
     for (auto const* info : item.candidates) {
       if (info->dataTypes == types) return info;
-      if (known.find(info->dataTypes) == known.npos)
+      if (text(", ", known, ", ").find(text(", ", info->dataTypes, ", ")) == std::string::npos)
         known += text(known.empty() ? "" : ", ", info->dataTypes);
     }
     item.failed = true;
     auto const* given = item.element->attribute("template");
+    std::string advice;
+    if (types.starts_with("Cuda") && !onDevice())
+      advice = text("; this program has none of the CUDA DataTypes: take ",
+                    types.substr(4),
+                    ", or run the scene with the program sinew_cuda, which `cmake --build build --target "
+                    "sinew_cuda` makes where nvcc is installed");
+    else if (types.starts_with("Cuda") && item.candidates[0]->role == RoleKind::collisionModel)
+      advice = "; map the state to one over Vec3d, and put the collision model there";
     complain(given ? item.element->place(*given) : item.element->place(),
-             text('<', item.tag, "> is not there over ", types, why, "; it is over ", known));
+             text('<', item.tag, "> is not there over ", types, why, "; it is over ", known, advice));
     return nullptr;
+  }
+  // some class is over the DataTypes of a device
+  bool onDevice() const {
+    return std::any_of(
+        table_.begin(), table_.end(), [](auto const& info) { return info.dataTypes.starts_with("Cuda"); });
   }
 
   void decideClasses(Place& place) {
@@ -622,10 +650,19 @@ class SceneReader {
       }
       case RoleKind::engine:
         if (first.dataTypes.empty()) return &first;
-        return withTypes(item, !given.empty() ? given : owner ? owner->state : "Vec3d");
+        return withTypes(item, onHost(item, !given.empty() ? given : owner ? owner->state : "Vec3d"));
       default:
         return &first;
     }
+  }
+  // loaders and selections work on the host: over "Vec3f" for "CudaVec3f", or where they are not, "Vec3d"
+  static std::string onHost(Item const& item, std::string const& types) {
+    if (!types.starts_with("Cuda")) return types;
+    const std::string host = types.substr(4);
+    const bool known = std::any_of(item.candidates.begin(), item.candidates.end(), [&](auto const* info) {
+      return info->dataTypes == host;
+    });
+    return known ? host : text(std::string_view(host).substr(0, host.size() - 1), 'd');
   }
   // the node of the first of the parents that `input` names: "@left @../right/corner"
   Place const* firstOfParents(Item& item) {
@@ -1196,7 +1233,7 @@ class SceneReader {
           while (at->state.empty()) at = at->parent;
           words = valueOf({at->ofRole(RoleKind::state), nullptr, "position"});
         } while (words.empty() && isIdentity(*at));
-        if (at->state.starts_with("Rigid3")) words = every(words, 7, 3, "");
+        if (at->state.find("Rigid3") != at->state.npos) words = every(words, 7, 3, "");
         item.info->field("position")->read(item.address(), words);
       });
     else if (topology && offered(*topology->info, "position"))

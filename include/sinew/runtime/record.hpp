@@ -52,6 +52,7 @@ struct RecordLayout {
 /// The layout of "Vec3d", "Rigid3f"...; nothing where the name is not one of those.
 inline std::optional<RecordLayout> record_layout(std::string_view dataTypes) {
   if (dataTypes.empty()) return {};
+  if (dataTypes.starts_with("Cuda")) dataTypes.remove_prefix(4);
   const char scalar = dataTypes.back();
   if (scalar != 'd' && scalar != 'f') return {};
   const bool isFloat = scalar == 'f';

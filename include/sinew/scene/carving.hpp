@@ -34,7 +34,7 @@ namespace detail {
 /// Whether there may be a component of a role below a scope.
 template <class Role, class S>
 constexpr bool has_role_below();
-template <class Role, class S, FixedString Name, class... Cs, class... Ns>
+template <class Role, class S, class Name, class... Cs, class... Ns>
 constexpr bool has_role_below(std::type_identity<Node<Name, hana::tuple<Cs...>, hana::tuple<Ns...>>>) {
   return (false || ... || HasRole<Cs, Role>) ||
          (false || ... || has_role_below<Role, typename ScopeOf<Ns, S>::type>());

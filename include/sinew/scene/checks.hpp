@@ -346,7 +346,7 @@ constexpr auto verdict() {
     return std::type_identity<Wrong<M, C, S::NodeType::name>>{};
 }
 
-template <class S, FixedString Name, class... Cs, class... Ns>
+template <class S, class Name, class... Cs, class... Ns>
 constexpr auto parts(std::type_identity<Node<Name, hana::tuple<Cs...>, hana::tuple<Ns...>>>) {
   if constexpr (((component<Cs, S>() == Mistake::none) && ...) &&
                 (right<decltype(scene<typename ScopeOf<Ns, S>::type>())> && ...))

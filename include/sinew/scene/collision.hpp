@@ -25,7 +25,7 @@ constexpr unsigned primitive_kind() {
 /// registry has.
 template <class S>
 constexpr unsigned primitive_kinds();
-template <class S, FixedString Name, class... Cs, class... Ns>
+template <class S, class Name, class... Cs, class... Ns>
 constexpr unsigned primitive_kinds(std::type_identity<Node<Name, hana::tuple<Cs...>, hana::tuple<Ns...>>>) {
   return (0u | ... | primitive_kind<Cs>()) | (0u | ... | primitive_kinds<typename ScopeOf<Ns, S>::type>());
 }
@@ -161,6 +161,7 @@ struct Collision {
                auto const& state = s.template state<D>();
                see<D>(model.surface, state.position, state.velocity);
                model.surface.state = &state;
+               if (model.surface.solver >= 0) model.surface.gravity = s.gravity();
                model.surface.number = int(pipeline.surfaces.size());
                pipeline.surfaces.push_back(&model.surface);
              }));

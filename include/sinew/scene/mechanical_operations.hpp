@@ -32,7 +32,7 @@ struct MechanicalOperations {
     std::size_t scalars = 0;
     forEachState([&](auto& state) {
       state.reserve(needed);
-      scalars = std::max(scalars, std::size_t(vec::flat(state.velocity).size()));
+      scalars = std::max(scalars, state.size() * std::size_t(DataTypesOf<decltype(state)>::size));
     });
     reserveSums(scalars);
   }
@@ -52,63 +52,45 @@ struct MechanicalOperations {
   // vector mathematics
 
   void clear(DerivId r) {
-    forEachIndependent([&](auto& s) {
-      auto all = vec::flat(s[r]);
-      vec::each_piece(workers(), all.size(), [&](auto i, auto n) { all.segment(i, n).setZero(); });
-    });
+    forEachIndependent([&](auto& s) { Vectors<decltype(s)>::clear(workers(), s[r]); });
   }
   template <class Id>
   void eq(Id r, Id a) {
-    forEachIndependent([&](auto& s) {
-      auto const& from = s[a];
-      auto& to = s[r];
-      vec::each_piece(workers(), Eigen::Index(to.size()), [&](auto i, auto n) {
-        std::copy(from.begin() + i, from.begin() + i + n, to.begin() + i);
-      });
-    });
+    forEachIndependent([&](auto& s) { Vectors<decltype(s)>::eq(workers(), s[r], s[a]); });
   }
   void eq(DerivId r, DerivId a, double f) {
-    forEachIndependent([&](auto& s) { vec::flat(s[r]) = real(s, f) * vec::flat(s[a]); });
+    forEachIndependent([&](auto& s) { Vectors<decltype(s)>::eq(s[r], s[a], real(s, f)); });
   }
   void peq(DerivId r, DerivId a, double f) {
-    forEachIndependent([&](auto& s) {
-      auto to = vec::flat(s[r]);
-      const auto from = vec::flat(s[a]);
-      vec::each_piece(
-          workers(), to.size(), [&](auto i, auto n) { to.segment(i, n) += real(s, f) * from.segment(i, n); });
-    });
+    forEachIndependent([&](auto& s) { Vectors<decltype(s)>::peq(workers(), s[r], s[a], real(s, f)); });
   }
   void peq(CoordId r, DerivId a, double f) {
-    forEachIndependent([&](auto& s) { vec::increment<DataTypesOf<decltype(s)>>(s[r], s[a], real(s, f)); });
+    forEachIndependent([&](auto& s) { Vectors<decltype(s)>::move(s[r], s[a], real(s, f)); });
   }
   void teq(DerivId r, double f) {
-    forEachIndependent([&](auto& s) { vec::flat(s[r]) *= real(s, f); });
+    forEachIndependent([&](auto& s) { Vectors<decltype(s)>::teq(s[r], real(s, f)); });
   }
   double dot(DerivId a, DerivId b) {
     double sum = 0;
-    forEachIndependent([&](auto& s) { sum += vec::dot(workers(), s[a], s[b]); });
+    forEachIndependent([&](auto& s) { sum += Vectors<decltype(s)>::dot(workers(), s[a], s[b]); });
     return sum;
   }
   /// r = a + f r
   void turn(DerivId r, DerivId a, double f) {
-    forEachIndependent([&](auto& s) { vec::turn(workers(), vec::flat(s[r]), vec::flat(s[a]), real(s, f)); });
+    forEachIndependent([&](auto& s) { Vectors<decltype(s)>::turn(workers(), s[r], s[a], real(s, f)); });
   }
   /// x += f p, r -= f q; returns r.r.
   double advance(DerivId x, DerivId p, DerivId r, DerivId q, double f) {
     double sum = 0;
     forEachIndependent([&](auto& s) {
-      sum += vec::advance(
-          workers(), vec::flat(s[x]), vec::flat(s[p]), vec::flat(s[r]), vec::flat(s[q]), real(s, f));
+      sum += Vectors<decltype(s)>::advance(workers(), s[x], s[p], s[r], s[q], real(s, f));
     });
     return sum;
   }
   /// rate = time derivative of theta, where a position moved by theta has velocity v; v itself but for rigid
   /// bodies.
   void chartRate(DerivId rate, DerivId theta, DerivId v) {
-    forEachIndependent([&](auto& s) {
-      using D = DataTypesOf<decltype(s)>;
-      for (std::size_t i = 0; i < s[rate].size(); ++i) s[rate][i] = D::chart_rate(s[theta][i], s[v][i]);
-    });
+    forEachIndependent([&](auto& s) { Vectors<decltype(s)>::chartRate(s[rate], s[theta], s[v]); });
   }
 
   // physics
@@ -127,15 +109,15 @@ struct MechanicalOperations {
   }
 
   /// f = all forces at (x, v), with those on mapped states brought to the independent ones, and the external
-  /// forces as they are.
-  void computeForce(DerivId f, CoordId x, DerivId v) {
+  /// forces as they are. `turning`: see MechanicalParams.
+  void computeForce(DerivId f, CoordId x, DerivId v, double turning = 0) {
     [[maybe_unused]] const auto span = root.span(Phase::force);
-    const MechanicalParams p{.time = time, .dt = dt};
+    const MechanicalParams p{.time = time, .dt = dt, .turning = turning};
     forEachState([&](auto& s) {
       if (s[vec_id::externalForce].empty())
-        vec::clear(s[f]);
+        Vectors<decltype(s)>::clear(OneThread{}, s[f]);
       else
-        vec::eq(s[f], s[vec_id::externalForce]);
+        Vectors<decltype(s)>::eq(OneThread{}, s[f], s[vec_id::externalForce]);
     });
     traverse(
         root, on<role::ForceField, role::Mass, role::InteractionForceField>([&](auto& c, auto const& scope) {
@@ -164,12 +146,7 @@ struct MechanicalOperations {
                c.accFromF(s[a], s[x], s[f]);
              }));
     traverse(root, on<role::ProjectiveConstraint>([&](auto& c, auto const& scope) {
-               withConstrained(c, scope, [&](auto&... s) {
-                 if constexpr (requires { c.projectAcceleration(s[a]...); })
-                   c.projectAcceleration(s[a]...);
-                 else
-                   c.projectResponse(s[a]...);
-               });
+               withConstrained(c, scope, [&](auto&... s) { accelerateConstrained(c, s[a]...); });
              }));
   }
 
@@ -193,9 +170,9 @@ struct MechanicalOperations {
   void projectPositionAndVelocity(double t, CoordId x, DerivId v) {
     [[maybe_unused]] const auto span = root.span(Phase::constraint);
     traverse(root, on<role::ProjectiveConstraint>([&](auto& c, auto const& scope) {
-               withConstrained(c, scope, [&]([[maybe_unused]] auto&... s) {
-                 if constexpr (requires { c.projectPosition(t, s[x]...); }) c.projectPosition(t, s[x]...);
-                 if constexpr (requires { c.projectVelocity(t, s[v]...); }) c.projectVelocity(t, s[v]...);
+               withConstrained(c, scope, [&](auto&... s) {
+                 placeConstrained(c, t, s[x]...);
+                 moveConstrained(c, t, s[v]...);
                });
              }));
   }
@@ -205,7 +182,7 @@ struct MechanicalOperations {
     [[maybe_unused]] const auto span = root.span(Phase::product);
     const MechanicalParams p{.time = time, .dt = dt, .m = factors.m, .b = factors.b, .k = factors.k};
     propagate(dx);
-    forEachMapped([&](auto& s) { vec::clear(s[r]); });
+    forEachMapped([&](auto& s) { Vectors<decltype(s)>::clear(OneThread{}, s[r]); });
     traverse(root,
              on<role::ForceField, role::Mass, role::InteractionForceField>([&](auto& c, auto const& scope) {
                using C = std::decay_t<decltype(c)>;
@@ -346,6 +323,8 @@ struct MechanicalOperations {
   template <class State>
   using DataTypesOf = typename std::decay_t<State>::DataTypes;
   template <class State>
+  using Vectors = VectorOperations<DataTypesOf<State>>;
+  template <class State>
   static auto real(State const&, double f) {
     return typename State::DataTypes::Real(f);
   }
@@ -401,6 +380,22 @@ struct MechanicalOperations {
                      [&](auto const& a, auto const& b) { f(a.template state<D>(), b.template state<D>()); });
     else
       f(scope.template state<D>());
+  }
+  // what only some constraints have (functions, since nvcc looks at such names before it knows the class)
+  template <class C, class... V>
+  static void placeConstrained(C& c, double t, V&... x) {
+    if constexpr (requires { c.projectPosition(t, x...); }) c.projectPosition(t, x...);
+  }
+  template <class C, class... V>
+  static void moveConstrained(C& c, double t, V&... v) {
+    if constexpr (requires { c.projectVelocity(t, v...); }) c.projectVelocity(t, v...);
+  }
+  template <class C, class... V>
+  static void accelerateConstrained(C& c, V&... a) {
+    if constexpr (requires { c.projectAcceleration(a...); })
+      c.projectAcceleration(a...);
+    else
+      c.projectResponse(a...);
   }
   template <AssemblyPhase Phase, class Matrix, class C, class S>
   static auto constraintSink(Matrix& matrix, C const& c, S const& scope) {

@@ -37,19 +37,22 @@ RoleVisitor<F, Roles...> on(F f) {
 struct AnyRole;
 /// Stands for all components that act before a step, whatever their roles.
 struct BeforeStep;
+/// Stands for all components that have a reset(), whatever their roles.
+struct WithReset;
 template <class C, class... Roles>
 inline constexpr bool has_any_role = ((std::is_same_v<typename C::Role, Roles> ||
                                        std::is_same_v<Roles, AnyRole> ||
-                                       (std::is_same_v<Roles, BeforeStep> && ActsBeforeStep<C>)) ||
+                                       (std::is_same_v<Roles, BeforeStep> && ActsBeforeStep<C>) ||
+                                       (std::is_same_v<Roles, WithReset> && Resettable<C>)) ||
                                       ...);
 
 /// A node of a typed scene: plain data, composed by node<"name">(...).
-template <FixedString Name, class Components, class Children>
+template <class Name, class Components, class Children>
 struct Node;
 
-template <FixedString Name, class... Cs, class... Ns>
+template <class Name, class... Cs, class... Ns>
 struct Node<Name, hana::tuple<Cs...>, hana::tuple<Ns...>> {
-  static constexpr auto name = Name;
+  static constexpr auto name = Name::value;
   static constexpr int childCount = int(sizeof...(Ns));
 
   hana::tuple<Cs...> components;
@@ -129,7 +132,7 @@ struct Node<Name, hana::tuple<Cs...>, hana::tuple<Ns...>> {
 /// What may be a child of a typed node: typed nodes, and the runtime nodes of runtime/node.hpp.
 template <class T>
 inline constexpr bool is_node = false;
-template <FixedString Name, class Components, class Children>
+template <class Name, class Components, class Children>
 inline constexpr bool is_node<Node<Name, Components, Children>> = true;
 
 /// Composes a node from components and child nodes, in any order; each keeps its order among its own kind.
@@ -142,7 +145,7 @@ auto node(Parts... parts) {
   static_assert(Name.view().find('/') == std::string_view::npos && !Name.view().empty(),
                 "Sinew: the name of a node is not empty and has no '/', which separates names in a path.");
   if constexpr (!((Component<Parts> || is_node<Parts>)&&...)) {
-    return Node<Name, hana::tuple<>, hana::tuple<>>{};  // nothing else fails
+    return Node<Named<Name>, hana::tuple<>, hana::tuple<>>{};  // nothing else fails
   } else {
     hana::tuple<Parts...> all(std::move(parts)...);
     auto child = [](auto const& part) { return hana::bool_c<is_node<std::decay_t<decltype(part)>>>; };
@@ -150,7 +153,7 @@ auto node(Parts... parts) {
     auto components =
         hana::filter(std::move(all), component);  // moves out the components and leaves the children
     auto children = hana::filter(std::move(all), child);
-    using Result = Node<Name, decltype(components), decltype(children)>;
+    using Result = Node<Named<Name>, decltype(components), decltype(children)>;
     static_assert(
         Result::childNamesDiffer(),
         "Sinew: two children of a node have the same name; a path could not tell them apart. Rename one.");

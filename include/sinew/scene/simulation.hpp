@@ -37,8 +37,11 @@ class Simulation {
   /// no longer finite after the step.
   void animate(double dt);
 
-  /// Back to positions and velocities as they were after init, at time 0; contacts are forgotten, and what
-  /// was attached is released.
+  /// Back to the scene as it was after init, at time 0, so that the next steps have the bits of the first
+  /// ones: positions and velocities (those that states were given for a reset), springs that were cut, what
+  /// materials and solvers remember. Contacts are forgotten, what was attached is released. What was changed
+  /// from outside stays: by change() and removeElements(), and so what tools have carved; fields, and targets
+  /// of couplings.
   void reset();
 
   /// What records completes its files. Throws Error where one could not be written. Without that, the end of
@@ -318,7 +321,10 @@ class Simulation {
   }
   void computeLoose(RootScope const& scope, double dt) const {
     [[maybe_unused]] const auto span = scope.span(Phase::externalForces);
-    traverse(scope, on<role::State>([](auto& s, auto const&) { vec::clear(s.externalForce); }));
+    traverse(scope, on<role::State>([](auto& s, auto const&) {
+               VectorOperations<typename std::decay_t<decltype(s)>::DataTypes>::clear(OneThread{},
+                                                                                      s.externalForce);
+             }));
     const MechanicalParams p{.time = time_, .dt = dt};
     forEachLoose(scope, [&](auto& c, auto& a, auto& b) {
       c.addForce(p, a.externalForce, b.externalForce, a.position, b.position, a.velocity, b.velocity);
@@ -452,7 +458,7 @@ class Simulation {
   template <class C, class S>
   void checkFinite(C const& state, S const& scope) const {
     using D = typename C::DataTypes;
-    const int x = vec::find_not_finite<D>(state.position);
+    const int x = VectorOperations<D>::findNotFinite(state.position);
     if (x < 0) return;
     throw Error(text("step ", step_, " (time ", time_, " s), ", scope.path()),
                 text(component_name<C>(),
@@ -521,8 +527,15 @@ void Simulation<Root>::animate(double dt) {
 template <class Root>
 void Simulation<Root>::reset() {
   if (!initialised_) throw Error("Simulation::reset", "the scene is not initialised; call init() first");
-  traverse(rootScope(), on<role::State>([](auto& s, auto const&) { s.reset(); }));
-  traverse(rootScope(), on<role::ContactManager>([](auto& manager, auto const&) { manager.forget(); }));
+  bool regained = false;
+  traverse(rootScope(), on<WithReset>([&](auto& c, auto const&) {
+             if constexpr (std::is_same_v<decltype(c.reset()), bool>)
+               regained = c.reset() || regained;
+             else
+               c.reset();
+           }));
+  if constexpr (proved)
+    if (regained) initSolvers(rootScope(), {.again = true});
   time_ = 0;
   step_ = 0;
   propagate();

@@ -56,6 +56,8 @@ struct BDFOdeSolver {
                       field("lastEnd", &S::lastEnd, "s", "time at the end of the last step"));
   }
 
+  void reset() { lastDt = olderDt = lastEnd = 0; }
+
   NewtonReport newton{};
 
   template <class Operations>

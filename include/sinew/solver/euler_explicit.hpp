@@ -7,7 +7,8 @@
 namespace sinew {
 
 /// Euler's method, order 1. Symplectic: v += a dt, then x += v dt with the new velocity (Stoermer-Verlet's
-/// first order kin, energy stays bounded). Otherwise both use the old values.
+/// first order kin, energy stays bounded; bodies that turn have the gyroscopic torque of the end of the step,
+/// which adds no energy). Otherwise both use the old values.
 struct EulerExplicitSolver {
   using Role = role::OdeSolver;
   static constexpr std::string_view className = "EulerExplicitSolver";
@@ -27,7 +28,7 @@ struct EulerExplicitSolver {
   void solve(Operations& operations, double dt) const {
     MultiVecCoord pos(operations, vec_id::position);
     MultiVecDeriv vel(operations, vec_id::velocity), force(operations, vec_id::force), acc(operations);
-    operations.computeForce(force.id, pos.id, vel.id);
+    operations.computeForce(force.id, pos.id, vel.id, symplectic ? dt : 0);
     operations.accFromF(acc.id, force.id, pos.id);
     if (symplectic) {
       vel.peq(acc, dt);

@@ -10,7 +10,7 @@ namespace sinew {
 ///   M dv = h (f(xt, vt) - rM M vt + rK K vt),   vt = v + t dv,   xt = x + t h vt,
 ///   v1 = v + dv,   x1 = x + h vt
 /// is solved for dv by Newton's method from xt = x, vt = v. Its first iteration alone, the default, is the
-/// step linearised:
+/// step linearised (with the gyroscopic torque that bodies have at its end, which adds no energy):
 ///   ((1 + t h rM) M - t h B - t h (t h + rK) K) dv = h (f(x, v) - rM M v + (t h + rK) K v)
 /// `trapezoidalScheme` has t = 1/2: the trapezoidal rule where f is linear, the midpoint rule with more
 /// iterations; it does not damp, and has order 2 for points. (SOFA moves positions by h v1 in that case too,
@@ -84,7 +84,7 @@ struct EulerImplicitSolver {
         operations.projectPositionAndVelocity(operations.time, pos.id, vel.id);
         operations.propagate(pos.id, vel.id);
       }
-      operations.computeForce(force.id, pos.id, vel.id);
+      operations.computeForce(force.id, pos.id, vel.id, again || t != 1 ? 0 : h);
       b.eq(force);
       if (!firstOrder) {
         operations.addMBKdx(b.id, vel.id, {.m = -rM, .k = first ? t * h + rK : rK});

@@ -47,6 +47,7 @@ struct NewmarkImplicitSolver {
     return field_list(
         field("lastEnd", &NewmarkImplicitSolver::lastEnd, "s", "time at the end of the last step"));
   }
+  void reset() { lastEnd = -1; }
 
   template <class Operations>
   void solve(Operations& operations, double h) {

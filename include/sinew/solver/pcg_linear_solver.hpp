@@ -82,6 +82,9 @@ struct ShewchukPCGLinearSolver {
       v->setZero(matrix.dofs() + 1);  // the last stays 0: multiply reads it
   }
 
+  /// The preconditioner is made anew.
+  void reset() { age = -1; }
+
   template <class Operations>
   void solve(Operations& operations, MatrixFactors factors, MultiVecDeriv<Operations>& solution,
              MultiVecDeriv<Operations>& rhs) {

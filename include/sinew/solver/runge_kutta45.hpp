@@ -42,6 +42,7 @@ struct RungeKutta45Solver {
   static constexpr auto state() {
     return field_list(field("next", &RungeKutta45Solver::next, "s", "substep to try first"));
   }
+  void reset() { next = 0; }
 
   template <class Operations>
   void solve(Operations& operations, double dt) {

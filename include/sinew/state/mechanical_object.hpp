@@ -65,7 +65,8 @@ struct MechanicalObject {
   std::vector<VecCoord> auxiliaryCoords{};
   std::vector<VecDeriv> auxiliaryDerivs{};
   std::optional<VecCoord> given{};  // positions that the mapping of a mapped state was given
-  int dofOffset = -1;               // first scalar of this state in the assembled system of its solver
+  typename D::template Array<double> solverNumbers{};  // of a solver that works where the vectors are
+  int dofOffset = -1;  // first scalar of this state in the assembled system of its solver
 
   std::size_t size() const { return position.size(); }
 
@@ -172,6 +173,7 @@ struct MechanicalObject {
   void reset() {
     position = resetPosition;
     velocity = resetVelocity;
+    for (VecDeriv* v : {&force, &dx}) v->assign(v->size(), D::Deriv::Zero());
   }
 
   VecCoord& operator[](CoordId id) {

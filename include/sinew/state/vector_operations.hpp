@@ -26,6 +26,11 @@ auto flat(std::vector<Deriv> const& v) {
       v.empty() ? nullptr : v.data()->data(), Eigen::Index(v.size()) * Deriv::SizeAtCompileTime);
 }
 
+/// The same of vectors that have a side on the host and one elsewhere.
+template <class V>
+requires requires(V& v) { v.host(); }
+auto flat(V& v) { return flat(v.host()); }
+
 /// r = 0
 template <class V>
 void clear(V& r) {
@@ -153,3 +158,64 @@ int find_not_finite(typename D::VecCoord const& x) {
 }
 
 }  // namespace sinew::vec
+
+namespace sinew {
+
+/// What solvers do with the vectors of one state, through MechanicalOperations. DataTypes whose vectors live
+/// elsewhere than in the memory of the processor specialise it.
+template <class D>
+struct VectorOperations {
+  using Real = typename D::Real;
+  using VecCoord = typename D::VecCoord;
+  using VecDeriv = typename D::VecDeriv;
+
+  /// r = 0
+  template <class Run>
+  static void clear(Run const& workers, VecDeriv& r) {
+    auto all = vec::flat(r);
+    vec::each_piece(workers, all.size(), [&](auto i, auto n) { all.segment(i, n).setZero(); });
+  }
+  /// r = a
+  template <class Run, class V>
+  static void eq(Run const& workers, V& r, V const& a) {
+    vec::each_piece(workers, Eigen::Index(r.size()), [&](auto i, auto n) {
+      std::copy(a.begin() + i, a.begin() + i + n, r.begin() + i);
+    });
+  }
+  /// r = f a
+  static void eq(VecDeriv& r, VecDeriv const& a, Real f) { vec::flat(r) = f * vec::flat(a); }
+  /// r += f a
+  template <class Run>
+  static void peq(Run const& workers, VecDeriv& r, VecDeriv const& a, Real f) {
+    auto to = vec::flat(r);
+    const auto from = vec::flat(a);
+    vec::each_piece(workers, to.size(), [&](auto i, auto n) { to.segment(i, n) += f * from.segment(i, n); });
+  }
+  /// x <- x moved along a for the time f
+  static void move(VecCoord& x, VecDeriv const& a, Real f) { vec::increment<D>(x, a, f); }
+  /// r *= f
+  static void teq(VecDeriv& r, Real f) { vec::flat(r) *= f; }
+  template <class Run>
+  static double dot(Run const& workers, VecDeriv const& a, VecDeriv const& b) {
+    return vec::dot(workers, a, b);
+  }
+  /// r = a + f r
+  template <class Run>
+  static void turn(Run const& workers, VecDeriv& r, VecDeriv const& a, Real f) {
+    vec::turn(workers, vec::flat(r), vec::flat(a), f);
+  }
+  /// x += f p, r -= f q; returns r.r.
+  template <class Run>
+  static double advance(Run const& workers, VecDeriv& x, VecDeriv const& p, VecDeriv& r, VecDeriv const& q,
+                        Real f) {
+    return vec::advance(workers, vec::flat(x), vec::flat(p), vec::flat(r), vec::flat(q), f);
+  }
+  /// Time derivative of theta, where a position moved by theta has velocity v.
+  static void chartRate(VecDeriv& rate, VecDeriv const& theta, VecDeriv const& v) {
+    for (std::size_t i = 0; i < rate.size(); ++i) rate[i] = D::chart_rate(theta[i], v[i]);
+  }
+  /// First position that is not finite, or -1.
+  static int findNotFinite(VecCoord const& x) { return vec::find_not_finite<D>(x); }
+};
+
+}  // namespace sinew

@@ -1,29 +1,31 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/assembly.hpp>
+#include <sinew/core/element_driver.hpp>
 #include <sinew/core/error.hpp>
+#include <sinew/gpu/block_rows.hpp>
+#include <sinew/gpu/data_types.hpp>
 #include <sinew/gpu/element_kernels.hpp>
-#include <sinew/gpu/execution.hpp>
+#include <sinew/gpu/reduction.hpp>
 
-#include <thrust/copy.h>
-#include <thrust/device_vector.h>
-
-#include <algorithm>
 #include <array>
 #include <limits>
-#include <string_view>
-#include <utility>
 #include <vector>
 
-namespace sinew::gpu {
+namespace sinew {
 
-/// Runs an element law over all elements of a body on Thrust's device, one thread an element, with the law's
-/// code for plain scalars that the CPU driver uses too. In gather form: the elements first write the forces
-/// on their points to a buffer; each node then sums its entries of it, elements in ascending order. No
+/// Runs an element law over all elements of a body on the device, one thread an element, with the law's code
+/// for plain scalars that the processor's driver uses too. In gather form: the elements first write the
+/// forces on their points to a buffer; each node then sums its entries of it, elements in ascending order. No
 /// atomics: the same input gives the same bits, in every run and with any number of threads.
-template <template <class> class LawOf, class D>
-class ThrustElementDriver {
- public:
+///
+/// Products: the first one after the forces, at given factors, goes by elements. From the second on, as in a
+/// solver's iterations, the blocks of laws with more than two points are summed up once into rows
+/// (BlockRows), which a product reads with a third of the memory traffic.
+template <template <class> class LawOf, class H, int W>
+struct ElementDriver<LawOf, CudaTypes<H>, W> {
+  using D = CudaTypes<H>;
   using Real = typename D::Real;
   using Coord = typename D::Coord;
   using Deriv = typename D::Deriv;
@@ -32,144 +34,202 @@ class ThrustElementDriver {
   using Tangent = typename Law::Tangent;
   static constexpr int arity = Law::arity;
   using Indices = std::array<int, arity>;
-  using DeviceCoords = thrust::device_vector<Coord>;
-  using DeviceDerivs = thrust::device_vector<Deriv>;
+  // first point of the state that each end of an element lives on, on the device
+  using Coords = std::array<Coord const*, arity>;
+  using ConstDerivs = std::array<Deriv const*, arity>;
+  using Derivs = std::array<Deriv*, arity>;
 
-  /// Copies the elements, their rest data and the lists of elements around each node to the device. Throws
-  /// Error on a point outside 0 .. nodeCount - 1, on another number of rest data than of elements, and on
-  /// more than 2^31 - 1 ends of elements.
-  void init(std::vector<Indices> const& elements, std::vector<Rest> const& rest, std::size_t nodeCount) {
-    check(elements, rest, nodeCount);
-    const std::size_t count = elements.size();
-    constexpr std::size_t reals = sizeof(Rest) / sizeof(Real);
+  std::vector<Indices> elements{};
+  std::vector<Rest> rest{};
+  int parts = 1;
 
+  /// Takes the elements. Throws Error on more than 2^31 - 1 ends of elements.
+  void init(std::vector<Indices> const& all, std::vector<Rest> const& restOf) {
+    const std::size_t count = all.size();
+    constexpr std::size_t most = std::numeric_limits<int>::max(), reals = sizeof(Rest) / sizeof(Real);
+    if (count > most / arity)
+      throw Error("elements on a device",
+                  text(count, " elements exceed the 2^31 - 1 numbers of an int; split the body"));
+    elements = all;
+    rest = restOf;
+    nodes = 0;
+    for (auto const& e : elements)
+      for (const int i : e) nodes = std::max(nodes, std::size_t(i) + 1);
     // entry k * count + e of the buffer is the force on point k of element e
-    std::vector<int> index(arity * count), first(nodeCount + 1, 0), entry(arity * count);
-    for (std::size_t e = 0; e < count; ++e)
-      for (std::size_t k = 0; k < arity; ++k) {
-        index[k * count + e] = elements[e][k];
-        ++first[std::size_t(elements[e][k]) + 1];
-      }
-    for (std::size_t n = 0; n < nodeCount; ++n) first[n + 1] += first[n];
-    std::vector<int> next(first.begin(), first.end() - 1);
-    for (std::size_t e = 0; e < count; ++e)
-      for (std::size_t k = 0; k < arity; ++k)
-        entry[std::size_t(next[std::size_t(elements[e][k])]++)] = int(k * count + e);
-
+    std::vector<int> ends(arity * count);
     std::vector<Real> scalars(reals * count);
-    for (std::size_t e = 0; e < count; ++e)
-      detail::store_strided(rest[e], scalars.data() + e, std::ptrdiff_t(count));
+    for (std::size_t e = 0; e < count; ++e) {
+      for (std::size_t k = 0; k < arity; ++k) ends[k * count + e] = elements[e][k];
+      gpu::detail::store_strided(rest[e], scalars.data(), int(e), std::ptrdiff_t(count));
+    }
+    index = std::move(ends);
+    restOnDevice = std::move(scalars);
+    tangents.assign(sizeof(Tangent) / sizeof(Real) * count, Real(0));
+    received.assign(arity * count, Deriv(Deriv::Zero()));
+    around = lists(0, arity);
+    ofEnd.clear();
+    product = {};
+  }
+  void split(int) {}
+  std::size_t size() const { return elements.size(); }
 
-    ThrustElementDriver loaded;
-    loaded.count_ = count;
-    loaded.nodeCount_ = nodeCount;
-    loaded.index_ = index;
-    loaded.first_ = first;
-    loaded.entry_ = entry;
-    loaded.rest_ = scalars;
-    loaded.tangent_.assign(sizeof(Tangent) / sizeof(Real) * count, Real(0));
-    loaded.part_.assign(arity * count, Deriv::Zero());
-    loaded.energy_.assign(std::min(count, energyThreads), 0.0);
-    *this = std::move(loaded);  // all or, where memory runs out, nothing
+  /// Takes away the elements for which gone(their points) holds, and returns how many those were.
+  template <class Gone>
+  std::size_t removeIf(Gone&& gone) {
+    std::vector<Indices> stay;
+    std::vector<Rest> restOfThose;
+    for (std::size_t e = 0; e < elements.size(); ++e)
+      if (!gone(elements[e])) {
+        stay.push_back(elements[e]);
+        restOfThose.push_back(rest[e]);
+      }
+    const std::size_t removed = elements.size() - stay.size();
+    if (removed > 0) init(stay, restOfThose);
+    return removed;
   }
 
-  /// f += the law's forces at (x, v); keeps what addDForce needs. Throws Error unless f, x and v have one
-  /// entry a node.
-  void addForce(Law const& law, DeviceDerivs& f, DeviceCoords const& x, DeviceDerivs const& v) {
-    checkSize("addForce", "f", f.size());
-    checkSize("addForce", "x", x.size());
-    checkSize("addForce", "v", v.size());
-    for_each_index(count_, detail::ElementForce<LawOf, D>{law, elements(), raw(x), raw(v)});
-    sumAtNodes(f);
+  /// f += the law's forces at (x, v); keeps what addDForce needs.
+  template <class VecDeriv, class VecCoord>
+  void addForce(Law const& law, VecDeriv& f, VecCoord const& x, VecDeriv const& v, Part = {}) {
+    forces(law, same(entries(x)), same(entries(v)));
+    sum(around, entries(f));
+  }
+  /// df += (k K + b B) dx with the tangents of the last addForce.
+  template <class VecDeriv>
+  void addDForce(Law const& law, VecDeriv& df, VecDeriv const& dx, Real k, Real b, Part = {}) const {
+    Product& p = product;
+    if (p.k != k || p.b != b) p = {std::move(p.rows), k, b, 0, false};
+    if constexpr (arity > 2)
+      if (++p.times > 1) {
+        if (!p.assembled || p.rows.rows == 0) {  // a copy has no rows yet
+          p.rows.assemble(law, elements, view(), nodes, k, b);
+          p.assembled = true;
+        }
+        p.rows.multiplyAdd(entries(df), entries(dx));
+        return;
+      }
+    products(law, same(entries(dx)), k, b);
+    sum(around, entries(df));
   }
 
-  /// df += (k K + b B) dx with the tangents of the last addForce. Throws Error unless df and dx have one
-  /// entry a node.
-  void addDForce(Law const& law, DeviceDerivs& df, DeviceDerivs const& dx, Real k, Real b) {
-    checkSize("addDForce", "df", df.size());
-    checkSize("addDForce", "dx", dx.size());
-    for_each_index(count_, detail::ElementDForce<LawOf, D>{law, elements(), raw(dx), k, b});
-    sumAtNodes(df);
+  // between two bodies
+
+  void addForce(Law const& law, Derivs f, Coords x, ConstDerivs v, Part = {}) {
+    forces(law, x, v);
+    sumAtEnds(f);
+  }
+  void addDForce(Law const& law, Derivs df, ConstDerivs dx, Real k, Real b, Part = {}) const {
+    products(law, dx, k, b);
+    sumAtEnds(df);
   }
 
-  /// Energy of all elements at x [J]. The sum has one shape everywhere: thread t of 4096 adds up elements t,
-  /// t + 4096, ..., the host their sums. Throws Error unless x has one entry a node.
-  double energy(Law const& law, DeviceCoords const& x) {
-    checkSize("energy", "x", x.size());
-    for_each_index(
-        energy_.size(),
-        detail::ElementEnergy<LawOf, D>{law, elements(), raw(x), int(energyThreads), raw(energy_)});
-    std::vector<double> sums(energy_.size());
-    thrust::copy(energy_.begin(), energy_.end(), sums.begin());
-    double sum = 0;
-    for (const double s : sums) sum += s;
-    return sum;
+  /// Energy of all elements [J].
+  template <class VecCoord>
+  double energy(Law const& law, VecCoord const& x) const {
+    return energy(law, same(entries(x)));
+  }
+  double energy(Law const& law, Coords x) const {
+    return gpu::sum_on_host(elements.size(), gpu::detail::ElementEnergy<LawOf, D>{law, view(), x});
   }
 
-  std::size_t size() const { return count_; }
-  std::size_t nodeCount() const { return nodeCount_; }
+  /// Adds k K + b B to a matrix on the host.
+  template <int... SideOf, class Sink>
+  void addToMatrix(Law const& law, Sink const& sink, Real k, Real b, Part = {}) {
+    if constexpr (Sink::phase != AssemblyPhase::bind) {
+      constexpr std::array<int, arity> side = [] {
+        if constexpr (sizeof...(SideOf) == 0)
+          return std::array<int, arity>{};
+        else
+          return std::array<int, arity>{SideOf...};
+      }();
+      for (std::size_t e = 0; e < elements.size(); ++e) {
+        Tangent tangent{};
+        if constexpr (Sink::phase == AssemblyPhase::add)
+          gpu::detail::load_strided(
+              tangent, std::as_const(tangents).data(), int(e), std::ptrdiff_t(elements.size()));
+        [&]<int... P>(std::integer_sequence<int, P...>) {
+          auto one = [&]<int I, int J>() {
+            if constexpr (I <= J) {
+              Mat<Real, D::size> block = Mat<Real, D::size>::Zero();
+              if constexpr (Sink::phase == AssemblyPhase::add)
+                block = law.block(rest[e], tangent, I, J, k, b);
+              sink.template add<side[I], side[J]>(elements[e][I], elements[e][J], block);
+              if constexpr (I != J)
+                sink.template add<side[J], side[I]>(elements[e][J], elements[e][I], block.transpose().eval());
+            }
+          };
+          (one.template operator()<P / arity, P % arity>(), ...);
+        }
+        (std::make_integer_sequence<int, arity * arity>{});
+      }
+    }
+  }
+
+  // on the device
+  template <class T>
+  using Array = gpu::DeviceVector<T>;
+  struct Lists {
+    Array<int> first{}, entry{};
+  };
+  struct Product {
+    gpu::BlockRows<D> rows{};
+    Real k{0}, b{0};
+    int times = 0;
+    bool assembled = false;
+  };
+  std::size_t nodes = 0;
+  Array<int> index{};
+  Array<Real> restOnDevice{};
+  mutable Array<Real> tangents{};
+  mutable Array<Deriv> received{};
+  Lists around{};
+  mutable std::vector<Lists> ofEnd{};
+  mutable Product product{};
+
+  gpu::detail::DeviceElements<LawOf, D> view() const {
+    return {
+        int(elements.size()), index.device(), restOnDevice.device(), tangents.device(), received.device()};
+  }
 
  private:
-  static constexpr std::size_t energyThreads = 4096;
-  std::size_t count_ = 0, nodeCount_ = 0;
-  thrust::device_vector<int> index_{}, first_{}, entry_{};
-  thrust::device_vector<Real> rest_{}, tangent_{};
-  DeviceDerivs part_{};
-  thrust::device_vector<double> energy_{};
-
   template <class T>
-  static T const* raw(thrust::device_vector<T> const& v) {
-    return thrust::raw_pointer_cast(v.data());
+  static std::array<T*, arity> same(T* first) {
+    std::array<T*, arity> ends;
+    ends.fill(first);
+    return ends;
   }
-  template <class T>
-  static T* raw(thrust::device_vector<T>& v) {
-    return thrust::raw_pointer_cast(v.data());
+  void forces(Law const& law, Coords x, ConstDerivs v) {
+    product.times = 0;
+    product.assembled = false;
+    gpu::for_each_index(elements.size(), gpu::detail::ElementForce<LawOf, D>{law, view(), x, v});
   }
-  detail::DeviceElements<LawOf, D> elements() {
-    return {int(count_), raw(index_), raw(rest_), raw(tangent_), raw(part_)};
+  void products(Law const& law, ConstDerivs dx, Real k, Real b) const {
+    gpu::for_each_index(elements.size(), gpu::detail::ElementDForce<LawOf, D>{law, view(), dx, k, b});
   }
-  void sumAtNodes(DeviceDerivs& f) {
-    for_each_index(nodeCount_, detail::NodeSum<Deriv>{raw(first_), raw(entry_), raw(part_), raw(f)});
+  void sum(Lists const& of, Deriv* to) const {
+    gpu::for_each_index(of.first.empty() ? 0 : of.first.size() - 1,
+                        gpu::detail::NodeSum<Deriv>{
+                            of.first.device(), of.entry.device(), std::as_const(received).device(), to});
   }
-
-  static void check(std::vector<Indices> const& elements, std::vector<Rest> const& rest,
-                    std::size_t nodeCount) {
-    const char* const where = "ThrustElementDriver::init";
-    constexpr std::size_t most = std::numeric_limits<int>::max();
-    if (rest.size() != elements.size())
-      throw Error(where,
-                  text(rest.size(),
-                       " rest data were given for ",
-                       elements.size(),
-                       " elements; give one for each element"));
-    if (elements.size() > most / arity || nodeCount >= most)
-      throw Error(where,
-                  text(elements.size(),
-                       " elements over ",
-                       nodeCount,
-                       " nodes exceed the 2^31 - 1 numbers of an int; split the body"));
-    for (std::size_t e = 0; e < elements.size(); ++e)
-      for (const int i : elements[e])
-        if (i < 0 || std::size_t(i) >= nodeCount)
-          throw Error(where,
-                      text("element ",
-                           e,
-                           " refers to node ",
-                           i,
-                           ", but there are ",
-                           nodeCount,
-                           " nodes, numbered from 0; correct the index"));
+  void sumAtEnds(Derivs to) const {
+    if (ofEnd.empty())
+      for (int k = 0; k < arity; ++k) ofEnd.push_back(lists(k, k + 1));
+    for (std::size_t k = 0; k < arity; ++k) sum(ofEnd[k], to[k]);
   }
-  void checkSize(std::string_view function, std::string_view name, std::size_t size) const {
-    if (size != nodeCount_)
-      throw Error(text("ThrustElementDriver::", function),
-                  text(name,
-                       " has ",
-                       size,
-                       " entries, but init was given ",
-                       nodeCount_,
-                       " nodes; pass vectors with one entry a node"));
+  // which entries of the buffer are for which node, of the points from `begin` to `end` of the elements
+  Lists lists(int begin, int end) const {
+    const std::size_t count = elements.size();
+    std::vector<int> first(nodes + 1, 0), entry(std::size_t(end - begin) * count);
+    for (auto const& e : elements)
+      for (int k = begin; k < end; ++k) ++first[std::size_t(e[std::size_t(k)]) + 1];
+    for (std::size_t n = 0; n < nodes; ++n) first[n + 1] += first[n];
+    std::vector<int> next(first.begin(), first.end() - 1);
+    for (std::size_t e = 0; e < count; ++e)
+      for (int k = begin; k < end; ++k)
+        entry[std::size_t(next[std::size_t(elements[e][std::size_t(k)])]++)] =
+            int(std::size_t(k) * count + e);
+    return {std::move(first), std::move(entry)};
   }
 };
 
-}  // namespace sinew::gpu
+}  // namespace sinew

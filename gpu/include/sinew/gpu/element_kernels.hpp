@@ -3,27 +3,34 @@
 
 #include <sinew/core/platform.hpp>
 
+#include <array>
 #include <cstddef>
 #include <cstring>
+#include <type_traits>
 
 namespace sinew::gpu::detail {
 
-/// Reads a `Value`, which holds nothing but scalars, from scalars that stand `stride` apart: neighbouring
-/// threads then read neighbouring addresses.
+/// Reads number i of `stride` values, which hold nothing but scalars, from scalars that stand `stride` apart:
+/// neighbouring threads then read neighbouring addresses. Of a `Value` without scalars nothing is stored.
 template <class Value, class Real>
-SINEW_INLINE void load_strided(Value& value, Real const* from, std::ptrdiff_t stride) {
-  static_assert(sizeof(Value) % sizeof(Real) == 0, "a law's Rest and Tangent hold only scalars of its Real");
-  constexpr int reals = int(sizeof(Value) / sizeof(Real));
-  Real scalars[reals];
-  for (int r = 0; r < reals; ++r) scalars[r] = from[r * stride];
-  std::memcpy(static_cast<void*>(&value), scalars, sizeof scalars);
+SINEW_INLINE void load_strided(Value& value, Real const* from, int i, std::ptrdiff_t stride) {
+  if constexpr (!std::is_empty_v<Value>) {
+    static_assert(sizeof(Value) % sizeof(Real) == 0,
+                  "a law's Rest and Tangent hold only scalars of its Real");
+    constexpr int reals = int(sizeof(Value) / sizeof(Real));
+    Real scalars[reals];
+    for (int r = 0; r < reals; ++r) scalars[r] = from[r * stride + i];
+    std::memcpy(static_cast<void*>(&value), scalars, sizeof scalars);
+  }
 }
 template <class Value, class Real>
-SINEW_INLINE void store_strided(Value const& value, Real* to, std::ptrdiff_t stride) {
-  constexpr int reals = int(sizeof(Value) / sizeof(Real));
-  Real scalars[reals];
-  std::memcpy(scalars, static_cast<void const*>(&value), sizeof scalars);
-  for (int r = 0; r < reals; ++r) to[r * stride] = scalars[r];
+SINEW_INLINE void store_strided(Value const& value, Real* to, int i, std::ptrdiff_t stride) {
+  if constexpr (!std::is_empty_v<Value>) {
+    constexpr int reals = int(sizeof(Value) / sizeof(Real));
+    Real scalars[reals];
+    std::memcpy(scalars, static_cast<void const*>(&value), sizeof scalars);
+    for (int r = 0; r < reals; ++r) to[r * stride + i] = scalars[r];
+  }
 }
 
 /// The elements of a driver as its threads see them. Point k of element e, and the force on it, is entry
@@ -43,17 +50,17 @@ struct DeviceElements {
 
   SINEW_INLINE Rest restOf(int e) const {
     Rest value;
-    load_strided(value, rest + e, count);
+    load_strided(value, rest, e, count);
     return value;
   }
   SINEW_INLINE Tangent tangentOf(int e) const {
     Tangent value;
-    load_strided(value, tangent + e, count);
+    load_strided(value, tangent, e, count);
     return value;
   }
   template <class Value>
-  SINEW_INLINE void gather(int e, Value const* from, Value (&to)[arity]) const {
-    for (int k = 0; k < arity; ++k) to[k] = from[index[k * count + e]];
+  SINEW_INLINE void gather(int e, std::array<Value const*, arity> const& from, Value (&to)[arity]) const {
+    for (int k = 0; k < arity; ++k) to[k] = from[std::size_t(k)][index[k * count + e]];
   }
   SINEW_INLINE void put(int e, Deriv const (&forces)[arity]) const {
     for (int k = 0; k < arity; ++k) part[k * count + e] = forces[k];
@@ -62,33 +69,33 @@ struct DeviceElements {
 
 template <template <class> class LawOf, class D>
 struct ElementForce {
+  static constexpr int arity = LawOf<D>::arity;
   LawOf<D> law;
   DeviceElements<LawOf, D> elements;
-  typename D::Coord const* x;
-  typename D::Deriv const* v;
+  std::array<typename D::Coord const*, arity> x;
+  std::array<typename D::Deriv const*, arity> v;
 
   SINEW_HD void operator()(int e) const {
-    constexpr int arity = LawOf<D>::arity;
     typename D::Coord xs[arity];
     typename D::Deriv vs[arity], fs[arity];
     typename LawOf<D>::Tangent tangent;
     elements.gather(e, x, xs);
     if constexpr (LawOf<D>::usesVelocity) elements.gather(e, v, vs);
     law.force(elements.restOf(e), xs, vs, fs, tangent);
-    store_strided(tangent, elements.tangent + e, elements.count);
+    store_strided(tangent, elements.tangent, e, elements.count);
     elements.put(e, fs);
   }
 };
 
 template <template <class> class LawOf, class D>
 struct ElementDForce {
+  static constexpr int arity = LawOf<D>::arity;
   LawOf<D> law;
   DeviceElements<LawOf, D> elements;
-  typename D::Deriv const* dx;
+  std::array<typename D::Deriv const*, arity> dx;
   typename D::Real k, b;
 
   SINEW_HD void operator()(int e) const {
-    constexpr int arity = LawOf<D>::arity;
     typename D::Deriv dxs[arity], dfs[arity];
     elements.gather(e, dx, dxs);
     law.dforce(elements.restOf(e), elements.tangentOf(e), dxs, dfs, k, b);
@@ -96,23 +103,17 @@ struct ElementDForce {
   }
 };
 
-/// sums[t] = energy of elements t, t + threads, t + 2 threads, ...
 template <template <class> class LawOf, class D>
 struct ElementEnergy {
+  static constexpr int arity = LawOf<D>::arity;
   LawOf<D> law;
   DeviceElements<LawOf, D> elements;
-  typename D::Coord const* x;
-  int threads;
-  double* sums;
+  std::array<typename D::Coord const*, arity> x;
 
-  SINEW_HD void operator()(int t) const {
-    double sum = 0;
-    for (std::ptrdiff_t e = t; e < elements.count; e += threads) {
-      typename D::Coord xs[LawOf<D>::arity];
-      elements.gather(int(e), x, xs);
-      sum += double(law.energy(elements.restOf(int(e)), xs));
-    }
-    sums[t] = sum;
+  SINEW_HD double operator()(int e) const {
+    typename D::Coord xs[arity];
+    elements.gather(e, x, xs);
+    return double(law.energy(elements.restOf(e), xs));
   }
 };
 

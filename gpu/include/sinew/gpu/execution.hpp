@@ -1,35 +1,174 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/error.hpp>
 #include <sinew/core/platform.hpp>
 
+#include <thrust/copy.h>
+#include <thrust/device_free.h>
+#include <thrust/device_malloc.h>
 #include <thrust/execution_policy.h>
 #include <thrust/for_each.h>
 #include <thrust/iterator/counting_iterator.h>
 
+#include <algorithm>
 #include <cstddef>
+#include <new>
+#include <utility>
 
 #if THRUST_DEVICE_SYSTEM == THRUST_DEVICE_SYSTEM_CUDA
 #include <thrust/system/cuda/execution_policy.h>
+#define SINEW_CUDA 1
+#else
+#define SINEW_CUDA 0
 #endif
 
 namespace sinew::gpu {
 
+#if SINEW_CUDA
+/// Throws Error where a call of CUDA fails: what was asked for, and what CUDA says.
+inline void check(cudaError_t code, char const* what) {
+  if (code == cudaSuccess) return;
+  cudaGetLastError();  // the next call starts afresh
+  if (code == cudaErrorNoDevice || code == cudaErrorInsufficientDriver)
+    throw Error(what,
+                "there is no GPU that this program can use; run it on a machine with one and its driver, or "
+                "take DataTypes of the processor, such as Vec3f for CudaVec3f");
+  throw Error(what, text("the GPU says: ", cudaGetErrorString(code)));
+}
+/// The stream on which all work of the calling thread is queued: in order, waited for by the first copy to
+/// the host. Another may be set to record work as a graph.
+inline cudaStream_t& stream() {
+  static thread_local cudaStream_t current = [] {
+    cudaStream_t made = nullptr;
+    check(cudaStreamCreateWithFlags(&made, cudaStreamNonBlocking), "Sinew on a GPU");
+    return made;
+  }();
+  return current;
+}
+#endif
+
 /// Where Sinew's device work runs: Thrust's device system, which is chosen by -DTHRUST_DEVICE_SYSTEM (CUDA
-/// under nvcc; CPP or OMP elsewhere). On CUDA work is queued, runs in order, and is waited for by the first
-/// copy to the host.
+/// under nvcc; CPP or OMP elsewhere).
 inline auto queue() {
-#if THRUST_DEVICE_SYSTEM == THRUST_DEVICE_SYSTEM_CUDA
-  return thrust::cuda::par_nosync;
+#if SINEW_CUDA
+  return thrust::cuda::par_nosync.on(stream());
 #else
   return thrust::device;
 #endif
 }
 
+/// Waits until all that is queued is done. Throws Error where something of it failed.
+inline void wait() {
+#if SINEW_CUDA
+  check(cudaStreamSynchronize(stream()), "Sinew on a GPU");
+#endif
+}
+
+/// Whether work is being recorded as a graph instead of being done: nothing may ask for its results.
+inline bool& recording() {
+  static thread_local bool now = false;
+  return now;
+}
+
 /// body(i) for i = 0 .. count - 1, one thread each. `body` is an object whose operator() is SINEW_HD.
 template <class Body>
 void for_each_index(std::size_t count, Body const& body) {
-  thrust::for_each_n(queue(), thrust::counting_iterator<int>(0), int(count), body);
+  if (count != 0) thrust::for_each_n(queue(), thrust::counting_iterator<int>(0), int(count), body);
 }
+
+/// *to += *from
+struct AddTo {
+  double* to;
+  double const* from;
+  SINEW_HD void operator()(int) const { *to += *from; }
+};
+
+template <class T>
+void copy_to_device(T* to, T const* from, std::size_t n) {
+  if (n == 0) return;
+#if SINEW_CUDA
+  check(cudaMemcpyAsync(to, from, n * sizeof(T), cudaMemcpyHostToDevice, stream()), "copy to the GPU");
+  wait();
+#else
+  std::copy_n(from, n, to);
+#endif
+}
+template <class T>
+void copy_to_host(T* to, T const* from, std::size_t n) {
+  if (n == 0) return;
+#if SINEW_CUDA
+  check(cudaMemcpyAsync(to, from, n * sizeof(T), cudaMemcpyDeviceToHost, stream()), "copy from the GPU");
+  wait();
+#else
+  std::copy_n(from, n, to);
+#endif
+}
+template <class T>
+void copy_on_device(T* to, T const* from, std::size_t n) {
+  if (n == 0) return;
+#if SINEW_CUDA
+  check(cudaMemcpyAsync(to, from, n * sizeof(T), cudaMemcpyDeviceToDevice, stream()), "copy on the GPU");
+#else
+  std::copy_n(from, n, to);
+#endif
+}
+
+/// Memory of the device, not initialised; T holds nothing but numbers. It grows, and stays when it shrinks.
+template <class T>
+class DeviceArray {
+ public:
+  DeviceArray() = default;
+  DeviceArray(DeviceArray const&) = delete;
+  DeviceArray(DeviceArray&& other) noexcept { *this = std::move(other); }
+  DeviceArray& operator=(DeviceArray&& other) noexcept {
+    std::swap(data_, other.data_);
+    std::swap(capacity_, other.capacity_);
+    return *this;
+  }
+  ~DeviceArray() { free(); }
+
+  /// Throws Error where the device has no such memory; what was there stays.
+  void resize(std::size_t n) {
+    if (n <= capacity_) return;
+#if SINEW_CUDA
+    T* made = nullptr;
+    const cudaError_t code = cudaMalloc(reinterpret_cast<void**>(&made), n * sizeof(T));
+    if (code == cudaErrorMemoryAllocation) {
+      std::size_t left = 0, all = 0;
+      cudaGetLastError();
+      cudaMemGetInfo(&left, &all);
+      throw Error("memory of the GPU",
+                  text(n * sizeof(T) >> 20,
+                       " MiB are needed, ",
+                       left >> 20,
+                       " of ",
+                       all >> 20,
+                       " MiB are free; make the body smaller, or take CudaVec3f for CudaVec3d"));
+    }
+    check(code, "memory of the GPU");
+#else
+    T* const made = static_cast<T*>(::operator new(n * sizeof(T), std::align_val_t(64)));
+#endif
+    free();
+    data_ = made;
+    capacity_ = n;
+  }
+  T* data() const { return data_; }
+
+ private:
+  T* data_ = nullptr;
+  std::size_t capacity_ = 0;
+
+  void free() {
+    if (!data_) return;
+#if SINEW_CUDA
+    cudaFree(data_);
+#else
+    ::operator delete(data_, std::align_val_t(64));
+#endif
+    data_ = nullptr;
+  }
+};
 
 }  // namespace sinew::gpu

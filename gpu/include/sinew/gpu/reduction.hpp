@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/gpu/execution.hpp>
+
+#include <cstddef>
+
+namespace sinew::gpu {
+
+/// Room for sums that are being made; one a thread of the host.
+struct SumRoom {
+  static constexpr unsigned threads = 256, blocks = 264;
+  DeviceArray<double> parts{};     // one a block, and behind them the sum for the host
+  DeviceArray<unsigned> counts{};  // blocks that are done; 0 between sums
+};
+inline SumRoom& sum_room() {
+  static thread_local SumRoom room;
+  if (!room.parts.data()) {
+    room.parts.resize(SumRoom::blocks + 1);
+    room.counts.resize(1);
+    const unsigned none = 0;
+    copy_to_device(room.counts.data(), &none, 1);
+  }
+  return room;
+}
+
+#if SINEW_CUDA
+namespace detail {
+
+/// The sum of one value a thread, in the same order whenever the block has the same size; valid in thread 0.
+__device__ inline double block_sum(double value) {
+  __shared__ double ofWarp[SumRoom::threads / 32];
+  for (int offset = 16; offset > 0; offset /= 2) value += __shfl_down_sync(0xffffffffu, value, offset);
+  __syncthreads();
+  if (threadIdx.x % 32 == 0) ofWarp[threadIdx.x / 32] = value;
+  __syncthreads();
+  double sum = 0;
+  if (threadIdx.x == 0)
+    for (unsigned w = 0; w < SumRoom::threads / 32; ++w) sum += ofWarp[w];
+  return sum;
+}
+
+/// The last block that is done adds up what all have found.
+template <class Term>
+__global__ void __launch_bounds__(SumRoom::threads)
+    sum_kernel(unsigned count, Term term, double* parts, unsigned* done, double* to) {
+  double sum = 0;
+  for (unsigned i = blockIdx.x * blockDim.x + threadIdx.x; i < count; i += gridDim.x * blockDim.x)
+    sum += term(int(i));
+  sum = block_sum(sum);
+  __shared__ bool last;
+  if (threadIdx.x == 0) {
+    parts[blockIdx.x] = sum;
+    __threadfence();
+    last = atomicAdd(done, 1u) == gridDim.x - 1;
+  }
+  __syncthreads();
+  if (!last) return;
+  __threadfence();
+  double all = 0;
+  for (unsigned b = threadIdx.x; b < gridDim.x; b += blockDim.x) all += __ldcg(parts + b);
+  all = block_sum(all);
+  if (threadIdx.x == 0) {
+    *to = all;
+    *done = 0;
+  }
+}
+
+}  // namespace detail
+#endif
+
+/// *to = the sum of term(i) for i = 0 .. count - 1; `to` is on the device, term(i) is called once for each i
+/// and may write. The order of the sum depends on `count` alone.
+template <class Term>
+void sum_indices(std::size_t count, Term const& term, double* to) {
+#if SINEW_CUDA
+  SumRoom& room = sum_room();
+  const unsigned needed = unsigned((count + SumRoom::threads - 1) / SumRoom::threads);
+  const unsigned blocks = std::max(1u, std::min(SumRoom::blocks, needed));
+  detail::sum_kernel<<<blocks, SumRoom::threads, 0, stream()>>>(
+      unsigned(count), term, room.parts.data(), room.counts.data(), to);
+  check(cudaGetLastError(), "a sum on the GPU");
+#else
+  double sum = 0;
+  for (std::size_t i = 0; i < count; ++i) sum += term(int(i));
+  *to = sum;
+#endif
+}
+/// The same, brought to the host, which waits for it.
+template <class Term>
+double sum_on_host(std::size_t count, Term const& term) {
+  double* const room = sum_room().parts.data() + SumRoom::blocks;
+  sum_indices(count, term, room);
+  double sum = 0;
+  copy_to_host(&sum, room, 1);
+  return sum;
+}
+
+}  // namespace sinew::gpu

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/component.hpp>
+#include <sinew/gpu/data_types.hpp>
+#include <sinew/gpu/reduction.hpp>
+#include <sinew/state/vector_operations.hpp>
+
+namespace sinew {
+
+namespace gpu {
+
+/// The numbers of one solve by conjugate gradients, on the device: r.r at the start and after each iteration,
+/// and the curvatures p.Ap. An iteration i that has nothing left to do changes nothing: its step is 0.
+struct CgScalars {
+  double* rho;
+  double* curvature;
+  double tolerance2, threshold;
+
+  SINEW_INLINE bool goesOn(int i) const {
+    return rho[i] > tolerance2 * rho[0] && (curvature[i] > threshold || curvature[i] < -threshold);
+  }
+  SINEW_INLINE double alpha(int i) const { return goesOn(i) ? rho[i] / curvature[i] : 0; }
+  SINEW_INLINE double beta(int i) const { return rho[i + 1] / rho[i]; }
+};
+
+template <class Operations, class Solver, class MultiVec>
+void conjugate_gradients(Operations&, Solver&, MatrixFactors, MultiVec&, MultiVec&, DeviceVector<double>&);
+
+}  // namespace gpu
+
+/// Vectors of states on the device: one thread a scalar, or a point.
+template <class H>
+struct VectorOperations<CudaTypes<H>> {
+  using D = CudaTypes<H>;
+  using Real = typename D::Real;
+  using Coord = typename D::Coord;
+  using Deriv = typename D::Deriv;
+  using VecCoord = typename D::VecCoord;
+  using VecDeriv = typename D::VecDeriv;
+
+  template <class Run>
+  static void clear(Run const&, VecDeriv& r) {
+    Real* const to = overwritten(r);
+    gpu::for_each_index(scalars(r), [=] SINEW_HD(int i) { to[i] = Real(0); });
+  }
+  template <class Run, class V>
+  static void eq(Run const&, V& r, V const& a) {
+    gpu::copy_on_device(r.overwrite(), a.device(), a.size());
+  }
+  static void eq(VecDeriv& r, VecDeriv const& a, Real f) {
+    Real const* const from = flat(a);
+    Real* const to = &r == &a ? flat(r) : overwritten(r);
+    gpu::for_each_index(scalars(r), [=] SINEW_HD(int i) { to[i] = f * from[i]; });
+  }
+  template <class Run>
+  static void peq(Run const&, VecDeriv& r, VecDeriv const& a, Real f) {
+    Real const* const from = flat(a);
+    Real* const to = flat(r);
+    gpu::for_each_index(scalars(r), [=] SINEW_HD(int i) { to[i] += f * from[i]; });
+  }
+  static void move(VecCoord& x, VecDeriv const& a, Real f) {
+    Deriv const* const from = a.device();
+    Coord* const to = x.device();
+    gpu::for_each_index(x.size(), [=] SINEW_HD(int i) { D::increment(to[i], Deriv(f * from[i])); });
+  }
+  static void teq(VecDeriv& r, Real f) {
+    Real* const to = flat(r);
+    gpu::for_each_index(scalars(r), [=] SINEW_HD(int i) { to[i] *= f; });
+  }
+  template <class Run>
+  static double dot(Run const&, VecDeriv const& a, VecDeriv const& b) {
+    return gpu::sum_on_host(scalars(a), product(a, b));
+  }
+  template <class Run>
+  static void turn(Run const&, VecDeriv& r, VecDeriv const& a, Real f) {
+    Real const* const from = flat(a);
+    Real* const to = flat(r);
+    gpu::for_each_index(scalars(r), [=] SINEW_HD(int i) { to[i] = from[i] + f * to[i]; });
+  }
+  template <class Run>
+  static double advance(Run const&, VecDeriv& x, VecDeriv const& p, VecDeriv& r, VecDeriv const& q, Real f) {
+    Real *const xs = flat(x), *const rs = flat(r);
+    Real const *const ps = flat(p), *const qs = flat(q);
+    return gpu::sum_on_host(scalars(x), [=] SINEW_HD(int i) {
+      xs[i] += f * ps[i];
+      const Real left = rs[i] - f * qs[i];
+      rs[i] = left;
+      return double(left) * double(left);
+    });
+  }
+  static void chartRate(VecDeriv& rate, VecDeriv const& theta, VecDeriv const& v) {
+    Deriv* const to = rate.device();
+    Deriv const *const angle = theta.device(), *const velocity = v.device();
+    gpu::for_each_index(rate.size(), [=] SINEW_HD(int i) { to[i] = D::chart_rate(angle[i], velocity[i]); });
+  }
+  static int findNotFinite(VecCoord const& x) {
+    if (gpu::recording()) return -1;
+    Coord const* const at = x.device();
+    const double wrong = gpu::sum_on_host(x.size(), [=] SINEW_HD(int i) {
+      constexpr int n = int(sizeof(Coord) / sizeof(Real));
+      Real const* const c = reinterpret_cast<Real const*>(at + i);
+      bool finite = true;
+      for (int k = 0; k < n; ++k) finite = finite && c[k] - c[k] == Real(0);
+      return finite ? 0.0 : 1.0;
+    });
+    if (wrong == 0) return -1;
+    for (std::size_t i = 0; i < x.size(); ++i)
+      if (!D::finite(x[i])) return int(i);
+    return -1;
+  }
+
+  // conjugate gradients whose numbers stay on the device
+
+  static void dot(VecDeriv const& a, VecDeriv const& b, double* to) {
+    gpu::sum_indices(scalars(a), product(a, b), to);
+  }
+  /// x += alpha p, r -= alpha q of iteration i; *to = r.r.
+  static void advance(VecDeriv& x, VecDeriv const& p, VecDeriv& r, VecDeriv const& q, gpu::CgScalars const& s,
+                      int i, double* to) {
+    Real *const xs = flat(x), *const rs = flat(r);
+    Real const *const ps = flat(p), *const qs = flat(q);
+    gpu::sum_indices(
+        scalars(x),
+        [=] SINEW_HD(int k) {
+          const Real f = Real(s.alpha(i));
+          xs[k] += f * ps[k];
+          const Real left = rs[k] - f * qs[k];
+          rs[k] = left;
+          return double(left) * double(left);
+        },
+        to);
+  }
+  /// p = r + beta p of iteration i
+  static void turn(VecDeriv& p, VecDeriv const& r, gpu::CgScalars const& s, int i) {
+    Real const* const from = flat(r);
+    Real* const to = flat(p);
+    gpu::for_each_index(scalars(p), [=] SINEW_HD(int k) {
+      if (s.goesOn(i)) to[k] = from[k] + Real(s.beta(i)) * to[k];
+    });
+  }
+
+  /// Solves with conjugate gradients on the device, if all states below the solver are there.
+  template <class Solver, class Operations, class MultiVec>
+  static bool solve(Solver& solver, Operations& operations, MatrixFactors factors, MultiVec& x, MultiVec& b,
+                    gpu::DeviceVector<double>& numbers) {
+    bool all = true;
+    operations.forEachIndependent(
+        [&](auto& s) { all = all && OnDevice<typename std::decay_t<decltype(s)>::DataTypes>; });
+    if (all) gpu::conjugate_gradients(operations, solver, factors, x, b, numbers);
+    return all;
+  }
+
+  static std::size_t scalars(VecDeriv const& v) { return v.size() * std::size_t(D::size); }
+  static Real* flat(VecDeriv& v) { return reinterpret_cast<Real*>(v.device()); }
+  static Real const* flat(VecDeriv const& v) { return reinterpret_cast<Real const*>(v.device()); }
+  static Real* overwritten(VecDeriv& v) { return reinterpret_cast<Real*>(v.overwrite()); }
+  static auto product(VecDeriv const& a, VecDeriv const& b) { return Product{flat(a), flat(b)}; }
+  struct Product {
+    Real const *a, *b;
+    SINEW_HD double operator()(int i) const { return double(a[i]) * double(b[i]); }
+  };
+};
+
+}  // namespace sinew

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "scenes_grid.hpp"
+
+#include "same_as_host.hpp"
+
+using namespace gpu_test;
+
+TEST_CASE("hexahedra bend on the device as on the host") { same_as_host<HexahedraBar, Vec3d>(1e-10); }
+TEST_CASE("a grid of springs falls on a plane on the device as on the host") {
+  same_as_host<GridOnPlane, Vec3d>(1e-10);
+}

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/error.hpp>
+#include <sinew/mapping/mapped_loops.hpp>
+
+#include <limits>
+#include <vector>
+
+namespace sinew {
+
+/// A mapping in which each point of the child is a weighted sum of points of the parent,
+///   x_i = sum_k w_ik X_k      F_k += sum_i w_ik f_i
+/// as compressed rows both ways, children rising: the order of no sum depends on threads. For mappings with
+/// an end on a device.
+template <class In, class Out>
+struct PointWeights {
+  using Weight = typename In::Real;
+  using Loops = MappedLoops<In, Out>;
+  template <class T>
+  using Array = typename Loops::template Array<T>;
+  struct Rows {
+    Array<int> first{}, point{};
+    Array<Weight> weight{};  // empty: all are 1
+  };
+
+  Rows ofChild{}, ofParent{};
+  Loops loops{};
+
+  /// each(add) calls add(child, parent, weight) for all that is not 0, children rising.
+  template <class Each>
+  void init(std::size_t parents, std::size_t children, Each const& each) {
+    std::vector<int> below(children + 1, 0), above(parents + 1, 0), points, childOf;
+    std::vector<Weight> weights;
+    bool allOne = true;
+    each([&](std::size_t child, std::size_t parent, Weight w) {
+      ++below[child + 1];
+      ++above[parent + 1];
+      points.push_back(int(parent));
+      childOf.push_back(int(child));
+      weights.push_back(w);
+      allOne = allOne && w == Weight(1);
+    });
+    if (points.size() > std::size_t(std::numeric_limits<int>::max()))
+      throw Error("a mapping on a device",
+                  text(points.size(), " weights exceed the 2^31 - 1 numbers of an int; split the body"));
+    for (std::size_t i = 0; i < children; ++i) below[i + 1] += below[i];
+    for (std::size_t k = 0; k < parents; ++k) above[k + 1] += above[k];
+    std::vector<int> next(above.begin(), above.end() - 1), back(points.size());
+    std::vector<Weight> weightsBack(points.size());
+    for (std::size_t e = 0; e < points.size(); ++e) {
+      const auto at = std::size_t(next[std::size_t(points[e])]++);
+      back[at] = childOf[e];
+      weightsBack[at] = weights[e];
+    }
+    if (allOne) weights.clear(), weightsBack.clear();
+    ofChild = {std::move(below), std::move(points), std::move(weights)};
+    ofParent = {std::move(above), std::move(back), std::move(weightsBack)};
+    loops.init(parents, children);
+  }
+
+  void apply(typename Out::VecDeriv& out, typename In::VecDeriv const& in) const {
+    loops.down(out, in, [&](LoopSide side) { return viewOf<Interpolate>(ofChild, side); });
+  }
+  void applyJT(typename In::VecDeriv& in, typename Out::VecDeriv const& out) const {
+    loops.up(in, out, [&](LoopSide side) { return viewOf<Gather>(ofParent, side); });
+  }
+
+  // what loops do
+
+  struct View {
+    int const *first, *point;
+    Weight const* weight;  // null: all are 1
+  };
+  struct Interpolate : View {
+    SINEW_HD typename Out::Deriv operator()(typename In::Deriv const* from, int i) const {
+      typename In::Deriv sum = In::Deriv::Zero();
+      for (int e = this->first[i]; e < this->first[i + 1]; ++e) {
+        typename In::Deriv const& x = from[this->point[e]];
+        sum += this->weight ? typename In::Deriv(this->weight[e] * x) : x;
+      }
+      return sum.template cast<typename Out::Real>();
+    }
+  };
+  struct Gather : View {
+    SINEW_HD typename In::Deriv operator()(typename Out::Deriv const* from, int k,
+                                           typename In::Deriv sum) const {
+      for (int e = this->first[k]; e < this->first[k + 1]; ++e) {
+        const typename In::Deriv f = from[this->point[e]].template cast<Weight>();
+        sum += this->weight ? typename In::Deriv(this->weight[e] * f) : f;
+      }
+      return sum;
+    }
+  };
+
+ private:
+  template <class V>
+  static V viewOf(Rows const& rows, LoopSide side) {
+    V view;
+    const bool device = side == LoopSide::device;
+    view.first = device ? entries(rows.first) : rows.first.data();
+    view.point = device ? entries(rows.point) : rows.point.data();
+    view.weight = rows.weight.empty() ? nullptr : device ? entries(rows.weight) : rows.weight.data();
+    return view;
+  }
+};
+/// None, for mappings of the host, which have their own loops.
+template <class In, class Out>
+requires(MappedLoops<In, Out>::onHost) struct PointWeights<In, Out> {
+};
+
+}  // namespace sinew
