@@ -155,12 +155,12 @@ struct RuntimeScope {
           [&](auto& s) { f(context<typename std::decay_t<decltype(s)>::DataTypes>()); });
   }
 
-  template <class F, class... Roles>
-  void forEachComponent(RoleVisitor<F, Roles...>& visitor) const {
+  template <class F, class... Roles, class... Args>
+  void forEachComponent(RoleVisitor<F, Roles...> const& visitor, Args const&... args) const {
+    const auto f = [&](auto& component) { visitor.f(component, args...); };
     if (profile) [[unlikely]]
-      return forEachTimed(AnyComponent<R>::template visits<Roles...>(visitor.f),
-                          AnyComponent<R>::address_of(visitor.f));
-    for (auto& entry : node.components()) entry.component.template visit<Roles...>(visitor.f);
+      return forEachTimed(AnyComponent<R>::template visits<Roles...>(f), AnyComponent<R>::address_of(f));
+    for (auto& entry : node.components()) entry.component.template visit<Roles...>(f);
   }
   Span span(Phase phase) const { return {profile, phase}; }
   Span visit(RuntimeEntry<R>& entry) const {
@@ -169,11 +169,11 @@ struct RuntimeScope {
       entry.profiled = profile->add(text(path(), '/', entry.name), entry.component.name());
     return {profile, {profile, -1 - entry.profiled.number}};
   }
-  template <class F>
+  template <class... Roles, class F>
   void forEachChild(F&& f) const {
     for (auto const& child : node.children()) f(RuntimeScope(*child, false, profile));
   }
-  template <class F>
+  template <class... Roles, class F>
   void forEachChildReversed(F&& f) const {
     auto const& children = node.children();
     for (auto child = children.rbegin(); child != children.rend(); ++child)

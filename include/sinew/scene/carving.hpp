@@ -29,26 +29,6 @@ inline std::string path_from(std::string_view where, std::string_view path) {
   return at;
 }
 
-namespace detail {
-
-/// Whether there may be a component of a role below a scope.
-template <class Role, class S>
-constexpr bool has_role_below();
-template <class Role, class S, class Name, class... Cs, class... Ns>
-constexpr bool has_role_below(std::type_identity<Node<Name, hana::tuple<Cs...>, hana::tuple<Ns...>>>) {
-  return (false || ... || HasRole<Cs, Role>) ||
-         (false || ... || has_role_below<Role, typename ScopeOf<Ns, S>::type>());
-}
-template <class Role, class S>
-constexpr bool has_role_below() {
-  if constexpr (requires { S::provedAtInit; })
-    return true;
-  else
-    return has_role_below<Role, S>(std::type_identity<typename S::NodeType>{});
-}
-
-}  // namespace detail
-
 /// What is to be removed from the topology of the node at a path from the root.
 struct Carved {
   std::string path{};

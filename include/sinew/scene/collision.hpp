@@ -189,7 +189,8 @@ struct Collision {
     });
     scope.forEachComponent(visit);
     if constexpr (!S::template always<role::OdeSolver>)
-      if (!solved) scope.forEachChild([&](auto const& child) { forEachSolver(child, f); });
+      if (!solved)
+        scope.template forEachChild<role::OdeSolver>([&](auto const& child) { forEachSolver(child, f); });
   }
 
   template <class R, class C>

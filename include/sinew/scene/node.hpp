@@ -7,8 +7,10 @@
 #include <boost/hana/at.hpp>
 #include <boost/hana/bool.hpp>
 #include <boost/hana/filter.hpp>
-#include <boost/hana/for_each.hpp>
 #include <boost/hana/tuple.hpp>
+#include <boost/hana/unpack.hpp>
+
+#include <array>
 #include <type_traits>
 #include <utility>
 
@@ -35,6 +37,8 @@ RoleVisitor<F, Roles...> on(F f) {
 }
 /// Stands for all roles: on<AnyRole>(f).
 struct AnyRole;
+/// Stands for no component: for what runtime nodes alone have to do.
+struct NoRole;
 /// Stands for all components that act before a step, whatever their roles.
 struct BeforeStep;
 /// Stands for all components that have a reset(), whatever their roles.
@@ -46,17 +50,29 @@ inline constexpr bool has_any_role = ((std::is_same_v<typename C::Role, Roles> |
                                        (std::is_same_v<Roles, WithReset> && Resettable<C>)) ||
                                       ...);
 
-/// A node of a typed scene: plain data, composed by node<"name">(...).
-template <class Name, class Components, class Children>
-struct Node;
+/// Whether there may be a component with one of the roles in a subtree; runtime nodes may hold any.
+template <class N, class... Roles>
+constexpr bool holds() {
+  if constexpr (requires { N::template holds<Roles...>; })
+    return N::template holds<Roles...>;
+  else
+    return true;
+}
 
-template <class Name, class... Cs, class... Ns>
-struct Node<Name, hana::tuple<Cs...>, hana::tuple<Ns...>> {
-  static constexpr auto name = Name::value;
+/// What is in a node of a typed scene. Nodes that differ by their names alone share it, and with it all that
+/// the compiler makes of it.
+template <class Components, class Children>
+struct NodeParts;
+
+template <class... Cs, class... Ns>
+struct NodeParts<hana::tuple<Cs...>, hana::tuple<Ns...>> {
   static constexpr int childCount = int(sizeof...(Ns));
 
   hana::tuple<Cs...> components;
   hana::tuple<Ns...> children;
+
+  template <class... Roles>
+  static constexpr bool holds = (has_any_role<Cs, Roles...> || ...) || (sinew::holds<Ns, Roles...>() || ...);
 
   template <std::size_t I>
   using Child = std::decay_t<decltype(hana::at_c<I>(std::declval<hana::tuple<Ns...>&>()))>;
@@ -88,17 +104,13 @@ struct Node<Name, hana::tuple<Cs...>, hana::tuple<Ns...>> {
     return ((childIndex(Ns::name.view()) == i++) && ...);
   }
 
-  /// f(component) for those with one of the roles of a RoleVisitor, in their order.
-  template <class... Roles, class F>
-  void forEachComponent(RoleVisitor<F, Roles...>& visitor) {
+  /// f(component, args...) for those with one of the roles of a RoleVisitor, in their order.
+  template <class... Roles, class F, class... Args>
+  void forEachComponent(RoleVisitor<F, Roles...> const& visitor, Args const&... args) {
     [&]<std::size_t... I>(std::index_sequence<I...>) {
-      (
-          [&] {
-            if constexpr (has_any_role<Cs, Roles...>) visitor.f(hana::at_c<I>(components));
-          }(),
-          ...);
+      (visitor.f(hana::at_c<which<Roles...>[I]>(components), args...), ...);
     }
-    (std::index_sequence_for<Cs...>{});
+    (std::make_index_sequence<which<Roles...>.size()>{});
   }
 
   template <class R>
@@ -127,6 +139,23 @@ struct Node<Name, hana::tuple<Cs...>, hana::tuple<Ns...>> {
                   "that made the scene.");
     return hana::at_c<std::size_t(i)>(components);
   }
+
+ private:
+  // where the components with one of the roles stand
+  template <class... Roles>
+  static constexpr auto which = [] {
+    std::array<std::size_t, (0 + ... + int(has_any_role<Cs, Roles...>))> places{};
+    std::size_t i = 0, found = 0;
+    ((has_any_role<Cs, Roles...> ? void(places[found++] = i) : void(), ++i), ...);
+    return places;
+  }();
+};
+
+/// A node of a typed scene: plain data, composed by node<"name">(...).
+template <class Name, class Components, class Children>
+struct Node : NodeParts<Components, Children> {
+  using Parts = NodeParts<Components, Children>;
+  static constexpr auto name = Name::value;
 };
 
 /// What may be a child of a typed node: typed nodes, and the runtime nodes of runtime/node.hpp.
@@ -157,7 +186,7 @@ auto node(Parts... parts) {
     static_assert(
         Result::childNamesDiffer(),
         "Sinew: two children of a node have the same name; a path could not tell them apart. Rename one.");
-    return Result{std::move(components), std::move(children)};
+    return Result{{std::move(components), std::move(children)}};
   }
 }
 

@@ -66,6 +66,14 @@ struct ScopeOf {
   using type = Scope<N, A>;
 };
 
+/// The same for traversals: without the child's name, so that equal nodes are seen by one type. Profiles keep
+/// names, by which they tell nodes apart.
+template <class N, class A>
+struct ScopeBelow : ScopeOf<N, A> {};
+template <class Name, class Components, class Children, class A>
+  requires(!A::profiled)
+struct ScopeBelow<Node<Name, Components, Children>, A> : ScopeOf<NodeParts<Components, Children>, A> {};
+
 /// A node of a typed scene seen from the path that leads to it. All traversals, operations and solvers know a
 /// tree through these members only (RuntimeScope has the same); every choice here is made by the compiler.
 template <class N, class A>
@@ -98,7 +106,21 @@ struct Scope {
     else
       return false;
   }
-  std::string path() const { return text(above.path(), '/', N::name.view()); }
+  std::string path() const {
+    if constexpr (requires { N::name; })
+      return text(above.path(), '/', N::name.view());
+    else
+      return text(above.path(), '/', above.nameOf(node));
+  }
+  /// The name of a child of this node.
+  template <class Child>
+  std::string_view nameOf(Child const& child) const {
+    std::string_view name;
+    hana::unpack(node.children, [&](auto const&... c) {
+      ((static_cast<void const*>(&c) == &child ? void(name = c.name.view()) : void()), ...);
+    });
+    return name;
+  }
 
   Eigen::Vector3d gravity() const {
     if constexpr (always<role::Context>)
@@ -178,17 +200,16 @@ struct Scope {
     }
   }
 
-  template <class F, class... Roles>
-  void forEachComponent(RoleVisitor<F, Roles...>& visitor) const {
-    if constexpr (profiled) {
-      auto timed = on<Roles...>([&](auto& component) {
+  /// f(component, args...) for those with one of the roles of a RoleVisitor.
+  template <class F, class... Roles, class... Args>
+  void forEachComponent(RoleVisitor<F, Roles...> const& visitor, Args const&... args) const {
+    if constexpr (profiled)
+      node.forEachComponent(on<Roles...>([&](auto& component) {
         const auto span = visit(*this, component);
-        visitor.f(component);
-      });
-      node.forEachComponent(timed);
-    } else {
-      node.forEachComponent(visitor);
-    }
+        visitor.f(component, args...);
+      }));
+    else
+      node.forEachComponent(visitor, args...);
   }
   /// Times a phase, or what is done with a component of a scope, while the result lives, if the scene is
   /// profiled.
@@ -198,28 +219,22 @@ struct Scope {
   auto visit(S const& scope, C const& component) const {
     return above.visit(scope, component);
   }
-  template <class F>
+  /// f(scope) for each child, or for each below which a component with one of the roles may be.
+  template <class... Roles, class F>
   void forEachChild(F&& f) const {
-    hana::for_each(node.children, [&](auto& child) {
-      f(typename ScopeOf<std::decay_t<decltype(child)>, Scope>::type{child, *this});
-    });
+    hana::unpack(node.children, [&](auto&... child) { (visitChild<Roles...>(f, child), ...); });
   }
   /// The same from the last to the first.
-  template <class F>
+  template <class... Roles, class F>
   void forEachChildReversed(F&& f) const {
     [&]<std::size_t... I>(std::index_sequence<I...>) {
-      (
-          [&] {
-            auto& child = hana::at_c<sizeof...(I) - 1 - I>(node.children);
-            f(typename ScopeOf<std::decay_t<decltype(child)>, Scope>::type{child, *this});
-          }(),
-          ...);
+      (visitChild<Roles...>(f, hana::at_c<sizeof...(I) - 1 - I>(node.children)), ...);
     }
     (std::make_index_sequence<std::size_t(N::childCount)>{});
   }
   /// What the compiler could not prove is checked at init: that of runtime nodes.
   void check() const {
-    forEachChild([](auto const& child) { child.check(); });
+    forEachChild<NoRole>([](auto const& child) { child.check(); });
   }
   /// Runs a part of init that concerns one component, unless that is initialised already (`again`) and
   /// nothing around it has changed. settled() ends the init.
@@ -234,10 +249,10 @@ struct Scope {
   }
   /// Throws what init of runtime nodes has found wrong so far, all at once.
   void raise() const {
-    forEachChild([](auto const& child) { child.raise(); });
+    forEachChild<NoRole>([](auto const& child) { child.raise(); });
   }
   void settled() const {
-    forEachChild([](auto const& child) { child.settled(); });
+    forEachChild<NoRole>([](auto const& child) { child.settled(); });
   }
 
   /// f(mass) for that of the state in this node, if it has one.
@@ -312,8 +327,7 @@ struct Scope {
     } else {
       constexpr int i = N::childIndex(detail::first_name(Path.view()));
       auto& child = hana::at_c<std::size_t(i)>(node.children);
-      return typename ScopeOf<std::decay_t<decltype(child)>, Scope>::type{child, *this}
-          .template descend<detail::rest_of_path<Path>()>(f);
+      return below(child).template descend<detail::rest_of_path<Path>()>(f);
     }
   }
   /// f(scope of the first end, scope of the second) of an interaction in this node.
@@ -349,6 +363,14 @@ struct Scope {
   }
 
  private:
+  template <class Child>
+  auto below(Child& child) const {
+    return typename ScopeBelow<Child, Scope>::type{child, *this};
+  }
+  template <class... Roles, class F, class Child>
+  void visitChild(F& f, Child& child) const {
+    if constexpr (sizeof...(Roles) == 0 || holds<Child, Roles...>()) f(below(child));
+  }
   template <class M, class F, class... Found>
   void withParentDofs(M const& mapping, F&& f, Parents<>, Found const&... found) const {
     f(MultiMappedDofs<M, Found...>{mapping, {found...}});
@@ -366,16 +388,14 @@ struct Scope {
 /// traverse(scope, on<role::Mass>([](auto& mass, auto const& scope) {...})).
 template <class S, class F, class... Roles>
 void traverse(S const& scope, RoleVisitor<F, Roles...> const& visitor) {
-  auto visit = on<Roles...>([&](auto& component) { visitor.f(component, scope); });
-  scope.forEachComponent(visit);
-  scope.forEachChild([&](auto const& child) { traverse(child, visitor); });
+  scope.forEachComponent(visitor, scope);
+  scope.template forEachChild<Roles...>([&](auto const& child) { traverse(child, visitor); });
 }
 /// The same on the way back: nodes in the reverse order.
 template <class S, class F, class... Roles>
 void traverse_back(S const& scope, RoleVisitor<F, Roles...> const& visitor) {
-  scope.forEachChildReversed([&](auto const& child) { traverse_back(child, visitor); });
-  auto visit = on<Roles...>([&](auto& component) { visitor.f(component, scope); });
-  scope.forEachComponent(visit);
+  scope.template forEachChildReversed<Roles...>([&](auto const& child) { traverse_back(child, visitor); });
+  scope.forEachComponent(visitor, scope);
 }
 
 }  // namespace sinew

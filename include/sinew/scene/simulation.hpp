@@ -145,7 +145,7 @@ class Simulation {
   bool initialised_ = false, visualsAreCurrent_ = false;
   static constexpr NoScope above_{};
   static constexpr bool collides = detail::primitive_kinds<RootScope>() != 0,
-                        carves = detail::has_role_below<role::Carving, RootScope>();
+                        carves = holds<Root, role::Carving>();
 
   static RootScope scopeOf(Root& root) {
     if constexpr (RootScope::profiled && requires { root.aboveRoot; })
@@ -282,7 +282,7 @@ class Simulation {
       });
     });
     scope.forEachComponent(visit);
-    scope.forEachChild([&](auto const& child) { initSolvers(child, again); });
+    scope.template forEachChild<role::OdeSolver>([&](auto const& child) { initSolvers(child, again); });
   }
 
   // f(interaction, a, b) with the states of the ends of each interaction that no solver sees
@@ -296,7 +296,8 @@ class Simulation {
             c, [&](auto const& a, auto const& b) { f(c, a.template state<D>(), b.template state<D>()); });
       });
       scope.forEachComponent(visit);
-      scope.forEachChild([&](auto const& child) { forEachLoose(child, f); });
+      scope.template forEachChild<role::InteractionForceField>(
+          [&](auto const& child) { forEachLoose(child, f); });
     }
   }
   // An interaction above the solvers of its ends is for each of them a force that stays as it is at the start
@@ -374,7 +375,7 @@ class Simulation {
     auto visit = on<BeforeStep>(
         [&](auto& c) { f(c, scope.template state<typename std::decay_t<decltype(c)>::DataTypes>(), ahead); });
     scope.forEachComponent(visit);
-    scope.forEachChild([&](auto const& child) { forEachAhead(child, ahead, f); });
+    scope.template forEachChild<BeforeStep>([&](auto const& child) { forEachAhead(child, ahead, f); });
   }
   void beginStep(RootScope const& scope, double dt) {
     [[maybe_unused]] const auto span = scope.span(Phase::beforeStep);
@@ -424,7 +425,7 @@ class Simulation {
     });
     scope.forEachComponent(visit);
     if constexpr (!S::template always<role::OdeSolver>)
-      if (!solved) scope.forEachChild([&](auto const& child) { integrate(child, dt); });
+      if (!solved) scope.template forEachChild<role::OdeSolver>([&](auto const& child) { integrate(child, dt); });
   }
 
   void endStep(RootScope const& scope, double dt) const {
