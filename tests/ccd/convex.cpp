@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+namespace test_convex {
+
 using namespace sinew;
 using simplex_pairs::sanitized;
 
@@ -375,3 +377,5 @@ TEST_CASE("a hull says what is wrong with its points", "[ccd]") {
   CHECK(hull.middle() == V(4. / 3, 0, 0));
   CHECK(hull.radius() == Approx(4. / 3));
 }
+
+}  // namespace test_convex

@@ -8,6 +8,8 @@
 #include "collision/contact_scene.hpp"
 #include "hulls.hpp"
 
+namespace test_hull_motion {
+
 using namespace sinew;
 using V = Eigen::Vector3d;
 
@@ -110,3 +112,5 @@ TEST_CASE("a runtime tree has hulls where its registry has them, to the same bit
            }));
   CHECK(std::abs(expected[1].center[2] - 1.58) > 1e-3);
 }
+
+}  // namespace test_hull_motion

@@ -7,6 +7,8 @@
 #include "collision/contact_scene.hpp"
 #include "hulls.hpp"
 
+namespace test_hull_pairs {
+
 using namespace sinew;
 using V = Eigen::Vector3d;
 
@@ -228,3 +230,5 @@ TEST_CASE("a hull without points, or with wrong ones, says so") {
   CHECK(says(message({.filename = {"no such file.obj"}}), "no such file.obj"));
   CHECK(says(message({.contactStiffness = -1, .points = {{0, 0, 0}}}), "contactStiffness"));
 }
+
+}  // namespace test_hull_pairs

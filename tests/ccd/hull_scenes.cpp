@@ -5,6 +5,8 @@
 #include "collision/contact_scene.hpp"
 #include "hulls.hpp"
 
+namespace test_hull_scenes {
+
 using namespace sinew;
 
 namespace {
@@ -194,3 +196,5 @@ TEST_CASE("a round can stands on 8 places of its rim") {
   CHECK(contacts >= 7);
   CHECK(contacts <= 16);  // 8 for each triangle of the floor
 }
+
+}  // namespace test_hull_scenes

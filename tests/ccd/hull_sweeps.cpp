@@ -8,6 +8,8 @@
 #include "collision/contact_scene.hpp"
 #include "hulls.hpp"
 
+namespace test_hull_sweeps {
+
 using namespace sinew;
 using V = Eigen::Vector3d;
 
@@ -115,3 +117,5 @@ TEST_CASE("two free hulls that fly at each other meet, and keep their momentum a
     CHECK(0.5 * (v0.head<3>().squaredNorm() + v1.head<3>().squaredNorm()) < energy);
   }
 }
+
+}  // namespace test_hull_sweeps

@@ -3,5 +3,5 @@
 
 #include <atomic>
 
-/// Calls of operator new so far, all that the tests of collision allocate (no_allocation.cpp).
+/// Calls of operator new so far, by which the tests of collision have all their memory.
 extern std::atomic<long> allocations;

@@ -7,6 +7,8 @@
 #include "collision/allocations.hpp"
 #include "contact_scene.hpp"
 
+namespace test_attach_no_allocation {
+
 using namespace sinew;
 
 TEST_CASE("neither a step in which something is pulled nor attaching, pulling and releasing allocate") {
@@ -43,3 +45,5 @@ TEST_CASE("neither a step in which something is pulled nor attaching, pulling an
   CHECK(allocations == before);
   CHECK(touched > 0);
 }
+
+}  // namespace test_attach_no_allocation

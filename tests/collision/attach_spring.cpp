@@ -7,6 +7,8 @@
 
 #include "contact_scene.hpp"
 
+namespace test_attach_spring {
+
 using namespace sinew;
 using Point = Eigen::Vector3d;
 
@@ -232,3 +234,5 @@ TEST_CASE("a mouse presses, moves in the plane that it faces, and releases") {
   CHECK(!mouse.release(sim));
   CHECK(sim.root().get<Contacts>().attachments.empty());
 }
+
+}  // namespace test_attach_spring

@@ -6,6 +6,8 @@
 
 #include <random>
 
+namespace test_axis_box {
+
 using namespace sinew;
 using Point = Eigen::Vector3d;
 
@@ -107,3 +109,5 @@ TEMPLATE_TEST_CASE("a packed box says what the box says", "", double, float) {
   CHECK_FALSE(none.overlaps(none, 1000));
   CHECK(none.halfArea() == 0);
 }
+
+}  // namespace test_axis_box

@@ -5,6 +5,8 @@
 #include "catch.hpp"
 #include "collision/moving_things.hpp"
 
+namespace test_bounding_tree {
+
 using namespace sinew;
 using namespace moving;
 
@@ -131,3 +133,5 @@ TEST_CASE("trees in single precision") {
   CHECK(sorted(found) == all_pairs(boxes, 0.01f));
   CHECK(found.size() > 100);
 }
+
+}  // namespace test_bounding_tree

@@ -5,6 +5,8 @@
 #include "catch.hpp"
 #include "collision/moving_things.hpp"
 
+namespace test_bounding_tree_input {
+
 using namespace sinew;
 using namespace moving;
 using Catch::Matchers::Contains;
@@ -136,3 +138,5 @@ TEST_CASE("what is not finite is an error, and the tree stays") {
              Contains("refit got 49 boxes, but the tree was built for 50; build it anew"));
   CHECK(reported_self(tree, 0) == before);
 }
+
+}  // namespace test_bounding_tree_input

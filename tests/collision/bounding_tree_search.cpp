@@ -7,6 +7,8 @@
 
 #include <optional>
 
+namespace test_bounding_tree_search {
+
 using namespace sinew;
 using namespace moving;
 
@@ -146,3 +148,5 @@ TEST_CASE("the nearest to a box") {
     REQUIRE(found.distance == expected.distance);
   }
 }
+
+}  // namespace test_bounding_tree_search

@@ -4,6 +4,8 @@
 #include "catch.hpp"
 #include "collision/moving_things.hpp"
 
+namespace test_broad_phase {
+
 using namespace sinew;
 using namespace moving;
 
@@ -91,3 +93,5 @@ TEST_CASE("pairs are sorted, few and many") {
     CHECK(pairs == expected);
   }
 }
+
+}  // namespace test_broad_phase

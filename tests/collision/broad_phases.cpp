@@ -7,6 +7,8 @@
 
 #include "catch.hpp"
 
+namespace test_broad_phases {
+
 using namespace sinew;
 
 TEST_CASE("the broad phases find the same pairs of moving models") {
@@ -48,3 +50,5 @@ TEST_CASE("the broad phases find the same pairs of moving models") {
     }
   }
 }
+
+}  // namespace test_broad_phases

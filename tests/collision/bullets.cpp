@@ -4,6 +4,8 @@
 
 #include "contact_scene.hpp"
 
+namespace test_bullets {
+
 using namespace sinew;
 
 namespace {
@@ -124,3 +126,5 @@ TEST_CASE("a tool that is driven through a ball within a step takes it along") {
   sim.animate(0.01);
   CHECK(sim.at<"ball">().state().position[0][0] > 2);
 }
+
+}  // namespace test_bullets

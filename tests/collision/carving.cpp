@@ -2,6 +2,8 @@
 // A ball that carves its way through a block.
 #include "carved_block.hpp"
 
+namespace test_carving {
+
 using namespace carving;
 
 TEST_CASE("a ball moves through a block, and takes out what it touches") {
@@ -146,3 +148,5 @@ TEST_CASE("a carving manager without a tool, or without something to carve, is r
           c.toolModel = "@/tool", c.surfaceModelPath = "./block/../block";
         }).empty());
 }
+
+}  // namespace test_carving

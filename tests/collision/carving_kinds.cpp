@@ -4,6 +4,8 @@
 
 #include "carved_block.hpp"
 
+namespace test_carving_kinds {
+
 using namespace carving;
 
 namespace {
@@ -153,3 +155,5 @@ TEST_CASE("contacts of what stays remember, and those of what has gone are dropp
   sim.animate(0.001);
   check_whole(sim);
 }
+
+}  // namespace test_carving_kinds

@@ -3,6 +3,8 @@
 // touched: nothing refers to what has gone, and what is left is as built afresh.
 #include "carved_block.hpp"
 
+namespace test_carving_random {
+
 using namespace carving;
 
 TEST_CASE("after thousands of removals at random nothing refers to what has gone") {
@@ -53,3 +55,5 @@ TEST_CASE("after thousands of removals at random nothing refers to what has gone
   CHECK(dropped > 50);
   CHECK(kept > 500);
 }
+
+}  // namespace test_carving_random

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <limits>
 
+namespace test_closest_points {
+
 using namespace sinew;
 using namespace simplex_pairs;
 
@@ -107,3 +109,5 @@ TEMPLATE_TEST_CASE("closest points of random pairs are nearest, to rounding", "[
   check<TestType, 3, 2>(manyPairs / 10, 100);
   check<TestType, 3, 3>(manyPairs, 100);
 }
+
+}  // namespace test_closest_points

@@ -4,6 +4,8 @@
 
 #include <limits>
 
+namespace test_closest_points_cases {
+
 using namespace sinew;
 using namespace simplex_pairs;
 
@@ -155,3 +157,5 @@ TEST_CASE("contact_direction points from a to b, and has an answer where they to
     CHECK(std::abs(direction(floorTriangle, floorTriangle)[2]) == 1);
   }
 }
+
+}  // namespace test_closest_points_cases

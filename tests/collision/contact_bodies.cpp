@@ -6,6 +6,8 @@
 
 #include "contact_scene.hpp"
 
+namespace test_contact_bodies {
+
 using namespace sinew;
 
 namespace {
@@ -194,3 +196,5 @@ TEST_CASE("between two solvers springs and contacts act together") {
   CHECK(sim.at<"a">().state().velocity[0][0] == Approx(0.01 * 3 / 2.0));
   CHECK(sim.at<"b">().state().velocity[0][0] == Approx(-0.01 * 3));
 }
+
+}  // namespace test_contact_bodies

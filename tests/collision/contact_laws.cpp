@@ -6,6 +6,8 @@
 
 #include "catch.hpp"
 
+namespace test_contact_laws {
+
 using namespace sinew;
 
 namespace {
@@ -120,3 +122,5 @@ TEST_CASE("contacts push and never pull") {
   ahead.evaluate(c, 0.45 * c.normal, -8 * c.normal);
   CHECK(c.normal.dot(c.stiffnessMatrix * c.normal) == Approx(200));  // will touch within the step
 }
+
+}  // namespace test_contact_laws

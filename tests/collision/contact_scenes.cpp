@@ -5,6 +5,8 @@
 
 #include "contact_scene.hpp"
 
+namespace test_contact_scenes {
+
 using namespace sinew;
 
 namespace {
@@ -123,3 +125,5 @@ TEST_CASE("two balls that collide keep their momentum, and so does a third that 
   CHECK(most == 2);
   CHECK(sim.at<"balls/b">().state().velocity[1][0] > 0.5);  // the third one moves
 }
+
+}  // namespace test_contact_scenes

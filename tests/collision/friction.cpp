@@ -4,6 +4,8 @@
 #include "contact_scene.hpp"
 #include "scene/reset.hpp"
 
+namespace test_friction {
+
 using namespace sinew;
 
 namespace {
@@ -142,3 +144,5 @@ TEST_CASE("friction of what is deep already when it is found slows it, and does 
 TEST_CASE("contacts, and the friction that they remember, go with a reset") {
   comes_back(block_on_slope(0.5, std::atan(0.5) - 0.01, 2, 10, true, 0.11), {1, 5, 60}, 60);
 }
+
+}  // namespace test_friction

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <vector>
 
+namespace test_overlap {
+
 using namespace sinew;
 using namespace simplex_pairs;
 
@@ -158,3 +160,5 @@ TEST_CASE("overlap with balls", "[collision]") {
   CHECK(hits > pairs / 10);
   CHECK(hits < pairs - pairs / 10);
 }
+
+}  // namespace test_overlap

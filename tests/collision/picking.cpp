@@ -4,6 +4,8 @@
 
 #include "contact_scene.hpp"
 
+namespace test_picking {
+
 using namespace sinew;
 using Point = Eigen::Vector3d;
 
@@ -146,3 +148,5 @@ TEST_CASE("all of a wavy sheet is picked where it is after steps, as by brute fo
   }
   CHECK(hits > 300);
 }
+
+}  // namespace test_picking

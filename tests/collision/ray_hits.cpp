@@ -6,6 +6,8 @@
 #include <vector>
 #include "catch.hpp"
 
+namespace test_ray_hits {
+
 using namespace sinew;
 using Point = Eigen::Vector3d;
 
@@ -141,3 +143,5 @@ TEST_CASE("a ray passes a segment and a point within a tolerance") {
   CHECK(!ray_point(ray, {4, 0.51, 0}, 0.5));
   CHECK(!ray_point(ray, {-1, 0, 0}, 0.5));
 }
+
+}  // namespace test_ray_hits

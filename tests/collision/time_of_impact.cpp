@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "collision/known_contacts.hpp"
 
+namespace test_time_of_impact {
+
 using namespace known_contacts;
 
 TEST_CASE("time_of_impact is never late and hardly early", "[collision]") {
@@ -15,3 +17,5 @@ TEST_CASE("time_of_impact is never late and hardly early", "[collision]") {
   check_known<double, 3, 2>(pairs / 10);
   check_known<double, 3, 3>(pairs / 5);
 }
+
+}  // namespace test_time_of_impact

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <vector>
 
+namespace test_time_of_impact_roots {
+
 using namespace sinew;
 using namespace simplex_pairs;
 
@@ -285,3 +287,5 @@ TEST_CASE("fewer iterations make time_of_impact earlier, not later", "[collision
   CHECK(*sharp > *whole);
   CHECK(*sharp - *whole < 2e-3);
 }
+
+}  // namespace test_time_of_impact_roots

@@ -10,6 +10,8 @@
 
 #include <numbers>
 
+namespace test_angular_spring {
+
 using namespace sinew;
 using Eigen::AngleAxisd;
 using Eigen::Vector3d;
@@ -147,3 +149,5 @@ TEST_CASE("angular springs that do not fit are refused") {
           {},
           {"angularStiffness[0] is nan"});
 }
+
+}  // namespace test_angular_spring

@@ -5,6 +5,8 @@
 
 #include "one_component.hpp"
 
+namespace test_attach {
+
 using namespace sinew;
 using one::says;
 
@@ -245,3 +247,5 @@ TEST_CASE("bad input of attachments is named") {
                {},
                {"point 0 is attached twice"});
 }
+
+}  // namespace test_attach

@@ -5,6 +5,8 @@
 
 #include <limits>
 
+namespace test_bad_input {
+
 using namespace sinew;
 
 namespace {
@@ -168,3 +170,5 @@ TEST_CASE("solver settings are checked") {
   CHECK_SAYS(with({}, {.iterations = 0}), "CGLinearSolver", "iterations is 0");
   CHECK_SAYS(with({}, {.tolerance = notANumber}), "tolerance is nan");
 }
+
+}  // namespace test_bad_input

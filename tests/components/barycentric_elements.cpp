@@ -7,6 +7,8 @@
 
 #include "catch.hpp"
 
+namespace test_barycentric_elements {
+
 using namespace sinew;
 
 namespace {
@@ -330,3 +332,5 @@ TEST_CASE("BarycentricMapping says what is wrong with its parent") {
   Points none;
   CHECK(message([&] { mapped(x, {.triangles = good}, none); }).empty());
 }
+
+}  // namespace test_barycentric_elements

@@ -6,6 +6,8 @@
 
 #include <numbers>
 
+namespace test_beam_fem {
+
 using namespace sinew;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
@@ -205,3 +207,5 @@ TEST_CASE("beams that cannot be are refused") {
   refuses(Masses{.massDensity = 0}, bent, topology, {"massDensity is 0 kg/m^3"});
   refuses(Masses{.radius = 1, .radiusInner = 2}, bent, topology, {"radiusInner is 2 m"});
 }
+
+}  // namespace test_beam_fem

@@ -5,6 +5,8 @@
 
 #include <numbers>
 
+namespace test_beam_mapping {
+
 using namespace sinew;
 using Eigen::AngleAxisd;
 using Eigen::Quaterniond;
@@ -132,3 +134,5 @@ TEST_CASE("beams that carry nothing are refused") {
   says([&] { ready({}, line, out, {{0, 3}}); }, {"edge 0 refers to point 3", "3 points"});
   says([&] { ready({}, {frame({0, 0, 0}), frame({0, 0, 0})}, out); }, {"have no length"});
 }
+
+}  // namespace test_beam_mapping

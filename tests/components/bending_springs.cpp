@@ -6,6 +6,8 @@
 
 #include <numbers>
 
+namespace test_bending_springs {
+
 using namespace sinew;
 using Eigen::Vector3d;
 using one::force;
@@ -185,3 +187,5 @@ TEST_CASE("surfaces that do not bend are refused") {
   flat[2] = {0.5, 0, 0};
   refuses(Fast{}, flat, {.triangles = pair}, {"triangle at the edge from point 0 to 1 has no area"});
 }
+
+}  // namespace test_bending_springs

@@ -7,6 +7,8 @@
 #include <sinew/sinew.hpp>
 #include <sinew/topology/regular_grid.hpp>
 
+namespace test_constrained_systems {
+
 using namespace sinew;
 
 namespace {
@@ -55,3 +57,5 @@ TEST_CASE("oblique constraints: matrix-free and assembled solvers agree") {
     CHECK((free[i] - scalars[i]).norm() < 1e-10);
   }
 }
+
+}  // namespace test_constrained_systems

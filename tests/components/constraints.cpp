@@ -9,6 +9,8 @@
 #include <sinew/constraint/project_to_plane.hpp>
 #include <sinew/constraint/project_to_point.hpp>
 
+namespace test_constraints {
+
 using namespace sinew;
 using Eigen::Vector3d;
 using one::ready;
@@ -134,3 +136,5 @@ TEST_CASE("points are held on planes, lines and places") {
   refuses(
       ProjectToLineConstraint<Vec3d>{.direction = {1, one::notANumber, 0}}, four, {}, {"direction is nan"});
 }
+
+}  // namespace test_constraints

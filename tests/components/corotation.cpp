@@ -5,6 +5,8 @@
 
 #include <numbers>
 
+namespace test_corotation {
+
 using namespace sinew;
 using Eigen::AngleAxisd;
 using Eigen::Quaterniond;
@@ -69,3 +71,5 @@ TEST_CASE("rotation vectors are found, and spins and torques go with them, at al
     }
   }
 }
+
+}  // namespace test_corotation

@@ -3,6 +3,8 @@
 
 #include <sinew/sinew.hpp>
 
+namespace test_damp_velocity {
+
 using namespace sinew;
 
 TEST_CASE("alone, DampVelocitySolver lets velocities decay, and positions where they are") {
@@ -56,3 +58,5 @@ TEST_CASE("points slower than the threshold stand still; a velocity that is pres
   CHECK((v[1] - Eigen::Vector3d::Constant(0.07)).norm() < 1e-12);
   CHECK((v[2] - Eigen::Vector3d(0.01, 0, 0)).norm() < 1e-12);
 }
+
+}  // namespace test_damp_velocity

@@ -5,6 +5,8 @@
 #include <sinew/solver/cholesky_solver.hpp>
 #include <sinew/solver/sparse_ldl_solver.hpp>
 
+namespace test_direct_solvers {
+
 using namespace sinew;
 
 namespace {
@@ -86,3 +88,5 @@ TEST_CASE("a singular system is an error that names the point") {
     CHECK(said.find("point 1, component 1 of MechanicalObject<Vec2d>") != std::string::npos);
   }
 }
+
+}  // namespace test_direct_solvers

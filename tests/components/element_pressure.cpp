@@ -4,6 +4,8 @@
 #include <sinew/core/follow.hpp>
 #include <sinew/force/element_pressure.hpp>
 
+namespace test_element_pressure {
+
 using namespace sinew;
 using Eigen::Vector3d;
 using one::force;
@@ -94,3 +96,5 @@ TEST_CASE("loads on what is not there are refused") {
   const std::vector<Edge> wrong{{0, 9}};
   refuses(EdgePressureForceField<Vec3d>{}, corners, {.edges = wrong}, {"edge 0 refers to point 9"});
 }
+
+}  // namespace test_element_pressure

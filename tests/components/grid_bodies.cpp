@@ -6,6 +6,8 @@
 
 #include "catch.hpp"
 
+namespace test_grid_bodies {
+
 using namespace sinew;
 
 namespace {
@@ -178,3 +180,5 @@ TEST_CASE("TetrahedronFEMForceField says what is wrong with hexahedra") {
   grid.hexahedra.clear();
   CHECK(contains(said(), "give the node a topology with tetrahedra or hexahedra"));
 }
+
+}  // namespace test_grid_bodies

@@ -6,6 +6,8 @@
 
 #include "catch.hpp"
 
+namespace test_grid_scene {
+
 using namespace sinew;
 
 namespace {
@@ -44,3 +46,5 @@ TEST_CASE("a body of hexahedra falls as it stands, and carries a point") {
   check(scene(grid, grid.position));
   check(scene(mesh, grid.position));
 }
+
+}  // namespace test_grid_scene

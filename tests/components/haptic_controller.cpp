@@ -6,6 +6,8 @@
 
 #include <random>
 
+namespace test_haptic_controller {
+
 using namespace sinew;
 using Eigen::Vector3d;
 
@@ -321,3 +323,5 @@ TEST_CASE("settings are refused that are out of range, or not stable") {
   H c{.stiffness = 5000, .damping = 4, .forceCoef = 0.5};
   c.check();
 }
+
+}  // namespace test_haptic_controller

@@ -7,6 +7,8 @@
 
 #include <numbers>
 
+namespace test_haptic_devices {
+
 using namespace sinew;
 using Eigen::Vector3d;
 
@@ -136,3 +138,5 @@ TEST_CASE("a hand refuses what it cannot be") {
   hand.stiffness = one::notANumber;
   one::says([&] { hand.read(0); }, {"stiffness is nan"});
 }
+
+}  // namespace test_haptic_devices

@@ -8,6 +8,8 @@
 #include <random>
 #include <vector>
 
+namespace test_haptic_loop {
+
 using namespace sinew;
 using Eigen::Vector3d;
 
@@ -252,3 +254,5 @@ TEST_CASE("a loop refuses bad settings") {
   HapticLoop none(lost);
   one::says([&] { none.start(); }, {"first pose", "not finite"});
 }
+
+}  // namespace test_haptic_loop

@@ -13,6 +13,8 @@
 #include <sinew/solver/sparse_ldl_solver.hpp>
 #include <sinew/state/mechanical_object.hpp>
 
+namespace test_haptic_two_rates {
+
 using namespace sinew;
 
 namespace {
@@ -139,3 +141,5 @@ TEST_CASE("a hand that presses on an elastic wall rests where hand, coupling and
   // of the tool by at most what the hand gains in 10 ms, 0.6 m/s, and the force by B times that
   CHECK(largest < 2 * 0.6);
 }
+
+}  // namespace test_haptic_two_rates

@@ -7,6 +7,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+namespace test_hexahedron_fem {
+
 using namespace sinew;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
@@ -176,3 +178,5 @@ TEST_CASE("hexahedra may differ in stiffness, and are checked") {
   bad[1][0] = 12;
   refuses(Hexahedra{}, mesh.positions, {.hexahedra = bad}, {"hexahedron 1 refers to point 12", "12 points"});
 }
+
+}  // namespace test_hexahedron_fem

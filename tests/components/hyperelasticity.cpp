@@ -8,6 +8,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+namespace test_hyperelasticity {
+
 using namespace sinew;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
@@ -227,3 +229,5 @@ TEST_CASE("hyperelastic bodies are checked") {
   refuses(good, corners, {.tetrahedra = insideOut}, {"tetrahedron 0 is inside out"});
   refuses(good, corners, {.tetrahedra = far}, {"tetrahedron 0 refers to point 4", "4 points"});
 }
+
+}  // namespace test_hyperelasticity

@@ -9,6 +9,8 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
+namespace test_krylov_solvers {
+
 using namespace sinew;
 
 namespace {
@@ -169,3 +171,5 @@ TEST_CASE("preconditioners save iterations on a bar") {
   // one that is three steps old still serves
   CHECK(count(incompleteCholesky, false, 0) <= uniform[3] + 2);
 }
+
+}  // namespace test_krylov_solvers

@@ -4,6 +4,8 @@
 #include <sinew/sinew.hpp>
 #include <sinew/topology/regular_grid.hpp>
 
+namespace test_lane_width {
+
 using namespace sinew;
 
 namespace {
@@ -47,3 +49,5 @@ TEST_CASE("as many elements at a time as a DataTypes says: another order of sums
   const Eigen::VectorXd single = swing<WithLanes<Vec3f, 1>>();
   CHECK((single - native).norm() < 1e-4 * native.norm());
 }
+
+}  // namespace test_lane_width

@@ -5,6 +5,8 @@
 
 #include "one_component.hpp"
 
+namespace test_measuring_mappings {
+
 using namespace sinew;
 using one::says;
 
@@ -291,3 +293,5 @@ TEST_CASE("bad input of mappings that measure is named") {
   };
   says([&] { center({}); }, {"/root/sub", "no mass in the node /root"});
 }
+
+}  // namespace test_measuring_mappings

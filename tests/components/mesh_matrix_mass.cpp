@@ -7,6 +7,8 @@
 #include <sinew/solver/sparse_ldl_solver.hpp>
 #include <sinew/topology/regular_grid.hpp>
 
+namespace test_mesh_matrix_mass {
+
 using namespace sinew;
 
 namespace {
@@ -274,3 +276,5 @@ TEST_CASE("steps with the consistent mass do not depend on how the system is for
           1e-10 * free.norm());
   }
 }
+
+}  // namespace test_mesh_matrix_mass

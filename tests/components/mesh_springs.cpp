@@ -9,6 +9,8 @@
 #include <cmath>
 #include <map>
 
+namespace test_mesh_springs {
+
 using namespace sinew;
 using one::force;
 using one::ready;
@@ -146,3 +148,5 @@ TEST_CASE("springs of meshes refuse what they cannot stand on") {
   one::refuses(Grid3{}, corners, {.hexahedra = cube}, {"hexahedron 0 refers to point 4"});
   one::refuses(Grid3{.quadsStiffness = -2}, corners, {.grid = {2, 2, 1}}, {"quadsStiffness is -2"});
 }
+
+}  // namespace test_mesh_springs

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <numbers>
 
+namespace test_movements {
+
 using namespace sinew;
 using Eigen::Vector3d;
 using moving::at;
@@ -162,3 +164,5 @@ TEST_CASE("points oscillate") {
   sine.oscillators[0].index = 1, sine.oscillators[0].phase = one::notANumber;
   refuses(sine, two, {}, {"oscillators[0].phase is nan"});
 }
+
+}  // namespace test_movements

@@ -4,6 +4,8 @@
 
 #include "one_component.hpp"
 
+namespace test_multi_mapping {
+
 using namespace sinew;
 using one::says;
 
@@ -179,3 +181,5 @@ TEST_CASE("bad indexPairs are named") {
   says(with({{0, -1}}), {"indexPairs[0][1] is -1", "at least 0"});
   says(with({{0, 1}}, {.position = {{0, 0, 0}, {1, 1, 1}}}), {"2 points for 1 indexPairs"});
 }
+
+}  // namespace test_multi_mapping

@@ -7,6 +7,8 @@
 
 #include <numbers>
 
+namespace test_paths {
+
 using namespace sinew;
 using Eigen::AngleAxisd;
 using Eigen::Quaterniond;
@@ -202,3 +204,5 @@ TEST_CASE("a half turn has no twist about the axes across it") {
   CHECK(x == before);
   CHECK(c.free[0].allFinite());
 }
+
+}  // namespace test_paths

@@ -11,6 +11,8 @@
 #include <cmath>
 #include <numbers>
 
+namespace test_point_forces {
+
 using namespace sinew;
 using Eigen::Vector3d;
 using one::force;
@@ -208,3 +210,5 @@ TEST_CASE("uniform damping slows all degrees of freedom") {
   }
   refuses(Damping{.dampingCoefficient = -1}, x, {}, {"UniformVelocityDampingForceField<Rigid3d>", "is -1"});
 }
+
+}  // namespace test_point_forces

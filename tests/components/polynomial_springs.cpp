@@ -7,6 +7,8 @@
 #include <sinew/solver/runge_kutta4.hpp>
 #include <sinew/state/mechanical_object.hpp>
 
+namespace test_polynomial_springs {
+
 using namespace sinew;
 using Eigen::Vector3d;
 using one::force;
@@ -119,3 +121,5 @@ TEST_CASE("polynomial springs that do not fit are refused") {
   same[2] = same[1];
   refuses(good, same, {}, {"spring 1 has no length at rest"});
 }
+
+}  // namespace test_polynomial_springs

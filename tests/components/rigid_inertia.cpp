@@ -5,6 +5,8 @@
 #include <sinew/io/write_obj.hpp>
 #include <sinew/mass/uniform_mass.hpp>
 
+namespace test_rigid_inertia {
+
 using namespace sinew;
 using Eigen::Vector3d;
 using one::ready;
@@ -90,3 +92,5 @@ TEST_CASE("files that tell no inertia are refused") {
   io::write_obj(folder / "open.obj", open);
   refuses(Mass3{.filename = {folder / "open.obj"}}, two, {}, {"open.obj", "not closed"});
 }
+
+}  // namespace test_rigid_inertia

@@ -4,6 +4,8 @@
 
 #include "one_component.hpp"
 
+namespace test_skinning_mapping {
+
 using namespace sinew;
 using one::says;
 
@@ -159,3 +161,5 @@ TEST_CASE("bad skins are named") {
   says(with({.nbRef = {1}, .indices = {0, 1, 2, 3, -3}, .weight = {1, 1, 1, 1, 1}}), {"indices[4] is -3"});
   says(with({}, SkinFrames{}), {"the parent has no frames"});
 }
+
+}  // namespace test_skinning_mapping

@@ -6,6 +6,8 @@
 #include <limits>
 #include <map>
 
+namespace test_solver_fields {
+
 using namespace sinew;
 
 namespace {
@@ -66,3 +68,5 @@ TEST_CASE("solvers are refused nothing by default, and no two share a name") {
     CHECK(owner.at(direct) == "SparseLDLSolver");
   CHECK(owner.at("PCGLinearSolver") == "ShewchukPCGLinearSolver");
 }
+
+}  // namespace test_solver_fields

@@ -5,6 +5,8 @@
 #include <sinew/force/regular_grid_spring.hpp>
 #include <sinew/force/stiff_spring.hpp>
 
+namespace test_spring_options {
+
 using namespace sinew;
 using Eigen::Vector3d;
 using one::force;
@@ -143,3 +145,5 @@ TEST_CASE("lists of springs that do not fit are refused") {
           {},
           {"enabled has 3 values for 2 springs"});
 }
+
+}  // namespace test_spring_options

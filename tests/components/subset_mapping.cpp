@@ -3,6 +3,8 @@
 
 #include <sinew/mapping/subset_mapping.hpp>
 
+namespace test_subset_mapping {
+
 using namespace sinew;
 
 TEST_CASE("a SubsetMapping without indices finds the points at the same places") {
@@ -18,3 +20,5 @@ TEST_CASE("a SubsetMapping without indices finds the points at the same places")
   CHECK_THROWS_WITH(astray.init({"parent", parent, {}}, {"child", rest, {}}, elsewhere),
                     Catch::Contains("no point within 1e-5 m of 5 6 7"));
 }
+
+}  // namespace test_subset_mapping

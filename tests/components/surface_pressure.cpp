@@ -4,6 +4,8 @@
 #include <sinew/force/surface_pressure.hpp>
 #include <sinew/topology/regular_grid.hpp>
 
+namespace test_surface_pressure {
+
 using namespace sinew;
 using Eigen::Vector3d;
 using one::force;
@@ -99,3 +101,5 @@ TEST_CASE("pressure refuses what has no surface") {
   const std::vector<Triangle> far{{0, 1, 8}};
   refuses(Pressure{}, corners, {.triangles = far}, {"triangle 0 refers to point 8", "8 points"});
 }
+
+}  // namespace test_surface_pressure

@@ -5,6 +5,8 @@
 
 #include <numbers>
 
+namespace test_trajectory {
+
 using namespace sinew;
 using Eigen::Vector3d;
 
@@ -218,3 +220,5 @@ TEST_CASE("in the plane, and in single precision") {
   f.prepare();
   CHECK((at(f, 0.5).center - Eigen::Vector3f(0.5f, 0, 0)).norm() < 1e-6f);
 }
+
+}  // namespace test_trajectory

@@ -6,6 +6,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+namespace test_triangle_fem {
+
 using namespace sinew;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
@@ -154,3 +156,5 @@ TEST_CASE("membranes are checked") {
   const std::vector<Triangle> far{{0, 1, 4}};
   refuses(Triangles{}, sheet.x, {.triangles = far}, {"triangle 0 refers to point 4", "4 points"});
 }
+
+}  // namespace test_triangle_fem

@@ -5,6 +5,8 @@
 
 #include <Eigen/Eigenvalues>
 
+namespace test_triangular_shell {
+
 using namespace sinew;
 using Eigen::Quaterniond;
 using Eigen::Vector2d;
@@ -186,3 +188,5 @@ TEST_CASE("shells that cannot be are refused") {
   refuses(Shell{.thickness = -1}, folded, topology, {"thickness is -1 m"});
   refuses(Shell{.thickness = one::notANumber}, folded, topology, {"thickness is nan"});
 }
+
+}  // namespace test_triangular_shell

@@ -6,6 +6,8 @@
 #include <atomic>
 #include <thread>
 
+namespace test_triple_buffer {
+
 using namespace sinew;
 
 namespace {
@@ -110,3 +112,5 @@ TEST_CASE("two buffers carry a conversation: each side has what the other said")
   CHECK(whole);
   CHECK(same);
 }
+
+}  // namespace test_triple_buffer

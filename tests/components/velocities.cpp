@@ -3,6 +3,8 @@
 
 #include <sinew/sinew.hpp>
 
+namespace test_velocities {
+
 using namespace sinew;
 
 namespace {
@@ -21,3 +23,5 @@ TEST_CASE("points that are given no velocity have the last one that is given") {
   CHECK_THROWS_WITH(started_with(Vec3d::VecDeriv(4, {1, 2, 3})),
                     Catch::Contains("velocity has 4 entries, position has 3"));
 }
+
+}  // namespace test_velocities

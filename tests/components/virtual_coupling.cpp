@@ -10,6 +10,8 @@
 #include <sinew/solver/sparse_ldl_solver.hpp>
 #include <sinew/state/mechanical_object.hpp>
 
+namespace test_virtual_coupling {
+
 using namespace sinew;
 using Eigen::Vector3d;
 using one::force;
@@ -211,3 +213,5 @@ TEST_CASE("a virtual coupling refuses bad input, and keeps its target where it i
   again = ready(again, rest);
   CHECK(again.place[0] == Vector3d(1, 2, 3));
 }
+
+}  // namespace test_virtual_coupling

@@ -6,6 +6,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+namespace test_viscoelasticity {
+
 using namespace sinew;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
@@ -174,3 +176,5 @@ TEST_CASE("viscoelastic bodies are checked") {
   refuses(good, corners, {.tetrahedra = insideOut}, {"tetrahedron 0 is inside out"});
   refuses(good, corners, {.tetrahedra = far}, {"tetrahedron 0 refers to point 4", "4 points"});
 }
+
+}  // namespace test_viscoelasticity

@@ -4,6 +4,8 @@
 
 #include <sinew/solver/pcg_linear_solver.hpp>
 
+namespace test_warped_preconditioner {
+
 using namespace sinew;
 
 namespace {
@@ -150,3 +152,5 @@ TEST_CASE("rotations of points come from their neighbours, of bodies from their 
   for (std::size_t i = 0; i < 8; ++i)
     CHECK((turns[i] - (i >= 4 && i < 7 ? inPlane : inSpace)).norm() < (i < 7 ? 1e-5 : 1e-14));
 }
+
+}  // namespace test_warped_preconditioner

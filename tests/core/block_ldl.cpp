@@ -6,6 +6,8 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
+namespace test_block_ldl {
+
 using namespace sinew;
 
 namespace {
@@ -138,3 +140,5 @@ TEST_CASE("a vanishing pivot is found, and named by its dof") {
   a.values[0] = std::numeric_limits<double>::quiet_NaN();
   CHECK(factor.factorise(a) == 0);
 }
+
+}  // namespace test_block_ldl

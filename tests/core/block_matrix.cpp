@@ -3,6 +3,8 @@
 
 #include <sinew/linalg/block_matrix.hpp>
 
+namespace test_block_matrix {
+
 using namespace sinew;
 
 namespace {
@@ -146,3 +148,5 @@ TEST_CASE("a block outside the pattern has no slot") {
   CHECK(a.slot(0, 1) == -1);
   CHECK_THROWS_AS(a.add(0, 3, Eigen::Matrix3d(Eigen::Matrix3d::Identity())), Error);
 }
+
+}  // namespace test_block_matrix

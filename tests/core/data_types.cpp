@@ -3,6 +3,8 @@
 
 #include <sinew/core/data_types.hpp>
 
+namespace test_data_types {
+
 using namespace sinew;
 
 static_assert(std::is_same_v<Vec3d::Coord, Vec3d::Deriv>);
@@ -76,3 +78,5 @@ TEST_CASE("rigids in the plane") {
   CHECK(x.orientation == Approx(0.8));
   CHECK((Rigid2d::difference({{1, 2}, 0.5}, x) - Rigid2d::Deriv(0.1, 0.2, 0.3)).norm() < 1e-15);
 }
+
+}  // namespace test_data_types

@@ -3,6 +3,8 @@
 
 #include <sinew/core/dual.hpp>
 
+namespace test_dual {
+
 using namespace sinew;
 
 namespace {
@@ -55,3 +57,5 @@ TEST_CASE("dual numbers of lanes are those of each lane") {
   CHECK(lane(chosen.slope[0], 0) == 0);
   CHECK(lane(chosen.slope[0], 1) == 1);
 }
+
+}  // namespace test_dual

@@ -8,6 +8,8 @@
 #include <limits>
 #include <random>
 
+namespace test_element_driver {
+
 using namespace sinew;
 
 namespace {
@@ -188,3 +190,5 @@ TEMPLATE_TEST_CASE("elements that are removed leave what a driver of the others 
   CHECK(cut.packs.empty());
   CHECK(cut.removeIf([](auto const&) { return true; }) == 0);
 }
+
+}  // namespace test_element_driver

@@ -3,6 +3,8 @@
 
 #include <sinew/core/error.hpp>
 
+namespace test_error {
+
 using namespace sinew;
 
 TEST_CASE("text joins words, numbers and characters") {
@@ -18,3 +20,5 @@ TEST_CASE("the nearest known name is suggested, and none when all are far") {
   CHECK(nearest_name("POISSONRATIO", known) == "poissonRatio");
   CHECK(nearest_name("xyz", known).empty());
 }
+
+}  // namespace test_error

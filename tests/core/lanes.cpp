@@ -3,6 +3,8 @@
 
 #include <sinew/core/lanes.hpp>
 
+namespace test_lanes {
+
 using namespace sinew;
 
 namespace {
@@ -75,3 +77,5 @@ TEST_CASE("lanes are a scalar that Eigen accepts") {
   const Eigen::Matrix3d expected = scalar * scalar.transpose();
   for (int i = 0; i < 9; ++i) CHECK(lane(product(i), 0) == expected(i));
 }
+
+}  // namespace test_lanes

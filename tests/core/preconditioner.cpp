@@ -6,6 +6,8 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
+namespace test_preconditioner {
+
 using namespace sinew;
 
 namespace {
@@ -135,3 +137,5 @@ TEST_CASE("preconditioners of an indefinite matrix are positive all the same") {
     CHECK(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(inverse_of(m, 3 * n)).eigenvalues()[0] > 0);
   }
 }
+
+}  // namespace test_preconditioner

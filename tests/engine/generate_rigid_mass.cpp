@@ -3,6 +3,8 @@
 
 #include <sinew/engine/generate_rigid_mass.hpp>
 
+namespace test_generate_rigid_mass {
+
 using namespace sinew;
 
 namespace {
@@ -69,3 +71,5 @@ TEST_CASE("bodies that have no mass are refused, and what was made stays") {
   other.quads[0][0] = 9;
   CHECK(says(other, "quad 0 refers to point 9"));
 }
+
+}  // namespace test_generate_rigid_mass

@@ -7,6 +7,8 @@
 #include "catch.hpp"
 #include "topology/mesh_checks.hpp"
 
+namespace test_made_meshes {
+
 using namespace sinew;
 
 TEST_CASE("GridMeshCreator makes a sheet of squares, or of triangles with the diagonals that are wanted") {
@@ -70,3 +72,5 @@ TEST_CASE("MeshSubdivision passes on what subdivide() makes") {
   engine.levels = -1;
   CHECK(contains(error_of([&] { engine.update("e"); }), "levels is -1"));
 }
+
+}  // namespace test_made_meshes

@@ -5,6 +5,8 @@
 #include "io/files.hpp"
 #include "io/samples.hpp"
 
+namespace test_mesh_loader {
+
 using namespace sinew;
 using files::check_says;
 using files::error_of;
@@ -163,3 +165,5 @@ TEST_CASE("loaders say what is wrong, and keep what they had") {
   mesh.filename.path = folder.write("bad.obj", "v 0 0 0\nf 1 2 3\n");
   refused("bad.obj:2: vertex 3 does not exist");
 }
+
+}  // namespace test_mesh_loader

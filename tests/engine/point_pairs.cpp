@@ -4,6 +4,8 @@
 #include <sinew/engine/nearest_point_roi.hpp>
 #include <sinew/engine/pair_box_roi.hpp>
 
+namespace test_point_pairs {
+
 using namespace sinew;
 
 namespace {
@@ -117,3 +119,5 @@ TEST_CASE("NearestPointROI pairs the points of two states") {
   bad.radius = 0;
   refuses(bad, name, "radius is 0 m");
 }
+
+}  // namespace test_point_pairs

@@ -7,6 +7,8 @@
 
 #include "catch.hpp"
 
+namespace test_rois {
+
 using namespace sinew;
 
 namespace {
@@ -200,3 +202,5 @@ TEST_CASE("regions say what is wrong, and keep what they had") {
                  }),
                  "orientedBox is for points in space"));
 }
+
+}  // namespace test_rois

@@ -3,6 +3,8 @@
 
 #include "io/files.hpp"
 
+namespace test_sphere_loader {
+
 using namespace sinew;
 using files::check_says;
 using files::error_of;
@@ -51,3 +53,5 @@ TEST_CASE("SphereLoader says what is wrong, and keeps what it had") {
   other.scale[2] = INFINITY;
   refused(other, "scale is inf");
 }
+
+}  // namespace test_sphere_loader

@@ -6,6 +6,8 @@
 
 #include <cmath>
 
+namespace test_topological_mapping {
+
 using namespace sinew;
 
 namespace {
@@ -71,3 +73,5 @@ TEST_CASE("a topological mapping says which element is wrong") {
   Tetra2TriangleTopologicalMapping negative{.elements = {{0, 1, 2, -2}}};
   CHECK_THROWS_AS(negative.update("t"), Error);
 }
+
+}  // namespace test_topological_mapping

@@ -3,6 +3,8 @@
 
 #include "catch.hpp"
 
+namespace test_transform_engine {
+
 using namespace sinew;
 
 namespace {
@@ -77,3 +79,5 @@ TEST_CASE("TransformEngine says what is wrong") {
   CHECK(contains(said({.rotation = {0, std::nan(""), 0}}), "rotation is nan degrees"));
   CHECK(contains(said({.inputPosition = {{1, INFINITY, 3}}}), "input_position[0] is inf m"));
 }
+
+}  // namespace test_transform_engine

@@ -3,6 +3,8 @@
 #include "catch.hpp"
 #include "haptics/scene.hpp"
 
+namespace test_haptics {
+
 using namespace sinew;
 using Eigen::Vector3d;
 
@@ -93,3 +95,5 @@ TEST_CASE("haptics: the force of a palpation has no jumps that a hand would feel
   // beside the force: half of what a moving hand tells apart, 7 to 10 %
   CHECK(jump < 0.05 * most);
 }
+
+}  // namespace test_haptics

@@ -4,6 +4,8 @@
 
 #include "catch.hpp"
 
+namespace test_laparoscopy {
+
 using namespace sinew;
 
 TEST_CASE("laparoscopy: bodies are what they say") {
@@ -64,3 +66,5 @@ TEMPLATE_TEST_CASE("laparoscopy: a script of 20 s passes, and all stays where it
   CHECK(m.smallest > 0.9);
   CHECK(m.largest < 1.1);
 }
+
+}  // namespace test_laparoscopy

@@ -2,6 +2,8 @@
 #include "catch.hpp"
 #include "liver/scene.hpp"
 
+namespace test_liver {
+
 using namespace sinew;
 
 namespace {
@@ -61,3 +63,5 @@ TEST_CASE("liver: reset runs the same steps again, to the bit") {
   for (int i = 0; i < 20; ++i) sim.animate(0.02);
   CHECK(sim.at<"liver">().state().position == first);
 }
+
+}  // namespace test_liver

@@ -2,6 +2,8 @@
 #include "catch.hpp"
 #include "one_tetrahedron/scene.hpp"
 
+namespace test_one_tetrahedron {
+
 using namespace sinew;
 
 TEST_CASE("one tetrahedron: every skin vertex is the affine image of where it was") {
@@ -30,3 +32,5 @@ TEST_CASE("one tetrahedron: visual models are brought up to date when they are l
   sim.updateVisual();
   CHECK(skin.position != before);
 }
+
+}  // namespace test_one_tetrahedron

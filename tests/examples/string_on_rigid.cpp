@@ -2,6 +2,8 @@
 #include "catch.hpp"
 #include "string_on_rigid/scene.hpp"
 
+namespace test_string_on_rigid {
+
 using namespace sinew;
 
 TEST_CASE("string on rigid: implicit steps with a matrix and without agree") {
@@ -57,3 +59,5 @@ TEST_CASE("string on rigid: at rest the links carry the weight below them") {
   CHECK((brick.center - corner).norm() == Approx(std::hypot(0.1, 0.05)));
   CHECK(brick.center.x() == Approx(corner.x()).margin(1e-6));
 }
+
+}  // namespace test_string_on_rigid

@@ -10,6 +10,8 @@
 
 #include <cstring>
 
+namespace test_vitrectomy {
+
 using namespace sinew;
 using examples::Eye;
 
@@ -221,3 +223,5 @@ TEST_CASE("vitrectomy: a blade is asked for by name, and the eye by a number of 
   sim.at<"tool/blade">().get<LineCollisionModel<Vec3d>>().contactResponse = "SpringRemoval";
   CHECK_THROWS_WITH(sim.init(), Catch::Contains("SpringRemovalContact"));
 }
+
+}  // namespace test_vitrectomy

@@ -6,6 +6,8 @@
 #include <sinew/runtime/checks.hpp>
 #include <sinew/runtime/save_scene.hpp>
 
+namespace test_vitrectomy_scene {
+
 using namespace sinew;
 
 namespace {
@@ -67,3 +69,5 @@ TEST_CASE(
   CHECK(bits_of(again) == cut);
   CHECK(typed_bits() == cut);
 }
+
+}  // namespace test_vitrectomy_scene

@@ -5,6 +5,8 @@
 
 #include <utility>
 
+namespace test_base64 {
+
 using namespace sinew::io;
 
 namespace {
@@ -51,3 +53,5 @@ TEST_CASE("base64 says where it is broken") {
   CHECK(decode_base64("Zg=v").badAt == 3);
   CHECK(decode_base64("=").badAt == 0);
 }
+
+}  // namespace test_base64

@@ -6,6 +6,8 @@
 #include "files.hpp"
 #include "samples.hpp"
 
+namespace test_broken_files {
+
 using namespace sinew;
 
 namespace {
@@ -133,3 +135,5 @@ TEST_CASE("no file at all: random bytes") {
     }
   }
 }
+
+}  // namespace test_broken_files

@@ -4,6 +4,8 @@
 #include "files.hpp"
 #include "samples.hpp"
 
+namespace test_mesh_file {
+
 using namespace sinew;
 using files::check_says;
 using files::error_of;
@@ -31,3 +33,5 @@ TEST_CASE("read_mesh lists the endings that it knows") {
   check_says(error_of([] { io::read_mesh("a."); }), "a.", known);
   check_says(error_of([] { io::read_mesh("missing.vtu"); }), "missing.vtu", "No such file");
 }
+
+}  // namespace test_mesh_file

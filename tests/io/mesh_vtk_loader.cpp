@@ -5,6 +5,8 @@
 #include "files.hpp"
 #include "samples.hpp"
 
+namespace test_mesh_vtk_loader {
+
 using namespace sinew;
 
 static_assert(Engine<MeshVTKLoader>);
@@ -35,3 +37,5 @@ TEST_CASE("MeshVTKLoader says which file is wrong") {
       said(folder.write("a.vtk", "nothing")), "/root: MeshVTKLoader", "a.vtk:1: does not begin with");
   files::check_says(said(folder / "a.vtu"), "/root: MeshVTKLoader", "a.vtu: cannot be read");
 }
+
+}  // namespace test_mesh_vtk_loader

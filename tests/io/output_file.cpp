@@ -8,6 +8,8 @@
 
 #include <csignal>
 
+namespace test_output_file {
+
 using namespace sinew;
 using files::check_says;
 using files::error_of;
@@ -109,3 +111,5 @@ TEST_CASE("numbers are written in the fewest digits that read back") {
   io::append_number(digits, 0.1);
   CHECK(digits == "0.1");
 }
+
+}  // namespace test_output_file

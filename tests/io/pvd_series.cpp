@@ -5,6 +5,8 @@
 #include "files.hpp"
 #include "samples.hpp"
 
+namespace test_pvd_series {
+
 using namespace sinew;
 using files::check_says;
 using files::error_of;
@@ -67,3 +69,5 @@ TEST_CASE("PvdSeries needs a name and a folder") {
   const std::string file = folder.write("file", "x");
   check_says(error_of([&] { io::PvdSeries(file + "/liver"); }), file, "cannot be created as a folder");
 }
+
+}  // namespace test_pvd_series

@@ -4,6 +4,8 @@
 #include "files.hpp"
 #include "samples.hpp"
 
+namespace test_read_gmsh {
+
 using namespace sinew;
 using files::check_says;
 using files::error_of;
@@ -101,3 +103,5 @@ TEST_CASE("read_gmsh refuses every incomplete file") {
       CHECK_THROWS_AS(io::parse_gmsh("f", std::string_view(*sample).substr(0, n)), Error);
     }
 }
+
+}  // namespace test_read_gmsh

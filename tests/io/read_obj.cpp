@@ -4,6 +4,8 @@
 #include "files.hpp"
 #include "samples.hpp"
 
+namespace test_read_obj {
+
 using namespace sinew;
 using files::check_says;
 using files::error_of;
@@ -61,3 +63,5 @@ TEST_CASE("read_obj names the line of an error") {
              "f.obj:4",
              "not text");
 }
+
+}  // namespace test_read_obj

@@ -3,6 +3,8 @@
 
 #include <sinew/io/read_rigid.hpp>
 
+namespace test_read_rigid {
+
 using namespace sinew;
 
 namespace {
@@ -59,3 +61,5 @@ TEST_CASE("broken files of rigid masses are refused with their line") {
   CHECK(says("Xsp 3.0\n\nmas 1", "a.rigid:3: expected mass, inrt, cntr"));
   CHECK(says(std::string_view("Xsp 3.0\nmass \0 1", 16), "holds the byte 0"));
 }
+
+}  // namespace test_read_rigid

@@ -3,6 +3,8 @@
 
 #include "files.hpp"
 
+namespace test_read_sph {
+
 using namespace sinew;
 using files::check_says;
 
@@ -36,3 +38,5 @@ TEST_CASE("read_sph names the line of an error") {
   check_says(error_in("sph 1.0\nsphe a 0 0 0 1"), "f.sph:2", "the number of the sphere");
   check_says(error_in(std::string("sph 1.0\nsphe 1 0 \0 0 1", 20)), "f.sph:2", "not text");
 }
+
+}  // namespace test_read_sph

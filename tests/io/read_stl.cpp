@@ -4,6 +4,8 @@
 #include "files.hpp"
 #include "samples.hpp"
 
+namespace test_read_stl {
+
 using namespace sinew;
 using files::check_says;
 using files::error_of;
@@ -79,3 +81,5 @@ TEST_CASE("read_stl names the place of an error") {
   none.replace(80, 4, 4, '\0');
   check_says(error_in(none), "f.stl", "has no triangle");
 }
+
+}  // namespace test_read_stl

@@ -4,6 +4,8 @@
 #include "files.hpp"
 #include "samples.hpp"
 
+namespace test_read_vtk {
+
 using namespace sinew;
 using files::check_says;
 using files::error_of;
@@ -107,3 +109,5 @@ TEST_CASE("read_vtk takes no memory on a number's word") {
         error_with(samples::vtkPoly, "LINES 1 4", "LINES 1 " + number), "f.vtk:9", "correct the number");
   }
 }
+
+}  // namespace test_read_vtk

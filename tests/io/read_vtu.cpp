@@ -4,6 +4,8 @@
 #include "files.hpp"
 #include "samples.hpp"
 
+namespace test_read_vtu {
+
 using namespace sinew;
 using files::check_says;
 using files::error_of;
@@ -182,3 +184,5 @@ TEST_CASE("read_vtu refuses every incomplete file") {
       CHECK_THROWS_AS(io::parse_vtu("f", std::string_view(sample).substr(0, n)), Error);
     }
 }
+
+}  // namespace test_read_vtu

@@ -10,6 +10,8 @@
 
 #include <csignal>
 
+namespace test_state_file {
+
 using namespace sinew;
 using files::TempFolder;
 
@@ -380,3 +382,5 @@ TEST_CASE("a disk that is full is said with the file") {
   CHECK(io::read_file(path) == "old");
   CHECK(io::read_state_file<double>(path + ".part", layout, true).times.size() > 1000);
 }
+
+}  // namespace test_state_file

@@ -3,6 +3,8 @@
 
 #include "files.hpp"
 
+namespace test_text_reader {
+
 using namespace sinew;
 using files::check_says;
 using files::error_of;
@@ -120,3 +122,5 @@ TEST_CASE("a count cannot exceed what fits into the rest of the text") {
   check_says(error_of([&] { count("-1 1", 1); }), "p:1", "given as -1");
   check_says(error_of([&] { count("9223372036854775807 1 2", 1); }), "p:1", "correct the number");
 }
+
+}  // namespace test_text_reader

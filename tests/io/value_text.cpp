@@ -8,6 +8,8 @@
 
 #include <random>
 
+namespace test_value_text {
+
 using namespace sinew;
 
 namespace {
@@ -122,3 +124,5 @@ TEST_CASE("values are written as C++") {
   CHECK(cpp_value(std::vector<Spring>{{.first = 1, .second = 2}}) ==
         "{{.first = 1, .second = 2, .stiffness = 100, .damping = 0}}");
 }
+
+}  // namespace test_value_text

@@ -5,6 +5,8 @@
 #include "files.hpp"
 #include "samples.hpp"
 
+namespace test_write_obj {
+
 using namespace sinew;
 using files::check_says;
 using files::error_of;
@@ -39,3 +41,5 @@ TEST_CASE("write_obj writes nothing of a mesh that it cannot hold or that is bro
   check_says(error_of([&] { io::write_obj(file, mesh); }), file, "triangle 0 refers to point 5");
   CHECK(folder.count() == 0);
 }
+
+}  // namespace test_write_obj

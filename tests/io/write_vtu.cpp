@@ -5,6 +5,8 @@
 #include "files.hpp"
 #include "samples.hpp"
 
+namespace test_write_vtu {
+
 using namespace sinew;
 using files::check_says;
 using files::error_of;
@@ -108,3 +110,5 @@ TEST_CASE("write_vtu writes nothing that is wrong") {
   check_says(error_of([&] { io::write_vtu(missing, mesh); }), missing, "create it first");
   CHECK(folder.count() == 0);
 }
+
+}  // namespace test_write_vtu

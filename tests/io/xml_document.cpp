@@ -5,6 +5,8 @@
 
 #include <sinew/runtime/xml_document.hpp>
 
+namespace test_xml_document {
+
 using namespace sinew;
 
 namespace {
@@ -173,3 +175,5 @@ TEST_CASE("files are looked for beside the scene, then below the data paths") {
   CHECK_THROWS_WITH(XmlReader({"/data"}).find("mesh.obj", "/nowhere/"),
                     Catch::Contains("in /nowhere/, /data"));
 }
+
+}  // namespace test_xml_document

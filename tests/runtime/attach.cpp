@@ -2,6 +2,8 @@
 // Attached bodies, from a scene file and composed by the compiler.
 #include "same_bits.hpp"
 
+namespace test_attach {
+
 using namespace sinew;
 using Catch::Matchers::Contains;
 
@@ -118,3 +120,5 @@ TEST_CASE("bad attachments in a scene file are named") {
                  "<MechanicalObject position='0 0 0 1 1 1 2 2 2'/>" + at + "<IdentityMapping/>");
   says(mapped, "acts on a mapped state");
 }
+
+}  // namespace test_attach

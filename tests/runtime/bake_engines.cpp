@@ -7,6 +7,8 @@
 
 #include <fstream>
 
+namespace test_bake_engines {
+
 using namespace sinew;
 using Catch::Matchers::Contains;
 
@@ -58,3 +60,5 @@ inline auto scene(std::string const& data = "/data \"here\"") {
              Contains("MechanicalObject<Vec3d>{.position = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {2, 2, 2}}}"));
   CHECK_THAT(embedded, Contains("FixedConstraint<Vec3d>{.indices = {2, 3}}"));
 }
+
+}  // namespace test_bake_engines

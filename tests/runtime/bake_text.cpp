@@ -5,6 +5,8 @@
 #include <sinew/runtime/bake.hpp>
 #include <sinew/runtime/precompiled.hpp>
 
+namespace test_bake_text {
+
 using namespace sinew;
 using Catch::Matchers::Contains;
 
@@ -164,3 +166,5 @@ TEST_CASE("what does not run is not baked") {
   named.root.addChild("a/b");
   CHECK_THROWS_WITH(bake_text<Standard>(named, "t.scn", {}), Contains("has no '/'"));
 }
+
+}  // namespace test_bake_text

@@ -5,6 +5,8 @@
 
 #include <sinew/runtime/precompiled.hpp>
 
+namespace test_carving {
+
 using namespace sinew;
 
 namespace {
@@ -114,3 +116,5 @@ TEST_CASE("a ball carves a block in a scene file and in a typed scene: the same 
     CHECK(fixed.at<"block">().get<TetrahedronTopology>().tetrahedra.size() < whole - 20);
   }
 }
+
+}  // namespace test_carving

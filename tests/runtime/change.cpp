@@ -4,6 +4,8 @@
 
 #include <sinew/runtime/save_scene.hpp>
 
+namespace test_change {
+
 using namespace sinew;
 using same_bits::bits_of;
 
@@ -219,3 +221,5 @@ TEST_CASE("a scene that lost elements is saved, and read again goes on with the 
   for (int i = 0; i < 5; ++i) sim.animate(0.01), again.animate(0.01);
   CHECK(bits_of(again) == bits_of(sim));
 }
+
+}  // namespace test_change

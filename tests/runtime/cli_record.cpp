@@ -7,6 +7,8 @@
 
 #include <fstream>
 
+namespace test_cli_record {
+
 using namespace sinew;
 
 namespace {
@@ -105,3 +107,5 @@ TEST_CASE("what is no record is refused at its line") {
   CHECK(refused(frame + "end 2\n").starts_with("r.txt:3: "));
   CHECK(refused(frame + "end 1\nframe").starts_with("r.txt:3: "));
 }
+
+}  // namespace test_cli_record

@@ -5,6 +5,8 @@
 
 #include <sinew/runtime/precompiled.hpp>
 
+namespace test_contact {
+
 using namespace sinew;
 
 namespace {
@@ -153,3 +155,5 @@ TEST_CASE("a collision model is over what the state is over") {
     <Node name="ball"><MechanicalObject template="Rigid3d" position="0 0 0  0 0 0 1"/><SphereCollisionModel radius="0.5"/></Node></Node>)");
   CHECK(read.root.find_node("ball")->get<SphereCollisionModel<Rigid3d>>());
 }
+
+}  // namespace test_contact

@@ -18,6 +18,8 @@
 
 #include "catch.hpp"
 
+namespace test_contact_managers {
+
 using namespace sinew;
 
 namespace {
@@ -100,3 +102,5 @@ TEST_CASE("the default contact manager does not know the response of another one
   CHECK_THROWS_WITH(sim.init(),
                     Catch::Contains("'ConstantContact'") && Catch::Contains("StickContactForceField"));
 }
+
+}  // namespace test_contact_managers

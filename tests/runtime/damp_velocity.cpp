@@ -3,6 +3,8 @@
 
 #include <sinew/runtime/precompiled.hpp>
 
+namespace test_damp_velocity {
+
 using namespace sinew;
 
 namespace {
@@ -29,3 +31,5 @@ TEST_CASE("a DampVelocitySolver stands beside the ODE solver of a node, another 
   }
   CHECK(said.find("is the second ODE solver of its node, beside EulerExplicitSolver") != std::string::npos);
 }
+
+}  // namespace test_damp_velocity

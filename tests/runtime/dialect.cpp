@@ -5,6 +5,8 @@
 
 #include <sinew/runtime/precompiled.hpp>
 
+namespace test_dialect {
+
 using namespace sinew;
 
 namespace {
@@ -334,3 +336,5 @@ TEST_CASE("what old scenes say beside is ignored") {
   CHECK(scene.warnings.size() == 1);  // collision is not simulated
   CHECK(in<MechanicalObject<Vec3d>>(scene).translation == Eigen::Vector3d(0, 0, 0));
 }
+
+}  // namespace test_dialect

@@ -4,6 +4,8 @@
 
 #include <sinew/runtime/precompiled.hpp>
 
+namespace test_dialect_run {
+
 using namespace sinew;
 
 TEST_CASE("a surface that names elements only follows the points of its mapping") {
@@ -50,3 +52,5 @@ TEST_CASE("a checkpoint of BDF goes on bit by bit, whatever the order") {
           sim.root().get<MechanicalObject<Vec3d>>()->position);
   }
 }
+
+}  // namespace test_dialect_run

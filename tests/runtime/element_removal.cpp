@@ -5,6 +5,8 @@
 
 #include "catch.hpp"
 
+namespace test_element_removal {
+
 using namespace sinew;
 
 namespace {
@@ -101,3 +103,5 @@ TEST_CASE("what is left in a runtime tree must be a scene; else nothing has chan
   CHECK(before.get<MechanicalObject<Vec3d>>()->position == positions);
   CHECK(before.get<TetrahedronTopology>()->tetrahedra == tetrahedra());
 }
+
+}  // namespace test_element_removal

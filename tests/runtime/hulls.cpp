@@ -3,6 +3,8 @@
 
 #include "same_bits.hpp"
 
+namespace test_hulls {
+
 #ifdef SINEW_CCD
 
 using namespace sinew;
@@ -132,3 +134,5 @@ TEST_CASE("a scene with hulls is baked with their header") {
 }
 
 #endif
+
+}  // namespace test_hulls

@@ -2,6 +2,8 @@
 // Mappings that measure, from a scene file and composed by the compiler.
 #include "same_bits.hpp"
 
+namespace test_measuring_mappings {
+
 using namespace sinew;
 using Catch::Matchers::Contains;
 
@@ -125,3 +127,5 @@ TEST_CASE("the centre of mass follows a mass that is changed in the middle of a 
                     Contains("CenterOfMassMapping") && Contains("no mass in the node /root/block"));
   sim.animate(0.01);
 }
+
+}  // namespace test_measuring_mappings

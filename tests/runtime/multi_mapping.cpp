@@ -2,6 +2,8 @@
 // Mappings with several parents, from a scene file and composed by the compiler.
 #include "same_bits.hpp"
 
+namespace test_multi_mapping {
+
 using namespace sinew;
 using Catch::Matchers::Contains;
 
@@ -126,3 +128,5 @@ TEST_CASE("bad parents in a scene file are named") {
   says(scene(apart.replace(0, at.size(), at + "<EulerExplicitSolver/>") + right + joined),
        "is under another ODE solver than its parent at '/left'");
 }
+
+}  // namespace test_multi_mapping

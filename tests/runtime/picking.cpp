@@ -5,6 +5,8 @@
 
 #include <sinew/runtime/precompiled.hpp>
 
+namespace test_picking {
+
 using namespace sinew;
 
 namespace {
@@ -80,3 +82,5 @@ TEST_CASE("a place picked and pulled in a runtime tree and in a typed scene: the
   CHECK(fixed.release(two));
   for (int i = 0; i < 20; ++i) both();
 }
+
+}  // namespace test_picking

@@ -15,6 +15,8 @@
 #include <sinew/solver/euler_implicit.hpp>
 #include <sinew/state/mechanical_object.hpp>
 
+namespace test_profile {
+
 using namespace sinew;
 
 namespace {
@@ -101,3 +103,5 @@ TEST_CASE("a runtime place in a typed scene that is profiled") {
             .at("step/root EulerImplicitSolver/force/chain/springs StiffSpringForceField<Vec3d>")
             .calls == 3);
 }
+
+}  // namespace test_profile

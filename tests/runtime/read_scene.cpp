@@ -4,6 +4,8 @@
 
 #include <sinew/runtime/save_scene.hpp>
 
+namespace test_read_scene {
+
 using namespace sinew;
 
 namespace {
@@ -237,3 +239,5 @@ TEST_CASE("a checkpoint goes on bit by bit") {
   again.reset();
   CHECK(same_bits::bits_of(again) == same_bits::bits_of(sim));
 }
+
+}  // namespace test_read_scene

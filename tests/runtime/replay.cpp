@@ -6,6 +6,8 @@
 #include <sinew/runtime/from_typed.hpp>
 #include <sinew/runtime/precompiled.hpp>
 
+namespace test_replay {
+
 using namespace sinew;
 using files::TempFolder;
 
@@ -251,3 +253,5 @@ TEST_CASE("what is wrong with ReadState and WriteState in a scene file is said w
   Runtime sim(std::move(root));
   says(files::error_of([&] { sim.init(); }), {"is over Vec3d", "a state over Rigid3d"});
 }
+
+}  // namespace test_replay

@@ -3,6 +3,8 @@
 #include "one_tetrahedron/scene.hpp"
 #include "same_bits.hpp"
 
+namespace test_same_bits_fem {
+
 TEST_CASE("one tetrahedron: typed and runtime tree have the same bits") {
   same_bits::check(examples::one_tetrahedron(), 0.01);
 }
@@ -13,3 +15,5 @@ TEST_CASE("the liver: typed and runtime tree have the same bits") {
   const examples::LiverBody body = examples::make_body(options);
   same_bits::check(examples::liver_scene(body, options), 0.02);
 }
+
+}  // namespace test_same_bits_fem

@@ -2,6 +2,8 @@
 #include "same_bits.hpp"
 #include "string_on_rigid/scene.hpp"
 
+namespace test_same_bits_string {
+
 using namespace sinew;
 
 TEST_CASE("a string on a rigid body: typed and runtime tree have the same bits, explicit") {
@@ -20,3 +22,5 @@ TEST_CASE("a string on a rigid body: typed and runtime tree have the same bits, 
   same_bits::check(
       examples::string_on_rigid(EulerImplicitSolver{}, CGLinearSolver<CompressedRowSparseMatrixd>{}), 0.01);
 }
+
+}  // namespace test_same_bits_string

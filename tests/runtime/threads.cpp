@@ -8,6 +8,8 @@
 #include <sinew/scene/simulation.hpp>
 #include <sinew/sinew.hpp>
 
+namespace test_threads {
+
 using namespace sinew;
 
 namespace {
@@ -45,3 +47,5 @@ TEST_CASE("a scene file says how many threads work") {
     CHECK_THROWS_WITH(simulation("<Threads count=\"" + bad + "\"/>", ""), Catch::Matchers::Contains("count"));
   }
 }
+
+}  // namespace test_threads

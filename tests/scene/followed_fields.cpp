@@ -6,6 +6,8 @@
 
 #include "catch.hpp"
 
+namespace test_followed_fields {
+
 using namespace sinew;
 
 namespace {
@@ -121,3 +123,5 @@ TEST_CASE("pressure goes with the triangles that are named, and does not turn to
   pressure.init({"there", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {.triangles = triangles}});
   CHECK(pressure.driver.packs.empty());
 }
+
+}  // namespace test_followed_fields

@@ -7,6 +7,8 @@
 
 #include <cmath>
 
+namespace test_joined_solvers {
+
 using namespace sinew;
 
 namespace {
@@ -91,3 +93,5 @@ TEST_CASE("a spring to a body that is carried along pulls its carrier") {
   CHECK(v[0] < 0);
   CHECK(v[5] > 0);  // f = -x at r = 0.1 y: the torque r x f is along z
 }
+
+}  // namespace test_joined_solvers

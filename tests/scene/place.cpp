@@ -5,6 +5,8 @@
 #include <sinew/registry.hpp>
 #include <sinew/runtime/runtime.hpp>
 
+namespace test_place {
+
 using namespace sinew;
 
 namespace {
@@ -92,3 +94,5 @@ TEST_CASE("a place is empty at first, and refuses what does not fit") {
   CHECK(sim.at<"organ/tools">().children().empty());
   sim.animate(0.01);
 }
+
+}  // namespace test_place

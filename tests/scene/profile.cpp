@@ -14,6 +14,8 @@
 #include <sinew/solver/euler_implicit.hpp>
 #include <sinew/state/mechanical_object.hpp>
 
+namespace test_profile {
+
 using namespace sinew;
 
 namespace {
@@ -155,3 +157,5 @@ TEST_CASE("an error in a step leaves no timer running") {
   CHECK(lines.at("step").calls == 1);
   CHECK(lines.contains("visual"));
 }
+
+}  // namespace test_profile

@@ -2,6 +2,8 @@
 // States that are recorded, in typed scenes.
 #include "replay.hpp"
 
+namespace test_recording {
+
 using namespace replay;
 
 TEST_CASE("bodies in the plane are recorded without gaps between their numbers") {
@@ -190,3 +192,5 @@ TEST_CASE("a record after a reset has the bytes of the first one, forces too") {
   sim.finish();
   CHECK(io::read_file(path) == first);
 }
+
+}  // namespace test_recording

@@ -2,6 +2,8 @@
 // What follows a removal in unusual ways, and removals that are refused.
 #include "removal_row.hpp"
 
+namespace test_removal_follows {
+
 namespace {
 
 using namespace removal;
@@ -146,3 +148,5 @@ TEST_CASE("springs to another body go with their ends") {
   CHECK(springs.elongationOnly == std::vector<bool>{true, false});
   sim.animate(0.01);
 }
+
+}  // namespace test_removal_follows

@@ -2,6 +2,8 @@
 // What follows a removal through mappings, attachments and beams.
 #include "removal_row.hpp"
 
+namespace test_removal_mapped {
+
 using namespace removal;
 
 TEST_CASE("lengths and volumes go with their edges and tetrahedra, and the centre of mass moves") {
@@ -120,3 +122,5 @@ TEST_CASE("a skin loses the weights of the frames that go, and the points that h
   CHECK(sim.at<"beams/nearest">().state().position.size() == 3);
   sim.animate(0.01);
 }
+
+}  // namespace test_removal_mapped

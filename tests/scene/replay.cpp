@@ -4,6 +4,8 @@
 
 #include "reset.hpp"
 
+namespace test_replay {
+
 using namespace replay;
 
 TEST_CASE("a tool without a solver is, after a step, where its trajectory says, and what it carries too") {
@@ -230,3 +232,5 @@ TEST_CASE("tools that are led, and movements that are prescribed, start again") 
              {1, 15, 40},
              40);
 }
+
+}  // namespace test_replay

@@ -17,6 +17,8 @@
 #include <sinew/state/mechanical_object.hpp>
 #include <sinew/topology/mesh_topology.hpp>
 
+namespace test_reset {
+
 using namespace sinew;
 
 namespace {
@@ -66,3 +68,5 @@ TEST_CASE("a material forgets its past in a reset") {
   comes_back(block(BDFOdeSolver{}, cg));
   comes_back(block(EulerImplicitSolver{.trapezoidalScheme = true, .maxNbIterationsNewton = 3}, cg));
 }
+
+}  // namespace test_reset

@@ -3,6 +3,8 @@
 
 #include <sinew/sinew.hpp>
 
+namespace test_simulation {
+
 using namespace sinew;
 
 namespace {
@@ -142,3 +144,5 @@ TEST_CASE("energies are those of the components") {
   CHECK(sim.kineticEnergy() == Approx(10));
   CHECK(sim.potentialEnergy() == Approx(5));
 }
+
+}  // namespace test_simulation

@@ -7,6 +7,8 @@
 #include <atomic>
 #include <thread>
 
+namespace test_threads {
+
 using namespace sinew;
 using namespace threaded;
 
@@ -82,3 +84,5 @@ TEST_CASE("parts cover a whole once", "[threads]") {
       CHECK(next == n);
     }
 }
+
+}  // namespace test_threads

@@ -5,6 +5,8 @@
 #include <sinew/force/regular_grid_spring.hpp>
 #include <sinew/topology/regular_grid_topology.hpp>
 
+namespace test_threads_float {
+
 using namespace sinew;
 using namespace threaded;
 
@@ -27,3 +29,5 @@ TEST_CASE("a grid of springs has the same bits with any number of threads", "[th
                      FixedConstraint<Vec3d>{.indices = {0, 1, 2, 3}})};
   });
 }
+
+}  // namespace test_threads_float

@@ -6,6 +6,8 @@
 #include "catch.hpp"
 #include "mesh_checks.hpp"
 
+namespace test_adjacency {
+
 using namespace sinew;
 
 TEST_CASE("edges of elements come once, sorted") {
@@ -90,3 +92,5 @@ TEST_CASE("adjacency refuses bad elements") {
                  }),
                  "edge 0"));
 }
+
+}  // namespace test_adjacency

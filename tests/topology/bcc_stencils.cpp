@@ -8,6 +8,8 @@
 
 #include "catch.hpp"
 
+namespace test_bcc_stencils {
+
 using namespace sinew;
 using namespace sinew::detail;
 
@@ -165,3 +167,5 @@ TEST_CASE("inside points that see each other through a face on the surface belon
   CHECK(at(beyond) == 1);
   CHECK(at(apart) == -1);
 }
+
+}  // namespace test_bcc_stencils

@@ -10,6 +10,8 @@
 #include "catch.hpp"
 #include "mesh_checks.hpp"
 
+namespace test_hexahedra {
+
 using namespace sinew;
 
 namespace {
@@ -97,3 +99,5 @@ TEST_CASE("trilinear shape functions interpolate linear functions and have the d
     }
   }
 }
+
+}  // namespace test_hexahedra

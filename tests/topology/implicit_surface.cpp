@@ -3,6 +3,8 @@
 
 #include "catch.hpp"
 
+namespace test_implicit_surface {
+
 using namespace sinew;
 
 TEST_CASE("distances of simple shapes known by hand") {
@@ -66,3 +68,5 @@ TEST_CASE("the liver lies inside its box and has the shape it promises") {
   CHECK(liver({-0.01, -0.015, 0.045}) < 0);
   CHECK(liver({0.06, 0.0, 0.03}) < 0);
 }
+
+}  // namespace test_implicit_surface

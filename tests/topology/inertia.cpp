@@ -6,6 +6,8 @@
 #include <Eigen/Geometry>
 #include <numbers>
 
+namespace test_inertia {
+
 using namespace sinew;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
@@ -155,3 +157,5 @@ TEST_CASE("surfaces without an inside are refused") {
   says(missing, "quad 2 refers to point 8");
   says(moved(mesh, [](Vector3d const& x) { return Vector3d(x[0], x[1], 0); }), "holds no volume");
 }
+
+}  // namespace test_inertia

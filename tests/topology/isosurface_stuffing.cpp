@@ -8,6 +8,8 @@
 #include "catch.hpp"
 #include "mesh_checks.hpp"
 
+namespace test_isosurface_stuffing {
+
 using namespace sinew;
 using Eigen::Vector3d;
 
@@ -176,3 +178,5 @@ TEST_CASE("tetrahedralize refuses what it cannot mesh") {
   CHECK(contains(count([&](Vector3d const&) { return nan; }, 100), "gives nan"));
   CHECK(contains(error_of([&] { tetrahedralize_count(sphere, hi, lo, 100); }), "is empty"));
 }
+
+}  // namespace test_isosurface_stuffing

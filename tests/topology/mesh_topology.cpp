@@ -7,6 +7,8 @@
 #include "io/samples.hpp"
 #include "mesh_checks.hpp"
 
+namespace test_mesh_topology {
+
 using namespace sinew;
 
 namespace {
@@ -96,3 +98,5 @@ TEST_CASE("MeshTopology takes from a file what it is not given") {
   CHECK(contains(said, "/root: MeshTopology: "));
   CHECK(contains(said, "missing.obj: cannot be read"));
 }
+
+}  // namespace test_mesh_topology

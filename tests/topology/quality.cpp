@@ -6,6 +6,8 @@
 #include "catch.hpp"
 #include "mesh_checks.hpp"
 
+namespace test_quality {
+
 using namespace sinew;
 
 TEST_CASE("quality of tetrahedra known by hand") {
@@ -79,3 +81,5 @@ TEST_CASE("quality refuses meshes without elements or points") {
   mesh.tetrahedra = {{0, 1, 2, 3}};
   CHECK(contains(error_of([&] { quality(mesh); }), "tetrahedron 0"));
 }
+
+}  // namespace test_quality

@@ -9,6 +9,8 @@
 #include "catch.hpp"
 #include "mesh_checks.hpp"
 
+namespace test_regular_grid {
+
 using namespace sinew;
 
 namespace {
@@ -105,3 +107,5 @@ TEST_CASE("grids refuse sizes that make no sense") {
   CHECK(contains(error_of([] { cylinder_tetrahedra(0, 0, 1, 1, 0, 2); }), "0 rings"));
   CHECK(contains(error_of([] { cylinder_tetrahedra(0, 0, 1, 1, 2000000000, 2000000000); }), "2^28"));
 }
+
+}  // namespace test_regular_grid

@@ -5,6 +5,8 @@
 #include "catch.hpp"
 #include "mesh_checks.hpp"
 
+namespace test_regular_grid_topology {
+
 using namespace sinew;
 
 namespace {
@@ -136,3 +138,5 @@ TEST_CASE("RegularGridTopology refuses boxes and sizes that make no sense") {
                  }),
                  "the grid has 27 points, but the state 26"));
 }
+
+}  // namespace test_regular_grid_topology

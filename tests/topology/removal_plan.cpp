@@ -3,6 +3,8 @@
 
 #include "catch.hpp"
 
+namespace test_removal_plan {
+
 using namespace sinew;
 
 namespace {
@@ -70,3 +72,5 @@ TEST_CASE("elements go with their points") {
         std::vector<bool>{true, true, true, true, true, true, true, true, true, false});
   CHECK(plan.elements[0][1] == std::vector<bool>(7, true));
 }
+
+}  // namespace test_removal_plan

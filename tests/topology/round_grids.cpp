@@ -12,6 +12,8 @@
 
 #include <numbers>
 
+namespace test_round_grids {
+
 using namespace sinew;
 
 namespace {
@@ -158,3 +160,5 @@ TEST_CASE("round grids and surfaces that make no sense are refused") {
   CHECK(contains(refusal(CubeTopology{.xmax = -1}), "/root: CubeTopology: the box"));
   CHECK(refusal(CylinderGridTopology{.n = {3, 3, 1}}).empty());  // a disk
 }
+
+}  // namespace test_round_grids

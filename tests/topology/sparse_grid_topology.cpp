@@ -8,6 +8,8 @@
 #include "io/files.hpp"
 #include "mesh_checks.hpp"
 
+namespace test_sparse_grid_topology {
+
 using namespace sinew;
 
 namespace {
@@ -237,3 +239,5 @@ TEST_CASE("SparseGridTopology says what is wrong, and keeps what it had") {
                  }),
                  "but the state"));
 }
+
+}  // namespace test_sparse_grid_topology

@@ -10,6 +10,8 @@
 #include <Eigen/LU>
 #include <set>
 
+namespace test_subdivision {
+
 using namespace sinew;
 
 namespace {
@@ -188,3 +190,5 @@ TEST_CASE("meshes that cannot be subdivided are refused") {
                  }),
                  "more than 2^28 points"));
 }
+
+}  // namespace test_subdivision

@@ -9,6 +9,8 @@
 #include "catch.hpp"
 #include "mesh_checks.hpp"
 
+namespace test_surface_mesh {
+
 using namespace sinew;
 using Eigen::Vector3d;
 
@@ -110,3 +112,5 @@ TEST_CASE("surface refuses what it cannot mesh") {
   };
   CHECK(contains(error_of([&] { surface(bad, lo, hi, 0.1); }), "gives nan"));
 }
+
+}  // namespace test_surface_mesh

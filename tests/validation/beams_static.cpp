@@ -5,6 +5,8 @@
 
 #include <numbers>
 
+namespace test_beams_static {
+
 using namespace beams;
 using std::numbers::pi;
 
@@ -188,3 +190,5 @@ TEST_CASE("Newton's method converges quadratically on a bent beam") {
   // bending and stretch take turns to be out of balance: two iterations square the correction
   for (std::size_t i = 4; i < c.size(); ++i) CHECK(c[i] < 2 * std::pow(c[i - 2], 2) + 1e-10);
 }
+
+}  // namespace test_beams_static

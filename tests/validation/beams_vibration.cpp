@@ -9,6 +9,8 @@
 #include <Eigen/Eigenvalues>
 #include <numbers>
 
+namespace test_beams_vibration {
+
 using namespace beams;
 using std::numbers::pi;
 
@@ -195,3 +197,5 @@ TEST_CASE("a free beam in flight keeps its momenta and its energy") {
   CHECK(std::abs(lost) < 1e-5);
   CHECK(most > 1.1 * least);
 }
+
+}  // namespace test_beams_vibration

@@ -3,6 +3,8 @@
 #include "catch.hpp"
 #include "record.hpp"
 
+namespace test_cantilever {
+
 using namespace bars;
 
 namespace {
@@ -119,3 +121,5 @@ TEST_CASE("linear tetrahedra and hexahedra lock as Poisson's ratio nears 1/2", "
     CHECK(hexahedra.back() < 0.9 * hexahedra.front());
   }
 }
+
+}  // namespace test_cantilever

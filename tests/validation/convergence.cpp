@@ -3,6 +3,8 @@
 
 #include <sinew/sinew.hpp>
 
+namespace test_convergence {
+
 using namespace sinew;
 
 namespace {
@@ -119,3 +121,5 @@ TEST_CASE("each solver has its order on a pendulum with a closed form") {
   CHECK(order(error(400, EulerImplicitSolver{}, cg), error(800, EulerImplicitSolver{}, cg)) ==
         Approx(1).margin(0.1));
 }
+
+}  // namespace test_convergence

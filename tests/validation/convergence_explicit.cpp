@@ -6,6 +6,8 @@
 #include <sinew/solver/runge_kutta45.hpp>
 #include <sinew/solver/variational_symplectic.hpp>
 
+namespace test_convergence_explicit {
+
 using namespace sinew;
 using namespace closed_form;
 
@@ -91,3 +93,5 @@ TEST_CASE("explicit integration of VariationalSymplecticSolver is symplectic Eul
   CHECK(oscillator_error(VariationalSymplecticSolver{.explicitIntegration = true}, 50) ==
         oscillator_error(EulerExplicitSolver{}, 50));
 }
+
+}  // namespace test_convergence_explicit

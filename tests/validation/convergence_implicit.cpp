@@ -6,6 +6,8 @@
 #include <sinew/solver/newmark_implicit.hpp>
 #include <sinew/solver/variational_symplectic.hpp>
 
+namespace test_convergence_implicit {
+
 using namespace sinew;
 using namespace closed_form;
 
@@ -101,3 +103,5 @@ TEST_CASE("vdamping makes velocities decay at its rate") {
   CHECK(decayed(EulerImplicitSolver{}) == Approx(std::exp(-1)).epsilon(1e-14));
   CHECK(decayed(NewmarkImplicitSolver{}) == Approx(std::exp(-1)).epsilon(1e-14));
 }
+
+}  // namespace test_convergence_implicit

@@ -5,6 +5,8 @@
 
 #include <sinew/registry.hpp>
 
+namespace test_convergence_orders {
+
 using namespace sinew;
 using namespace closed_form;
 
@@ -79,3 +81,5 @@ TEST_CASE("every solver of the registry has the order that it claims", "[page]")
   measure("EulerImplicitSolver trapezoidalScheme", EulerImplicitSolver{.trapezoidalScheme = true}, 2);
   measure("BDFOdeSolver order=3", BDFOdeSolver{.order = 3}, 3);
 }
+
+}  // namespace test_convergence_orders

@@ -3,6 +3,8 @@
 #include "catch.hpp"
 #include "record.hpp"
 
+namespace test_cylinder {
+
 using namespace cylinder;
 
 namespace {
@@ -53,3 +55,5 @@ TEST_CASE("a cylinder of corotational tetrahedra or hexahedra under four pressur
           HexahedronFEMForceField<Vec3d>{.method = method},
           method != HexahedronMethod::large);
 }
+
+}  // namespace test_cylinder

@@ -4,6 +4,8 @@
 #include "hyperelastic_laws.hpp"
 #include "record.hpp"
 
+namespace test_cylinder_hyperelastic {
+
 using namespace cylinder;
 using namespace hyperelastic;
 
@@ -63,3 +65,5 @@ TEST_CASE("a cylinder of each hyperelastic law under four pressures", "[page]") 
               worst);
   }
 }
+
+}  // namespace test_cylinder_hyperelastic

@@ -8,6 +8,8 @@
 #include <sinew/solver/runge_kutta45.hpp>
 #include <sinew/solver/variational_symplectic.hpp>
 
+namespace test_energy_drift {
+
 using namespace sinew;
 using namespace closed_form;
 
@@ -74,3 +76,5 @@ TEST_CASE("the energy of an orbit over 100,000 steps, for the page", "[page]") {
   follow("RungeKutta2Solver", RungeKutta2Solver{});
   CHECK(follow("EulerImplicitSolver", EulerImplicitSolver{}) > symplectic);
 }
+
+}  // namespace test_energy_drift

@@ -8,6 +8,8 @@
 #include <Eigen/Cholesky>
 #include <set>
 
+namespace test_fem {
+
 using namespace sinew;
 
 namespace {
@@ -264,3 +266,5 @@ TEST_CASE("matrix-free and assembled conjugate gradients agree") {
     CHECK((free[i] - scalar[i]).norm() < 1e-9);
   }
 }
+
+}  // namespace test_fem

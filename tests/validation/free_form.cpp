@@ -3,6 +3,8 @@
 #include "catch.hpp"
 #include "record.hpp"
 
+namespace test_free_form {
+
 using namespace free_form;
 
 namespace {
@@ -76,3 +78,5 @@ TEST_CASE("a sparse grid is heavier than its body by a layer of cells", "[page]"
   CHECK(std::log2((touched[1] - 1) / (touched[2] - 1)) == Approx(1).margin(0.25));
   CHECK(std::log2((1 - inside[1]) / (1 - inside[2])) == Approx(1).margin(0.25));
 }
+
+}  // namespace test_free_form

@@ -5,6 +5,8 @@
 
 #include <sinew/topology/isosurface_stuffing.hpp>
 
+namespace test_free_form_sag {
+
 using namespace free_form;
 
 TEST_CASE("a liver in a grid of hexahedra sags as one of tetrahedra does", "[page]") {
@@ -61,3 +63,5 @@ TEST_CASE("a liver in a grid of hexahedra sags as one of tetrahedra does", "[pag
     CHECK(ratio == Approx(0.9).margin(0.1));
   }
 }
+
+}  // namespace test_free_form_sag

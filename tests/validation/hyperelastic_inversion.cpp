@@ -10,6 +10,8 @@
 #include <cmath>
 #include <utility>
 
+namespace test_hyperelastic_inversion {
+
 using namespace sinew;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
@@ -66,3 +68,5 @@ TEST_CASE("bodies with inverted elements come back to their shape") {
     CHECK(largest < 0.02);
   }
 }
+
+}  // namespace test_hyperelastic_inversion

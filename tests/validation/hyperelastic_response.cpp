@@ -7,6 +7,8 @@
 
 #include <cmath>
 
+namespace test_hyperelastic_response {
+
 using namespace sinew;
 using namespace hyperelastic;
 using Eigen::Matrix3d;
@@ -157,3 +159,5 @@ TEST_CASE("curves of the response, for the page", "[page]") {
     }
   }
 }
+
+}  // namespace test_hyperelastic_response

@@ -9,6 +9,8 @@
 
 #include <numbers>
 
+namespace test_kepler {
+
 using namespace sinew;
 
 namespace {
@@ -192,3 +194,5 @@ TEST_CASE("orbits to look at, for the page", "[page]") {
   draw("EulerExplicitSolver symplectic=0", EulerExplicitSolver{.symplectic = false});
   draw("EulerImplicitSolver", EulerImplicitSolver{});
 }
+
+}  // namespace test_kepler

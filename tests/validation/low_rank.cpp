@@ -7,6 +7,8 @@
 
 #include <Eigen/LU>
 
+namespace test_low_rank {
+
 using namespace bars;
 
 namespace {
@@ -100,3 +102,5 @@ TEST_CASE(
   auto stiff = solved(SparseLDLSolver<>{}, 1e5);
   CHECK((way(stiff) - u).norm() > 0.1 * u.norm());
 }
+
+}  // namespace test_low_rank

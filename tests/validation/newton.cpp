@@ -6,6 +6,8 @@
 #include <sinew/solver/bdf2.hpp>
 #include <sinew/solver/static_solver.hpp>
 
+namespace test_newton {
+
 using namespace sinew;
 using namespace closed_form;
 
@@ -205,3 +207,5 @@ TEST_CASE("what is at rest stays there without iterations") {
   CHECK(newton.corrections == std::vector<double>{0});  // a step in time has one, which is nothing
   CHECK(newton.status == NewtonStatus::residualSmall);
 }
+
+}  // namespace test_newton

@@ -3,6 +3,8 @@
 
 #include <sinew/sinew.hpp>
 
+namespace test_rigid {
+
 using namespace sinew;
 
 namespace {
@@ -113,3 +115,5 @@ TEST_CASE("a spinning symmetric top precesses as Euler says") {
   CHECK(w[1] == Approx(std::sin(3 * end)).margin(1e-8));
   CHECK(w[2] == Approx(3).margin(1e-8));
 }
+
+}  // namespace test_rigid

@@ -6,6 +6,8 @@
 #include <sinew/solver/newmark_implicit.hpp>
 #include <sinew/solver/variational_symplectic.hpp>
 
+namespace test_rigid_implicit {
+
 using namespace sinew;
 using namespace closed_form;
 
@@ -49,3 +51,5 @@ TEST_CASE("implicit solvers have their order on rotations") {
   CHECK(measured(BDFOdeSolver{}) == Approx(1).margin(0.05));
   CHECK(measured(NewmarkImplicitSolver{}) == Approx(1).margin(0.05));
 }
+
+}  // namespace test_rigid_implicit

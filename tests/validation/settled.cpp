@@ -3,6 +3,8 @@
 #include "catch.hpp"
 #include "record.hpp"
 
+namespace test_settled {
+
 using namespace bars;
 
 namespace {
@@ -61,3 +63,5 @@ TEST_CASE("what StaticSolver finds is what dynamics settle to", "[page]") {
   check(
       "TetrahedronFEM large", TetrahedronFEMForceField<Vec3d>{.method = RotationMethod::large}, Cells::five);
 }
+
+}  // namespace test_settled

@@ -2,6 +2,8 @@
 #include "elastica.hpp"
 #include "shells.hpp"
 
+namespace test_shells_large {
+
 using namespace shells;
 
 namespace {
@@ -79,3 +81,5 @@ TEST_CASE("a pinched hemisphere gives way as in the literature") {
   CHECK(in / 8.178 == Approx(0.955).margin(0.05));
   CHECK(found.corrections.size() < 10);
 }
+
+}  // namespace test_shells_large

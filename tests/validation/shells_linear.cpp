@@ -2,6 +2,8 @@
 #include "record.hpp"
 #include "shells.hpp"
 
+namespace test_shells_linear {
+
 using namespace shells;
 
 namespace {
@@ -176,3 +178,5 @@ TEST_CASE("the roof of Scordelis and Lo sinks as in the literature", "[page]") {
     CHECK(sinks == Approx(0.3024).epsilon(n == 8 ? 0.05 : 0.005));
   }
 }
+
+}  // namespace test_shells_linear

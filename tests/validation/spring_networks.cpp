@@ -5,6 +5,8 @@
 
 #include <Eigen/Cholesky>
 
+namespace test_spring_networks {
+
 using namespace bars;
 
 namespace {
@@ -128,3 +130,5 @@ TEST_CASE("a grid of springs stretches as its lattice does") {
     CHECK(sim.potentialEnergy() == Approx(energy).epsilon(2 * e));
   }
 }
+
+}  // namespace test_spring_networks

@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <set>
 
+namespace test_statics {
+
 using namespace sinew;
 
 namespace {
@@ -159,3 +161,5 @@ TEST_CASE("a body that nothing holds has no equilibrium to find, and is an error
     CHECK(said.find("fix points") != std::string::npos);
   }
 }
+
+}  // namespace test_statics

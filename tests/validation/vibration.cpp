@@ -4,6 +4,8 @@
 #include "record.hpp"
 #include "ring.hpp"
 
+namespace test_vibration {
+
 using namespace bars;
 
 namespace {
@@ -97,3 +99,5 @@ TEST_CASE("bars ring along themselves as rods do", "[page]") {
   CHECK(std::log2(bending[1] / bending[2]) == Approx(2).margin(0.1));
   CHECK(bending[3] < 0.006);
 }
+
+}  // namespace test_vibration

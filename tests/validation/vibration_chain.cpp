@@ -6,6 +6,8 @@
 #include <sinew/sinew.hpp>
 #include <sinew/solver/sparse_ldl_solver.hpp>
 
+namespace test_vibration_chain {
+
 using namespace sinew;
 
 TEST_CASE("a chain of springs rings in each of its modes as its dispersion says", "[page]") {
@@ -35,3 +37,5 @@ TEST_CASE("a chain of springs rings in each of its modes as its dispersion says"
     curve.row("string without lumps", mode, mode * pi / n);
   }
 }
+
+}  // namespace test_vibration_chain

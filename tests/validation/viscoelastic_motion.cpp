@@ -7,6 +7,8 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
+namespace test_viscoelastic_motion {
+
 using namespace sinew;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
@@ -81,3 +83,5 @@ TEST_CASE("a mass on a viscoelastic body swings as its differential equation say
   check(EulerImplicitSolver{}, 1, 1, 3e-2);
   check(BDFOdeSolver{}, 1.6, 2, 8e-4);
 }
+
+}  // namespace test_viscoelastic_motion

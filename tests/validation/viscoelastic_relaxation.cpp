@@ -7,6 +7,8 @@
 
 #include <cmath>
 
+namespace test_viscoelastic_relaxation {
+
 using namespace sinew;
 using Eigen::Vector3d;
 
@@ -67,3 +69,5 @@ TEST_CASE("in a shear that grows evenly, the stress is the integral of the Prony
     CHECK(cube.stress(rate * t, t, dt) == Approx(wanted).epsilon(1e-6).margin(1e-18));
   }
 }
+
+}  // namespace test_viscoelastic_relaxation

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <charconv>
+#include <concepts>
 #include <cstddef>
 #include <initializer_list>
 #include <numeric>
@@ -21,19 +23,26 @@ struct Error : std::runtime_error {
 
 namespace detail {
 
-template <class T>
-std::string to_text(T const& part) {
-  if constexpr (std::is_same_v<T, char>) {
-    return std::string(1, part);
-  } else if constexpr (std::is_integral_v<T>) {
-    return std::to_string(part);
-  } else if constexpr (std::is_floating_point_v<T>) {
-    char buffer[40];
-    const int n = __builtin_snprintf(buffer, sizeof buffer, "%.9g", double(part));
-    return std::string(buffer, std::size_t(n));
-  } else {
-    return std::string(std::string_view(part));
-  }
+/// A word, number or character of a message, as text.
+struct TextPart {
+  char number[40];
+  std::size_t size;
+  char const* word = nullptr;  // null: the number
+
+  TextPart(std::string_view w) : size(w.size()), word(w.data()) {}
+  TextPart(std::string const& w) : TextPart(std::string_view(w)) {}
+  TextPart(char const* w) : TextPart(std::string_view(w)) {}
+  TextPart(char c) : size(1) { number[0] = c; }
+  template <std::integral T>
+  TextPart(T value) : size(std::size_t(std::to_chars(number, number + sizeof number, +value).ptr - number)) {}
+  TextPart(float value) : TextPart(double(value)) {}
+  TextPart(double value) : size(std::size_t(__builtin_snprintf(number, sizeof number, "%.9g", value))) {}
+};
+
+inline std::string joined(std::initializer_list<TextPart> parts) {
+  std::string all;
+  for (TextPart const& part : parts) all.append(part.size == 0 ? "" : part.word ? part.word : part.number, part.size);
+  return all;
 }
 
 }  // namespace detail
@@ -41,9 +50,7 @@ std::string to_text(T const& part) {
 /// Joins words, numbers and characters into one message.
 template <class... Parts>
 std::string text(Parts const&... parts) {
-  std::string joined;
-  ((joined += detail::to_text(parts)), ...);
-  return joined;
+  return detail::joined({detail::TextPart(parts)...});
 }
 
 /// Number of single-letter edits that turn `a` into `b` (Levenshtein 1966), letter case ignored.

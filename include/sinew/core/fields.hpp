@@ -58,18 +58,20 @@ enum class Of {
   entries    // of the lists of points beside it
 };
 
-/// One value of a component that its user may set: the single declaration from which range checks, messages,
-/// scene files and reference pages are made. The default is what a default-constructed component holds.
-template <class Owner, class T>
-struct Field {
-  std::string_view name;
-  T Owner::*member;
-  std::string_view unit;
-  std::string_view documentation;
+/// What is said of a field, whatever its type is.
+struct FieldWords {
+  std::string_view name, unit, documentation;
   Range range;
   std::string_view aliases{};  // other names in scene files, apart by blanks
   Of entries = Of::nothing;    // a list that follows: of numbers of these, or with one value for each
   bool numbers = false;
+};
+
+/// One value of a component that its user may set: the single declaration from which range checks, messages,
+/// scene files and reference pages are made. The default is what a default-constructed component holds.
+template <class Owner, class T>
+struct Field : FieldWords {
+  T Owner::*member;
 
   /// The same field, known to scene files by other names too: those of older and newer SOFA.
   constexpr Field also(std::string_view names) const {
@@ -105,7 +107,7 @@ constexpr void for_each_name(std::string_view list, F&& f) {
 template <class Owner, class T>
 constexpr Field<Owner, T> field(std::string_view name, T Owner::*member, std::string_view unit,
                                 std::string_view documentation, Range range = range::any) {
-  return {name, member, unit, documentation, range};
+  return {{name, unit, documentation, range}, member};
 }
 
 template <class... F>
@@ -173,18 +175,26 @@ inline std::string range_text(Range r) {
   return words;
 }
 
-/// The first number inside a field's value that `bad` refuses, with the place where it stands ("[3].length").
+/// The first number inside a field's value that is refused, with the place where it stands ("[3].length").
 struct BadNumber {
   bool found = false;
   double value = 0;
   std::string place{};
-  // what the field of a struct inside the value demands, where it is one that refuses
-  Range range{};
-  std::string_view unit{}, documentation{};
+  FieldWords const* inside = nullptr;  // the field of a struct inside the value, where it is one that refuses
 };
 
-template <class T, class Bad>
-BadNumber find_number(T const& value, Bad const& bad) {
+/// Which numbers a field refuses: such as are not finite, or out of its range or of that of the field around it.
+struct Refused {
+  Range range;
+  Refused const* around = nullptr;
+
+  bool operator()(double value) const {
+    return !std::isfinite(value) || !range.contains(value) || (around && (*around)(value));
+  }
+};
+
+template <class T>
+BadNumber find_number(T const& value, Refused const& bad) {
   if constexpr (std::is_same_v<T, bool> || std::is_enum_v<T> || std::is_convertible_v<T, std::string_view>) {
     return {};
   } else if constexpr (std::is_arithmetic_v<T>) {
@@ -195,13 +205,14 @@ BadNumber find_number(T const& value, Bad const& bad) {
                        }) {
     return value ? find_number(*value, bad) : BadNumber{};
   } else if constexpr (HasFields<T>) {
+    static constexpr auto list = T::fields();
     BadNumber first;
-    for_each_field(value, [&](auto const& fd, auto const& v) {
+    boost::hana::for_each(list, [&](auto const& fd) {
       if (first.found) return;
-      first = find_number(v, [&](double d) { return bad(d) || !fd.range.contains(d); });
-      if (first.found && first.place.empty())
-        first.range = fd.range, first.unit = fd.unit, first.documentation = fd.documentation;
-      if (first.found) first.place = text('.', fd.name, first.place);
+      first = find_number(value.*fd.member, Refused{fd.range, &bad});
+      if (!first.found) return;
+      if (!first.inside) first.inside = &fd;
+      first.place = text('.', fd.name, first.place);
     });
     return first;
   } else if constexpr (requires {
@@ -239,33 +250,35 @@ BadNumber find_number(T const& value, Bad const& bad) {
   }
 }
 
+[[noreturn]] inline void refuse(std::string_view where, std::string_view component, FieldWords const& field,
+                                BadNumber const& bad) {
+  FieldWords const& says = bad.inside ? *bad.inside : field;
+  const std::string expected = range_text(says.range);
+  throw Error(where,
+              text(component,
+                   ": ",
+                   field.name,
+                   bad.place,
+                   " is ",
+                   bad.value,
+                   says.unit.empty() ? "" : " ",
+                   says.unit,
+                   ", but must be a finite number",
+                   expected.empty() ? "" : ", ",
+                   expected,
+                   " (",
+                   says.documentation,
+                   "); correct this value"));
+}
+
 }  // namespace detail
 
 /// Throws Error unless every field of `component` is finite and in its declared range.
 template <class C>
 void check_fields(C const& component, std::string_view where) {
   for_each_field(component, [&](auto const& fd, auto const& value) {
-    const auto bad =
-        detail::find_number(value, [&](double d) { return !std::isfinite(d) || !fd.range.contains(d); });
-    if (!bad.found) return;
-    const bool nested = !bad.documentation.empty();
-    const std::string expected = detail::range_text(nested ? bad.range : fd.range);
-    const std::string_view unit = nested ? bad.unit : fd.unit;
-    throw Error(where,
-                text(component_name<C>(),
-                     ": ",
-                     fd.name,
-                     bad.place,
-                     " is ",
-                     bad.value,
-                     unit.empty() ? "" : " ",
-                     unit,
-                     ", but must be a finite number",
-                     expected.empty() ? "" : ", ",
-                     expected,
-                     " (",
-                     nested ? bad.documentation : fd.documentation,
-                     "); correct this value"));
+    if (const auto bad = detail::find_number(value, {fd.range}); bad.found)
+      detail::refuse(where, component_name<C>(), fd, bad);
   });
 }
 

@@ -5,6 +5,7 @@
 #include <sinew/runtime/cpp_text.hpp>
 #include <sinew/runtime/value_text.hpp>
 
+#include <array>
 #include <functional>
 #include <span>
 #include <string>
@@ -13,17 +14,18 @@
 
 namespace sinew {
 
-/// What scene files, messages and reference pages know of one field of a class.
-struct FieldInfo {
-  std::string_view name, aliases, unit, documentation;
-  Range range;
-  std::string kind;          // "number", "list of points", ...
-  std::string defaultValue;  // in words
+/// A field of a class whose components are known by their addresses.
+struct FieldAccess : FieldWords {
+  std::string (*kind)();  // "number", "list of points", ...
   bool isFile = false, isInput = true;
-  // by the address of a component
   void (*read)(void* component, std::string_view words);
   std::string (*write)(void const* component);
   std::string (*cpp)(void const* component);
+};
+
+/// What scene files, messages and reference pages know of one field of a class.
+struct FieldInfo : FieldAccess {
+  std::string kind, defaultValue;  // in words
 
   bool known(std::string_view asked) const {
     bool found = asked == name;
@@ -170,17 +172,13 @@ std::string kind_of() {
 }
 
 // a field of a component that holds a Mesh stands for the lists of the mesh
-template <class C, auto List, bool Input>
-FieldInfo mesh_field(std::string_view name, std::string_view documentation) {
-  return {name,
-          {},
-          "",
-          documentation,
-          range::any,
-          kind_of<std::decay_t<decltype(std::declval<C>().mesh.*List)>>(),
-          "",
+template <class C, auto List>
+constexpr FieldAccess mesh_field(std::string_view name, std::string_view documentation) {
+  using T = std::decay_t<decltype(std::declval<C>().mesh.*List)>;
+  return {{.name = name, .unit = "", .documentation = documentation, .range = range::any},
+          &kind_of<T>,
           false,
-          Input,
+          true,
           [](void* c, std::string_view words) { read_value(words, static_cast<C*>(c)->mesh.*List); },
           [](void const* c) { return write_value(static_cast<C const*>(c)->mesh.*List); },
           [](void const* c) { return cpp_value(static_cast<C const*>(c)->mesh.*List); }};
@@ -197,29 +195,24 @@ constexpr auto fields_of() {
     return C::outputs();
 }
 
+template <class C, FieldList Which>
+inline constexpr auto list_of_fields = fields_of<C, Which>();
+
 template <class C, FieldList Which, std::size_t I>
-FieldInfo field_info() {
-  static constexpr auto list = fields_of<C, Which>();
-  static constexpr auto const& fd = boost::hana::at_c<I>(list);
+constexpr FieldAccess field_access() {
+  constexpr auto const& fd = boost::hana::at_c<I>(list_of_fields<C, Which>);
   using T = std::decay_t<decltype(std::declval<C>().*(fd.member))>;
-  return {fd.name,
-          fd.aliases,
-          fd.unit,
-          fd.documentation,
-          fd.range,
-          kind_of<T>(),
-          write_value(C{}.*(fd.member)),
+  return {fd,
+          &kind_of<T>,
           std::is_same_v<T, DataFile>,
           Which != FieldList::outputs,
-          [](void* c, std::string_view words) {
-            read_value(words, static_cast<C*>(c)->*(boost::hana::at_c<I>(list).member));
-          },
-          [](void const* c) {
-            return write_value(static_cast<C const*>(c)->*(boost::hana::at_c<I>(list).member));
-          },
-          [](void const* c) {
-            return cpp_value(static_cast<C const*>(c)->*(boost::hana::at_c<I>(list).member));
-          }};
+          [](void* c, std::string_view words) { read_value(words, static_cast<C*>(c)->*fd.member); },
+          [](void const* c) { return write_value(static_cast<C const*>(c)->*fd.member); },
+          [](void const* c) { return cpp_value(static_cast<C const*>(c)->*fd.member); }};
+}
+
+inline void add_fields(ClassInfo& info, std::span<FieldAccess const> fields, void const* defaults) {
+  for (FieldAccess const& f : fields) info.fields.push_back({f, f.kind(), f.write(defaults)});
 }
 
 template <class C>
@@ -246,20 +239,24 @@ ClassInfo class_info(int type) {
   if constexpr (HasRole<C, role::VisualModel>) info.cppName = std::string(C::className);
   if constexpr (requires(C c) { c.ends.object1; }) info.joins = true;
   info.severalParents = requires(C c) { c.parents.paths; };
+  const C defaults{};
   auto add = [&]<FieldList Which>() {
     [&]<std::size_t... I>(std::index_sequence<I...>) {
-      (info.fields.push_back(field_info<C, Which, I>()), ...);
+      static constexpr std::array<FieldAccess, sizeof...(I)> fields{field_access<C, Which, I>()...};
+      add_fields(info, fields, &defaults);
     }
-    (std::make_index_sequence<decltype(boost::hana::length(fields_of<C, Which>()))::value>{});
+    (std::make_index_sequence<decltype(boost::hana::length(list_of_fields<C, Which>))::value>{});
   };
   add.template operator()<FieldList::inputs>();
   if constexpr (requires { C::state(); }) add.template operator()<FieldList::state>();
   if constexpr (requires { C::outputs(); }) add.template operator()<FieldList::outputs>();
   if constexpr (requires(C c) { c.mesh.positions; }) {
-    info.fields.push_back(mesh_field<C, &Mesh::positions, true>("position", "vertices of the surface"));
-    info.fields.push_back(mesh_field<C, &Mesh::edges, true>("edges", "edges of the surface"));
-    info.fields.push_back(mesh_field<C, &Mesh::triangles, true>("triangles", "triangles of the surface"));
-    info.fields.push_back(mesh_field<C, &Mesh::quads, true>("quads", "quads of the surface"));
+    static constexpr std::array<FieldAccess, 4> lists{
+        mesh_field<C, &Mesh::positions>("position", "vertices of the surface"),
+        mesh_field<C, &Mesh::edges>("edges", "edges of the surface"),
+        mesh_field<C, &Mesh::triangles>("triangles", "triangles of the surface"),
+        mesh_field<C, &Mesh::quads>("quads", "quads of the surface")};
+    add_fields(info, lists, &defaults);
   }
   return info;
 }
