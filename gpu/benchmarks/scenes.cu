@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: BSL-1.0
 // Steps a second of the scenes of the table on a GPU, in all forms in turn: plain Thrust, the step as a CUDA
 // graph, the fused step.
-//   scenes grid NX NY NZ | fem FILE.msh | block CELLS | batch FILE.msh COPIES
-//          [--double] [--steps N] [--no-host] [--no-fused]
+//   scenes grid NX NY NZ | fem FILE.msh | block CELLS | hexahedra CELLS | hyperelastic CELLS | batch FILE.msh COPIES
+//          [--double] [--steps N] [--iterations N] [--no-host] [--no-fused]
+// Bodies of CELLS are unit cubes of so many cells along each edge.
 // Prints, for each form: scene; points; elements; real; form; steps a second; how far point 100 is, over the
 // largest coordinate, from where the processor has it after the first 50 steps.
+#include <sinew/force/hexahedron_fem.hpp>
+#include <sinew/force/tetrahedron_hyperelasticity.hpp>
 #include <sinew/gpu/fused/simulation.hpp>
 #include <sinew/gpu/recorded_step.hpp>
 #include <sinew/io/read_gmsh.hpp>
+#include <sinew/solver/pcg_linear_solver.hpp>
+#include <sinew/topology/mesh_topology.hpp>
 
 #include "../../benchmarks/run/scenes.hpp"
 
@@ -26,6 +31,39 @@ constexpr int compared = 50;
 
 double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+// a cube of hexahedra, and one of a compressible Neo-Hookean solid, held at the side x = 0
+std::vector<int> held(Mesh const& mesh) {
+  std::vector<int> at;
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+    if (mesh.positions[i][0] < 1e-9) at.push_back(int(i));
+  return at;
+}
+template <class D, class Linear>
+auto hexahedra(int n, Linear linear) {
+  const Mesh mesh = regular_grid(n + 1, n + 1, n + 1, {0, 0, 0}, {1, 1, 1});
+  return Simulation{node<"root">(Gravity{{0, -9.81, 0}},
+                                 EulerImplicitSolver{.rayleighStiffness = 0.1, .rayleighMass = 0.1},
+                                 linear,
+                                 MeshTopology{.position = mesh.positions, .hexahedra = mesh.hexahedra},
+                                 MechanicalObject<D>{},
+                                 DiagonalMass<D>{.massDensity = 1},
+                                 HexahedronFEMForceField<D>{.youngModulus = {3000}, .poissonRatio = 0.3},
+                                 FixedConstraint<D>{.indices = held(mesh)})};
+}
+template <class D, class Linear>
+auto hyperelastic(Mesh const& mesh, Linear linear) {
+  return Simulation{node<"root">(
+      Gravity{{0, -9.81, 0}},
+      EulerImplicitSolver{.rayleighStiffness = 0.1, .rayleighMass = 0.1},
+      linear,
+      TetrahedronTopology{mesh.tetrahedra},
+      MechanicalObject<D>{points_of<D>(mesh)},
+      DiagonalMass<D>{.massDensity = 1},
+      TetrahedronHyperelasticityFEMForceField<D>{.materialName = HyperelasticMaterial::NeoHookean,
+                                                 .parameterSet = {1200, 2500}},
+      FixedConstraint<D>{.indices = held(mesh)})};
 }
 
 // the median of five, of the seconds that a step takes
@@ -56,16 +94,17 @@ double difference(X const& x, Y const& y) {
 
 struct Options {
   std::string scene{};
-  int steps = 200;
+  int steps = 200, iterations = 25;
   bool host = true, plain = true, fused = true;
   int copies = 0;
 };
 
-// make.template operator()<D>(iterations) is the scene over D
+// make.template operator()<D>(linear) is the scene over D with that linear solver
 template <class H, class Make>
 void measure(Make const& make, Options const& o) {
   using Cuda = CudaTypes<H>;
-  auto reference = make.template operator()<H>(25);
+  const auto plain = all_iterations<GraphScattered>(o.iterations);
+  auto reference = make.template operator()<H>(plain);
   auto field = [](auto& sim) -> auto& {
     return *std::get<0>(components_that<gpu::detail::IsForceField>(components_of(sim.root())));
   };
@@ -95,7 +134,7 @@ void measure(Make const& make, Options const& o) {
   const int same = small ? compared : 2;
   auto const& expected = reference.root().state().position;
   if (o.plain) {
-    auto sim = make.template operator()<Cuda>(25);
+    auto sim = make.template operator()<Cuda>(plain);
     const double start = now();
     sim.init();
     sim.animate(dt);
@@ -111,13 +150,18 @@ void measure(Make const& make, Options const& o) {
          far);
     gpu::RecordedStep recorded(sim, dt);
     line("graph", seconds_a_step(o.steps, [&](int n) { recorded.animate(n); }), far);
+    auto blocks = make.template operator()<Cuda>(
+        ShewchukPCGLinearSolver<>{.iterations = o.iterations, .tolerance = 0});
+    blocks.init();
+    gpu::RecordedStep preconditioned(blocks, dt);
+    line("graph, block-Jacobi", seconds_a_step(o.steps, [&](int n) { preconditioned.animate(n); }), 0);
   }
   if (o.plain && !small) {
     // what an iteration costs, from steps with fewer of them; the matrix is read once in each
     double seconds[2];
     std::size_t bytes = 0;
     for (const int k : {0, 1}) {
-      auto sim = make.template operator()<Cuda>(k == 0 ? 5 : 25);
+      auto sim = make.template operator()<Cuda>(all_iterations<GraphScattered>(k == 0 ? 5 : 25));
       sim.init();
       gpu::RecordedStep recorded(sim, dt);
       seconds[k] = seconds_a_step(o.steps, [&](int n) { recorded.animate(n); });
@@ -137,7 +181,7 @@ void measure(Make const& make, Options const& o) {
   }
   if (o.fused)
     for (const int blocks : {0, 4, 16, 1000}) {
-      auto sim = make.template operator()<Cuda>(25);
+      auto sim = make.template operator()<Cuda>(plain);
       sim.init();
       try {
         gpu::FusedSimulation fused(sim, 1, blocks);
@@ -203,7 +247,13 @@ void run(std::vector<std::string> const& words, Options o) {
   if (words.at(0) == "grid") {
     const std::array<int, 3> n{number(1), number(2), number(3)};
     o.scene = text("grid ", n[0], "x", n[1], "x", n[2]);
-    measure<H>([&]<class D>(int i) { return spring_grid<D>(n, all_iterations<GraphScattered>(i)); }, o);
+    measure<H>([&]<class D>(auto linear) { return spring_grid<D>(n, linear); }, o);
+  } else if (words.at(0) == "hexahedra") {
+    o.scene = "hexahedra";
+    measure<H>([&]<class D>(auto linear) { return hexahedra<D>(number(1), linear); }, o);
+  } else if (words.at(0) == "hyperelastic") {
+    o.scene = "hyperelastic";
+    measure<H>([&]<class D>(auto linear) { return hyperelastic<D>(block(number(1)), linear); }, o);
   } else if (words.at(0) == "batch") {
     o.scene = words.at(1).substr(words.at(1).find_last_of('/') + 1);
     o.copies = number(2);
@@ -212,7 +262,7 @@ void run(std::vector<std::string> const& words, Options o) {
     const bool file = words.at(0) == "fem";
     const Mesh mesh = file ? io::read_gmsh(words.at(1)) : block(number(1));
     o.scene = file ? words.at(1).substr(words.at(1).find_last_of('/') + 1) : "block";
-    measure<H>([&]<class D>(int i) { return body<D>(mesh, all_iterations<GraphScattered>(i)); }, o);
+    measure<H>([&]<class D>(auto linear) { return body<D>(mesh, linear); }, o);
   }
 }
 
@@ -228,6 +278,8 @@ int main(int argc, char** argv) try {
       inDouble = true;
     else if (word == "--steps" && i + 1 < argc)
       o.steps = std::atoi(argv[++i]);
+    else if (word == "--iterations" && i + 1 < argc)
+      o.iterations = std::atoi(argv[++i]);
     else if (word == "--no-fused")
       o.fused = false;
     else if (word == "--no-host")
@@ -237,8 +289,8 @@ int main(int argc, char** argv) try {
   }
   if (words.size() < 2) {
     std::fprintf(stderr,
-                 "usage: scenes grid NX NY NZ | fem FILE.msh | block CELLS | batch FILE.msh COPIES "
-                 "[--double] [--steps N] [--no-host] [--no-fused]\n");
+                 "usage: scenes grid NX NY NZ | fem FILE.msh | block CELLS | hexahedra CELLS | hyperelastic CELLS | "
+                 "batch FILE.msh COPIES [--double] [--steps N] [--iterations N] [--no-host] [--no-fused]\n");
     return 2;
   }
   if (inDouble)

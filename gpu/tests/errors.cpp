@@ -5,6 +5,8 @@
 #include <sinew/force/stiff_spring.hpp>
 #include <sinew/force/tetrahedron_fem.hpp>
 #include <sinew/gpu/gpu.hpp>
+#include <sinew/gpu/recorded_step.hpp>
+#include <sinew/mapping/identity_mapping.hpp>
 #include <sinew/mass/uniform_mass.hpp>
 #include <sinew/scene/simulation.hpp>
 #include <sinew/solver/euler_explicit.hpp>
@@ -67,6 +69,21 @@ TEST_CASE("components on the device refuse elements with points that are not the
   CHECK(other.find("TetrahedronFEMForceField<CudaVec3d>") != std::string::npos);
   CHECK(other.find("7") != std::string::npos);
   CHECK(component_name<TetrahedronFEMForceField<CudaVec3f>>() == "TetrahedronFEMForceField<CudaVec3f>");
+}
+
+TEST_CASE("a step that takes a body from the device to the host is not recorded") {
+  Simulation sim{node<"root">(
+      EulerExplicitSolver{},
+      node<"body">(MechanicalObject<CudaVec3d>{.position = {{0, 0, 0}, {1, 0, 0}}},
+                   UniformMass<CudaVec3d>{},
+                   node<"there">(MechanicalObject<CudaVec3d>{}, IdentityMapping<CudaVec3d, CudaVec3d>{}),
+                   node<"here">(MechanicalObject<Vec3d>{}, IdentityMapping<CudaVec3d, Vec3d>{})))};
+  sim.init();
+  CHECK(message([&] { gpu::RecordedStep recorded(sim, 0.01); }) ==
+        "/root/body/here: IdentityMapping<CudaVec3d, Vec3d> joins the device and the host in every step, which a "
+        "recorded step cannot; put both bodies on the device, or animate() the simulation");
+  CHECK(sim.step() == 0);
+  sim.animate(0.01);
 }
 
 #if SINEW_CUDA

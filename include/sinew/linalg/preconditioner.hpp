@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/linalg/block_inverse.hpp>
 #include <sinew/linalg/block_ldl.hpp>
 #include <sinew/linalg/block_matrix.hpp>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
 #include <string_view>
 #include <vector>
 
@@ -73,7 +72,8 @@ struct Preconditioner {
     }
     for (int i = 0; i < a.rows() && method != PreconditionerMethod::none; ++i) {
       const Block d = diagonal(a, i);
-      if (method == PreconditionerMethod::jacobi || !invert(d, inverse[std::size_t(i)])) scaleOnly(d, i);
+      Block& of = inverse[std::size_t(i)];
+      if (method == PreconditionerMethod::jacobi || !invert_definite(d, of)) invert_diagonal(d, of);
     }
     if (method == PreconditionerMethod::ssor) scaleRows(a);
   }
@@ -117,29 +117,6 @@ struct Preconditioner {
       if (i * B + r >= dofs) d(r, r) = 1;
     return d;
   }
-  void scaleOnly(Block const& d, int i) {
-    inverse[std::size_t(i)].setZero();
-    for (int r = 0; r < B; ++r)
-      inverse[std::size_t(i)](r, r) =
-          d(r, r) != 0 && std::isfinite(d(r, r)) ? 1 / std::abs(d(r, r)) : Real(1);
-  }
-  // to = d^-1; false unless d is positive definite, by more than rounding
-  static bool invert(Block d, Block& to) {
-    const Real least = d.diagonal().cwiseAbs().maxCoeff() * 32 * std::numeric_limits<Real>::epsilon();
-    to.setIdentity();
-    for (int c = 0; c < B; ++c) {  // Gauss, Jordan
-      const Real pivot = d(c, c);
-      if (!(pivot > least) || !std::isfinite(pivot)) return false;
-      d.row(c) /= pivot;
-      to.row(c) /= pivot;
-      for (int r = 0; r < B; ++r)
-        if (const Real f = d(r, c); r != c && f != 0) {
-          d.row(r) -= f * d.row(c);
-          to.row(r) -= f * to.row(c);
-        }
-    }
-    return true;
-  }
   bool incompleteFactor(Matrix const& a) {
     for (int i = 0; i < a.rows(); ++i) {
       const int begin = first[std::size_t(i)], end = first[std::size_t(i) + 1];
@@ -159,7 +136,7 @@ struct Preconditioner {
         lower[std::size_t(p)].noalias() = u * inverse[j];
         d.noalias() -= u * lower[std::size_t(p)].transpose();
       }
-      if (!invert(d, inverse[std::size_t(i)])) return false;
+      if (!invert_definite(d, inverse[std::size_t(i)])) return false;
     }
     return true;
   }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <sinew/core/point_loop.hpp>
 #include <sinew/solver/linear_system.hpp>
 #include <sinew/state/vector_operations.hpp>
 
@@ -71,7 +70,7 @@ struct CGLinearSolver {
   void solve(Operations& operations, MatrixFactors factors, MultiVecDeriv<Operations>& x,
              MultiVecDeriv<Operations>& b) {
     if constexpr (matrixFree) {
-      if (solvedOnDevice(operations, factors, x, b)) return;
+      if (on_device(operations)) return solve_on_device(*this, operations, factors, x, b);
       MultiVecDeriv r(operations), p(operations), q(operations);
       x.clear();
       r.eq(b);
@@ -105,20 +104,6 @@ struct CGLinearSolver {
   }
 
  private:
-  // states on a device are solved for there, where all are
-  template <class Operations>
-  bool solvedOnDevice(Operations& operations, MatrixFactors factors, MultiVecDeriv<Operations>& x,
-                      MultiVecDeriv<Operations>& b) {
-    bool first = true, solved = false;
-    operations.forEachIndependent([&](auto& state) {
-      using D = typename std::decay_t<decltype(state)>::DataTypes;
-      if constexpr (OnDevice<D>)
-        if (first) solved = VectorOperations<D>::solve(*this, operations, factors, x, b, state.solverNumbers);
-      first = false;
-    });
-    return solved;
-  }
-
   // multiply: q = A p, returns p.q;  advance: x += alpha p, r -= alpha q, returns r.r;  turn: p = r + beta p
   template <class Multiply, class Advance, class Turn>
   void iterate(double rho, Multiply&& multiply, Advance&& advance, Turn&& turn) {

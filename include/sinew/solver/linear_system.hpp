@@ -2,11 +2,15 @@
 #pragma once
 
 #include <sinew/core/component.hpp>
+#include <sinew/core/point_loop.hpp>
 #include <sinew/linalg/block_matrix.hpp>
 #include <sinew/solver/multi_vec.hpp>
+#include <sinew/state/vector_operations.hpp>
 
 #include <cmath>
 #include <string>
+#include <type_traits>
+#include <utility>
 
 namespace sinew {
 
@@ -14,6 +18,29 @@ namespace sinew {
 struct GraphScattered {
   static constexpr std::string_view name = "GraphScattered";
 };
+
+/// Whether all states that a solver solves for are on a device.
+template <class Operations>
+bool on_device(Operations& operations) {
+  bool any = false, all = true;
+  operations.forEachIndependent([&](auto& state) {
+    constexpr bool there = OnDevice<typename std::decay_t<decltype(state)>::DataTypes>;
+    any = any || there, all = all && there;
+  });
+  return any && all;
+}
+/// Solves there, by what the first state's DataTypes bring for it (VectorOperations::solve).
+template <class Solver, class Operations>
+void solve_on_device(Solver& solver, Operations& operations, MatrixFactors factors, MultiVecDeriv<Operations>& x,
+                     MultiVecDeriv<Operations>& b) {
+  bool first = true;
+  operations.forEachIndependent([&](auto& state) {
+    using D = typename std::decay_t<decltype(state)>::DataTypes;
+    if constexpr (OnDevice<D>)
+      if (std::exchange(first, false))
+        VectorOperations<D>::solve(solver, operations, factors, x, b, state.solverNumbers);
+  });
+}
 
 /// "point 7, component 1 of MechanicalObject<Vec3d>": what messages say of an unknown of the system.
 template <class Operations>

@@ -18,6 +18,10 @@ namespace sinew {
 /// A preconditioner P that is kept for several solves is that of a body as it stood. With `warp` it turns
 /// with the body: R P^-1 R' is applied, R the rotation of each point's neighbourhood since P was made, as the
 /// positions tell it (Courtecuisse, Allard, Duriez, Cotin 2010; there P is made by another thread meanwhile).
+///
+/// Over states on a device, jacobi and blockJacobi stay there, made of the elements and masses of the bodies
+/// themselves (what mapped bodies add is left out), and `residuals` stays empty; other preconditioners are
+/// those of the host, by copies.
 template <class Matrix = GraphScattered>
 struct ShewchukPCGLinearSolver {
   using Role = role::LinearSolver;
@@ -74,13 +78,16 @@ struct ShewchukPCGLinearSolver {
     residuals.clear();
     residuals.reserve(std::size_t(iterations) + 1);
     age = -1;
+    if (staysOnDevice(operations)) return;
     operations.initMatrix(matrix);
-    preconditioner.init(matrix, usePrecond ? precondition : PreconditionerMethod::none, matrix.dofs());
+    preconditioner.init(matrix, method(), matrix.dofs());
     preconditioner.omega = omega;
     if (warp) rotations.init(operations, matrix);
     for (Vector* v : {&x, &b, &r, &p, &q, &turned})
       v->setZero(matrix.dofs() + 1);  // the last stays 0: multiply reads it
   }
+
+  PreconditionerMethod method() const { return usePrecond ? precondition : PreconditionerMethod::none; }
 
   /// The preconditioner is made anew.
   void reset() { age = -1; }
@@ -88,8 +95,12 @@ struct ShewchukPCGLinearSolver {
   template <class Operations>
   void solve(Operations& operations, MatrixFactors factors, MultiVecDeriv<Operations>& solution,
              MultiVecDeriv<Operations>& rhs) {
-    const bool update = preconditioner.method != PreconditionerMethod::none &&
+    const bool update = method() != PreconditionerMethod::none &&
                         (age < 0 || (buildPrecond && updateStep > 0 && age + 1 >= updateStep));
+    if (staysOnDevice(operations)) {
+      age = update ? 0 : age + 1;
+      return solve_on_device(*this, operations, factors, solution, rhs);
+    }
     if (update || !matrixFree) operations.assemble(matrix, factors);
     if (update) {
       [[maybe_unused]] const auto span = operations.root.span(Phase::factorisation);
@@ -137,6 +148,13 @@ struct ShewchukPCGLinearSolver {
   }
 
  private:
+  template <class Operations>
+  bool staysOnDevice(Operations& operations) const {
+    if constexpr (matrixFree)
+      return method() <= PreconditionerMethod::blockJacobi && on_device(operations);
+    else
+      return false;
+  }
   // z = P^-1 r, or R P^-1 R' r
   void apply(Vector const& from, Vector& to) {
     if (!warp || age == 0) return preconditioner.apply(from, to);

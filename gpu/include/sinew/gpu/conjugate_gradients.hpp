@@ -1,23 +1,35 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/gpu/block_jacobi.hpp>
 #include <sinew/gpu/vector_operations.hpp>
 #include <sinew/solver/cg_linear_solver.hpp>
 
 namespace sinew::gpu {
 
-/// What CGLinearSolver<GraphScattered> does where all states below it are on the device: the same method with
-/// its numbers there, so that nothing waits for the host. With a tolerance the host looks every tenth
-/// iteration whether more are needed, but not while the step is being recorded. `residuals` stays empty.
+/// What CGLinearSolver<GraphScattered> does where all states below it are on the device, and what
+/// ShewchukPCGLinearSolver does with a preconditioner of diagonal blocks: the same method with its numbers there,
+/// so that nothing waits for the host. With a tolerance the host looks every tenth iteration whether more are
+/// needed, but not while the step is being recorded. `residuals` stays empty.
 template <class Operations, class Solver, class MultiVec>
 void conjugate_gradients(Operations& operations, Solver& solver, MatrixFactors factors, MultiVec& x, MultiVec& b,
                          DeviceVector<double>& numbers) {
   MultiVec r(operations), p(operations), q(operations);
+  bool preconditioned = false;
+  if constexpr (requires { solver.age; }) {
+    const PreconditionerMethod method = solver.method();
+    preconditioned = method != PreconditionerMethod::none;
+    if (preconditioned && solver.age == 0)
+      make_block_jacobi(operations, factors, method == PreconditionerMethod::jacobi, p, q);
+  }
   const auto n = std::size_t(solver.iterations);
-  numbers.resize(2 * n + 4);
+  numbers.resize(3 * n + 6);
   double* const room = numbers.device();
-  const CgScalars s{room, room + n + 2, solver.tolerance * solver.tolerance, solver.threshold};
-  double* const ofState = room + 2 * n + 3;
+  double threshold = 0;
+  if constexpr (requires { solver.threshold; }) threshold = solver.threshold;
+  const CgScalars s{room, preconditioned ? room + n + 2 : room, room + 2 * n + 4, solver.tolerance * solver.tolerance,
+                    threshold};
+  double* const ofState = room + 3 * n + 5;
   solver.residuals.clear();
 
   // *to = what f(state, sum) puts into *sum, over all states
@@ -33,27 +45,44 @@ void conjugate_gradients(Operations& operations, Solver& solver, MatrixFactors f
       }
     });
   };
+  // z = P^-1 r, and r.z
+  auto precondition = [&](MultiVec& z, double* to) {
+    sum(to, [&]<class V>(auto& state, double* rz) {
+      using D = typename std::decay_t<decltype(state)>::DataTypes;
+      sum_indices(state.size(),
+                  typename PointBlocks<D>::Apply{{int(state.size()), state.solverBlocks.device()},
+                                                 std::as_const(state[r.id]).device(),
+                                                 state[z.id].overwrite()},
+                  rz);
+    });
+    operations.projectResponse(z.id);  // a block may join a component that is fixed with one that is not
+  };
   x.clear();
   r.eq(b);
-  p.eq(b);
-  sum(s.rho, [&]<class V>(auto& state, double* to) { V::dot(state[r.id], state[r.id], to); });
+  sum(s.size, [&]<class V>(auto& state, double* to) { V::dot(state[r.id], state[r.id], to); });
+  if (preconditioned)
+    precondition(p, s.rho);
+  else
+    p.eq(b);
   for (int i = 0; i < solver.iterations; ++i) {
     q.clear();
     operations.addMBKdx(q.id, p.id, factors);
     operations.projectResponse(q.id);
     sum(s.curvature + i, [&]<class V>(auto& state, double* to) { V::dot(state[p.id], state[q.id], to); });
-    sum(s.rho + i + 1, [&]<class V>(auto& state, double* to) {
+    sum(s.size + i + 1, [&]<class V>(auto& state, double* to) {
       V::advance(state[x.id], state[p.id], state[r.id], state[q.id], s, i, to);
     });
+    MultiVec& next = preconditioned ? q : r;
+    if (preconditioned) precondition(next, s.rho + i + 1);
     operations.forEachIndependent([&](auto& state) {
       using D = typename std::decay_t<decltype(state)>::DataTypes;
-      if constexpr (OnDevice<D>) VectorOperations<D>::turn(state[p.id], state[r.id], s, i);
+      if constexpr (OnDevice<D>) VectorOperations<D>::turn(state[p.id], state[next.id], s, i);
     });
     if (solver.tolerance > 0 && i % 10 == 9 && !recording()) {
-      double rho[2];
-      copy_to_host(rho, s.rho, 1);
-      copy_to_host(rho + 1, s.rho + i + 1, 1);
-      if (!(rho[1] > s.tolerance2 * rho[0])) return;
+      double size[2];
+      copy_to_host(size, s.size, 1);
+      copy_to_host(size + 1, s.size + i + 1, 1);
+      if (!(size[1] > s.tolerance2 * size[0])) return;
     }
   }
 }

@@ -11,6 +11,7 @@
 
 #include <array>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace sinew {
@@ -111,6 +112,20 @@ struct ElementDriver<LawOf, CudaTypes<H>, W> {
     products(law, same(entries(dx)), k, b);
     sum(around, entries(df));
   }
+  /// Adds the diagonal blocks of k K + b B, with the tangents of the last addForce, to those of all points of the
+  /// body, of which there are `points`; their order is that of NodeBlock.
+  void addDiagonal(Real* blocks, std::size_t points, Real k, Real b) const {
+    if (!lastLaw || around.first.empty()) return;
+    gpu::for_each_index(nodes,
+                        gpu::detail::NodeBlock<LawOf, D>{*lastLaw,
+                                                         view(),
+                                                         around.first.device(),
+                                                         around.entry.device(),
+                                                         blocks,
+                                                         std::ptrdiff_t(points),
+                                                         k,
+                                                         b});
+  }
 
   // between two bodies
 
@@ -178,6 +193,7 @@ struct ElementDriver<LawOf, CudaTypes<H>, W> {
     bool assembled = false;
   };
   std::size_t nodes = 0;
+  std::optional<Law> lastLaw{};  // of the last addForce
   Array<int> index{};
   Array<Real> restOnDevice{};
   mutable Array<Real> tangents{};
@@ -199,6 +215,7 @@ struct ElementDriver<LawOf, CudaTypes<H>, W> {
     return ends;
   }
   void forces(Law const& law, Coords x, ConstDerivs v) {
+    lastLaw.emplace(law);
     product.times = 0;
     product.assembled = false;
     gpu::for_each_index(elements.size(), gpu::detail::ElementForce<LawOf, D>{law, view(), x, v});

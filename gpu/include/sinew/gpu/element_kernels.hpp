@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <sinew/core/platform.hpp>
+#include <sinew/core/data_types.hpp>
 
 #include <array>
 #include <cstddef>
@@ -129,6 +129,31 @@ struct NodeSum {
     Deriv sum = f[n];
     for (int i = first[n]; i < first[n + 1]; ++i) sum += part[entry[i]];
     f[n] = sum;
+  }
+};
+
+/// Adds the diagonal blocks of k K + b B of the node's elements, in the order of the list; component c of the
+/// block of node n is entry c * nodes + n of `to`.
+template <template <class> class LawOf, class D>
+struct NodeBlock {
+  using Real = typename D::Real;
+  LawOf<D> law;
+  DeviceElements<LawOf, D> elements;
+  int const* first;
+  int const* entry;
+  Real* to;
+  std::ptrdiff_t nodes;
+  Real k, b;
+
+  SINEW_HD void operator()(int n) const {
+    constexpr int size = D::size;
+    Mat<Real, size> sum = Mat<Real, size>::Zero();
+    for (int i = first[n]; i < first[n + 1]; ++i) {
+      const int e = entry[i] % elements.count, corner = entry[i] / elements.count;
+      sum += law.block(elements.restOf(e), elements.tangentOf(e), corner, corner, k, b);
+    }
+    for (int r = 0; r < size; ++r)
+      for (int c = 0; c < size; ++c) to[(r * size + c) * nodes + n] += sum(r, c);
   }
 };
 

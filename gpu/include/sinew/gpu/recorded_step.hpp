@@ -9,13 +9,15 @@ namespace sinew::gpu {
 /// The step of a simulation as a CUDA graph: recorded once, then launched as one piece of work. What the host
 /// computes in a step is recorded as the device sees it then, so a scene whose step asks the device for a
 /// result, moves points by its clock, collides or writes files cannot be recorded (CUDA says so, or the same
-/// forces are used again); bodies on the device with CGLinearSolver<GraphScattered> can. Whether positions are
-/// finite is looked at by finish() alone. On the host backends of Thrust steps are made one by one.
+/// forces are used again); bodies on the device with CGLinearSolver<GraphScattered> can. A preconditioner is made
+/// in each recorded step, or in none. Whether positions are finite is looked at by finish() alone. On the host
+/// backends of Thrust steps are made one by one.
 template <class Root>
 class RecordedStep {
  public:
   /// Makes one step to warm up, and records another without making it. Throws Error where that cannot be.
   RecordedStep(Simulation<Root>& simulation, double dt) : simulation_(simulation), dt_(dt) {
+    refuseAcross();
     simulation_.animate(dt);
 #if SINEW_CUDA
     const double time = simulation_.time();
@@ -60,6 +62,23 @@ class RecordedStep {
   void finish() { wait(); }
 
  private:
+  // a body that a mapping carries to the host is looked at there in every step
+  void refuseAcross() const {
+    const NoScope above;
+    traverse(typename Simulation<Root>::RootScope{simulation_.root(), above},
+             on<role::Mapping>([](auto& mapping, auto const& scope) {
+               using M = std::decay_t<decltype(mapping)>;
+               if constexpr (OnDevice<typename M::In> != OnDevice<typename M::Out>)
+                 scope.withChild(mapping, [&](auto& child) {
+                   if constexpr (HasRole<std::decay_t<decltype(child)>, role::State>)
+                     throw Error(scope.path(),
+                                 text(component_name<M>(),
+                                      " joins the device and the host in every step, which a recorded step "
+                                      "cannot; put both bodies on the device, or animate() the simulation"));
+                 });
+             }));
+  }
+
   Simulation<Root>& simulation_;
   double dt_;
 #if SINEW_CUDA

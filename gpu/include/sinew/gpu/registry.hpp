@@ -34,7 +34,8 @@ struct CudaStandard : Registry<CudaPoints<CudaVec3f>, CudaPoints<CudaVec3d>, Tri
 /// host.
 struct CudaScenes
     : Registry<Gravity, MeshTopology, RegularGridTopology, VisualModel, MeshGmshLoader, MeshOBJLoader,
-               BoxROI<Vec3d>, BoxROI<Vec3f>, EulerImplicitSolver, CGLinearSolver<>, DefaultPipeline,
+               BoxROI<Vec3d>, BoxROI<Vec3f>, EulerImplicitSolver, CGLinearSolver<>, ShewchukPCGLinearSolver<>,
+               DefaultPipeline,
                BruteForceBroadPhase, BVHNarrowPhase, MinProximityIntersection, DefaultContactManager,
                PointCollisionModel<Vec3d>, TriangleCollisionModel<Vec3d>, SphereCollisionModel<Vec3d>,
                MechanicalObject<Vec3d>, MechanicalObject<Vec3f>, CudaStandard> {};

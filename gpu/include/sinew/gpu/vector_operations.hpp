@@ -10,15 +10,17 @@ namespace sinew {
 
 namespace gpu {
 
-/// The numbers of one solve by conjugate gradients, on the device: r.r at the start and after each iteration,
-/// and the curvatures p.Ap. An iteration i that has nothing left to do changes nothing: its step is 0.
+/// The numbers of one solve by conjugate gradients, on the device: r.r and r.z, z the residual after
+/// preconditioning, at the start and after each iteration, and the curvatures p.Ap. An iteration i that has
+/// nothing left to do changes nothing: its step is 0.
 struct CgScalars {
-  double* rho;
+  double* size;
+  double* rho;  // the same as `size` where there is no preconditioner
   double* curvature;
   double tolerance2, threshold;
 
   SINEW_INLINE bool goesOn(int i) const {
-    return rho[i] > tolerance2 * rho[0] && (curvature[i] > threshold || curvature[i] < -threshold);
+    return size[i] > tolerance2 * size[0] && (curvature[i] > threshold || curvature[i] < -threshold);
   }
   SINEW_INLINE double alpha(int i) const { return goesOn(i) ? rho[i] / curvature[i] : 0; }
   SINEW_INLINE double beta(int i) const { return rho[i + 1] / rho[i]; }
@@ -140,15 +142,11 @@ struct VectorOperations<CudaTypes<H>> {
     });
   }
 
-  /// Solves with conjugate gradients on the device, if all states below the solver are there.
+  /// Solves with conjugate gradients for states that are all on the device.
   template <class Solver, class Operations, class MultiVec>
-  static bool solve(Solver& solver, Operations& operations, MatrixFactors factors, MultiVec& x, MultiVec& b,
+  static void solve(Solver& solver, Operations& operations, MatrixFactors factors, MultiVec& x, MultiVec& b,
                     gpu::DeviceVector<double>& numbers) {
-    bool all = true;
-    operations.forEachIndependent(
-        [&](auto& s) { all = all && OnDevice<typename std::decay_t<decltype(s)>::DataTypes>; });
-    if (all) gpu::conjugate_gradients(operations, solver, factors, x, b, numbers);
-    return all;
+    gpu::conjugate_gradients(operations, solver, factors, x, b, numbers);
   }
 
   static std::size_t scalars(VecDeriv const& v) { return v.size() * std::size_t(D::size); }

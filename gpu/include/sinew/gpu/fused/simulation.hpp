@@ -167,7 +167,12 @@ class FusedSimulation {
     gravity_ = Array<Deriv>(std::size_t(copies), Deriv(Deriv::Zero()));
     wrong_ = Array<int>(std::size_t(copies), 0);
     withFields(all, [&](auto& data, auto const& field) { data.init(field, plan, copies); });
-    for (int c = 0; c < copies; ++c) load(c, simulation);
+    load(0, simulation);
+    repeat(x_.device(), nodes_);
+    repeat(v_.device(), nodes_);
+    repeat(mass_.device(), nodes_);
+    repeat(gravity_.device(), 1);
+    withFields(all, [&](auto& data, auto const&) { repeat(data.rest.data(), data.elements.size()); });
   }
 
   /// Copy number `copy` takes state, masses, materials and gravity of a simulation of the same scene. Throws
@@ -365,6 +370,13 @@ class FusedSimulation {
   Shape shape_{};
   Body sizes_{};  // of the plan
 
+  // all copies get the `count` values of the first
+  template <class T>
+  void repeat(T* values, std::size_t count) const {
+    const auto copies = std::size_t(copies_);
+    for (std::size_t done = 1; done < copies; done *= 2)
+      copy_on_device(values + done * count, values, std::min(done, copies - done) * count);
+  }
   template <class F>
   void withFields(All const& all, F&& f) {
     const auto fields = fieldsOf(all);

@@ -105,12 +105,14 @@ struct DeviceTeam {
   }
 };
 
-/// The blocks of a cluster: they write to each other's shared memory.
+/// The blocks of a cluster: they write to each other's shared memory. GPUs before sm_90 have none, and there it is
+/// one block.
 template <int Lanes, int KeptEntries>
 struct ClusterTeam : DeviceTeam<Lanes, KeptEntries> {
   static constexpr bool global = false;
   using Column = std::uint16_t;
 
+#if defined(__CUDA_ARCH__) && __CUDA_ARCH__ >= 900
   __device__ ClusterTeam() {
     const auto cluster = cooperative_groups::this_cluster();
     this->rank = int(cluster.block_rank());
@@ -127,6 +129,18 @@ struct ClusterTeam : DeviceTeam<Lanes, KeptEntries> {
   __device__ T& of(int other, T& mine) const {
     return *cooperative_groups::this_cluster().map_shared_rank(&mine, unsigned(other));
   }
+#else
+  __device__ ClusterTeam() {
+    this->rank = 0;
+    this->ranks = 1;
+    this->copy = int(blockIdx.x);
+  }
+  __device__ void sync() const { __syncthreads(); }
+  template <class T>
+  __device__ T& of(int, T& mine) const {
+    return mine;
+  }
+#endif
   static constexpr int stride = 3;
   template <class T>
   __device__ void load(T const* from, T (&to)[3]) const {

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/phase.hpp>
+#include <sinew/gpu/vector_operations.hpp>
+#include <sinew/linalg/block_inverse.hpp>
+#include <sinew/linalg/preconditioner.hpp>
+#include <sinew/scene/scope.hpp>
+
+#include <algorithm>
+#include <type_traits>
+#include <utility>
+
+namespace sinew::gpu {
+
+/// A block for each point on the device: component c of that of point i is entry c * points + i, so that
+/// neighbouring threads read neighbouring addresses.
+template <class D>
+struct PointBlocks {
+  using Real = typename D::Real;
+  using Deriv = typename D::Deriv;
+  using Block = Mat<Real, D::size>;
+  static constexpr int n = D::size;
+  int points;
+  Real* blocks;
+
+  SINEW_HD Real& at(int r, int c, int i) const { return blocks[(r * n + c) * std::ptrdiff_t(points) + i]; }
+  SINEW_HD Block load(int i) const {
+    Block b;
+    for (int r = 0; r < n; ++r)
+      for (int c = 0; c < n; ++c) b(r, c) = at(r, c, i);
+    return b;
+  }
+
+  // what threads do
+
+  struct Clear {
+    PointBlocks all;
+    SINEW_HD void operator()(int i) const {
+      for (int k = 0; k < n * n; ++k) all.at(0, k, i) = Real(0);
+    }
+  };
+  struct Unit {
+    Deriv* to;
+    int c;
+    SINEW_HD void operator()(int i) const { to[i] = Deriv::Unit(c); }
+  };
+  struct AddColumn {
+    PointBlocks all;
+    Deriv const* from;
+    int c;
+    SINEW_HD void operator()(int i) const {
+      for (int r = 0; r < n; ++r) all.at(r, c, i) += from[i][r];
+    }
+  };
+  /// The inverse of C d C + (I - C), where C is what constraints leave of the point's motion.
+  struct Invert {
+    PointBlocks all, left;
+    bool diagonalOnly;
+    SINEW_HD void operator()(int i) const {
+      const Block c = left.load(i);
+      const Block d = (c * all.load(i) * c + (Block::Identity() - c)).eval();
+      Block to;
+      if (diagonalOnly || !invert_definite(d, to)) invert_diagonal(d, to);
+      for (int r = 0; r < n; ++r)
+        for (int k = 0; k < n; ++k) all.at(r, k, i) = to(r, k);
+    }
+  };
+  /// z = P^-1 r; returns r.z.
+  struct Apply {
+    PointBlocks all;
+    Deriv const* r;
+    Deriv* z;
+    SINEW_HD double operator()(int i) const {
+      const Deriv from = r[i], to = all.load(i) * from;
+      z[i] = to;
+      double sum = 0;
+      for (int c = 0; c < n; ++c) sum += double(from[c]) * double(to[c]);
+      return sum;
+    }
+  };
+};
+
+/// Makes the preconditioner of the states below a solver: the inverse diagonal blocks of what elements on the
+/// device and masses of each state add, as constraints leave them; where there is nothing, 1. `unit` and
+/// `column` are room.
+template <class Operations, class MultiVec>
+void make_block_jacobi(Operations& operations, MatrixFactors factors, bool diagonalOnly, MultiVec& unit,
+                       MultiVec& column) {
+  [[maybe_unused]] const auto span = operations.root.span(Phase::factorisation);
+  // f(state, its blocks, what constraints leave of unit vectors)
+  auto forEach = [&](auto&& f) {
+    operations.forEachIndependent([&](auto& state) {
+      using D = typename std::decay_t<decltype(state)>::DataTypes;
+      if constexpr (OnDevice<D>) {
+        using Blocks = PointBlocks<D>;
+        typename D::Real* const room = state.solverBlocks.device();
+        const std::size_t entries = state.size() * std::size_t(D::size * D::size);
+        f(state, Blocks{int(state.size()), room}, Blocks{int(state.size()), room + entries});
+      }
+    });
+  };
+  operations.forEachIndependent([](auto& state) {
+    using D = typename std::decay_t<decltype(state)>::DataTypes;
+    if constexpr (OnDevice<D>) state.solverBlocks.resize(2 * state.size() * std::size_t(D::size * D::size));
+  });
+  forEach([]<class Blocks>(auto& state, Blocks blocks, Blocks left) {
+    for_each_index(state.size(), typename Blocks::Clear{blocks});
+    for_each_index(state.size(), typename Blocks::Clear{left});
+  });
+  // f(component, state) for those that act on a state of the device itself
+  auto acting = [&]<class Role>(std::type_identity<Role>, auto&& f) {
+    traverse(operations.root, on<Role>([&](auto& c, auto const& scope) {
+               using D = typename std::decay_t<decltype(c)>::DataTypes;
+               if constexpr (OnDevice<D>)
+                 if (!scope.stateScope().mapped()) f(c, scope.template state<D>());
+             }));
+  };
+  acting(std::type_identity<role::ForceField>{}, [&](auto& c, auto& state) {
+    using Real = typename std::decay_t<decltype(state)>::DataTypes::Real;
+    if constexpr (requires { c.driver.addDiagonal(state.solverBlocks.device(), 0, Real(1), Real(1)); })
+      c.driver.addDiagonal(state.solverBlocks.device(), state.size(), Real(factors.k), Real(factors.b));
+  });
+  int columns = 0;
+  forEach([&]<class Blocks>(auto&, Blocks, Blocks) { columns = std::max(columns, Blocks::n); });
+  for (int k = 0; k < columns; ++k) {
+    column.clear();
+    forEach([&]<class Blocks>(auto& state, Blocks, Blocks) {
+      if (k < Blocks::n) for_each_index(state.size(), typename Blocks::Unit{state[unit.id].overwrite(), k});
+    });
+    acting(std::type_identity<role::Mass>{}, [&](auto& c, auto& state) {
+      using D = typename std::decay_t<decltype(state)>::DataTypes;
+      if (k < D::size)
+        c.addMDx(state[column.id], state[vec_id::position], state[unit.id], typename D::Real(factors.m));
+    });
+    operations.projectResponse(unit.id);
+    forEach([&]<class Blocks>(auto& state, Blocks blocks, Blocks left) {
+      if (k >= Blocks::n) return;
+      for_each_index(state.size(), typename Blocks::AddColumn{blocks, std::as_const(state[column.id]).device(), k});
+      for_each_index(state.size(), typename Blocks::AddColumn{left, std::as_const(state[unit.id]).device(), k});
+    });
+  }
+  forEach([&]<class Blocks>(auto& state, Blocks blocks, Blocks left) {
+    for_each_index(state.size(), typename Blocks::Invert{blocks, left, diagonalOnly});
+  });
+}
+
+}  // namespace sinew::gpu

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "scenes_preconditioned.hpp"
+
+#include "same_as_host.hpp"
+
+using namespace gpu_test;
+
+TEST_CASE("conjugate gradients with diagonal blocks are those of the host, iteration by iteration") {
+  same_as_host<BlockJacobiBar, Vec3d>(1e-10);
+}
+TEST_CASE("conjugate gradients with a diagonal are those of the host, iteration by iteration") {
+  same_as_host<JacobiBar, Vec3d>(1e-10);
+}
+TEST_CASE("conjugate gradients without a preconditioner are those of the host") {
+  same_as_host<PlainBar, Vec3d>(1e-10);
+}
+TEST_CASE("conjugate gradients with blocks of rigid bodies are those of the host") {
+  same_as_host<RigidsOnSprings, Rigid3d>(1e-10);
+}
+TEST_CASE("another preconditioner is another motion while few iterations are made") {
+  const Course blocks = run<BlockJacobiBar, CudaVec3d>([] {}), none = run<PlainBar, CudaVec3d>([] {}),
+               exact = run<Preconditioned<PreconditionerMethod::blockJacobi, true, 400>, CudaVec3d>([] {});
+  auto off = [&](Course const& c) {
+    double largest = 0;
+    for (std::size_t i = 0; i < exact.position.size(); ++i)
+      largest = std::max(largest, std::abs(c.position[i] - exact.position[i]));
+    return largest;
+  };
+  INFO("off by " << off(blocks) << " with blocks, " << off(none) << " without");
+  CHECK(off(blocks) < 0.5 * off(none));
+}
