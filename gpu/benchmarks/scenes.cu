@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 // Steps a second of the scenes of the table on a GPU, in all forms in turn: plain Thrust, the step as a CUDA
 // graph, the fused step.
-//   scenes grid NX NY NZ | fem FILE.msh | block CELLS | hexahedra CELLS | hyperelastic CELLS | batch FILE.msh COPIES
+//   scenes grid NX NY NZ | fem FILE.msh | block CELLS | hexahedra CELLS | hyperelastic CELLS
+//          | batch FILE.msh COPIES
 //          [--double] [--steps N] [--iterations N] [--no-host] [--no-fused]
 // Bodies of CELLS are unit cubes of so many cells along each edge.
 // Prints, for each form: scene; points; elements; real; form; steps a second; how far point 100 is, over the
@@ -54,16 +55,16 @@ auto hexahedra(int n, Linear linear) {
 }
 template <class D, class Linear>
 auto hyperelastic(Mesh const& mesh, Linear linear) {
-  return Simulation{node<"root">(
-      Gravity{{0, -9.81, 0}},
-      EulerImplicitSolver{.rayleighStiffness = 0.1, .rayleighMass = 0.1},
-      linear,
-      TetrahedronTopology{mesh.tetrahedra},
-      MechanicalObject<D>{points_of<D>(mesh)},
-      DiagonalMass<D>{.massDensity = 1},
-      TetrahedronHyperelasticityFEMForceField<D>{.materialName = HyperelasticMaterial::NeoHookean,
-                                                 .parameterSet = {1200, 2500}},
-      FixedConstraint<D>{.indices = held(mesh)})};
+  return Simulation{
+      node<"root">(Gravity{{0, -9.81, 0}},
+                   EulerImplicitSolver{.rayleighStiffness = 0.1, .rayleighMass = 0.1},
+                   linear,
+                   TetrahedronTopology{mesh.tetrahedra},
+                   MechanicalObject<D>{points_of<D>(mesh)},
+                   DiagonalMass<D>{.massDensity = 1},
+                   TetrahedronHyperelasticityFEMForceField<D>{
+                       .materialName = HyperelasticMaterial::NeoHookean, .parameterSet = {1200, 2500}},
+                   FixedConstraint<D>{.indices = held(mesh)})};
 }
 
 // the median of five, of the seconds that a step takes
@@ -150,8 +151,8 @@ void measure(Make const& make, Options const& o) {
          far);
     gpu::RecordedStep recorded(sim, dt);
     line("graph", seconds_a_step(o.steps, [&](int n) { recorded.animate(n); }), far);
-    auto blocks = make.template operator()<Cuda>(
-        ShewchukPCGLinearSolver<>{.iterations = o.iterations, .tolerance = 0});
+    auto blocks =
+        make.template operator()<Cuda>(ShewchukPCGLinearSolver<>{.iterations = o.iterations, .tolerance = 0});
     blocks.init();
     gpu::RecordedStep preconditioned(blocks, dt);
     line("graph, block-Jacobi", seconds_a_step(o.steps, [&](int n) { preconditioned.animate(n); }), 0);
@@ -288,9 +289,10 @@ int main(int argc, char** argv) try {
       words.push_back(word);
   }
   if (words.size() < 2) {
-    std::fprintf(stderr,
-                 "usage: scenes grid NX NY NZ | fem FILE.msh | block CELLS | hexahedra CELLS | hyperelastic CELLS | "
-                 "batch FILE.msh COPIES [--double] [--steps N] [--iterations N] [--no-host] [--no-fused]\n");
+    std::fprintf(
+        stderr,
+        "usage: scenes grid NX NY NZ | fem FILE.msh | block CELLS | hexahedra CELLS | hyperelastic CELLS | "
+        "batch FILE.msh COPIES [--double] [--steps N] [--iterations N] [--no-host] [--no-fused]\n");
     return 2;
   }
   if (inDouble)

@@ -80,7 +80,8 @@ TEST_CASE("a step that takes a body from the device to the host is not recorded"
                    node<"here">(MechanicalObject<Vec3d>{}, IdentityMapping<CudaVec3d, Vec3d>{})))};
   sim.init();
   CHECK(message([&] { gpu::RecordedStep recorded(sim, 0.01); }) ==
-        "/root/body/here: IdentityMapping<CudaVec3d, Vec3d> joins the device and the host in every step, which a "
+        "/root/body/here: IdentityMapping<CudaVec3d, Vec3d> joins the device and the host in every step, "
+        "which a "
         "recorded step cannot; put both bodies on the device, or animate() the simulation");
   CHECK(sim.step() == 0);
   sim.animate(0.01);

@@ -33,7 +33,8 @@ struct Preconditioned : OneBody {
       if (mesh.positions[i][0] > 0.4 && mesh.positions[i][0] < 0.6) rails.push_back(int(i));
     }
     for (auto const& t : mesh.tetrahedra)
-      stiffness.push_back(mesh.positions[std::size_t(t[0])][0] < 1.4 ? typename D::Real(1e6) : typename D::Real(1e4));
+      stiffness.push_back(mesh.positions[std::size_t(t[0])][0] < 1.4 ? typename D::Real(1e6)
+                                                                     : typename D::Real(1e4));
     return Simulation{node<"root">(
         Gravity{{0, -9.81, 0}},
         EulerImplicitSolver{.rayleighStiffness = 0.01, .rayleighMass = 0.1},

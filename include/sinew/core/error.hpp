@@ -41,7 +41,8 @@ struct TextPart {
 
 inline std::string joined(std::initializer_list<TextPart> parts) {
   std::string all;
-  for (TextPart const& part : parts) all.append(part.size == 0 ? "" : part.word ? part.word : part.number, part.size);
+  for (TextPart const& part : parts)
+    all.append(part.size == 0 ? "" : part.word ? part.word : part.number, part.size);
   return all;
 }
 

@@ -183,7 +183,8 @@ struct BadNumber {
   FieldWords const* inside = nullptr;  // the field of a struct inside the value, where it is one that refuses
 };
 
-/// Which numbers a field refuses: such as are not finite, or out of its range or of that of the field around it.
+/// Which numbers a field refuses: such as are not finite, or out of its range or of that of the field around
+/// it.
 struct Refused {
   Range range;
   Refused const* around = nullptr;

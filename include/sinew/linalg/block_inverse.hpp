@@ -9,7 +9,8 @@
 
 namespace sinew {
 
-/// to = d^-1 by elimination after Gauss and Jordan; false unless d is positive definite, by more than rounding.
+/// to = d^-1 by elimination after Gauss and Jordan; false unless d is positive definite, by more than
+/// rounding.
 template <class Block>
 SINEW_HD bool invert_definite(Block d, Block& to) {
   using Real = typename Block::Scalar;

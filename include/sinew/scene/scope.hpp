@@ -71,8 +71,9 @@ struct ScopeOf {
 template <class N, class A>
 struct ScopeBelow : ScopeOf<N, A> {};
 template <class Name, class Components, class Children, class A>
-  requires(!A::profiled)
-struct ScopeBelow<Node<Name, Components, Children>, A> : ScopeOf<NodeParts<Components, Children>, A> {};
+requires(!A::profiled) struct ScopeBelow<Node<Name, Components, Children>, A>
+    : ScopeOf<NodeParts<Components, Children>, A> {
+};
 
 /// A node of a typed scene seen from the path that leads to it. All traversals, operations and solvers know a
 /// tree through these members only (RuntimeScope has the same); every choice here is made by the compiler.

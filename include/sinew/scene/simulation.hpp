@@ -425,7 +425,8 @@ class Simulation {
     });
     scope.forEachComponent(visit);
     if constexpr (!S::template always<role::OdeSolver>)
-      if (!solved) scope.template forEachChild<role::OdeSolver>([&](auto const& child) { integrate(child, dt); });
+      if (!solved)
+        scope.template forEachChild<role::OdeSolver>([&](auto const& child) { integrate(child, dt); });
   }
 
   void endStep(RootScope const& scope, double dt) const {

@@ -31,8 +31,8 @@ bool on_device(Operations& operations) {
 }
 /// Solves there, by what the first state's DataTypes bring for it (VectorOperations::solve).
 template <class Solver, class Operations>
-void solve_on_device(Solver& solver, Operations& operations, MatrixFactors factors, MultiVecDeriv<Operations>& x,
-                     MultiVecDeriv<Operations>& b) {
+void solve_on_device(Solver& solver, Operations& operations, MatrixFactors factors,
+                     MultiVecDeriv<Operations>& x, MultiVecDeriv<Operations>& b) {
   bool first = true;
   operations.forEachIndependent([&](auto& state) {
     using D = typename std::decay_t<decltype(state)>::DataTypes;

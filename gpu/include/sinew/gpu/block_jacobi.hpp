@@ -136,8 +136,10 @@ void make_block_jacobi(Operations& operations, MatrixFactors factors, bool diago
     operations.projectResponse(unit.id);
     forEach([&]<class Blocks>(auto& state, Blocks blocks, Blocks left) {
       if (k >= Blocks::n) return;
-      for_each_index(state.size(), typename Blocks::AddColumn{blocks, std::as_const(state[column.id]).device(), k});
-      for_each_index(state.size(), typename Blocks::AddColumn{left, std::as_const(state[unit.id]).device(), k});
+      for_each_index(state.size(),
+                     typename Blocks::AddColumn{blocks, std::as_const(state[column.id]).device(), k});
+      for_each_index(state.size(),
+                     typename Blocks::AddColumn{left, std::as_const(state[unit.id]).device(), k});
     });
   }
   forEach([&]<class Blocks>(auto& state, Blocks blocks, Blocks left) {

@@ -8,12 +8,12 @@
 namespace sinew::gpu {
 
 /// What CGLinearSolver<GraphScattered> does where all states below it are on the device, and what
-/// ShewchukPCGLinearSolver does with a preconditioner of diagonal blocks: the same method with its numbers there,
-/// so that nothing waits for the host. With a tolerance the host looks every tenth iteration whether more are
-/// needed, but not while the step is being recorded. `residuals` stays empty.
+/// ShewchukPCGLinearSolver does with a preconditioner of diagonal blocks: the same method with its numbers
+/// there, so that nothing waits for the host. With a tolerance the host looks every tenth iteration whether
+/// more are needed, but not while the step is being recorded. `residuals` stays empty.
 template <class Operations, class Solver, class MultiVec>
-void conjugate_gradients(Operations& operations, Solver& solver, MatrixFactors factors, MultiVec& x, MultiVec& b,
-                         DeviceVector<double>& numbers) {
+void conjugate_gradients(Operations& operations, Solver& solver, MatrixFactors factors, MultiVec& x,
+                         MultiVec& b, DeviceVector<double>& numbers) {
   MultiVec r(operations), p(operations), q(operations);
   bool preconditioned = false;
   if constexpr (requires { solver.age; }) {
@@ -27,7 +27,10 @@ void conjugate_gradients(Operations& operations, Solver& solver, MatrixFactors f
   double* const room = numbers.device();
   double threshold = 0;
   if constexpr (requires { solver.threshold; }) threshold = solver.threshold;
-  const CgScalars s{room, preconditioned ? room + n + 2 : room, room + 2 * n + 4, solver.tolerance * solver.tolerance,
+  const CgScalars s{room,
+                    preconditioned ? room + n + 2 : room,
+                    room + 2 * n + 4,
+                    solver.tolerance * solver.tolerance,
                     threshold};
   double* const ofState = room + 3 * n + 5;
   solver.residuals.clear();

@@ -112,8 +112,8 @@ struct ElementDriver<LawOf, CudaTypes<H>, W> {
     products(law, same(entries(dx)), k, b);
     sum(around, entries(df));
   }
-  /// Adds the diagonal blocks of k K + b B, with the tangents of the last addForce, to those of all points of the
-  /// body, of which there are `points`; their order is that of NodeBlock.
+  /// Adds the diagonal blocks of k K + b B, with the tangents of the last addForce, to those of all points of
+  /// the body, of which there are `points`; their order is that of NodeBlock.
   void addDiagonal(Real* blocks, std::size_t points, Real k, Real b) const {
     if (!lastLaw || around.first.empty()) return;
     gpu::for_each_index(nodes,

@@ -35,9 +35,9 @@ struct CudaStandard : Registry<CudaPoints<CudaVec3f>, CudaPoints<CudaVec3d>, Tri
 struct CudaScenes
     : Registry<Gravity, MeshTopology, RegularGridTopology, VisualModel, MeshGmshLoader, MeshOBJLoader,
                BoxROI<Vec3d>, BoxROI<Vec3f>, EulerImplicitSolver, CGLinearSolver<>, ShewchukPCGLinearSolver<>,
-               DefaultPipeline,
-               BruteForceBroadPhase, BVHNarrowPhase, MinProximityIntersection, DefaultContactManager,
-               PointCollisionModel<Vec3d>, TriangleCollisionModel<Vec3d>, SphereCollisionModel<Vec3d>,
-               MechanicalObject<Vec3d>, MechanicalObject<Vec3f>, CudaStandard> {};
+               DefaultPipeline, BruteForceBroadPhase, BVHNarrowPhase, MinProximityIntersection,
+               DefaultContactManager, PointCollisionModel<Vec3d>, TriangleCollisionModel<Vec3d>,
+               SphereCollisionModel<Vec3d>, MechanicalObject<Vec3d>, MechanicalObject<Vec3f>, CudaStandard> {
+};
 
 }  // namespace sinew

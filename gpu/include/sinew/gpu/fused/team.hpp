@@ -105,8 +105,8 @@ struct DeviceTeam {
   }
 };
 
-/// The blocks of a cluster: they write to each other's shared memory. GPUs before sm_90 have none, and there it is
-/// one block.
+/// The blocks of a cluster: they write to each other's shared memory. GPUs before sm_90 have none, and there
+/// it is one block.
 template <int Lanes, int KeptEntries>
 struct ClusterTeam : DeviceTeam<Lanes, KeptEntries> {
   static constexpr bool global = false;
