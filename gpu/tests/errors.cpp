@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // What is said where something is wrong, and that the program goes on.
 #include "catch.hpp"
+#include "error_of.hpp"
 
 #include <sinew/force/stiff_spring.hpp>
 #include <sinew/force/tetrahedron_fem.hpp>
@@ -16,16 +17,6 @@ using namespace sinew;
 
 namespace {
 
-template <class F>
-std::string message(F&& f) {
-  try {
-    f();
-  } catch (Error const& error) {
-    return error.what();
-  }
-  return "nothing was wrong";
-}
-
 // two points on a spring that an explicit step of 1 s overshoots ever more
 template <class D>
 auto diverging() {
@@ -39,7 +30,7 @@ template <class D>
 std::string divergence(long& step) {
   auto sim = diverging<D>();
   sim.init();
-  const std::string what = message([&] {
+  const std::string what = error_of([&] {
     for (int i = 0; i < 1000; ++i) sim.animate(1);
   });
   step = sim.step();
@@ -61,11 +52,11 @@ TEST_CASE("a scene on the device that diverges is stopped as on the host") {
 TEST_CASE("components on the device refuse elements with points that are not there") {
   const CudaVec3d::VecCoord rest{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   StiffSpringForceField<CudaVec3d> springs{{{0, 4, 100, 0, 1.0}}};
-  const std::string said = message([&] { springs.init({"body", rest, {}}); });
+  const std::string said = error_of([&] { springs.init({"body", rest, {}}); });
   CHECK(said.find("body: StiffSpringForceField<CudaVec3d>: springs[0] refers to point 4") == 0);
   const std::vector<Tetrahedron> wrong{{0, 1, 2, 7}};
   TetrahedronFEMForceField<CudaVec3d> fem;
-  const std::string other = message([&] { fem.init({"body", rest, {.tetrahedra = wrong}}); });
+  const std::string other = error_of([&] { fem.init({"body", rest, {.tetrahedra = wrong}}); });
   CHECK(other.find("TetrahedronFEMForceField<CudaVec3d>") != std::string::npos);
   CHECK(other.find("7") != std::string::npos);
   CHECK(component_name<TetrahedronFEMForceField<CudaVec3f>>() == "TetrahedronFEMForceField<CudaVec3f>");
@@ -79,7 +70,7 @@ TEST_CASE("a step that takes a body from the device to the host is not recorded"
                    node<"there">(MechanicalObject<CudaVec3d>{}, IdentityMapping<CudaVec3d, CudaVec3d>{}),
                    node<"here">(MechanicalObject<Vec3d>{}, IdentityMapping<CudaVec3d, Vec3d>{})))};
   sim.init();
-  CHECK(message([&] { gpu::RecordedStep recorded(sim, 0.01); }) ==
+  CHECK(error_of([&] { gpu::RecordedStep recorded(sim, 0.01); }) ==
         "/root/body/here: IdentityMapping<CudaVec3d, Vec3d> joins the device and the host in every step, "
         "which a "
         "recorded step cannot; put both bodies on the device, or animate() the simulation");
@@ -100,7 +91,7 @@ TEST_CASE("far too much memory of the GPU is refused, and the program goes on") 
   gpu::DeviceArray<double> array;
   array.resize(10);
   double* const before = array.data();
-  const std::string said = message([&] { array.resize(1'000'000'000'000); });
+  const std::string said = error_of([&] { array.resize(1'000'000'000'000); });
   CHECK(said.find("memory of the GPU: 7629394 MiB are needed, ") == 0);
   CHECK(said.find("make the body smaller") != std::string::npos);
   CHECK(array.data() == before);  // what was there stays
@@ -122,7 +113,7 @@ TEST_CASE("without a GPU it is said what to do", "[.][without-gpu]") {
 #endif
   auto sim = diverging<CudaVec3d>();
   for (int again = 0; again < 2; ++again) {
-    const std::string said = message([&] {
+    const std::string said = error_of([&] {
       sim.init();
       sim.animate(1e-3);
     });

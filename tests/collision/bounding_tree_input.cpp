@@ -4,6 +4,7 @@
 
 #include "catch.hpp"
 #include "collision/moving_things.hpp"
+#include "error_of.hpp"
 
 namespace test_bounding_tree_input {
 
@@ -15,15 +16,6 @@ namespace {
 
 const double inf = std::numeric_limits<double>::infinity(),
              notANumber = std::numeric_limits<double>::quiet_NaN();
-
-std::string message(auto&& act) {
-  try {
-    act();
-  } catch (Error const& e) {
-    return e.what();
-  }
-  return "";
-}
 
 }  // namespace
 
@@ -126,15 +118,15 @@ TEST_CASE("what is not finite is an error, and the tree stays") {
         if (wrong == (low ? inf : -inf)) continue;
         auto bad = boxes;
         (low ? bad[17].min : bad[17].max)[c] = wrong;
-        CHECK_THAT(message([&] { tree.refit(bad, "root/skin: Pipeline"); }),
+        CHECK_THAT(error_of([&] { tree.refit(bad, "root/skin: Pipeline"); }),
                    Contains("root/skin: Pipeline: box 17 reaches from (") && Contains("not finite") &&
                        Contains("empty box"));
-        CHECK_THAT(message([&] { tree.build(bad); }), Contains("BoundingTree: box 17 "));
-        CHECK_THAT(message([&] { tree.update(bad); }), Contains("box 17 "));
+        CHECK_THAT(error_of([&] { tree.build(bad); }), Contains("BoundingTree: box 17 "));
+        CHECK_THAT(error_of([&] { tree.update(bad); }), Contains("box 17 "));
         CHECK(tree.size() == 50);
         CHECK(reported_self(tree, 0) == before);
       }
-  CHECK_THAT(message([&] { tree.refit(std::span(boxes).first(49)); }),
+  CHECK_THAT(error_of([&] { tree.refit(std::span(boxes).first(49)); }),
              Contains("refit got 49 boxes, but the tree was built for 50; build it anew"));
   CHECK(reported_self(tree, 0) == before);
 }

@@ -226,7 +226,7 @@ TEST_CASE("bad input of attachments is named") {
       sim.init();
     };
   };
-  CHECK(one::message(with({.indices1 = {1}, .indices2 = {0}})).empty());
+  CHECK(error_of(with({.indices1 = {1}, .indices2 = {0}})).empty());
   says(with({.indices1 = {0, 1}, .indices2 = {0}}), {"/root/a", "indices1 has 2 points and indices2 1"});
   says(with({.indices1 = {2}, .indices2 = {0}}), {"indices1 has 2", "/root/a has 2 points"});
   says(with({.indices1 = {0}, .indices2 = {1}}), {"indices2 has 1", "/root/b has 1 points"});

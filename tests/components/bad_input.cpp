@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "catch.hpp"
+#include "error_of.hpp"
 
 #include <sinew/sinew.hpp>
 
@@ -13,23 +14,13 @@ namespace {
 
 const double notANumber = std::numeric_limits<double>::quiet_NaN();
 
-/// The message of the Error that f throws; empty when it throws none.
-template <class F>
-std::string message(F&& f) {
-  try {
-    f();
-  } catch (Error const& error) {
-    return error.what();
-  }
-  return "";
-}
-#define CHECK_SAYS(expression, ...)                              \
-  do {                                                           \
-    const std::string said = message([&] { (void)expression; }); \
-    for (const std::string word : {__VA_ARGS__}) {               \
-      INFO(said);                                                \
-      CHECK(said.find(word) != std::string::npos);               \
-    }                                                            \
+#define CHECK_SAYS(expression, ...)                               \
+  do {                                                            \
+    const std::string said = error_of([&] { (void)expression; }); \
+    for (const std::string word : {__VA_ARGS__}) {                \
+      INFO(said);                                                 \
+      CHECK(said.find(word) != std::string::npos);                \
+    }                                                             \
   } while (false)
 
 const std::vector<Eigen::Vector3d> corners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
@@ -49,7 +40,7 @@ auto init(TetrahedronFEMForceField<Vec3d> fem, TetrahedronTopology topology = {o
 }  // namespace
 
 TEST_CASE("parameters out of range name node, component, field, value and range") {
-  CHECK(message([] { init({.youngModulus = {3000}, .poissonRatio = 0.3}); }).empty());
+  CHECK(error_of([] { init({.youngModulus = {3000}, .poissonRatio = 0.3}); }).empty());
   CHECK_SAYS(init({.youngModulus = {-3}}),
              "/root/body",
              "TetrahedronFEMForceField<Vec3d>",
@@ -93,7 +84,7 @@ TEST_CASE("springs, constraints, forces and mappings check their indices") {
     sim.init();
   };
   using Springs = StiffSpringForceField<Vec3d>;
-  CHECK(message([&] { with(Springs{{{.first = 0, .second = 1}}}); }).empty());
+  CHECK(error_of([&] { with(Springs{{{.first = 0, .second = 1}}}); }).empty());
   CHECK_SAYS(with(Springs{{{.first = 0, .second = 9}}}), "springs[0] refers to point 9", "4 points");
   CHECK_SAYS(with(Springs{{{.first = 2, .second = 2}}}), "joins point 2 to itself");
   CHECK_SAYS(with(Springs{{{.first = 0, .second = 1, .stiffness = -1}}}),
@@ -149,7 +140,7 @@ TEST_CASE("a diverging simulation stops with step, node and component") {
   auto sim = init({.youngModulus = {1e9}, .poissonRatio = 0.3});
   sim.at<"body">().state().velocity[1] = {1, 0, 0};
   std::string said;
-  for (int i = 0; i < 2000 && said.empty(); ++i) said = message([&] { sim.animate(0.1); });
+  for (int i = 0; i < 2000 && said.empty(); ++i) said = error_of([&] { sim.animate(0.1); });
   INFO(said);
   CHECK(said.find("step ") == 0);
   CHECK(said.find("/root/body") != std::string::npos);

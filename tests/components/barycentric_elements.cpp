@@ -6,6 +6,7 @@
 #include <random>
 
 #include "catch.hpp"
+#include "error_of.hpp"
 
 namespace test_barycentric_elements {
 
@@ -45,16 +46,6 @@ Points shaken(Points x, double most) {
   Random random;
   for (auto& p : x) p += random.point(-most, most);
   return x;
-}
-
-template <class F>
-std::string message(F&& f) {
-  try {
-    f();
-  } catch (Error const& error) {
-    return error.what();
-  }
-  return "";
 }
 
 // affine motion of the parent moves the child along, to 1e-12 of sizes near 10
@@ -306,7 +297,7 @@ TEST_CASE("BarycentricMapping says what is wrong with its parent") {
   const Points x = grid({2, 2, 1}).position;
   auto said = [&](TopologyView const& topology) {
     Points child{{0.3, 0.3, 0}};
-    return message([&] { mapped(x, topology, child); });
+    return error_of([&] { mapped(x, topology, child); });
   };
   auto contains = [](std::string_view whole, std::string_view part) {
     return whole.find(part) != whole.npos;
@@ -330,7 +321,7 @@ TEST_CASE("BarycentricMapping says what is wrong with its parent") {
   CHECK(contains(said({.tetrahedra = square}), "all flat"));
   // nothing to carry is no mistake
   Points none;
-  CHECK(message([&] { mapped(x, {.triangles = good}, none); }).empty());
+  CHECK(error_of([&] { mapped(x, {.triangles = good}, none); }).empty());
 }
 
 }  // namespace test_barycentric_elements

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "catch.hpp"
 #include "components/fem_bar.hpp"
+#include "error_of.hpp"
 
 #include <sinew/solver/cholesky_solver.hpp>
 #include <sinew/solver/sparse_ldl_solver.hpp>
@@ -10,16 +11,6 @@ namespace test_direct_solvers {
 using namespace sinew;
 
 namespace {
-
-template <class F>
-std::string message(F&& f) {
-  try {
-    f();
-  } catch (Error const& error) {
-    return error.what();
-  }
-  return "";
-}
 
 template <class Linear>
 Eigen::VectorXd bar(Linear linear) {
@@ -82,8 +73,8 @@ TEST_CASE("an indefinite system is solved by L D L', sparse and dense") {
 TEST_CASE("a singular system is an error that names the point") {
   // the mass at which m - 100 h^2 vanishes, exactly, since h is a binary fraction
   const double h = 0.125, m = 100 * h * h;
-  for (const std::string& said : {message([&] { compressed_spring(SparseLDLSolver<>{}, m).animate(h); }),
-                                  message([&] { compressed_spring(CholeskySolver<>{}, m).animate(h); })}) {
+  for (const std::string& said : {error_of([&] { compressed_spring(SparseLDLSolver<>{}, m).animate(h); }),
+                                  error_of([&] { compressed_spring(CholeskySolver<>{}, m).animate(h); })}) {
     INFO(said);
     CHECK(said.find("point 1, component 1 of MechanicalObject<Vec2d>") != std::string::npos);
   }

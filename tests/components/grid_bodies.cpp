@@ -5,6 +5,7 @@
 #include <sinew/topology/regular_grid_topology.hpp>
 
 #include "catch.hpp"
+#include "error_of.hpp"
 
 namespace test_grid_bodies {
 
@@ -12,15 +13,6 @@ using namespace sinew;
 
 namespace {
 
-template <class F>
-std::string message(F&& f) {
-  try {
-    f();
-  } catch (Error const& error) {
-    return error.what();
-  }
-  return "";
-}
 bool contains(std::string_view said, std::string_view words) { return said.find(words) != said.npos; }
 
 RegularGridTopology box(std::array<int, 3> n, Eigen::Vector3d const& hi) {
@@ -111,7 +103,7 @@ TEST_CASE("DiagonalMass says what is wrong with its elements") {
   const std::vector<Eigen::Vector3d> x{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
   const std::vector<Edge> edge{{0, 1}}, outside{{0, 3}}, negative{{-1, 0}}, all{{0, 1}, {1, 2}};
   const std::vector<Triangle> flat{{0, 1, 2}};
-  auto said = [&](TopologyView const& t) { return message([&] { masses({.massDensity = 1}, x, t); }); };
+  auto said = [&](TopologyView const& t) { return error_of([&] { masses({.massDensity = 1}, x, t); }); };
   CHECK(said({.edges = all}).empty());
   CHECK(contains(said({}), "/root: DiagonalMass<Vec3d>: a density needs elements"));
   CHECK(contains(said({.edges = edge}), "mass of point 2 is 0 kg"));
@@ -165,7 +157,7 @@ TEST_CASE("TetrahedronFEMForceField says what is wrong with hexahedra") {
   auto grid = box({3, 2, 2}, {1, 1, 1});
   auto said = [&] {
     TetrahedronFEMForceField<Vec3d> fem;
-    return message([&] { fem.init(InitContext<Vec3d>{"/root", grid.position, grid.view()}); });
+    return error_of([&] { fem.init(InitContext<Vec3d>{"/root", grid.position, grid.view()}); });
   };
   CHECK(said().empty());
   const auto good = grid.hexahedra;

@@ -273,7 +273,7 @@ TEST_CASE("bad input of mappings that measure is named") {
   };
   using Lengths = DistanceMapping<Vec3d, Vec1d>;
   using Volumes = VolumeMapping<Vec3d, Vec1d>;
-  CHECK(one::message(with(Lengths{}, {}, {.edges = edges})).empty());
+  CHECK(error_of(with(Lengths{}, {}, {.edges = edges})).empty());
   says(with(Lengths{}, {}, {}),
        {"/root/body/sub", "DistanceMapping<Vec3d, Vec1d>", "no edges", "add a topology"});
   says(with(Lengths{.restLengths = {1, 2}}, {}, {.edges = edges}), {"restLengths has 2 entries for 8 edges"});

@@ -175,7 +175,7 @@ TEST_CASE("bad indexPairs are named") {
       sim.init();
     };
   };
-  CHECK(one::message(with({{0, 1}, {1, 0}})).empty());
+  CHECK(error_of(with({{0, 1}, {1, 0}})).empty());
   says(with({{2, 0}}), {"/root/sub", "indexPairs[0] names parent 2", "there are 2"});
   says(with({{0, 0}, {1, 1}}), {"indexPairs[1] names point 1 of /root/b", "1 points"});
   says(with({{0, -1}}), {"indexPairs[0][1] is -1", "at least 0"});

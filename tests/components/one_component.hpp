@@ -4,6 +4,7 @@
 // One component alone, over points and elements given in the test.
 
 #include "catch.hpp"
+#include "error_of.hpp"
 
 #include <sinew/core/component.hpp>
 
@@ -48,21 +49,10 @@ typename C::DataTypes::VecDeriv product(C const& c, typename C::DataTypes::VecDe
   return df;
 }
 
-/// The message of the Error that f throws; empty when it throws none.
-template <class F>
-std::string message(F&& f) {
-  try {
-    f();
-  } catch (Error const& error) {
-    return error.what();
-  }
-  return "";
-}
-
 /// That the message of an Error has these words.
 template <class F>
 void says(F&& f, std::initializer_list<std::string_view> words) {
-  const std::string said = message(f);
+  const std::string said = error_of(f);
   for (std::string_view word : words) {
     INFO(said << "\n  should say: " << word);
     CHECK(said.find(word) != std::string::npos);

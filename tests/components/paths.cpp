@@ -67,7 +67,7 @@ TEST_CASE("points move along a Hermite spline") {
   refuses(
       Spline{.indices = {1}, .beginTime = 1, .endTime = 1}, two, {}, {"BeginTime is 1 s and EndTime 1 s"});
   refuses(Spline{.indices = {1}, .endTime = 1, .dx1 = {0, one::notANumber, 0}}, two, {}, {"dX1 is nan"});
-  CHECK(one::message([] { ready(Spline{}, two); }).empty());  // of no points
+  CHECK(error_of([] { ready(Spline{}, two); }).empty());  // of no points
 }
 
 TEST_CASE("points fly along a parabola") {

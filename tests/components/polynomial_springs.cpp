@@ -103,7 +103,7 @@ TEST_CASE("polynomial springs that do not fit are refused") {
     change(bad);
     refuses(bad, line, {}, words);
   };
-  CHECK(one::message([&] { ready(good, line); }).empty());
+  CHECK(error_of([&] { ready(good, line); }).empty());
   with([](auto& s) { s.secondObjectPoints = {1}; },
        {"body", "PolynomialSpringsForceField<Vec3d>", "2 firstObjectPoints and 1 secondObjectPoints"});
   with([](auto& s) { s.firstObjectPoints = s.secondObjectPoints = {}; }, {"0 firstObjectPoints"});

@@ -145,7 +145,7 @@ TEST_CASE("bad skins are named") {
   auto with = [](Skin mapping, SkinFrames const& frames = bones) {
     return [=] { ready(mapping, frames, skin); };
   };
-  CHECK(one::message(with({})).empty());
+  CHECK(error_of(with({})).empty());
   says(with({.initPos = {{0, 0, 0}}}),
        {"/bones/skin", "SkinningMapping<Rigid3d, Vec3d>", "initPos has 1 places for 5 points"});
   says(with({.nbRef = {1, 2}}), {"nbRef has 2 entries for 5 points"});

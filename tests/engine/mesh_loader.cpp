@@ -9,7 +9,6 @@ namespace test_mesh_loader {
 
 using namespace sinew;
 using files::check_says;
-using files::error_of;
 
 namespace {
 

@@ -6,6 +6,7 @@
 #include <sinew/topology/regular_grid_topology.hpp>
 
 #include "catch.hpp"
+#include "error_of.hpp"
 
 namespace test_rois {
 
@@ -16,15 +17,6 @@ namespace {
 static_assert(Engine<BoxROI<Vec3d>> && Engine<BoxROI<Vec1f>> && Engine<SphereROI<Rigid2d>> &&
               Engine<PlaneROI<Vec6d>>);
 
-template <class F>
-std::string message(F&& f) {
-  try {
-    f();
-  } catch (Error const& error) {
-    return error.what();
-  }
-  return "";
-}
 bool contains(std::string_view whole, std::string_view part) { return whole.find(part) != whole.npos; }
 
 RegularGridTopology grid() {  // 5 x 4 x 3 points, one apart
@@ -161,7 +153,7 @@ TEST_CASE("regions say what is wrong, and keep what they had") {
   auto refused = [&](auto change, std::string_view words) {
     BoxROI<Vec3d> box = good;
     change(box);
-    const std::string said = message([&] { box.update("/root/roi"); });
+    const std::string said = error_of([&] { box.update("/root/roi"); });
     INFO(said);
     CHECK(contains(said, "/root/roi: BoxROI<Vec3d>: "));
     CHECK(contains(said, words));
@@ -190,14 +182,15 @@ TEST_CASE("regions say what is wrong, and keep what they had") {
 
   auto sphere = [&](std::vector<Eigen::Vector3d> centers, std::vector<double> radii) {
     SphereROI<Vec3d> s{.centers = centers, .radii = radii, .position = g.position};
-    return message([&] { s.update("s"); });
+    return error_of([&] { s.update("s"); });
   };
   CHECK(contains(sphere({}, {1}), "there is no sphere"));
   CHECK(contains(sphere({{0, 0, 0}}, {}), "radii has 0 values for 1 centers"));
   CHECK(contains(sphere({{0, 0, 0}, {0, 0, 0}, {0, 0, 0}}, {1, 2}), "radii has 2 values for 3 centers"));
   CHECK(contains(sphere({{0, 0, 0}}, {-1}), "radii[0] is -1 m"));
-  CHECK(contains(message([&] { PlaneROI<Vec3d>{.position = g.position}.update("p"); }), "there is no plane"));
-  CHECK(contains(message([&] {
+  CHECK(
+      contains(error_of([&] { PlaneROI<Vec3d>{.position = g.position}.update("p"); }), "there is no plane"));
+  CHECK(contains(error_of([&] {
                    BoxROI<Vec2d>{.orientedBox = {Vec<double, 10>::Ones()}, .position = {{0, 0}}}.update("b");
                  }),
                  "orientedBox is for points in space"));

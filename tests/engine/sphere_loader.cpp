@@ -7,7 +7,6 @@ namespace test_sphere_loader {
 
 using namespace sinew;
 using files::check_says;
-using files::error_of;
 
 static_assert(Engine<SphereLoader>);
 

@@ -2,6 +2,7 @@
 #include <sinew/engine/transform_engine.hpp>
 
 #include "catch.hpp"
+#include "error_of.hpp"
 
 namespace test_transform_engine {
 
@@ -12,15 +13,6 @@ namespace {
 static_assert(Engine<TransformEngine<Vec3d>> && Engine<TransformEngine<Vec3f>> &&
               Engine<TransformEngine<Rigid3d>>);
 
-template <class F>
-std::string message(F&& f) {
-  try {
-    f();
-  } catch (Error const& error) {
-    return error.what();
-  }
-  return "";
-}
 bool contains(std::string_view whole, std::string_view part) { return whole.find(part) != whole.npos; }
 
 }  // namespace
@@ -71,7 +63,7 @@ TEST_CASE("TransformEngine turns rigid bodies with their orientation") {
 }
 
 TEST_CASE("TransformEngine says what is wrong") {
-  auto said = [](TransformEngine<Vec3f> engine) { return message([&] { engine.update("/root"); }); };
+  auto said = [](TransformEngine<Vec3f> engine) { return error_of([&] { engine.update("/root"); }); };
   CHECK(said({}).empty());
   CHECK(said({.inputPosition = {{1, 2, 3}}, .scale = {1, 0, 1}}).empty());
   CHECK(contains(said({.scale = {1, 0, 1}, .inverse = true}), "cannot be undone"));

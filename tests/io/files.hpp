@@ -4,6 +4,7 @@
 #include <sinew/core/error.hpp>
 
 #include "catch.hpp"
+#include "error_of.hpp"
 
 #include <cstdlib>
 #include <filesystem>
@@ -44,17 +45,6 @@ class TempFolder {
  private:
   std::string path_;
 };
-
-/// The message of the Error that f throws; empty if it throws none.
-template <class F>
-std::string error_of(F&& f) {
-  try {
-    f();
-  } catch (sinew::Error const& e) {
-    return e.what();
-  }
-  return {};
-}
 
 /// The message begins with `where` and a colon, and contains `words`.
 inline void check_says(std::string const& message, std::string const& where, std::string_view words) {

@@ -8,7 +8,6 @@ namespace test_mesh_file {
 
 using namespace sinew;
 using files::check_says;
-using files::error_of;
 
 TEST_CASE("read_mesh chooses by the ending of the name") {
   const files::TempFolder folder;

@@ -31,7 +31,7 @@ TEST_CASE("MeshVTKLoader says which file is wrong") {
   const files::TempFolder folder;
   auto said = [](std::string const& file) {
     MeshVTKLoader loader{.filename = {file}};
-    return files::error_of([&] { loader.update("/root"); });
+    return error_of([&] { loader.update("/root"); });
   };
   files::check_says(
       said(folder.write("a.vtk", "nothing")), "/root: MeshVTKLoader", "a.vtk:1: does not begin with");

@@ -12,7 +12,6 @@ namespace test_output_file {
 
 using namespace sinew;
 using files::check_says;
-using files::error_of;
 
 namespace {
 

@@ -11,7 +11,7 @@ using files::check_says;
 namespace {
 
 std::string error_in(std::string_view content) {
-  return files::error_of([&] { io::parse_sph("f.sph", content); });
+  return error_of([&] { io::parse_sph("f.sph", content); });
 }
 
 }  // namespace

@@ -8,7 +8,6 @@ namespace test_read_vtu {
 
 using namespace sinew;
 using files::check_says;
-using files::error_of;
 using files::replaced;
 
 namespace {

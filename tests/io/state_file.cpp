@@ -27,7 +27,7 @@ io::StateFrames<double> parse(std::string const& content, bool allowTruncated = 
   return io::parse_state_file<double>("tool.state", content, two(), allowTruncated);
 }
 std::string error_in(std::string const& content, bool allowTruncated = false) {
-  return files::error_of([&] { parse(content, allowTruncated); });
+  return error_of([&] { parse(content, allowTruncated); });
 }
 
 /// Random numbers of all sizes, and those of which decimal digits are easily wrong.
@@ -250,8 +250,7 @@ TEST_CASE("a binary file of another state says what it is of") {
   layout.has = {false, true, false, false};
   const std::string bytes = written<double>(folder, layout, true, 1);
   auto error = [&](auto const& asked, auto real) {
-    return files::error_of(
-        [&] { io::parse_state_file<std::decay_t<decltype(real)>>("tool.state", bytes, asked); });
+    return error_of([&] { io::parse_state_file<std::decay_t<decltype(real)>>("tool.state", bytes, asked); });
   };
   files::check_says(error(io::state_layout<Vec3f>(2), 0.f),
                     "tool.state",
@@ -320,26 +319,24 @@ TEST_CASE("a writer goes back to an earlier frame") {
     long other = stamp;
     frames(3, 5, stamp, writer);
     frames(3, 4, other, writer);
-    files::check_says(
-        files::error_of([&] { frames(5, 6, stamp, writer); }), path, "another copy of this scene");
+    files::check_says(error_of([&] { frames(5, 6, stamp, writer); }), path, "another copy of this scene");
     frames(4, 6, other, writer);
     writer.finish();
     CHECK(io::read_state_file<double>(path, layout).times.size() == 6);
     // a file that has too few
     io::StateWriter<double> late(path, layout, binary);
     long zero = 0;
-    files::check_says(files::error_of([&] { frames(9, 10, zero, late); }),
-                      path,
-                      "9 frames were recorded before, and it has 6");
+    files::check_says(
+        error_of([&] { frames(9, 10, zero, late); }), path, "9 frames were recorded before, and it has 6");
     io::StateWriter<double> wrong(path, layout, !binary);
-    files::check_says(files::error_of([&] { frames(2, 3, zero, wrong); }), path, "of the other format");
+    files::check_says(error_of([&] { frames(2, 3, zero, wrong); }), path, "of the other format");
   }
 }
 
 TEST_CASE("where no file of states can be written is said before the first step") {
   TempFolder folder;
   auto error = [&](std::string const& path) {
-    return files::error_of([&] { io::StateWriter<double>(path, two(), false); });
+    return error_of([&] { io::StateWriter<double>(path, two(), false); });
   };
   CHECK(error("").find("filename is empty") == 0);
   files::check_says(error(folder / ""), folder / "", "is a folder");
@@ -356,8 +353,7 @@ TEST_CASE("a disk that is full is said with the file") {
     io::StateWriter<double> writer("/dev/full", layout, false);
     long stamp = 0;
     writer.add(0, stamp, 0, {nullptr, x, nullptr, nullptr});
-    files::check_says(
-        files::error_of([&] { writer.finish(); }), "/dev/full", "could not be written: No space left");
+    files::check_says(error_of([&] { writer.finish(); }), "/dev/full", "could not be written: No space left");
   }
   // a limit on the size of files: the part stays, and what was there
   TempFolder folder;
@@ -371,7 +367,7 @@ TEST_CASE("a disk that is full is said with the file") {
   {
     io::StateWriter<double> writer(path, layout, false);
     long stamp = 0;
-    error = files::error_of([&] {
+    error = error_of([&] {
       for (std::size_t k = 0; k < 10000; ++k) writer.add(k, stamp, double(k), {nullptr, x, nullptr, nullptr});
     });
   }

@@ -7,7 +7,6 @@ namespace test_text_reader {
 
 using namespace sinew;
 using files::check_says;
-using files::error_of;
 
 TEST_CASE("read_file gives every byte, without the mark of UTF-8") {
   const files::TempFolder folder;

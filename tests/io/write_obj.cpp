@@ -9,7 +9,6 @@ namespace test_write_obj {
 
 using namespace sinew;
 using files::check_says;
-using files::error_of;
 
 TEST_CASE("write_obj writes what read_obj reads, bit by bit") {
   const files::TempFolder folder;

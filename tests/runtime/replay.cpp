@@ -86,7 +86,7 @@ std::string scene_with(std::string_view tool) {
 }
 Runtime read(std::string const& path) { return start(read_scene<Standard>(path)); }
 std::string error_of_scene(std::string_view tool) {
-  return files::error_of([&] { start(parse_scene<Standard>("test.scn", scene_with(tool))); });
+  return error_of([&] { start(parse_scene<Standard>("test.scn", scene_with(tool))); });
 }
 void says(std::string const& message, std::initializer_list<std::string_view> words) {
   for (std::string_view word : words) {
@@ -211,7 +211,7 @@ TEST_CASE("a scene that changes goes on recording and replaying") {
   REQUIRE(frames.times.size() == 5);
   CHECK(frames.times[0] == Approx(0.21));
   // a change that fails leaves the record as it is
-  says(files::error_of([&] {
+  says(error_of([&] {
          sim.change([&](RuntimeNode<Standard>& root) {
            root.find_node("more")->add(WriteState<Vec3d>{.filename = folder / "none/g"});
          });
@@ -242,7 +242,7 @@ TEST_CASE("what is wrong with ReadState and WriteState in a scene file is said w
                       "<ReadState keyTimes=\"0\" keyPositions=\"0 0 0\"/></Node>"),
        {"ReadState<Vec3d>", "acts on a mapped state"});
   auto lonely = [](std::string_view what) {
-    return files::error_of(
+    return error_of(
         [&] { start(parse_scene<Standard>("test.scn", text("<Node name=\"root\">", what, "</Node>"))); });
   };
   says(lonely("<WriteState filename=\"f\"/>"), {"test.scn:1:", "has no state to act on"});
@@ -251,7 +251,7 @@ TEST_CASE("what is wrong with ReadState and WriteState in a scene file is said w
   root.add(MechanicalObject<Rigid3d>{.position = {{}}});
   root.add(WriteState<Vec3d>{.filename = folder / "f"});
   Runtime sim(std::move(root));
-  says(files::error_of([&] { sim.init(); }), {"is over Vec3d", "a state over Rigid3d"});
+  says(error_of([&] { sim.init(); }), {"is over Vec3d", "a state over Rigid3d"});
 }
 
 }  // namespace test_replay

@@ -82,7 +82,7 @@ std::vector<std::string> run(Sim& sim, int steps) {
 
 template <class F>
 void says(F&& f, std::initializer_list<std::string_view> words) {
-  const std::string said = files::error_of(f);
+  const std::string said = error_of(f);
   for (std::string_view word : words) {
     INFO(said << "\n  should say: " << word);
     CHECK(said.find(word) != std::string::npos);

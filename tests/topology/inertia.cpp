@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "catch.hpp"
+#include "error_of.hpp"
 
 #include <sinew/topology/inertia.hpp>
 
@@ -49,16 +50,6 @@ Mesh torus(double R, double r, int n, int m) {
       mesh.quads.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
     }
   return mesh;
-}
-
-template <class F>
-std::string message(F&& f) {
-  try {
-    f();
-  } catch (Error const& e) {
-    return e.what();
-  }
-  return "";
 }
 
 }  // namespace
@@ -138,7 +129,7 @@ TEST_CASE("a hollow body is what is between two surfaces") {
 
 TEST_CASE("surfaces without an inside are refused") {
   auto says = [](Mesh const& mesh, std::string_view words) {
-    const std::string said = message([&] { of(mesh); });
+    const std::string said = error_of([&] { of(mesh); });
     INFO(said);
     CHECK(said.find("body: ") == 0);
     CHECK(said.find(words) != said.npos);

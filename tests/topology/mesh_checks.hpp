@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include "error_of.hpp"
+
 #include <sinew/core/error.hpp>
 #include <sinew/core/mesh.hpp>
 
@@ -9,17 +11,6 @@
 #include <string_view>
 #include <utility>
 #include <vector>
-
-/// The message of the Error that body throws; empty when it throws none.
-template <class Body>
-std::string error_of(Body&& body) {
-  try {
-    body();
-  } catch (sinew::Error const& error) {
-    return error.what();
-  }
-  return {};
-}
 
 inline bool contains(std::string_view text, std::string_view part) { return text.find(part) != text.npos; }
 
