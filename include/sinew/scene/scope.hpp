@@ -55,6 +55,15 @@ constexpr auto rest_of_path() {
     return FixedString(rest);
   }
 }
+/// The node at a path below a typed node.
+template <FixedString Path, class N>
+auto& node_at(N& node) {
+  if constexpr (Path.view().empty())
+    return node;
+  else
+    return node_at<rest_of_path<Path>()>(
+        hana::at_c<std::size_t(N::childIndex(first_name(Path.view())))>(node.children));
+}
 }  // namespace detail
 
 template <class N, class A>

@@ -74,7 +74,7 @@ class Simulation {
       return root_;
     } else {
       if constexpr (Found::isVisual && proved) updateVisual();
-      return rootScope().template descend<Path>([](auto const& s) -> auto& { return s.node; });
+      return detail::node_at<Path>(root_);
     }
   }
   Root& root() { return root_; }
