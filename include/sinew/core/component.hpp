@@ -128,6 +128,12 @@ concept ActsBeforeStep = requires {
   typename C::DataTypes;
 };
 
+/// Force fields whose forces do not depend on positions and velocities: no matrix has anything of them.
+template <class C>
+concept Load = requires {
+  requires C::isLoad;
+};
+
 /// A component that watches the state on which it acts: init(context), as force fields have it, and
 /// endStep(step, state, kineticEnergy) after each step, where kineticEnergy() is that of the state's mass. It
 /// may have finish(), which Simulation::finish() calls.

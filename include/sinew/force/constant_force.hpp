@@ -14,6 +14,7 @@ namespace sinew {
 template <class D>
 struct ConstantForceField {
   using Role = role::ForceField;
+  static constexpr bool isLoad = true;
   using DataTypes = D;
   using Real = typename D::Real;
   using Deriv = typename D::Deriv;

@@ -48,6 +48,7 @@ struct Edges {
 template <class D, class Kind>
 struct ElementPressure {
   using Role = role::ForceField;
+  static constexpr bool isLoad = true;
   using DataTypes = D;
   using Real = typename D::Real;
   using Deriv = typename D::Deriv;

@@ -13,6 +13,7 @@ namespace sinew {
 template <class D>
 struct LinearForceField {
   using Role = role::ForceField;
+  static constexpr bool isLoad = true;
   using DataTypes = D;
   using Real = typename D::Real;
   using Deriv = typename D::Deriv;

@@ -10,7 +10,8 @@
 namespace sinew {
 
 /// Conjugate gradients (Hestenes, Stiefel 1952) from x = 0. `Matrix`: GraphScattered, or a
-/// CompressedRowSparseMatrix into which the system is assembled once a step.
+/// CompressedRowSparseMatrix into which the system is assembled once a step. Where all states are on a
+/// device, so is the solver, and its matrix, of their precision; `residuals` then stays empty.
 template <class Matrix = GraphScattered>
 struct CGLinearSolver {
   using Role = role::LinearSolver;
@@ -59,6 +60,7 @@ struct CGLinearSolver {
   void init(Operations& operations) {
     residuals.clear();
     residuals.reserve(std::size_t(iterations) + 1);
+    if (solves_on_device(operations, !matrixFree, true)) return;
     if constexpr (!matrixFree) {
       operations.initMatrix(system.matrix);
       for (Vector* v : {&system.x, &system.b, &system.r, &system.p, &system.q})
@@ -69,8 +71,8 @@ struct CGLinearSolver {
   template <class Operations>
   void solve(Operations& operations, MatrixFactors factors, MultiVecDeriv<Operations>& x,
              MultiVecDeriv<Operations>& b) {
+    if (solves_on_device(operations, !matrixFree)) return solve_on_device(*this, operations, factors, x, b);
     if constexpr (matrixFree) {
-      if (on_device(operations)) return solve_on_device(*this, operations, factors, x, b);
       MultiVecDeriv r(operations), p(operations), q(operations);
       x.clear();
       r.eq(b);

@@ -19,26 +19,35 @@ struct GraphScattered {
   static constexpr std::string_view name = "GraphScattered";
 };
 
-/// Whether all states that a solver solves for are on a device.
+/// Whether a solver can work where all its states are on a device; what they kept for one is forgotten with
+/// `afresh`. `assembled`: the solver forms a matrix.
 template <class Operations>
-bool on_device(Operations& operations) {
-  bool any = false, all = true;
+bool solves_on_device(Operations& operations, bool assembled, bool afresh = false) {
+  bool first = true, can = false;
   operations.forEachIndependent([&](auto& state) {
-    constexpr bool there = OnDevice<typename std::decay_t<decltype(state)>::DataTypes>;
-    any = any || there, all = all && there;
+    using D = typename std::decay_t<decltype(state)>::DataTypes;
+    if constexpr (OnDevice<D>) {
+      if (afresh) state.solverRoom = {};
+      can = first ? !assembled || VectorOperations<D>::assembles(operations) : can;
+    } else {
+      can = false;
+    }
+    first = false;
   });
-  return any && all;
+  return can;
 }
-/// Solves there, by what the first state's DataTypes bring for it (VectorOperations::solve).
+/// Solves there, by what the first state's DataTypes bring for it (VectorOperations::solve), with room for
+/// three vectors.
 template <class Solver, class Operations>
 void solve_on_device(Solver& solver, Operations& operations, MatrixFactors factors,
                      MultiVecDeriv<Operations>& x, MultiVecDeriv<Operations>& b) {
+  operations.reserve({.derivs = operations.derivsTaken + 3});
   bool first = true;
   operations.forEachIndependent([&](auto& state) {
     using D = typename std::decay_t<decltype(state)>::DataTypes;
     if constexpr (OnDevice<D>)
       if (std::exchange(first, false))
-        VectorOperations<D>::solve(solver, operations, factors, x, b, state.solverNumbers);
+        VectorOperations<D>::solve(solver, operations, factors, x, b, state.solverRoom.numbers);
   });
 }
 

@@ -78,7 +78,7 @@ struct ShewchukPCGLinearSolver {
     residuals.clear();
     residuals.reserve(std::size_t(iterations) + 1);
     age = -1;
-    if (staysOnDevice(operations)) return;
+    if (staysOnDevice(operations, true)) return;
     operations.initMatrix(matrix);
     preconditioner.init(matrix, method(), matrix.dofs());
     preconditioner.omega = omega;
@@ -149,11 +149,8 @@ struct ShewchukPCGLinearSolver {
 
  private:
   template <class Operations>
-  bool staysOnDevice(Operations& operations) const {
-    if constexpr (matrixFree)
-      return method() <= PreconditionerMethod::blockJacobi && on_device(operations);
-    else
-      return false;
+  bool staysOnDevice(Operations& operations, bool afresh = false) const {
+    return method() <= PreconditionerMethod::blockJacobi && solves_on_device(operations, !matrixFree, afresh);
   }
   // z = P^-1 r, or R P^-1 R' r
   void apply(Vector const& from, Vector& to) {

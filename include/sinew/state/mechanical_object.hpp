@@ -65,9 +65,7 @@ struct MechanicalObject {
   std::vector<VecCoord> auxiliaryCoords{};
   std::vector<VecDeriv> auxiliaryDerivs{};
   std::optional<VecCoord> given{};  // positions that the mapping of a mapped state was given
-  // of a solver that works where the vectors are
-  typename D::template Array<double> solverNumbers{};
-  typename D::template Array<typename D::Real> solverBlocks{};
+  SolverRoom<D> solverRoom{};
   int dofOffset = -1;  // first scalar of this state in the assembled system of its solver
 
   std::size_t size() const { return position.size(); }

@@ -218,4 +218,8 @@ struct VectorOperations {
   static int findNotFinite(VecCoord const& x) { return vec::find_not_finite<D>(x); }
 };
 
+/// What a solver that works on a device keeps with a state: nothing where there is none.
+template <class D>
+struct SolverRoom {};
+
 }  // namespace sinew

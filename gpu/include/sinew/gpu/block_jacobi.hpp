@@ -2,7 +2,7 @@
 #pragma once
 
 #include <sinew/core/phase.hpp>
-#include <sinew/gpu/vector_operations.hpp>
+#include <sinew/gpu/assembled_system.hpp>
 #include <sinew/linalg/block_inverse.hpp>
 #include <sinew/linalg/preconditioner.hpp>
 #include <sinew/scene/scope.hpp>
@@ -17,6 +17,7 @@ namespace sinew::gpu {
 /// neighbouring threads read neighbouring addresses.
 template <class D>
 struct PointBlocks {
+  using DataTypes = D;
   using Real = typename D::Real;
   using Deriv = typename D::Deriv;
   using Block = Mat<Real, D::size>;
@@ -39,11 +40,6 @@ struct PointBlocks {
     SINEW_HD void operator()(int i) const {
       for (int k = 0; k < n * n; ++k) all.at(0, k, i) = Real(0);
     }
-  };
-  struct Unit {
-    Deriv* to;
-    int c;
-    SINEW_HD void operator()(int i) const { to[i] = Deriv::Unit(c); }
   };
   struct AddColumn {
     PointBlocks all;
@@ -94,7 +90,7 @@ void make_block_jacobi(Operations& operations, MatrixFactors factors, bool diago
       using D = typename std::decay_t<decltype(state)>::DataTypes;
       if constexpr (OnDevice<D>) {
         using Blocks = PointBlocks<D>;
-        typename D::Real* const room = state.solverBlocks.device();
+        typename D::Real* const room = state.solverRoom.diagonal.device();
         const std::size_t entries = state.size() * std::size_t(D::size * D::size);
         f(state, Blocks{int(state.size()), room}, Blocks{int(state.size()), room + entries});
       }
@@ -102,7 +98,8 @@ void make_block_jacobi(Operations& operations, MatrixFactors factors, bool diago
   };
   operations.forEachIndependent([](auto& state) {
     using D = typename std::decay_t<decltype(state)>::DataTypes;
-    if constexpr (OnDevice<D>) state.solverBlocks.resize(2 * state.size() * std::size_t(D::size * D::size));
+    if constexpr (OnDevice<D>)
+      state.solverRoom.diagonal.resize(2 * state.size() * std::size_t(D::size * D::size));
   });
   forEach([]<class Blocks>(auto& state, Blocks blocks, Blocks left) {
     for_each_index(state.size(), typename Blocks::Clear{blocks});
@@ -118,15 +115,18 @@ void make_block_jacobi(Operations& operations, MatrixFactors factors, bool diago
   };
   acting(std::type_identity<role::ForceField>{}, [&](auto& c, auto& state) {
     using Real = typename std::decay_t<decltype(state)>::DataTypes::Real;
-    if constexpr (requires { c.driver.addDiagonal(state.solverBlocks.device(), 0, Real(1), Real(1)); })
-      c.driver.addDiagonal(state.solverBlocks.device(), state.size(), Real(factors.k), Real(factors.b));
+    if constexpr (requires { c.driver.addDiagonal(state.solverRoom.diagonal.device(), 0, Real(1), Real(1)); })
+      c.driver.addDiagonal(
+          state.solverRoom.diagonal.device(), state.size(), Real(factors.k), Real(factors.b));
   });
   int columns = 0;
   forEach([&]<class Blocks>(auto&, Blocks, Blocks) { columns = std::max(columns, Blocks::n); });
   for (int k = 0; k < columns; ++k) {
     column.clear();
     forEach([&]<class Blocks>(auto& state, Blocks, Blocks) {
-      if (k < Blocks::n) for_each_index(state.size(), typename Blocks::Unit{state[unit.id].overwrite(), k});
+      if (k < Blocks::n)
+        for_each_index(state.size(),
+                       detail::UnitVectors<typename Blocks::DataTypes>{state[unit.id].overwrite(), k});
     });
     acting(std::type_identity<role::Mass>{}, [&](auto& c, auto& state) {
       using D = typename std::decay_t<decltype(state)>::DataTypes;

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/gpu/assembled_system.hpp>
 #include <sinew/gpu/block_jacobi.hpp>
 #include <sinew/gpu/vector_operations.hpp>
 #include <sinew/solver/cg_linear_solver.hpp>
 
 namespace sinew::gpu {
 
-/// What CGLinearSolver<GraphScattered> does where all states below it are on the device, and what
+/// What CGLinearSolver does where all states below it are on the device, and what
 /// ShewchukPCGLinearSolver does with a preconditioner of diagonal blocks: the same method with its numbers
 /// there, so that nothing waits for the host. With a tolerance the host looks every tenth iteration whether
 /// more are needed, but not while the step is being recorded. `residuals` stays empty.
@@ -22,6 +23,8 @@ void conjugate_gradients(Operations& operations, Solver& solver, MatrixFactors f
     if (preconditioned && solver.age == 0)
       make_block_jacobi(operations, factors, method == PreconditionerMethod::jacobi, p, q);
   }
+  constexpr bool assembled = !Solver::matrixFree;
+  if constexpr (assembled) assemble_on_device(operations, factors, p, q);
   const auto n = std::size_t(solver.iterations);
   numbers.resize(3 * n + 6);
   double* const room = numbers.device();
@@ -53,7 +56,7 @@ void conjugate_gradients(Operations& operations, Solver& solver, MatrixFactors f
     sum(to, [&]<class V>(auto& state, double* rz) {
       using D = typename std::decay_t<decltype(state)>::DataTypes;
       sum_indices(state.size(),
-                  typename PointBlocks<D>::Apply{{int(state.size()), state.solverBlocks.device()},
+                  typename PointBlocks<D>::Apply{{int(state.size()), state.solverRoom.diagonal.device()},
                                                  std::as_const(state[r.id]).device(),
                                                  state[z.id].overwrite()},
                   rz);
@@ -68,10 +71,18 @@ void conjugate_gradients(Operations& operations, Solver& solver, MatrixFactors f
   else
     p.eq(b);
   for (int i = 0; i < solver.iterations; ++i) {
-    q.clear();
-    operations.addMBKdx(q.id, p.id, factors);
-    operations.projectResponse(q.id);
-    sum(s.curvature + i, [&]<class V>(auto& state, double* to) { V::dot(state[p.id], state[q.id], to); });
+    if constexpr (assembled) {
+      // p has nothing that constraints forbid, so that p.Ap may be summed up before they act on Ap
+      sum(s.curvature + i, [&]<class V>(auto& state, double* to) {
+        state.solverRoom.rows.multiply(state[q.id].overwrite(), std::as_const(state[p.id]).device(), to);
+      });
+      operations.projectResponse(q.id);
+    } else {
+      q.clear();
+      operations.addMBKdx(q.id, p.id, factors);
+      operations.projectResponse(q.id);
+      sum(s.curvature + i, [&]<class V>(auto& state, double* to) { V::dot(state[p.id], state[q.id], to); });
+    }
     sum(s.size + i + 1, [&]<class V>(auto& state, double* to) {
       V::advance(state[x.id], state[p.id], state[r.id], state[q.id], s, i, to);
     });

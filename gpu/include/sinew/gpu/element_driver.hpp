@@ -102,8 +102,11 @@ struct ElementDriver<LawOf, CudaTypes<H>, W> {
     if (p.k != k || p.b != b) p = {std::move(p.rows), k, b, 0, false};
     if constexpr (arity > 2)
       if (++p.times > 1) {
-        if (!p.assembled || p.rows.rows == 0) {  // a copy has no rows yet
-          p.rows.assemble(law, elements, view(), nodes, k, b);
+        if (!p.assembled || !p.rows.planned()) {  // a copy has no rows yet
+          using Source = typename gpu::BlockRows<D>::Source;
+          if (!p.rows.planned()) p.rows.plan({Source(elements)}, nodes);
+          p.rows.fill(0, law, view(), k, b);
+          p.rows.sum();
           p.assembled = true;
         }
         p.rows.multiplyAdd(entries(df), entries(dx));

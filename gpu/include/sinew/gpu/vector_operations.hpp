@@ -4,6 +4,7 @@
 #include <sinew/core/component.hpp>
 #include <sinew/gpu/data_types.hpp>
 #include <sinew/gpu/reduction.hpp>
+#include <sinew/gpu/solver_room.hpp>
 #include <sinew/state/vector_operations.hpp>
 
 namespace sinew {
@@ -28,6 +29,8 @@ struct CgScalars {
 
 template <class Operations, class Solver, class MultiVec>
 void conjugate_gradients(Operations&, Solver&, MatrixFactors, MultiVec&, MultiVec&, DeviceVector<double>&);
+template <class Operations>
+bool can_assemble(Operations&);
 
 }  // namespace gpu
 
@@ -142,6 +145,11 @@ struct VectorOperations<CudaTypes<H>> {
     });
   }
 
+  /// Whether the matrix of a solver can be assembled on the device.
+  template <class Operations>
+  static bool assembles(Operations& operations) {
+    return gpu::can_assemble(operations);
+  }
   /// Solves with conjugate gradients for states that are all on the device.
   template <class Solver, class Operations, class MultiVec>
   static void solve(Solver& solver, Operations& operations, MatrixFactors factors, MultiVec& x, MultiVec& b,

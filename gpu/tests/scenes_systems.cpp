@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "scenes_preconditioned.hpp"
+#include "scenes_systems.hpp"
 
 #include "same_as_host.hpp"
 
@@ -16,6 +16,15 @@ TEST_CASE("conjugate gradients without a preconditioner are those of the host") 
 }
 TEST_CASE("conjugate gradients with blocks of rigid bodies are those of the host") {
   same_as_host<RigidsOnSprings, Rigid3d>(1e-10);
+}
+TEST_CASE("an assembled system with diagonal blocks is that of the host, iteration by iteration") {
+  same_as_host<AssembledBar, Vec3d>(1e-10);
+}
+TEST_CASE("two assembled bodies under one solver are those of the host") {
+  same_as_host<TwoAssembled<false>, Vec3d>(1e-10);
+}
+TEST_CASE("a matrix with a mapped body is assembled by the host") {
+  same_as_host<TwoAssembled<true>, Vec3d>(1e-10);
 }
 TEST_CASE("another preconditioner is another motion while few iterations are made") {
   const Course blocks = run<BlockJacobiBar, CudaVec3d>([] {}), none = run<PlainBar, CudaVec3d>([] {}),

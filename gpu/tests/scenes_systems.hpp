@@ -5,20 +5,25 @@
 
 #include <sinew/constraint/fixed_constraint.hpp>
 #include <sinew/constraint/partial_fixed.hpp>
+#include <sinew/force/constant_force.hpp>
 #include <sinew/force/plane_force_field.hpp>
 #include <sinew/force/rest_shape_springs.hpp>
 #include <sinew/force/tetrahedron_fem.hpp>
+#include <sinew/mapping/identity_mapping.hpp>
+#include <sinew/solver/cg_linear_solver.hpp>
 #include <sinew/solver/euler_implicit.hpp>
 #include <sinew/solver/pcg_linear_solver.hpp>
 #include <sinew/topology/mesh_topology.hpp>
 #include <sinew/topology/regular_grid.hpp>
+
+#include <tuple>
 
 namespace gpu_test {
 
 /// A bar that is a hundred times stiffer at one end than at the other, held at the stiff one, on rails there
 /// and pressed into a floor at the other, solved with few iterations: another preconditioner gives another
 /// motion.
-template <PreconditionerMethod Method, bool Use = true, int Iterations = 8>
+template <PreconditionerMethod Method, bool Use = true, int Iterations = 8, class Matrix = GraphScattered>
 struct Preconditioned : OneBody {
   static constexpr double dt = 0.02;
   static constexpr int steps = 20;
@@ -38,7 +43,7 @@ struct Preconditioned : OneBody {
     return Simulation{node<"root">(
         Gravity{{0, -9.81, 0}},
         EulerImplicitSolver{.rayleighStiffness = 0.01, .rayleighMass = 0.1},
-        ShewchukPCGLinearSolver<>{
+        ShewchukPCGLinearSolver<Matrix>{
             .iterations = Iterations, .tolerance = 0, .usePrecond = Use, .precondition = Method},
         node<"body">(MeshTopology{.position = mesh.positions, .tetrahedra = mesh.tetrahedra},
                      MechanicalObject<D>{},
@@ -53,6 +58,50 @@ struct Preconditioned : OneBody {
 using BlockJacobiBar = Preconditioned<PreconditionerMethod::blockJacobi>;
 using JacobiBar = Preconditioned<PreconditionerMethod::jacobi>;
 using PlainBar = Preconditioned<PreconditionerMethod::blockJacobi, false>;
+using AssembledBar =
+    Preconditioned<PreconditionerMethod::blockJacobi, true, 8, CompressedRowSparseMatrixMat3x3d>;
+
+/// Two bars under one solver whose matrix is assembled; with points mapped to one of them, and pushed, the
+/// host has to assemble it.
+template <bool Mapped>
+struct TwoAssembled {
+  static constexpr double dt = 0.02;
+  static constexpr int steps = 20;
+  static constexpr bool onDevice = !Mapped;
+  template <class Sim, class F>
+  static void each(Sim& sim, F&& f) {
+    f(sim.template at<"a">().state());
+    f(sim.template at<"b">().state());
+  }
+  template <class D>
+  static auto make() {
+    const Mesh mesh = regular_grid_tetrahedra(4, 3, 2, {0, 0, 0}, {2, 1, 1});
+    auto parts = [&](double youngModulus) {
+      return std::tuple(MeshTopology{.position = mesh.positions, .tetrahedra = mesh.tetrahedra},
+                        MechanicalObject<D>{},
+                        UniformMass<D>{.totalMass = 100},
+                        TetrahedronFEMForceField<D>{.youngModulus = {youngModulus}, .poissonRatio = 0.3},
+                        FixedConstraint<D>{.indices = {0, 4, 8, 12, 16, 20}});
+    };
+    [[maybe_unused]] const ConstantForceField<D> push{.indices = {3, 7}, .force = {{5, 20, 1}}};
+    auto a = std::apply([](auto... c) { return node<"a">(c...); }, parts(1e6));
+    auto b = std::apply(
+        [&](auto... c) {
+          if constexpr (Mapped)
+            return node<"b">(c..., node<"child">(MechanicalObject<D>{}, IdentityMapping<D, D>{}, push));
+          else
+            return node<"b">(c...);
+        },
+        parts(2e5));
+    // solved to the end: on the way the iterates of this system carry rounding of 1e-8
+    return Simulation{
+        node<"root">(Gravity{{0, -9.81, 0}},
+                     EulerImplicitSolver{.rayleighStiffness = 0.01},
+                     CGLinearSolver<CompressedRowSparseMatrixMat3x3d>{.iterations = 300, .tolerance = 0},
+                     std::move(a),
+                     std::move(b))};
+  }
+};
 
 /// Rigid bodies of unlike inertia on springs to where they are at rest: blocks of six.
 struct RigidsOnSprings : OneBody {

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/gpu/block_rows.hpp>
+#include <sinew/state/vector_operations.hpp>
+
+namespace sinew {
+
+template <class H>
+struct SolverRoom<CudaTypes<H>> {
+  gpu::DeviceVector<double> numbers{};             // of conjugate gradients (CgScalars)
+  gpu::DeviceVector<typename H::Real> diagonal{};  // blocks of a preconditioner (PointBlocks), two a point
+  gpu::BlockRows<CudaTypes<H>> rows{};             // the assembled system
+};
+
+}  // namespace sinew
