@@ -149,36 +149,43 @@ void measure(Make const& make, Options const& o) {
                           for (int i = 0; i < n; ++i) sim.animate(dt);
                         }),
          far);
-    gpu::RecordedStep recorded(sim, dt);
-    line("graph", seconds_a_step(o.steps, [&](int n) { recorded.animate(n); }), far);
-    auto blocks =
-        make.template operator()<Cuda>(ShewchukPCGLinearSolver<>{.iterations = o.iterations, .tolerance = 0});
-    blocks.init();
-    gpu::RecordedStep preconditioned(blocks, dt);
-    line("graph, block-Jacobi", seconds_a_step(o.steps, [&](int n) { preconditioned.animate(n); }), 0);
-  }
-  if (o.plain && !small) {
-    // what an iteration costs, from steps with fewer of them; the matrix is read once in each
-    double seconds[2];
-    std::size_t bytes = 0;
-    for (const int k : {0, 1}) {
-      auto sim = make.template operator()<Cuda>(all_iterations<GraphScattered>(k == 0 ? 5 : 25));
-      sim.init();
-      gpu::RecordedStep recorded(sim, dt);
-      seconds[k] = seconds_a_step(o.steps, [&](int n) { recorded.animate(n); });
-      bytes = field(sim).driver.product.rows.bytes();
-    }
-    const double each = (seconds[1] - seconds[0]) / 20;
-    std::printf(
-        "%s; %zu; %zu; %s; an iteration takes %.1f us, of which its product reads and writes %.1f MB: %.0f "
-        "GB/s at least\n",
-        o.scene.c_str(),
-        points,
-        elements,
-        sizeof(typename H::Real) == 8 ? "double" : "float",
-        each * 1e6,
-        bytes / 1e6,
-        bytes / each / 1e9);
+    // steps as graphs; of large bodies also what an iteration costs, from steps with fewer of them, and the
+    // share of its time in which the matrix would be read once
+    auto graph = [&](char const* form, auto linear) {
+      double seconds[2];
+      std::size_t bytes = 0;
+      for (const int k : {0, 1}) {
+        linear.iterations = k == 0 ? o.iterations : 5;
+        if (k == 1 && small) break;
+        auto recordedSim = make.template operator()<Cuda>(linear);
+        recordedSim.init();
+        gpu::RecordedStep recorded(recordedSim, dt);
+        seconds[k] = seconds_a_step(o.steps, [&](int n) { recorded.animate(n); });
+        bytes = linear.matrixFree ? field(recordedSim).driver.product.rows.bytes()
+                                  : recordedSim.root().state().solverRoom.rows.bytes();
+      }
+      line(form, seconds[0], 0);
+      if (small) return;
+      const double each = (seconds[0] - seconds[1]) / (o.iterations - 5);
+      std::printf(
+          "%s; %zu; %zu; %s; %s; an iteration takes %.1f us, of which its product reads and writes %.1f MB: "
+          "%.0f "
+          "GB/s at least\n",
+          o.scene.c_str(),
+          points,
+          elements,
+          sizeof(typename H::Real) == 8 ? "double" : "float",
+          form,
+          each * 1e6,
+          bytes / 1e6,
+          bytes / each / 1e9);
+    };
+    using Matrix = std::conditional_t<sizeof(typename H::Real) == 8,
+                                      CompressedRowSparseMatrixMat3x3d,
+                                      CompressedRowSparseMatrixMat3x3f>;
+    graph("graph", plain);
+    graph("graph, assembled", all_iterations<Matrix>());
+    graph("graph, assembled, block-Jacobi", ShewchukPCGLinearSolver<Matrix>{.tolerance = 0});
   }
   if (o.fused)
     for (const int blocks : {0, 4, 16, 1000}) {
