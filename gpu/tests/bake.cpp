@@ -5,6 +5,8 @@
 
 #include <sinew/runtime/bake.hpp>
 
+namespace test_bake {
+
 using namespace sinew;
 
 namespace {
@@ -21,3 +23,5 @@ TEST_CASE("a scene on a device is baked with its header") {
   CHECK_THAT(cpp, Catch::Contains("MechanicalObject<CudaVec3f>"));
   CHECK_THAT(cpp, Catch::Contains("6.5"));
 }
+
+}  // namespace test_bake

@@ -15,6 +15,8 @@
 #include <sinew/topology/mesh_topology.hpp>
 #include <sinew/topology/regular_grid_topology.hpp>
 
+namespace test_conservation {
+
 using namespace gpu_test;
 
 namespace {
@@ -114,3 +116,5 @@ TEST_CASE("springs without damping on the device keep their energy as symplectic
   CHECK(coarse < 0.05);
   CHECK(coarse / fine == Approx(2).epsilon(0.2));
 }
+
+}  // namespace test_conservation

@@ -3,6 +3,8 @@
 
 #include <sinew/gpu/device_vector.hpp>
 
+namespace test_device_vector {
+
 using namespace sinew;
 using gpu::DeviceVector;
 using Numbers = std::vector<double>;
@@ -163,3 +165,5 @@ TEST_CASE("DeviceVectors without entries cross without a copy") {
   CHECK(copy == none);
   CHECK(crossed() == Crossed{0, 0});
 }
+
+}  // namespace test_device_vector

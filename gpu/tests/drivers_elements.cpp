@@ -3,6 +3,8 @@
 #include "agrees.hpp"
 #include "samples_elements.hpp"
 
+namespace test_drivers_elements {
+
 using namespace gpu_test;
 
 TEST_CASE("corotational tetrahedra on the device equal those of the processor") {
@@ -49,3 +51,5 @@ TEST_CASE("a copy of a force field on the device has the same tangent") {
     CHECK(relative_difference(other.host(), one.host()) < rounding<double>);
   }
 }
+
+}  // namespace test_drivers_elements

@@ -3,6 +3,8 @@
 #include "agrees.hpp"
 #include "samples_hyperelastic.hpp"
 
+namespace test_drivers_hyperelastic {
+
 using namespace gpu_test;
 
 TEST_CASE("hyperelastic tetrahedra on the device equal those of the processor") {
@@ -17,3 +19,5 @@ TEST_CASE("hyperelastic tetrahedra on the device move freely and pass the patch 
     passes_patch_test<Hyperelasticity, Vec3d>(v);
   }
 }
+
+}  // namespace test_drivers_hyperelastic

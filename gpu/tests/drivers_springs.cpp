@@ -3,6 +3,8 @@
 #include "agrees.hpp"
 #include "samples_springs.hpp"
 
+namespace test_drivers_springs {
+
 using namespace gpu_test;
 
 TEST_CASE("springs of a grid on the device equal those of the processor") {
@@ -80,3 +82,5 @@ TEST_CASE("a driver on the device without elements adds nothing") {
   CHECK(driver.energy({}, x) == 0);
   CHECK(driver.removeIf([](auto const&) { return true; }) == 0);
 }
+
+}  // namespace test_drivers_springs

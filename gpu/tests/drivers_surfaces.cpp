@@ -3,6 +3,8 @@
 #include "agrees.hpp"
 #include "samples_elements.hpp"
 
+namespace test_drivers_surfaces {
+
 using namespace gpu_test;
 
 TEST_CASE("membrane triangles on the device equal those of the processor") {
@@ -17,3 +19,5 @@ TEST_CASE("triangles on the device move freely as a whole") {
   moves_freely<Triangles, Vec3d>(int(TriangleMethod::large));
   moves_freely<Triangles, Vec3d>(int(TriangleMethod::polar));
 }
+
+}  // namespace test_drivers_surfaces

@@ -13,6 +13,8 @@
 #include <sinew/solver/euler_explicit.hpp>
 #include <sinew/state/mechanical_object.hpp>
 
+namespace test_errors {
+
 using namespace sinew;
 
 namespace {
@@ -124,3 +126,5 @@ TEST_CASE("without a GPU it is said what to do", "[.][without-gpu]") {
 }
 
 #endif
+
+}  // namespace test_errors

@@ -13,6 +13,8 @@
 #include <sinew/topology/regular_grid.hpp>
 #include <sinew/topology/tetrahedron_topology.hpp>
 
+namespace test_fused {
+
 using namespace sinew;
 using Catch::Matchers::Contains;
 
@@ -203,3 +205,5 @@ TEST_CASE("what a fused step cannot do is said") {
     for (auto const& x : positions(sim)) CHECK(x.allFinite());
   }
 }
+
+}  // namespace test_fused

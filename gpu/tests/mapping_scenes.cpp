@@ -29,6 +29,8 @@
 #include <sinew/topology/regular_grid.hpp>
 #include <sinew/visual/visual_model.hpp>
 
+namespace test_mapping_scenes {
+
 using namespace sinew;
 
 namespace {
@@ -201,3 +203,5 @@ TEST_CASE("a body on the device falls onto a floor with the spheres that it has 
   CHECK(gpu::transfers().toDevice <= 9 * (2 * 31 + 6));
   CHECK(gpu::transfers().toDevice >= 9 * 30);
 }
+
+}  // namespace test_mapping_scenes

@@ -10,6 +10,8 @@
 #include <sinew/mapping/subset_mapping.hpp>
 #include <sinew/topology/regular_grid.hpp>
 
+namespace test_mappings {
+
 using namespace sinew;
 
 namespace {
@@ -262,3 +264,5 @@ TEST_CASE("forces of zero on a child of the host do not cross") {
   mapping.applyJT(f, Vec3d::VecDeriv(50, Eigen::Vector3d::Zero()));
   CHECK(crossed() == 0);
 }
+
+}  // namespace test_mappings

@@ -24,6 +24,8 @@
 #include <sinew/topology/regular_grid_topology.hpp>
 #include <sinew/visual/visual_model.hpp>
 
+namespace test_scene_files {
+
 using namespace sinew;
 
 namespace {
@@ -138,3 +140,5 @@ TEST_CASE("what is not there over the DataTypes of a device says what to do") {
   auto good = parse_scene<Few>("good.scn", bad(""));
   CHECK(good.root.get<MechanicalObject<CudaVec3f>>() != nullptr);
 }
+
+}  // namespace test_scene_files

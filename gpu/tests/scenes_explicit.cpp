@@ -3,6 +3,8 @@
 
 #include "same_as_host.hpp"
 
+namespace test_scenes_explicit {
+
 using namespace gpu_test;
 
 TEST_CASE("symplectic Euler on the device goes as on the host") {
@@ -15,3 +17,5 @@ TEST_CASE("the midpoint method on the device goes as on the host") {
 TEST_CASE("a hyperelastic cube falls on a plane on the device as on the host") {
   same_as_host<HyperelasticCube, Vec3d>(1e-10);
 }
+
+}  // namespace test_scenes_explicit

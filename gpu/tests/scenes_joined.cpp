@@ -3,6 +3,8 @@
 
 #include "same_as_host.hpp"
 
+namespace test_scenes_joined {
+
 using namespace gpu_test;
 
 TEST_CASE("two bodies joined by springs move on the device as on the host") {
@@ -14,3 +16,5 @@ TEST_CASE("a force that is there for the host alone acts on a body on the device
 TEST_CASE("a system assembled on the host moves a body on the device") {
   same_as_host<Assembled, Vec3d>(1e-10);
 }
+
+}  // namespace test_scenes_joined

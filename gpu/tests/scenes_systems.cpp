@@ -3,6 +3,8 @@
 
 #include "same_as_host.hpp"
 
+namespace test_scenes_systems {
+
 using namespace gpu_test;
 
 TEST_CASE("conjugate gradients with diagonal blocks are those of the host, iteration by iteration") {
@@ -38,3 +40,5 @@ TEST_CASE("another preconditioner is another motion while few iterations are mad
   INFO("off by " << off(blocks) << " with blocks, " << off(none) << " without");
   CHECK(off(blocks) < 0.5 * off(none));
 }
+
+}  // namespace test_scenes_systems

@@ -6,6 +6,8 @@
 #include <sinew/gpu/gpu.hpp>
 #include <sinew/gpu/recorded_step.hpp>
 
+namespace test_simulation {
+
 using namespace gpu_test;
 
 namespace {
@@ -81,3 +83,5 @@ TEST_CASE("elements that are removed on the device are gone") {
   CHECK(sim.at<"body">().state().size() <= points);
   CHECK(std::isfinite(sim.potentialEnergy()));
 }
+
+}  // namespace test_simulation
