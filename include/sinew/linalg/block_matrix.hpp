@@ -18,8 +18,9 @@ namespace sinew {
 
 /// Symmetric sparse matrix of dense B x B blocks, with a pattern that is fixed at init. Of it the blocks on
 /// and above the diagonal are stored, in compressed rows that begin with their diagonal block. Blocks are
-/// row-major. Rows and columns are counted in scalars where a name says `dof`, in blocks otherwise.
-template <class R, int B>
+/// row-major. Rows and columns are counted in scalars where a name says `dof`, in blocks otherwise. Products
+/// may take W lanes: files for other registers, or for nvcc, which has none, see another type.
+template <class R, int B, int W = native_width<R>>
 struct CompressedRowSparseMatrix {
   using Real = R;
   using Block = Eigen::Matrix<Real, B, B, B == 1 ? Eigen::ColMajor : Eigen::RowMajor>;
@@ -308,9 +309,9 @@ struct CompressedRowSparseMatrix {
     Four x, y;
   };
   std::vector<End> ends{};
-  static constexpr bool sliceable = B == 3 && SlicedRows<Real>::possible;
+  static constexpr bool sliceable = B == 3 && SlicedRows<Real, W>::possible;
   struct Nothing {};
-  [[no_unique_address]] std::conditional_t<sliceable, SlicedRows<Real>, Nothing> sliced{};
+  [[no_unique_address]] std::conditional_t<sliceable, SlicedRows<Real, W>, Nothing> sliced{};
 
   // written once after a product, by setZero(): threads that then add to blocks of their own only read it
   void changed() {

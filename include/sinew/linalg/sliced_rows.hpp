@@ -20,9 +20,8 @@ namespace sinew {
 /// with, and adds to, are W points one behind the other, and no lane is gathered (the diagonals of Saad,
 /// Iterative Methods for Sparse Linear Systems, 2003, 3.4, within slices). A block costs half of what it
 /// costs row by row.
-template <class Real>
+template <class Real, int W>
 struct SlicedRows {
-  static constexpr int W = native_width<Real>;
   static constexpr bool possible = W >= 4;
   using L = lanes<Real, W>;
 

@@ -7,7 +7,6 @@
 #include <sinew/gpu/vector_operations.hpp>
 #include <sinew/scene/scope.hpp>
 
-#include <array>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -16,38 +15,58 @@ namespace sinew::gpu {
 
 namespace detail {
 
-/// What a thread does for column c of a point's block of a mass: M e_c.
+template <class C>
+concept HasDeviceElements = requires(C c) {
+  c.driver.view();
+};
+
+/// The law of a force field's elements, as its fields are now.
+template <class Field>
+auto law_of(Field const& field) {
+  using Law = typename Field::Law;
+  if constexpr (requires { field.law(); })
+    return field.law();
+  else if constexpr (requires { field.template law<Law>(); })
+    return field.template law<Law>();
+  else
+    return Law{};
+}
+
+// f(component) for the force fields with elements on the device, or the masses, that act on a state itself,
+// in their order
+template <class Role, class Operations, class State, class F>
+void for_each_acting_on(Operations& operations, State& state, F&& f) {
+  traverse(operations.root, on<Role>([&](auto& c, auto const& scope) {
+             using C = std::decay_t<decltype(c)>;
+             if constexpr (std::is_same_v<typename C::DataTypes, typename State::DataTypes> &&
+                           (HasDeviceElements<C> || std::is_same_v<Role, role::Mass>))
+               if (scope.stateAddress() == &state) f(c);
+           }));
+}
+
 template <class D>
 struct UnitVectors {
   typename D::Deriv* to;
   int c;
   SINEW_HD void operator()(int i) const { to[i] = D::Deriv::Unit(c); }
 };
-template <class D>
-struct PutColumn {
-  typename D::Real* blocks;
-  typename D::Deriv const* from;
-  int c;
-  SINEW_HD void operator()(int i) const {
-    constexpr int n = D::size;
-    for (int r = 0; r < n; ++r) blocks[(std::ptrdiff_t(i) * n + r) * n + c] = from[i][r];
-  }
-};
 
-// f(component, state) for the force fields and masses that act on a state of the device, in their order
-template <class Operations, class State, class F>
-void for_each_acting_on(Operations& operations, State& state, F&& f) {
+/// f(c) for each component c of a state's points, where `unit` is e_c for all of them, 0 for those of other
+/// states, and `column` is m M e_c, with M the masses on the state.
+template <class Operations, class State, class MultiVec, class F>
+void for_each_mass_column(Operations& operations, State& state, double m, MultiVec& unit, MultiVec& column,
+                          F&& f) {
   using D = typename State::DataTypes;
-  traverse(operations.root, on<role::ForceField, role::Mass>([&](auto& c, auto const& scope) {
-             using C = std::decay_t<decltype(c)>;
-             if constexpr (std::is_same_v<typename C::DataTypes, D>)
-               if (scope.stateAddress() == &state) f(c);
-           }));
+  for (int c = 0; c < D::size; ++c) {
+    unit.clear();
+    for_each_index(state.size(), UnitVectors<D>{state[unit.id].overwrite(), c});
+    VectorOperations<D>::clear(OneThread{}, state[column.id]);
+    for_each_acting_on<role::Mass>(operations, state, [&](auto& mass) {
+      mass.addMDx(state[column.id], state[vec_id::position], state[unit.id], typename D::Real(m));
+    });
+    f(c);
+  }
 }
-template <class C>
-concept HasDeviceElements = requires(C c) {
-  c.driver.lastLaw;
-};
 
 }  // namespace detail
 
@@ -84,31 +103,25 @@ void assemble_on_device(Operations& operations, MatrixFactors factors, MultiVec&
       using Source = typename BlockRows<D>::Source;
       BlockRows<D>& rows = state.solverRoom.rows;
       if (!rows.planned()) {
-        std::vector<std::array<int, 1>> points(state.size());
-        for (std::size_t i = 0; i < points.size(); ++i) points[i] = {int(i)};
-        std::vector<Source> sources{Source(points)};
-        detail::for_each_acting_on(operations, state, [&]<class C>(C& c) {
-          if constexpr (detail::HasDeviceElements<C>) sources.push_back(Source(c.driver.elements));
-        });
+        std::vector<Source> sources;
+        detail::for_each_acting_on<role::ForceField>(
+            operations, state, [&](auto& c) { sources.push_back(Source(c.driver.elements)); });
         rows.plan(std::move(sources), state.size());
       }
-      for (int k = 0; k < D::size; ++k) {
-        using Vectors = VectorOperations<D>;
-        Vectors::clear(OneThread{}, state[column.id]);
-        for_each_index(state.size(), detail::UnitVectors<D>{state[unit.id].overwrite(), k});
-        detail::for_each_acting_on(operations, state, [&]<class C>(C& c) {
-          if constexpr (HasRole<C, role::Mass>)
-            c.addMDx(state[column.id], state[vec_id::position], state[unit.id], Real(factors.m));
-        });
-        for_each_index(state.size(),
-                       detail::PutColumn<D>{rows.blocksOf(0), std::as_const(state[column.id]).device(), k});
-      }
-      std::size_t source = 1;
-      detail::for_each_acting_on(operations, state, [&]<class C>(C& c) {
-        if constexpr (detail::HasDeviceElements<C>)
-          rows.fill(source++, *c.driver.lastLaw, c.driver.view(), Real(factors.k), Real(factors.b));
+      std::size_t source = 0;
+      detail::for_each_acting_on<role::ForceField>(operations, state, [&](auto& c) {
+        auto sum = [&](auto&& into) {
+          into(source++, detail::law_of(c), c.driver.view(), Real(factors.k), Real(factors.b));
+        };
+        if (source == 0)
+          sum([&](auto const&... with) { rows.set(with...); });
+        else
+          sum([&](auto const&... with) { rows.add(with...); });
       });
-      rows.sum();
+      if (source == 0) rows.clear();
+      detail::for_each_mass_column(operations, state, factors.m, unit, column, [&](int c) {
+        rows.addColumn(std::as_const(state[column.id]).device(), c);
+      });
     }
   });
 }

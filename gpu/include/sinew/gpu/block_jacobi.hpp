@@ -5,9 +5,7 @@
 #include <sinew/gpu/assembled_system.hpp>
 #include <sinew/linalg/block_inverse.hpp>
 #include <sinew/linalg/preconditioner.hpp>
-#include <sinew/scene/scope.hpp>
 
-#include <algorithm>
 #include <type_traits>
 #include <utility>
 
@@ -84,66 +82,28 @@ template <class Operations, class MultiVec>
 void make_block_jacobi(Operations& operations, MatrixFactors factors, bool diagonalOnly, MultiVec& unit,
                        MultiVec& column) {
   [[maybe_unused]] const auto span = operations.root.span(Phase::factorisation);
-  // f(state, its blocks, what constraints leave of unit vectors)
-  auto forEach = [&](auto&& f) {
-    operations.forEachIndependent([&](auto& state) {
-      using D = typename std::decay_t<decltype(state)>::DataTypes;
-      if constexpr (OnDevice<D>) {
-        using Blocks = PointBlocks<D>;
-        typename D::Real* const room = state.solverRoom.diagonal.device();
-        const std::size_t entries = state.size() * std::size_t(D::size * D::size);
-        f(state, Blocks{int(state.size()), room}, Blocks{int(state.size()), room + entries});
-      }
-    });
-  };
-  operations.forEachIndependent([](auto& state) {
+  operations.forEachIndependent([&](auto& state) {
     using D = typename std::decay_t<decltype(state)>::DataTypes;
-    if constexpr (OnDevice<D>)
-      state.solverRoom.diagonal.resize(2 * state.size() * std::size_t(D::size * D::size));
-  });
-  forEach([]<class Blocks>(auto& state, Blocks blocks, Blocks left) {
-    for_each_index(state.size(), typename Blocks::Clear{blocks});
-    for_each_index(state.size(), typename Blocks::Clear{left});
-  });
-  // f(component, state) for those that act on a state of the device itself
-  auto acting = [&]<class Role>(std::type_identity<Role>, auto&& f) {
-    traverse(operations.root, on<Role>([&](auto& c, auto const& scope) {
-               using D = typename std::decay_t<decltype(c)>::DataTypes;
-               if constexpr (OnDevice<D>)
-                 if (!scope.stateScope().mapped()) f(c, scope.template state<D>());
-             }));
-  };
-  acting(std::type_identity<role::ForceField>{}, [&](auto& c, auto& state) {
-    using Real = typename std::decay_t<decltype(state)>::DataTypes::Real;
-    if constexpr (requires { c.driver.addDiagonal(state.solverRoom.diagonal.device(), 0, Real(1), Real(1)); })
-      c.driver.addDiagonal(
-          state.solverRoom.diagonal.device(), state.size(), Real(factors.k), Real(factors.b));
-  });
-  int columns = 0;
-  forEach([&]<class Blocks>(auto&, Blocks, Blocks) { columns = std::max(columns, Blocks::n); });
-  for (int k = 0; k < columns; ++k) {
-    column.clear();
-    forEach([&]<class Blocks>(auto& state, Blocks, Blocks) {
-      if (k < Blocks::n)
-        for_each_index(state.size(),
-                       detail::UnitVectors<typename Blocks::DataTypes>{state[unit.id].overwrite(), k});
-    });
-    acting(std::type_identity<role::Mass>{}, [&](auto& c, auto& state) {
-      using D = typename std::decay_t<decltype(state)>::DataTypes;
-      if (k < D::size)
-        c.addMDx(state[column.id], state[vec_id::position], state[unit.id], typename D::Real(factors.m));
-    });
-    operations.projectResponse(unit.id);
-    forEach([&]<class Blocks>(auto& state, Blocks blocks, Blocks left) {
-      if (k >= Blocks::n) return;
-      for_each_index(state.size(),
-                     typename Blocks::AddColumn{blocks, std::as_const(state[column.id]).device(), k});
-      for_each_index(state.size(),
-                     typename Blocks::AddColumn{left, std::as_const(state[unit.id]).device(), k});
-    });
-  }
-  forEach([&]<class Blocks>(auto& state, Blocks blocks, Blocks left) {
-    for_each_index(state.size(), typename Blocks::Invert{blocks, left, diagonalOnly});
+    if constexpr (OnDevice<D>) {
+      using Real = typename D::Real;
+      using Blocks = PointBlocks<D>;
+      const std::size_t points = state.size(), entries = points * std::size_t(D::size * D::size);
+      state.solverRoom.diagonal.resize(2 * entries);
+      Real* const room = state.solverRoom.diagonal.overwrite();
+      const Blocks blocks{int(points), room}, left{int(points), room + entries};
+      for_each_index(points, typename Blocks::Clear{blocks});
+      for_each_index(points, typename Blocks::Clear{left});
+      detail::for_each_acting_on<role::ForceField>(operations, state, [&](auto& c) {
+        c.driver.addDiagonal(detail::law_of(c), room, points, Real(factors.k), Real(factors.b));
+      });
+      detail::for_each_mass_column(operations, state, factors.m, unit, column, [&](int c) {
+        operations.projectResponse(unit.id);
+        for_each_index(points,
+                       typename Blocks::AddColumn{blocks, std::as_const(state[column.id]).device(), c});
+        for_each_index(points, typename Blocks::AddColumn{left, std::as_const(state[unit.id]).device(), c});
+      });
+      for_each_index(points, typename Blocks::Invert{blocks, left, diagonalOnly});
+    }
   });
 }
 

@@ -14,55 +14,51 @@
 namespace sinew::gpu {
 
 /// A matrix as rows of square blocks, for products on a device: the sum of the blocks of elements, of one or
-/// several sources. A slice holds 32 rows, padded to the longest of them; entry k of its rows stands
-/// together, component by component, so that 32 threads read neighbouring addresses (sliced ELLPACK, Monakov
-/// et al. 2010).
+/// several sources, and of blocks on its diagonal. A slice holds 32 rows, padded to the longest of them;
+/// entry k of its rows stands together, component by component, so that 32 threads read neighbouring
+/// addresses (sliced ELLPACK, Monakov et al. 2010).
 template <class D>
 struct BlockRows {
   using Real = typename D::Real;
   using Deriv = typename D::Deriv;
   static constexpr int n = D::size, components = n * n, slice = 32;
 
-  /// Where blocks come from: elements of so many points, which follow each other in `points`.
+  /// Elements whose blocks the matrix has.
   struct Source {
     int arity = 1;
-    std::size_t count = 0;
-    std::vector<int> points{};
-    std::size_t first = 0;  // of its blocks among those of all sources
+    std::vector<int> points{};  // of the elements, one after the other, until they are planned
+    DeviceVector<int> first{}, contribution{};  // of each place: which blocks of elements (BlockOfElement)
 
     Source() = default;
     template <std::size_t Arity>
-    explicit Source(std::vector<std::array<int, Arity>> const& elements)
-        : arity(int(Arity)), count(elements.size()) {
-      points.reserve(count * Arity);
+    explicit Source(std::vector<std::array<int, Arity>> const& elements) : arity(int(Arity)) {
+      points.reserve(elements.size() * Arity);
       for (auto const& e : elements) points.insert(points.end(), e.begin(), e.end());
     }
-    int pairs() const { return arity * (arity + 1) / 2; }
   };
 
   bool planned() const { return rows > 0; }
-  /// Says which blocks there will be, in rows for so many nodes. The points of sources are not kept.
+  /// Says which blocks there will be, in rows for so many nodes.
   void plan(std::vector<Source> from, std::size_t nodes) {
     sources = std::move(from);
-    place(nodes);
-    for (Source& s : sources) s.points = {};
+    rows = nodes;
+    place();
   }
-  /// Computes the blocks of a source of elements: k K + b B, with the tangents of the last forces.
+  /// The matrix is 0.
+  void clear() { for_each_index(places, Clear{values.data()}); }
+  /// The matrix is k K + b B of a source of elements, with the tangents of their last forces.
   template <class Law, class View>
-  void fill(std::size_t source, Law const& law, View const& view, Real k, Real b) {
-    for_each_index(std::size_t(view.count), ElementBlocks<Law, View>{law, view, blocksOf(source), k, b});
+  void set(std::size_t source, Law const& law, View const& view, Real k, Real b) {
+    for_each_index(places, blocksOf(source, law, view, k, b, true));
   }
-  /// The blocks of a source, one after the other, row by row.
-  Real* blocksOf(std::size_t source) {
-    std::size_t all = 0;
-    for (Source const& s : sources) all += s.count * std::size_t(s.pairs() * components);
-    blocks.resize(all);
-    return blocks.data() + sources[source].first * components;
+  /// The same is added to it.
+  template <class Law, class View>
+  void add(std::size_t source, Law const& law, View const& view, Real k, Real b) {
+    for_each_index(places, blocksOf(source, law, view, k, b, false));
   }
-  /// Sums up the blocks of all sources, in the same order each time.
-  void sum() {
-    for_each_index(
-        places, SumBlocks{int(places), first.device(), contribution.device(), blocks.data(), values.data()});
+  /// Adds column c of the blocks on the diagonal, one a node.
+  void addColumn(Deriv const* column, int c) {
+    for_each_index(rows, AddColumn{diagonal.device(), values.data(), column, c});
   }
   /// r += A x
   void multiplyAdd(Deriv* r, Deriv const* x) const { for_each_index(rows, product(x, r)); }
@@ -76,10 +72,10 @@ struct BlockRows {
 
   std::size_t rows = 0, places = 0;
   std::vector<Source> sources{};
-  DeviceVector<int> sliceFirst{};             // first place of a slice
-  DeviceVector<int> column{};                 // of a place; -1 where a row has no further entry
-  DeviceVector<int> first{}, contribution{};  // what a place is the sum of: (block, transposed)
-  DeviceArray<Real> blocks{}, values{};       // of sources, one after the other; of places, by component
+  DeviceVector<int> sliceFirst{};  // first place of a slice
+  DeviceVector<int> column{};      // of a place; that of the diagonal where a row has no further entry
+  DeviceVector<int> diagonal{};    // place of each row's
+  DeviceArray<Real> values{};
 
   BlockRows() = default;
   BlockRows(BlockRows&&) = default;
@@ -90,59 +86,78 @@ struct BlockRows {
 
   // what threads do
 
+  // component c of the block at a place
+  template <class R>
+  SINEW_INLINE static R& at(R* values, int place, int c) {
+    return values[std::ptrdiff_t(place / slice) * (slice * components) + c * slice + place % slice];
+  }
+  struct Clear {
+    Real* values;
+    SINEW_HD void operator()(int place) const {
+      for (int c = 0; c < components; ++c) at(values, place, c) = Real(0);
+    }
+  };
+  struct AddColumn {
+    int const* diagonal;
+    Real* values;
+    Deriv const* column;
+    int c;
+    SINEW_HD void operator()(int row) const {
+      for (int r = 0; r < n; ++r) at(values, diagonal[row], r * n + c) += column[row][r];
+    }
+  };
   template <class Law, class View>
-  struct ElementBlocks {
+  struct AddBlocks {
     Law law;
     View view;
-    Real* to;
+    int const *first, *contribution;
+    Real* values;
     Real k, b;
-    SINEW_HD void operator()(int e) const {
-      constexpr int arity = Law::arity, pairs = arity * (arity + 1) / 2;
-      const auto rest = view.restOf(e);
-      const auto tangent = view.tangentOf(e);
-      Real* out = to + std::ptrdiff_t(e) * pairs * components;
-      for (int i = 0; i < arity; ++i)
-        for (int j = i; j < arity; ++j) {
-          const Mat<Real, n> block = law.block(rest, tangent, i, j, k, b);
-          for (int r = 0; r < n; ++r)
-            for (int c = 0; c < n; ++c) *out++ = block(r, c);
+    bool fresh;
+    SINEW_HD void operator()(int place) const {
+      Mat<Real, n> sum = Mat<Real, n>::Zero();
+      for (int i = first[place]; i < first[place + 1]; ++i) {
+        const detail::BlockOfElement<Law::arity> of(unsigned(contribution[i]));
+        const Mat<Real, n> block =
+            law.block(view.rest[of.element], view.tangent[of.element], of.a, of.b, k, b);
+        if (of.turned)
+          sum += block.transpose();
+        else
+          sum += block;
+      }
+      for (int r = 0; r < n; ++r)
+        for (int c = 0; c < n; ++c) {
+          Real& to = at(values, place, r * n + c);
+          to = fresh ? sum(r, c) : to + sum(r, c);
         }
     }
   };
-  struct SumBlocks {
-    int places;
-    int const *first, *contribution;
-    Real const* from;
-    Real* to;
-    SINEW_HD void operator()(int place) const {
-      Real sum[components] = {};
-      for (int i = first[place]; i < first[place + 1]; ++i) {
-        const unsigned code = unsigned(contribution[i]);
-        Real const* const block = from + std::ptrdiff_t(code >> 1) * components;
-        if (code & 1)
-          for (int r = 0; r < n; ++r)
-            for (int c = 0; c < n; ++c) sum[r * n + c] += block[c * n + r];
-        else
-          for (int c = 0; c < components; ++c) sum[c] += block[c];
-      }
-      for (int c = 0; c < components; ++c) to[std::ptrdiff_t(c) * places + place] = sum[c];
-    }
-  };
   struct RowProduct {
-    int places;
     int const *sliceFirst, *column;
     Real const* values;
     Deriv const* x;
     Deriv* r;
+    // what is read once goes through the caches first; as many reads at once as registers allow
+    template <class T>
+    SINEW_INLINE static T once(T const* from) {
+#if defined(__CUDA_ARCH__)
+      return __ldcs(from);
+#else
+      return *from;
+#endif
+    }
     SINEW_INLINE void rowOf(int row, Real (&sum)[n]) const {
       for (Real& s : sum) s = Real(0);
-      const int s = row / slice, end = sliceFirst[s + 1];
-      for (int place = sliceFirst[s] + row % slice; place < end; place += slice) {
-        const int j = column[place];
-        if (j < 0) break;
-        Deriv const& from = x[j];
+      const int s = row / slice, lane = row % slice, end = sliceFirst[s + 1];
+#if defined(__CUDACC__)
+      constexpr int together = n == 3 ? int(16 / sizeof(Real)) : 1;
+#pragma unroll together
+#endif
+      for (int place = sliceFirst[s] + lane; place < end; place += slice) {
+        Deriv const& from = x[once(column + place)];
+        Real const* const block = values + std::ptrdiff_t(place - lane) * components + lane;
         for (int a = 0; a < n; ++a)
-          for (int c = 0; c < n; ++c) sum[a] += values[std::ptrdiff_t(a * n + c) * places + place] * from[c];
+          for (int c = 0; c < n; ++c) sum[a] += once(block + (a * n + c) * slice) * from[c];
       }
     }
     SINEW_HD void operator()(int row) const {
@@ -166,75 +181,106 @@ struct BlockRows {
   };
 
  private:
-  RowProduct product(Deriv const* x, Deriv* r) const {
-    return {int(places), sliceFirst.device(), column.device(), values.data(), x, r};
+  template <class Law, class View>
+  AddBlocks<Law, View> blocksOf(std::size_t source, Law const& law, View const& view, Real k, Real b,
+                                bool fresh) {
+    Source const& s = sources[source];
+    return {law, view, s.first.device(), s.contribution.device(), values.data(), k, b, fresh};
   }
-  void place(std::size_t nodes) {
-    rows = nodes;
-    std::size_t all = 0;
-    for (Source& s : sources) {
-      s.first = all;
-      all += s.count * std::size_t(s.pairs());
-    }
-    if (all * 2 > std::size_t(std::numeric_limits<int>::max()))
-      throw Error("a matrix on a device",
-                  text("its elements have ", all, " blocks, more than 2^30; split the body"));
-    // the blocks of each row, by columns: those of one place stand together, sources and elements rising
-    std::vector<std::size_t> begin(nodes + 1, 0);
-    for (Source const& s : sources)
+  RowProduct product(Deriv const* x, Deriv* r) const {
+    return {sliceFirst.device(), column.device(), values.data(), x, r};
+  }
+  // which blocks of elements a row has, and where
+  struct Part {
+    int column;
+    int source;  // -1: of the diagonal
+    int code;
+    auto operator<=>(Part const&) const = default;
+  };
+  void place() {
+    std::vector<std::size_t> begin(rows + 1, 0);
+    for (Source const& s : sources) {
+      if (s.points.size() * std::size_t(s.arity + 1) > std::size_t(std::numeric_limits<int>::max()))
+        throw Error("a matrix on a device",
+                    text(s.points.size() / std::size_t(s.arity),
+                         " elements of ",
+                         s.arity,
+                         " points have more than 2^30 blocks; split the body"));
       for (const int p : s.points) begin[std::size_t(p) + 1] += std::size_t(s.arity);
-    for (std::size_t i = 0; i < nodes; ++i) begin[i + 1] += begin[i];
-    std::vector<std::pair<int, int>> parts(begin[nodes]);  // column, code
+    }
+    for (std::size_t i = 0; i < rows; ++i) begin[i + 1] += begin[i] + 1;
+    // the parts of each row, by columns: those of one place stand together, sources and elements rising
+    std::vector<Part> parts(begin[rows]);
     {
       std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
-      for (Source const& s : sources) {
-        int code = int(s.first) * 2;
-        for (std::size_t e = 0; e < s.count; ++e) {
-          int const* const at = s.points.data() + e * std::size_t(s.arity);
-          for (int i = 0; i < s.arity; ++i)
-            for (int j = i; j < s.arity; ++j, code += 2) {
-              parts[next[std::size_t(at[i])]++] = {at[j], code};
-              if (i != j) parts[next[std::size_t(at[j])]++] = {at[i], code + 1};
+      for (std::size_t i = 0; i < rows; ++i) parts[next[i]++] = {int(i), -1, 0};
+      for (std::size_t s = 0; s < sources.size(); ++s) {
+        const auto arity = std::size_t(sources[s].arity);
+        std::vector<int>& points = sources[s].points;
+        int code = 0;
+        for (std::size_t e = 0; e < points.size(); e += arity)
+          for (std::size_t i = e; i < e + arity; ++i)
+            for (std::size_t j = i; j < e + arity; ++j, code += 2) {
+              parts[next[std::size_t(points[i])]++] = {points[j], int(s), code};
+              if (i != j) parts[next[std::size_t(points[j])]++] = {points[i], int(s), code + 1};
             }
-        }
+        points = {};
       }
     }
-    std::vector<int> length(nodes, 0);
-    for (std::size_t i = 0; i < nodes; ++i) {
+    std::vector<int> length(rows, 0);
+    for (std::size_t i = 0; i < rows; ++i) {
       std::sort(parts.begin() + std::ptrdiff_t(begin[i]), parts.begin() + std::ptrdiff_t(begin[i + 1]));
       for (std::size_t k = begin[i]; k < begin[i + 1]; ++k)
-        length[i] += k == begin[i] || parts[k].first != parts[k - 1].first;
+        length[i] += k == begin[i] || parts[k].column != parts[k - 1].column;
     }
     std::vector<int> firstOfSlice{0};
-    for (std::size_t s = 0; s < nodes; s += slice) {
-      const auto end = std::min(nodes, s + slice);
+    for (std::size_t s = 0; s < rows; s += slice) {
+      const auto end = std::min(rows, s + slice);
       const int longest =
           *std::max_element(length.begin() + std::ptrdiff_t(s), length.begin() + std::ptrdiff_t(end));
       firstOfSlice.push_back(firstOfSlice.back() + longest * slice);
     }
     places = std::size_t(firstOfSlice.back());
-    std::vector<int> columns(places, -1), counts(places + 1, 0), codes(parts.size());
+    // f(row, place, part), places of a row rising
     auto forEachPart = [&](auto&& f) {
-      for (std::size_t i = 0; i < nodes; ++i) {
-        int place = firstOfSlice[i / slice] + int(i % slice) - slice;
+      for (std::size_t i = 0; i < rows; ++i) {
+        int at = firstOfSlice[i / slice] + int(i % slice) - slice;
         for (std::size_t k = begin[i]; k < begin[i + 1]; ++k) {
-          if (k == begin[i] || parts[k].first != parts[k - 1].first) place += slice;
-          f(std::size_t(place), parts[k]);
+          if (k == begin[i] || parts[k].column != parts[k - 1].column) at += slice;
+          f(i, at, parts[k]);
         }
       }
     };
-    forEachPart([&](std::size_t place, auto const& part) {
-      columns[place] = part.first;
-      ++counts[place + 1];
+    std::vector<int> columns(places), diagonals(rows);
+    for (std::size_t s = 0; s + 1 < firstOfSlice.size(); ++s)
+      for (int p = firstOfSlice[s]; p < firstOfSlice[s + 1]; ++p)
+        columns[std::size_t(p)] = int(std::min(rows - 1, s * slice + std::size_t(p % slice)));
+    std::vector<std::vector<int>> counts(sources.size(), std::vector<int>(places + 1, 0));
+    forEachPart([&](std::size_t row, int at, Part const& part) {
+      columns[std::size_t(at)] = part.column;
+      if (part.source < 0)
+        diagonals[row] = at;
+      else
+        ++counts[std::size_t(part.source)][std::size_t(at) + 1];
     });
-    for (std::size_t p = 0; p < places; ++p) counts[p + 1] += counts[p];
-    std::vector<int> next(counts.begin(), counts.end() - 1);
-    forEachPart(
-        [&](std::size_t place, auto const& part) { codes[std::size_t(next[place]++)] = part.second; });
+    std::vector<std::vector<int>> codes(sources.size());
+    for (std::size_t s = 0; s < sources.size(); ++s) {
+      for (std::size_t p = 0; p < places; ++p) counts[s][p + 1] += counts[s][p];
+      codes[s].resize(std::size_t(counts[s].back()));
+    }
+    auto next = counts;
+    forEachPart([&](std::size_t, int at, Part const& part) {
+      if (part.source < 0) return;
+      const auto s = std::size_t(part.source);
+      codes[s][std::size_t(next[s][std::size_t(at)]++)] = part.code;
+    });
+    for (std::size_t s = 0; s < sources.size(); ++s) {
+      sources[s].first = std::move(counts[s]);
+      sources[s].contribution = std::move(codes[s]);
+    }
     sliceFirst = std::move(firstOfSlice);
     column = std::move(columns);
-    first = std::move(counts);
-    contribution = std::move(codes);
+    diagonal = std::move(diagonals);
     values.resize(places * components);
   }
 };

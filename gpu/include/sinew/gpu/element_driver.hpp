@@ -10,8 +10,9 @@
 #include <sinew/gpu/reduction.hpp>
 
 #include <array>
+#include <cstring>
 #include <limits>
-#include <optional>
+#include <utility>
 #include <vector>
 
 namespace sinew {
@@ -41,13 +42,13 @@ struct ElementDriver<LawOf, CudaTypes<H>, W> {
   using Derivs = std::array<Deriv*, arity>;
 
   std::vector<Indices> elements{};
-  std::vector<Rest> rest{};
+  gpu::DeviceVector<Rest> rest{};
   int parts = 1;
 
   /// Takes the elements. Throws Error on more than 2^31 - 1 ends of elements.
   void init(std::vector<Indices> const& all, std::vector<Rest> const& restOf) {
     const std::size_t count = all.size();
-    constexpr std::size_t most = std::numeric_limits<int>::max(), reals = sizeof(Rest) / sizeof(Real);
+    constexpr std::size_t most = std::numeric_limits<int>::max();
     if (count > most / arity)
       throw Error("elements on a device",
                   text(count, " elements exceed the 2^31 - 1 numbers of an int; split the body"));
@@ -58,14 +59,12 @@ struct ElementDriver<LawOf, CudaTypes<H>, W> {
       for (const int i : e) nodes = std::max(nodes, std::size_t(i) + 1);
     // entry k * count + e of the buffer is the force on point k of element e
     std::vector<int> ends(arity * count);
-    std::vector<Real> scalars(reals * count);
-    for (std::size_t e = 0; e < count; ++e) {
+    for (std::size_t e = 0; e < count; ++e)
       for (std::size_t k = 0; k < arity; ++k) ends[k * count + e] = elements[e][k];
-      gpu::detail::store_strided(rest[e], scalars.data(), int(e), std::ptrdiff_t(count));
-    }
     index = std::move(ends);
-    restOnDevice = std::move(scalars);
-    tangents.assign(sizeof(Tangent) / sizeof(Real) * count, Real(0));
+    Tangent none;
+    std::memset(static_cast<void*>(&none), 0, sizeof none);
+    tangents.assign(count, none);
     received.assign(arity * count, Deriv(Deriv::Zero()));
     around = lists(0, arity);
     ofEnd.clear();
@@ -79,10 +78,11 @@ struct ElementDriver<LawOf, CudaTypes<H>, W> {
   std::size_t removeIf(Gone&& gone) {
     std::vector<Indices> stay;
     std::vector<Rest> restOfThose;
+    auto const& all = std::as_const(rest).host();
     for (std::size_t e = 0; e < elements.size(); ++e)
       if (!gone(elements[e])) {
         stay.push_back(elements[e]);
-        restOfThose.push_back(rest[e]);
+        restOfThose.push_back(all[e]);
       }
     const std::size_t removed = elements.size() - stay.size();
     if (removed > 0) init(stay, restOfThose);
@@ -105,8 +105,7 @@ struct ElementDriver<LawOf, CudaTypes<H>, W> {
         if (!p.assembled || !p.rows.planned()) {  // a copy has no rows yet
           using Source = typename gpu::BlockRows<D>::Source;
           if (!p.rows.planned()) p.rows.plan({Source(elements)}, nodes);
-          p.rows.fill(0, law, view(), k, b);
-          p.rows.sum();
+          p.rows.set(0, law, view(), k, b);
           p.assembled = true;
         }
         p.rows.multiplyAdd(entries(df), entries(dx));
@@ -117,17 +116,12 @@ struct ElementDriver<LawOf, CudaTypes<H>, W> {
   }
   /// Adds the diagonal blocks of k K + b B, with the tangents of the last addForce, to those of all points of
   /// the body, of which there are `points`; their order is that of NodeBlock.
-  void addDiagonal(Real* blocks, std::size_t points, Real k, Real b) const {
-    if (!lastLaw || around.first.empty()) return;
-    gpu::for_each_index(nodes,
-                        gpu::detail::NodeBlock<LawOf, D>{*lastLaw,
-                                                         view(),
-                                                         around.first.device(),
-                                                         around.entry.device(),
-                                                         blocks,
-                                                         std::ptrdiff_t(points),
-                                                         k,
-                                                         b});
+  void addDiagonal(Law const& law, Real* blocks, std::size_t points, Real k, Real b) const {
+    if (around.first.empty()) return;
+    gpu::for_each_index(
+        nodes,
+        gpu::detail::NodeBlock<LawOf, D>{
+            law, view(), around.first.device(), around.entry.device(), blocks, std::ptrdiff_t(points), k, b});
   }
 
   // between two bodies
@@ -161,16 +155,12 @@ struct ElementDriver<LawOf, CudaTypes<H>, W> {
           return std::array<int, arity>{SideOf...};
       }();
       for (std::size_t e = 0; e < elements.size(); ++e) {
-        Tangent tangent{};
-        if constexpr (Sink::phase == AssemblyPhase::add)
-          gpu::detail::load_strided(
-              tangent, std::as_const(tangents).data(), int(e), std::ptrdiff_t(elements.size()));
         [&]<int... P>(std::integer_sequence<int, P...>) {
           auto one = [&]<int I, int J>() {
             if constexpr (I <= J) {
               Mat<Real, D::size> block = Mat<Real, D::size>::Zero();
               if constexpr (Sink::phase == AssemblyPhase::add)
-                block = law.block(rest[e], tangent, I, J, k, b);
+                block = law.block(std::as_const(rest)[e], std::as_const(tangents)[e], I, J, k, b);
               sink.template add<side[I], side[J]>(elements[e][I], elements[e][J], block);
               if constexpr (I != J)
                 sink.template add<side[J], side[I]>(elements[e][J], elements[e][I], block.transpose().eval());
@@ -196,18 +186,15 @@ struct ElementDriver<LawOf, CudaTypes<H>, W> {
     bool assembled = false;
   };
   std::size_t nodes = 0;
-  std::optional<Law> lastLaw{};  // of the last addForce
   Array<int> index{};
-  Array<Real> restOnDevice{};
-  mutable Array<Real> tangents{};
+  mutable Array<Tangent> tangents{};
   mutable Array<Deriv> received{};
   Lists around{};
   mutable std::vector<Lists> ofEnd{};
   mutable Product product{};
 
   gpu::detail::DeviceElements<LawOf, D> view() const {
-    return {
-        int(elements.size()), index.device(), restOnDevice.device(), tangents.device(), received.device()};
+    return {int(elements.size()), index.device(), rest.device(), tangents.device(), received.device()};
   }
 
  private:
@@ -218,7 +205,6 @@ struct ElementDriver<LawOf, CudaTypes<H>, W> {
     return ends;
   }
   void forces(Law const& law, Coords x, ConstDerivs v) {
-    lastLaw.emplace(law);
     product.times = 0;
     product.assembled = false;
     gpu::for_each_index(elements.size(), gpu::detail::ElementForce<LawOf, D>{law, view(), x, v});

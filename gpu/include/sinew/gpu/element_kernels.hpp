@@ -5,59 +5,38 @@
 
 #include <array>
 #include <cstddef>
-#include <cstring>
-#include <type_traits>
 
 namespace sinew::gpu::detail {
 
-/// Reads number i of `stride` values, which hold nothing but scalars, from scalars that stand `stride` apart:
-/// neighbouring threads then read neighbouring addresses. Of a `Value` without scalars nothing is stored.
-template <class Value, class Real>
-SINEW_INLINE void load_strided(Value& value, Real const* from, int i, std::ptrdiff_t stride) {
-  if constexpr (!std::is_empty_v<Value>) {
-    static_assert(sizeof(Value) % sizeof(Real) == 0,
-                  "a law's Rest and Tangent hold only scalars of its Real");
-    constexpr int reals = int(sizeof(Value) / sizeof(Real));
-    Real scalars[reals];
-    for (int r = 0; r < reals; ++r) scalars[r] = from[r * stride + i];
-    std::memcpy(static_cast<void*>(&value), scalars, sizeof scalars);
+/// A block of an element's tangent as a matrix knows it: a number for the element, the pair of its points,
+/// and whether the block is turned over. Pairs are (0, 0), (0, 1), .. (1, 1), (1, 2), ...
+template <int Arity>
+struct BlockOfElement {
+  static constexpr int pairs = Arity * (Arity + 1) / 2;
+  int element, a = 0, b;
+  bool turned;
+
+  SINEW_INLINE explicit BlockOfElement(unsigned code)
+      : element(int(code / (2 * pairs))), b(int(code / 2 % pairs)), turned(code & 1) {
+    while (b >= Arity - a) b -= Arity - a++;
+    b += a;
   }
-}
-template <class Value, class Real>
-SINEW_INLINE void store_strided(Value const& value, Real* to, int i, std::ptrdiff_t stride) {
-  if constexpr (!std::is_empty_v<Value>) {
-    constexpr int reals = int(sizeof(Value) / sizeof(Real));
-    Real scalars[reals];
-    std::memcpy(scalars, static_cast<void const*>(&value), sizeof scalars);
-    for (int r = 0; r < reals; ++r) to[r * stride + i] = scalars[r];
-  }
-}
+};
 
 /// The elements of a driver as its threads see them. Point k of element e, and the force on it, is entry
 /// k * count + e of `index` and `part`.
 template <template <class> class LawOf, class D>
 struct DeviceElements {
-  using Real = typename D::Real;
   using Deriv = typename D::Deriv;
   using Rest = typename LawOf<D>::Rest;
   using Tangent = typename LawOf<D>::Tangent;
   static constexpr int arity = LawOf<D>::arity;
   int count;
   int const* index;
-  Real const* rest;
-  Real* tangent;
+  Rest const* rest;
+  Tangent* tangent;
   Deriv* part;
 
-  SINEW_INLINE Rest restOf(int e) const {
-    Rest value;
-    load_strided(value, rest, e, count);
-    return value;
-  }
-  SINEW_INLINE Tangent tangentOf(int e) const {
-    Tangent value;
-    load_strided(value, tangent, e, count);
-    return value;
-  }
   template <class Value>
   SINEW_INLINE void gather(int e, std::array<Value const*, arity> const& from, Value (&to)[arity]) const {
     for (int k = 0; k < arity; ++k) to[k] = from[std::size_t(k)][index[k * count + e]];
@@ -81,8 +60,8 @@ struct ElementForce {
     typename LawOf<D>::Tangent tangent;
     elements.gather(e, x, xs);
     if constexpr (LawOf<D>::usesVelocity) elements.gather(e, v, vs);
-    law.force(elements.restOf(e), xs, vs, fs, tangent);
-    store_strided(tangent, elements.tangent, e, elements.count);
+    law.force(elements.rest[e], xs, vs, fs, tangent);
+    elements.tangent[e] = tangent;
     elements.put(e, fs);
   }
 };
@@ -98,7 +77,7 @@ struct ElementDForce {
   SINEW_HD void operator()(int e) const {
     typename D::Deriv dxs[arity], dfs[arity];
     elements.gather(e, dx, dxs);
-    law.dforce(elements.restOf(e), elements.tangentOf(e), dxs, dfs, k, b);
+    law.dforce(elements.rest[e], elements.tangent[e], dxs, dfs, k, b);
     elements.put(e, dfs);
   }
 };
@@ -113,7 +92,7 @@ struct ElementEnergy {
   SINEW_HD double operator()(int e) const {
     typename D::Coord xs[arity];
     elements.gather(e, x, xs);
-    return double(law.energy(elements.restOf(e), xs));
+    return double(law.energy(elements.rest[e], xs));
   }
 };
 
@@ -150,7 +129,7 @@ struct NodeBlock {
     Mat<Real, size> sum = Mat<Real, size>::Zero();
     for (int i = first[n]; i < first[n + 1]; ++i) {
       const int e = entry[i] % elements.count, corner = entry[i] / elements.count;
-      sum += law.block(elements.restOf(e), elements.tangentOf(e), corner, corner, k, b);
+      sum += law.block(elements.rest[e], elements.tangent[e], corner, corner, k, b);
     }
     for (int r = 0; r < size; ++r)
       for (int c = 0; c < size; ++c) to[(r * size + c) * nodes + n] += sum(r, c);

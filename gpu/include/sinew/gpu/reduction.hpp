@@ -9,7 +9,7 @@ namespace sinew::gpu {
 
 /// Room for sums that are being made; one a thread of the host.
 struct SumRoom {
-  static constexpr unsigned threads = 256, blocks = 264;
+  static constexpr unsigned threads = 256, blocks = 1056;  // eight on each of 132 multiprocessors
   DeviceArray<double> parts{};     // one a block, and behind them the sum for the host
   DeviceArray<unsigned> counts{};  // blocks that are done; 0 between sums
 };
@@ -24,9 +24,18 @@ inline SumRoom& sum_room() {
   return room;
 }
 
-#if SINEW_CUDA
 namespace detail {
 
+/// What a thread calls for each of its indices: `term`, or what term.ofThread() makes of it once.
+template <class Term>
+SINEW_INLINE decltype(auto) of_thread(Term const& term) {
+  if constexpr (requires { term.ofThread(); })
+    return term.ofThread();
+  else
+    return (term);
+}
+
+#if SINEW_CUDA
 /// The sum of one value a thread, in the same order whenever the block has the same size; valid in thread 0.
 __device__ inline double block_sum(double value) {
   __shared__ double ofWarp[SumRoom::threads / 32];
@@ -45,8 +54,9 @@ template <class Term>
 __global__ void __launch_bounds__(SumRoom::threads)
     sum_kernel(unsigned count, Term term, double* parts, unsigned* done, double* to) {
   double sum = 0;
+  auto const& ofThread = of_thread(term);
   for (unsigned i = blockIdx.x * blockDim.x + threadIdx.x; i < count; i += gridDim.x * blockDim.x)
-    sum += term(int(i));
+    sum += ofThread(int(i));
   sum = block_sum(sum);
   __shared__ bool last;
   if (threadIdx.x == 0) {
@@ -66,8 +76,9 @@ __global__ void __launch_bounds__(SumRoom::threads)
   }
 }
 
-}  // namespace detail
 #endif
+
+}  // namespace detail
 
 /// *to = the sum of term(i) for i = 0 .. count - 1; `to` is on the device, term(i) is called once for each i
 /// and may write. The order of the sum depends on `count` alone.
@@ -82,7 +93,8 @@ void sum_indices(std::size_t count, Term const& term, double* to) {
   check(cudaGetLastError(), "a sum on the GPU");
 #else
   double sum = 0;
-  for (std::size_t i = 0; i < count; ++i) sum += term(int(i));
+  auto const& ofThread = detail::of_thread(term);
+  for (std::size_t i = 0; i < count; ++i) sum += ofThread(int(i));
   *to = sum;
 #endif
 }

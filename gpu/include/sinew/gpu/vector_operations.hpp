@@ -125,16 +125,7 @@ struct VectorOperations<CudaTypes<H>> {
                       int i, double* to) {
     Real *const xs = flat(x), *const rs = flat(r);
     Real const *const ps = flat(p), *const qs = flat(q);
-    gpu::sum_indices(
-        scalars(x),
-        [=] SINEW_HD(int k) {
-          const Real f = Real(s.alpha(i));
-          xs[k] += f * ps[k];
-          const Real left = rs[k] - f * qs[k];
-          rs[k] = left;
-          return double(left) * double(left);
-        },
-        to);
+    gpu::sum_indices(scalars(x), Advance{xs, rs, ps, qs, s, i}, to);
   }
   /// p = r + beta p of iteration i
   static void turn(VecDeriv& p, VecDeriv const& r, gpu::CgScalars const& s, int i) {
@@ -162,6 +153,24 @@ struct VectorOperations<CudaTypes<H>> {
   static Real const* flat(VecDeriv const& v) { return reinterpret_cast<Real const*>(v.device()); }
   static Real* overwritten(VecDeriv& v) { return reinterpret_cast<Real*>(v.overwrite()); }
   static auto product(VecDeriv const& a, VecDeriv const& b) { return Product{flat(a), flat(b)}; }
+  struct Advance {
+    Real *x, *r;
+    Real const *p, *q;
+    gpu::CgScalars s;
+    int iteration;
+    struct OfThread {
+      Real *x, *r;
+      Real const *p, *q;
+      Real f;
+      SINEW_HD double operator()(int k) const {
+        x[k] += f * p[k];
+        const Real left = r[k] - f * q[k];
+        r[k] = left;
+        return double(left) * double(left);
+      }
+    };
+    SINEW_HD OfThread ofThread() const { return {x, r, p, q, Real(s.alpha(iteration))}; }
+  };
   struct Product {
     Real const *a, *b;
     SINEW_HD double operator()(int i) const { return double(a[i]) * double(b[i]); }

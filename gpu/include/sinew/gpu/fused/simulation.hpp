@@ -3,6 +3,7 @@
 
 #include <sinew/constraint/fixed_constraint.hpp>
 #include <sinew/force/gravity.hpp>
+#include <sinew/gpu/assembled_system.hpp>
 #include <sinew/gpu/fused/plan.hpp>
 #include <sinew/gpu/fused/step.hpp>
 #include <sinew/gpu/gpu.hpp>
@@ -71,14 +72,6 @@ template <template <class> class LawOf, class D, int W>
 struct FusedOf<ElementDriver<LawOf, D, W>> {
   using Elements = FusedElements<LawOf, D>;
 };
-
-template <class Field>
-auto law_of(Field const& field) {
-  if constexpr (requires { field.law(); })
-    return field.law();
-  else
-    return field.template law<typename Field::Law>();
-}
 
 }  // namespace detail
 
@@ -307,7 +300,7 @@ class FusedSimulation {
         for (std::size_t i = 0; i < arity; ++i)
           for (std::size_t j = i; j < arity; ++j, ++pair) {
             if (i == j && arity > 1) continue;
-            const int code = (int(e) * Elements::pairs + pair) * 2;
+            const int code = (int(e) * detail::BlockOfElement<arity>::pairs + pair) * 2;
             codes[entry(elements[e][i], elements[e][j])].push_back(code);
             if (i != j) codes[entry(elements[e][j], elements[e][i])].push_back(code + 1);
           }

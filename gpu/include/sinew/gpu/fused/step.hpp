@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/core/data_types.hpp>
+#include <sinew/gpu/element_kernels.hpp>
 #include <sinew/gpu/fused/team.hpp>
 
 #include <cstdint>
@@ -16,7 +17,7 @@ namespace sinew::gpu {
 template <template <class> class LawOf, class D>
 struct FusedElements {
   using Law = LawOf<D>;
-  static constexpr int arity = Law::arity, pairs = arity * (arity + 1) / 2;
+  static constexpr int arity = Law::arity;
   static constexpr bool symmetricBlocks = requires { requires Law::symmetricBlocks; };
 
   Law law;
@@ -27,7 +28,7 @@ struct FusedElements {
   typename D::Deriv* part;  // force on point k of element e at k count + e
   int nodes;                // that elements have, and the parts for each
   int const *partFirst, *partEntry;
-  int const *entryFirst, *entryCode;  // for each entry of the matrix: element, pair of its points, transposed
+  int const *entryFirst, *entryCode;  // for each entry of the matrix (BlockOfElement)
 };
 
 /// A body of points on the device that implicit Euler moves, with a matrix in the shared memory of a cluster.
@@ -249,13 +250,11 @@ SINEW_HD void fused_steps(Team const& team, Body const& body, unsigned char* sha
           auto const* const rest = field.rest + std::ptrdiff_t(copy) * field.count;
           auto const* const tangents = field.tangent + std::ptrdiff_t(copy) * field.count;
           for (int i = field.entryFirst[e]; i < field.entryFirst[e + 1]; ++i) {
-            const unsigned code = unsigned(field.entryCode[i]);
-            const unsigned element = code / (2 * Field::pairs), pair = code / 2 % Field::pairs;
-            int a = 0, b = int(pair);
-            while (b >= Field::arity - a) b -= Field::arity - a++;
-            add<components>(block,
-                            field.law.block(rest[element], tangents[element], a, a + b, kFactor, bFactor),
-                            code & 1);
+            const detail::BlockOfElement<Field::arity> of(unsigned(field.entryCode[i]));
+            add<components>(
+                block,
+                field.law.block(rest[of.element], tangents[of.element], of.a, of.b, kFactor, bFactor),
+                of.turned);
           }
         };
         std::apply([&](auto const&... field) { (sumBlocks(field), ...); }, body.fields);
