@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// Steps a second of the scenes of the table on a GPU, in all forms in turn: plain Thrust, the step as a CUDA
-// graph, the fused step.
+// Steps a second of the scenes of the table on a GPU, in all forms in turn: launched loop by loop, the step
+// as a CUDA graph, the fused step.
 //   scenes grid NX NY NZ | fem FILE.msh | block CELLS | hexahedra CELLS | hyperelastic CELLS
 //          | batch FILE.msh COPIES
 //          [--double] [--steps N] [--iterations N] [--no-host] [--no-fused]
@@ -143,7 +143,7 @@ void measure(Make const& make, Options const& o) {
     std::fprintf(stderr, "device init and first step %.2f s\n", now() - start);
     for (int i = 1; i < same; ++i) sim.animate(dt);
     const double far = o.host ? difference(std::as_const(sim.root().state().position), expected) : 0;
-    line("Thrust",
+    line("launch by launch",
          seconds_a_step(o.steps,
                         [&](int n) {
                           for (int i = 0; i < n; ++i) sim.animate(dt);

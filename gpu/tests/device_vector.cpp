@@ -70,6 +70,37 @@ TEST_CASE("what is overwritten on the device does not cross before") {
   CHECK(crossed() == Crossed{0, 2});
 }
 
+TEST_CASE("a DeviceVector on its way to the host arrives as it was when nothing has written since") {
+  DeviceVector<double> v{1, 2};
+  v.bringToHost();  // nothing to bring: the host has it
+  crossed();
+  add(v, 1);
+  v.bringToHost();
+  CHECK(std::as_const(v).host() == Numbers{2, 3});
+  CHECK(crossed() == Crossed{2, 2});
+  // written again while it is on its way
+  add(v, 1);
+  v.bringToHost();
+  add(v, 10);
+  CHECK(v.host() == Numbers{13, 14});
+  // moved, copied and assigned to on its way
+  add(v, 1);
+  v.bringToHost();
+  DeviceVector<double> const copy = v;
+  DeviceVector<double> moved = std::move(v);
+  CHECK(copy.host() == Numbers{14, 15});
+  CHECK(moved.host() == Numbers{14, 15});
+  add(moved, 1);
+  moved.bringToHost();
+  DeviceVector<double> other{5, 6, 7};
+  add(other, 1);
+  moved = other;
+  CHECK(moved.host() == Numbers{6, 7, 8});
+  v = {};
+  v.bringToHost();
+  CHECK(v.host().empty());
+}
+
 TEST_CASE("copies of a DeviceVector are of the side that is newest, and independent") {
   DeviceVector<double> a{1, 2};
   crossed();

@@ -10,6 +10,7 @@ template Course on_host<PlainBar, Vec3d>();
 template Course on_host<AssembledBar, Vec3d>();
 template Course on_host<TwoAssembled<false>, Vec3d>();
 template Course on_host<TwoAssembled<true>, Vec3d>();
+template Course on_host<LoosePoints, Vec3d>();
 template Course on_host<RigidsOnSprings, Rigid3d>();
 
 }  // namespace gpu_test

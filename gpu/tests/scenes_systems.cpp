@@ -25,6 +25,9 @@ TEST_CASE("an assembled system with diagonal blocks is that of the host, iterati
 TEST_CASE("two assembled bodies under one solver are those of the host") {
   same_as_host<TwoAssembled<false>, Vec3d>(1e-10);
 }
+TEST_CASE("an assembled system of masses alone is that of the host") {
+  same_as_host<LoosePoints, Vec3d>(1e-12);
+}
 TEST_CASE("a matrix with a mapped body is assembled by the host") {
   same_as_host<TwoAssembled<true>, Vec3d>(1e-10);
 }

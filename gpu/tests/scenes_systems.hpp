@@ -17,19 +17,21 @@
 #include <sinew/topology/regular_grid.hpp>
 
 #include <tuple>
+#include <type_traits>
 
 namespace gpu_test {
 
 /// A bar that is a hundred times stiffer at one end than at the other, held at the stiff one, on rails there
 /// and pressed into a floor at the other, solved with few iterations: another preconditioner gives another
-/// motion.
-template <PreconditionerMethod Method, bool Use = true, int Iterations = 8, class Matrix = GraphScattered>
+/// motion. (The matrix is no part of the type: nvcc has another.)
+template <PreconditionerMethod Method, bool Use = true, int Iterations = 8, bool Assembled = false>
 struct Preconditioned : OneBody {
   static constexpr double dt = 0.02;
   static constexpr int steps = 20;
   static constexpr bool onDevice = true;
   template <class D>
   static auto make() {
+    using Matrix = std::conditional_t<Assembled, CompressedRowSparseMatrixMat3x3d, GraphScattered>;
     const Mesh mesh = regular_grid_tetrahedra(7, 3, 3, {0, 0, 0}, {3, 1, 1});
     std::vector<int> fixed, rails;
     std::vector<typename D::Real> stiffness;
@@ -58,8 +60,7 @@ struct Preconditioned : OneBody {
 using BlockJacobiBar = Preconditioned<PreconditionerMethod::blockJacobi>;
 using JacobiBar = Preconditioned<PreconditionerMethod::jacobi>;
 using PlainBar = Preconditioned<PreconditionerMethod::blockJacobi, false>;
-using AssembledBar =
-    Preconditioned<PreconditionerMethod::blockJacobi, true, 8, CompressedRowSparseMatrixMat3x3d>;
+using AssembledBar = Preconditioned<PreconditionerMethod::blockJacobi, true, 8, true>;
 
 /// Two bars under one solver whose matrix is assembled; with points mapped to one of them, and pushed, the
 /// host has to assemble it.
@@ -100,6 +101,25 @@ struct TwoAssembled {
                      CGLinearSolver<CompressedRowSparseMatrixMat3x3d>{.iterations = 300, .tolerance = 0},
                      std::move(a),
                      std::move(b))};
+  }
+};
+
+/// Points that the host pushes, and that have no elements: a matrix of masses alone.
+struct LoosePoints : OneBody {
+  static constexpr double dt = 0.02;
+  static constexpr int steps = 5;
+  static constexpr bool onDevice = false;
+  template <class D>
+  static auto make() {
+    typename D::VecCoord at;
+    for (int i = 0; i < 40; ++i) at.push_back({typename D::Real(0.02 * i), 0, 0});
+    return Simulation{
+        node<"root">(Gravity{{0, -9.81, 0}},
+                     EulerImplicitSolver{},
+                     CGLinearSolver<CompressedRowSparseMatrixMat3x3d>{.iterations = 3, .tolerance = 0},
+                     node<"body">(MechanicalObject<D>{.position = at},
+                                  UniformMass<D>{.vertexMass = 2},
+                                  ConstantForceField<D>{.indices = {3, 39}, .force = {{5, 20, 1}}}))};
   }
 };
 

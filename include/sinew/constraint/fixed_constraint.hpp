@@ -33,11 +33,12 @@ struct FixedConstraint {
 
   void init(InitContext<D> const& context) { held = held_points<FixedConstraint>(context, indices, fixAll); }
 
-  void projectResponse(VecDeriv& dx) const {
-    Deriv* const to = entries(dx);
-    int const* const points = entries(held);
-    each_point<D>(held.size(), [=] SINEW_HD(int k) { to[points[k]].setZero(); });
-  }
+  void projectResponse(VecDeriv& dx) const { each_point<D>(held.size(), Stop{entries(dx), entries(held)}); }
+  struct Stop {
+    Deriv* to;
+    int const* points;
+    SINEW_HD void operator()(int k) const { to[points[k]].setZero(); }
+  };
   void projectVelocity(double /*time*/, VecDeriv& v) const {
     if (activateProjectVelocity) projectResponse(v);
   }

@@ -46,14 +46,17 @@ struct PartialFixedConstraint {
   }
 
   void projectResponse(VecDeriv& dx) const {
-    Deriv* const to = entries(dx);
-    int const* const points = entries(held);
-    const Mask fixed = fixedDirections;
-    each_point<D>(held.size(), [=] SINEW_HD(int k) {
+    each_point<D>(held.size(), Stop{entries(dx), entries(held), fixedDirections});
+  }
+  struct Stop {
+    Deriv* to;
+    int const* points;
+    Mask fixed;
+    SINEW_HD void operator()(int k) const {
       for (int c = 0; c < D::size; ++c)
         if (fixed[std::size_t(c)]) to[points[k]][c] = 0;
-    });
-  }
+    }
+  };
   void projectVelocity(double /*time*/, VecDeriv& v) const {
     if (activateProjectVelocity) projectResponse(v);
   }

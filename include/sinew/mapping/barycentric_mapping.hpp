@@ -129,6 +129,9 @@ struct BarycentricMapping {
   void apply(typename Out::VecCoord& out, typename In::VecCoord const& in) const requires(!onHost) {
     weights.apply(out, in);
   }
+  void ask(typename Out::VecCoord const& out, typename In::VecCoord const& in) const requires(!onHost) {
+    weights.ask(out, in);
+  }
   void applyJ(typename Out::VecDeriv& out, typename In::VecDeriv const& in) const requires(!onHost) {
     weights.apply(out, in);
   }

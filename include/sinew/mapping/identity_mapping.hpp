@@ -44,6 +44,10 @@ struct IdentityMapping {
     else
       loops.down(out, in, [](LoopSide) { return typename Copy::Positions{}; });
   }
+  void ask(typename Out::VecCoord const& out, typename In::VecCoord const& in) const
+      requires(!Loops::onHost) {
+    loops.ask(out, in, [](LoopSide) { return typename Copy::Positions{}; });
+  }
   void applyJ(typename Out::VecDeriv& out, typename In::VecDeriv const& in) const {
     if constexpr (Loops::onHost)
       for (std::size_t i = 0; i < in.size(); ++i) Copy::velocity(out[i], in[i]);

@@ -72,11 +72,30 @@ struct MappedLoops {
   mutable Array<typename Host::Coord> coords{};
   mutable Array<typename Host::Deriv> derivs{};
   mutable Array<typename In::Deriv> sums{};
+  mutable bool asked = false;  // whether the device makes what is to go down
 
   void init(std::size_t parents, std::size_t children) {
     const std::size_t above = parents * sizeof(typename In::Deriv),
                       below = children * sizeof(typename Out::Deriv);
     atDevice = !across || (OnDevice<In> ? below < above : above < below);
+  }
+
+  /// Begins what down(), called next with the same arguments, brings from a device to the host: the work and
+  /// its copy are queued there, and not waited for.
+  template <class To, class From, class Bodies>
+  void ask(To const& out, From const& in, Bodies const& bodies) const {
+    if constexpr (across && OnDevice<In>) {
+      if (atDevice) {
+        auto& room = like(out);
+        room.resize(out.size());
+        each_point<Device>(out.size(),
+                           detail::Make{bodies(LoopSide::device), overwritten(room), entries(in)});
+        bring_to_host(room);
+        asked = true;
+      } else {
+        bring_to_host(in);
+      }
+    }
   }
 
   template <class To, class From, class Bodies>
@@ -86,10 +105,9 @@ struct MappedLoops {
     } else if (!atDevice) {
       onThisHost(out.size(), detail::Make{bodies(LoopSide::host), overwritten_on_host(out), in.data()});
     } else if constexpr (OnDevice<In>) {
-      auto& room = like(out);
-      room.resize(out.size());
-      each_point<Device>(out.size(), detail::Make{bodies(LoopSide::device), overwritten(room), entries(in)});
-      std::copy_n(std::as_const(room).data(), out.size(), out.data());
+      if (!asked) ask(out, in, bodies);
+      asked = false;
+      std::copy_n(std::as_const(like(out)).data(), out.size(), out.data());
     } else {
       auto& room = like(in);
       room.assign(in.begin(), in.end());

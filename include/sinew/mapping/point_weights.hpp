@@ -62,6 +62,9 @@ struct PointWeights {
   void apply(typename Out::VecDeriv& out, typename In::VecDeriv const& in) const {
     loops.down(out, in, [&](LoopSide side) { return viewOf<Interpolate>(ofChild, side); });
   }
+  void ask(typename Out::VecDeriv const& out, typename In::VecDeriv const& in) const {
+    loops.ask(out, in, [&](LoopSide side) { return viewOf<Interpolate>(ofChild, side); });
+  }
   void applyJT(typename In::VecDeriv& in, typename Out::VecDeriv const& out) const {
     loops.up(in, out, [&](LoopSide side) { return viewOf<Gather>(ofParent, side); });
   }

@@ -90,32 +90,49 @@ struct RigidMapping {
   }
 
   void apply(typename Out::VecCoord& out, typename In::VecCoord const& in) {
-    auto const* const bodies = loops.seen(in);
-    auto const* const indices = loops.indices(rigidIndices);
-    const bool one = rigidIndices.size() == 1;
-    auto const* const p = entries(std::as_const(local));
-    auto* const r = overwritten(rotated);
-    auto* const to = overwritten(out);
-    each_point<Out>(local.size(), [=] SINEW_HD(int i) {
+    each_point<Out>(local.size(),
+                    Place{loops.seen(in),
+                          loops.indices(rigidIndices),
+                          rigidIndices.size() == 1,
+                          entries(std::as_const(local)),
+                          overwritten(rotated),
+                          overwritten(out)});
+  }
+  struct Place {
+    typename In::Coord const* bodies;
+    int const* indices;
+    bool one;
+    typename Out::Coord const* local;
+    Vec<Real, N>* rotated;
+    typename Out::Coord* to;
+    SINEW_HD void operator()(int i) const {
       auto const& body = bodies[indices[one ? 0 : i]];
-      r[i] = rotation(body) * Out::center(p[i]);
-      Out::setCenter(to[i], body.center.template cast<Real>() + r[i]);
+      rotated[i] = rotation(body) * Out::center(local[i]);
+      Out::setCenter(to[i], body.center.template cast<Real>() + rotated[i]);
       if constexpr (Out::rigid && N == 3)
-        to[i].orientation = (body.orientation.template cast<Real>() * p[i].orientation).normalized();
+        to[i].orientation = (body.orientation.template cast<Real>() * local[i].orientation).normalized();
       else if constexpr (Out::rigid)
-        to[i].orientation = Real(body.orientation) + p[i].orientation;
-    });
-  }
+        to[i].orientation = Real(body.orientation) + local[i].orientation;
+    }
+  };
   void applyJ(typename Out::VecDeriv& out, typename In::VecDeriv const& in) const {
-    auto const* const bodies = loops.seen(in);
-    auto const* const indices = loops.indices(rigidIndices);
-    const bool one = rigidIndices.size() == 1;
-    auto const* const r = entries(rotated);
-    auto* const to = overwritten(out);
-    each_point<Out>(local.size(), [=] SINEW_HD(int i) {
-      to[i] = jacobian(r[i]) * bodies[indices[one ? 0 : i]].template cast<Real>();
-    });
+    each_point<Out>(local.size(),
+                    Move{loops.seen(in),
+                         loops.indices(rigidIndices),
+                         rigidIndices.size() == 1,
+                         entries(rotated),
+                         overwritten(out)});
   }
+  struct Move {
+    typename In::Deriv const* bodies;
+    int const* indices;
+    bool one;
+    Vec<Real, N> const* rotated;
+    typename Out::Deriv* to;
+    SINEW_HD void operator()(int i) const {
+      to[i] = jacobian(rotated[i]) * bodies[indices[one ? 0 : i]].template cast<Real>();
+    }
+  };
   void applyJT(typename In::VecDeriv& in, typename Out::VecDeriv const& out) const {
     if constexpr (OnDevice<Out>) {
       loops.addOnDevice(in, out, rotated, Load{});

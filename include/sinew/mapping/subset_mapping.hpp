@@ -60,6 +60,10 @@ struct SubsetMapping {
   }
 
   void apply(typename Out::VecCoord& out, typename In::VecCoord const& in) const { gather(out, in); }
+  void ask(typename Out::VecCoord const& out, typename In::VecCoord const& in) const
+      requires(!MappedLoops<In, Out>::onHost) {
+    weights.ask(out, in);
+  }
   void applyJ(typename Out::VecDeriv& out, typename In::VecDeriv const& in) const { gather(out, in); }
   void applyJT(typename In::VecDeriv& in, typename Out::VecDeriv const& out) const {
     if constexpr (!MappedLoops<In, Out>::onHost)

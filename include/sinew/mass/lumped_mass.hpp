@@ -151,13 +151,20 @@ struct LumpedMass {
   template <class Masses, class Change>
   static void forEachPoint(VecDeriv& to, Masses const& masses, VecCoord const& x, VecDeriv const& from,
                            Change change) {
-    Deriv* const r = entries(to);
-    MassType const* const m = entries(masses);
-    Coord const* const at = entries(x);
-    Deriv const* const a = entries(from);
-    const int step = masses.size() > 1;
-    each_point<D>(to.size(), [=] SINEW_HD(int i) { change(r[i], multiply(m[i * step], at[i], a[i])); });
+    each_point<D>(
+        to.size(),
+        Multiply<Change>{entries(to), entries(masses), entries(x), entries(from), masses.size() > 1, change});
   }
+  template <class Change>
+  struct Multiply {
+    Deriv* to;
+    MassType const* mass;
+    Coord const* x;
+    Deriv const* from;
+    bool each;
+    Change change;
+    SINEW_HD void operator()(int i) const { change(to[i], multiply(mass[each ? i : 0], x[i], from[i])); }
+  };
   // -w x (I w); of a step h that at its end: I (u - w)/h, where I (u - w) + h u x (I u) = 0. Then u.I u <=
   // w.I w, and a body that turns by h u still has the energy of u (Catto, Numerical Methods, GDC 2015, with
   // one iteration of Newton's method). Where these do not converge, beyond a radian a step, u is made no

@@ -565,12 +565,19 @@ void Simulation<Root>::updateVisual() {
   if (visualsAreCurrent_) return;
   const auto root = rootScope();
   [[maybe_unused]] const auto span = root.span(Phase::visual);
-  traverse(root, on<role::Mapping>([](auto& mapping, auto const& scope) {
-             scope.withMapped(mapping, [&](auto& m, auto& child, auto& parent) {
-               if constexpr (HasRole<std::decay_t<decltype(child)>, role::VisualModel>)
-                 m.apply(child.position, parent.position);
-             });
-           }));
+  auto each = [&](auto&& f) {
+    traverse(root, on<role::Mapping>([&](auto& mapping, auto const& scope) {
+               scope.withMapped(mapping, [&](auto& m, auto& child, auto& parent) {
+                 if constexpr (HasRole<std::decay_t<decltype(child)>, role::VisualModel>) f(m, child, parent);
+               });
+             }));
+  };
+  // a device makes all of them before the first is waited for
+  each([](auto& m, auto& child, auto& parent) {
+    if constexpr (requires { m.ask(child.position, parent.position); })
+      m.ask(child.position, parent.position);
+  });
+  each([](auto& m, auto& child, auto& parent) { m.apply(child.position, parent.position); });
   visualsAreCurrent_ = true;
 }
 

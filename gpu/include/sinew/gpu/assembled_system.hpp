@@ -23,7 +23,7 @@ concept HasDeviceElements = requires(C c) {
 /// The law of a force field's elements, as its fields are now.
 template <class Field>
 auto law_of(Field const& field) {
-  using Law = typename Field::Law;
+  using Law = typename decltype(Field::driver)::Law;
   if constexpr (requires { field.law(); })
     return field.law();
   else if constexpr (requires { field.template law<Law>(); })

@@ -117,7 +117,7 @@ struct BlockRows {
     SINEW_HD void operator()(int place) const {
       Mat<Real, n> sum = Mat<Real, n>::Zero();
       for (int i = first[place]; i < first[place + 1]; ++i) {
-        const detail::BlockOfElement<Law::arity> of(unsigned(contribution[i]));
+        const auto of = detail::BlockOfElement<Law::arity>(static_cast<unsigned>(contribution[i]));
         const Mat<Real, n> block =
             law.block(view.rest[of.element], view.tangent[of.element], of.a, of.b, k, b);
         if (of.turned)
@@ -149,7 +149,7 @@ struct BlockRows {
     SINEW_INLINE void rowOf(int row, Real (&sum)[n]) const {
       for (Real& s : sum) s = Real(0);
       const int s = row / slice, lane = row % slice, end = sliceFirst[s + 1];
-#if defined(__CUDACC__)
+#if defined(__CUDA_ARCH__)
       constexpr int together = n == 3 ? int(16 / sizeof(Real)) : 1;
 #pragma unroll together
 #endif

@@ -47,7 +47,7 @@ class DeviceVector {
     if (other.newest_ == Side::device) {
       device_.resize(other.size_);
       copy_on_device(device_.data(), other.device_.data(), other.size_);
-      newest_ = Side::device;
+      writtenOnDevice();
     } else {
       host_ = other.host_;
       newest_ = Side::host;
@@ -61,6 +61,8 @@ class DeviceVector {
     host_ = std::move(other.host_);
     other.host_.clear();
     device_ = std::move(other.device_);
+    arrival_ = std::move(other.arrival_);
+    arriving_ = std::exchange(other.arriving_, false);
     return *this;
   }
 
@@ -76,14 +78,21 @@ class DeviceVector {
   /// What the host has of it is old from here on.
   T* device() {
     upload();
-    newest_ = Side::device;
+    writtenOnDevice();
     return device_.data();
   }
   /// The same where all entries are written: what they were does not cross.
   T* overwrite() {
     device_.resize(size_);
-    newest_ = Side::device;
+    writtenOnDevice();
     return device_.data();
+  }
+
+  /// Begins to bring it to the host, which goes on meanwhile: when it looks, it waits for that alone.
+  void bringToHost() const {
+    if (newest_ != Side::device || arriving_ || size_ == 0) return;
+    arrival_.begin(device_.data(), size_);
+    arriving_ = true;
   }
 
   // the host's side
@@ -162,6 +171,13 @@ class DeviceVector {
   mutable Side newest_ = Side::host;
   mutable std::vector<T> host_{};
   mutable DeviceArray<T> device_{};
+  mutable Arrival<T> arrival_{};
+  mutable bool arriving_ = false;  // what the device has is in arrival_
+
+  void writtenOnDevice() {
+    newest_ = Side::device;
+    arriving_ = false;
+  }
 
   void upload() const {
     if (newest_ != Side::host) return;
@@ -173,7 +189,10 @@ class DeviceVector {
   void download() const {
     if (newest_ != Side::device) return;
     host_.resize(size_);
-    copy_to_host(host_.data(), device_.data(), size_);
+    if (std::exchange(arriving_, false))
+      arrival_.take(host_.data(), size_);
+    else
+      copy_to_host(host_.data(), device_.data(), size_);
     transfers().toHost += size_;
     newest_ = Side::both;
   }
@@ -194,6 +213,10 @@ T* overwritten(DeviceVector<T>& v) {
 template <class T>
 T* overwritten_on_host(DeviceVector<T>& v) {
   return v.overwriteOnHost();
+}
+template <class T>
+void bring_to_host(DeviceVector<T> const& v) {
+  v.bringToHost();
 }
 
 }  // namespace sinew::gpu

@@ -71,10 +71,38 @@ inline bool& recording() {
   return now;
 }
 
-/// body(i) for i = 0 .. count - 1, one thread each. `body` is an object whose operator() is SINEW_HD.
+#if SINEW_CUDA
+/// Threads of a block for a loop of so many indices: few where the loop is short, so that it is spread over
+/// the GPU (Thrust's own loops give 512 indices to a block).
+inline unsigned threads_for(std::size_t count) {
+  constexpr std::size_t processors = 128;
+  return count >= processors * 256   ? 256
+         : count >= processors * 128 ? 128
+         : count >= processors * 64  ? 64
+                                     : 32;
+}
+namespace detail {
+template <class Body>
+__global__ void __launch_bounds__(256) each_kernel(unsigned count, Body body) {
+  const unsigned i = blockIdx.x * blockDim.x + threadIdx.x;
+  if (i < count) body(int(i));
+}
+}  // namespace detail
+#endif
+
+/// body(i) for i = 0 .. count - 1, one thread each. `body` is an object whose operator() is SINEW_HD; no
+/// lambda, since those of a template that nvcc compiles in two files are mixed up.
 template <class Body>
 void for_each_index(std::size_t count, Body const& body) {
-  if (count != 0) thrust::for_each_n(queue(), thrust::counting_iterator<int>(0), int(count), body);
+  if (count == 0) return;
+#if SINEW_CUDA
+  const unsigned threads = threads_for(count);
+  detail::each_kernel<<<unsigned((count + threads - 1) / threads), threads, 0, stream()>>>(unsigned(count),
+                                                                                           body);
+  check(cudaGetLastError(), "a loop on the GPU");
+#else
+  thrust::for_each_n(queue(), thrust::counting_iterator<int>(0), int(count), body);
+#endif
 }
 
 /// *to += *from
@@ -84,12 +112,12 @@ struct AddTo {
   SINEW_HD void operator()(int) const { *to += *from; }
 };
 
+/// Queues a copy. What is copied may change when this returns: CUDA has it then, in memory of its own.
 template <class T>
 void copy_to_device(T* to, T const* from, std::size_t n) {
   if (n == 0) return;
 #if SINEW_CUDA
   check(cudaMemcpyAsync(to, from, n * sizeof(T), cudaMemcpyHostToDevice, stream()), "copy to the GPU");
-  wait();
 #else
   std::copy_n(from, n, to);
 #endif
@@ -168,6 +196,72 @@ class DeviceArray {
     ::operator delete(data_, std::align_val_t(64));
 #endif
     data_ = nullptr;
+  }
+};
+
+/// A copy on its way from the device to the host, in memory that a GPU writes while the host goes on.
+template <class T>
+class Arrival {
+ public:
+  Arrival() = default;
+  Arrival(Arrival const&) = delete;
+  Arrival(Arrival&& other) noexcept { *this = std::move(other); }
+  Arrival& operator=(Arrival&& other) noexcept {
+    std::swap(room_, other.room_);
+    std::swap(capacity_, other.capacity_);
+#if SINEW_CUDA
+    std::swap(there_, other.there_);
+#endif
+    return *this;
+  }
+  ~Arrival() { free(); }
+
+  /// Queues the copy of n entries.
+  void begin(T const* from, std::size_t n) {
+    if (n > capacity_) {
+      free();
+#if SINEW_CUDA
+      check(cudaMallocHost(reinterpret_cast<void**>(&room_), n * sizeof(T)),
+            "memory for copies from the GPU");
+      check(cudaEventCreateWithFlags(&there_, cudaEventDisableTiming), "copy from the GPU");
+#else
+      room_ = static_cast<T*>(::operator new(n * sizeof(T), std::align_val_t(64)));
+#endif
+      capacity_ = n;
+    }
+#if SINEW_CUDA
+    check(cudaMemcpyAsync(room_, from, n * sizeof(T), cudaMemcpyDeviceToHost, stream()), "copy from the GPU");
+    check(cudaEventRecord(there_, stream()), "copy from the GPU");
+#else
+    std::copy_n(from, n, room_);
+#endif
+  }
+  /// Waits for it, and for nothing that has been queued since.
+  void take(T* to, std::size_t n) const {
+#if SINEW_CUDA
+    check(cudaEventSynchronize(there_), "copy from the GPU");
+#endif
+    std::copy_n(room_, n, to);
+  }
+
+ private:
+  T* room_ = nullptr;
+  std::size_t capacity_ = 0;
+#if SINEW_CUDA
+  cudaEvent_t there_ = nullptr;
+#endif
+
+  void free() {
+    if (!room_) return;
+#if SINEW_CUDA
+    cudaFreeHost(room_);
+    if (there_) cudaEventDestroy(there_);
+    there_ = nullptr;
+#else
+    ::operator delete(room_, std::align_val_t(64));
+#endif
+    room_ = nullptr;
+    capacity_ = 0;
   }
 };
 

@@ -9,9 +9,9 @@ namespace sinew::gpu {
 
 /// Room for sums that are being made; one a thread of the host.
 struct SumRoom {
-  static constexpr unsigned threads = 256, blocks = 1056;  // eight on each of 132 multiprocessors
-  DeviceArray<double> parts{};     // one a block, and behind them the sum for the host
-  DeviceArray<unsigned> counts{};  // blocks that are done; 0 between sums
+  static constexpr unsigned blocks = 1056;  // at most; eight on each of 132 multiprocessors
+  DeviceArray<double> parts{};              // one a block, and behind them the sum for the host
+  DeviceArray<unsigned> counts{};           // blocks that are done; 0 between sums
 };
 inline SumRoom& sum_room() {
   static thread_local SumRoom room;
@@ -38,20 +38,20 @@ SINEW_INLINE decltype(auto) of_thread(Term const& term) {
 #if SINEW_CUDA
 /// The sum of one value a thread, in the same order whenever the block has the same size; valid in thread 0.
 __device__ inline double block_sum(double value) {
-  __shared__ double ofWarp[SumRoom::threads / 32];
+  __shared__ double ofWarp[8];
   for (int offset = 16; offset > 0; offset /= 2) value += __shfl_down_sync(0xffffffffu, value, offset);
   __syncthreads();
   if (threadIdx.x % 32 == 0) ofWarp[threadIdx.x / 32] = value;
   __syncthreads();
   double sum = 0;
   if (threadIdx.x == 0)
-    for (unsigned w = 0; w < SumRoom::threads / 32; ++w) sum += ofWarp[w];
+    for (unsigned w = 0; w < blockDim.x / 32; ++w) sum += ofWarp[w];
   return sum;
 }
 
 /// The last block that is done adds up what all have found.
 template <class Term>
-__global__ void __launch_bounds__(SumRoom::threads)
+__global__ void __launch_bounds__(256)
     sum_kernel(unsigned count, Term term, double* parts, unsigned* done, double* to) {
   double sum = 0;
   auto const& ofThread = of_thread(term);
@@ -86,9 +86,9 @@ template <class Term>
 void sum_indices(std::size_t count, Term const& term, double* to) {
 #if SINEW_CUDA
   SumRoom& room = sum_room();
-  const unsigned needed = unsigned((count + SumRoom::threads - 1) / SumRoom::threads);
+  const unsigned threads = threads_for(count), needed = unsigned((count + threads - 1) / threads);
   const unsigned blocks = std::max(1u, std::min(SumRoom::blocks, needed));
-  detail::sum_kernel<<<blocks, SumRoom::threads, 0, stream()>>>(
+  detail::sum_kernel<<<blocks, threads, 0, stream()>>>(
       unsigned(count), term, room.parts.data(), room.counts.data(), to);
   check(cudaGetLastError(), "a sum on the GPU");
 #else

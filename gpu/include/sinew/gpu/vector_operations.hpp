@@ -46,8 +46,7 @@ struct VectorOperations<CudaTypes<H>> {
 
   template <class Run>
   static void clear(Run const&, VecDeriv& r) {
-    Real* const to = overwritten(r);
-    gpu::for_each_index(scalars(r), [=] SINEW_HD(int i) { to[i] = Real(0); });
+    gpu::for_each_index(scalars(r), Set{overwritten(r)});
   }
   template <class Run, class V>
   static void eq(Run const&, V& r, V const& a) {
@@ -55,23 +54,18 @@ struct VectorOperations<CudaTypes<H>> {
   }
   static void eq(VecDeriv& r, VecDeriv const& a, Real f) {
     Real const* const from = flat(a);
-    Real* const to = &r == &a ? flat(r) : overwritten(r);
-    gpu::for_each_index(scalars(r), [=] SINEW_HD(int i) { to[i] = f * from[i]; });
+    gpu::for_each_index(scalars(r), Scale{&r == &a ? flat(r) : overwritten(r), from, f});
   }
   template <class Run>
   static void peq(Run const&, VecDeriv& r, VecDeriv const& a, Real f) {
-    Real const* const from = flat(a);
-    Real* const to = flat(r);
-    gpu::for_each_index(scalars(r), [=] SINEW_HD(int i) { to[i] += f * from[i]; });
+    gpu::for_each_index(scalars(r), Add{flat(r), flat(a), f});
   }
   static void move(VecCoord& x, VecDeriv const& a, Real f) {
-    Deriv const* const from = a.device();
-    Coord* const to = x.device();
-    gpu::for_each_index(x.size(), [=] SINEW_HD(int i) { D::increment(to[i], Deriv(f * from[i])); });
+    gpu::for_each_index(x.size(), Move{x.device(), a.device(), f});
   }
   static void teq(VecDeriv& r, Real f) {
     Real* const to = flat(r);
-    gpu::for_each_index(scalars(r), [=] SINEW_HD(int i) { to[i] *= f; });
+    gpu::for_each_index(scalars(r), Scale{to, to, f});
   }
   template <class Run>
   static double dot(Run const&, VecDeriv const& a, VecDeriv const& b) {
@@ -79,37 +73,18 @@ struct VectorOperations<CudaTypes<H>> {
   }
   template <class Run>
   static void turn(Run const&, VecDeriv& r, VecDeriv const& a, Real f) {
-    Real const* const from = flat(a);
-    Real* const to = flat(r);
-    gpu::for_each_index(scalars(r), [=] SINEW_HD(int i) { to[i] = from[i] + f * to[i]; });
+    gpu::for_each_index(scalars(r), Turn{flat(r), flat(a), f});
   }
   template <class Run>
   static double advance(Run const&, VecDeriv& x, VecDeriv const& p, VecDeriv& r, VecDeriv const& q, Real f) {
-    Real *const xs = flat(x), *const rs = flat(r);
-    Real const *const ps = flat(p), *const qs = flat(q);
-    return gpu::sum_on_host(scalars(x), [=] SINEW_HD(int i) {
-      xs[i] += f * ps[i];
-      const Real left = rs[i] - f * qs[i];
-      rs[i] = left;
-      return double(left) * double(left);
-    });
+    return gpu::sum_on_host(scalars(x), Advance{flat(x), flat(r), flat(p), flat(q), f});
   }
   static void chartRate(VecDeriv& rate, VecDeriv const& theta, VecDeriv const& v) {
-    Deriv* const to = rate.device();
-    Deriv const *const angle = theta.device(), *const velocity = v.device();
-    gpu::for_each_index(rate.size(), [=] SINEW_HD(int i) { to[i] = D::chart_rate(angle[i], velocity[i]); });
+    gpu::for_each_index(rate.size(), ChartRate{rate.device(), theta.device(), v.device()});
   }
   static int findNotFinite(VecCoord const& x) {
     if (gpu::recording()) return -1;
-    Coord const* const at = x.device();
-    const double wrong = gpu::sum_on_host(x.size(), [=] SINEW_HD(int i) {
-      constexpr int n = int(sizeof(Coord) / sizeof(Real));
-      Real const* const c = reinterpret_cast<Real const*>(at + i);
-      bool finite = true;
-      for (int k = 0; k < n; ++k) finite = finite && c[k] - c[k] == Real(0);
-      return finite ? 0.0 : 1.0;
-    });
-    if (wrong == 0) return -1;
+    if (gpu::sum_on_host(x.size(), NotFinite{x.device()}) == 0) return -1;
     for (std::size_t i = 0; i < x.size(); ++i)
       if (!D::finite(x[i])) return int(i);
     return -1;
@@ -123,17 +98,11 @@ struct VectorOperations<CudaTypes<H>> {
   /// x += alpha p, r -= alpha q of iteration i; *to = r.r.
   static void advance(VecDeriv& x, VecDeriv const& p, VecDeriv& r, VecDeriv const& q, gpu::CgScalars const& s,
                       int i, double* to) {
-    Real *const xs = flat(x), *const rs = flat(r);
-    Real const *const ps = flat(p), *const qs = flat(q);
-    gpu::sum_indices(scalars(x), Advance{xs, rs, ps, qs, s, i}, to);
+    gpu::sum_indices(scalars(x), AdvanceOfIteration{flat(x), flat(r), flat(p), flat(q), s, i}, to);
   }
   /// p = r + beta p of iteration i
   static void turn(VecDeriv& p, VecDeriv const& r, gpu::CgScalars const& s, int i) {
-    Real const* const from = flat(r);
-    Real* const to = flat(p);
-    gpu::for_each_index(scalars(p), [=] SINEW_HD(int k) {
-      if (s.goesOn(i)) to[k] = from[k] + Real(s.beta(i)) * to[k];
-    });
+    gpu::for_each_index(scalars(p), TurnOfIteration{flat(p), flat(r), s, i});
   }
 
   /// Whether the matrix of a solver can be assembled on the device.
@@ -153,23 +122,78 @@ struct VectorOperations<CudaTypes<H>> {
   static Real const* flat(VecDeriv const& v) { return reinterpret_cast<Real const*>(v.device()); }
   static Real* overwritten(VecDeriv& v) { return reinterpret_cast<Real*>(v.overwrite()); }
   static auto product(VecDeriv const& a, VecDeriv const& b) { return Product{flat(a), flat(b)}; }
+
+  // what threads do; no lambdas, since those of a template that nvcc has compiled in two files are mixed up
+
+  struct Set {
+    Real* to;
+    SINEW_HD void operator()(int i) const { to[i] = Real(0); }
+  };
+  struct Scale {
+    Real* to;
+    Real const* from;
+    Real f;
+    SINEW_HD void operator()(int i) const { to[i] = f * from[i]; }
+  };
+  struct Add {
+    Real* to;
+    Real const* from;
+    Real f;
+    SINEW_HD void operator()(int i) const { to[i] += f * from[i]; }
+  };
+  struct Move {
+    Coord* to;
+    Deriv const* from;
+    Real f;
+    SINEW_HD void operator()(int i) const { D::increment(to[i], Deriv(f * from[i])); }
+  };
+  struct Turn {
+    Real* p;
+    Real const* r;
+    Real beta;
+    SINEW_HD void operator()(int i) const { p[i] = r[i] + beta * p[i]; }
+  };
+  struct TurnOfIteration {
+    Real* p;
+    Real const* r;
+    gpu::CgScalars s;
+    int iteration;
+    SINEW_HD void operator()(int i) const {
+      if (s.goesOn(iteration)) p[i] = r[i] + Real(s.beta(iteration)) * p[i];
+    }
+  };
   struct Advance {
+    Real *x, *r;
+    Real const *p, *q;
+    Real alpha;
+    SINEW_HD double operator()(int i) const {
+      x[i] += alpha * p[i];
+      const Real left = r[i] - alpha * q[i];
+      r[i] = left;
+      return double(left) * double(left);
+    }
+  };
+  struct AdvanceOfIteration {
     Real *x, *r;
     Real const *p, *q;
     gpu::CgScalars s;
     int iteration;
-    struct OfThread {
-      Real *x, *r;
-      Real const *p, *q;
-      Real f;
-      SINEW_HD double operator()(int k) const {
-        x[k] += f * p[k];
-        const Real left = r[k] - f * q[k];
-        r[k] = left;
-        return double(left) * double(left);
-      }
-    };
-    SINEW_HD OfThread ofThread() const { return {x, r, p, q, Real(s.alpha(iteration))}; }
+    SINEW_HD Advance ofThread() const { return {x, r, p, q, Real(s.alpha(iteration))}; }
+  };
+  struct ChartRate {
+    Deriv* to;
+    Deriv const *angle, *velocity;
+    SINEW_HD void operator()(int i) const { to[i] = D::chart_rate(angle[i], velocity[i]); }
+  };
+  struct NotFinite {
+    Coord const* x;
+    SINEW_HD double operator()(int i) const {
+      constexpr int n = int(sizeof(Coord) / sizeof(Real));
+      Real const* const c = reinterpret_cast<Real const*>(x + i);
+      bool finite = true;
+      for (int k = 0; k < n; ++k) finite = finite && c[k] - c[k] == Real(0);
+      return finite ? 0.0 : 1.0;
+    }
   };
   struct Product {
     Real const *a, *b;

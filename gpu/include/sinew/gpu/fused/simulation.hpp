@@ -39,9 +39,10 @@ __global__ void __launch_bounds__(cluster_threads, 1) fused_kernel(Body body) {
   fused_steps(FusedCluster<Lanes, Body>(), body, shared);
 }
 template <int Lanes, class Body>
-__global__ void __launch_bounds__(grid_threads, 1) fused_grid_kernel(Body body, unsigned long long* arrived) {
+__global__ void __launch_bounds__(grid_threads, 1)
+    fused_grid_kernel(Body body, unsigned long long* arrived, int turn) {
   extern __shared__ __align__(16) unsigned char shared[];
-  fused_steps(FusedGrid<Lanes, Body>(arrived), body, shared);
+  fused_steps(FusedGrid<Lanes, Body>(arrived, turn), body, shared);
 }
 #endif
 
@@ -145,7 +146,7 @@ class FusedSimulation {
     if (shape_.grid) {
       vectors_.resize(2 * 4 * nodes_);
       sums_.resize(2 * 2 * std::size_t(shape_.blocks));
-      arrived_ = Array<unsigned long long>(1, 0ull);
+      arrived_ = Array<unsigned long long>(2, 0ull);
     }
     sendFirst_ = plan.sendFirst;
     sends_ = plan.sends;
@@ -214,11 +215,11 @@ class FusedSimulation {
     Body body = this->body(dt, steps);
 #if SINEW_CUDA
     if (shape_.grid && shape_.lanes == 8)
-      launch(detail::fused_grid_kernel<8, Body>, body, arrived_.device());
+      launch(detail::fused_grid_kernel<8, Body>, body, arrived_.device(), turn_);
     else if (shape_.grid && shape_.lanes == 4)
-      launch(detail::fused_grid_kernel<4, Body>, body, arrived_.device());
+      launch(detail::fused_grid_kernel<4, Body>, body, arrived_.device(), turn_);
     else if (shape_.grid)
-      launch(detail::fused_grid_kernel<2, Body>, body, arrived_.device());
+      launch(detail::fused_grid_kernel<2, Body>, body, arrived_.device(), turn_);
     else if (shape_.lanes == 8)
       launch(detail::fused_kernel<8, Body>, body);
     else if (shape_.lanes == 4)
@@ -227,6 +228,7 @@ class FusedSimulation {
       launch(detail::fused_kernel<2, Body>, body);
     else
       launch(detail::fused_kernel<1, Body>, body);
+    turn_ = 1 - turn_;
 #else
     std::vector<double> shared(shape_.shared / sizeof(double) + 1);
     for (int c = 0; c < copies_; ++c)
@@ -352,7 +354,8 @@ class FusedSimulation {
   Array<int> columnRow_{};
   DeviceArray<Real> vectors_{};
   DeviceArray<double> sums_{};
-  Array<unsigned long long> arrived_{};
+  Array<unsigned long long> arrived_{};  // two counters, and which of them is next
+  int turn_ = 0;
   Array<Coord> x_{};
   Array<Deriv> v_{}, gravity_{};
   Array<Real> mass_{};

@@ -102,6 +102,7 @@ SINEW_HD void fused_steps(Team const& team, Body const& body, unsigned char* sha
     Real p[3], s[3], z[3], w[3], n[3], dv[3], r[3];
     Real mass;
     int held, node;
+    int used;              // of the blocks kept
     int from, to;          // entries in shared memory
     int sendFrom, sendTo;  // who else has the row in its border; the first of them:
     unsigned send[2];
@@ -139,9 +140,10 @@ SINEW_HD void fused_steps(Team const& team, Body const& body, unsigned char* sha
     o.held = body.held[o.node];
     const int first = body.entryFirst[begin + row], length = body.entryFirst[begin + row + 1] - first;
     for (int k = 0; k < kept; ++k)
-      o.place[k] = lane + k * lanes < length ? columns[first + lane + k * lanes]
-                   : Team::global            ? begin + row
-                                             : row;
+      if (lane + k * lanes < length) {
+        o.place[k] = columns[first + lane + k * lanes];
+        o.used = k + 1;
+      }
     o.from = body.sharedFirst[begin + row] + lane;
     o.to = o.from - lane + (length > kept * lanes ? length - kept * lanes : 0);
     for (int e = o.from, g = first + lane + kept * lanes; e < o.to; e += lanes, g += lanes)
@@ -180,9 +182,7 @@ SINEW_HD void fused_steps(Team const& team, Body const& body, unsigned char* sha
   auto multiply = [&](Own const& o, Real(&product)[3]) {
     Real const* const vec = vector();
     for (int c = 0; c < 3; ++c) product[c] = 0;
-    auto addEntry = [&](auto const& a, int place) {
-      Real x[3];
-      team.load(vec + Team::stride * place, x);
+    auto addEntry = [&](auto const& a, Real const(&x)[3]) {
       if constexpr (components == 6) {
         const Real xy = a(1), xz = a(2), yz = a(4);
         product[0] += a(0) * x[0] + xy * x[1] + xz * x[2];
@@ -192,9 +192,20 @@ SINEW_HD void fused_steps(Team const& team, Body const& body, unsigned char* sha
         for (int i = 0; i < 3; ++i) product[i] += a(3 * i) * x[0] + a(3 * i + 1) * x[1] + a(3 * i + 2) * x[2];
       }
     };
-    for (int k = 0; k < kept; ++k) addEntry([&](int c) { return o.block[k][c]; }, o.place[k]);
-    for (int e = o.from; e < o.to; e += lanes)
-      addEntry([&](int c) { return values[c * size + e]; }, column[e]);
+    // several are loaded before the first is used
+    constexpr int together = 5;
+    for (int from = 0; from < kept; from += together) {
+      Real x[together][3] = {};
+      for (int k = 0; k < together; ++k)
+        if (from + k < o.used) team.load(vec + Team::stride * o.place[from + k], x[k]);
+      for (int k = 0; k < together; ++k)
+        if (from + k < kept) addEntry([&](int c) { return o.block[from + k][c]; }, x[k]);
+    }
+    for (int e = o.from; e < o.to; e += lanes) {
+      Real x[3];
+      team.load(vec + Team::stride * column[e], x);
+      addEntry([&](int c) { return values[c * size + e]; }, x);
+    }
     for (int c = 0; c < 3; ++c) {
       product[c] = team.rowSum(product[c]);
       if (o.held >> c & 1) product[c] = 0;

@@ -167,20 +167,24 @@ template <int Lanes, int KeptEntries>
 struct GridTeam : DeviceTeam<Lanes, KeptEntries> {
   static constexpr bool global = true;
   using Column = int;
-  unsigned long long* arrived;  // how often blocks have, since ever
+  unsigned long long* arrived;            // how often blocks have in this launch
+  mutable unsigned long long waited = 0;  // what it is when all have
 
-  __device__ explicit GridTeam(unsigned long long* count) : arrived(count) {
+  /// Of two counters launches take turns: the one that is not counted with is 0 for the next.
+  __device__ GridTeam(unsigned long long* counters, int turn) : arrived(counters + turn) {
     this->rank = int(blockIdx.x);
     this->ranks = int(gridDim.x);
+    if (blockIdx.x == 0 && threadIdx.x == 0) counters[1 - turn] = 0;
   }
+  // what the block has written is seen behind the addition, what others have behind the last look at it
   __device__ void sync() const {
     __syncthreads();
     if (threadIdx.x == 0) {
-      __threadfence();
-      const unsigned long long before = atomicAdd(arrived, 1ull), all = (before / gridDim.x + 1) * gridDim.x;
-      unsigned long long now = before + 1;
-      while (now < all) asm volatile("ld.acquire.gpu.u64 %0, [%1];" : "=l"(now) : "l"(arrived) : "memory");
-      __threadfence();
+      waited += gridDim.x;
+      asm volatile("red.release.gpu.global.add.u64 [%0], 1;" ::"l"(arrived) : "memory");
+      unsigned long long now = 0;
+      while (now < waited)
+        asm volatile("ld.acquire.gpu.global.u64 %0, [%1];" : "=l"(now) : "l"(arrived) : "memory");
     }
     __syncthreads();
   }
