@@ -4,9 +4,6 @@
 #include <sinew/core/error.hpp>
 #include <sinew/core/platform.hpp>
 
-#include <thrust/copy.h>
-#include <thrust/device_free.h>
-#include <thrust/device_malloc.h>
 #include <thrust/execution_policy.h>
 #include <thrust/for_each.h>
 #include <thrust/iterator/counting_iterator.h>
@@ -16,8 +13,8 @@
 #include <new>
 #include <utility>
 
+// -DTHRUST_DEVICE_SYSTEM says where device work runs: CUDA under nvcc; elsewhere CPP or OMP, on the host
 #if THRUST_DEVICE_SYSTEM == THRUST_DEVICE_SYSTEM_CUDA
-#include <thrust/system/cuda/execution_policy.h>
 #define SINEW_CUDA 1
 #else
 #define SINEW_CUDA 0
@@ -47,16 +44,6 @@ inline cudaStream_t& stream() {
   return current;
 }
 #endif
-
-/// Where Sinew's device work runs: Thrust's device system, which is chosen by -DTHRUST_DEVICE_SYSTEM (CUDA
-/// under nvcc; CPP or OMP elsewhere).
-inline auto queue() {
-#if SINEW_CUDA
-  return thrust::cuda::par_nosync.on(stream());
-#else
-  return thrust::device;
-#endif
-}
 
 /// Waits until all that is queued is done. Throws Error where something of it failed.
 inline void wait() {
@@ -101,7 +88,7 @@ void for_each_index(std::size_t count, Body const& body) {
                                                                                            body);
   check(cudaGetLastError(), "a loop on the GPU");
 #else
-  thrust::for_each_n(queue(), thrust::counting_iterator<int>(0), int(count), body);
+  thrust::for_each_n(thrust::device, thrust::counting_iterator<int>(0), int(count), body);
 #endif
 }
 
