@@ -110,13 +110,7 @@ void assemble_on_device(Operations& operations, MatrixFactors factors, MultiVec&
       }
       std::size_t source = 0;
       detail::for_each_acting_on<role::ForceField>(operations, state, [&](auto& c) {
-        auto sum = [&](auto&& into) {
-          into(source++, detail::law_of(c), c.driver.view(), Real(factors.k), Real(factors.b));
-        };
-        if (source == 0)
-          sum([&](auto const&... with) { rows.set(with...); });
-        else
-          sum([&](auto const&... with) { rows.add(with...); });
+        rows.add(source++, detail::law_of(c), c.driver.view(), Real(factors.k), Real(factors.b));
       });
       if (source == 0) rows.clear();
       detail::for_each_mass_column(operations, state, factors.m, unit, column, [&](int c) {

@@ -46,15 +46,15 @@ struct BlockRows {
   }
   /// The matrix is 0.
   void clear() { for_each_index(places, Clear{values.data()}); }
-  /// The matrix is k K + b B of a source of elements, with the tangents of their last forces.
-  template <class Law, class View>
-  void set(std::size_t source, Law const& law, View const& view, Real k, Real b) {
-    for_each_index(places, blocksOf(source, law, view, k, b, true));
-  }
-  /// The same is added to it.
+  /// Adds k K + b B of a source of elements, with the tangents of their last forces; of the first source,
+  /// what the matrix was before is gone.
   template <class Law, class View>
   void add(std::size_t source, Law const& law, View const& view, Real k, Real b) {
-    for_each_index(places, blocksOf(source, law, view, k, b, false));
+    Source const& s = sources[source];
+    for_each_index(
+        places,
+        AddBlocks<Law, View>{
+            law, view, s.first.device(), s.contribution.device(), values.data(), k, b, source == 0});
   }
   /// Adds column c of the blocks on the diagonal, one a node.
   void addColumn(Deriv const* column, int c) {
@@ -181,12 +181,6 @@ struct BlockRows {
   };
 
  private:
-  template <class Law, class View>
-  AddBlocks<Law, View> blocksOf(std::size_t source, Law const& law, View const& view, Real k, Real b,
-                                bool fresh) {
-    Source const& s = sources[source];
-    return {law, view, s.first.device(), s.contribution.device(), values.data(), k, b, fresh};
-  }
   RowProduct product(Deriv const* x, Deriv* r) const {
     return {sliceFirst.device(), column.device(), values.data(), x, r};
   }

@@ -105,7 +105,7 @@ struct ElementDriver<LawOf, CudaTypes<H>, W> {
         if (!p.assembled || !p.rows.planned()) {  // a copy has no rows yet
           using Source = typename gpu::BlockRows<D>::Source;
           if (!p.rows.planned()) p.rows.plan({Source(elements)}, nodes);
-          p.rows.set(0, law, view(), k, b);
+          p.rows.add(0, law, view(), k, b);
           p.assembled = true;
         }
         p.rows.multiplyAdd(entries(df), entries(dx));

@@ -59,18 +59,19 @@ inline bool& recording() {
 }
 
 #if SINEW_CUDA
+inline constexpr unsigned most_threads = 256;  // of a block
 /// Threads of a block for a loop of so many indices: few where the loop is short, so that it is spread over
 /// the GPU (Thrust's own loops give 512 indices to a block).
 inline unsigned threads_for(std::size_t count) {
   constexpr std::size_t processors = 128;
-  return count >= processors * 256   ? 256
-         : count >= processors * 128 ? 128
-         : count >= processors * 64  ? 64
-                                     : 32;
+  return count >= processors * most_threads ? most_threads
+         : count >= processors * 128        ? 128
+         : count >= processors * 64         ? 64
+                                            : 32;
 }
 namespace detail {
 template <class Body>
-__global__ void __launch_bounds__(256) each_kernel(unsigned count, Body body) {
+__global__ void __launch_bounds__(most_threads) each_kernel(unsigned count, Body body) {
   const unsigned i = blockIdx.x * blockDim.x + threadIdx.x;
   if (i < count) body(int(i));
 }

@@ -38,7 +38,7 @@ SINEW_INLINE decltype(auto) of_thread(Term const& term) {
 #if SINEW_CUDA
 /// The sum of one value a thread, in the same order whenever the block has the same size; valid in thread 0.
 __device__ inline double block_sum(double value) {
-  __shared__ double ofWarp[8];
+  __shared__ double ofWarp[most_threads / 32];
   for (int offset = 16; offset > 0; offset /= 2) value += __shfl_down_sync(0xffffffffu, value, offset);
   __syncthreads();
   if (threadIdx.x % 32 == 0) ofWarp[threadIdx.x / 32] = value;
@@ -51,7 +51,7 @@ __device__ inline double block_sum(double value) {
 
 /// The last block that is done adds up what all have found.
 template <class Term>
-__global__ void __launch_bounds__(256)
+__global__ void __launch_bounds__(most_threads)
     sum_kernel(unsigned count, Term term, double* parts, unsigned* done, double* to) {
   double sum = 0;
   auto const& ofThread = of_thread(term);

@@ -320,8 +320,8 @@ class FusedSimulation {
         throw Error("FusedSimulation::load",
                     text(component_name<Field>(),
                          " has other elements than that of the copies; load a simulation of the same scene"));
-      copy_to_device(
-          rest.data() + std::size_t(copy) * elements.size(), from.driver.rest.data(), elements.size());
+      copy_on_device(
+          rest.data() + std::size_t(copy) * elements.size(), from.driver.rest.device(), elements.size());
     }
     Elements view() {
       return {law,
