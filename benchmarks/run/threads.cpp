@@ -42,7 +42,7 @@ void use(Sim& sim, int count) {
   operations.reserveSums(3 * sim.root().state().size());
 }
 
-template <class Matrix>
+template <class D, class Matrix>
 void measure(char const* kind, Mesh const& mesh, double time, std::vector<int> const& counts) {
   Simulation sim{
       node<"root">(Threads{},
@@ -50,11 +50,11 @@ void measure(char const* kind, Mesh const& mesh, double time, std::vector<int> c
                    EulerImplicitSolver{.rayleighStiffness = 0.1, .rayleighMass = 0.1},
                    all_iterations<Matrix>(),
                    TetrahedronTopology{mesh.tetrahedra},
-                   MechanicalObject<Vec3d>{points_of<Vec3d>(mesh)},
-                   DiagonalMass<Vec3d>{.massDensity = 1},
-                   TetrahedronFEMForceField<Vec3d>{
+                   MechanicalObject<D>{points_of<D>(mesh)},
+                   DiagonalMass<D>{.massDensity = 1},
+                   TetrahedronFEMForceField<D>{
                        .youngModulus = {3000}, .poissonRatio = 0.3, .method = RotationMethod::gradient},
-                   FixedConstraint<Vec3d>{.indices = {3, 39, 64}})};
+                   FixedConstraint<D>{.indices = {3, 39, 64}})};
   sim.init();
   int steps = 0;
   for (const int count : counts) {
@@ -88,8 +88,9 @@ int main(int argc, char** argv) try {
   std::vector<int> counts;
   for (int i = 3; i < argc; ++i) counts.push_back(whole_number(argv[i]));
   const Mesh mesh = block(cells);
-  measure<CompressedRowSparseMatrixMat3x3d>("assembled", mesh, time, counts);
-  measure<GraphScattered>("matrix-free", mesh, time, counts);
+  measure<Vec3d, CompressedRowSparseMatrixMat3x3d>("assembled", mesh, time, counts);
+  measure<Vec3d, GraphScattered>("matrix-free", mesh, time, counts);
+  measure<Vec3f, CompressedRowSparseMatrixMat3x3f>("assembled,float", mesh, time, counts);
   return 0;
 } catch (Error const& error) {
   std::fprintf(stderr, "threads: %s\n", error.what());

@@ -3,7 +3,7 @@
 // as a CUDA graph, the fused step.
 //   scenes grid NX NY NZ | fem FILE.msh | block CELLS | hexahedra CELLS | hyperelastic CELLS
 //          | batch FILE.msh COPIES
-//          [--double] [--steps N] [--iterations N] [--no-host] [--no-fused]
+//          [--double] [--steps N] [--iterations N] [--no-host] [--no-plain] [--no-fused] [--blocks N]...
 // Bodies of CELLS are unit cubes of so many cells along each edge.
 // Prints, for each form: scene; points; elements; real; form; steps a second; how far point 100 is, over the
 // largest coordinate, from where the processor has it after the first 50 steps.
@@ -97,6 +97,8 @@ struct Options {
   std::string scene{};
   int steps = 200, iterations = 25;
   bool host = true, plain = true, fused = true;
+  std::vector<int> blocks{
+      0, 4, 16, 1000};  // of a fused step; 0 is what it chooses, beyond 16 are all of a launch
   int copies = 0;
 };
 
@@ -188,7 +190,7 @@ void measure(Make const& make, Options const& o) {
     graph("graph, assembled, block-Jacobi", ShewchukPCGLinearSolver<Matrix>{.tolerance = 0});
   }
   if (o.fused)
-    for (const int blocks : {0, 4, 16, 1000}) {
+    for (const int blocks : o.blocks) {
       auto sim = make.template operator()<Cuda>(plain);
       sim.init();
       try {
@@ -280,6 +282,7 @@ int main(int argc, char** argv) try {
   std::vector<std::string> words;
   bool inDouble = false;
   Options o;
+  std::vector<int> blocks;
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
     if (word == "--double")
@@ -288,6 +291,10 @@ int main(int argc, char** argv) try {
       o.steps = std::atoi(argv[++i]);
     else if (word == "--iterations" && i + 1 < argc)
       o.iterations = std::atoi(argv[++i]);
+    else if (word == "--blocks" && i + 1 < argc)
+      blocks.push_back(std::atoi(argv[++i]));
+    else if (word == "--no-plain")
+      o.plain = false;
     else if (word == "--no-fused")
       o.fused = false;
     else if (word == "--no-host")
@@ -295,11 +302,13 @@ int main(int argc, char** argv) try {
     else
       words.push_back(word);
   }
+  if (!blocks.empty()) o.blocks = blocks;
   if (words.size() < 2) {
     std::fprintf(
         stderr,
         "usage: scenes grid NX NY NZ | fem FILE.msh | block CELLS | hexahedra CELLS | hyperelastic CELLS | "
-        "batch FILE.msh COPIES [--double] [--steps N] [--iterations N] [--no-host] [--no-fused]\n");
+        "batch FILE.msh COPIES [--double] [--steps N] [--iterations N] [--no-host] [--no-plain] [--no-fused] "
+        "[--blocks N]...\n");
     return 2;
   }
   if (inDouble)

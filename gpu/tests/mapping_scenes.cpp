@@ -114,7 +114,9 @@ auto block_on_floor() {
       DefaultContactManager{},
       node<"floor">(
           square,
-          MechanicalObject<Vec3d>{.position = {{-5, 0, -5}, {5, 0, -5}, {5, 0, 5}, {-5, 0, 5}}},
+          // no sphere is above the edge between the triangles, where rounding says whether it touches one or
+          // both
+          MechanicalObject<Vec3d>{.position = {{-5.2, 0, -5}, {4.8, 0, -5}, {4.8, 0, 5}, {-5.2, 0, 5}}},
           TriangleCollisionModel<Vec3d>{.moving = false, .simulated = false, .contactStiffness = 2e4}),
       node<"block">(EulerImplicitSolver{.rayleighStiffness = 0.02},
                     CGLinearSolver<>{.iterations = 30, .tolerance = 0},

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <cstring>
 #include <vector>
 
@@ -47,10 +48,14 @@ struct ElementDriver {
     bool hasLast;  // one of the points may be the last of its state: nothing may be read behind it
   };
   // where the blocks of a pack stand in the matrix of the solver: slot of the one on or above the diagonal,
-  // and whether it is the transpose of the law's block(i, j)
+  // and, a bit for each lane, whether it is the transpose of the law's block(i, j)
   struct Slots {
     int slot[pairs][W];
-    typename lane_mask<L>::type transposed[pairs];
+    std::uint16_t transposed[pairs];
+    static_assert(W <= 16);
+    void set(int pair, int lane, bool turned) {
+      transposed[pair] = std::uint16_t((transposed[pair] & ~(1 << lane)) | turned << lane);
+    }
   };
   std::vector<Pack> packs{};
   std::vector<Slots> slots{};
@@ -334,7 +339,7 @@ struct ElementDriver {
     if (slots.empty()) return;
     for (int p = 0; p < pairs; ++p) {
       slots[to / W].slot[p][m] = slots[from / W].slot[p][l];
-      set(slots[to / W].transposed[p], int(m), lane(slots[from / W].transposed[p], int(l)));
+      slots[to / W].set(p, int(m), slots[from / W].transposed[p] >> l & 1);
     }
   }
 
@@ -374,17 +379,17 @@ struct ElementDriver {
         for (int k = 0; k < arity; ++k)
           for (int c = 0; c < n; ++c)
             for (int l = pack.active; l < W; ++l) from[k][c].set(l, Real(0));
-      [&]<int... K>(std::integer_sequence<int, K...>) {
+      [&]<int... K>(std::integer_sequence<int, K...>) __attribute__((always_inline)) {
         (add3(reinterpret_cast<L const*>(&from[K]), reinterpret_cast<Real*>(to[K]), pack.index[K]), ...);
       }
       (std::make_integer_sequence<int, arity>{});
     } else {
       alignas(64) Real ofLane[arity][W][(n + 3) / 4 * 4];
-      [&]<int... K>(std::integer_sequence<int, K...>) {
+      [&]<int... K>(std::integer_sequence<int, K...>) __attribute__((always_inline)) {
         (transpose<n>(reinterpret_cast<L const*>(&from[K]), ofLane[K]), ...);
       }
       (std::make_integer_sequence<int, arity>{});
-      auto add = [&](int k, int l) {
+      auto add = [&](int k, int l) __attribute__((always_inline)) {
         addTo<n>(reinterpret_cast<Real*>(to[std::size_t(k)] + pack.index[k][l]), ofLane[k][l]);
       };
       for (int k = 0; k < arity; ++k)
@@ -455,9 +460,10 @@ struct ElementDriver {
   }
 
   // the block of each lane, or its transpose, row-major as the matrix has it
-  template <bool Symmetric, class Block, class Mask, std::size_t Size>
-  SINEW_INLINE static void separate(Block const& block, Mask const& turned, Real (&ofLane)[W][Size]) {
+  template <bool Symmetric, class Block, std::size_t Size>
+  SINEW_INLINE static void separate(Block const& block, std::uint16_t transposed, Real (&ofLane)[W][Size]) {
     constexpr int n = D::size;
+    const auto turned = lanes_of_bits<L>(transposed);
     L rows[n * n];
     for (int r = 0; r < n; ++r)
       for (int c = 0; c < n; ++c)
@@ -474,7 +480,7 @@ struct ElementDriver {
         for (int l = 0; l < W; ++l) {
           const int i = first + packs[p].index[I][l], j = first + packs[p].index[J][l];
           slots[p].slot[pairNumber(I, J)][l] = sink.matrix.slot(std::min(i, j), std::max(i, j));
-          set(slots[p].transposed[pairNumber(I, J)], l, i > j);
+          slots[p].set(pairNumber(I, J), l, i > j);
         }
       });
   }
@@ -487,7 +493,7 @@ struct ElementDriver {
         constexpr int pair = pairNumber(I, J);
         addScalars<n>(matrix.block(slots[p].slot[pair][0]),
                       law.block(packs[p].rest, packs[p].tangent, I, J, k, b),
-                      I != J && slots[p].transposed[pair]);
+                      I != J && slots[p].transposed[pair] != 0);
       });
   }
 
@@ -504,24 +510,33 @@ struct ElementDriver {
       return;
     }
     const std::size_t end = part.end(packs.size());
+    auto* const values = matrix.block(0);
     for (std::size_t p = part.begin(packs.size()); p < end; ++p) {
       Pack const& pack = packs[p];
       int const* const rooms = part.count > 1 && lateBlocks.firstOf[p] >= 0
                                    ? lateBlocks.rooms.data() + lateBlocks.firstOf[p]
                                    : nullptr;
+
       forEachPair([&]<int I, int J>() {
         constexpr int pair = pairNumber(I, J);
         const Mat<L, n> block = law.block(pack.rest, pack.tangent, I, J, L(k), L(b));
-        auto const& turned = slots[p].transposed[pair];
+        auto const& slot = slots[p].slot[pair];
         alignas(64) Real ofLane[W][(n * n + 3) / 4 * 4];
-        separate<I == J>(block, turned, ofLane);
+        separate<I == J>(block, slots[p].transposed[pair], ofLane);
+        auto add = [&](int l) __attribute__((always_inline)) {
+          addTo<n * n>(values + std::ptrdiff_t(slot[l]) * (n * n), ofLane[l]);
+        };
+        if (!rooms) [[likely]] {
+          for (int l = 0; l < pack.active; ++l) add(l);
+          return;
+        }
         for (int l = 0; l < pack.active; ++l)
-          if (rooms && rooms[pair * W + l] >= 0)
+          if (rooms[pair * W + l] >= 0)
             std::memcpy(keptBlocks.data() + std::ptrdiff_t(rooms[pair * W + l]) * n * n,
                         ofLane[l],
                         n * n * sizeof(Real));
           else
-            addTo<n * n>(matrix.block(slots[p].slot[pair][l]), ofLane[l]);
+            add(l);
       });
     }
   }

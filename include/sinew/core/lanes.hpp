@@ -123,6 +123,14 @@ template <class T, int W>
 SINEW_INLINE bool lane(LaneMask<T, W> mask, int i) {
   return mask.bits[i] != 0;
 }
+/// The mask of lanes whose bit is set, from the lowest on.
+template <class L>
+SINEW_INLINE typename lane_mask<L>::type lanes_of_bits(unsigned bits) {
+  using Mask = typename lane_mask<L>::type;
+  typename Mask::Bits single{};
+  for (int l = 0; l < lane_traits<L>::width; ++l) single[l] = typename Mask::Integer(1) << l;
+  return {(single & typename Mask::Integer(bits)) != 0};
+}
 
 template <class T, int W>
 SINEW_INLINE Lanes<T, W> sqrt(Lanes<T, W> a) {
@@ -274,9 +282,9 @@ requires(W >= 4) SINEW_INLINE void add3(Lanes<T, W> const* from, T* to, int cons
   typedef T Two __attribute__((vector_size(2 * sizeof(T))));
   const V xy0 = detail::interleaved<1, 0, T, W>(from[0].v, from[1].v),
           xy1 = detail::interleaved<1, W / 2, T, W>(from[0].v, from[1].v);
-  [&]<int... I>(std::integer_sequence<int, I...>) {
+  [&]<int... I>(std::integer_sequence<int, I...>) __attribute__((always_inline)) {
     (
-        [&] {
+        [&]() __attribute__((always_inline)) {
           constexpr int at = 2 * (I % (W / 2));
           V const& pairs = I < W / 2 ? xy0 : xy1;
           const Two more = __builtin_shufflevector(pairs, pairs, at, at + 1);
@@ -342,9 +350,9 @@ SINEW_INLINE void load3(T const* from, Lanes<T, W> (&to)[3]) {
   V a, b, c;
   std::memcpy(&a, from, sizeof a), std::memcpy(&b, from + W, sizeof b);
   std::memcpy(&c, from + 2 * W, sizeof c);
-  [&]<int... C>(std::integer_sequence<int, C...>) {
+  [&]<int... C>(std::integer_sequence<int, C...>) __attribute__((always_inline)) {
     (
-        [&] {
+        [&]() __attribute__((always_inline)) {
           const V ab = detail::shuffle(a, b, detail::with_component<W, C, W>(all));
           const V abc = detail::shuffle(ab, c, detail::with_component<W, C, 2 * W>(all));
           to[C].v = detail::shuffle(abc, abc, detail::gather_by_three<W, C>(all));
@@ -362,9 +370,9 @@ SINEW_INLINE void store3(Lanes<T, W> const (&from)[3], T* to) {
   const V x = detail::shuffle(from[0].v, from[0].v, detail::spread_by_three<W, 0>(all)),
           y = detail::shuffle(from[1].v, from[1].v, detail::spread_by_three<W, 1>(all)),
           z = detail::shuffle(from[2].v, from[2].v, detail::spread_by_three<W, 2>(all));
-  [&]<int... R>(std::integer_sequence<int, R...>) {
+  [&]<int... R>(std::integer_sequence<int, R...>) __attribute__((always_inline)) {
     (
-        [&] {
+        [&]() __attribute__((always_inline)) {
           const V xy = detail::shuffle(x, y, detail::with_component<W, 1, R * W>(all));
           const V xyz = detail::shuffle(xy, z, detail::with_component<W, 2, R * W>(all));
           std::memcpy(to + R * W, &xyz, sizeof xyz);

@@ -214,20 +214,10 @@ class FusedSimulation {
     if (steps < 0) throw Error("FusedSimulation::animate", text(steps, " steps; give 0 or more"));
     Body body = this->body(dt, steps);
 #if SINEW_CUDA
-    if (shape_.grid && shape_.lanes == 8)
-      launch(detail::fused_grid_kernel<8, Body>, body, arrived_.device(), turn_);
-    else if (shape_.grid && shape_.lanes == 4)
-      launch(detail::fused_grid_kernel<4, Body>, body, arrived_.device(), turn_);
-    else if (shape_.grid)
-      launch(detail::fused_grid_kernel<2, Body>, body, arrived_.device(), turn_);
-    else if (shape_.lanes == 8)
-      launch(detail::fused_kernel<8, Body>, body);
-    else if (shape_.lanes == 4)
-      launch(detail::fused_kernel<4, Body>, body);
-    else if (shape_.lanes == 2)
-      launch(detail::fused_kernel<2, Body>, body);
+    if (shape_.grid)
+      launch(gridKernel(), body, arrived_.device(), turn_);
     else
-      launch(detail::fused_kernel<1, Body>, body);
+      launch(clusterKernel(), body);
     turn_ = 1 - turn_;
 #else
     std::vector<double> shared(shape_.shared / sizeof(double) + 1);
@@ -406,8 +396,8 @@ class FusedSimulation {
   }
 
   // `blocks` above 16 asks for all blocks of a launch together. Where it is 0: of the clusters whose memory
-  // holds the body the smallest, and for a single copy one with a thread for every entry, or if there is none
-  // the grid.
+  // holds the body the smallest; or a larger one, up to a thread for every entry, where all copies still run
+  // at once; and for a single copy that would take more threads than that, the grid.
   FusedPlan choose(std::vector<std::vector<int>> const& neighbours, int blocks) {
 #if SINEW_CUDA
     char const* const what = "FusedSimulation";
@@ -418,30 +408,35 @@ class FusedSimulation {
     gpu::check(cudaDeviceGetAttribute(&clusters, cudaDevAttrClusterLaunch, device), what);
     std::size_t entries = nodes_;
     for (auto const& n : neighbours) entries += n.size();
-    auto fits = [&](FusedPlan const& plan, bool grid, int lanes) {
+    auto fits = [&](FusedPlan const& plan, bool grid) {
       using Cluster = detail::FusedCluster<1, Body>;
       using Grid = detail::FusedGrid<1, Body>;
-      take(plan, lanes * (grid ? Grid::keptEntries : Cluster::keptEntries));
-      const std::size_t shared = grid ? sizes_.template shared<Grid>() : sizes_.template shared<Cluster>();
-      const int threads = (plan.widest * lanes + 31) / 32 * 32 + (grid ? 32 : 0);  // a warp for the sums
-      if (threads > (grid ? detail::grid_threads : detail::cluster_threads) || shared > std::size_t(most))
-        return false;
-      shape_ = {grid, plan.ranks, threads, lanes, shared};
-      return grid || plan.possible();
+      for (const int lanes : {8, 4, 2, 1}) {
+        if (grid ? lanes == 1 : !plan.possible()) return false;
+        take(plan, lanes * (grid ? Grid::keptEntries : Cluster::keptEntries));
+        const std::size_t shared = grid ? sizes_.template shared<Grid>() : sizes_.template shared<Cluster>();
+        const int threads = (plan.widest * lanes + 31) / 32 * 32 + (grid ? 32 : 0);  // a warp for the sums
+        shape_ = {grid, plan.ranks, threads, lanes, shared};
+        if (threads <= (grid ? detail::grid_threads : detail::cluster_threads) && shared <= std::size_t(most))
+          return true;
+      }
+      return false;
     };
-    const bool alone = blocks == 0 && copies_ == 1;
-    for (const int ranks : {1, 2, 4, 8, 16}) {
-      if (blocks != 0 && ranks != blocks) continue;
-      if (ranks > 1 && !clusters) break;
-      if (alone && std::size_t(ranks) * detail::cluster_threads < entries) continue;
-      const FusedPlan plan(neighbours, ranks);
-      for (const int lanes : {8, 4, 2, 1})
-        if (fits(plan, false, lanes)) return plan;
+    int ranks = 0;
+    auto enough = [&] { return std::size_t(ranks) * detail::cluster_threads >= entries; };
+    for (const int more : {1, 2, 4, 8, 16}) {
+      if (blocks != 0 && more != blocks) continue;
+      if (enough() || (more > 1 && !clusters)) break;
+      if (fits(FusedPlan(neighbours, more), false) && (ranks == 0 || copies_ <= copiesAtOnce())) ranks = more;
     }
-    if (copies_ == 1 && (blocks == 0 || blocks > 16)) {
-      const FusedPlan plan(neighbours, blocks == 0 ? processors : std::min(blocks, processors));
-      for (const int lanes : {8, 4, 2})
-        if (fits(plan, true, lanes)) return plan;
+    if (copies_ == 1 && (blocks == 0 ? !enough() : blocks > 16)) {
+      FusedPlan plan(neighbours, blocks == 0 ? processors : std::min(blocks, processors));
+      if (fits(plan, true)) return plan;
+    }
+    if (ranks > 0) {
+      FusedPlan plan(neighbours, ranks);
+      fits(plan, false);
+      return plan;
     }
     throw Error(what,
                 text("a body of ",
@@ -497,9 +492,21 @@ class FusedSimulation {
     return b;
   }
 #if SINEW_CUDA
-  template <class... Arguments>
-  void launch(void (*kernel)(Arguments...), std::type_identity_t<Arguments>... arguments) {
-    char const* const what = "FusedSimulation::animate";
+  auto clusterKernel() const {
+    return shape_.lanes == 8   ? detail::fused_kernel<8, Body>
+           : shape_.lanes == 4 ? detail::fused_kernel<4, Body>
+           : shape_.lanes == 2 ? detail::fused_kernel<2, Body>
+                               : detail::fused_kernel<1, Body>;
+  }
+  auto gridKernel() const {
+    return shape_.lanes == 8   ? detail::fused_grid_kernel<8, Body>
+           : shape_.lanes == 4 ? detail::fused_grid_kernel<4, Body>
+                               : detail::fused_grid_kernel<2, Body>;
+  }
+  // `attribute` is what the configuration refers to
+  template <class Kernel>
+  cudaLaunchConfig_t configuration(Kernel kernel, cudaLaunchAttribute& attribute) const {
+    char const* const what = "FusedSimulation";
     gpu::check(cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize, int(shape_.shared)),
                what);
     cudaLaunchConfig_t config{};
@@ -507,7 +514,6 @@ class FusedSimulation {
     config.blockDim = dim3(unsigned(shape_.threads));
     config.dynamicSmemBytes = shape_.shared;
     config.stream = stream();
-    cudaLaunchAttribute attribute{};
     config.attrs = &attribute;
     config.numAttrs = shape_.blocks > 1;
     if (shape_.grid) {
@@ -520,7 +526,21 @@ class FusedSimulation {
       attribute.val.clusterDim.x = unsigned(shape_.blocks);
       attribute.val.clusterDim.y = attribute.val.clusterDim.z = 1;
     }
-    gpu::check(cudaLaunchKernelEx(&config, kernel, arguments...), what);
+    return config;
+  }
+  // how many clusters of the shape the GPU runs at the same time
+  int copiesAtOnce() const {
+    cudaLaunchAttribute attribute{};
+    const cudaLaunchConfig_t config = configuration(clusterKernel(), attribute);
+    int count = 0;
+    gpu::check(cudaOccupancyMaxActiveClusters(&count, clusterKernel(), &config), "FusedSimulation");
+    return count;
+  }
+  template <class... Arguments>
+  void launch(void (*kernel)(Arguments...), std::type_identity_t<Arguments>... arguments) const {
+    cudaLaunchAttribute attribute{};
+    const cudaLaunchConfig_t config = configuration(kernel, attribute);
+    gpu::check(cudaLaunchKernelEx(&config, kernel, arguments...), "FusedSimulation::animate");
   }
 #endif
 };
