@@ -18,7 +18,7 @@ void check_lanes() {
     b.set(l, T(2 * l) - T(3));
   }
   const L sum = a + b, difference = a - b, product = a * b, ratio = b / a, root = sqrt(a), size = abs(b);
-  const L chosen = select(a < b, a, b);
+  const L chosen = select(a < b, a, b), byBits = select(lanes_of_bits<L>(0xa5c3), a, b);
   for (int l = 0; l < W; ++l) {
     const T x = T(l + 1), y = T(2 * l) - T(3);
     CHECK(lane(sum, l) == x + y);
@@ -28,6 +28,7 @@ void check_lanes() {
     CHECK(lane(root, l) == std::sqrt(x));
     CHECK(lane(size, l) == std::abs(y));
     CHECK(lane(chosen, l) == (x < y ? x : y));
+    CHECK(lane(byBits, l) == ((0xa5c3u >> l & 1) != 0 ? x : y));
   }
   CHECK(any(a > L(T(W) - T(0.5))));
   CHECK_FALSE(any(a > L(T(W) + T(0.5))));

@@ -21,18 +21,12 @@ struct lane_traits {
 };
 template <class T>
 using lane_scalar = typename lane_traits<T>::Scalar;
-template <class T>
-struct lane_mask {
-  using type = bool;
-};
 
 /// a where the mask holds, b elsewhere; for scalars, which are one lane, and for lanes.
 template <class T>
 requires std::is_floating_point_v<T> SINEW_INLINE T select(bool mask, T a, T b) { return mask ? a : b; }
 SINEW_INLINE bool any(bool mask) { return mask; }
 SINEW_INLINE bool both(bool a, bool b) { return a && b; }
-SINEW_INLINE void set(bool& mask, int, bool value) { mask = value; }
-SINEW_INLINE bool lane(bool mask, int) { return mask; }
 template <class T>
 requires std::is_floating_point_v<T> SINEW_INLINE T lane(T a, int) { return a; }
 template <int N, class T>
@@ -115,18 +109,10 @@ SINEW_INLINE LaneMask<T, W> both(LaneMask<T, W> a, LaneMask<T, W> b) {
   return a & b;
 }
 
-template <class T, int W>
-SINEW_INLINE void set(LaneMask<T, W>& mask, int lane, bool value) {
-  mask.bits[lane] = value ? -1 : 0;
-}
-template <class T, int W>
-SINEW_INLINE bool lane(LaneMask<T, W> mask, int i) {
-  return mask.bits[i] != 0;
-}
 /// The mask of lanes whose bit is set, from the lowest on.
 template <class L>
-SINEW_INLINE typename lane_mask<L>::type lanes_of_bits(unsigned bits) {
-  using Mask = typename lane_mask<L>::type;
+SINEW_INLINE typename L::Mask lanes_of_bits(unsigned bits) {
+  using Mask = typename L::Mask;
   typename Mask::Bits single{};
   for (int l = 0; l < lane_traits<L>::width; ++l) single[l] = typename Mask::Integer(1) << l;
   return {(single & typename Mask::Integer(bits)) != 0};
@@ -165,10 +151,6 @@ template <class T, int W>
 struct lane_traits<Lanes<T, W>> {
   using Scalar = T;
   static constexpr int width = W;
-};
-template <class T, int W>
-struct lane_mask<Lanes<T, W>> {
-  using type = LaneMask<T, W>;
 };
 template <class T, int W>
 SINEW_INLINE T lane(Lanes<T, W> a, int i) {
