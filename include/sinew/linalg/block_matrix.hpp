@@ -50,6 +50,13 @@ struct CompressedRowSparseMatrix {
     return all;
   }
 
+  /// Of them what a product reads, as it is made since the matrix changed last.
+  std::size_t productBytes() const {
+    if constexpr (sliceable)
+      if (sliced.suits()) return sliced.productBytes();
+    return values.size() * sizeof(Real) + (rowStart.size() + columns.size()) * sizeof(int);
+  }
+
   void startPattern(int dofs) {
     pattern.assign(std::size_t((dofs + B - 1) / B), {});
     for (std::size_t i = 0; i < pattern.size(); ++i) pattern[i].push_back(int(i));

@@ -46,6 +46,11 @@ struct SlicedRows {
            (distances.size() + sliceStart.size()) * sizeof(int) + (x.size() + y.size()) * sizeof(Real);
   }
 
+  /// Of them what a product reads.
+  std::size_t productBytes() const {
+    return blocks.size() * sizeof blocks[0] + (distances.size() + sliceStart.size()) * sizeof(int);
+  }
+
   /// From the rows of a matrix, which begin with their diagonal blocks; `zero` is the slot of a block of
   /// zeros.
   void init(std::vector<int> const& rowStart, std::vector<int> const& columns, int zero) {
@@ -143,6 +148,8 @@ struct SlicedRows {
   static constexpr std::size_t strip = 8;  // slices whose x.y is one sum; sums are added in their order
   std::vector<double> dots{};
 
+  static constexpr std::size_t prefetched = 16;  // slabs ahead
+
   std::size_t slices() const { return sliceStart.empty() ? 0 : sliceStart.size() - 1; }
 
   SINEW_INLINE static L load(Real const* from) {
@@ -180,6 +187,9 @@ struct SlicedRows {
       L sum0 = a[0] * own0 + a[1] * own1 + a[2] * own2, sum1 = a[3] * own0 + a[4] * own1 + a[5] * own2,
         sum2 = a[6] * own0 + a[7] * own1 + a[8] * own2;
       for (++s, a += 9; s < starts[slice + 1]; ++s, a += 9) {
+        // blocks are read once, in their order; the processor alone does not ask for them early enough
+        for (std::size_t byte = 0; byte < sizeof blocks[0]; byte += 64)
+          __builtin_prefetch(reinterpret_cast<char const*>(a) + prefetched * sizeof blocks[0] + byte);
         const int j = first + distances[std::size_t(s)];
         const L other0 = load(x0 + j), other1 = load(x1 + j), other2 = load(x2 + j);
         const L a00 = a[0], a01 = a[1], a02 = a[2], a10 = a[3], a11 = a[4], a12 = a[5], a20 = a[6],
