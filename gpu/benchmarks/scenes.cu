@@ -97,8 +97,8 @@ struct Options {
   std::string scene{};
   int steps = 200, iterations = 25;
   bool host = true, plain = true, fused = true;
-  std::vector<int> blocks{
-      0, 4, 16, 1000};  // of a fused step; 0 is what it chooses, beyond 16 are all of a launch
+  // of a fused step, in turn; 0 is what it chooses, beyond 16 are all of a launch
+  std::vector<int> blocks{};
   int copies = 0;
 };
 
@@ -282,7 +282,6 @@ int main(int argc, char** argv) try {
   std::vector<std::string> words;
   bool inDouble = false;
   Options o;
-  std::vector<int> blocks;
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
     if (word == "--double")
@@ -292,7 +291,7 @@ int main(int argc, char** argv) try {
     else if (word == "--iterations" && i + 1 < argc)
       o.iterations = std::atoi(argv[++i]);
     else if (word == "--blocks" && i + 1 < argc)
-      blocks.push_back(std::atoi(argv[++i]));
+      o.blocks.push_back(std::atoi(argv[++i]));
     else if (word == "--no-plain")
       o.plain = false;
     else if (word == "--no-fused")
@@ -302,7 +301,7 @@ int main(int argc, char** argv) try {
     else
       words.push_back(word);
   }
-  if (!blocks.empty()) o.blocks = blocks;
+  if (o.blocks.empty()) o.blocks = {0, 4, 16, 1000};
   if (words.size() < 2) {
     std::fprintf(
         stderr,

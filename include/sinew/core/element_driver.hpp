@@ -516,7 +516,6 @@ struct ElementDriver {
       int const* const rooms = part.count > 1 && lateBlocks.firstOf[p] >= 0
                                    ? lateBlocks.rooms.data() + lateBlocks.firstOf[p]
                                    : nullptr;
-
       forEachPair([&]<int I, int J>() {
         constexpr int pair = pairNumber(I, J);
         const Mat<L, n> block = law.block(pack.rest, pack.tangent, I, J, L(k), L(b));

@@ -42,11 +42,9 @@ struct SlicedRows {
   bool suits() const { return products >= 3 && !sliceStart.empty(); }
 
   std::size_t bytes() const {
-    return blocks.size() * sizeof blocks[0] + sources.size() * sizeof(Source) +
-           (distances.size() + sliceStart.size()) * sizeof(int) + (x.size() + y.size()) * sizeof(Real);
+    return productBytes() + sources.size() * sizeof(Source) + (x.size() + y.size()) * sizeof(Real);
   }
-
-  /// Of them what a product reads.
+  /// Of the matrix, what a product reads.
   std::size_t productBytes() const {
     return blocks.size() * sizeof blocks[0] + (distances.size() + sliceStart.size()) * sizeof(int);
   }

@@ -13,6 +13,7 @@
 #include <sinew/solver/euler_implicit.hpp>
 
 #include <cmath>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -422,21 +423,21 @@ class FusedSimulation {
       }
       return false;
     };
-    int ranks = 0;
-    auto enough = [&] { return std::size_t(ranks) * detail::cluster_threads >= entries; };
+    std::optional<FusedPlan> chosen;
+    auto enough = [&] { return chosen && std::size_t(chosen->ranks) * detail::cluster_threads >= entries; };
     for (const int more : {1, 2, 4, 8, 16}) {
       if (blocks != 0 && more != blocks) continue;
       if (enough() || (more > 1 && !clusters)) break;
-      if (fits(FusedPlan(neighbours, more), false) && (ranks == 0 || copies_ <= copiesAtOnce())) ranks = more;
+      FusedPlan plan(neighbours, more);
+      if (fits(plan, false) && (!chosen || copies_ <= copiesAtOnce())) chosen = std::move(plan);
     }
     if (copies_ == 1 && (blocks == 0 ? !enough() : blocks > 16)) {
       FusedPlan plan(neighbours, blocks == 0 ? processors : std::min(blocks, processors));
       if (fits(plan, true)) return plan;
     }
-    if (ranks > 0) {
-      FusedPlan plan(neighbours, ranks);
-      fits(plan, false);
-      return plan;
+    if (chosen) {
+      fits(*chosen, false);
+      return *std::move(chosen);
     }
     throw Error(what,
                 text("a body of ",
