@@ -5,8 +5,6 @@
 #include <sinew/core/ends.hpp>
 
 #include <boost/hana/at.hpp>
-#include <boost/hana/bool.hpp>
-#include <boost/hana/filter.hpp>
 #include <boost/hana/tuple.hpp>
 #include <boost/hana/unpack.hpp>
 
@@ -59,6 +57,25 @@ constexpr bool holds() {
     return true;
 }
 
+namespace detail {
+/// Where those of some conditions stand that are true.
+template <bool... Conditions>
+inline constexpr auto true_at = [] {
+  std::array<std::size_t, (0 + ... + int(Conditions))> places{};
+  std::size_t i = 0, found = 0;
+  ((Conditions ? void(places[found++] = i) : void(), ++i), ...);
+  return places;
+}();
+/// The same as a std::index_sequence.
+template <bool... Conditions>
+constexpr auto places_of() {
+  return []<std::size_t... I>(std::index_sequence<I...>) {
+    return std::index_sequence<true_at<Conditions...>[I]...>{};
+  }
+  (std::make_index_sequence<true_at<Conditions...>.size()>{});
+}
+}  // namespace detail
+
 /// What is in a node of a typed scene. Nodes that differ by their names alone share it, and with it all that
 /// the compiler makes of it.
 template <class Components, class Children>
@@ -107,10 +124,8 @@ struct NodeParts<hana::tuple<Cs...>, hana::tuple<Ns...>> {
   /// f(component, args...) for those with one of the roles of a RoleVisitor, in their order.
   template <class... Roles, class F, class... Args>
   void forEachComponent(RoleVisitor<F, Roles...> const& visitor, Args const&... args) {
-    [&]<std::size_t... I>(std::index_sequence<I...>) {
-      (visitor.f(hana::at_c<which<Roles...>[I]>(components), args...), ...);
-    }
-    (std::make_index_sequence<which<Roles...>.size()>{});
+    [&]<std::size_t... I>(std::index_sequence<I...>) { (visitor.f(hana::at_c<I>(components), args...), ...); }
+    (which<Roles...>);
   }
 
   template <class R>
@@ -141,14 +156,8 @@ struct NodeParts<hana::tuple<Cs...>, hana::tuple<Ns...>> {
   }
 
  private:
-  // where the components with one of the roles stand
   template <class... Roles>
-  static constexpr auto which = [] {
-    std::array<std::size_t, (0 + ... + int(has_any_role<Cs, Roles...>))> places{};
-    std::size_t i = 0, found = 0;
-    ((has_any_role<Cs, Roles...> ? void(places[found++] = i) : void(), ++i), ...);
-    return places;
-  }();
+  static constexpr auto which = detail::places_of<has_any_role<Cs, Roles...>...>();
 };
 
 /// A node of a typed scene: plain data, composed by node<"name">(...).
@@ -164,6 +173,22 @@ inline constexpr bool is_node = false;
 template <class Name, class Components, class Children>
 inline constexpr bool is_node<Node<Name, Components, Children>> = true;
 
+namespace detail {
+/// The node of some parts, of which these are components and those are children. Not a part of the function
+/// that calls it: there the parts are temporaries, and g++ takes time by the square of what it sees of them.
+template <class Name, class... Parts, std::size_t... C, std::size_t... N>
+[[gnu::noinline]] auto compose([[maybe_unused]] hana::tuple<Parts...> parts, std::index_sequence<C...>,
+                               std::index_sequence<N...>) {
+  using Result = Node<Name,
+                      hana::tuple<std::decay_t<decltype(hana::at_c<C>(parts))>...>,
+                      hana::tuple<std::decay_t<decltype(hana::at_c<N>(parts))>...>>;
+  static_assert(
+      Result::childNamesDiffer(),
+      "Sinew: two children of a node have the same name; a path could not tell them apart. Rename one.");
+  return Result{{{std::move(hana::at_c<C>(parts))...}, {std::move(hana::at_c<N>(parts))...}}};
+}
+}  // namespace detail
+
 /// Composes a node from components and child nodes, in any order; each keeps its order among its own kind.
 template <FixedString Name, class... Parts>
 auto node(Parts... parts) {
@@ -176,17 +201,9 @@ auto node(Parts... parts) {
   if constexpr (!((Component<Parts> || is_node<Parts>)&&...)) {
     return Node<Named<Name>, hana::tuple<>, hana::tuple<>>{};  // nothing else fails
   } else {
-    hana::tuple<Parts...> all(std::move(parts)...);
-    auto child = [](auto const& part) { return hana::bool_c<is_node<std::decay_t<decltype(part)>>>; };
-    auto component = [](auto const& part) { return hana::bool_c<!is_node<std::decay_t<decltype(part)>>>; };
-    auto components =
-        hana::filter(std::move(all), component);  // moves out the components and leaves the children
-    auto children = hana::filter(std::move(all), child);
-    using Result = Node<Named<Name>, decltype(components), decltype(children)>;
-    static_assert(
-        Result::childNamesDiffer(),
-        "Sinew: two children of a node have the same name; a path could not tell them apart. Rename one.");
-    return Result{{std::move(components), std::move(children)}};
+    return detail::compose<Named<Name>>(hana::tuple<Parts...>(std::move(parts)...),
+                                        detail::places_of<!is_node<Parts>...>(),
+                                        detail::places_of<is_node<Parts>...>());
   }
 }
 
