@@ -179,13 +179,10 @@ namespace detail {
 template <class Name, class... Parts, std::size_t... C, std::size_t... N>
 [[gnu::noinline]] auto compose([[maybe_unused]] hana::tuple<Parts...> parts, std::index_sequence<C...>,
                                std::index_sequence<N...>) {
-  using Result = Node<Name,
-                      hana::tuple<std::decay_t<decltype(hana::at_c<C>(parts))>...>,
-                      hana::tuple<std::decay_t<decltype(hana::at_c<N>(parts))>...>>;
-  static_assert(
-      Result::childNamesDiffer(),
-      "Sinew: two children of a node have the same name; a path could not tell them apart. Rename one.");
-  return Result{{{std::move(hana::at_c<C>(parts))...}, {std::move(hana::at_c<N>(parts))...}}};
+  return Node<Name,
+              hana::tuple<std::decay_t<decltype(hana::at_c<C>(parts))>...>,
+              hana::tuple<std::decay_t<decltype(hana::at_c<N>(parts))>...>>{
+      {{std::move(hana::at_c<C>(parts))...}, {std::move(hana::at_c<N>(parts))...}}};
 }
 }  // namespace detail
 
@@ -201,9 +198,13 @@ auto node(Parts... parts) {
   if constexpr (!((Component<Parts> || is_node<Parts>)&&...)) {
     return Node<Named<Name>, hana::tuple<>, hana::tuple<>>{};  // nothing else fails
   } else {
-    return detail::compose<Named<Name>>(hana::tuple<Parts...>(std::move(parts)...),
-                                        detail::places_of<!is_node<Parts>...>(),
-                                        detail::places_of<is_node<Parts>...>());
+    auto made = detail::compose<Named<Name>>(hana::tuple<Parts...>(std::move(parts)...),
+                                             detail::places_of<!is_node<Parts>...>(),
+                                             detail::places_of<is_node<Parts>...>());
+    static_assert(
+        decltype(made)::childNamesDiffer(),
+        "Sinew: two children of a node have the same name; a path could not tell them apart. Rename one.");
+    return made;
   }
 }
 

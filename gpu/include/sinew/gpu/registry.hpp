@@ -9,12 +9,16 @@
 
 namespace sinew {
 
+// points and rigid bodies
 template <class D>
-using CudaRigids = Registry<MechanicalObject<D>, UniformMass<D>, RestShapeSpringsForceField<D>,
+using CudaBodies = Registry<MechanicalObject<D>, UniformMass<D>, RestShapeSpringsForceField<D>,
                             FixedConstraint<D>, PartialFixedConstraint<D>>;
 template <class D>
-using CudaPoints = Registry<CudaRigids<D>, DiagonalMass<D>, PointSprings<D>, PlaneForceField<D>,
-                            TetrahedronFEMForceField<D>, HexahedronFEMForceField<D>>;
+using CudaPoints = Registry<CudaBodies<D>, DiagonalMass<D>, PointSprings<D>, PlaneForceField<D>,
+                            SphereForceField<D>, TriangleFEMForceField<D>, TetrahedronFEMForceField<D>,
+                            HexahedronFEMForceField<D>, TetrahedronHyperelasticityFEMForceField<D>>;
+template <class D>
+using CudaRigids = Registry<CudaBodies<D>, AngularSpringForceField<D>>;
 // to states of the device, and to models of the host: collision models are there over Vec3d
 template <class In>
 using CudaPointMappings =
@@ -25,19 +29,21 @@ using CudaRigidMappings =
              IdentityMapping<Rigid, Rigid>, IdentityMapping<Rigid, Point>>;
 
 /// What runs on a device, over its DataTypes.
-struct CudaStandard : Registry<CudaPoints<CudaVec3f>, CudaPoints<CudaVec3d>, TriangleFEMForceField<CudaVec3f>,
-                               CudaRigids<CudaRigid3f>, CudaRigids<CudaRigid3d>, CudaPointMappings<CudaVec3f>,
-                               CudaPointMappings<CudaVec3d>, CudaRigidMappings<CudaRigid3f, CudaVec3f>,
-                               CudaRigidMappings<CudaRigid3d, CudaVec3d>> {};
+struct CudaStandard
+    : Registry<CudaPoints<CudaVec3f>, CudaPoints<CudaVec3d>, CudaRigids<CudaRigid3f>, CudaRigids<CudaRigid3d>,
+               CudaPointMappings<CudaVec3f>, CudaPointMappings<CudaVec3d>,
+               CudaRigidMappings<CudaRigid3f, CudaVec3f>, CudaRigidMappings<CudaRigid3d, CudaVec3d>> {};
 
 /// And what stands around that in a scene: meshes, selections, solvers, collision models and obstacles of the
 /// host.
 struct CudaScenes
     : Registry<Gravity, MeshTopology, RegularGridTopology, VisualModel, MeshGmshLoader, MeshOBJLoader,
-               BoxROI<Vec3d>, BoxROI<Vec3f>, EulerImplicitSolver, CGLinearSolver<>, ShewchukPCGLinearSolver<>,
-               DefaultPipeline, BruteForceBroadPhase, BVHNarrowPhase, MinProximityIntersection,
-               DefaultContactManager, PointCollisionModel<Vec3d>, TriangleCollisionModel<Vec3d>,
-               SphereCollisionModel<Vec3d>, MechanicalObject<Vec3d>, MechanicalObject<Vec3f>, CudaStandard> {
-};
+               BoxROI<Vec3d>, BoxROI<Vec3f>, EulerExplicitSolver, EulerImplicitSolver, CGLinearSolver<>,
+               CGLinearSolver<CompressedRowSparseMatrixMat3x3d>,
+               CGLinearSolver<CompressedRowSparseMatrixMat3x3f>, ShewchukPCGLinearSolver<>,
+               ShewchukPCGLinearSolver<CompressedRowSparseMatrixMat3x3d>, DefaultPipeline,
+               BruteForceBroadPhase, BVHNarrowPhase, MinProximityIntersection, DefaultContactManager,
+               PointCollisionModel<Vec3d>, TriangleCollisionModel<Vec3d>, SphereCollisionModel<Vec3d>,
+               MechanicalObject<Vec3d>, MechanicalObject<Vec3f>, CudaStandard> {};
 
 }  // namespace sinew
