@@ -14,6 +14,6 @@ int main() {
                ? 4
                : 2;
   };
-  std::printf("%d doubles in a lane, %d would be best\n", lanes_of_doubles(), best());
+  std::printf("%d lanes of doubles, %d would be best\n", lanes_of_doubles(), best());
   return lanes_of_doubles() == best() ? 0 : 1;
 }
