@@ -10,8 +10,9 @@ namespace sinew::gpu {
 /// computes in a step is recorded as the device sees it then, so a scene whose step asks the device for a
 /// result, moves points by its clock, collides or writes files cannot be recorded (CUDA says so, or the same
 /// forces are used again); bodies on the device with CGLinearSolver or ShewchukPCGLinearSolver can, also over
-/// a matrix that is assembled there. A preconditioner is made in each recorded step, or in none. Whether positions are finite is looked at by finish() alone. On
-/// the host backends of Thrust steps are made one by one.
+/// a matrix that is assembled there. A preconditioner is made in each recorded step, or in none. Whether
+/// positions are finite is looked at by finish() alone. On the host backends of Thrust steps are made one by
+/// one.
 template <class Root>
 class RecordedStep {
  public:
