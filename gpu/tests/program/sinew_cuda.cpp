@@ -32,7 +32,7 @@ Ended sinew_cuda(files::TempFolder const& folder, std::string const& arguments) 
   return {code, {std::istreambuf_iterator<char>(said), {}}};
 }
 
-std::string replaced(std::string in, std::string_view word, std::string_view by) {
+std::string replaced_everywhere(std::string in, std::string_view word, std::string_view by) {
   for (std::size_t at = 0; (at = in.find(word, at)) != std::string::npos; at += by.size())
     in.replace(at, word.size(), by);
   return in;
@@ -57,7 +57,8 @@ void same_as_host(std::string const& name, double rounding) {
   REQUIRE(ended.code == 0);
   const RecordedFrame device = read_record(folder / "record.txt").back();
 
-  auto read = parse_scene<Standard>(file, replaced(replaced(scene, "Cuda", ""), "Vec3f", "Vec3d"), {});
+  auto read = parse_scene<Standard>(
+      file, replaced_everywhere(replaced_everywhere(scene, "Cuda", ""), "Vec3f", "Vec3d"), {});
   const double dt = read.dt;
   auto host = start(std::move(read));
   const RecordedFrame before = capture(host.root(), 0, 0);
