@@ -9,7 +9,8 @@
 namespace bench {
 
 /// A number that counts the arithmetic done with numbers of its kind: the scalar of an element law whose
-/// operations are wanted. Each of + - * / and the square root is one; comparisons, signs and copies are none.
+/// operations are wanted. Each of + - * / and each square root, logarithm and exponential is one;
+/// comparisons, signs and copies are none.
 struct Counted {
   double value;
   static inline long operations = 0;
@@ -36,6 +37,8 @@ struct Counted {
   friend bool operator==(Counted a, Counted b) { return a.value == b.value; }
   friend bool operator!=(Counted a, Counted b) { return a.value != b.value; }
   friend Counted sqrt(Counted a) { return after(std::sqrt(a.value)); }
+  friend Counted log(Counted a) { return after(std::log(a.value)); }
+  friend Counted exp(Counted a) { return after(std::exp(a.value)); }
   friend Counted abs(Counted a) { return Counted(std::abs(a.value)); }
   friend Counted select(bool mask, Counted a, Counted b) { return mask ? a : b; }
   explicit operator double() const { return value; }

@@ -8,7 +8,7 @@
 // that is written, twice: a line of memory is fetched before it is written. So the triad counts four times
 // its length too.
 #include "bodies.hpp"
-#include "counted.hpp"
+#include "law_flops.hpp"
 
 #include <sinew/topology/adjacency.hpp>
 
@@ -71,28 +71,14 @@ struct Loop {
   std::vector<double> times{}, bandwidths{};
 };
 
-/// Operations of one tetrahedron: force, product with the tangent, blocks of the matrix with their sums.
-struct LawFlops {
-  double force, dforce, blocks;
-};
-LawFlops law_flops() {
+/// Of one tetrahedron.
+LawFlops tetrahedron_flops() {
   using D = VecTypes<3, Counted>;
   using Law = TetrahedronFEM<D>;
-  const D::Coord x[4] = {{0, 0, 0}, {1.1, 0.1, 0}, {0, 1, 0.2}, {0.1, 0, 0.9}}, v[4] = {};
-  const Law law{RotationMethod::gradient};
+  const D::Coord x[4] = {{0, 0, 0}, {1.1, 0.1, 0}, {0, 1, 0.2}, {0.1, 0, 0.9}};
   const D::Coord rest[4] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  const auto r = Law::restOf(rest, Counted(1), Counted(1), law.method);
-  Law::Tangent tangent;
-  D::Deriv f[4];
-  constexpr int points = 4, pairs = points * (points + 1) / 2;
-  LawFlops n;
-  n.force = operations_of([&] { law.force(r, x, v, f, tangent); }) + 3 * points;
-  n.dforce = operations_of([&] { law.dforce(r, tangent, x, f, Counted(1), Counted(0)); }) + 3 * points;
-  n.blocks = 9 * pairs + operations_of([&] {
-               for (int i = 0; i < points; ++i)
-                 for (int j = i; j < points; ++j) law.block(r, tangent, i, j, Counted(1), Counted(0));
-             });
-  return n;
+  const Law law{RotationMethod::gradient};
+  return law_flops(law, Law::restOf(rest, Counted(1), Counted(1), law.method), x);
 }
 
 template <class T>
@@ -130,7 +116,7 @@ int main(int argc, char** argv) try {
   const double tangents = double(driver.packs.size() * sizeof driver.packs[0].tangent);
   Matrix const& m = system.matrix;
   const double values = bytes_of(m.values);
-  const LawFlops law = law_flops();
+  const LawFlops law = tetrahedron_flops();
   std::vector<Loop> loops;
   auto multiply = [&] { system.matrix.multiply(system.p.data(), system.q.data()); };
   for (int i = 0; i < 4; ++i) multiply();  // from the fourth on large matrices take slices

@@ -2,11 +2,18 @@
 // Steps a second of the scenes of the table on a GPU, in all forms in turn: launched loop by loop, the step
 // as a CUDA graph, the fused step.
 //   scenes grid NX NY NZ | fem FILE.msh | block CELLS | hexahedra CELLS | hyperelastic CELLS
-//          | batch FILE.msh COPIES
+//          | batch FILE.msh|CELLS COPIES
 //          [--double] [--steps N] [--iterations N] [--no-host] [--no-plain] [--no-fused] [--blocks N]...
+//          [--profile plain|assembled|fused]
 // Bodies of CELLS are unit cubes of so many cells along each edge.
-// Prints, for each form: scene; points; elements; real; form; steps a second; how far point 100 is, over the
-// largest coordinate, from where the processor has it after the first 50 steps.
+// Prints first what the GPU does at best, then for each form: scene; points; elements; real; form; steps a
+// second, by events around so many steps, the median of five; how far point 100 is, over the largest
+// coordinate, from where the processor has it after the first 50 steps; and what Work says of that. With
+// --profile nothing is measured: one step of that form (ten of a fused one, in one launch) is made for a
+// profiler to look at; profile.py calls it.
+#include "ceilings.hpp"
+#include "work.hpp"
+
 #include <sinew/force/hexahedron_fem.hpp>
 #include <sinew/force/tetrahedron_hyperelasticity.hpp>
 #include <sinew/gpu/fused/simulation.hpp>
@@ -16,6 +23,8 @@
 #include <sinew/topology/mesh_topology.hpp>
 
 #include "../../benchmarks/run/scenes.hpp"
+
+#include <cuda_profiler_api.h>
 
 #include <chrono>
 #include <cstdio>
@@ -67,19 +76,70 @@ auto hyperelastic(Mesh const& mesh, Linear linear) {
                    FixedConstraint<D>{.indices = held(mesh)})};
 }
 
-// the median of five, of the seconds that a step takes
-template <class Step>
-double seconds_a_step(int steps, Step&& step) {
-  std::vector<double> times;
-  for (int round = 0; round < 5; ++round) {
-    gpu::wait();
-    const double start = now();
-    step(steps);
-    gpu::wait();
-    times.push_back((now() - start) / steps);
+/// What a step of the method must compute, and the bytes that it must read and write where nothing stays on
+/// the chip: each array once for each time that it is written or read.
+///   elements    force, one product for the right-hand side, blocks; rest data, tangents twice, points
+///   iterations  the product with blocks of 3 x 3, 10 flops a scalar for vectors; blocks with their columns,
+///               12 passes over vectors
+/// A form may do more (blocks twice, one for each side), and a fused step reads no block from memory.
+struct Work {
+  double flops = 0, bytes = 0, flopsOfIteration = 0, bytesOfIteration = 0;
+
+  double flopsAt(int iterations) const { return flops + iterations * flopsOfIteration; }
+  double bytesAt(int iterations) const { return bytes + iterations * bytesOfIteration; }
+};
+// blocks of the matrix: two points that share an element have one, and each point with itself
+template <std::size_t Arity>
+double matrix_blocks(std::vector<std::array<int, Arity>> const& elements, std::size_t points) {
+  std::vector<std::size_t> first(points + 1, 0);
+  for (auto const& e : elements)
+    for (const int i : e) ++first[std::size_t(i) + 1];
+  for (std::size_t i = 0; i < points; ++i) first[i + 1] += first[i];
+  std::vector<int> around(first.back());
+  std::vector<std::size_t> next(first.begin(), first.end() - 1);
+  for (std::size_t e = 0; e < elements.size(); ++e)
+    for (const int i : elements[e]) around[next[std::size_t(i)]++] = int(e);
+  double blocks = 0;
+  std::vector<int> row;
+  for (std::size_t i = 0; i < points; ++i) {
+    row.assign(1, int(i));
+    for (std::size_t k = first[i]; k < first[i + 1]; ++k)
+      for (const int j : elements[std::size_t(around[k])]) row.push_back(j);
+    std::sort(row.begin(), row.end());
+    blocks += double(std::unique(row.begin(), row.end()) - row.begin());
   }
-  std::sort(times.begin(), times.end());
-  return times[2];
+  return blocks;
+}
+template <class Driver>
+Work work_of(Driver const& driver, LawFlops const& law, std::size_t pointCount) {
+  using Real = typename Driver::Real;
+  const double elements = double(driver.size()), points = double(pointCount);
+  const double blocks = matrix_blocks(driver.elements, pointCount), block = 9 * sizeof(Real);
+  Work w;
+  w.flops = elements * (law.force + law.dforce + law.blocks);
+  w.bytes = elements * (sizeof(typename Driver::Rest) + 2 * sizeof(typename Driver::Tangent) +
+                        Driver::arity * sizeof(int)) +
+            blocks * block;
+  w.flopsOfIteration = 18 * blocks + 30 * points;
+  w.bytesOfIteration = blocks * (block + sizeof(int)) + 12 * points * 3 * sizeof(Real);
+  return w;
+}
+
+/// What the GPU does at best for work of that kind, measured in the same run.
+struct Best {
+  double flops, bytes;  // a second; of a copy of as many bytes as an iteration reads and writes
+};
+template <class Real>
+Best best_for(Work const& work) {
+  const Best best{peak<Real>(), copy_bandwidth(std::size_t(work.bytesOfIteration))};
+  std::printf(
+      "best; %.1f Tflop/s; a copy of %.2f MB: %.0f GB/s; a launch takes %.2f us, in a graph %.2f us\n",
+      best.flops / 1e12,
+      work.bytesOfIteration / 1e6,
+      best.bytes / 1e9,
+      launch_seconds() * 1e6,
+      node_seconds() * 1e6);
+  return best;
 }
 
 template <class X, class Y>
@@ -100,121 +160,160 @@ struct Options {
   // of a fused step, in turn; 0 is what it chooses, beyond 16 are all of a launch
   std::vector<int> blocks{};
   int copies = 0;
+  std::string profile{};
 };
+
+/// What a profiler that is told not to start by itself looks at.
+template <class Work>
+void watched(Work&& work) {
+  gpu::wait();
+  gpu::check(cudaProfilerStart(), "--profile");
+  work();
+  gpu::wait();
+  gpu::check(cudaProfilerStop(), "--profile");
+}
 
 // make.template operator()<D>(linear) is the scene over D with that linear solver
 template <class H, class Make>
-void measure(Make const& make, Options const& o) {
+void measure(Make const& make, LawFlops const& law, Options const& o) {
   using Cuda = CudaTypes<H>;
+  using Real = typename H::Real;
   const auto plain = all_iterations<GraphScattered>(o.iterations);
-  auto reference = make.template operator()<H>(plain);
+  const int fewer = std::max(1, o.iterations / 5);
   auto field = [](auto& sim) -> auto& {
     return *std::get<0>(components_that<gpu::detail::IsForceField>(components_of(sim.root())));
   };
+  auto solver = [](auto& sim) -> auto& { return sim.root().template first<role::LinearSolver>(); };
 
-  const double hostInit = now();
-  reference.init();
-  std::fprintf(stderr, "host init %.2f s\n", now() - hostInit);
-  const auto points = reference.root().state().size(), elements = field(reference).driver.size();
-  auto line = [&](std::string const& form, double seconds, double far) {
-    std::printf("%s; %zu; %zu; %s; %s; %.1f; %.1e\n",
+  using Matrix = std::
+      conditional_t<sizeof(Real) == 8, CompressedRowSparseMatrixMat3x3d, CompressedRowSparseMatrixMat3x3f>;
+  if (!o.profile.empty()) {
+    auto once = [](auto of) {
+      of.init();
+      for (int i = 0; i < 3; ++i) of.animate(dt);
+      watched([&] { of.animate(dt); });
+    };
+    if (o.profile == "plain") return once(make.template operator()<Cuda>(plain));
+    if (o.profile == "assembled")
+      return once(make.template operator()<Cuda>(all_iterations<Matrix>(o.iterations)));
+    auto of = make.template operator()<Cuda>(plain);
+    of.init();
+    gpu::FusedSimulation fused(of, 1, o.blocks.front());
+    fused.animate(dt, 3);
+    return watched([&] { fused.animate(dt, 10); });
+  }
+  auto sim = make.template operator()<Cuda>(plain);
+  const double start = now();
+  sim.init();
+  const auto points = sim.root().state().size(), elements = field(sim).driver.size();
+  const bool small = elements < 200000;
+  const Work work = work_of(field(sim).driver, law, points);
+  const Best best = best_for<Real>(work);
+  auto name = [&](std::string const& form) {
+    std::printf("%s; %zu; %zu; %s; %s; ",
                 o.scene.c_str(),
                 points,
                 elements,
-                sizeof(typename H::Real) == 8 ? "double" : "float",
-                form.c_str(),
-                1 / seconds,
-                far);
+                sizeof(Real) == 8 ? "double" : "float",
+                form.c_str());
+  };
+  // seconds(k) are those of a step with so many iterations
+  auto line = [&](std::string const& form, double far, auto&& seconds) {
+    const double step = seconds(o.iterations);
+    const double each = (step - seconds(fewer)) / (o.iterations - fewer);
+    name(form);
+    std::printf(
+        "%.1f; %.1e; %.2f us an iteration, %.1f us besides; %.1f Gflop/s, %.2f %%; %.0f GB/s, %.1f %%; "
+        "iterations %.0f GB/s, %.1f %%\n",
+        1 / step,
+        far,
+        each * 1e6,
+        (step - o.iterations * each) * 1e6,
+        work.flopsAt(o.iterations) / step / 1e9,
+        100 * work.flopsAt(o.iterations) / step / best.flops,
+        work.bytesAt(o.iterations) / step / 1e9,
+        100 * work.bytesAt(o.iterations) / step / best.bytes,
+        work.bytesOfIteration / each / 1e9,
+        100 * work.bytesOfIteration / each / best.bytes);
     std::fflush(stdout);
   };
-  const bool small = elements < 200000;
-  if (o.host) {
-    const double start = now();
-    const int steps = small ? compared : 2;
-    for (int i = 0; i < steps; ++i) reference.animate(dt);
-    line("processor, one thread, without lanes", (now() - start) / steps, 0);
-  }
+
   const int same = small ? compared : 2;
-  auto const& expected = reference.root().state().position;
+  auto reference = make.template operator()<H>(plain);
+  if (o.host) {
+    reference.init();
+    const double begin = now();
+    for (int i = 0; i < same; ++i) reference.animate(dt);
+    name("processor, one thread, without lanes");
+    std::printf("%.1f\n", same / (now() - begin));
+  }
+  auto far = [&](auto& of) {
+    return o.host ? difference(std::as_const(of.root().state().position), reference.root().state().position)
+                  : 0;
+  };
   if (o.plain) {
-    auto sim = make.template operator()<Cuda>(plain);
-    const double start = now();
-    sim.init();
     sim.animate(dt);
     gpu::wait();
     std::fprintf(stderr, "device init and first step %.2f s\n", now() - start);
     for (int i = 1; i < same; ++i) sim.animate(dt);
-    const double far = o.host ? difference(std::as_const(sim.root().state().position), expected) : 0;
-    line("launch by launch",
-         seconds_a_step(o.steps,
-                        [&](int n) {
-                          for (int i = 0; i < n; ++i) sim.animate(dt);
-                        }),
-         far);
-    // steps as graphs; of large bodies also what an iteration costs, from steps with fewer of them, and the
-    // share of its time in which the matrix would be read once
-    auto graph = [&](char const* form, auto linear) {
-      double seconds[2];
-      std::size_t bytes = 0;
-      for (const int k : {0, 1}) {
-        linear.iterations = k == 0 ? o.iterations : 5;
-        if (k == 1 && small) break;
-        auto recordedSim = make.template operator()<Cuda>(linear);
-        recordedSim.init();
-        gpu::RecordedStep recorded(recordedSim, dt);
-        seconds[k] = seconds_a_step(o.steps, [&](int n) { recorded.animate(n); });
-        bytes = linear.matrixFree ? field(recordedSim).driver.product.rows.bytes()
-                                  : recordedSim.root().state().solverRoom.rows.bytes();
-      }
-      line(form, seconds[0], 0);
-      if (small) return;
-      const double each = (seconds[0] - seconds[1]) / (o.iterations - 5);
-      std::printf(
-          "%s; %zu; %zu; %s; %s; an iteration takes %.1f us, of which its product reads and writes %.1f MB: "
-          "%.0f "
-          "GB/s at least\n",
-          o.scene.c_str(),
-          points,
-          elements,
-          sizeof(typename H::Real) == 8 ? "double" : "float",
-          form,
-          each * 1e6,
-          bytes / 1e6,
-          bytes / each / 1e9);
+    line("launch by launch", far(sim), [&](int iterations) {
+      solver(sim).iterations = iterations;
+      return event_seconds([&] {
+               for (int i = 0; i < o.steps; ++i) sim.animate(dt);
+             }) /
+             o.steps;
+    });
+    auto graph = [&](char const* form, auto& of) {
+      line(form, 0, [&](int iterations) {
+        solver(of).iterations = iterations;
+        gpu::RecordedStep recorded(of, dt);
+        recorded.animate();
+        return event_seconds([&] { recorded.animate(o.steps); }) / o.steps;
+      });
     };
-    using Matrix = std::conditional_t<sizeof(typename H::Real) == 8,
-                                      CompressedRowSparseMatrixMat3x3d,
-                                      CompressedRowSparseMatrixMat3x3f>;
-    graph("graph", plain);
-    graph("graph, assembled", all_iterations<Matrix>());
-    graph("graph, assembled, block-Jacobi", ShewchukPCGLinearSolver<Matrix>{.tolerance = 0});
+    auto another = [&](char const* form, auto linear) {
+      auto made = make.template operator()<Cuda>(linear);
+      made.init();
+      graph(form, made);
+    };
+    using Matrix = std::
+        conditional_t<sizeof(Real) == 8, CompressedRowSparseMatrixMat3x3d, CompressedRowSparseMatrixMat3x3f>;
+    graph("graph", sim);
+    another("graph, assembled", all_iterations<Matrix>());
+    another("graph, assembled, block-Jacobi", ShewchukPCGLinearSolver<Matrix>{.tolerance = 0});
   }
   if (o.fused)
     for (const int blocks : o.blocks) {
-      auto sim = make.template operator()<Cuda>(plain);
-      sim.init();
+      auto made = make.template operator()<Cuda>(plain);
+      made.init();
       try {
-        gpu::FusedSimulation fused(sim, 1, blocks);
-        fused.animate(dt, same);
-        fused.finish();
-        fused.store(0, sim);
-        const double far = o.host ? difference(std::as_const(sim.root().state().position), expected) : 0;
-        const auto shape = fused.shape();
-        line(text("fused, ",
-                  shape.blocks,
-                  " x ",
-                  shape.threads,
-                  blocks == 0 ? " (chosen)" : "",
-                  ", one launch a step"),
-             seconds_a_step(o.steps,
-                            [&](int n) {
-                              for (int i = 0; i < n; ++i) fused.animate(dt);
-                            }),
-             far);
-        line(text("fused, ", shape.blocks, " x ", shape.threads, ", all steps in one launch"),
-             seconds_a_step(o.steps, [&](int n) { fused.animate(dt, n); }),
-             far);
-        fused.finish();
+        auto fusedOf = [&](int iterations) {
+          solver(made).iterations = iterations;
+          return gpu::FusedSimulation(made, 1, blocks);
+        };
+        auto compare = fusedOf(o.iterations);
+        compare.animate(dt, same);
+        compare.finish();
+        const auto shape = compare.shape();
+        const std::string form =
+            text("fused, ", shape.blocks, " x ", shape.threads, blocks == 0 ? " (chosen)" : "");
+        auto there = make.template operator()<Cuda>(plain);
+        there.init();
+        compare.store(0, there);
+        const double away = far(there);
+        auto seconds = [&](int launches) {
+          return [&, launches](int iterations) {
+            auto fused = fusedOf(iterations);
+            fused.animate(dt, compared);
+            const double all = event_seconds([&] {
+              for (int i = 0; i < launches; ++i) fused.animate(dt, o.steps / launches);
+            });
+            fused.finish();
+            return all / (o.steps / launches * launches);
+          };
+        };
+        line(form + ", one launch a step", away, seconds(o.steps));
+        line(form + ", all steps in one launch", away, seconds(1));
       } catch (Error const& error) {
         std::fprintf(stderr, "%d blocks: %s\n", blocks, error.what());
       }
@@ -225,30 +324,49 @@ void measure(Make const& make, Options const& o) {
 template <class H>
 void batch(Mesh const& mesh, Options const& o) {
   using Cuda = CudaTypes<H>;
-  auto sim = body<Cuda>(mesh, all_iterations<GraphScattered>());
+  const auto linear = all_iterations<GraphScattered>(o.iterations);
+  auto sim = body<Cuda>(mesh, linear);
   sim.init();
-  auto softer = body<Cuda>(mesh, all_iterations<GraphScattered>(), 2500);
+  auto softer = body<Cuda>(mesh, linear, 2500);
   softer.init();
+  if (!o.profile.empty()) {
+    gpu::FusedSimulation fused(sim, o.copies);
+    fused.animate(dt, 3);
+    return watched([&] { fused.animate(dt, 10); });
+  }
+  auto const& driver = sim.root().template first<role::ForceField>().driver;
+  const double flops = work_of(driver, tetrahedron_flops(), mesh.positions.size()).flopsAt(o.iterations);
+  const double best = peak<typename H::Real>();
   for (int copies = 1; copies <= o.copies; copies *= 4) {
     gpu::FusedSimulation fused(sim, copies);
     for (int c = 1; c < copies; c += 2) fused.load(c, softer);
     const int steps = std::max(2, o.steps / std::max(1, copies / 256));
     fused.animate(dt, 2);
     fused.finish();
-    const double seconds = seconds_a_step(steps, [&](int n) { fused.animate(dt, n); });
+    const double seconds = event_seconds([&] { fused.animate(dt, steps); }) / steps;
     fused.finish();
-    std::printf("batch %s; %zu; %zu; %s; %d copies, %d x %d; %.1f steps a second of all; %.0f of one\n",
-                o.scene.c_str(),
-                mesh.positions.size(),
-                mesh.tetrahedra.size(),
-                sizeof(typename H::Real) == 8 ? "double" : "float",
-                copies,
-                fused.shape().blocks,
-                fused.shape().threads,
-                1 / seconds,
-                copies / seconds);
+    std::printf(
+        "batch %s; %zu; %zu; %s; %d copies, %d x %d; %.1f steps a second of all; %.0f of one; "
+        "%.1f Gflop/s, %.2f %%\n",
+        o.scene.c_str(),
+        mesh.positions.size(),
+        mesh.tetrahedra.size(),
+        sizeof(typename H::Real) == 8 ? "double" : "float",
+        copies,
+        fused.shape().blocks,
+        fused.shape().threads,
+        1 / seconds,
+        copies / seconds,
+        copies * flops / seconds / 1e9,
+        100 * copies * flops / seconds / best);
     std::fflush(stdout);
   }
+}
+
+// of a file, or a cube of so many cells
+Mesh mesh_of(std::string const& word) {
+  const bool number = word.find_first_not_of("0123456789") == std::string::npos;
+  return number ? block(std::atoi(word.c_str())) : io::read_gmsh(word);
 }
 
 template <class H>
@@ -257,22 +375,23 @@ void run(std::vector<std::string> const& words, Options o) {
   if (words.at(0) == "grid") {
     const std::array<int, 3> n{number(1), number(2), number(3)};
     o.scene = text("grid ", n[0], "x", n[1], "x", n[2]);
-    measure<H>([&]<class D>(auto linear) { return spring_grid<D>(n, linear); }, o);
+    measure<H>([&]<class D>(auto linear) { return spring_grid<D>(n, linear); }, spring_flops(), o);
   } else if (words.at(0) == "hexahedra") {
     o.scene = "hexahedra";
-    measure<H>([&]<class D>(auto linear) { return hexahedra<D>(number(1), linear); }, o);
+    measure<H>([&]<class D>(auto linear) { return hexahedra<D>(number(1), linear); }, hexahedron_flops(), o);
   } else if (words.at(0) == "hyperelastic") {
     o.scene = "hyperelastic";
-    measure<H>([&]<class D>(auto linear) { return hyperelastic<D>(block(number(1)), linear); }, o);
+    measure<H>([&]<class D>(auto linear) { return hyperelastic<D>(block(number(1)), linear); },
+               hyperelastic_flops(),
+               o);
   } else if (words.at(0) == "batch") {
     o.scene = words.at(1).substr(words.at(1).find_last_of('/') + 1);
     o.copies = number(2);
-    batch<H>(io::read_gmsh(words.at(1)), o);
+    batch<H>(mesh_of(words.at(1)), o);
   } else {
-    const bool file = words.at(0) == "fem";
-    const Mesh mesh = file ? io::read_gmsh(words.at(1)) : block(number(1));
-    o.scene = file ? words.at(1).substr(words.at(1).find_last_of('/') + 1) : "block";
-    measure<H>([&]<class D>(auto linear) { return body<D>(mesh, linear); }, o);
+    const Mesh mesh = mesh_of(words.at(1));
+    o.scene = words.at(0) == "fem" ? words.at(1).substr(words.at(1).find_last_of('/') + 1) : "block";
+    measure<H>([&]<class D>(auto linear) { return body<D>(mesh, linear); }, tetrahedron_flops(), o);
   }
 }
 
@@ -292,6 +411,8 @@ int main(int argc, char** argv) try {
       o.iterations = std::atoi(argv[++i]);
     else if (word == "--blocks" && i + 1 < argc)
       o.blocks.push_back(std::atoi(argv[++i]));
+    else if (word == "--profile" && i + 1 < argc)
+      o.profile = argv[++i];
     else if (word == "--no-plain")
       o.plain = false;
     else if (word == "--no-fused")
@@ -306,8 +427,8 @@ int main(int argc, char** argv) try {
     std::fprintf(
         stderr,
         "usage: scenes grid NX NY NZ | fem FILE.msh | block CELLS | hexahedra CELLS | hyperelastic CELLS | "
-        "batch FILE.msh COPIES [--double] [--steps N] [--iterations N] [--no-host] [--no-plain] [--no-fused] "
-        "[--blocks N]...\n");
+        "batch FILE.msh|CELLS COPIES [--double] [--steps N] [--iterations N] [--no-host] [--no-plain] "
+        "[--no-fused] [--blocks N]... [--profile plain|assembled|fused]\n");
     return 2;
   }
   if (inDouble)

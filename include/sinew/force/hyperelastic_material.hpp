@@ -78,11 +78,13 @@ SINEW_INLINE Real each_lane(Real a, F&& f) {
 }
 template <class Real>
 SINEW_INLINE Real log_of(Real a) {
-  return each_lane(a, [](auto s) { return std::log(s); });
+  using std::log;
+  return each_lane(a, [](auto s) { return log(s); });
 }
 template <class Real>
 SINEW_INLINE Real exp_of(Real a) {
-  return each_lane(a, [](auto s) { return std::exp(s); });
+  using std::exp;
+  return each_lane(a, [](auto s) { return exp(s); });
 }
 
 /// A function of one variable with its first two derivatives.

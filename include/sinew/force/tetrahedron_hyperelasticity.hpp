@@ -71,15 +71,20 @@ struct TetrahedronHyperelasticity {
   }
 
   SINEW_INLINE Mat3 block(Rest const&, Tangent const& tangent, int i, int j, Real k, Real /*b*/) const {
+    // moving all points does nothing: what belongs to point 0 is minus the sum of the others
     Mat3 block;
-    for (int c = 0; c < 3; ++c)
-      for (int r = 0; r < 3; ++r) {
-        // moving all points does nothing: what belongs to point 0 is minus the sum of the others
-        Real sum(0);
-        for (int p = i == 0 ? 1 : i; p <= (i == 0 ? 3 : i); ++p)
-          for (int q = j == 0 ? 1 : j; q <= (j == 0 ? 3 : j); ++q) sum += entry(tangent, p - 1, q - 1, r, c);
-        block(r, c) = (i == 0) == (j == 0) ? k * sum : -k * sum;
+    block.setZero();
+    for (int p = i == 0 ? 1 : i; p <= (i == 0 ? 3 : i); ++p)
+      for (int q = j == 0 ? 1 : j; q <= (j == 0 ? 3 : j); ++q) {
+        const bool turned = p > q;
+        Real const* const one =
+            tangent.k[turned ? pairNumber(q - 1, p - 1) : pairNumber(p - 1, q - 1)].data();
+        const int down = turned ? 3 : 1, across = turned ? 1 : 3;
+        for (int c = 0; c < 3; ++c)
+          for (int r = 0; r < 3; ++r) block(r, c) += one[down * r + across * c];
       }
+    const Real factor = (i == 0) == (j == 0) ? k : -k;
+    for (int c = 0; c < 9; ++c) block(c) *= factor;
     return block;
   }
 

@@ -26,6 +26,7 @@ struct FusedPlan {
   std::vector<std::uint16_t> column{};       // and its place in the vectors of the rank
   std::vector<int> sendFirst{};              // of each row
   std::vector<unsigned> sends{};             // rank << 16 | place in the vectors of that rank
+  std::vector<int> nearFirst{}, near{};      // of each rank: those that have rows of its border
 
   /// neighbours[i]: the nodes with which node i shares an element, in rising order, itself left out.
   FusedPlan(std::vector<std::vector<int>> const& neighbours, int blocks) : ranks(blocks) {
@@ -51,6 +52,7 @@ struct FusedPlan {
     }
 
     // borders
+    nearFirst.assign(1, 0);
     column.resize(entryNode.size());
     std::vector<std::vector<unsigned>> sendsOf(order.size());
     for (int rank = 0; rank < ranks; ++rank) {
@@ -70,6 +72,11 @@ struct FusedPlan {
                 : end - begin + int(std::lower_bound(border.begin(), border.end(), row) - border.begin());
         column[std::size_t(e)] = std::uint16_t(place);
       }
+      for (const int row : border) {
+        const int other = int(std::upper_bound(rowBegin.begin(), rowBegin.end(), row) - rowBegin.begin()) - 1;
+        if (near.size() == std::size_t(nearFirst.back()) || near.back() != other) near.push_back(other);
+      }
+      nearFirst.push_back(int(near.size()));
       for (std::size_t b = 0; b < border.size(); ++b)
         sendsOf[std::size_t(border[b])].push_back(unsigned(rank) << 16 | unsigned(end - begin + int(b)));
       widest = std::max(widest, end - begin);

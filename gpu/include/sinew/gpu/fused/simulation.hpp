@@ -27,7 +27,9 @@ namespace detail {
 /// there for it (128 and 168).
 inline constexpr int cluster_threads = 512, grid_threads = 384;
 template <class Body, int Registers>
-inline constexpr int kept_in = Registers / (Body::components * int(sizeof(typename Body::Real) / 4));
+inline constexpr int kept_in = std::min(Body::keptEntries,
+                                        Registers /
+                                            (Body::components * int(sizeof(typename Body::Real) / 4)));
 
 template <int Lanes, class Body>
 using FusedCluster = ClusterTeam<Lanes, kept_in<Body, 36>>;
@@ -40,10 +42,9 @@ __global__ void __launch_bounds__(cluster_threads, 1) fused_kernel(Body body) {
   fused_steps(FusedCluster<Lanes, Body>(), body, shared);
 }
 template <int Lanes, class Body>
-__global__ void __launch_bounds__(grid_threads, 1)
-    fused_grid_kernel(Body body, unsigned long long* arrived, int turn) {
+__global__ void __launch_bounds__(grid_threads, 1) fused_grid_kernel(Body body, GridMemory memory) {
   extern __shared__ __align__(16) unsigned char shared[];
-  fused_steps(FusedGrid<Lanes, Body>(arrived, turn), body, shared);
+  fused_steps(FusedGrid<Lanes, Body>(memory), body, shared);
 }
 #endif
 
@@ -148,6 +149,9 @@ class FusedSimulation {
       vectors_.resize(2 * 4 * nodes_);
       sums_.resize(2 * 2 * std::size_t(shape_.blocks));
       arrived_ = Array<unsigned long long>(2, 0ull);
+      announced_.resize(std::size_t(shape_.blocks));
+      nearFirst_ = plan.nearFirst;
+      near_ = plan.near;
     }
     sendFirst_ = plan.sendFirst;
     sends_ = plan.sends;
@@ -216,7 +220,14 @@ class FusedSimulation {
     Body body = this->body(dt, steps);
 #if SINEW_CUDA
     if (shape_.grid)
-      launch(gridKernel(), body, arrived_.device(), turn_);
+      launch(gridKernel(),
+             body,
+             GridMemory{arrived_.device(),
+                        turn_,
+                        announced_.data(),
+                        sums_.data(),
+                        std::as_const(nearFirst_).device(),
+                        std::as_const(near_).device()});
     else
       launch(clusterKernel(), body);
     turn_ = 1 - turn_;
@@ -271,12 +282,14 @@ class FusedSimulation {
       elements = field.driver.elements;
       nodes = int(field.driver.nodes);
       index = field.driver.index;
-      partFirst = field.driver.around.first;
-      partEntry = field.driver.around.entry;
       const std::size_t all = elements.size() * std::size_t(copies);
       rest.resize(all);
-      tangent.resize(all);
-      part.resize(all * arity);
+      if constexpr (!Elements::byRows) {
+        partFirst = field.driver.around.first;
+        partEntry = field.driver.around.entry;
+        tangent.resize(all);
+        part.resize(all * arity);
+      }
 
       // the entry of the matrix for two nodes
       std::vector<std::vector<std::pair<int, int>>> ofNode(std::size_t(plan.rows));
@@ -344,8 +357,11 @@ class FusedSimulation {
   Array<std::uint16_t> column_{};
   Array<int> columnRow_{};
   DeviceArray<Real> vectors_{};
+  // of a grid (GridMemory)
   DeviceArray<double> sums_{};
-  Array<unsigned long long> arrived_{};  // two counters, and which of them is next
+  DeviceArray<unsigned> announced_{};
+  Array<int> nearFirst_{}, near_{};
+  Array<unsigned long long> arrived_{};
   int turn_ = 0;
   Array<Coord> x_{};
   Array<Deriv> v_{}, gravity_{};
@@ -396,9 +412,9 @@ class FusedSimulation {
                   text("there is no copy ", copy, "; the ", copies_, " are numbered from 0"));
   }
 
-  // `blocks` above 16 asks for all blocks of a launch together. Where it is 0: of the clusters whose memory
-  // holds the body the smallest; or a larger one, up to a thread for every entry, where all copies still run
-  // at once; and for a single copy that would take more threads than that, the grid.
+  // `blocks` above 16 asks for the blocks of a launch. Where it is 0: a single copy takes these, unless one
+  // block has a thread for every entry; several the smallest of the clusters whose memory holds the body, or
+  // a larger one, up to a thread for every entry, where all copies still run at once.
   FusedPlan choose(std::vector<std::vector<int>> const& neighbours, int blocks) {
 #if SINEW_CUDA
     char const* const what = "FusedSimulation";
@@ -409,34 +425,49 @@ class FusedSimulation {
     gpu::check(cudaDeviceGetAttribute(&clusters, cudaDevAttrClusterLaunch, device), what);
     std::size_t entries = nodes_;
     for (auto const& n : neighbours) entries += n.size();
-    auto fits = [&](FusedPlan const& plan, bool grid) {
+    auto fits = [&](FusedPlan const& plan, bool grid, int least) {
       using Cluster = detail::FusedCluster<1, Body>;
       using Grid = detail::FusedGrid<1, Body>;
       for (const int lanes : {8, 4, 2, 1}) {
-        if (grid ? lanes == 1 : !plan.possible()) return false;
+        if (lanes < least || (!grid && !plan.possible())) return false;
         take(plan, lanes * (grid ? Grid::keptEntries : Cluster::keptEntries));
         const std::size_t shared = grid ? sizes_.template shared<Grid>() : sizes_.template shared<Cluster>();
-        const int threads = (plan.widest * lanes + 31) / 32 * 32 + (grid ? 32 : 0);  // a warp for the sums
+        const int threads = (plan.widest * lanes + 31) / 32 * 32 + (grid ? Grid::helpers : 0);
         shape_ = {grid, plan.ranks, threads, lanes, shared};
         if (threads <= (grid ? detail::grid_threads : detail::cluster_threads) && shared <= std::size_t(most))
           return true;
       }
       return false;
     };
+    if (copies_ == 1 && (blocks == 0 ? entries > detail::cluster_threads : blocks > 16)) {
+      // 16 rows a block while that leaves a quarter of the GPU idle, since many blocks exchange sums slower
+      // than few; else as few as have eight threads a row, or all
+      struct Wish {
+        int blocks, lanes;
+      };
+      constexpr int rows = (detail::grid_threads - detail::FusedGrid<1, Body>::helpers) / 8;
+      const int nodes = int(nodes_);
+      const std::vector<Wish> wishes =
+          blocks == 0 ? std::vector<Wish>{{std::min((nodes + 15) / 16, std::max(1, processors * 3 / 4)), 8},
+                                          {(nodes + rows - 1) / rows, 8},
+                                          {processors, 2}}
+                      : std::vector<Wish>{{std::min(blocks, processors), 2}};
+      for (const Wish wish : wishes) {
+        if (wish.blocks > processors) continue;
+        FusedPlan plan(neighbours, wish.blocks);
+        if (fits(plan, true, wish.lanes)) return plan;
+      }
+    }
     std::optional<FusedPlan> chosen;
-    auto enough = [&] { return chosen && std::size_t(chosen->ranks) * detail::cluster_threads >= entries; };
     for (const int more : {1, 2, 4, 8, 16}) {
       if (blocks != 0 && more != blocks) continue;
-      if (enough() || (more > 1 && !clusters)) break;
+      const bool enough = chosen && std::size_t(chosen->ranks) * detail::cluster_threads >= entries;
+      if (enough || (more > 1 && !clusters)) break;
       FusedPlan plan(neighbours, more);
-      if (fits(plan, false) && (!chosen || copies_ <= copiesAtOnce())) chosen = std::move(plan);
-    }
-    if (copies_ == 1 && (blocks == 0 ? !enough() : blocks > 16)) {
-      FusedPlan plan(neighbours, blocks == 0 ? processors : std::min(blocks, processors));
-      if (fits(plan, true)) return plan;
+      if (fits(plan, false, 1) && (!chosen || copies_ <= copiesAtOnce())) chosen = std::move(plan);
     }
     if (chosen) {
-      fits(*chosen, false);
+      fits(*chosen, false, 1);
       return *std::move(chosen);
     }
     throw Error(what,
@@ -481,7 +512,6 @@ class FusedSimulation {
     b.gravity = std::as_const(gravity_).device();
     b.wrong = wrong_.device();
     b.vectors = vectors_.data();
-    b.sums = sums_.data();
     b.h = Real(dt);
     b.rayleighStiffness = Real(ode_.rayleighStiffness);
     b.rayleighMass = Real(ode_.rayleighMass);

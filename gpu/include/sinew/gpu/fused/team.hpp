@@ -47,20 +47,25 @@ struct SerialTeam {
     explicit Rows(int n) : all(std::size_t(n)) {}
     T& operator[](int row) { return all[std::size_t(row)]; }
   };
-  /// Two sums over the threads of the block, given to all blocks: `sums` has a pair for each of them.
+  /// An exchange, in which all take part, one call after the other: rows have been published, which
+  /// announce() says; each thread gives two numbers; behind awaitRows() those rows may be loaded that others
+  /// have published; fetchSums() and takeSums() bring the sums over all threads of all blocks. `room` is the
+  /// same in each.
+  void announce() const {}
   template <class Real>
-  void giveSums(Real const (&value)[2], double*, double* sums) const {
-    sums[0] = double(value[0]);
-    sums[1] = double(value[1]);
+  void give(Real const (&value)[2], double* room) const {
+    room[0] = double(value[0]);
+    room[1] = double(value[1]);
   }
-  /// The sums over all blocks, behind a sync(): first asked for, then, when other work is done, taken.
-  /// `total` is room for two numbers of the block.
-  void fetchSums(double const*, double*) const {}
-  void takeSums(double const* sums, double const*, double (&total)[2]) const {
-    total[0] = sums[0];
-    total[1] = sums[1];
+  void awaitRows() const {}
+  void fetchSums(double*) const {}
+  void takeSums(double const* room, double (&total)[2]) const {
+    total[0] = room[0];
+    total[1] = room[1];
   }
 };
+/// Numbers in `room`: two lists of a pair for each block of a cluster, and a pair for each warp.
+inline constexpr int room_of_lists = 2 * 2 * 16, room_for_sums = room_of_lists + 2 * 32;
 
 #if SINEW_CUDA
 /// What teams of a GPU have in common.
@@ -83,25 +88,21 @@ struct DeviceTeam {
     __device__ explicit Rows(int) {}
     __device__ T& operator[](int) { return one; }
   };
-  /// Sums over the block, in its first 16 threads; `room` holds two numbers a warp.
+  mutable unsigned round = 0;  // exchanges so far; of two lists, one is used in turn
+
+  /// Puts the sums over the threads of the warp into `room`.
   template <class Real>
-  __device__ double2 blockSums(Real const (&value)[2], double* room) const {
-    const int warps = (threads + 31) / 32;
+  __device__ void giveOfWarp(Real const (&value)[2], double* room) const {
     Real a = value[0], b = value[1];
     for (int offset = 16; offset > 0; offset /= 2) {
       a += __shfl_xor_sync(0xffffffffu, a, offset);
       b += __shfl_xor_sync(0xffffffffu, b, offset);
     }
-    double2* const ofWarp = reinterpret_cast<double2*>(room);
+    double2* const ofWarp = reinterpret_cast<double2*>(room + room_of_lists);
     if (thread % 32 == 0) ofWarp[thread / 32] = make_double2(double(a), double(b));
-    __syncthreads();
-    double2 sum = make_double2(0, 0);
-    if (thread < 16)
-      for (int w = 0; w < warps; ++w) {
-        sum.x += ofWarp[w].x;
-        sum.y += ofWarp[w].y;
-      }
-    return sum;
+  }
+  static __device__ double2 pair(double const* list, int k) {
+    return reinterpret_cast<double2 const*>(list)[k];
   }
 };
 
@@ -146,40 +147,78 @@ struct ClusterTeam : DeviceTeam<Lanes, KeptEntries> {
   __device__ void load(T const* from, T (&to)[3]) const {
     for (int c = 0; c < 3; ++c) to[c] = from[c];
   }
+  __device__ void announce() const { ++this->round; }
   template <class Real>
-  __device__ void giveSums(Real const (&value)[2], double* room, double* sums) const {
-    const double2 own = this->blockSums(value, room);
-    if (this->thread < this->ranks) of(this->thread, reinterpret_cast<double2*>(sums)[this->rank]) = own;
+  __device__ void give(Real const (&value)[2], double* room) const {
+    this->giveOfWarp(value, room);
+    __syncthreads();
+    if (this->thread >= this->ranks) return;
+    double2 own = make_double2(0, 0);
+    for (int w = 0; w < (this->threads + 31) / 32; ++w) {
+      const double2 one = this->pair(room + room_of_lists, w);
+      own.x += one.x;
+      own.y += one.y;
+    }
+    of(this->thread, reinterpret_cast<double2*>(list(room))[this->rank]) = own;
   }
-  __device__ void fetchSums(double const*, double*) const {}
-  __device__ void takeSums(double const* sums, double const*, double (&total)[2]) const {
+  __device__ void awaitRows() const { sync(); }
+  __device__ void fetchSums(double*) const {}
+  __device__ void takeSums(double* room, double (&total)[2]) const {
     total[0] = total[1] = 0;
     for (int k = 0; k < this->ranks; ++k) {
-      const double2 one = reinterpret_cast<double2 const*>(sums)[k];
+      const double2 one = this->pair(list(room), k);
       total[0] += one.x;
       total[1] += one.y;
     }
   }
+
+ private:
+  __device__ double* list(double* room) const { return room + this->round % 2 * (room_of_lists / 2); }
 };
 
-/// All blocks of a launch, which run at once: what they exchange goes through the memory of the GPU.
+/// What the blocks of a launch exchange in the memory of the GPU.
+struct GridMemory {
+  unsigned long long* arrived;  // two counters, of which launches take turns
+  int turn;
+  unsigned* announced;          // by each block: the exchange up to which others may load its rows
+  double* sums;                 // two lists of a pair for each block
+  int const *nearFirst, *near;  // of each block: those whose rows it loads, and that load its own
+};
+
+/// All blocks of a launch, which run at once: what they exchange goes through the memory of the GPU. In an
+/// exchange a block waits for the rows of those around it only, and for the sums of all while its own rows
+/// are multiplied. Two warps of each block, the last, have no rows: one announces those of the block and
+/// waits for the others', the other exchanges the sums, whose last bits say of which round they are.
+///
+/// There are two lists of sums, and two vectors of rows, used in turn. Who writes to one has all sums of the
+/// round before; these were given by blocks that had taken, and loaded, all of what is now overwritten.
 template <int Lanes, int KeptEntries>
 struct GridTeam : DeviceTeam<Lanes, KeptEntries> {
   static constexpr bool global = true;
+  static constexpr int helpers = 64;  // threads without rows
   using Column = int;
-  unsigned long long* arrived;            // how often blocks have in this launch
-  mutable unsigned long long waited = 0;  // what it is when all have
+  GridMemory memory;
+  mutable unsigned long long waited = 0;  // how often blocks have arrived when all have
+  int nearBegin, nearEnd;
 
-  /// Of two counters launches take turns: the one that is not counted with is 0 for the next.
-  __device__ GridTeam(unsigned long long* counters, int turn) : arrived(counters + turn) {
+  __device__ explicit GridTeam(GridMemory const& all) : memory(all) {
     this->rank = int(blockIdx.x);
     this->ranks = int(gridDim.x);
-    if (blockIdx.x == 0 && threadIdx.x == 0) counters[1 - turn] = 0;
+    nearBegin = memory.nearFirst[this->rank];
+    nearEnd = memory.nearFirst[this->rank + 1];
+    // the counter of the next launch; and behind the first sync() there is nothing of the last one
+    if (this->thread == 0) {
+      if (this->rank == 0) memory.arrived[1 - memory.turn] = 0;
+      memory.announced[this->rank] = 0;
+      for (int list = 0; list < 2; ++list)
+        reinterpret_cast<double2*>(memory.sums)[list * this->ranks + this->rank] = make_double2(0, 0);
+    }
   }
   // what the block has written is seen behind the addition, what others have behind the last look at it
   __device__ void sync() const {
     __syncthreads();
     if (threadIdx.x == 0) {
+      unsigned long long* const arrived = memory.arrived + memory.turn;
       waited += gridDim.x;
       asm volatile("red.release.gpu.global.add.u64 [%0], 1;" ::"l"(arrived) : "memory");
       unsigned long long now = 0;
@@ -201,31 +240,101 @@ struct GridTeam : DeviceTeam<Lanes, KeptEntries> {
     const double2 two = __ldcg(reinterpret_cast<double2 const*>(from));
     to[0] = two.x, to[1] = two.y, to[2] = __ldcg(from + 2);
   }
+  __device__ void announce() const {
+    ++this->round;
+    if (this->thread < rowThreads()) {
+      arrive(rowsPublished);
+    } else if (this->thread < rowThreads() + 32) {
+      await(rowsPublished);
+      if (this->thread % 32 == 0)
+        asm volatile("st.release.gpu.global.u32 [%0], %1;" ::"l"(memory.announced + this->rank),
+                     "r"(this->round)
+                     : "memory");
+      for (int first = nearBegin; first < nearEnd; first += 32) {
+        const int k = first + this->thread % 32;
+        unsigned const* const other = memory.announced + memory.near[k < nearEnd ? k : first];
+        unsigned now = 0;
+        while (!__all_sync(0xffffffffu, now >= this->round))
+          asm volatile("ld.acquire.gpu.global.u32 %0, [%1];" : "=r"(now) : "l"(other) : "memory");
+      }
+    }
+  }
+  __device__ void awaitRows() const {
+    if (this->thread < rowThreads() + 32) await(rowsAround);
+  }
   template <class Real>
-  __device__ void giveSums(Real const (&value)[2], double* room, double* sums) const {
-    const double2 own = this->blockSums(value, room);
-    if (this->thread == 0) reinterpret_cast<double2*>(sums)[this->rank] = own;
+  __device__ void give(Real const (&value)[2], double* room) const {
+    if (this->thread >= rowThreads()) return;
+    this->giveOfWarp(value, room);
+    arrive(sumsGiven);
   }
-  // by the last warp, which has no rows: were it all of them, they would wait for each other at a few
-  // addresses
-  __device__ void fetchSums(double const* sums, double* total) const {
-    if (this->thread < this->threads - 32) return;
-    double a = 0, b = 0;
-    for (int k = this->thread % 32; k < this->ranks; k += 32) {
-      const double2 one = __ldcg(reinterpret_cast<double2 const*>(sums) + k);
-      a += one.x;
-      b += one.y;
+  __device__ void fetchSums(double* room) const {
+    if (this->thread < rowThreads() + 32) return;
+    await(sumsGiven);
+    const int lane = this->thread % 32;
+    double2 own = make_double2(0, 0), all = own;
+    if (lane < rowThreads() / 32) own = this->pair(room + room_of_lists, lane);
+    own = sumOfWarp(own);
+    double* const list = memory.sums + this->round % 2 * (2 * std::ptrdiff_t(this->ranks));
+    if (lane == 0)
+      asm volatile("st.relaxed.gpu.global.v2.f64 [%0], {%1, %2};" ::"l"(list + 2 * this->rank),
+                   "d"(marked(own.x)),
+                   "d"(marked(own.y))
+                   : "memory");
+    constexpr int together = 5;
+    for (int first = lane; first - lane < this->ranks; first += 32 * together) {
+      double2 one[together];
+      long long others = 1;
+      while (!__all_sync(0xffffffffu, others == 0)) {
+        for (int k = 0; k < together; ++k)
+          look(list + 2 * (first + 32 * k < this->ranks ? first + 32 * k : this->rank), one[k]);
+        others = 0;
+        for (int k = 0; k < together; ++k)
+          others |= (lastBit(one[k].x) ^ mark()) | (lastBit(one[k].y) ^ mark());
+      }
+      for (int k = 0; k < together; ++k)
+        if (first + 32 * k < this->ranks) all.x += one[k].x, all.y += one[k].y;
     }
-    for (int offset = 16; offset > 0; offset /= 2) {
-      a += __shfl_xor_sync(0xffffffffu, a, offset);
-      b += __shfl_xor_sync(0xffffffffu, b, offset);
-    }
-    if (this->thread % 32 == 0) *reinterpret_cast<double2*>(total) = make_double2(a, b);
+    all = sumOfWarp(all);
+    if (lane == 0) reinterpret_cast<double2*>(room)[this->round % 2] = all;
   }
-  __device__ void takeSums(double const*, double const* sum, double (&total)[2]) const {
+  __device__ void takeSums(double const* room, double (&total)[2]) const {
     __syncthreads();
-    total[0] = sum[0];
-    total[1] = sum[1];
+    const double2 all = this->pair(room, int(this->round % 2));
+    total[0] = all.x;
+    total[1] = all.y;
+  }
+
+ private:
+  // barriers of the block besides that of __syncthreads, of the threads with rows and one of the two warps
+  enum Barrier { rowsPublished = 1, sumsGiven, rowsAround };
+  __device__ int rowThreads() const { return this->threads - helpers; }
+  __device__ void arrive(Barrier barrier) const {
+    __syncwarp();
+    asm volatile("barrier.cta.arrive %0, %1;" ::"r"(int(barrier)), "r"(rowThreads() + 32) : "memory");
+  }
+  __device__ void await(Barrier barrier) const {
+    __syncwarp();
+    asm volatile("barrier.cta.sync %0, %1;" ::"r"(int(barrier)), "r"(rowThreads() + 32) : "memory");
+  }
+  static __device__ double2 sumOfWarp(double2 value) {
+    for (int offset = 16; offset > 0; offset /= 2) {
+      value.x += __shfl_xor_sync(0xffffffffu, value.x, offset);
+      value.y += __shfl_xor_sync(0xffffffffu, value.y, offset);
+    }
+    return value;
+  }
+  // the last bit of sums that are given in this round; of those that stand in their place it is the other
+  __device__ long long mark() const { return (this->round + 1) / 2 % 2; }
+  static __device__ long long lastBit(double value) { return __double_as_longlong(value) & 1; }
+  __device__ double marked(double value) const {
+    return __longlong_as_double((__double_as_longlong(value) & ~1ll) | mark());
+  }
+  static __device__ void look(double const* from, double2& value) {
+    asm volatile("ld.relaxed.gpu.global.v2.f64 {%0, %1}, [%2];"
+                 : "=d"(value.x), "=d"(value.y)
+                 : "l"(from)
+                 : "memory");
   }
 };
 #endif
