@@ -80,7 +80,7 @@ struct FusedOf<ElementDriver<LawOf, D, W>> {
 
 /// Copies of a typed scene whose whole step is one kernel of the GPU, made by the compiler from the scene:
 /// the matrix and the vectors of a copy stay in the registers and the shared memory of one block, of a
-/// cluster of up to 16, or, of a single copy, of all blocks of the GPU; nothing is launched or waited for
+/// cluster of up to 16, or, of a single copy, of blocks all over the GPU; nothing is launched or waited for
 /// within a step. Several steps may be made at once. All copies have the elements of the scene; state,
 /// masses, materials and gravity are their own (load).
 ///
@@ -253,7 +253,7 @@ class FusedSimulation {
   int copies() const { return copies_; }
   double time() const { return time_; }
   long step() const { return step_; }
-  /// How a copy runs: by all blocks of a launch, or those of a cluster; threads of a block, threads a row,
+  /// How a copy runs: by the blocks of a launch, or those of a cluster; threads of a block, threads a row,
   /// bytes of shared memory a block.
   struct Shape {
     bool grid = false;

@@ -5,19 +5,16 @@
 #include <sinew/gpu/element_kernels.hpp>
 #include <sinew/gpu/fused/team.hpp>
 
-#include <algorithm>
 #include <cstdint>
 #include <tuple>
 #include <utility>
 
 namespace sinew::gpu {
 
-/// The elements of one force field in a fused step. Elements of one point add
-/// to diagonal blocks. For those of more points the diagonal follows from the
-/// others, since moving an element as a whole costs nothing: block(i, i) = -
-/// sum_j block(i, j). Of elements of one or two points each row finds the force
-/// and the tangent by itself, twice where there are two; of others they are
-/// found once, and blocks wait for them.
+/// The elements of one force field in a fused step. Elements of one point add to diagonal blocks. For those
+/// of more points the diagonal follows from the others, since moving an element as a whole costs nothing:
+/// block(i, i) = - sum_j block(i, j). Of elements of one or two points each row finds the force and the
+/// tangent by itself, twice where there are two; of others they are found once, and blocks wait for them.
 template <template <class> class LawOf, class D>
 struct FusedElements {
   using Law = LawOf<D>;
@@ -33,12 +30,10 @@ struct FusedElements {
   typename D::Deriv* part;  // force on point k of element e at k count + e
   int nodes;                // that elements have, and the parts for each
   int const *partFirst, *partEntry;
-  int const *entryFirst,
-      *entryCode;  // for each entry of the matrix (BlockOfElement)
+  int const *entryFirst, *entryCode;  // for each entry of the matrix (BlockOfElement)
 };
 
-/// A body of points on the device that implicit Euler moves, with a matrix in
-/// the shared memory of a cluster.
+/// A body of points on the device that implicit Euler moves, with a matrix in the shared memory of a cluster.
 template <class D, class... Elements>
 struct FusedBody {
   using Real = typename D::Real;
@@ -47,15 +42,13 @@ struct FusedBody {
   static constexpr bool symmetric = (Elements::symmetricBlocks && ...);
   static constexpr bool byRows = (Elements::byRows && ...);
   /// Entries of a row that a thread keeps in registers, at most: it multiplies as many also where there are
-  /// fewer. Of about 15 in a mesh of tetrahedra and 27 in one of hexahedra it has the fourth or the eighth
-  /// part.
-  static constexpr int keptEntries = std::max({Elements::arity...}) > 4 ? 7 : 5;
+  /// fewer. Of a mesh of tetrahedra a row has about 15, for four or eight threads.
+  static constexpr int keptEntries = 5;
   static constexpr int components = symmetric ? 6 : 9;
 
   std::tuple<Elements...> fields;
   // the plan
-  int rows, widest, entriesOfWidest,
-      longestVector;  // entriesOfWidest: in shared memory
+  int rows, widest, entriesOfWidest, longestVector;  // entriesOfWidest: in shared memory
   int const *order, *rowBegin, *entryFirst, *sharedFirst, *sendFirst;
   unsigned const* sends;
   std::uint16_t const* column;  // place in the vectors of a rank
@@ -66,13 +59,10 @@ struct FusedBody {
   Real const* mass;
   int const* held;  // bit c: component c of the node is held
   Deriv const* gravity;
-  Real* vectors;  // two of all rows, for teams that exchange them in the memory
-                  // of the GPU
-  int* wrong;     // step at which a position was no longer finite, from 1; 0 when
-                  // all are
+  Real* vectors;  // two of all rows, for teams that exchange them in the memory of the GPU
+  int* wrong;     // step at which a position was no longer finite, from 1; 0 when all are
 
-  Real h, rayleighStiffness, rayleighMass,
-      keptSpeed;  // keptSpeed = exp(-h vdamping)
+  Real h, rayleighStiffness, rayleighMass, keptSpeed;  // keptSpeed = exp(-h vdamping)
   int iterations, steps;
   double tolerance2, threshold;
 
@@ -85,8 +75,7 @@ struct FusedBody {
   }
 };
 
-/// to += the block, or its transpose; six components are xx xy xz yy yz zz of a
-/// symmetric one.
+/// to += the block, or its transpose; six components are xx xy xz yy yz zz of a symmetric one.
 template <int Components, class Real, class Block>
 SINEW_INLINE void add(Real (&to)[Components], Block const& block, bool transposed) {
   if constexpr (Components == 6) {
@@ -100,35 +89,30 @@ SINEW_INLINE void add(Real (&to)[Components], Block const& block, bool transpose
 }
 
 /// Steps of one copy of a body by one team:
-///   A dv = b,  A = (1 + h rM) M - h B - h (h + rK) K,  b = h (f - rM M v + (h
-///   + rK) K v)
-/// as EulerImplicitSolver has them, solved by pipelined conjugate gradients
-/// (Ghysels, Vanroose 2014): the sums of an iteration and the values of other
-/// blocks for its product are exchanged together, so that blocks wait for each
-/// other once an iteration.
+///   A dv = b,  A = (1 + h rM) M - h B - h (h + rK) K,  b = h (f - rM M v + (h + rK) K v)
+/// as EulerImplicitSolver has them, solved by pipelined conjugate gradients (Ghysels, Vanroose 2014): the
+/// sums of an iteration and the values of other blocks for its product are exchanged together, so that blocks
+/// wait for each other once an iteration.
 template <class Team, class Body>
 SINEW_HD void fused_steps(Team const& team, Body const& body, unsigned char* shared) {
   const int copy = team.copy;
   using Real = typename Body::Real;
   using Deriv = typename Body::Deriv;
   constexpr int components = Body::components, lanes = Team::lanes, kept = Team::keptEntries;
-  // what a thread has of a row; all but the blocks that it keeps is for the
-  // first of a row's threads
+  // what a thread has of a row; all but the blocks that it keeps is for the first of a row's threads
   struct Own {
     Real block[kept > 0 ? kept : 1][components];
     int place[kept > 0 ? kept : 1];
     Real p[3], s[3], z[3], w[3], n[3], dv[3], r[3];
     Real mass;
     int held, node;
-    int used;      // of the blocks kept
-    int from, to;  // entries in shared memory
-    int sendFrom,
-        sendTo;  // who else has the row in its border; the first of them:
+    int used;              // of the blocks kept
+    int from, to;          // entries in shared memory
+    int sendFrom, sendTo;  // who else has the row in its border; the first of them:
     unsigned send[2];
   };
 
-  // shared memory; a row's entries that its threads do not keep in registers
-  // are in `values`
+  // shared memory; a row's entries that its threads do not keep in registers are in `values`
   double* const room = reinterpret_cast<double*>(shared);
   Real* const values = reinterpret_cast<Real*>(room + room_for_sums);  // component c of entry e at c size + e
   const int size = body.entriesOfWidest;
@@ -194,8 +178,7 @@ SINEW_HD void fused_steps(Team const& team, Body const& body, unsigned char* sha
       for (int k = o.sendFrom + 2; k < o.sendTo; ++k) send(body.sends[k]);
     }
   };
-  // product = A times the vector that was published last; for the first of a
-  // row's threads
+  // product = A times the vector that was published last; for the first of a row's threads
   auto multiply = [&](Own const& o, Real(&product)[3]) {
     Real const* const vec = vector();
     for (int c = 0; c < 3; ++c) product[c] = 0;
@@ -209,22 +192,15 @@ SINEW_HD void fused_steps(Team const& team, Body const& body, unsigned char* sha
         for (int i = 0; i < 3; ++i) product[i] += a(3 * i) * x[0] + a(3 * i + 1) * x[1] + a(3 * i + 2) * x[2];
       }
     };
-    // several are loaded before the first is used
-    constexpr int further = 3;
-    Real x[kept + further][3] = {};
-    auto loadFurther = [&](int first) {
-      for (int k = 0; k < further; ++k)
-        if (first + k * lanes < o.to) team.load(vec + Team::stride * column[first + k * lanes], x[kept + k]);
-    };
+    // all that a thread keeps are loaded before the first is used
+    Real x[kept > 0 ? kept : 1][3] = {};
     for (int k = 0; k < kept; ++k)
       if (k < o.used) team.load(vec + Team::stride * o.place[k], x[k]);
-    loadFurther(o.from);
     for (int k = 0; k < kept; ++k) addEntry([&](int c) { return o.block[k][c]; }, x[k]);
-    for (int first = o.from; first < o.to; first += further * lanes) {
-      if (first > o.from) loadFurther(first);
-      for (int k = 0; k < further; ++k)
-        if (first + k * lanes < o.to)
-          addEntry([&](int c) { return values[c * size + first + k * lanes]; }, x[kept + k]);
+    for (int e = o.from; e < o.to; e += lanes) {
+      Real y[3];
+      team.load(vec + Team::stride * column[e], y);
+      addEntry([&](int c) { return values[c * size + e]; }, y);
     }
     for (int c = 0; c < 3; ++c) {
       product[c] = team.rowSum(product[c]);
@@ -280,8 +256,7 @@ SINEW_HD void fused_steps(Team const& team, Body const& body, unsigned char* sha
         }
       };
       std::apply([&](auto const&... field) { (sumParts(field), ...); }, body.fields);
-      // block = the entry e of the matrix, without the mass; what the diagonal
-      // gets from it
+      // block = the entry e of the matrix, without the mass; what the diagonal gets from it
       auto entry = [&](int e, Real(&block)[components]) {
         for (int c = 0; c < components; ++c) block[c] = 0;
         if (e >= end) return;

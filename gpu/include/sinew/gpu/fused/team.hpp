@@ -293,7 +293,7 @@ struct GridTeam : DeviceTeam<Lanes, KeptEntries> {
           others |= (lastBit(one[k].x) ^ mark()) | (lastBit(one[k].y) ^ mark());
       }
       for (int k = 0; k < together; ++k)
-        if (first + 32 * k < this->ranks) all.x += one[k].x, all.y += one[k].y;
+        if (first + 32 * k < this->ranks) all.x += unmarked(one[k].x), all.y += unmarked(one[k].y);
     }
     all = sumOfWarp(all);
     if (lane == 0) reinterpret_cast<double2*>(room)[this->round % 2] = all;
@@ -324,11 +324,15 @@ struct GridTeam : DeviceTeam<Lanes, KeptEntries> {
     }
     return value;
   }
-  // the last bit of sums that are given in this round; of those that stand in their place it is the other
+  // the last bit of sums that are given in this round; of those that stand in their place it is the other.
+  // Who has them takes it away: a sum does not depend on the number of its round.
   __device__ long long mark() const { return (this->round + 1) / 2 % 2; }
   static __device__ long long lastBit(double value) { return __double_as_longlong(value) & 1; }
+  static __device__ double unmarked(double value) {
+    return __longlong_as_double(__double_as_longlong(value) & ~1ll);
+  }
   __device__ double marked(double value) const {
-    return __longlong_as_double((__double_as_longlong(value) & ~1ll) | mark());
+    return __longlong_as_double(__double_as_longlong(unmarked(value)) | mark());
   }
   static __device__ void look(double const* from, double2& value) {
     asm volatile("ld.relaxed.gpu.global.v2.f64 {%0, %1}, [%2];"
