@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSL-1.0
 """What limits the scenes of `scenes` on a GPU, by NVIDIA's profiler: profile.py PROGRAM [SCENE...], where PROGRAM is
-gpu_scenes and a SCENE is what that takes, in quotes, such as 'grid 24 13 15'. For each form of each scene one step is looked at, kernel by kernel. Printed are, of each kernel:
+gpu_scenes and a SCENE is what that takes, in quotes, such as 'grid 24 13 15'. For each form of each scene one step is
+looked at, kernel by kernel (of a fused one ten, which are one kernel). Printed are, of each kernel:
 
   launches   in a step
   us         of all of them, each alone on the GPU (so without the gaps between them), and their share of the sum
@@ -72,8 +73,9 @@ def bytes_of(value, unit):
 
 def kernels_of(profiler, program, scene, form):
     """The kernels of one step, in their order: name, and its metrics."""
-    command = [profiler, "--csv", "--page", "raw", "--clock-control", "none", "--profile-from-start", "off", "--metrics",
-               ",".join(METRICS), program, *scene.split(), "--no-host", "--profile", form]
+    command = [profiler, "--csv", "--page", "raw", "--clock-control", "none", "--cache-control", "none",
+               "--profile-from-start", "off", "--metrics", ",".join(METRICS),
+               program, *scene.split(), "--no-host", "--profile", form]
     try:
         done = subprocess.run(command, capture_output=True, text=True)
     except FileNotFoundError as error:
@@ -122,7 +124,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("program", help="gpu_scenes")
     parser.add_argument("scenes", nargs="*", metavar="SCENE", help="what gpu_scenes takes, in quotes")
-    parser.add_argument("--forms", default="plain assembled fused", help="of these scenes, some of plain assembled fused")
+    parser.add_argument("--forms", default="plain assembled fused", help="some of plain assembled fused, in quotes")
     parser.add_argument("--ncu", default="ncu", help="NVIDIA's profiler")
     options = parser.parse_args()
     for scene, forms in [(scene, options.forms) for scene in options.scenes] or SCENES:
