@@ -363,35 +363,52 @@ void batch(Mesh const& mesh, Options const& o) {
   }
 }
 
-// of a file, or a cube of so many cells
+int number(std::string const& word, int least) {
+  char* end = nullptr;
+  const long value = std::strtol(word.c_str(), &end, 10);
+  if (word.empty() || *end || value < least || value > 1000000000)
+    throw Error("arguments", text("'", word, "' is not a whole number of at least ", least));
+  return int(value);
+}
+// of a file, or a cube of so many cells; its points 3, 39 and 64 are held
 Mesh mesh_of(std::string const& word) {
-  const bool number = word.find_first_not_of("0123456789") == std::string::npos;
-  return number ? block(std::atoi(word.c_str())) : io::read_gmsh(word);
+  const bool cells = word.find_first_not_of("0123456789") == std::string::npos;
+  return cells ? block(number(word, 4)) : io::read_gmsh(word);
 }
 
 template <class H>
 void run(std::vector<std::string> const& words, Options o) {
-  auto number = [&](std::size_t i) { return std::atoi(words.at(i).c_str()); };
-  if (words.at(0) == "grid") {
-    const std::array<int, 3> n{number(1), number(2), number(3)};
+  std::string const& scene = words[0];
+  auto has = [&](char const* name, std::size_t arguments) {
+    if (scene != name) return false;
+    if (words.size() != arguments + 1)
+      throw Error("arguments", text(scene, " is followed by ", arguments, " of them"));
+    return true;
+  };
+  const std::string file = words.back().substr(words.back().find_last_of('/') + 1);
+  o.scene = scene;
+  if (has("grid", 3)) {
+    const std::array<int, 3> n{number(words[1], 2), number(words[2], 2), number(words[3], 2)};
     o.scene = text("grid ", n[0], "x", n[1], "x", n[2]);
     measure<H>([&]<class D>(auto linear) { return spring_grid<D>(n, linear); }, spring_flops(), o);
-  } else if (words.at(0) == "hexahedra") {
-    o.scene = "hexahedra";
-    measure<H>([&]<class D>(auto linear) { return hexahedra<D>(number(1), linear); }, hexahedron_flops(), o);
-  } else if (words.at(0) == "hyperelastic") {
-    o.scene = "hyperelastic";
-    measure<H>([&]<class D>(auto linear) { return hyperelastic<D>(block(number(1)), linear); },
-               hyperelastic_flops(),
-               o);
-  } else if (words.at(0) == "batch") {
-    o.scene = words.at(1).substr(words.at(1).find_last_of('/') + 1);
-    o.copies = number(2);
-    batch<H>(mesh_of(words.at(1)), o);
-  } else {
-    const Mesh mesh = mesh_of(words.at(1));
-    o.scene = words.at(0) == "fem" ? words.at(1).substr(words.at(1).find_last_of('/') + 1) : "block";
+  } else if (has("hexahedra", 1)) {
+    const int n = number(words[1], 1);
+    measure<H>([&]<class D>(auto linear) { return hexahedra<D>(n, linear); }, hexahedron_flops(), o);
+  } else if (has("hyperelastic", 1)) {
+    const Mesh mesh = block(number(words[1], 1));
+    measure<H>([&]<class D>(auto linear) { return hyperelastic<D>(mesh, linear); }, hyperelastic_flops(), o);
+  } else if (has("batch", 2)) {
+    o.scene = words[1].substr(words[1].find_last_of('/') + 1);
+    o.copies = number(words[2], 1);
+    batch<H>(mesh_of(words[1]), o);
+  } else if (has("fem", 1) || has("block", 1)) {
+    const Mesh mesh = scene == "fem" ? io::read_gmsh(words[1]) : block(number(words[1], 4));
+    if (scene == "fem") o.scene = file;
     measure<H>([&]<class D>(auto linear) { return body<D>(mesh, linear); }, tetrahedron_flops(), o);
+  } else {
+    throw Error(
+        "arguments",
+        text("there is no scene '", scene, "', but grid, fem, block, hexahedra, hyperelastic and batch"));
   }
 }
 
@@ -399,19 +416,20 @@ void run(std::vector<std::string> const& words, Options o) {
 
 int main(int argc, char** argv) try {
   std::vector<std::string> words;
-  bool inDouble = false;
+  bool inDouble = false, understood = true;
   Options o;
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
+    const bool more = i + 1 < argc;
     if (word == "--double")
       inDouble = true;
-    else if (word == "--steps" && i + 1 < argc)
-      o.steps = std::atoi(argv[++i]);
-    else if (word == "--iterations" && i + 1 < argc)
-      o.iterations = std::atoi(argv[++i]);
-    else if (word == "--blocks" && i + 1 < argc)
-      o.blocks.push_back(std::atoi(argv[++i]));
-    else if (word == "--profile" && i + 1 < argc)
+    else if (word == "--steps" && more)
+      o.steps = number(argv[++i], 1);
+    else if (word == "--iterations" && more)
+      o.iterations = number(argv[++i], 2);
+    else if (word == "--blocks" && more)
+      o.blocks.push_back(number(argv[++i], 0));
+    else if (word == "--profile" && more)
       o.profile = argv[++i];
     else if (word == "--no-plain")
       o.plain = false;
@@ -419,11 +437,15 @@ int main(int argc, char** argv) try {
       o.fused = false;
     else if (word == "--no-host")
       o.host = false;
+    else if (word.starts_with("--"))
+      understood = false;
     else
       words.push_back(word);
   }
   if (o.blocks.empty()) o.blocks = {0, 4, 16, 1000};
-  if (words.size() < 2) {
+  const bool form =
+      o.profile.empty() || o.profile == "plain" || o.profile == "assembled" || o.profile == "fused";
+  if (words.empty() || !understood || !form) {
     std::fprintf(
         stderr,
         "usage: scenes grid NX NY NZ | fem FILE.msh | block CELLS | hexahedra CELLS | hyperelastic CELLS | "
