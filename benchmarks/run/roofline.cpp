@@ -71,16 +71,6 @@ struct Loop {
   std::vector<double> times{}, bandwidths{};
 };
 
-/// Of one tetrahedron.
-LawFlops tetrahedron_flops() {
-  using D = VecTypes<3, Counted>;
-  using Law = TetrahedronFEM<D>;
-  const D::Coord x[4] = {{0, 0, 0}, {1.1, 0.1, 0}, {0, 1, 0.2}, {0.1, 0, 0.9}};
-  const D::Coord rest[4] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  const Law law{RotationMethod::gradient};
-  return law_flops(law, Law::restOf(rest, Counted(1), Counted(1), law.method), x);
-}
-
 template <class T>
 double bytes_of(std::vector<T> const& list) {
   return double(list.size() * sizeof(T));

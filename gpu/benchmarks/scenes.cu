@@ -12,7 +12,6 @@
 // --profile nothing is measured: one step of that form (ten of a fused one, in one launch) is made for a
 // profiler to look at; profile.py calls it.
 #include "ceilings.hpp"
-#include "work.hpp"
 
 #include <sinew/force/hexahedron_fem.hpp>
 #include <sinew/force/tetrahedron_hyperelasticity.hpp>
@@ -22,6 +21,7 @@
 #include <sinew/solver/pcg_linear_solver.hpp>
 #include <sinew/topology/mesh_topology.hpp>
 
+#include "../../benchmarks/run/law_flops.hpp"
 #include "../../benchmarks/run/scenes.hpp"
 
 #include <cuda_profiler_api.h>
@@ -157,18 +157,18 @@ struct Options {
   std::string scene{};
   int steps = 200, iterations = 25;
   bool host = true, plain = true, fused = true;
-  // of a fused step, in turn; 0 is what it chooses, beyond 16 are all of a launch
+  // of a fused step, in turn; 0 is what it chooses, more than 16 are those of a launch
   std::vector<int> blocks{};
   int copies = 0;
   std::string profile{};
 };
 
 /// What a profiler that is told not to start by itself looks at.
-template <class Work>
-void watched(Work&& work) {
+template <class Steps>
+void watched(Steps&& steps) {
   gpu::wait();
   gpu::check(cudaProfilerStart(), "--profile");
-  work();
+  steps();
   gpu::wait();
   gpu::check(cudaProfilerStop(), "--profile");
 }
