@@ -119,6 +119,7 @@ struct ClusterTeam : DeviceTeam<Lanes, KeptEntries> {
     this->rank = int(cluster.block_rank());
     this->ranks = int(cluster.num_blocks());
     this->copy = int(blockIdx.x) / this->ranks;
+    sync();  // a block that has not begun has no shared memory to write to
   }
   __device__ void sync() const {
     if (this->ranks > 1)
