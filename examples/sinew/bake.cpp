@@ -2,7 +2,7 @@
 #include "scene.hpp"
 
 #include <sinew/io/output_file.hpp>
-#include <sinew/runtime/bake.hpp>
+#include <sinew/runtime/scene_files.hpp>
 
 namespace cli {
 
@@ -12,9 +12,10 @@ int bake(BakeOptions const& options) {
   print_notes(scene.ignored, scene.warnings);
   std::string header;
   try {
-    header = sinew::bake_scene(options.scene.path,
-                               {options.scene.data, options.scene.lenient, options.scene.set},
-                               {.embed = options.embed, .name = options.name});
+    header =
+        sinew::bake_scene<sinew::Standard>(options.scene.path,
+                                           {options.scene.data, options.scene.lenient, options.scene.set},
+                                           {.embed = options.embed, .name = options.name});
   } catch (sinew::Error const& error) {
     throw Failure{badScene, {located(options.scene.path, error.what())}};
   }

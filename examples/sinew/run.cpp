@@ -6,7 +6,6 @@
 
 #include <sinew/io/output_file.hpp>
 #include <sinew/runtime/record.hpp>
-#include <sinew/runtime/save_scene.hpp>
 #include <sinew/scene/profile_report.hpp>
 
 #include <cmath>

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "scene.hpp"
 
-#include <sinew/runtime/save_scene.hpp>
-
 #include <csignal>
 
 namespace cli {

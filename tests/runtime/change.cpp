@@ -2,8 +2,6 @@
 // Runtime trees that change while they run.
 #include "same_bits.hpp"
 
-#include <sinew/runtime/save_scene.hpp>
-
 namespace test_change {
 
 using namespace sinew;

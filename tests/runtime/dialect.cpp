@@ -4,6 +4,7 @@
 #include "io/files.hpp"
 
 #include <sinew/runtime/precompiled.hpp>
+#include <sinew/runtime/read_scene.hpp>
 
 namespace test_dialect {
 

@@ -2,8 +2,6 @@
 #include "io/files.hpp"
 #include "same_bits.hpp"
 
-#include <sinew/runtime/save_scene.hpp>
-
 namespace test_read_scene {
 
 using namespace sinew;

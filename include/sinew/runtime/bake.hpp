@@ -14,13 +14,6 @@
 
 namespace sinew {
 
-struct BakeOptions {
-  bool embed = false;                   // all data stands in the text; no file is read at run time
-  std::string name = "scene";           // of the function
-  std::string data{};                   // default folder of data files; that of the scene file when empty
-  std::vector<std::string> includes{};  // headers of components that sinew.hpp has not
-};
-
 namespace detail {
 
 /// What C++ text needs of the type of a field.
@@ -541,18 +534,9 @@ class Baker {
 
 }  // namespace detail
 
-/// The C++ of a scene that was read from a path: a header with a function that returns it as a typed scene,
-/// which gives the same results bit by bit. Throws Error where no typed scene says the same.
 template <class R>
-std::string bake_text(ReadScene<R> scene, std::string const& path, BakeOptions const& options = {}) {
+std::string bake_text(ReadScene<R> scene, std::string const& path, BakeOptions const& options) {
   return detail::Baker<R>(scene, path, options).write();
-}
-
-/// The same of a scene file, in SOFA's XML dialect, of the classes of the registry R. Throws Error.
-template <class R = Standard>
-std::string bake_scene(std::string const& path, ReadSceneOptions const& read = {},
-                       BakeOptions const& options = {}) {
-  return bake_text<R>(read_scene<R>(path, read), path, options);
 }
 
 }  // namespace sinew

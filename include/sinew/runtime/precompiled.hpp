@@ -2,12 +2,11 @@
 #pragma once
 
 // Runtime scenes of the standard registry, instantiated once in the library sinew::standard of the CMake
-// project, so that a program which links it compiles in seconds. Without it, include
-// sinew/runtime/runtime.hpp.
-#include <sinew/runtime/bake.hpp>
-#include <sinew/runtime/read_scene.hpp>
+// project, so that a program which links it compiles in seconds. Without it, and for another registry,
+// include sinew/runtime/runtime.hpp and, as needed, read_scene.hpp, save_scene.hpp and bake.hpp.
+#include <sinew/runtime/class_table.hpp>
 #include <sinew/runtime/runtime.hpp>
-#include <sinew/runtime/save_scene.hpp>
+#include <sinew/runtime/scene_files.hpp>
 
 namespace sinew {
 

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <sinew/io/output_file.hpp>
 #include <sinew/runtime/class_table.hpp>
-#include <sinew/runtime/node.hpp>
 #include <sinew/runtime/read_scene.hpp>
-#include <sinew/scene/simulation.hpp>
+#include <sinew/runtime/scene_files.hpp>
 
 #include <pugixml.hpp>
 #include <sstream>
@@ -121,24 +119,9 @@ class SceneWriter {
 
 }  // namespace detail
 
-/// The scene as XML: positions and velocities as they are, time and step, and in the place of loaders and
-/// selections the data that they made. A checkpoint: read_scene() and start() go on from it bit by bit.
 template <class R>
 std::string scene_text(Simulation<RuntimeNode<R>>& simulation, double dt) {
   return detail::SceneWriter<R>().write(simulation.root(), dt, simulation.time(), simulation.step());
-}
-/// Writes that to a file, whole or not at all. Throws Error.
-template <class R>
-void save_scene(Simulation<RuntimeNode<R>>& simulation, double dt, std::string const& path) {
-  io::write_file(path, scene_text(simulation, dt));
-}
-
-/// An initialised simulation of a scene that was read, at the time at which it was saved. Throws Error.
-template <class R>
-Simulation<RuntimeNode<R>> start(ReadScene<R> scene) {
-  Simulation<RuntimeNode<R>> simulation(std::move(scene.root));
-  simulation.init(scene.time, scene.step);
-  return simulation;
 }
 
 }  // namespace sinew

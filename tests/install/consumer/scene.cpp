@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <sinew/runtime/precompiled.hpp>
-#include <sinew/runtime/save_scene.hpp>
 
 #include <cmath>
 
