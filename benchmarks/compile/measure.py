@@ -14,6 +14,7 @@ import tempfile
 root = pathlib.Path(__file__).resolve().parents[2]
 layers = ["core", "topology", "linalg", "state", "force", "mass", "constraint", "mapping", "collision", "solver", "io",
           "engine", "control", "visual", "scene", "runtime"]
+COMPILED = "#define SINEW_COMPILED\n"
 optional = {"cholmod_solver.hpp", "convex.hpp", "hull_contacts.hpp", "convex_collision_model.hpp"}  # need a package
 
 
@@ -40,8 +41,19 @@ def components(n):
                    [("StiffSpringForceField<Vec3d>{}", "ConstantForceField<Vec3d>{}")[i % 2] for i in range(n)])
 
 
+def readme():
+    page = (root / "README.md").read_text()
+    return page.split("```cpp\n")[1].split("```")[0]
+
+
 def subjects():
+    """Names and sources; those with COMPILED see sinew::compiled."""
     yield "sinew.hpp alone", "#include <sinew/sinew.hpp>\n"
+    yield "sinew.hpp, sinew::compiled", COMPILED + "#include <sinew/sinew.hpp>\n"
+    for part in ("mechanics", "contact", "engines", "control"):
+        yield f"{part}.hpp alone", f"#include <sinew/{part}.hpp>\n"
+    yield "README.md", readme()
+    yield "README.md, sinew::compiled", COMPILED + readme()
     for name in layers:
         yield f"layer {name}", layer(name)
     for n in (1, 4, 16, 64):

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
+#include "picture.hpp"
 #include "scene.hpp"
 
 #include "support/progress.hpp"
@@ -43,7 +44,11 @@ int main(int argc, char** argv) try {
               stepping.seconds(),
               double(steps) / stepping.seconds(),
               double(steps) * options.dt / stepping.seconds());
-  if (series) std::printf("open %s.pvd in ParaView\n", options.output.c_str());
+  if (series) {
+    const std::string file = options.output + ".svg";
+    examples::write_picture(body.skin, sim.at<"liver/skin">().visual().current(), sim.time(), file);
+    std::printf("open %s in a browser, and %s.pvd in ParaView\n", file.c_str(), options.output.c_str());
+  }
   return 0;
 } catch (sinew::Error const& error) {
   std::fprintf(stderr, "liver: %s\n", error.what());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <sinew/sinew.hpp>
+#include <sinew/mechanics.hpp>
 
 #include "options.hpp"
 

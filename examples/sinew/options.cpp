@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "options.hpp"
 
+#include <sinew/version.hpp>
+
 #include <CLI/CLI.hpp>
 
 #include <cmath>

@@ -8,6 +8,8 @@
 #include <sinew/runtime/record.hpp>
 #include <sinew/scene/profile_report.hpp>
 
+#include <sys/stat.h>
+
 #include <cmath>
 #include <cstdio>
 #include <optional>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "eye.hpp"
 
+#include <sinew/io/output_file.hpp>
 #include <sinew/io/write_obj.hpp>
 
 #include <cmath>

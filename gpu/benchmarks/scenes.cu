@@ -385,7 +385,7 @@ void run(std::vector<std::string> const& words, Options o) {
       throw Error("arguments", text(scene, " is followed by ", arguments, " of them"));
     return true;
   };
-  const std::string file = words.back().substr(words.back().find_last_of('/') + 1);
+  auto fileName = [&] { return words[1].substr(words[1].find_last_of('/') + 1); };
   o.scene = scene;
   if (has("grid", 3)) {
     const std::array<int, 3> n{number(words[1], 2), number(words[2], 2), number(words[3], 2)};
@@ -398,12 +398,12 @@ void run(std::vector<std::string> const& words, Options o) {
     const Mesh mesh = block(number(words[1], 1));
     measure<H>([&]<class D>(auto linear) { return hyperelastic<D>(mesh, linear); }, hyperelastic_flops(), o);
   } else if (has("batch", 2)) {
-    o.scene = words[1].substr(words[1].find_last_of('/') + 1);
+    o.scene = fileName();
     o.copies = number(words[2], 1);
     batch<H>(mesh_of(words[1]), o);
   } else if (has("fem", 1) || has("block", 1)) {
     const Mesh mesh = scene == "fem" ? io::read_gmsh(words[1]) : block(number(words[1], 4));
-    if (scene == "fem") o.scene = file;
+    if (scene == "fem") o.scene = fileName();
     measure<H>([&]<class D>(auto linear) { return body<D>(mesh, linear); }, tetrahedron_flops(), o);
   } else {
     throw Error(

@@ -10,11 +10,11 @@
 
 namespace sinew {
 
-struct Turn {
+struct HullTurn {
   double angle = 0;
   Eigen::Vector3d axis{0, 0, 1};
 };
-inline RigidCoord3<double> rigid_at(Eigen::Vector3d const& center, Turn turn = {}) {
+inline RigidCoord3<double> rigid_at(Eigen::Vector3d const& center, HullTurn turn = {}) {
   RigidCoord3<double> x;
   x.center = center;
   x.orientation = Eigen::Quaterniond(Eigen::AngleAxisd(turn.angle, turn.axis.normalized()));

@@ -3,6 +3,7 @@
 #include <sinew/engine/mesh_subdivision.hpp>
 #include <sinew/topology/quality.hpp>
 #include <sinew/topology/regular_grid.hpp>
+#include <sinew/topology/subdivision.hpp>
 
 #include "catch.hpp"
 #include "topology/mesh_checks.hpp"

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // A grid of 10 x 6 x 8 points and springs, and the string that carries a rigid body.
+#include <sinew/topology/regular_grid_topology.hpp>
+
 #include "scenes.hpp"
 #include "string_on_rigid/scene.hpp"
 

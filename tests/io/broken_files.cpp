@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // Broken files of every format: a reader gives a sound mesh or throws Error, and does nothing else.
 #include <sinew/io/mesh_file.hpp>
+#include <sinew/io/read_vtk.hpp>
 #include <sinew/io/write_vtu.hpp>
 
 #include "files.hpp"

@@ -5,6 +5,7 @@
 #include "files.hpp"
 
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include <csignal>
 

@@ -11,6 +11,7 @@
 #include <sinew/control/hand_device.hpp>
 #include <sinew/control/haptic_loop.hpp>
 #include <sinew/scene/profiled.hpp>
+#include <sinew/sinew.hpp>
 #include <sinew/topology/regular_grid.hpp>
 
 #include <atomic>

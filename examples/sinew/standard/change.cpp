@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
-#include <sinew/runtime/runtime.hpp>
+#include <sinew/runtime/precompiled.hpp>
 
 namespace sinew {
-using StandardSimulation = Simulation<RuntimeNode<Standard>>;
-extern template detail::ComponentOperations const& AnyComponent<Standard>::operations(int);
-extern template void StandardSimulation::initScene(RootScope const&, InitAgain const&);
-extern template void StandardSimulation::propagate();
-template TopologyChange StandardSimulation::removeElements(std::string_view, ElementNumbers const&);
+template TopologyChange Simulation<RuntimeNode<Standard>>::removeElements(std::string_view,
+                                                                          ElementNumbers const&);
+template void Simulation<RuntimeNode<Standard>>::reset();
+template void Simulation<RuntimeNode<Standard>>::finish();
 }  // namespace sinew

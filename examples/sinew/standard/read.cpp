@@ -3,7 +3,6 @@
 #include <sinew/runtime/read_scene.hpp>
 
 namespace sinew {
-template std::vector<ClassInfo> make_class_table<Standard>();
 template ReadScene<Standard> read_scene<Standard>(std::string const&, ReadSceneOptions const&);
 template ReadScene<Standard> parse_scene<Standard>(std::string const&, std::string, ReadSceneOptions const&);
 }  // namespace sinew

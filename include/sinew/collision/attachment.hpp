@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/collision/contact.hpp>
+#include <sinew/core/compiled.hpp>
 
 namespace sinew {
 
@@ -17,18 +18,27 @@ struct Attachment {
       0, 0, 0};       // from the place on the surface to p: from the centre of a particle to its skin
   Contact contact{};  // its side b is the place; it has no side a
 
-  void evaluate(CollisionSurface const& s) {
-    const Eigen::Vector3d p = position_of(contact.b, s) + offset,
-                          rate = rate_of(contact.b, s, s.velocity, s.spin);
-    contact.force = stiffness * (target - p) + damping * (velocity - rate);
-    contact.stiffnessMatrix = Eigen::Vector3d::Constant(stiffness).asDiagonal();
-    contact.dampingMatrix = Eigen::Vector3d::Constant(damping).asDiagonal();
-  }
+  void evaluate(CollisionSurface const& s);
 };
 
 /// The solver that sees a contact of these two surfaces as part of its system, if there is one; of one alone,
 /// with the rest of the world.
-inline void find_solver(Contact& c, CollisionSurface const* a, CollisionSurface const* b) {
+void find_solver(Contact& c, CollisionSurface const* a, CollisionSurface const* b);
+
+}  // namespace sinew
+
+#if SINEW_DEFINES
+namespace sinew {
+
+SINEW_ONCE void Attachment::evaluate(CollisionSurface const& s) {
+  const Eigen::Vector3d p = position_of(contact.b, s) + offset,
+                        rate = rate_of(contact.b, s, s.velocity, s.spin);
+  contact.force = stiffness * (target - p) + damping * (velocity - rate);
+  contact.stiffnessMatrix = Eigen::Vector3d::Constant(stiffness).asDiagonal();
+  contact.dampingMatrix = Eigen::Vector3d::Constant(damping).asDiagonal();
+}
+
+SINEW_ONCE void find_solver(Contact& c, CollisionSurface const* a, CollisionSurface const* b) {
   const int sa = a && a->simulated ? a->solver : -1, sb = b && b->simulated ? b->solver : -1;
   c.loose = sa >= 0 && sb >= 0 && sa != sb;
   c.solver = c.loose ? -1 : std::max(sa, sb);
@@ -36,3 +46,4 @@ inline void find_solver(Contact& c, CollisionSurface const* a, CollisionSurface 
 }
 
 }  // namespace sinew
+#endif

@@ -110,14 +110,15 @@ class BasicBoundingTree {
     auto ordered = [&](int i, int j) { i < j ? report(i, j) : report(j, i); };
     for (int node = 0, end = int(nodes.size()); node < end; ++node) {
       if (!is_leaf(node)) continue;
-      Link const& leaf = links[node];
+      Link const& leaf = links[std::size_t(node)];
       for (int a = leaf.first; a + 1 < leaf.last; ++a) {
-        const Packed query = slots[a];
+        const Packed query = slots[std::size_t(a)];
         for (int b = a + 1; b < leaf.last; ++b)
-          if (slots[b].overlaps(query, margin)) ordered(numbers[a], numbers[b]);
+          if (slots[std::size_t(b)].overlaps(query, margin))
+            ordered(numbers[std::size_t(a)], numbers[std::size_t(b)]);
       }
       // the leaves before this one have found it
-      pairs_with_leaf(*this, leaf, nodes[node], node + 1, margin, ordered);
+      pairs_with_leaf(*this, leaf, nodes[std::size_t(node)], node + 1, margin, ordered);
     }
   }
 
@@ -177,7 +178,7 @@ class BasicBoundingTree {
   std::vector<Link> links{};             // of each node
   Real builtCost = 0, cost = 0;
 
-  bool is_leaf(int node) const { return links[node].next == node + 1; }
+  bool is_leaf(int node) const { return links[std::size_t(node)].next == node + 1; }
 
   static void check(std::span<Box const> primitives, std::string_view where) {
     constexpr Real largest = std::numeric_limits<Real>::max();
@@ -217,12 +218,12 @@ class BasicBoundingTree {
   __attribute__((always_inline)) void leaves_near(int node, Packed const& query, Real margin,
                                                   F&& visit) const {
     for (const int end = int(nodes.size()); node < end;) {
-      Link const& link = links[node];
-      if (!nodes[node].overlaps(query, margin)) {
+      Link const& link = links[std::size_t(node)];
+      if (!nodes[std::size_t(node)].overlaps(query, margin)) {
         node = link.next;
         continue;
       }
-      if (is_leaf(node)) visit(link, nodes[node]);
+      if (is_leaf(node)) visit(link, nodes[std::size_t(node)]);
       ++node;
     }
   }
@@ -234,10 +235,11 @@ class BasicBoundingTree {
     leaves_near(node, box, margin, [&](Link const& mine, Packed const& around) {
       const Packed room = around;
       for (int a = leaf.first; a < leaf.last; ++a) {
-        if (!from.slots[a].overlaps(room, margin)) continue;
-        const Packed query = from.slots[a];
+        if (!from.slots[std::size_t(a)].overlaps(room, margin)) continue;
+        const Packed query = from.slots[std::size_t(a)];
         for (int b = mine.first; b < mine.last; ++b)
-          if (slots[b].overlaps(query, margin)) report(from.numbers[a], numbers[b]);
+          if (slots[std::size_t(b)].overlaps(query, margin))
+            report(from.numbers[std::size_t(a)], numbers[std::size_t(b)]);
       }
     });
   }
@@ -253,20 +255,21 @@ class BasicBoundingTree {
     auto within = [&](Real e) { return e <= end && e < std::numeric_limits<Real>::infinity(); };
     std::array<Waiting, stackSize> stack;
     int top = 0;
-    if (!nodes.empty()) stack[top++] = {entry(nodes[0]), 0};
+    if (!nodes.empty()) stack[std::size_t(top++)] = {entry(nodes[0]), 0};
     while (top > 0) {
-      const Waiting w = stack[--top];
+      const Waiting w = stack[std::size_t(--top)];
       if (!within(w.entry)) continue;
       if (is_leaf(w.node)) {
-        for (int s = links[w.node].first; s < links[w.node].last; ++s)
-          if (within(entry(slots[s]))) end = visit(numbers[s], end);
+        for (int s = links[std::size_t(w.node)].first; s < links[std::size_t(w.node)].last; ++s)
+          if (within(entry(slots[std::size_t(s)]))) end = visit(numbers[std::size_t(s)], end);
         continue;
       }
-      Waiting near{entry(nodes[w.node + 1]), w.node + 1}, far{0, links[w.node + 1].next};
-      far.entry = entry(nodes[far.node]);
+      Waiting near{entry(nodes[std::size_t(w.node + 1)]), w.node + 1},
+          far{0, links[std::size_t(w.node + 1)].next};
+      far.entry = entry(nodes[std::size_t(far.node)]);
       if (far.entry < near.entry) std::swap(near, far);
-      stack[top++] = far;
-      stack[top++] = near;
+      stack[std::size_t(top++)] = far;
+      stack[std::size_t(top++)] = near;
     }
     return end;
   }
@@ -275,17 +278,17 @@ class BasicBoundingTree {
   Real fit() {
     Real sum = 0;
     for (int i = int(nodes.size()) - 1; i >= 0; --i) {
-      Link& link = links[i];
+      Link& link = links[std::size_t(i)];
       const bool leaf = is_leaf(i);
-      Packed box = leaf ? slots[link.first] : nodes[i + 1];
+      Packed box = leaf ? slots[std::size_t(link.first)] : nodes[std::size_t(i + 1)];
       if (leaf) {
-        for (int s = link.first + 1; s < link.last; ++s) box.include(slots[s]);
+        for (int s = link.first + 1; s < link.last; ++s) box.include(slots[std::size_t(s)]);
       } else {
-        const int right = links[i + 1].next;
-        box.include(nodes[right]);
-        link.next = links[right].next;
+        const int right = links[std::size_t(i + 1)].next;
+        box.include(nodes[std::size_t(right)]);
+        link.next = links[std::size_t(right)].next;
       }
-      nodes[i] = box;
+      nodes[std::size_t(i)] = box;
       sum += box.halfArea() * Real(leaf ? link.last - link.first : 1);
     }
     return nodes.empty() || !(nodes[0].halfArea() > 0) ? Real(0) : sum / nodes[0].halfArea();
@@ -293,14 +296,14 @@ class BasicBoundingTree {
 
   // the nodes, whose boxes `fit` makes
   void split() {
-    struct Range {
+    struct NodeRange {
       int first, last, depth;
     };
-    std::array<Range, stackSize> stack;
+    std::array<NodeRange, stackSize> stack;
     int top = 0;
-    if (!slots.empty()) stack[top++] = {0, int(slots.size()), 0};
+    if (!slots.empty()) stack[std::size_t(top++)] = {0, int(slots.size()), 0};
     while (top > 0) {
-      const Range r = stack[--top];
+      const NodeRange r = stack[std::size_t(--top)];
       const int node = int(nodes.size());
       const bool leaf = r.last - r.first <= leafSize;
       nodes.push_back(Packed::none());
@@ -308,8 +311,8 @@ class BasicBoundingTree {
       if (leaf) continue;
       int middle = r.depth < splitDepth ? partition(r.first, r.last) : 0;
       if (middle == 0) middle = r.first + (r.last - r.first) / 2;
-      stack[top++] = {middle, r.last, r.depth + 1};
-      stack[top++] = {r.first, middle, r.depth + 1};
+      stack[std::size_t(top++)] = {middle, r.last, r.depth + 1};
+      stack[std::size_t(top++)] = {r.first, middle, r.depth + 1};
     }
   }
 
@@ -318,7 +321,7 @@ class BasicBoundingTree {
   int partition(int first, int last) {
     constexpr Real inf = std::numeric_limits<Real>::infinity();
     // twice the centres; that of an absent primitive is not a number, and in the last bin
-    auto center = [&](int s, int c) { return slots[s].high[c] - slots[s].low[c]; };
+    auto center = [&](int s, int c) { return slots[std::size_t(s)].high[c] - slots[std::size_t(s)].low[c]; };
     Real low[3] = {inf, inf, inf}, high[3] = {-inf, -inf, -inf};
     for (int s = first; s < last; ++s)
       for (int c = 0; c < 3; ++c) {
@@ -341,34 +344,34 @@ class BasicBoundingTree {
     std::array<int, bins> counts{};
     for (int s = first; s < last; ++s) {
       const int b = bin(s);
-      boxes[b].include(slots[s]);
-      ++counts[b];
+      boxes[std::size_t(b)].include(slots[std::size_t(s)]);
+      ++counts[std::size_t(b)];
     }
     // cost of the right part behind each plane, then of both
     std::array<Real, bins> right;
     Packed box = Packed::none();
     int count = 0;
     for (int b = bins - 1; b > 0; --b) {
-      box.include(boxes[b]);
-      count += counts[b];
-      right[b] = box.halfArea() * Real(count);
+      box.include(boxes[std::size_t(b)]);
+      count += counts[std::size_t(b)];
+      right[std::size_t(b)] = box.halfArea() * Real(count);
     }
     Real best = inf;
     int plane = -1;
     box = Packed::none(), count = 0;
     for (int b = 0; b + 1 < bins; ++b) {
-      box.include(boxes[b]);
-      count += counts[b];
-      const Real cost = box.halfArea() * Real(count) + right[b + 1];
-      if (count < last - first && cost < best) best = cost, plane = b;
+      box.include(boxes[std::size_t(b)]);
+      count += counts[std::size_t(b)];
+      const Real both = box.halfArea() * Real(count) + right[std::size_t(b + 1)];
+      if (count < last - first && both < best) best = both, plane = b;
     }
     if (plane < 0) return 0;
 
     int middle = first;
     for (int s = first; s < last; ++s)
       if (bin(s) <= plane) {
-        std::swap(slots[middle], slots[s]);
-        std::swap(numbers[middle], numbers[s]);
+        std::swap(slots[std::size_t(middle)], slots[std::size_t(s)]);
+        std::swap(numbers[std::size_t(middle)], numbers[std::size_t(s)]);
         ++middle;
       }
     return middle;

@@ -2,10 +2,9 @@
 #pragma once
 
 #include <sinew/collision/bounding_tree.hpp>
+#include <sinew/core/compiled.hpp>
 
-#include <algorithm>
 #include <compare>
-#include <numeric>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -23,24 +22,14 @@ struct BoxPair {
 class PairSorter {
  public:
   /// The numbers are from 0 to below `numberOfFirst` and `numberOfSecond`.
-  void sort(std::vector<BoxPair>& pairs, std::size_t numberOfFirst, std::size_t numberOfSecond) {
-    if (pairs.size() < (numberOfFirst + numberOfSecond) / 16) return std::sort(pairs.begin(), pairs.end());
-    sorted.resize(pairs.size());
-    pass(pairs, sorted, numberOfSecond, &BoxPair::second);
-    pass(sorted, pairs, numberOfFirst, &BoxPair::first);
-  }
+  void sort(std::vector<BoxPair>& pairs, std::size_t numberOfFirst, std::size_t numberOfSecond);
 
  private:
   std::vector<BoxPair> sorted{};
   std::vector<int> start{};
 
   // stable, by one of the numbers
-  void pass(std::vector<BoxPair> const& from, std::vector<BoxPair>& to, std::size_t n, int BoxPair::*key) {
-    start.assign(n + 1, 0);
-    for (BoxPair const& p : from) ++start[std::size_t(p.*key) + 1];
-    std::partial_sum(start.begin(), start.end(), start.begin());
-    for (BoxPair const& p : from) to[std::size_t(start[std::size_t(p.*key)]++)] = p;
-  }
+  void pass(std::vector<BoxPair> const& from, std::vector<BoxPair>& to, std::size_t n, int BoxPair::*key);
 };
 
 /// All pairs i < j whose boxes are within `margin` of each other along every axis, sorted, by comparing all
@@ -89,3 +78,28 @@ class BasicBroadPhase {
 using BroadPhase = BasicBroadPhase<double>;
 
 }  // namespace sinew
+
+#if SINEW_DEFINES
+#include <algorithm>
+#include <numeric>
+
+namespace sinew {
+
+SINEW_ONCE void PairSorter::sort(std::vector<BoxPair>& pairs, std::size_t numberOfFirst,
+                                 std::size_t numberOfSecond) {
+  if (pairs.size() < (numberOfFirst + numberOfSecond) / 16) return std::sort(pairs.begin(), pairs.end());
+  sorted.resize(pairs.size());
+  pass(pairs, sorted, numberOfSecond, &BoxPair::second);
+  pass(sorted, pairs, numberOfFirst, &BoxPair::first);
+}
+
+SINEW_ONCE void PairSorter::pass(std::vector<BoxPair> const& from, std::vector<BoxPair>& to, std::size_t n,
+                                 int BoxPair::*key) {
+  start.assign(n + 1, 0);
+  for (BoxPair const& p : from) ++start[std::size_t(p.*key) + 1];
+  std::partial_sum(start.begin(), start.end(), start.begin());
+  for (BoxPair const& p : from) to[std::size_t(start[std::size_t(p.*key)]++)] = p;
+}
+
+}  // namespace sinew
+#endif

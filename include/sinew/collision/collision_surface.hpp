@@ -4,10 +4,9 @@
 #include <sinew/collision/axis_box.hpp>
 #include <sinew/collision/bounding_tree.hpp>
 #include <sinew/collision/convex_hull.hpp>
-#include <sinew/core/data_types.hpp>
+#include <sinew/core/compiled.hpp>
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
@@ -69,76 +68,11 @@ struct CollisionSurface {
   /// Whether the distance d from a place of this surface, on the primitive over these vertices of an element,
   /// to somewhere else is the least one around it, and not only on this element: where it is not, a neighbour
   /// is nearer (the filter of Duriez, LocalMinDistance).
-  bool isLocalMinimum(int element, std::array<int, 3> const& vertices, Eigen::Vector3d const& d) const {
-    if (corners < 2 || vertices[2] >= 0) return true;
-    auto towards = [&](Eigen::Vector3d const& way) { return d.dot(way) > 1e-9 * d.norm() * way.norm(); };
-    if (vertices[1] < 0) {
-      const auto v = std::size_t(vertices[0]);
-      for (int k = firstAround[v]; k < firstAround[v + 1]; ++k)
-        if (towards(position[std::size_t(around[std::size_t(k)])] - position[v])) return false;
-      return true;
-    }
-    if (corners == 2) return true;
-    auto const& e = elements[std::size_t(element)];
-    for (std::size_t c = 0; c < 3; ++c) {
-      const int p = e[c], q = e[(c + 1) % 3], other = across[std::size_t(element)][c];
-      if (!((p == vertices[0] && q == vertices[1]) || (q == vertices[0] && p == vertices[1])) || other < 0)
-        continue;
-      const Eigen::Vector3d edge = position[std::size_t(q)] - position[std::size_t(p)];
-      const Eigen::Vector3d way = position[std::size_t(other)] - position[std::size_t(p)];
-      return !towards(way - (way.dot(edge) / std::max(edge.squaredNorm(), 1e-300)) * edge);
-    }
-    return true;
-  }
+  bool isLocalMinimum(int element, std::array<int, 3> const& vertices, Eigen::Vector3d const& d) const;
 
-  void findNeighbours(std::size_t vertices) {
-    std::vector<std::array<int, 3>> edges;  // first, second vertex, 3 * triangle + corner
-    for (int e = 0; e < int(size()); ++e)
-      for (int c = 0; c < (corners == 3 ? 3 : corners - 1); ++c) {
-        const auto [p, q] = std::minmax(elements[std::size_t(e)][std::size_t(c)],
-                                        elements[std::size_t(e)][std::size_t((c + 1) % corners)]);
-        edges.push_back({p, q, 3 * e + c});
-      }
-    std::sort(edges.begin(), edges.end());
-    across.assign(corners == 3 ? size() : 0, {-1, -1, -1});
-    firstAround.assign(vertices + 1, 0);
-    auto same = [&](std::size_t i, std::size_t j) {
-      return edges[i][0] == edges[j][0] && edges[i][1] == edges[j][1];
-    };
-    for (std::size_t i = 0; i < edges.size(); ++i) {
-      if (i > 0 && same(i, i - 1)) continue;
-      ++firstAround[std::size_t(edges[i][0]) + 1];
-      ++firstAround[std::size_t(edges[i][1]) + 1];
-    }
-    for (std::size_t v = 0; v < vertices; ++v) firstAround[v + 1] += firstAround[v];
-    around.assign(std::size_t(firstAround[vertices]), -1);
-    auto next = firstAround;
-    for (std::size_t i = 0; i < edges.size(); ++i) {
-      if (corners == 3)  // of two triangles at an edge; more than two are beyond this filter
-        for (const std::size_t j : {i + 1, i - 1})
-          if (j < edges.size() && same(i, j)) {
-            const int there = edges[j][2];
-            across[std::size_t(edges[i][2] / 3)][std::size_t(edges[i][2] % 3)] =
-                elements[std::size_t(there / 3)][std::size_t((there % 3 + 2) % 3)];
-          }
-      if (i > 0 && same(i, i - 1)) continue;
-      around[std::size_t(next[std::size_t(edges[i][0])]++)] = edges[i][1];
-      around[std::size_t(next[std::size_t(edges[i][1])]++)] = edges[i][0];
-    }
-  }
+  void findNeighbours(std::size_t vertices);
 
-  void resize(std::size_t vertices) {
-    findNeighbours(vertices);
-    const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
-    for (auto* v : {&position, &velocity, &force, &dx}) v->assign(vertices, zero);
-    if (rigid)
-      for (auto* v : {&spin, &torque, &turn}) v->assign(vertices, zero);
-    if (rigid) orientation.assign(vertices, Eigen::Quaterniond::Identity());
-    touched.clear();
-    touched.reserve(vertices);
-    isTouched.assign(vertices, 0);
-    boxes.resize(size());
-  }
+  void resize(std::size_t vertices);
 
   void forgetTouched() {
     for (const int i : touched) isTouched[std::size_t(i)] = 0;
@@ -151,34 +85,10 @@ struct CollisionSurface {
   }
 
   /// Boxes of the elements where they are, or on their way during dt, with what is around them.
-  void enclose(double margin, double dt) {
-    box = AxisBox{};
-    for (std::size_t e = 0; e < size(); ++e) {
-      AxisBox b;
-      for (int c = 0; c < corners; ++c) {
-        const auto v = std::size_t(elements[e][std::size_t(c)]);
-        b.include(position[v]);
-        if (dt > 0) b.include(position[v] + (solver < 0 ? -dt : dt) * velocity[v]);
-      }
-      if (hull) b = hullBox(std::size_t(elements[e][0]), dt);
-      boxes[e] = b.grown(proximity + margin + radiusOf(int(e)));
-      box.include(boxes[e]);
-    }
-    tree.update(boxes);
-  }
+  void enclose(double margin, double dt);
 
  private:
-  AxisBox hullBox(std::size_t v, double dt) const {
-    const Eigen::Matrix3d turned = orientation[v].toRotationMatrix();
-    AxisBox b;
-    for (auto const& p : hull->points()) b.include(position[v] + turned * p);
-    if (!(dt > 0)) return b;
-    AxisBox way = b;
-    way.include(b.min + (solver < 0 ? -dt : dt) * velocity[v]);
-    way.include(b.max + (solver < 0 ? -dt : dt) * velocity[v]);
-    // a point at r turns by |w| r dt at most
-    return way.grown(dt * spin[v].norm() * hull->reach());
-  }
+  AxisBox hullBox(std::size_t v, double dt) const;
 };
 
 /// Positions and velocities of a vertex of a surface from those of a point of its state.
@@ -230,3 +140,113 @@ void add_forces(typename D::VecDeriv& f, CollisionSurface const& s) {
 }
 
 }  // namespace sinew
+
+#if SINEW_DEFINES
+#include <sinew/core/data_types.hpp>
+
+#include <algorithm>
+
+namespace sinew {
+
+SINEW_ONCE bool CollisionSurface::isLocalMinimum(int element, std::array<int, 3> const& vertices,
+                                                 Eigen::Vector3d const& d) const {
+  if (corners < 2 || vertices[2] >= 0) return true;
+  auto towards = [&](Eigen::Vector3d const& way) { return d.dot(way) > 1e-9 * d.norm() * way.norm(); };
+  if (vertices[1] < 0) {
+    const auto v = std::size_t(vertices[0]);
+    for (int k = firstAround[v]; k < firstAround[v + 1]; ++k)
+      if (towards(position[std::size_t(around[std::size_t(k)])] - position[v])) return false;
+    return true;
+  }
+  if (corners == 2) return true;
+  auto const& e = elements[std::size_t(element)];
+  for (std::size_t c = 0; c < 3; ++c) {
+    const int p = e[c], q = e[(c + 1) % 3], other = across[std::size_t(element)][c];
+    if (!((p == vertices[0] && q == vertices[1]) || (q == vertices[0] && p == vertices[1])) || other < 0)
+      continue;
+    const Eigen::Vector3d edge = position[std::size_t(q)] - position[std::size_t(p)];
+    const Eigen::Vector3d way = position[std::size_t(other)] - position[std::size_t(p)];
+    return !towards(way - (way.dot(edge) / std::max(edge.squaredNorm(), 1e-300)) * edge);
+  }
+  return true;
+}
+
+SINEW_ONCE void CollisionSurface::findNeighbours(std::size_t vertices) {
+  std::vector<std::array<int, 3>> edges;  // first, second vertex, 3 * triangle + corner
+  for (int e = 0; e < int(size()); ++e)
+    for (int c = 0; c < (corners == 3 ? 3 : corners - 1); ++c) {
+      const auto [p, q] = std::minmax(elements[std::size_t(e)][std::size_t(c)],
+                                      elements[std::size_t(e)][std::size_t((c + 1) % corners)]);
+      edges.push_back({p, q, 3 * e + c});
+    }
+  std::sort(edges.begin(), edges.end());
+  across.assign(corners == 3 ? size() : 0, {-1, -1, -1});
+  firstAround.assign(vertices + 1, 0);
+  auto same = [&](std::size_t i, std::size_t j) {
+    return edges[i][0] == edges[j][0] && edges[i][1] == edges[j][1];
+  };
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    if (i > 0 && same(i, i - 1)) continue;
+    ++firstAround[std::size_t(edges[i][0]) + 1];
+    ++firstAround[std::size_t(edges[i][1]) + 1];
+  }
+  for (std::size_t v = 0; v < vertices; ++v) firstAround[v + 1] += firstAround[v];
+  around.assign(std::size_t(firstAround[vertices]), -1);
+  auto next = firstAround;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    if (corners == 3)  // of two triangles at an edge; more than two are beyond this filter
+      for (const std::size_t j : {i + 1, i - 1})
+        if (j < edges.size() && same(i, j)) {
+          const int there = edges[j][2];
+          across[std::size_t(edges[i][2] / 3)][std::size_t(edges[i][2] % 3)] =
+              elements[std::size_t(there / 3)][std::size_t((there % 3 + 2) % 3)];
+        }
+    if (i > 0 && same(i, i - 1)) continue;
+    around[std::size_t(next[std::size_t(edges[i][0])]++)] = edges[i][1];
+    around[std::size_t(next[std::size_t(edges[i][1])]++)] = edges[i][0];
+  }
+}
+
+SINEW_ONCE void CollisionSurface::resize(std::size_t vertices) {
+  findNeighbours(vertices);
+  const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
+  for (auto* v : {&position, &velocity, &force, &dx}) v->assign(vertices, zero);
+  if (rigid)
+    for (auto* v : {&spin, &torque, &turn}) v->assign(vertices, zero);
+  if (rigid) orientation.assign(vertices, Eigen::Quaterniond::Identity());
+  touched.clear();
+  touched.reserve(vertices);
+  isTouched.assign(vertices, 0);
+  boxes.resize(size());
+}
+
+SINEW_ONCE void CollisionSurface::enclose(double margin, double dt) {
+  box = AxisBox{};
+  for (std::size_t e = 0; e < size(); ++e) {
+    AxisBox b;
+    for (int c = 0; c < corners; ++c) {
+      const auto v = std::size_t(elements[e][std::size_t(c)]);
+      b.include(position[v]);
+      if (dt > 0) b.include(position[v] + (solver < 0 ? -dt : dt) * velocity[v]);
+    }
+    if (hull) b = hullBox(std::size_t(elements[e][0]), dt);
+    boxes[e] = b.grown(proximity + margin + radiusOf(int(e)));
+    box.include(boxes[e]);
+  }
+  tree.update(boxes);
+}
+
+SINEW_ONCE AxisBox CollisionSurface::hullBox(std::size_t v, double dt) const {
+  const Eigen::Matrix3d turned = orientation[v].toRotationMatrix();
+  AxisBox b;
+  for (auto const& p : hull->points()) b.include(position[v] + turned * p);
+  if (!(dt > 0)) return b;
+  AxisBox way = b;
+  way.include(b.min + (solver < 0 ? -dt : dt) * velocity[v]);
+  way.include(b.max + (solver < 0 ? -dt : dt) * velocity[v]);
+  // a point at r turns by |w| r dt at most
+  return way.grown(dt * spin[v].norm() * hull->reach());
+}
+
+}  // namespace sinew
+#endif

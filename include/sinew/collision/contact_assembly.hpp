@@ -3,6 +3,7 @@
 
 #include <sinew/collision/contact.hpp>
 #include <sinew/core/assembly.hpp>
+#include <sinew/core/compiled.hpp>
 
 namespace sinew {
 
@@ -28,12 +29,7 @@ struct ContactAssembly {
         entries.push_back(e);
       });
   }
-  void sort() {
-    // (stable_sort would allocate, and not as aligned as the matrices are where vectors are wide)
-    std::sort(entries.begin(), entries.end(), [](Entry const& x, Entry const& y) {
-      return std::array{x.surface, x.vertex, x.dof} < std::array{y.surface, y.vertex, y.dof};
-    });
-  }
+  void sort();
 
   template <AssemblyPhase Phase, class Matrix>
   void add(Matrix& matrix, Contact const& c, std::vector<CollisionSurface*> const& surfaces, double k,
@@ -60,29 +56,43 @@ struct ContactAssembly {
   };
   std::vector<Block> blocks_{};
 
-  void addSide(ContactSide const& side, CollisionSurface const& s, double sign) {
-    for (int corner = 0; corner < side.corners(); ++corner) {
-      const int vertex = side.vertices[std::size_t(corner)];
-      const double w = sign * side.weights[std::size_t(corner)];
-      auto e = std::lower_bound(entries.begin(),
-                                entries.end(),
-                                std::pair(side.surface, vertex),
-                                [](Entry const& x, std::pair<int, int> const& key) {
-                                  return std::pair(x.surface, x.vertex) < key;
-                                });
-      for (; e != entries.end() && e->surface == side.surface && e->vertex == vertex; ++e) {
-        Block block{e->dof, e->columns, {}};
-        block.rows = w * e->rows.topRows<3>();
-        if (s.rigid) {
-          const Eigen::Vector3d r = lever_of(side, s);
-          for (int column = 0; column < e->columns; ++column)
-            block.rows.col(column) += w * e->rows.col(column).tail<3>().cross(r);
-        }
-        for (int column = e->columns; column < 6; ++column) block.rows.col(column).setZero();
-        blocks_.push_back(block);
-      }
-    }
-  }
+  void addSide(ContactSide const& side, CollisionSurface const& s, double sign);
 };
 
 }  // namespace sinew
+
+#if SINEW_DEFINES
+namespace sinew {
+
+SINEW_ONCE void ContactAssembly::sort() {
+  // (stable_sort would allocate, and not as aligned as the matrices are where vectors are wide)
+  std::sort(entries.begin(), entries.end(), [](Entry const& x, Entry const& y) {
+    return std::array{x.surface, x.vertex, x.dof} < std::array{y.surface, y.vertex, y.dof};
+  });
+}
+
+SINEW_ONCE void ContactAssembly::addSide(ContactSide const& side, CollisionSurface const& s, double sign) {
+  for (int corner = 0; corner < side.corners(); ++corner) {
+    const int vertex = side.vertices[std::size_t(corner)];
+    const double w = sign * side.weights[std::size_t(corner)];
+    auto e = std::lower_bound(
+        entries.begin(),
+        entries.end(),
+        std::pair(side.surface, vertex),
+        [](Entry const& x, std::pair<int, int> const& key) { return std::pair(x.surface, x.vertex) < key; });
+    for (; e != entries.end() && e->surface == side.surface && e->vertex == vertex; ++e) {
+      Block block{e->dof, e->columns, {}};
+      block.rows = w * e->rows.topRows<3>();
+      if (s.rigid) {
+        const Eigen::Vector3d r = lever_of(side, s);
+        for (int column = 0; column < e->columns; ++column)
+          block.rows.col(column) += w * e->rows.col(column).tail<3>().cross(r);
+      }
+      for (int column = e->columns; column < 6; ++column) block.rows.col(column).setZero();
+      blocks_.push_back(block);
+    }
+  }
+}
+
+}  // namespace sinew
+#endif

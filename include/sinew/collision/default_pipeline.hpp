@@ -2,9 +2,9 @@
 #pragma once
 
 #include <sinew/collision/proximity.hpp>
+#include <sinew/core/compiled.hpp>
 #include <sinew/core/component.hpp>
 
-#include <algorithm>
 #include <span>
 #include <utility>
 #include <vector>
@@ -27,28 +27,9 @@ struct DefaultPipeline {
   long boxTests = 0;  // pairs of primitives that the narrow phase found in the last step
 
   /// Whether two models may collide at all.
-  static bool compare(CollisionSurface const& a, CollisionSurface const& b) {
-    if (!a.active || !b.active || (!a.moving && !b.moving)) return false;
-    if ((a.solver < 0 || !a.simulated) && (b.solver < 0 || !b.simulated)) return false;
-    // points against triangles and lines against lines are all there is between two surfaces that have the
-    // three
-    constexpr unsigned three = 0b1110;
-    if (a.companions == three && b.companions == three && a.radius.empty() && b.radius.empty() &&
-        a.corners + b.corners != 4)
-      return false;
-    if (&a == &b) return a.selfCollision;
-    if (a.state == b.state && !(a.selfCollision && b.selfCollision)) return false;
-    return std::find_first_of(a.group.begin(), a.group.end(), b.group.begin(), b.group.end()) ==
-           a.group.end();
-  }
+  static bool compare(CollisionSurface const& a, CollisionSurface const& b);
   /// Primitives of one body that share a vertex touch there always.
-  static bool adjacent(CollisionSurface const& a, int i, CollisionSurface const& b, int j) {
-    if (a.state != b.state) return false;
-    for (const int v : a.elements[std::size_t(i)])
-      for (const int w : b.elements[std::size_t(j)])
-        if (v >= 0 && v == w) return true;
-    return false;
-  }
+  static bool adjacent(CollisionSurface const& a, int i, CollisionSurface const& b, int j);
 
   template <class Broad>
   void findNear(Broad& broad) {
@@ -96,3 +77,34 @@ struct DefaultPipeline {
 };
 
 }  // namespace sinew
+
+#if SINEW_DEFINES
+#include <algorithm>
+
+namespace sinew {
+
+SINEW_ONCE bool DefaultPipeline::compare(CollisionSurface const& a, CollisionSurface const& b) {
+  if (!a.active || !b.active || (!a.moving && !b.moving)) return false;
+  if ((a.solver < 0 || !a.simulated) && (b.solver < 0 || !b.simulated)) return false;
+  // points against triangles and lines against lines are all there is between two surfaces that have the
+  // three
+  constexpr unsigned three = 0b1110;
+  if (a.companions == three && b.companions == three && a.radius.empty() && b.radius.empty() &&
+      a.corners + b.corners != 4)
+    return false;
+  if (&a == &b) return a.selfCollision;
+  if (a.state == b.state && !(a.selfCollision && b.selfCollision)) return false;
+  return std::find_first_of(a.group.begin(), a.group.end(), b.group.begin(), b.group.end()) == a.group.end();
+}
+
+SINEW_ONCE bool DefaultPipeline::adjacent(CollisionSurface const& a, int i, CollisionSurface const& b,
+                                          int j) {
+  if (a.state != b.state) return false;
+  for (const int v : a.elements[std::size_t(i)])
+    for (const int w : b.elements[std::size_t(j)])
+      if (v >= 0 && v == w) return true;
+  return false;
+}
+
+}  // namespace sinew
+#endif

@@ -2,28 +2,9 @@
 #pragma once
 
 #include <sinew/collision/contact.hpp>
-
-#include <cmath>
+#include <sinew/core/compiled.hpp>
 
 namespace sinew {
-
-namespace detail {
-/// What friction holds against: the tangential displacement `way` since the contact sticks; where that asks
-/// for more than the cone of Coulomb allows, as much as it allows.
-struct Friction {
-  Eigen::Vector3d way, slip;
-  double most;  // |slip| at the edge of the cone
-  bool slides;
-
-  Friction(Contact const& c, Eigen::Vector3d const& displacement, double normalForce)
-      : way(displacement - c.normal.dot(displacement) * c.normal),
-        slip(way),
-        most(c.friction * normalForce / c.stiffness),
-        slides(way.norm() > most) {
-    if (slides) slip *= most / way.norm();
-  }
-};
-}  // namespace detail
 
 /// Penalty with damping and Coulomb friction. The force on b is, with the gap g = n.u - thickness,
 ///   N n - k s,   N = max(0, k (limit - g) - c g'),
@@ -47,61 +28,9 @@ struct PenalityContactForceField {
 
   double dt = 0;  // of the step, set by the manager
 
-  void evaluate(Contact& c, Eigen::Vector3d const& u, Eigen::Vector3d const& rate) const {
-    const double gap = c.normal.dot(u) - c.thickness, gapRate = c.normal.dot(rate);
-    c.force.setZero();
-    c.sliding.setZero();
-    c.stiffnessMatrix.setZero();
-    c.dampingMatrix.setZero();
-    const double back = c.pushed ? dt * c.fall : 0;
-    const double ahead = c.implicit ? std::min(gap, gap + dt * (gapRate - back)) : gap;
-    if (!(ahead < c.limit)) return;
-    double push = c.stiffness * (c.limit - gap) - c.damping * gapRate;
-    if (!c.implicit || gap < c.limit) push = std::max(0.0, push);
-    const Eigen::Matrix3d nn = c.normal * c.normal.transpose(),
-                          along = Eigen::Matrix3d(Eigen::Matrix3d::Identity()) - nn;
-    c.force = push * c.normal;
-    c.stiffnessMatrix = c.stiffness * nn;
-    c.dampingMatrix = c.damping * nn;
-    if (!(c.friction > 0)) return;
-    const Eigen::Vector3d way = c.slip + (u - c.start),
-                          next = c.implicit ? Eigen::Vector3d(way + dt * rate) : way;
-    const detail::Friction friction(c, next, elasticPush(c, u));
-    const bool stuck = c.implicit && c.memory != 0 && c.slide.isZero(0);
-    if (stuck || !friction.slides) {
-      c.force -= c.stiffness * (way - c.normal.dot(way) * c.normal);
-      c.stiffnessMatrix += c.stiffness * along;
-      return;
-    }
-    c.sliding = friction.way.normalized();
-    const Eigen::Vector3d along1 = along * rate;
-    const double most = c.stiffness * friction.most, speed = along1.norm();
-    if (c.implicit && c.memory != 1 && most > 0 && speed > 0) {
-      // mu N / |v| v, in which only v is of the end of the step: what an impact brings to rest does not turn
-      c.force -= most / speed * along1;
-      c.dampingMatrix += most / speed * along;
-      return;
-    }
-    // the force keeps its size and turns with the direction t: -dF/du = k m/|s| (I - nn' - tt'), but for a
-    // part that goes with the normal force and is not symmetric
-    c.force -= most * c.sliding;
-    c.stiffnessMatrix += (most / friction.way.norm()) * (along - c.sliding * c.sliding.transpose());
-  }
+  void evaluate(Contact& c, Eigen::Vector3d const& u, Eigen::Vector3d const& rate) const;
   /// slip: s at the end of the step; slide: the way it slides, 0 where it sticks.
-  void settle(Contact& c, Eigen::Vector3d const& u) const {
-    c.pushed = c.force.dot(c.normal) > 0;
-    if (!(c.friction > 0)) return;
-    const Eigen::Vector3d moved = u - c.start;
-    const double push = elasticPush(c, u);
-    const detail::Friction friction(c, c.slip + moved, push);
-    const bool slid = !c.sliding.isZero(0), turnedBack = moved.dot(c.sliding) <= 0;
-    c.slip = friction.slip;
-    c.slide.setZero();
-    if (push > 0 && (slid ? !turnedBack : friction.slides)) c.slide = friction.way.normalized();
-    const double before = elasticPush(c, c.start);
-    const bool impact = push > 2 * before || 2 * push < before;
-    c.memory = !(push > 0) ? 0 : impact ? 1 + impactSteps : std::max(1.0, c.memory - 1);
-  }
+  void settle(Contact& c, Eigen::Vector3d const& u) const;
 
  private:
   // memory of a contact that pushes: 1, and for how many steps an impact goes on, from where it pushes twice
@@ -113,3 +42,88 @@ struct PenalityContactForceField {
 };
 
 }  // namespace sinew
+
+#if SINEW_DEFINES
+#include <cmath>
+
+namespace sinew::detail {
+
+/// What friction holds against: the tangential displacement `way` since the contact sticks; where that asks
+/// for more than the cone of Coulomb allows, as much as it allows.
+struct Friction {
+  Eigen::Vector3d way, slip;
+  double most;  // |slip| at the edge of the cone
+  bool slides;
+
+  Friction(Contact const& c, Eigen::Vector3d const& displacement, double normalForce)
+      : way(displacement - c.normal.dot(displacement) * c.normal),
+        slip(way),
+        most(c.friction * normalForce / c.stiffness),
+        slides(way.norm() > most) {
+    if (slides) slip *= most / way.norm();
+  }
+};
+
+}  // namespace sinew::detail
+
+namespace sinew {
+
+SINEW_ONCE void PenalityContactForceField::evaluate(Contact& c, Eigen::Vector3d const& u,
+                                                    Eigen::Vector3d const& rate) const {
+  const double gap = c.normal.dot(u) - c.thickness, gapRate = c.normal.dot(rate);
+  c.force.setZero();
+  c.sliding.setZero();
+  c.stiffnessMatrix.setZero();
+  c.dampingMatrix.setZero();
+  const double back = c.pushed ? dt * c.fall : 0;
+  const double ahead = c.implicit ? std::min(gap, gap + dt * (gapRate - back)) : gap;
+  if (!(ahead < c.limit)) return;
+  double push = c.stiffness * (c.limit - gap) - c.damping * gapRate;
+  if (!c.implicit || gap < c.limit) push = std::max(0.0, push);
+  const Eigen::Matrix3d nn = c.normal * c.normal.transpose(),
+                        along = Eigen::Matrix3d(Eigen::Matrix3d::Identity()) - nn;
+  c.force = push * c.normal;
+  c.stiffnessMatrix = c.stiffness * nn;
+  c.dampingMatrix = c.damping * nn;
+  if (!(c.friction > 0)) return;
+  const Eigen::Vector3d way = c.slip + (u - c.start),
+                        next = c.implicit ? Eigen::Vector3d(way + dt * rate) : way;
+  const detail::Friction friction(c, next, elasticPush(c, u));
+  const bool stuck = c.implicit && c.memory != 0 && c.slide.isZero(0);
+  if (stuck || !friction.slides) {
+    c.force -= c.stiffness * (way - c.normal.dot(way) * c.normal);
+    c.stiffnessMatrix += c.stiffness * along;
+    return;
+  }
+  c.sliding = friction.way.normalized();
+  const Eigen::Vector3d along1 = along * rate;
+  const double most = c.stiffness * friction.most, speed = along1.norm();
+  if (c.implicit && c.memory != 1 && most > 0 && speed > 0) {
+    // mu N / |v| v, in which only v is of the end of the step: what an impact brings to rest does not turn
+    c.force -= most / speed * along1;
+    c.dampingMatrix += most / speed * along;
+    return;
+  }
+  // the force keeps its size and turns with the direction t: -dF/du = k m/|s| (I - nn' - tt'), but for a
+  // part that goes with the normal force and is not symmetric
+  c.force -= most * c.sliding;
+  c.stiffnessMatrix += (most / friction.way.norm()) * (along - c.sliding * c.sliding.transpose());
+}
+
+SINEW_ONCE void PenalityContactForceField::settle(Contact& c, Eigen::Vector3d const& u) const {
+  c.pushed = c.force.dot(c.normal) > 0;
+  if (!(c.friction > 0)) return;
+  const Eigen::Vector3d moved = u - c.start;
+  const double push = elasticPush(c, u);
+  const detail::Friction friction(c, c.slip + moved, push);
+  const bool slid = !c.sliding.isZero(0), turnedBack = moved.dot(c.sliding) <= 0;
+  c.slip = friction.slip;
+  c.slide.setZero();
+  if (push > 0 && (slid ? !turnedBack : friction.slides)) c.slide = friction.way.normalized();
+  const double before = elasticPush(c, c.start);
+  const bool impact = push > 2 * before || 2 * push < before;
+  c.memory = !(push > 0) ? 0 : impact ? 1 + impactSteps : std::max(1.0, c.memory - 1);
+}
+
+}  // namespace sinew
+#endif

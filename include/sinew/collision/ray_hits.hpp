@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/platform.hpp>
+#include <sinew/core/compiled.hpp>
+
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 
 namespace sinew {
@@ -25,7 +26,36 @@ struct RayHit {
 };
 
 /// Where it enters the sphere, or leaves that in which it begins.
-inline RayHit ray_sphere(Ray const& ray, Eigen::Vector3d const& center, double radius) {
+RayHit ray_sphere(Ray const& ray, Eigen::Vector3d const& center, double radius);
+
+/// Where it enters a hull, or leaves that in which it begins: of(ray, surface, element, end), up to the
+/// distance `end`. Declared here only: hull_contacts.hpp, which needs libccd, defines it for who has hulls.
+template <class Hulls>
+struct HullRay;
+
+/// Where it is nearest to a point, if it passes within `tolerance` of it.
+RayHit ray_point(Ray const& ray, Eigen::Vector3d const& point, double tolerance);
+
+/// Where it is nearest to a segment, if it passes within `tolerance` of it; of a segment along the ray at its
+/// first point.
+RayHit ray_segment(Ray const& ray, std::array<Eigen::Vector3d, 2> const& p, double tolerance);
+
+/// Where it goes through a triangle, from either side. No ray passes between triangles that share an edge or
+/// a corner (Woop, Benthin and Wald 2013): they are sheared along the ray into a plane, where each vertex is
+/// at the same place for all, and the test of an edge is the same number for both of its triangles,
+/// `corners` being the numbers of the vertices. A triangle seen from its edge, or without area, is not hit.
+RayHit ray_triangle(Ray const& ray, std::array<Eigen::Vector3d, 3> const& p,
+                    std::array<int, 3> const& corners);
+
+}  // namespace sinew
+
+#if SINEW_DEFINES
+#include <algorithm>
+#include <cmath>
+
+namespace sinew {
+
+SINEW_ONCE RayHit ray_sphere(Ray const& ray, Eigen::Vector3d const& center, double radius) {
   const Eigen::Vector3d d = center - ray.origin;
   const double along = d.dot(ray.direction);
   const double half = radius * radius - (d - along * ray.direction).squaredNorm();
@@ -35,21 +65,13 @@ inline RayHit ray_sphere(Ray const& ray, Eigen::Vector3d const& center, double r
   return {t, {1, 0, 0}};
 }
 
-/// Where it enters a hull, or leaves that in which it begins: of(ray, surface, element, end), up to the
-/// distance `end`. Declared here only: hull_contacts.hpp, which needs libccd, defines it for who has hulls.
-template <class Hulls>
-struct HullRay;
-
-/// Where it is nearest to a point, if it passes within `tolerance` of it.
-inline RayHit ray_point(Ray const& ray, Eigen::Vector3d const& point, double tolerance) {
+SINEW_ONCE RayHit ray_point(Ray const& ray, Eigen::Vector3d const& point, double tolerance) {
   const double t = std::max(0.0, (point - ray.origin).dot(ray.direction));
   if (!((point - ray.at(t)).norm() <= tolerance)) return {};
   return {t, {1, 0, 0}};
 }
 
-/// Where it is nearest to a segment, if it passes within `tolerance` of it; of a segment along the ray at its
-/// first point.
-inline RayHit ray_segment(Ray const& ray, std::array<Eigen::Vector3d, 2> const& p, double tolerance) {
+SINEW_ONCE RayHit ray_segment(Ray const& ray, std::array<Eigen::Vector3d, 2> const& p, double tolerance) {
   const Eigen::Vector3d e = p[1] - p[0], w = p[0] - ray.origin;
   const double ee = e.squaredNorm(), ed = e.dot(ray.direction), ew = e.dot(w), dw = ray.direction.dot(w);
   const double across = ee - ed * ed;  // ee sin^2 of the angle between
@@ -70,12 +92,8 @@ inline RayHit ray_segment(Ray const& ray, std::array<Eigen::Vector3d, 2> const& 
   return best;
 }
 
-/// Where it goes through a triangle, from either side. No ray passes between triangles that share an edge or
-/// a corner (Woop, Benthin and Wald 2013): they are sheared along the ray into a plane, where each vertex is
-/// at the same place for all, and the test of an edge is the same number for both of its triangles,
-/// `corners` being the numbers of the vertices. A triangle seen from its edge, or without area, is not hit.
-inline RayHit ray_triangle(Ray const& ray, std::array<Eigen::Vector3d, 3> const& p,
-                           std::array<int, 3> const& corners) {
+SINEW_ONCE RayHit ray_triangle(Ray const& ray, std::array<Eigen::Vector3d, 3> const& p,
+                               std::array<int, 3> const& corners) {
   Eigen::Index z = 0;
   ray.direction.cwiseAbs().maxCoeff(&z);
   const Eigen::Index x = (z + 1) % 3, y = (z + 2) % 3;
@@ -102,3 +120,4 @@ inline RayHit ray_triangle(Ray const& ray, std::array<Eigen::Vector3d, 3> const&
 }
 
 }  // namespace sinew
+#endif

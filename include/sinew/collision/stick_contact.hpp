@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/collision/contact.hpp>
+#include <sinew/core/compiled.hpp>
 
 namespace sinew {
 
@@ -13,15 +14,7 @@ struct StickContactForceField {
 
   double dt = 0;
 
-  void evaluate(Contact& c, Eigen::Vector3d const& u, Eigen::Vector3d const& rate) const {
-    c.force.setZero();
-    c.stiffnessMatrix.setZero();
-    c.dampingMatrix.setZero();
-    if (c.memory == 0 && !(c.distance < c.limit)) return;
-    c.force = -c.stiffness * (c.slip + (u - c.start)) - c.damping * rate;
-    c.stiffnessMatrix.diagonal().setConstant(c.stiffness);
-    c.dampingMatrix.diagonal().setConstant(c.damping);
-  }
+  void evaluate(Contact& c, Eigen::Vector3d const& u, Eigen::Vector3d const& rate) const;
   /// memory: 1 since it sticks; slip: u - u0.
   void settle(Contact& c, Eigen::Vector3d const& u) const {
     if (c.memory == 0 && !(c.distance < c.limit)) return;
@@ -31,3 +24,20 @@ struct StickContactForceField {
 };
 
 }  // namespace sinew
+
+#if SINEW_DEFINES
+namespace sinew {
+
+SINEW_ONCE void StickContactForceField::evaluate(Contact& c, Eigen::Vector3d const& u,
+                                                 Eigen::Vector3d const& rate) const {
+  c.force.setZero();
+  c.stiffnessMatrix.setZero();
+  c.dampingMatrix.setZero();
+  if (c.memory == 0 && !(c.distance < c.limit)) return;
+  c.force = -c.stiffness * (c.slip + (u - c.start)) - c.damping * rate;
+  c.stiffnessMatrix.diagonal().setConstant(c.stiffness);
+  c.dampingMatrix.diagonal().setConstant(c.damping);
+}
+
+}  // namespace sinew
+#endif

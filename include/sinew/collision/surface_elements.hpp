@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/compiled.hpp>
 #include <sinew/core/component.hpp>
-#include <sinew/topology/border.hpp>
 
-#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -12,16 +11,32 @@ namespace sinew {
 
 using PrimitiveCorners = std::array<int, 3>;  // of a primitive, -1 behind the last
 
-inline std::vector<PrimitiveCorners> points_of(TopologyView const&, std::size_t points) {
+std::vector<PrimitiveCorners> points_of(TopologyView const&, std::size_t points);
+
+/// The surface of the volume elements of a topology, turned outwards, whatever of it is listed, so that it is
+/// that of what is left when some are removed; then the triangles and quads that are no part of it. Quads
+/// are cut in two.
+std::vector<PrimitiveCorners> triangles_of(TopologyView const& t, std::size_t = 0);
+
+/// The edges of a topology; where it has none, those of its triangles (triangles_of), each once.
+std::vector<PrimitiveCorners> lines_of(TopologyView const& t, std::size_t = 0);
+
+}  // namespace sinew
+
+#if SINEW_DEFINES
+#include <sinew/topology/border.hpp>
+
+#include <algorithm>
+
+namespace sinew {
+
+SINEW_ONCE std::vector<PrimitiveCorners> points_of(TopologyView const&, std::size_t points) {
   std::vector<PrimitiveCorners> all;
   for (int i = 0; i < int(points); ++i) all.push_back({i, -1, -1});
   return all;
 }
 
-/// The surface of the volume elements of a topology, turned outwards, whatever of it is listed, so that it is
-/// that of what is left when some are removed; then the triangles and quads that are no part of it. Quads
-/// are cut in two.
-inline std::vector<PrimitiveCorners> triangles_of(TopologyView const& t, std::size_t = 0) {
+SINEW_ONCE std::vector<PrimitiveCorners> triangles_of(TopologyView const& t, std::size_t) {
   std::vector<PrimitiveCorners> all, known;
   auto quad = [](Quad const& q) {
     return std::array<PrimitiveCorners, 2>{{{q[0], q[1], q[2]}, {q[0], q[2], q[3]}}};
@@ -44,8 +59,7 @@ inline std::vector<PrimitiveCorners> triangles_of(TopologyView const& t, std::si
   return all;
 }
 
-/// The edges of a topology; where it has none, those of its triangles (triangles_of), each once.
-inline std::vector<PrimitiveCorners> lines_of(TopologyView const& t, std::size_t = 0) {
+SINEW_ONCE std::vector<PrimitiveCorners> lines_of(TopologyView const& t, std::size_t) {
   std::vector<PrimitiveCorners> all;
   for (Edge const& e : t.edges) all.push_back({e[0], e[1], -1});
   if (!all.empty()) return all;
@@ -60,3 +74,4 @@ inline std::vector<PrimitiveCorners> lines_of(TopologyView const& t, std::size_t
 }
 
 }  // namespace sinew
+#endif

@@ -119,13 +119,13 @@ struct AttachProjectiveConstraint {
 
   template <class... V>
   requires(sizeof...(V) == (between ? 2 : 1)) void projectResponse(V&... dx) const {
-    const std::array<VecDeriv*, sizeof...(V)> ends{&dx...};
+    const std::array<VecDeriv*, sizeof...(V)> states{&dx...};
     forEachGroup([&](std::span<Member const> group) {
       if (twoWay)
-        shareMean(ends, group, [&](Member const&) { return Real(1) / Real(group.size()); });
+        shareMean(states, group, [&](Member const&) { return Real(1) / Real(group.size()); });
       else
         for (Member const& m : group.subspan(1))
-          for (int c = 0; c < coordinates(); ++c) of(ends, m)[c] = 0;
+          for (int c = 0; c < coordinates(); ++c) of(states, m)[c] = 0;
     });
   }
   template <class... V>
@@ -137,24 +137,24 @@ struct AttachProjectiveConstraint {
   }
   template <class... V>
   requires(sizeof...(V) == (between ? 2 : 1)) void projectVelocity(double /*time*/, V&... v) const {
-    const std::array<VecDeriv*, sizeof...(V)> ends{&v...};
+    const std::array<VecDeriv*, sizeof...(V)> states{&v...};
     forEachGroup([&](std::span<Member const> group) {
-      shareMean(ends, group, [](Member const& m) { return m.weight; });
+      shareMean(states, group, [](Member const& m) { return m.weight; });
     });
   }
   template <class... X>
   requires(sizeof...(X) == (between ? 2 : 1)) void projectPosition(double /*time*/, X&... x) const {
-    const std::array<VecCoord*, sizeof...(X)> ends{&x...};
+    const std::array<VecCoord*, sizeof...(X)> states{&x...};
     forEachGroup([&](std::span<Member const> group) {
-      auto mean = of(ends, group[0]);
+      auto mean = of(states, group[0]);
       typename D::Deriv way = D::Deriv::Zero();
-      for (Member const& m : group) way += m.weight * D::difference(of(ends, group[0]), of(ends, m));
+      for (Member const& m : group) way += m.weight * D::difference(of(states, group[0]), of(states, m));
       D::increment(mean, way);
       for (Member const& m : group)
         if (freeRotations)
-          D::setCenter(of(ends, m), D::center(mean));
+          D::setCenter(of(states, m), D::center(mean));
         else
-          of(ends, m) = mean;
+          of(states, m) = mean;
     });
   }
 
@@ -179,8 +179,8 @@ struct AttachProjectiveConstraint {
   int coordinates() const { return freeRotations ? D::spatial : D::size; }
 
   template <class V>
-  static auto& of(V const& ends, Member const& m) {
-    return (*ends[std::size_t(m.side)])[std::size_t(m.point)];
+  static auto& of(V const& states, Member const& m) {
+    return (*states[std::size_t(m.side)])[std::size_t(m.point)];
   }
   template <class F>
   void forEachGroup(F&& f) const {
@@ -188,13 +188,13 @@ struct AttachProjectiveConstraint {
       f(std::span(members).subspan(groups[g], groups[g + 1] - groups[g]));
   }
   template <class V, class Weight>
-  void shareMean(V const& ends, std::span<Member const> group, Weight&& weight) const {
+  void shareMean(V const& states, std::span<Member const> group, Weight&& weight) const {
     // that of equal values is the same to the last bit
-    const typename D::Deriv first = of(ends, group[0]);
+    const typename D::Deriv first = of(states, group[0]);
     typename D::Deriv mean = first;
-    for (Member const& m : group) mean += weight(m) * (of(ends, m) - first);
+    for (Member const& m : group) mean += weight(m) * (of(states, m) - first);
     for (Member const& m : group)
-      for (int c = 0; c < coordinates(); ++c) of(ends, m)[c] = mean[c];
+      for (int c = 0; c < coordinates(); ++c) of(states, m)[c] = mean[c];
   }
   template <class Sink>
   std::span<int const> dofsOf(Sink const& sink, std::span<Member const> group) {

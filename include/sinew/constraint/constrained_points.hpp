@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/compiled.hpp>
 #include <sinew/core/component.hpp>
 #include <sinew/core/point_loop.hpp>
 
-#include <algorithm>
 #include <vector>
 
 namespace sinew {
@@ -80,12 +80,7 @@ struct KeyInterval {
   std::size_t first;
   double part, length;
 };
-inline KeyInterval key_interval(std::vector<double> const& times, double time) {
-  const auto after = std::upper_bound(times.begin(), times.end(), time) - times.begin();
-  const auto first = std::size_t(std::clamp<std::ptrdiff_t>(after - 1, 0, std::ptrdiff_t(times.size()) - 2));
-  const double length = times[first + 1] - times[first];
-  return {first, (time - times[first]) / length, length};
-}
+KeyInterval key_interval(std::vector<double> const& times, double time);
 
 /// The time that a prescribed movement takes.
 struct MovementTime {
@@ -137,3 +132,18 @@ V unit(InitContext<typename C::DataTypes> const& context, std::string_view name,
 }
 
 }  // namespace sinew
+
+#if SINEW_DEFINES
+#include <algorithm>
+
+namespace sinew {
+
+SINEW_ONCE KeyInterval key_interval(std::vector<double> const& times, double time) {
+  const auto after = std::upper_bound(times.begin(), times.end(), time) - times.begin();
+  const auto first = std::size_t(std::clamp<std::ptrdiff_t>(after - 1, 0, std::ptrdiff_t(times.size()) - 2));
+  const double length = times[first + 1] - times[first];
+  return {first, (time - times[first]) / length, length};
+}
+
+}  // namespace sinew
+#endif

@@ -173,10 +173,10 @@ struct MatrixSink {
   }
 };
 
-/// The sink for two kinds of degrees of freedom; other kinds than the above have overloads of their own.
-template <AssemblyPhase Phase, class Matrix, class A, class B>
-MatrixSink<Phase, Matrix, A, B> make_sink(Matrix& matrix, A const& first, B const& second) {
-  return {matrix, first, second};
+/// f(the sink for two kinds of degrees of freedom); other kinds than the above have overloads of their own.
+template <AssemblyPhase Phase, class Matrix, class A, class B, class F>
+void with_sink(Matrix& matrix, A const& first, B const& second, F&& f) {
+  f(MatrixSink<Phase, Matrix, A, B>{matrix, first, second});
 }
 
 }  // namespace sinew

@@ -10,7 +10,7 @@ namespace sinew {
 template <class T, int N>
 struct Dual {
   T value;
-  T slope[N];
+  T slope[std::size_t(N)];
 
   Dual() = default;
   SINEW_INLINE Dual(T v) : value(v) {

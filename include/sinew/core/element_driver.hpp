@@ -34,24 +34,30 @@ struct ElementDriver {
   using Rest = typename LawOf<D>::Rest;
   static constexpr int arity = Law::arity;
   static constexpr int pairs = arity * (arity + 1) / 2;
-  using Indices = std::array<int, arity>;
-  using Coords =
-      std::array<Coord const*, arity>;  // first point of the state that each end of an element lives on
-  using ConstDerivs = std::array<Deriv const*, arity>;
-  using Derivs = std::array<Deriv*, arity>;
+  template <class Value>
+  using OfPoints = Value[std::size_t(arity)];
+  template <class Value>
+  using OfPairs = Value[std::size_t(pairs)];
+  template <class Value>
+  using OfLanes = Value[std::size_t(W)];
+  using Indices = std::array<int, std::size_t(arity)>;
+  // first point of the state that each end of an element lives on
+  using Coords = std::array<Coord const*, std::size_t(arity)>;
+  using ConstDerivs = std::array<Deriv const*, std::size_t(arity)>;
+  using Derivs = std::array<Deriv*, std::size_t(arity)>;
 
   struct Pack {
     typename Law::Rest rest;
     typename Law::Tangent tangent;
-    int index[arity][W];
+    OfPoints<OfLanes<int>> index;
     int active;
     bool hasLast;  // one of the points may be the last of its state: nothing may be read behind it
   };
   // where the blocks of a pack stand in the matrix of the solver: slot of the one on or above the diagonal,
   // and, a bit for each lane, whether it is the transpose of the law's block(i, j)
   struct Slots {
-    int slot[pairs][W];
-    std::uint16_t transposed[pairs];
+    OfPairs<OfLanes<int>> slot;
+    OfPairs<std::uint16_t> transposed;
     static_assert(W <= 16);
     void set(int pair, int lane, bool turned) {
       transposed[pair] = std::uint16_t((transposed[pair] & ~(1 << lane)) | turned << lane);
@@ -156,8 +162,8 @@ struct ElementDriver {
 
   /// The same first point for all ends, where an element has one body.
   template <class T>
-  static std::array<T*, arity> oneBody(T* first) {
-    std::array<T*, arity> ends;
+  static std::array<T*, std::size_t(arity)> oneBody(T* first) {
+    std::array<T*, std::size_t(arity)> ends;
     ends.fill(first);
     return ends;
   }
@@ -178,8 +184,8 @@ struct ElementDriver {
                                  [[maybe_unused]] Part part = {}) {
     if constexpr (W > 1) return forceInParts(law, f, x, v, part);
     for (Pack& pack : packs) {
-      typename DL::Coord xs[arity];
-      typename DL::Deriv vs[arity], fs[arity];
+      OfPoints<typename DL::Coord> xs;
+      OfPoints<typename DL::Deriv> vs, fs;
       gather(pack, x, xs);
       if constexpr (Law::usesVelocity) gather(pack, v, vs);
       law.force(pack.rest, xs, vs, fs, pack.tangent);
@@ -191,7 +197,7 @@ struct ElementDriver {
                                   [[maybe_unused]] Part part = {}) const {
     if constexpr (W > 1) return dforceInParts(law, df, dx, k, b, part);
     for (Pack const& pack : packs) {
-      typename DL::Deriv dxs[arity], dfs[arity];
+      OfPoints<typename DL::Deriv> dxs, dfs;
       gather(pack, dx, dxs);
       law.dforce(pack.rest, pack.tangent, dxs, dfs, L(k), L(b));
       scatter(pack, dfs, df);
@@ -201,7 +207,7 @@ struct ElementDriver {
   double energy(Law const& law, Coords x) const {
     double sum = 0;
     for (Pack const& pack : packs) {
-      typename DL::Coord xs[arity];
+      OfPoints<typename DL::Coord> xs;
       gather(pack, x, xs);
       const L e = law.energy(pack.rest, xs);
       for (int l = 0; l < pack.active; ++l) sum += double(lane(e, l));
@@ -245,7 +251,7 @@ struct ElementDriver {
           for (int i = 0; i < arity; ++i)
             for (int j = i; j < arity; ++j) addPair.template operator()<0, 0>(pack, i, j);
         } else {
-          constexpr std::array<int, arity> side{SideOf...};
+          constexpr std::array<int, std::size_t(arity)> side{SideOf...};
           forEachPair([&]<int I, int J>() { addPair.template operator()<side[I], side[J]>(pack, I, J); });
         }
       }
@@ -261,9 +267,9 @@ struct ElementDriver {
   [[gnu::noinline, gnu::flatten]] void forceInParts(Law const& law, Derivs f, Coords x, ConstDerivs v,
                                                     Part part) {
     forEachPack(
-        *this, part, f, [&](Pack & pack, typename DL::Deriv(&fs)[arity]) __attribute__((always_inline)) {
-          typename DL::Coord xs[arity];
-          typename DL::Deriv vs[arity];
+        *this, part, f, [&](Pack & pack, OfPoints<typename DL::Deriv> & fs) __attribute__((always_inline)) {
+          OfPoints<typename DL::Coord> xs;
+          OfPoints<typename DL::Deriv> vs;
           gather(pack, x, xs);
           if constexpr (Law::usesVelocity) gather(pack, v, vs);
           law.force(pack.rest, xs, vs, fs, pack.tangent);
@@ -276,8 +282,8 @@ struct ElementDriver {
         *this,
         part,
         df,
-        [&](Pack const& pack, typename DL::Deriv(&dfs)[arity]) __attribute__((always_inline)) {
-          typename DL::Deriv dxs[arity];
+        [&](Pack const& pack, OfPoints<typename DL::Deriv>& dfs) __attribute__((always_inline)) {
+          OfPoints<typename DL::Deriv> dxs;
           gather(pack, dx, dxs);
           law.dforce(pack.rest, pack.tangent, dxs, dfs, L(k), L(b));
         });
@@ -300,11 +306,11 @@ struct ElementDriver {
     const std::size_t end = part.end(self.packs.size());
     for (std::size_t p = part.begin(self.packs.size()); p < end; ++p) {
       auto& pack = self.packs[p];
-      typename DL::Deriv fs[arity];
+      OfPoints<typename DL::Deriv> fs;
       law(pack, fs);
       if (!whole && self.lateForces.firstOf[p] >= 0) [[unlikely]] {
         // a copy, so that what others receive may stay in registers
-        typename DL::Deriv kept[arity];
+        OfPoints<typename DL::Deriv> kept;
         for (int k = 0; k < arity; ++k) kept[k] = fs[k];
         self.keep(pack, self.lateForces.rooms.data() + self.lateForces.firstOf[p], kept, to[0]);
       } else {
@@ -313,7 +319,7 @@ struct ElementDriver {
     }
   }
   // of what points receive, what belongs to a part before is kept
-  [[gnu::noinline]] void keep(Pack const& pack, int const* rooms, typename DL::Deriv const (&from)[arity],
+  [[gnu::noinline]] void keep(Pack const& pack, int const* rooms, OfPoints<typename DL::Deriv> const& from,
                               Deriv* to) const {
     constexpr int n = realsOf<Deriv>;
     for (int k = 0; k < arity; ++k)
@@ -347,8 +353,8 @@ struct ElementDriver {
   static constexpr int realsOf = int(sizeof(Value) / sizeof(Real));
 
   template <class Value, class LaneValue>
-  SINEW_INLINE static void gather(Pack const& pack, std::array<Value const*, arity> const& from,
-                                  LaneValue (&to)[arity]) {
+  SINEW_INLINE static void gather(Pack const& pack, std::array<Value const*, std::size_t(arity)> const& from,
+                                  OfPoints<LaneValue>& to) {
     constexpr int n = realsOf<Value>;
     if constexpr (n == 3 && W >= 4)
       if (!pack.hasLast) {
@@ -361,14 +367,22 @@ struct ElementDriver {
     if constexpr (W == 1)
       for (int k = 0; k < arity; ++k) to[k] = from[std::size_t(k)][pack.index[k][0]];
     else
-      for (int k = 0; k < arity; ++k)
-        for (int l = 0; l < W; ++l) {
-          Real const* const value = reinterpret_cast<Real const*>(from[std::size_t(k)] + pack.index[k][l]);
-          for (int c = 0; c < n; ++c) reinterpret_cast<L*>(&to[k])[c].set(l, value[c]);
+      for (int k = 0; k < arity; ++k) {
+        OfLanes<Real const*> values;
+        for (int l = 0; l < W; ++l)
+          values[l] = reinterpret_cast<Real const*>(from[std::size_t(k)] + pack.index[k][l]);
+        auto component = [&]<int... Lane>(int c, std::integer_sequence<int, Lane...>)
+            __attribute__((always_inline)) {
+          reinterpret_cast<L*>(&to[k])[c] = typename L::Vector{values[Lane][c]...};
+        };
+        [&]<int... C>(std::integer_sequence<int, C...>) __attribute__((always_inline)) {
+          (component(C, std::make_integer_sequence<int, W>{}), ...);
         }
+        (std::make_integer_sequence<int, n>{});
+      }
   }
 
-  SINEW_INLINE static void scatter(Pack const& pack, typename DL::Deriv (&from)[arity], Derivs const& to) {
+  SINEW_INLINE static void scatter(Pack const& pack, OfPoints<typename DL::Deriv>& from, Derivs const& to) {
     constexpr int n = realsOf<Deriv>;
     if constexpr (W == 1) {
       for (int k = 0; k < arity; ++k) {
@@ -384,7 +398,7 @@ struct ElementDriver {
       }
       (std::make_integer_sequence<int, arity>{});
     } else {
-      alignas(64) Real ofLane[arity][W][(n + 3) / 4 * 4];
+      alignas(64) OfPoints<OfLanes<Real[std::size_t(n + 3) / 4 * 4]>> ofLane;
       [&]<int... K>(std::integer_sequence<int, K...>) __attribute__((always_inline)) {
         (transpose<n>(reinterpret_cast<L const*>(&from[K]), ofLane[K]), ...);
       }
@@ -461,10 +475,11 @@ struct ElementDriver {
 
   // the block of each lane, or its transpose, row-major as the matrix has it
   template <bool Symmetric, class Block, std::size_t Size>
-  SINEW_INLINE static void separate(Block const& block, std::uint16_t transposed, Real (&ofLane)[W][Size]) {
+  SINEW_INLINE static void separate(Block const& block, std::uint16_t transposed,
+                                    Real (&ofLane)[std::size_t(W)][Size]) {
     constexpr int n = D::size;
     const auto turned = lanes_of_bits<L>(transposed);
-    L rows[n * n];
+    L rows[std::size_t(n * n)];
     for (int r = 0; r < n; ++r)
       for (int c = 0; c < n; ++c)
         rows[r * n + c] = Symmetric || r == c ? block(r, c) : select(turned, L(block(c, r)), L(block(r, c)));
@@ -520,7 +535,7 @@ struct ElementDriver {
         constexpr int pair = pairNumber(I, J);
         const Mat<L, n> block = law.block(pack.rest, pack.tangent, I, J, L(k), L(b));
         auto const& slot = slots[p].slot[pair];
-        alignas(64) Real ofLane[W][(n * n + 3) / 4 * 4];
+        alignas(64) OfLanes<Real[std::size_t(n * n + 3) / 4 * 4]> ofLane;
         separate<I == J>(block, slots[p].transposed[pair], ofLane);
         auto add = [&](int l) __attribute__((always_inline)) {
           addTo<n * n>(values + std::ptrdiff_t(slot[l]) * (n * n), ofLane[l]);
@@ -529,7 +544,7 @@ struct ElementDriver {
           for (int l = 0; l < pack.active; ++l) add(l);
           return;
         }
-        for (int l = 0; l < pack.active; ++l)
+        for (int l = 0; l < std::min(W, pack.active); ++l)
           if (rooms[pair * W + l] >= 0)
             std::memcpy(keptBlocks.data() + std::ptrdiff_t(rooms[pair * W + l]) * n * n,
                         ofLane[l],

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/platform.hpp>
+#include <sinew/core/compiled.hpp>
+
 #include <algorithm>
 #include <charconv>
 #include <concepts>
 #include <cstddef>
 #include <initializer_list>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace sinew {
 
@@ -39,12 +40,7 @@ struct TextPart {
   TextPart(double value) : size(std::size_t(__builtin_snprintf(number, sizeof number, "%.9g", value))) {}
 };
 
-inline std::string joined(std::initializer_list<TextPart> parts) {
-  std::string all;
-  for (TextPart const& part : parts)
-    all.append(part.size == 0 ? "" : part.word ? part.word : part.number, part.size);
-  return all;
-}
+std::string joined(std::initializer_list<TextPart> parts);
 
 }  // namespace detail
 
@@ -55,7 +51,38 @@ std::string text(Parts const&... parts) {
 }
 
 /// Number of single-letter edits that turn `a` into `b` (Levenshtein 1966), letter case ignored.
-inline std::size_t edit_distance(std::string_view a, std::string_view b) {
+std::size_t edit_distance(std::string_view a, std::string_view b);
+
+/// The known name nearest to a misspelt one; empty when none is near.
+template <class Names>
+std::string nearest_name(std::string_view word, Names const& known) {
+  std::string best;
+  std::size_t distance = std::max<std::size_t>(2, word.size() / 2) + 1;
+  for (std::string_view name : known)
+    if (const std::size_t d = edit_distance(word, name); d < distance) distance = d, best = name;
+  return best;
+}
+
+}  // namespace sinew
+
+#if SINEW_DEFINES
+#include <numeric>
+#include <vector>
+
+namespace sinew::detail {
+
+SINEW_ONCE std::string joined(std::initializer_list<TextPart> parts) {
+  std::string all;
+  for (TextPart const& part : parts)
+    all.append(part.size == 0 ? "" : part.word ? part.word : part.number, part.size);
+  return all;
+}
+
+}  // namespace sinew::detail
+
+namespace sinew {
+
+SINEW_ONCE std::size_t edit_distance(std::string_view a, std::string_view b) {
   auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; };
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -71,14 +98,5 @@ inline std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
-/// The known name nearest to a misspelt one; empty when none is near.
-template <class Names>
-std::string nearest_name(std::string_view word, Names const& known) {
-  std::string best;
-  std::size_t distance = std::max<std::size_t>(2, word.size() / 2) + 1;
-  for (std::string_view name : known)
-    if (const std::size_t d = edit_distance(word, name); d < distance) distance = d, best = name;
-  return best;
-}
-
 }  // namespace sinew
+#endif

@@ -6,10 +6,12 @@
 
 #include <boost/hana/for_each.hpp>
 #include <boost/hana/tuple.hpp>
+#include <boost/hana/unpack.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -141,28 +143,55 @@ constexpr void for_each_field_of(F&& f) {
   boost::hana::for_each(T::fields(), f);
 }
 
+namespace detail {
+
+// "name<first, second, third>"; what a component lacks of these is empty
+inline std::string full_name(std::string_view name, std::string_view first = {}, std::string_view second = {},
+                             std::string_view third = {}) {
+  std::string all(name);
+  if (first.empty()) return all;
+  all += text('<', first);
+  for (const std::string_view next : {second, third})
+    if (!next.empty()) all += text(", ", next);
+  return all + '>';
+}
+
+}  // namespace detail
+
 /// "TetrahedronFEMForceField<Vec3d>".
 template <class C>
 std::string component_name() {
-  std::string name(C::className);
   if constexpr (requires {
                   typename C::In;
                   typename C::Out;
-                }) {
-    name += text('<', data_types_name<typename C::In>::value, ", ", data_types_name<typename C::Out>::value);
-    if constexpr (requires { typename C::Parents; }) name += text(", ", C::Parents::name());
-    name += '>';
-  } else if constexpr (requires { C::templateName; })
-    name += text('<', C::templateName, '>');
+                  typename C::Parents;
+                })
+    return detail::full_name(C::className,
+                             data_types_name<typename C::In>::value,
+                             data_types_name<typename C::Out>::value,
+                             C::Parents::name());
+  else if constexpr (requires {
+                       typename C::In;
+                       typename C::Out;
+                     })
+    return detail::full_name(
+        C::className, data_types_name<typename C::In>::value, data_types_name<typename C::Out>::value);
+  else if constexpr (requires { C::templateName; })
+    return detail::full_name(C::className, C::templateName);
   else if constexpr (requires {
                        typename C::Ends;
                        requires C::between;
                      })
-    name += text('<', data_types_name<typename C::DataTypes>::value, ", ", C::Ends::name(), '>');
+    return detail::full_name(C::className, data_types_name<typename C::DataTypes>::value, C::Ends::name());
   else if constexpr (requires { typename C::DataTypes; })
-    name += text('<', data_types_name<typename C::DataTypes>::value, '>');
-  return name;
+    return detail::full_name(C::className, data_types_name<typename C::DataTypes>::value);
+  else
+    return std::string(C::className);
 }
+
+/// The fields of a class, for as long as the program runs.
+template <class C>
+inline constexpr auto fields_of_class = C::fields();
 
 namespace detail {
 
@@ -274,12 +303,37 @@ BadNumber find_number(T const& value, Refused const& bad) {
 
 }  // namespace detail
 
+namespace detail {
+
+/// The value of a field, and what looks for a number that it refuses.
+struct CheckedField {
+  FieldWords const* words;
+  void const* value;
+  BadNumber (*find)(void const* value, Refused const& bad);
+};
+template <class T>
+BadNumber find_number_at(void const* value, Refused const& bad) {
+  return find_number(*static_cast<T const*>(value), bad);
+}
+inline void check_values(CheckedField const* all, std::size_t count, std::string (*component)(),
+                         std::string_view where) {
+  for (std::size_t i = 0; i < count; ++i)
+    if (const auto bad = all[i].find(all[i].value, {all[i].words->range}); bad.found)
+      refuse(where, component(), *all[i].words, bad);
+}
+
+}  // namespace detail
+
 /// Throws Error unless every field of `component` is finite and in its declared range.
 template <class C>
 void check_fields(C const& component, std::string_view where) {
-  for_each_field(component, [&](auto const& fd, auto const& value) {
-    if (const auto bad = detail::find_number(value, {fd.range}); bad.found)
-      detail::refuse(where, component_name<C>(), fd, bad);
+  boost::hana::unpack(fields_of_class<C>, [&](auto const&... fd) {
+    const detail::CheckedField all[] = {
+        {&fd,
+         std::addressof(component.*fd.member),
+         &detail::find_number_at<std::decay_t<decltype(component.*fd.member)>>}...,
+        {}};
+    detail::check_values(all, sizeof...(fd), &component_name<C>, where);
   });
 }
 

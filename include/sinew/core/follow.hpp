@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/compiled.hpp>
 #include <sinew/core/fields.hpp>
 #include <sinew/core/renumbering.hpp>
 
@@ -16,22 +17,7 @@ struct Followed {
   Renumbering const& parentPoints;
   TopologyChange const& topology;
 
-  Renumbering const& numbered(Of what) const {
-    switch (what) {
-      case Of::secondPoints:
-        return secondPoints;
-      case Of::parentPoints:
-        return parentPoints;
-      case Of::edges:
-        return topology.of(ElementKind::edge);
-      case Of::triangles:
-        return topology.of(ElementKind::triangle);
-      case Of::quads:
-        return topology.of(ElementKind::quad);
-      default:
-        return points;
-    }
-  }
+  Renumbering const& numbered(Of what) const;
   int dimensionOf(Of what) const {
     return what == Of::lines ? 1 : what == Of::surfaces ? 2 : what == Of::volumes ? 3 : topology.dimension();
   }
@@ -74,12 +60,7 @@ struct ListsThatFollow {
       structs.push_back(stays);
     }
   }
-  void markNumbers(std::vector<int> const& list, Of what) {
-    if (!isEntry(what)) return;
-    if (entries.size() < list.size()) entries.resize(list.size(), true);
-    for (std::size_t i = 0; i < list.size(); ++i)
-      if (!change.numbered(what).stays(list[i])) entries[i] = false;
-  }
+  void markNumbers(std::vector<int> const& list, Of what);
   void marked() {
     ofStructs = Renumbering::of(structs), ofEntries = Renumbering::of(entries);
     structs.insert(structs.end(), entries.begin(), entries.end());
@@ -92,37 +73,12 @@ struct ListsThatFollow {
     for (auto& item : list)
       for_each_number(item, [&](Of what, int& i) { change.numbered(what).renumber(i); });
   }
-  void changeNumbers(std::vector<int>& list, Of what) {
-    const bool before = !list.empty();
-    Renumbering const& numbered = change.numbered(what);
-    if (isEntry(what))
-      ofEntries.filter(list);
-    else if (what == Of::parentPoints)
-      change.points.filter(list);
-    else
-      std::erase_if(list, [&](int i) { return !numbered.stays(i); });
-    for (int& i : list) numbered.renumber(i);
-    emptied = emptied || (before && list.empty());
-  }
+  void changeNumbers(std::vector<int>& list, Of what);
   template <class T>
   void changeValues(std::vector<T>& list, Of what) const {
     if (list.size() > 1) ofValues(what, list.size()).filter(list);
   }
-  Renumbering ofValues(Of what, std::size_t size) const {
-    switch (what) {
-      case Of::nothing:
-        return {};
-      case Of::points:
-        return change.points;
-      case Of::entries:
-        // of structs and lists together, or of the lists only; where there are none, of all points
-        return ofBoth.now.empty() ? change.points : size == ofBoth.now.size() ? ofBoth : ofEntries;
-      case Of::hexahedra:
-        return change.topology.of(ElementKind::hexahedron);
-      default:
-        return change.topology.ofDimension(change.dimensionOf(what), size);
-    }
-  }
+  Renumbering ofValues(Of what, std::size_t size) const;
 };
 
 }  // namespace detail
@@ -172,3 +128,66 @@ std::vector<bool> mapped_points_that_stay(M const& mapping, Renumbering const& p
 }
 
 }  // namespace sinew
+
+#if SINEW_DEFINES
+namespace sinew::detail {
+
+SINEW_ONCE void ListsThatFollow::markNumbers(std::vector<int> const& list, Of what) {
+  if (!isEntry(what)) return;
+  if (entries.size() < list.size()) entries.resize(list.size(), true);
+  for (std::size_t i = 0; i < list.size(); ++i)
+    if (!change.numbered(what).stays(list[i])) entries[i] = false;
+}
+
+SINEW_ONCE void ListsThatFollow::changeNumbers(std::vector<int>& list, Of what) {
+  const bool before = !list.empty();
+  Renumbering const& numbered = change.numbered(what);
+  if (isEntry(what))
+    ofEntries.filter(list);
+  else if (what == Of::parentPoints)
+    change.points.filter(list);
+  else
+    std::erase_if(list, [&](int i) { return !numbered.stays(i); });
+  for (int& i : list) numbered.renumber(i);
+  emptied = emptied || (before && list.empty());
+}
+
+SINEW_ONCE Renumbering ListsThatFollow::ofValues(Of what, std::size_t size) const {
+  switch (what) {
+    case Of::nothing:
+      return {};
+    case Of::points:
+      return change.points;
+    case Of::entries:
+      // of structs and lists together, or of the lists only; where there are none, of all points
+      return ofBoth.now.empty() ? change.points : size == ofBoth.now.size() ? ofBoth : ofEntries;
+    case Of::hexahedra:
+      return change.topology.of(ElementKind::hexahedron);
+    default:
+      return change.topology.ofDimension(change.dimensionOf(what), size);
+  }
+}
+
+}  // namespace sinew::detail
+
+namespace sinew {
+
+SINEW_ONCE Renumbering const& Followed::numbered(Of what) const {
+  switch (what) {
+    case Of::secondPoints:
+      return secondPoints;
+    case Of::parentPoints:
+      return parentPoints;
+    case Of::edges:
+      return topology.of(ElementKind::edge);
+    case Of::triangles:
+      return topology.of(ElementKind::triangle);
+    case Of::quads:
+      return topology.of(ElementKind::quad);
+    default:
+      return points;
+  }
+}
+
+}  // namespace sinew
+#endif

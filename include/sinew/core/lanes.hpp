@@ -30,7 +30,7 @@ SINEW_INLINE bool both(bool a, bool b) { return a && b; }
 template <class T>
 requires std::is_floating_point_v<T> SINEW_INLINE T lane(T a, int) { return a; }
 template <int N, class T>
-SINEW_INLINE void transpose(T const* in, T (&out)[1][(N + 3) / 4 * 4]) {
+SINEW_INLINE void transpose(T const* in, T (&out)[1][std::size_t(N + 3) / 4 * 4]) {
   for (int c = 0; c < (N + 3) / 4 * 4; ++c) out[0][c] = c < N ? in[c] : T(0);
 }
 
@@ -123,20 +123,23 @@ SINEW_INLINE Lanes<T, W> sqrt(Lanes<T, W> a) {
   using R = Lanes<T, W>;
 #if defined(__AVX512F__)
   if constexpr (W * sizeof(T) == 64 && sizeof(T) == 8)
-    return R((typename R::Vector)_mm512_maskz_sqrt_pd(0xff, (__m512d)a.v));
+    return R(
+        reinterpret_cast<typename R::Vector>(_mm512_maskz_sqrt_pd(0xff, reinterpret_cast<__m512d>(a.v))));
   if constexpr (W * sizeof(T) == 64 && sizeof(T) == 4)
-    return R((typename R::Vector)_mm512_maskz_sqrt_ps(0xffff, (__m512)a.v));
+    return R(
+        reinterpret_cast<typename R::Vector>(_mm512_maskz_sqrt_ps(0xffff, reinterpret_cast<__m512>(a.v))));
 #endif
 #if defined(__AVX__)
   if constexpr (W * sizeof(T) == 32 && sizeof(T) == 8)
-    return R((typename R::Vector)_mm256_sqrt_pd((__m256d)a.v));
+    return R(reinterpret_cast<typename R::Vector>(_mm256_sqrt_pd(reinterpret_cast<__m256d>(a.v))));
   if constexpr (W * sizeof(T) == 32 && sizeof(T) == 4)
-    return R((typename R::Vector)_mm256_sqrt_ps((__m256)a.v));
+    return R(reinterpret_cast<typename R::Vector>(_mm256_sqrt_ps(reinterpret_cast<__m256>(a.v))));
 #endif
 #if defined(__SSE2__)
   if constexpr (W * sizeof(T) == 16 && sizeof(T) == 8)
-    return R((typename R::Vector)_mm_sqrt_pd((__m128d)a.v));
-  if constexpr (W * sizeof(T) == 16 && sizeof(T) == 4) return R((typename R::Vector)_mm_sqrt_ps((__m128)a.v));
+    return R(reinterpret_cast<typename R::Vector>(_mm_sqrt_pd(reinterpret_cast<__m128d>(a.v))));
+  if constexpr (W * sizeof(T) == 16 && sizeof(T) == 4)
+    return R(reinterpret_cast<typename R::Vector>(_mm_sqrt_ps(reinterpret_cast<__m128>(a.v))));
 #endif
   R root;
   for (int i = 0; i < W; ++i) root.v[i] = std::sqrt(a.v[i]);
@@ -196,7 +199,7 @@ SINEW_INLINE Four<T> four_of(typename Lanes<T, W>::Vector const& v, int number,
   }
 }
 template <class T, int W>
-SINEW_INLINE typename Lanes<T, W>::Vector join_fours(Four<T> const (&part)[W / 4]) {
+SINEW_INLINE typename Lanes<T, W>::Vector join_fours(Four<T> const (&part)[std::size_t(W) / 4]) {
   if constexpr (W == 4) {
     return part[0];
   } else if constexpr (W == 8) {
@@ -214,7 +217,7 @@ SINEW_INLINE typename Lanes<T, W>::Vector join_fours(Four<T> const (&part)[W / 4
 /// out[l] = lane l of the N values `in`, filled up with zeros to a multiple of four: W short vectors from N
 /// of lanes.
 template <int N, class T, int W>
-SINEW_INLINE void transpose(Lanes<T, W> const* in, T (&out)[W][(N + 3) / 4 * 4]) {
+SINEW_INLINE void transpose(Lanes<T, W> const* in, T (&out)[std::size_t(W)][std::size_t(N + 3) / 4 * 4]) {
   constexpr int groups = (N + 3) / 4;
   using V = typename Lanes<T, W>::Vector;
   if constexpr (W >= 4) {
@@ -259,7 +262,7 @@ SINEW_INLINE typename Lanes<T, W>::Vector alternating(typename Lanes<T, W>::Vect
 /// Point l at to + 3 * index[l] += lane l of the three components `from`; lane after lane, where points are
 /// the same.
 template <class T, int W>
-requires(W >= 4) SINEW_INLINE void add3(Lanes<T, W> const* from, T* to, int const (&index)[W]) {
+requires(W >= 4) SINEW_INLINE void add3(Lanes<T, W> const* from, T* to, int const (&index)[std::size_t(W)]) {
   using V = typename Lanes<T, W>::Vector;
   typedef T Two __attribute__((vector_size(2 * sizeof(T))));
   const V xy0 = detail::interleaved<1, 0, T, W>(from[0].v, from[1].v),
@@ -285,12 +288,13 @@ requires(W >= 4) SINEW_INLINE void add3(Lanes<T, W> const* from, T* to, int cons
 /// to[c] = lanes of component c of W points, point l at from + 3 * index[l]. One scalar behind each point is
 /// read.
 template <class T, int W>
-requires(W >= 4) SINEW_INLINE void gather3(T const* from, int const (&index)[W], Lanes<T, W>* to) {
+requires(W >= 4) SINEW_INLINE
+    void gather3(T const* from, int const (&index)[std::size_t(W)], Lanes<T, W>* to) {
   using V = typename Lanes<T, W>::Vector;
   constexpr int each = W / 4;  // points a vector holds, four scalars each
   V rows[4];
   for (int r = 0; r < 4; ++r) {
-    detail::Four<T> points[each];
+    detail::Four<T> points[std::size_t(each)];
     for (int k = 0; k < each; ++k) std::memcpy(&points[k], from + 3 * index[r * each + k], sizeof points[k]);
     rows[r] = detail::join_fours<T, W>(points);
   }

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/compiled.hpp>
 #include <sinew/core/error.hpp>
 #include <sinew/core/small_matrix.hpp>
 
 #include <Eigen/Core>
 #include <array>
-#include <cmath>
-#include <string>
 #include <vector>
 
 namespace sinew {
@@ -51,7 +50,17 @@ void check_indices(std::string_view where, std::string_view kind, Elements const
 }  // namespace detail
 
 /// Throws Error, naming `where` and the element, unless all coordinates are finite and all indices in range.
-inline void check_mesh(std::string_view where, Mesh const& mesh) {
+void check_mesh(std::string_view where, Mesh const& mesh);
+
+}  // namespace sinew
+
+#if SINEW_DEFINES
+#include <cmath>
+#include <string>
+
+namespace sinew {
+
+SINEW_ONCE void check_mesh(std::string_view where, Mesh const& mesh) {
   for (std::size_t i = 0; i < mesh.positions.size(); ++i)
     if (!all_finite(mesh.positions[i]))
       throw Error(where,
@@ -65,3 +74,4 @@ inline void check_mesh(std::string_view where, Mesh const& mesh) {
 }
 
 }  // namespace sinew
+#endif

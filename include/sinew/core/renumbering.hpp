@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/compiled.hpp>
 #include <sinew/core/mesh.hpp>
 
 #include <array>
@@ -14,14 +15,7 @@ struct Renumbering {
   std::vector<Index> kept{};  // old numbers, by new ones
   std::vector<Index> now{};   // new numbers, by old ones; -1 for what has gone
 
-  static Renumbering of(std::vector<bool> const& stays) {
-    Renumbering r;
-    for (std::size_t i = 0; i < stays.size(); ++i) {
-      r.now.push_back(stays[i] ? Index(r.kept.size()) : -1);
-      if (stays[i]) r.kept.push_back(Index(i));
-    }
-    return r;
-  }
+  static Renumbering of(std::vector<bool> const& stays);
 
   std::vector<bool> stays() const {
     std::vector<bool> all;
@@ -97,24 +91,43 @@ struct TopologyChange {
   /// The entries that stay of a list of `size`, with one entry for each element of a dimension (1, 2, 3):
   /// simplices first, and then as many entries for each other element as there must be, since a component may
   /// split hexahedra or quads into simplices. Of dimension 0, of a topology without elements, nothing goes.
-  Renumbering ofDimension(int dimension, std::size_t size) const {
-    if (dimension == 0) return {};
-    constexpr int simplex[] = {0, 1, 3}, other[] = {-1, 2, 4};
-    std::vector<bool> stays = elements[std::size_t(simplex[dimension - 1])].stays();
-    if (dimension > 1) {
-      Renumbering const& others = elements[std::size_t(other[dimension - 1])];
-      const std::size_t rest = size > stays.size() ? size - stays.size() : 0, count = others.now.size();
-      if (count > 0 && rest % count == 0)
-        for (const Index n : others.now) stays.insert(stays.end(), rest / count, n >= 0);
-    }
-    return Renumbering::of(stays);
-  }
+  Renumbering ofDimension(int dimension, std::size_t size) const;
   /// The highest dimension of which there were elements; 0 for none.
-  int dimension() const {
-    if (!elements[3].now.empty() || !elements[4].now.empty()) return 3;
-    if (!elements[1].now.empty() || !elements[2].now.empty()) return 2;
-    return elements[0].now.empty() ? 0 : 1;
-  }
+  int dimension() const;
 };
 
 }  // namespace sinew
+
+#if SINEW_DEFINES
+namespace sinew {
+
+SINEW_ONCE Renumbering Renumbering::of(std::vector<bool> const& stays) {
+  Renumbering r;
+  for (std::size_t i = 0; i < stays.size(); ++i) {
+    r.now.push_back(stays[i] ? Index(r.kept.size()) : -1);
+    if (stays[i]) r.kept.push_back(Index(i));
+  }
+  return r;
+}
+
+SINEW_ONCE Renumbering TopologyChange::ofDimension(int dimension, std::size_t size) const {
+  if (dimension == 0) return {};
+  constexpr int simplex[] = {0, 1, 3}, other[] = {-1, 2, 4};
+  std::vector<bool> stays = elements[std::size_t(simplex[dimension - 1])].stays();
+  if (dimension > 1) {
+    Renumbering const& others = elements[std::size_t(other[dimension - 1])];
+    const std::size_t rest = size > stays.size() ? size - stays.size() : 0, count = others.now.size();
+    if (count > 0 && rest % count == 0)
+      for (const Index n : others.now) stays.insert(stays.end(), rest / count, n >= 0);
+  }
+  return Renumbering::of(stays);
+}
+
+SINEW_ONCE int TopologyChange::dimension() const {
+  if (!elements[3].now.empty() || !elements[4].now.empty()) return 3;
+  if (!elements[1].now.empty() || !elements[2].now.empty()) return 2;
+  return elements[0].now.empty() ? 0 : 1;
+}
+
+}  // namespace sinew
+#endif

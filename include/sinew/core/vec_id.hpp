@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/platform.hpp>
+
 namespace sinew {
 
 /// Name of a state vector. The same id means the same quantity in every MechanicalObject of a scene; ids from

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <sinew/core/error.hpp>
+#include <sinew/core/compiled.hpp>
 #include <sinew/core/part.hpp>
 
 #include <atomic>
 #include <exception>
-#include <memory>
 #include <system_error>
 #include <thread>
 #include <type_traits>
@@ -20,19 +19,7 @@ namespace sinew {
 /// them than the machine has.
 class Workers {
  public:
-  explicit Workers(int count)
-      : errors_(std::size_t(count)),
-        taken_(std::size_t(count)),
-        spins_(unsigned(count) <= std::thread::hardware_concurrency() ? 4000 : 0) {
-    threads_.reserve(std::size_t(count) - 1);
-    try {
-      for (int i = 1; i < count; ++i) threads_.emplace_back([this, i] { work(i); });
-    } catch (std::system_error const& error) {
-      stop();
-      throw Error("Threads",
-                  text("cannot start ", count, " threads (", error.what(), "); take a smaller count"));
-    }
-  }
+  explicit Workers(int count);
   Workers(Workers const&) = delete;
   ~Workers() { stop(); }
 
@@ -91,21 +78,8 @@ class Workers {
   }
   // Does a part, unless another thread does. A round lasts until all its parts are done, so that what a
   // thread that comes late takes for the work of its round is that.
-  void take(int index, int round) {
-    int before = round - 1;
-    if (!taken_[std::size_t(index)].round.compare_exchange_strong(before, round, std::memory_order_acq_rel))
-      return;
-    doPart(index);
-    if (busy_.fetch_sub(1, std::memory_order_acq_rel) == 1) busy_.notify_one();
-  }
-  void work(int index) {
-    for (int round = 0;;) {
-      await(round_, [&](int now) { return now != round; });
-      round = round_.load(std::memory_order_acquire);
-      if (ending_.load(std::memory_order_relaxed)) return;
-      take(index, round);
-    }
-  }
+  void take(int index, int round);
+  void work(int index);
   template <class Done>
   void await(std::atomic<int> const& value, Done&& done) const {
     for (int i = 0; i < spins_; ++i) {
@@ -152,3 +126,44 @@ struct SomeWorkers {
 };
 
 }  // namespace sinew
+
+#if SINEW_DEFINES
+#include <sinew/core/error.hpp>
+
+#include <memory>
+
+namespace sinew {
+
+SINEW_ONCE Workers::Workers(int count)
+    : errors_(std::size_t(count)),
+      taken_(std::size_t(count)),
+      spins_(unsigned(count) <= std::thread::hardware_concurrency() ? 4000 : 0) {
+  threads_.reserve(std::size_t(count) - 1);
+  try {
+    for (int i = 1; i < count; ++i) threads_.emplace_back([this, i] { work(i); });
+  } catch (std::system_error const& error) {
+    stop();
+    throw Error("Threads",
+                text("cannot start ", count, " threads (", error.what(), "); take a smaller count"));
+  }
+}
+
+SINEW_ONCE void Workers::take(int index, int round) {
+  int before = round - 1;
+  if (!taken_[std::size_t(index)].round.compare_exchange_strong(before, round, std::memory_order_acq_rel))
+    return;
+  doPart(index);
+  if (busy_.fetch_sub(1, std::memory_order_acq_rel) == 1) busy_.notify_one();
+}
+
+SINEW_ONCE void Workers::work(int index) {
+  for (int round = 0;;) {
+    await(round_, [&](int now) { return now != round; });
+    round = round_.load(std::memory_order_acquire);
+    if (ending_.load(std::memory_order_relaxed)) return;
+    take(index, round);
+  }
+}
+
+}  // namespace sinew
+#endif

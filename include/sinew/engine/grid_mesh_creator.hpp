@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/compiled.hpp>
 #include <sinew/core/component.hpp>
-#include <sinew/core/euler.hpp>
-#include <sinew/topology/adjacency.hpp>
 
 #include <vector>
 
@@ -48,33 +47,44 @@ struct GridMeshCreator {
                       field("quads", &E::quads, "", "the squares, row by row"));
   }
 
-  void update(std::string_view where) {
-    check_fields(*this, where);
-    const std::string at = text(where, ": ", className);
-    const auto [nx, ny] = resolution;
-    if (double(nx) * ny > 16777216)
-      throw Error(at, text("resolution is ", nx, " x ", ny, ", more than 2^24 points; make it coarser"));
-    const Placement placed = placement(translation, rotation, scale3d);
-    position.clear(), quads.clear(), triangles.clear();
-    for (int y = 0; y < ny; ++y)
-      for (int x = 0; x < nx; ++x)
-        position.push_back(placed * Eigen::Vector3d(double(x) / (nx - 1), double(y) / (ny - 1), 0));
-    for (int y = 0; y + 1 < ny; ++y)
-      for (int x = 0; x + 1 < nx; ++x) {
-        const Index a = x + nx * y, b = a + 1, c = b + nx, d = a + nx;
-        const bool upward = trianglePattern == 2 || (trianglePattern == 1 && (x + y) % 2 == 0);
-        if (trianglePattern == 0) {
-          quads.push_back({a, b, c, d});
-        } else if (upward) {
-          triangles.push_back({a, b, c});
-          triangles.push_back({a, c, d});
-        } else {
-          triangles.push_back({a, b, d});
-          triangles.push_back({b, c, d});
-        }
-      }
-    edges = trianglePattern == 0 ? edges_of_quads(quads) : edges_of(triangles);
-  }
+  void update(std::string_view where);
 };
 
 }  // namespace sinew
+
+#if SINEW_DEFINES
+#include <sinew/core/euler.hpp>
+#include <sinew/topology/adjacency.hpp>
+
+namespace sinew {
+
+SINEW_ONCE void GridMeshCreator::update(std::string_view where) {
+  check_fields(*this, where);
+  const std::string at = text(where, ": ", className);
+  const auto [nx, ny] = resolution;
+  if (double(nx) * ny > 16777216)
+    throw Error(at, text("resolution is ", nx, " x ", ny, ", more than 2^24 points; make it coarser"));
+  const Placement placed = placement(translation, rotation, scale3d);
+  position.clear(), quads.clear(), triangles.clear();
+  for (int y = 0; y < ny; ++y)
+    for (int x = 0; x < nx; ++x)
+      position.push_back(placed * Eigen::Vector3d(double(x) / (nx - 1), double(y) / (ny - 1), 0));
+  for (int y = 0; y + 1 < ny; ++y)
+    for (int x = 0; x + 1 < nx; ++x) {
+      const Index a = x + nx * y, b = a + 1, c = b + nx, d = a + nx;
+      const bool upward = trianglePattern == 2 || (trianglePattern == 1 && (x + y) % 2 == 0);
+      if (trianglePattern == 0) {
+        quads.push_back({a, b, c, d});
+      } else if (upward) {
+        triangles.push_back({a, b, c});
+        triangles.push_back({a, c, d});
+      } else {
+        triangles.push_back({a, b, d});
+        triangles.push_back({b, c, d});
+      }
+    }
+  edges = trianglePattern == 0 ? edges_of_quads(quads) : edges_of(triangles);
+}
+
+}  // namespace sinew
+#endif

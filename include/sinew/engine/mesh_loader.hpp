@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/compiled.hpp>
 #include <sinew/core/component.hpp>
 #include <sinew/core/euler.hpp>
 #include <sinew/io/read_gmsh.hpp>
@@ -35,27 +36,10 @@ void add_sides(std::vector<Side>& list, std::vector<Element> const& elements,
 
 /// Unit normals at the points: the directions of the sums of unit normals of the triangles and corners of
 /// quads around; zero where there is none.
-inline std::vector<Eigen::Vector3d> point_normals(Mesh const& mesh) {
-  std::vector<Eigen::Vector3d> normals(mesh.positions.size(), Eigen::Vector3d::Zero());
-  auto add = [&](Index at, Index before, Index i, Index after) {
-    auto x = [&](Index k) { return mesh.positions[std::size_t(k)]; };
-    normals[std::size_t(at)] += (x(after) - x(i)).cross(x(before) - x(i)).stableNormalized();
-  };
-  for (auto const& t : mesh.triangles)
-    for (const Index i : t) add(i, t[2], t[0], t[1]);
-  for (auto const& q : mesh.quads)
-    for (std::size_t k = 0; k < 4; ++k) add(q[k], q[(k + 3) % 4], q[k], q[(k + 1) % 4]);
-  for (auto& n : normals) n.stableNormalize();
-  return normals;
-}
+std::vector<Eigen::Vector3d> point_normals(Mesh const& mesh);
 
 /// Turns all elements so that a mirrored mesh keeps its fronts outside.
-inline void turn_elements(Mesh& mesh) {
-  for (auto& t : mesh.tetrahedra) std::swap(t[2], t[3]);
-  for (auto& h : mesh.hexahedra) std::swap_ranges(h.begin(), h.begin() + 4, h.begin() + 4);
-  for (auto& t : mesh.triangles) std::reverse(t.begin(), t.end());
-  for (auto& q : mesh.quads) std::reverse(q.begin(), q.end());
-}
+void turn_elements(Mesh& mesh);
 
 }  // namespace detail
 
@@ -180,3 +164,30 @@ using MeshOBJLoader = MeshLoader<detail::ObjFormat>;
 using MeshSTLLoader = MeshLoader<detail::StlFormat>;
 
 }  // namespace sinew
+
+#if SINEW_DEFINES
+namespace sinew::detail {
+
+SINEW_ONCE std::vector<Eigen::Vector3d> point_normals(Mesh const& mesh) {
+  std::vector<Eigen::Vector3d> normals(mesh.positions.size(), Eigen::Vector3d::Zero());
+  auto add = [&](Index at, Index before, Index i, Index after) {
+    auto x = [&](Index k) { return mesh.positions[std::size_t(k)]; };
+    normals[std::size_t(at)] += (x(after) - x(i)).cross(x(before) - x(i)).stableNormalized();
+  };
+  for (auto const& t : mesh.triangles)
+    for (const Index i : t) add(i, t[2], t[0], t[1]);
+  for (auto const& q : mesh.quads)
+    for (std::size_t k = 0; k < 4; ++k) add(q[k], q[(k + 3) % 4], q[k], q[(k + 1) % 4]);
+  for (auto& n : normals) n.stableNormalize();
+  return normals;
+}
+
+SINEW_ONCE void turn_elements(Mesh& mesh) {
+  for (auto& t : mesh.tetrahedra) std::swap(t[2], t[3]);
+  for (auto& h : mesh.hexahedra) std::swap_ranges(h.begin(), h.begin() + 4, h.begin() + 4);
+  for (auto& t : mesh.triangles) std::reverse(t.begin(), t.end());
+  for (auto& q : mesh.quads) std::reverse(q.begin(), q.end());
+}
+
+}  // namespace sinew::detail
+#endif

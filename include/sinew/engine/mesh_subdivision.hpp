@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/compiled.hpp>
 #include <sinew/core/component.hpp>
-#include <sinew/topology/subdivision.hpp>
 
-#include <utility>
 #include <vector>
 
 namespace sinew {
@@ -56,21 +55,33 @@ struct MeshSubdivision {
   }
 
   /// Throws Error as subdivide() does.
-  void update(std::string_view where) {
-    check_fields(*this, where);
-    Mesh fine;
-    try {
-      fine = subdivide({position, edges, triangles, quads, tetrahedra, hexahedra}, levels);
-    } catch (Error const& error) {
-      throw Error(text(where, ": ", className), error.what());
-    }
-    finePosition = std::move(fine.positions);
-    fineEdges = std::move(fine.edges);
-    fineTriangles = std::move(fine.triangles);
-    fineQuads = std::move(fine.quads);
-    fineTetrahedra = std::move(fine.tetrahedra);
-    fineHexahedra = std::move(fine.hexahedra);
-  }
+  void update(std::string_view where);
 };
 
 }  // namespace sinew
+
+#if SINEW_DEFINES
+#include <sinew/topology/subdivision.hpp>
+
+#include <utility>
+
+namespace sinew {
+
+SINEW_ONCE void MeshSubdivision::update(std::string_view where) {
+  check_fields(*this, where);
+  Mesh fine;
+  try {
+    fine = subdivide({position, edges, triangles, quads, tetrahedra, hexahedra}, levels);
+  } catch (Error const& error) {
+    throw Error(text(where, ": ", className), error.what());
+  }
+  finePosition = std::move(fine.positions);
+  fineEdges = std::move(fine.edges);
+  fineTriangles = std::move(fine.triangles);
+  fineQuads = std::move(fine.quads);
+  fineTetrahedra = std::move(fine.tetrahedra);
+  fineHexahedra = std::move(fine.hexahedra);
+}
+
+}  // namespace sinew
+#endif

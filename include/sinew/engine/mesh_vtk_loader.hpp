@@ -3,6 +3,7 @@
 
 // It needs pugixml, as read_vtu.hpp does, and is therefore not among the loaders of mesh_loader.hpp.
 #include <sinew/engine/mesh_loader.hpp>
+#include <sinew/io/read_vtk.hpp>
 #include <sinew/io/read_vtu.hpp>
 #include <sinew/io/text_mesh_file.hpp>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/compiled.hpp>
 #include <sinew/core/component.hpp>
 
-#include <Eigen/LU>
 #include <vector>
 
 namespace sinew {
@@ -102,19 +102,7 @@ struct OrientedBox {
   Eigen::Vector3d p0;
   Eigen::Matrix3d inverse;
 
-  OrientedBox(std::string const& where, Vec<double, 10> const& box) : p0(box[0], box[1], box[2]) {
-    Eigen::Matrix3d sides;
-    Eigen::Vector3d a, b;
-    for (int k = 0; k < 3; ++k) a[k] = box[3 + k] - box[k], b[k] = box[6 + k] - box[3 + k];
-    const Eigen::Vector3d normal = a.cross(b);
-    if (!(normal.norm() > 1e-12 * a.norm() * b.norm()))
-      throw Error(where,
-                  "the three points of a box are on a line, or two are in one place; give a parallelogram");
-    if (!(box[9] > 0))
-      throw Error(where, text("the depth of a box is ", box[9], ", but must be greater than 0"));
-    sides.col(0) = a, sides.col(1) = b, sides.col(2) = normal.normalized() * box[9];
-    inverse = sides.inverse();
-  }
+  OrientedBox(std::string const& where, Vec<double, 10> const& box);
   bool contains(Eigen::Vector3d const& p) const {
     const Eigen::Vector3d t = inverse * (p - p0) + Eigen::Vector3d(0, 0, 0.5);
     return t.minCoeff() >= -1e-9 && t.maxCoeff() <= 1 + 1e-9;
@@ -122,3 +110,26 @@ struct OrientedBox {
 };
 
 }  // namespace sinew
+
+#if SINEW_DEFINES
+#include <Eigen/LU>
+
+namespace sinew {
+
+SINEW_ONCE OrientedBox::OrientedBox(std::string const& where, Vec<double, 10> const& box)
+    : p0(box[0], box[1], box[2]) {
+  Eigen::Matrix3d sides;
+  Eigen::Vector3d a, b;
+  for (int k = 0; k < 3; ++k) a[k] = box[3 + k] - box[k], b[k] = box[6 + k] - box[3 + k];
+  const Eigen::Vector3d normal = a.cross(b);
+  if (!(normal.norm() > 1e-12 * a.norm() * b.norm()))
+    throw Error(where,
+                "the three points of a box are on a line, or two are in one place; give a parallelogram");
+  if (!(box[9] > 0))
+    throw Error(where, text("the depth of a box is ", box[9], ", but must be greater than 0"));
+  sides.col(0) = a, sides.col(1) = b, sides.col(2) = normal.normalized() * box[9];
+  inverse = sides.inverse();
+}
+
+}  // namespace sinew
+#endif

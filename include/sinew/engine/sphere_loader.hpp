@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/compiled.hpp>
 #include <sinew/core/component.hpp>
-#include <sinew/core/euler.hpp>
-#include <sinew/io/read_sph.hpp>
 
 #include <vector>
 
@@ -41,24 +40,35 @@ struct SphereLoader {
   }
 
   /// Throws Error when the file cannot be read; what was loaded before then stays.
-  void update(std::string_view where) {
-    check_fields(*this, where);
-    const std::string at = text(where, ": ", className);
-    if (filename.path.empty()) throw Error(at, "filename is empty; name the file to read");
-    const double growth = std::cbrt(std::abs(scale.prod()));
-    if (growth == 0) throw Error(at, "scale is 0, and spheres would vanish; give another size");
-    io::Spheres spheres;
-    try {
-      spheres = io::read_sph(filename.path);
-    } catch (Error const& error) {
-      throw Error(at, error.what());
-    }
-    const Placement placed = placement(translation, rotation, scale);
-    for (auto& c : spheres.centers) c = placed * c;
-    for (auto& r : spheres.radii) r *= growth;
-    position = std::move(spheres.centers);
-    listRadius = std::move(spheres.radii);
-  }
+  void update(std::string_view where);
 };
 
 }  // namespace sinew
+
+#if SINEW_DEFINES
+#include <sinew/core/euler.hpp>
+#include <sinew/io/read_sph.hpp>
+
+namespace sinew {
+
+SINEW_ONCE void SphereLoader::update(std::string_view where) {
+  check_fields(*this, where);
+  const std::string at = text(where, ": ", className);
+  if (filename.path.empty()) throw Error(at, "filename is empty; name the file to read");
+  const double growth = std::cbrt(std::abs(scale.prod()));
+  if (growth == 0) throw Error(at, "scale is 0, and spheres would vanish; give another size");
+  io::Spheres spheres;
+  try {
+    spheres = io::read_sph(filename.path);
+  } catch (Error const& error) {
+    throw Error(at, error.what());
+  }
+  const Placement placed = placement(translation, rotation, scale);
+  for (auto& c : spheres.centers) c = placed * c;
+  for (auto& r : spheres.radii) r *= growth;
+  position = std::move(spheres.centers);
+  listRadius = std::move(spheres.radii);
+}
+
+}  // namespace sinew
+#endif

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/compiled.hpp>
 #include <sinew/core/component.hpp>
 #include <sinew/topology/adjacency.hpp>
 #include <sinew/topology/hexahedra.hpp>
@@ -60,15 +61,7 @@ struct Quad2Triangle {
   using Elements = std::vector<Quad>;
   static constexpr std::string_view className = "Quad2TriangleTopologicalMapping", from = "quads",
                                     to = "triangles", purpose = "two triangles for each quad";
-  static std::vector<Triangle> convert(Elements const& quads) {
-    std::vector<Triangle> triangles;
-    triangles.reserve(2 * quads.size());
-    for (auto const& q : quads) {
-      triangles.push_back({q[0], q[1], q[2]});
-      triangles.push_back({q[0], q[2], q[3]});
-    }
-    return triangles;
-  }
+  static std::vector<Triangle> convert(Elements const& quads);
 };
 struct Triangle2Edge {
   using Elements = std::vector<Triangle>;
@@ -135,3 +128,19 @@ using Quad2TriangleTopologicalMapping = TopologicalMapping<detail::Quad2Triangle
 using Triangle2EdgeTopologicalMapping = TopologicalMapping<detail::Triangle2Edge>;
 
 }  // namespace sinew
+
+#if SINEW_DEFINES
+namespace sinew::detail {
+
+SINEW_ONCE std::vector<Triangle> Quad2Triangle::convert(Elements const& quads) {
+  std::vector<Triangle> triangles;
+  triangles.reserve(2 * quads.size());
+  for (auto const& q : quads) {
+    triangles.push_back({q[0], q[1], q[2]});
+    triangles.push_back({q[0], q[2], q[3]});
+  }
+  return triangles;
+}
+
+}  // namespace sinew::detail
+#endif

@@ -99,17 +99,17 @@ struct LocalTurn {
 /// N frames as an element sees them: orientations, and places from that of the first.
 template <class S, int N>
 struct Frames {
-  Turn<S> turn[N];
-  Vec<S, 3> place[N];
+  Turn<S> turn[std::size_t(N)];
+  Vec<S, 3> place[std::size_t(N)];
 };
 
 /// What the tangent of an element of N frames is found from.
 template <class Real, int N>
 struct FrameState {
-  Real turn[N][4], place[N][3];
+  Real turn[std::size_t(N)][4], place[std::size_t(N)][3];
 
   template <class Coord>
-  SINEW_INLINE void take(Coord const (&x)[N]) {
+  SINEW_INLINE void take(Coord const (&x)[std::size_t(N)]) {
     for (int i = 0; i < N; ++i) {
       auto const& q = x[i].orientation;
       turn[i][0] = q.w(), turn[i][1] = q.x(), turn[i][2] = q.y(), turn[i][3] = q.z();
@@ -130,7 +130,7 @@ struct FrameState {
 /// Forces and torques about the centres of N frames.
 template <class S, int N>
 struct FrameForces {
-  Vec<S, 3> force[N], torque[N];
+  Vec<S, 3> force[std::size_t(N)], torque[std::size_t(N)];
 };
 
 /// Slope number `slope` of frame i when it moves by dx: q' = w q / 2. Places count from the first.
@@ -153,8 +153,8 @@ SINEW_INLINE void seed(Frames<Dual<T, M>, N>& frames, int i, Deriv const& dx, in
 
 /// df = k K dx of an element whose forces<S>(frames) are exact for dual numbers too.
 template <int N, class Real, class Deriv, class Forces>
-SINEW_HD void frame_dforce(FrameState<Real, N> const& state, Deriv const (&dx)[N], Deriv (&df)[N], Real k,
-                           Forces const& forces) {
+SINEW_HD void frame_dforce(FrameState<Real, N> const& state, Deriv const (&dx)[std::size_t(N)],
+                           Deriv (&df)[std::size_t(N)], Real k, Forces const& forces) {
   using S = Dual<Real, 1>;
   Frames<S, N> frames = state.template frames<S>();
   for (int i = 0; i < N; ++i) seed(frames, i, dx[i], 0);

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/compiled.hpp>
 #include <sinew/core/component.hpp>
-#include <sinew/topology/adjacency.hpp>
 
-#include <algorithm>
 #include <vector>
 
 namespace sinew {
@@ -31,11 +30,7 @@ struct Edges {
                                     older = "edgeList", kind = "edge", unit = "N/m",
                                     load = "force per length of the edges at rest";
   static constexpr Of what = Of::edges;
-  static std::vector<Edge> of(TopologyView const& t) {
-    if (!t.edges.empty()) return {t.edges.begin(), t.edges.end()};
-    if (!t.triangles.empty()) return edges_of(std::vector<Triangle>(t.triangles.begin(), t.triangles.end()));
-    return edges_of_quads({t.quads.begin(), t.quads.end()});
-  }
+  static std::vector<Edge> of(TopologyView const& t);
 };
 }  // namespace pressed
 
@@ -162,3 +157,19 @@ template <class D>
 using EdgePressureForceField = ElementPressure<D, pressed::Edges>;
 
 }  // namespace sinew
+
+#if SINEW_DEFINES
+#include <sinew/topology/adjacency.hpp>
+
+#include <algorithm>
+
+namespace sinew::pressed {
+
+SINEW_ONCE std::vector<Edge> Edges::of(TopologyView const& t) {
+  if (!t.edges.empty()) return {t.edges.begin(), t.edges.end()};
+  if (!t.triangles.empty()) return edges_of(std::vector<Triangle>(t.triangles.begin(), t.triangles.end()));
+  return edges_of_quads({t.quads.begin(), t.quads.end()});
+}
+
+}  // namespace sinew::pressed
+#endif

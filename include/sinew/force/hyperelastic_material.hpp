@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/compiled.hpp>
 #include <sinew/core/data_types.hpp>
-#include <sinew/core/error.hpp>
 
 #include <array>
 #include <cmath>
@@ -389,50 +389,11 @@ struct Ogden {
 struct RestModuli {
   double shear, bulk;
 };
-inline RestModuli rest_moduli(HyperelasticMaterial material, std::vector<double> const& p) {
-  switch (material) {
-    case HyperelasticMaterial::ArrudaBoyce: {
-      double slope = 0;
-      for (int n = 5; n > 0; --n) slope = 3 * slope + n * ArrudaBoyce::series()[std::size_t(n - 1)];
-      return {2 * p[0] * slope, p[1]};
-    }
-    case HyperelasticMaterial::MooneyRivlin:
-      return {2 * (p[0] + p[1]), p[2]};
-    case HyperelasticMaterial::Ogden: {
-      double shear = 0;
-      for (std::size_t i = 0; i + 1 < p.size(); i += 2) shear += p[i] / 2;
-      return {shear, p.back()};
-    }
-    default:
-      return {p[0], p[1] + 2 * p[0] / 3};
-  }
-}
+RestModuli rest_moduli(HyperelasticMaterial material, std::vector<double> const& p);
 
 /// Throws Error unless the parameters are those of a material that is stable at rest.
-inline void check_hyperelastic(std::string const& where, HyperelasticMaterial material,
-                               std::vector<double> const& p) {
-  const std::string_view name = enum_names(material)[std::size_t(material)];
-  if (!takes_parameters(material, p.size()))
-    throw Error(
-        where,
-        text("ParameterSet has ", p.size(), " values, but ", name, " takes ", parameter_names(material)));
-  if (material == HyperelasticMaterial::Ogden)
-    for (std::size_t i = 1; i < p.size(); i += 2)
-      if (p[i] == 0)
-        throw Error(
-            where, text("ParameterSet[", i, "] is 0, but an exponent alpha of Ogden must be another number"));
-  const auto [shear, bulk] = rest_moduli(material, p);
-  if (!(shear > 0) || !(bulk > 0))
-    throw Error(where,
-                text("ParameterSet makes a material with a shear modulus of ",
-                     shear,
-                     " Pa and a bulk modulus of ",
-                     bulk,
-                     " Pa at rest, but both must be greater than 0; give ",
-                     name,
-                     " other values of ",
-                     parameter_names(material)));
-}
+void check_hyperelastic(std::string const& where, HyperelasticMaterial material,
+                        std::vector<double> const& p);
 
 /// A material with its parameters, for the elements of one law.
 template <class Real>
@@ -469,3 +430,55 @@ struct Hyperelastic {
 };
 
 }  // namespace sinew
+
+#if SINEW_DEFINES
+#include <sinew/core/error.hpp>
+
+namespace sinew {
+
+SINEW_ONCE RestModuli rest_moduli(HyperelasticMaterial material, std::vector<double> const& p) {
+  switch (material) {
+    case HyperelasticMaterial::ArrudaBoyce: {
+      double slope = 0;
+      for (int n = 5; n > 0; --n) slope = 3 * slope + n * ArrudaBoyce::series()[std::size_t(n - 1)];
+      return {2 * p[0] * slope, p[1]};
+    }
+    case HyperelasticMaterial::MooneyRivlin:
+      return {2 * (p[0] + p[1]), p[2]};
+    case HyperelasticMaterial::Ogden: {
+      double shear = 0;
+      for (std::size_t i = 0; i + 1 < p.size(); i += 2) shear += p[i] / 2;
+      return {shear, p.back()};
+    }
+    default:
+      return {p[0], p[1] + 2 * p[0] / 3};
+  }
+}
+
+SINEW_ONCE void check_hyperelastic(std::string const& where, HyperelasticMaterial material,
+                                   std::vector<double> const& p) {
+  const std::string_view name = enum_names(material)[std::size_t(material)];
+  if (!takes_parameters(material, p.size()))
+    throw Error(
+        where,
+        text("ParameterSet has ", p.size(), " values, but ", name, " takes ", parameter_names(material)));
+  if (material == HyperelasticMaterial::Ogden)
+    for (std::size_t i = 1; i < p.size(); i += 2)
+      if (p[i] == 0)
+        throw Error(
+            where, text("ParameterSet[", i, "] is 0, but an exponent alpha of Ogden must be another number"));
+  const auto [shear, bulk] = rest_moduli(material, p);
+  if (!(shear > 0) || !(bulk > 0))
+    throw Error(where,
+                text("ParameterSet makes a material with a shear modulus of ",
+                     shear,
+                     " Pa and a bulk modulus of ",
+                     bulk,
+                     " Pa at rest, but both must be greater than 0; give ",
+                     name,
+                     " other values of ",
+                     parameter_names(material)));
+}
+
+}  // namespace sinew
+#endif

@@ -87,11 +87,11 @@ struct TriangularShell {
 
  private:
   static constexpr int lower(int i, int j) { return i >= j ? i * (i + 1) / 2 + j : j * (j + 1) / 2 + i; }
-  template <int N, class S, int M>
+  template <std::size_t N, class S, std::size_t M>
   SINEW_HD static void multiply(Real const (&k)[M], S const (&d)[N], S (&f)[N]) {
-    for (int i = 0; i < N; ++i) {
+    for (int i = 0; i < int(N); ++i) {
       f[i] = k[lower(i, 0)] * d[0];
-      for (int j = 1; j < N; ++j) f[i] += k[lower(i, j)] * d[j];
+      for (int j = 1; j < int(N); ++j) f[i] += k[lower(i, j)] * d[j];
     }
   }
   // gradients at rest of the shape functions of the corners 1 and 2, and of the corner 0

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <sinew/core/error.hpp>
+#include <sinew/core/compiled.hpp>
 
 #include <array>
 #include <string>
@@ -57,7 +57,21 @@ struct ViscoelasticModuli {
   int terms = 0;
   std::array<double, 3> modulus{}, time{};  // of the terms that relax
 };
-inline ViscoelasticModuli viscoelastic_moduli(ViscoelasticMaterial material, std::vector<double> const& p) {
+ViscoelasticModuli viscoelastic_moduli(ViscoelasticMaterial material, std::vector<double> const& p);
+
+/// Throws Error unless the parameters are those of a material that holds together and dissipates.
+void check_viscoelastic(std::string const& where, ViscoelasticMaterial material,
+                        std::vector<double> const& p);
+
+}  // namespace sinew
+
+#if SINEW_DEFINES
+#include <sinew/core/error.hpp>
+
+namespace sinew {
+
+SINEW_ONCE ViscoelasticModuli viscoelastic_moduli(ViscoelasticMaterial material,
+                                                  std::vector<double> const& p) {
   ViscoelasticModuli m;
   m.lambda = p.back();
   if (material == ViscoelasticMaterial::KelvinVoigtFirstOrder) {
@@ -74,9 +88,8 @@ inline ViscoelasticModuli viscoelastic_moduli(ViscoelasticMaterial material, std
   return m;
 }
 
-/// Throws Error unless the parameters are those of a material that holds together and dissipates.
-inline void check_viscoelastic(std::string const& where, ViscoelasticMaterial material,
-                               std::vector<double> const& p) {
+SINEW_ONCE void check_viscoelastic(std::string const& where, ViscoelasticMaterial material,
+                                   std::vector<double> const& p) {
   const std::string_view name = enum_names(material)[std::size_t(material)],
                          names = viscoelasticParameters[std::size_t(material)];
   if (!takes_parameters(material, p.size()))
@@ -98,3 +111,4 @@ inline void check_viscoelastic(std::string const& where, ViscoelasticMaterial ma
 }
 
 }  // namespace sinew
+#endif

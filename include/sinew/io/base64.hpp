@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/platform.hpp>
 #include <algorithm>
 #include <array>
+#include <sinew/core/compiled.hpp>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -19,20 +21,8 @@ class Base64Encoder {
  public:
   explicit Base64Encoder(std::string& out) : out_(out) {}
 
-  void add(void const* data, std::size_t size) {
-    auto const* bytes = static_cast<unsigned char const*>(data);
-    for (std::size_t i = 0; i < size; ++i) {
-      bits_ = bits_ << 8 | bytes[i];
-      if (++held_ == 3) flush(4);
-    }
-  }
-  void finish() {
-    if (held_ == 0) return;
-    const int full = held_ + 1;
-    for (int i = held_; i < 3; ++i) bits_ <<= 8;
-    flush(full);
-    out_.append(std::size_t(4 - full), '=');
-  }
+  void add(void const* data, std::size_t size);
+  void finish();
 
  private:
   void flush(int characters) {
@@ -52,7 +42,33 @@ struct Base64Decoded {
 
 /// The first `most` bytes, or all, of a base64 text. White space is skipped, and several padded texts may
 /// follow each other.
-inline Base64Decoded decode_base64(std::string_view text, std::size_t most = std::size_t(-1)) {
+Base64Decoded decode_base64(std::string_view text, std::size_t most = std::size_t(-1));
+
+}  // namespace sinew::io
+
+#if SINEW_DEFINES
+#include <algorithm>
+#include <array>
+
+namespace sinew::io {
+
+SINEW_ONCE void Base64Encoder::add(void const* data, std::size_t size) {
+  auto const* bytes = static_cast<unsigned char const*>(data);
+  for (std::size_t i = 0; i < size; ++i) {
+    bits_ = bits_ << 8 | bytes[i];
+    if (++held_ == 3) flush(4);
+  }
+}
+
+SINEW_ONCE void Base64Encoder::finish() {
+  if (held_ == 0) return;
+  const int full = held_ + 1;
+  for (int i = held_; i < 3; ++i) bits_ <<= 8;
+  flush(full);
+  out_.append(std::size_t(4 - full), '=');
+}
+
+SINEW_ONCE Base64Decoded decode_base64(std::string_view text, std::size_t most) {
   static constexpr auto values = [] {
     std::array<std::int8_t, 256> v{};
     v.fill(-1);
@@ -83,3 +99,4 @@ inline Base64Decoded decode_base64(std::string_view text, std::size_t most = std
 }
 
 }  // namespace sinew::io
+#endif

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <sinew/core/error.hpp>
+#include <sinew/core/compiled.hpp>
 #include <sinew/core/mesh.hpp>
 
 #include <cstdint>
@@ -11,17 +11,9 @@ namespace sinew::io {
 
 /// Adds a triangle or a quad; of a polygon with more corners a fan of triangles around its first, which fits
 /// convex ones. Expects three points or more.
-inline void add_polygon(Mesh& mesh, std::span<Index const> p) {
-  if (p.size() == 4) {
-    mesh.quads.push_back({p[0], p[1], p[2], p[3]});
-  } else {
-    for (std::size_t i = 2; i < p.size(); ++i) mesh.triangles.push_back({p[0], p[i - 1], p[i]});
-  }
-}
+void add_polygon(Mesh& mesh, std::span<Index const> p);
 
-inline void add_polyline(Mesh& mesh, std::span<Index const> p) {
-  for (std::size_t i = 1; i < p.size(); ++i) mesh.edges.push_back({p[i - 1], p[i]});
-}
+void add_polyline(Mesh& mesh, std::span<Index const> p);
 
 /// The numbers of vtkCellType.h.
 namespace vtk_cell {
@@ -46,7 +38,28 @@ enum : std::int64_t {
 
 /// Adds a cell of a VTK file to `mesh`; vertices are ignored. Returns what is wrong with the cell, or
 /// nothing.
-inline std::string add_vtk_cell(Mesh& mesh, std::int64_t type, std::span<Index const> p) {
+std::string add_vtk_cell(Mesh& mesh, std::int64_t type, std::span<Index const> p);
+
+}  // namespace sinew::io
+
+#if SINEW_DEFINES
+#include <sinew/core/error.hpp>
+
+namespace sinew::io {
+
+SINEW_ONCE void add_polygon(Mesh& mesh, std::span<Index const> p) {
+  if (p.size() == 4) {
+    mesh.quads.push_back({p[0], p[1], p[2], p[3]});
+  } else {
+    for (std::size_t i = 2; i < p.size(); ++i) mesh.triangles.push_back({p[0], p[i - 1], p[i]});
+  }
+}
+
+SINEW_ONCE void add_polyline(Mesh& mesh, std::span<Index const> p) {
+  for (std::size_t i = 1; i < p.size(); ++i) mesh.edges.push_back({p[i - 1], p[i]});
+}
+
+SINEW_ONCE std::string add_vtk_cell(Mesh& mesh, std::int64_t type, std::span<Index const> p) {
   struct Size {
     std::size_t least, most;
   };
@@ -113,3 +126,4 @@ inline std::string add_vtk_cell(Mesh& mesh, std::int64_t type, std::span<Index c
 }
 
 }  // namespace sinew::io
+#endif

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <sinew/core/error.hpp>
+#include <sinew/core/compiled.hpp>
 
-#include <sys/stat.h>
-
-#include <cerrno>
 #include <charconv>
-#include <cstdio>
 #include <cstring>
 #include <string>
 #include <string_view>
@@ -24,7 +20,24 @@ void append_number(std::string& out, T value) {
 /// Writes a file whole or not at all: under a temporary name in the same folder, which is then renamed. What
 /// was at `path` stays until then. A device such as /dev/null is written to directly. Throws Error, and
 /// leaves no temporary file, if the folder is missing or may not be written, or the disk is full.
-inline void write_file(std::string const& path, std::string_view bytes) {
+void write_file(std::string const& path, std::string_view bytes);
+
+/// Creates a folder and those above it, where they are missing. Throws Error if it cannot.
+void make_folders(std::string const& folder);
+
+}  // namespace sinew::io
+
+#if SINEW_DEFINES
+#include <sinew/core/error.hpp>
+
+#include <sys/stat.h>
+
+#include <cerrno>
+#include <cstdio>
+
+namespace sinew::io {
+
+SINEW_ONCE void write_file(std::string const& path, std::string_view bytes) {
   if (path.empty()) throw Error("write_file", "the path is empty; name a file");
   struct stat info;
   const bool exists = ::stat(path.c_str(), &info) == 0;
@@ -65,8 +78,7 @@ inline void write_file(std::string const& path, std::string_view bytes) {
                    "; nothing was kept of it. Make room on the disk or choose another one"));
 }
 
-/// Creates a folder and those above it, where they are missing. Throws Error if it cannot.
-inline void make_folders(std::string const& folder) {
+SINEW_ONCE void make_folders(std::string const& folder) {
   for (std::size_t end = folder.find('/', 1);; end = folder.find('/', end + 1)) {
     const std::string part = folder.substr(0, end);
     struct stat info;
@@ -83,3 +95,4 @@ inline void make_folders(std::string const& folder) {
 }
 
 }  // namespace sinew::io
+#endif

@@ -1,13 +1,31 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/compiled.hpp>
+#include <sinew/core/mesh.hpp>
+
+#include <string>
+#include <string_view>
+
+namespace sinew::io {
+
+/// The mesh in `content`, the text of a Gmsh file; `path` is for messages. See read_gmsh().
+Mesh parse_gmsh(std::string_view path, std::string_view content);
+
+/// Reads a Gmsh file (.msh), format 1, 2.0 to 2.2 or 4.1, ASCII. Points are in the order of the file,
+/// whatever their numbers; lines, triangles, quads, tetrahedra and hexahedra are read, point elements and all
+/// groups ignored. Throws Error with the line on anything else: binary files, elements of second order,
+/// prisms and pyramids, coordinates that are not finite, unknown nodes, an incomplete file.
+Mesh read_gmsh(std::string const& path);
+
+}  // namespace sinew::io
+
+#if SINEW_DEFINES
 #include <sinew/io/text_reader.hpp>
 
 #include <vector>
 
-namespace sinew::io {
-
-namespace detail {
+namespace sinew::io::detail {
 
 /// Gmsh files as the Gmsh reference manual describes them: chapters "MSH file format" (4.1) and "Legacy
 /// formats" (1 and 2).
@@ -242,19 +260,17 @@ class GmshParser {
   bool hasNodes_ = false, hasElements_ = false;
 };
 
-}  // namespace detail
+}  // namespace sinew::io::detail
 
-/// The mesh in `content`, the text of a Gmsh file; `path` is for messages. See read_gmsh().
-inline Mesh parse_gmsh(std::string_view path, std::string_view content) {
+namespace sinew::io {
+
+SINEW_ONCE Mesh parse_gmsh(std::string_view path, std::string_view content) {
   Mesh mesh = detail::GmshParser(path, content).parse();
   check_mesh(path, mesh);
   return mesh;
 }
 
-/// Reads a Gmsh file (.msh), format 1, 2.0 to 2.2 or 4.1, ASCII. Points are in the order of the file,
-/// whatever their numbers; lines, triangles, quads, tetrahedra and hexahedra are read, point elements and all
-/// groups ignored. Throws Error with the line on anything else: binary files, elements of second order,
-/// prisms and pyramids, coordinates that are not finite, unknown nodes, an incomplete file.
-inline Mesh read_gmsh(std::string const& path) { return parse_gmsh(path, read_file(path)); }
+SINEW_ONCE Mesh read_gmsh(std::string const& path) { return parse_gmsh(path, read_file(path)); }
 
 }  // namespace sinew::io
+#endif

@@ -1,14 +1,32 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/compiled.hpp>
+#include <sinew/core/mesh.hpp>
+
+#include <string>
+#include <string_view>
+
+namespace sinew::io {
+
+/// The mesh in `content`, the text of an OBJ file; `path` is for messages. See read_obj().
+Mesh parse_obj(std::string_view path, std::string_view content);
+
+/// Reads the polygons of a Wavefront OBJ file: vertices (v), triangles, quads and larger polygons (f; the
+/// latter as fans of triangles, which fits convex ones), lines (l, as edges). Texture coordinates, normals,
+/// groups and materials are ignored. Throws Error with the line on other keywords, coordinates that are not
+/// finite, unknown vertices.
+Mesh read_obj(std::string const& path);
+
+}  // namespace sinew::io
+
+#if SINEW_DEFINES
 #include <sinew/io/cells.hpp>
 #include <sinew/io/text_reader.hpp>
 
 #include <vector>
 
-namespace sinew::io {
-
-namespace detail {
+namespace sinew::io::detail {
 
 /// Wavefront OBJ, as the appendix B1 of the Advanced Visualizer manual describes it.
 class ObjParser {
@@ -93,19 +111,17 @@ class ObjParser {
   std::size_t greatestLine_ = 0;
 };
 
-}  // namespace detail
+}  // namespace sinew::io::detail
 
-/// The mesh in `content`, the text of an OBJ file; `path` is for messages. See read_obj().
-inline Mesh parse_obj(std::string_view path, std::string_view content) {
+namespace sinew::io {
+
+SINEW_ONCE Mesh parse_obj(std::string_view path, std::string_view content) {
   Mesh mesh = detail::ObjParser(path, content).parse();
   check_mesh(path, mesh);
   return mesh;
 }
 
-/// Reads the polygons of a Wavefront OBJ file: vertices (v), triangles, quads and larger polygons (f; the
-/// latter as fans of triangles, which fits convex ones), lines (l, as edges). Texture coordinates, normals,
-/// groups and materials are ignored. Throws Error with the line on other keywords, coordinates that are not
-/// finite, unknown vertices.
-inline Mesh read_obj(std::string const& path) { return parse_obj(path, read_file(path)); }
+SINEW_ONCE Mesh read_obj(std::string const& path) { return parse_obj(path, read_file(path)); }
 
 }  // namespace sinew::io
+#endif

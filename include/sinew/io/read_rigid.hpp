@@ -1,15 +1,31 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/compiled.hpp>
 #include <sinew/core/data_types.hpp>
-#include <sinew/io/text_reader.hpp>
 
-#include <Eigen/Core>
+#include <string>
+#include <string_view>
 
 namespace sinew::io {
 
 /// The mass in `content`, the text of a .rigid file; `path` is for messages. See read_rigid().
-inline RigidMass<double, 3> parse_rigid(std::string_view path, std::string_view content) {
+RigidMass<double, 3> parse_rigid(std::string_view path, std::string_view content);
+
+/// Reads the mass of a rigid body from SOFA's text format: "Xsp 3.0", then the mass [kg] (mass; 1 where it is
+/// not given) and the nine entries, row by row, of the inertia about the centre divided by the mass [m^2]
+/// (inrt; the identity where it is not given). Volume, centre, frame, gravity and others are not used, as in
+/// SOFA. Throws Error with the line on anything else, and on numbers that are not finite.
+RigidMass<double, 3> read_rigid(std::string const& path);
+
+}  // namespace sinew::io
+
+#if SINEW_DEFINES
+#include <sinew/io/text_reader.hpp>
+
+namespace sinew::io {
+
+SINEW_ONCE RigidMass<double, 3> parse_rigid(std::string_view path, std::string_view content) {
   TextReader in(path, content);
   in.rejectBinary();
   if (in.word() != "Xsp") throw in.expected("Xsp, with which a file of a rigid mass begins");
@@ -34,10 +50,9 @@ inline RigidMass<double, 3> parse_rigid(std::string_view path, std::string_view 
   return body;
 }
 
-/// Reads the mass of a rigid body from SOFA's text format: "Xsp 3.0", then the mass [kg] (mass; 1 where it is
-/// not given) and the nine entries, row by row, of the inertia about the centre divided by the mass [m^2]
-/// (inrt; the identity where it is not given). Volume, centre, frame, gravity and others are not used, as in
-/// SOFA. Throws Error with the line on anything else, and on numbers that are not finite.
-inline RigidMass<double, 3> read_rigid(std::string const& path) { return parse_rigid(path, read_file(path)); }
+SINEW_ONCE RigidMass<double, 3> read_rigid(std::string const& path) {
+  return parse_rigid(path, read_file(path));
+}
 
 }  // namespace sinew::io
+#endif

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <sinew/io/text_reader.hpp>
+#include <sinew/core/compiled.hpp>
 
+#include <Eigen/Core>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace sinew::io {
@@ -13,7 +16,22 @@ struct Spheres {
 };
 
 /// The spheres in `content`, the text of an .sph file; `path` is for messages. See read_sph().
-inline Spheres parse_sph(std::string_view path, std::string_view content) {
+Spheres parse_sph(std::string_view path, std::string_view content);
+
+/// Reads SOFA's text format of spheres: "sph 1.0", then a line "sphe number x y z radius" for each, and
+/// comments
+/// (#). Throws Error with the line on anything else, numbers that are not finite, a radius that is not
+/// positive.
+Spheres read_sph(std::string const& path);
+
+}  // namespace sinew::io
+
+#if SINEW_DEFINES
+#include <sinew/io/text_reader.hpp>
+
+namespace sinew::io {
+
+SINEW_ONCE Spheres parse_sph(std::string_view path, std::string_view content) {
   TextReader in(path, content);
   in.rejectBinary();
   if (in.word() != "sph") throw in.expected("sph, with which a file of spheres begins");
@@ -35,10 +53,7 @@ inline Spheres parse_sph(std::string_view path, std::string_view content) {
   return spheres;
 }
 
-/// Reads SOFA's text format of spheres: "sph 1.0", then a line "sphe number x y z radius" for each, and
-/// comments
-/// (#). Throws Error with the line on anything else, numbers that are not finite, a radius that is not
-/// positive.
-inline Spheres read_sph(std::string const& path) { return parse_sph(path, read_file(path)); }
+SINEW_ONCE Spheres read_sph(std::string const& path) { return parse_sph(path, read_file(path)); }
 
 }  // namespace sinew::io
+#endif

@@ -1,15 +1,32 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/compiled.hpp>
+#include <sinew/core/mesh.hpp>
+
+#include <string>
+#include <string_view>
+
+namespace sinew::io {
+
+/// The mesh in `content`, the bytes of an STL file; `path` is for messages. See read_stl().
+Mesh parse_stl(std::string_view path, std::string_view content);
+
+/// Reads the triangles of a stereolithography file, ASCII or binary. Points in exactly one place become one;
+/// triangles that use a point twice are left out, as are normals. Throws Error, with the line in ASCII files,
+/// on anything else, on coordinates that are not finite, on an incomplete file.
+Mesh read_stl(std::string const& path);
+
+}  // namespace sinew::io
+
+#if SINEW_DEFINES
 #include <sinew/io/text_reader.hpp>
 
 #include <bit>
 #include <map>
 #include <vector>
 
-namespace sinew::io {
-
-namespace detail {
+namespace sinew::io::detail {
 
 /// Stereolithography files as 3D Systems' "StereoLithography Interface Specification" (1989) describes them:
 /// triangles, each with its own copy of its points, of which those in one place become one.
@@ -126,18 +143,17 @@ class StlParser {
   std::map<std::array<double, 3>, Index> numbers_{};
 };
 
-}  // namespace detail
+}  // namespace sinew::io::detail
 
-/// The mesh in `content`, the bytes of an STL file; `path` is for messages. See read_stl().
-inline Mesh parse_stl(std::string_view path, std::string_view content) {
+namespace sinew::io {
+
+SINEW_ONCE Mesh parse_stl(std::string_view path, std::string_view content) {
   Mesh mesh = detail::StlParser(path, content).parse();
   check_mesh(path, mesh);
   return mesh;
 }
 
-/// Reads the triangles of a stereolithography file, ASCII or binary. Points in exactly one place become one;
-/// triangles that use a point twice are left out, as are normals. Throws Error, with the line in ASCII files,
-/// on anything else, on coordinates that are not finite, on an incomplete file.
-inline Mesh read_stl(std::string const& path) { return parse_stl(path, read_file(path)); }
+SINEW_ONCE Mesh read_stl(std::string const& path) { return parse_stl(path, read_file(path)); }
 
 }  // namespace sinew::io
+#endif

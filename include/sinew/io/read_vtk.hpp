@@ -1,14 +1,32 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/compiled.hpp>
+#include <sinew/core/mesh.hpp>
+
+#include <string>
+#include <string_view>
+
+namespace sinew::io {
+
+/// The mesh in `content`, the text of a legacy VTK file; `path` is for messages. See read_vtk().
+Mesh parse_vtk(std::string_view path, std::string_view content);
+
+/// Reads an unstructured grid or polygonal data from a legacy VTK file (.vtk), ASCII, any version. Linear
+/// cells are read, vertices ignored, polygons with more than four corners cut into fans of triangles; data at
+/// points and cells are ignored. Throws Error with the line on binary files, other cells, coordinates that
+/// are not finite, points out of range, an incomplete file.
+Mesh read_vtk(std::string const& path);
+
+}  // namespace sinew::io
+
+#if SINEW_DEFINES
 #include <sinew/io/cells.hpp>
 #include <sinew/io/text_reader.hpp>
 
 #include <vector>
 
-namespace sinew::io {
-
-namespace detail {
+namespace sinew::io::detail {
 
 /// The legacy format of "VTK File Formats" (Kitware): versions 1 to 4, and 5 with its offsets.
 class VtkParser {
@@ -181,19 +199,17 @@ class VtkParser {
   bool grid_ = false, hasTypes_ = false;
 };
 
-}  // namespace detail
+}  // namespace sinew::io::detail
 
-/// The mesh in `content`, the text of a legacy VTK file; `path` is for messages. See read_vtk().
-inline Mesh parse_vtk(std::string_view path, std::string_view content) {
+namespace sinew::io {
+
+SINEW_ONCE Mesh parse_vtk(std::string_view path, std::string_view content) {
   Mesh mesh = detail::VtkParser(path, content).parse();
   check_mesh(path, mesh);
   return mesh;
 }
 
-/// Reads an unstructured grid or polygonal data from a legacy VTK file (.vtk), ASCII, any version. Linear
-/// cells are read, vertices ignored, polygons with more than four corners cut into fans of triangles; data at
-/// points and cells are ignored. Throws Error with the line on binary files, other cells, coordinates that
-/// are not finite, points out of range, an incomplete file.
-inline Mesh read_vtk(std::string const& path) { return parse_vtk(path, read_file(path)); }
+SINEW_ONCE Mesh read_vtk(std::string const& path) { return parse_vtk(path, read_file(path)); }
 
 }  // namespace sinew::io
+#endif

@@ -4,8 +4,10 @@
 #include <sinew/io/state_file.hpp>
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <limits>
 
 namespace sinew::io {

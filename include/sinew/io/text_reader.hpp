@@ -1,22 +1,15 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/compiled.hpp>
 #include <sinew/core/error.hpp>
 #include <sinew/core/mesh.hpp>
 
-#include <sys/stat.h>
-#include <unistd.h>
-
-#include <algorithm>
-#include <cerrno>
 #include <charconv>
-#include <climits>
-#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <limits>
-#include <memory>
 #include <string>
 #include <string_view>
 
@@ -24,53 +17,10 @@ namespace sinew::io {
 
 /// The bytes of a whole file, without the mark (EF BB BF) that some programs put before UTF-8. Throws Error
 /// if the file is missing, empty, unreadable, or not a regular file (a folder, a pipe, a device).
-inline std::string read_file(std::string const& path) {
-  struct stat info;
-  if (::stat(path.c_str(), &info) != 0) {
-    char folder[PATH_MAX];
-    std::string looked;
-    if (errno == ENOENT && !path.starts_with('/') && ::getcwd(folder, sizeof folder))
-      looked = text(" (looked for from the folder ", static_cast<char const*>(folder), ")");
-    throw Error(path,
-                text("cannot be read: ",
-                     static_cast<char const*>(std::strerror(errno)),
-                     looked,
-                     "; correct the name of the file"));
-  }
-  if (S_ISDIR(info.st_mode)) throw Error(path, "is a folder; name a file in it");
-  if (!S_ISREG(info.st_mode)) throw Error(path, "is not a regular file; copy its content into one");
-
-  auto close = [](std::FILE* f) { std::fclose(f); };
-  const std::unique_ptr<std::FILE, decltype(close)> file(std::fopen(path.c_str(), "rb"), close);
-  if (!file)
-    throw Error(path,
-                text("cannot be opened: ",
-                     static_cast<char const*>(std::strerror(errno)),
-                     "; ask for the right to read it"));
-  std::string bytes(std::size_t(info.st_size) + 1, '\0');
-  std::size_t filled = 0;
-  while (const std::size_t n = std::fread(bytes.data() + filled, 1, bytes.size() - filled, file.get())) {
-    filled += n;
-    if (filled == bytes.size()) bytes.resize(2 * bytes.size());
-  }
-  if (std::ferror(file.get()))
-    throw Error(path,
-                text("cannot be read to its end: ",
-                     static_cast<char const*>(std::strerror(errno)),
-                     "; check the disk or the network"));
-  bytes.resize(filled);
-  if (bytes.starts_with("\xEF\xBB\xBF")) bytes.erase(0, 3);
-  if (bytes.empty()) throw Error(path, "is empty; export it again, or name another file");
-  return bytes;
-}
+std::string read_file(std::string const& path);
 
 /// `word` in quotes, fit for a message: shortened, and without unprintable bytes.
-inline std::string in_quotes(std::string_view word) {
-  std::string shown(word.substr(0, 40));
-  for (char& c : shown)
-    if (c < ' ' || c > '~') c = '?';
-  return text('"', shown, word.size() > 40 ? "...\"" : "\"");
-}
+std::string in_quotes(std::string_view word);
 
 /// The same letters in lower case, for names that do not depend on case.
 inline std::string lower_case(std::string_view word) {
@@ -110,25 +60,9 @@ class TextReader {
   }
   /// The next word of this line; empty at the end of the line. A backslash at the end of a line joins the
   /// next.
-  std::string_view wordOnLine() {
-    for (;; ++at_) {
-      if (const std::size_t n = joined(at_)) {
-        at_ += n - 1, ++line_;
-      } else if (at_ >= text_.size() || text_[at_] == '\n' || !space(text_[at_])) {
-        break;
-      }
-    }
-    return take(true);
-  }
+  std::string_view wordOnLine();
   /// The rest of this line, without what ends it; the next word is from the line after it.
-  std::string_view restOfLine() {
-    const std::size_t end = std::min(text_.find('\n', at_), text_.size());
-    std::string_view rest = text_.substr(at_, end - at_);
-    if (rest.ends_with('\r')) rest.remove_suffix(1);
-    wordLine_ = line_, line_ += end < text_.size();
-    at_ = std::min(end + 1, text_.size());
-    return rest;
-  }
+  std::string_view restOfLine();
   /// Skips white space; false at the end.
   bool more() {
     for (; at_ < text_.size() && space(text_[at_]); ++at_) line_ += text_[at_] == '\n';
@@ -137,18 +71,7 @@ class TextReader {
   bool atEnd() const { return at_ >= text_.size(); }
 
   /// The next word as a finite number; `what` is for the message: "a coordinate".
-  double real(std::string_view what) {
-    double value = 0;
-    if (!parse_number(word(), value)) throw expected(what);
-    if (!std::isfinite(value))
-      throw error(text("expected ",
-                       what,
-                       ", found ",
-                       in_quotes(word_),
-                       ", which is not a finite number; ",
-                       "correct it, or find out why the program that wrote the file went wrong"));
-    return value;
-  }
+  double real(std::string_view what);
   Eigen::Vector3d point() {
     Eigen::Vector3d p;
     for (double& c : p) c = real("a coordinate");
@@ -161,20 +84,7 @@ class TextReader {
   }
   /// The number of items that follow, each of at least `words` words; refused if they cannot be in the rest
   /// of the text. So memory may be reserved for them.
-  std::size_t count(std::string_view what, std::size_t words) {
-    const std::int64_t n = integer(what);
-    const std::size_t room = (text_.size() - at_) / (2 * words);  // a space before each word
-    if (n < 0 || std::size_t(n) > room || n > std::numeric_limits<Index>::max())
-      throw error(text(what,
-                       " is given as ",
-                       n,
-                       ", but no more than ",
-                       room,
-                       " fit into the ",
-                       text_.size() - at_,
-                       " bytes that follow; correct the number, or get a complete file"));
-    return std::size_t(n);
-  }
+  std::size_t count(std::string_view what, std::size_t words);
   /// The number of one of `points` points, counted from 0.
   Index index(std::size_t points) {
     const std::int64_t i = integer("the number of a point");
@@ -195,27 +105,9 @@ class TextReader {
   }
   Error error(std::string_view message) const { return error(wordLine_, message); }
   /// The Error for a last word that is not `what`, or is missing.
-  Error expected(std::string_view what) const {
-    if (word_.empty() && atEnd())
-      return error(
-          text("the data end where ",
-               what,
-               " is expected; the file is incomplete or a count in it is wrong: get a complete one"));
-    return error(text("expected ",
-                      what,
-                      ", found ",
-                      word_.empty() ? "the end of the line" : in_quotes(word_),
-                      "; correct this line"));
-  }
+  Error expected(std::string_view what) const;
   /// Throws Error at the first byte of the text that no text file has.
-  void rejectBinary() const {
-    const auto bad = std::find_if(text_.begin(), text_.end(), [](char c) {
-      return (static_cast<unsigned char>(c) < ' ' && !space(c)) || c == 0x7f;
-    });
-    if (bad == text_.end()) return;
-    throw error(first_ + std::size_t(std::count(text_.begin(), bad, '\n')),
-                text("holds the byte ", int(*bad), ", which is not text; export the file as ASCII or UTF-8"));
-  }
+  void rejectBinary() const;
 
  private:
   static constexpr bool space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
@@ -225,12 +117,7 @@ class TextReader {
     if (text_.substr(at, 2) == "\\\n") return 2;
     return text_.substr(at, 3) == "\\\r\n" ? 3 : 0;
   }
-  std::string_view take(bool mayJoin) {
-    const std::size_t begin = at_;
-    while (at_ < text_.size() && !space(text_[at_]) && !(mayJoin && joined(at_))) ++at_;
-    wordLine_ = line_;
-    return word_ = text_.substr(begin, at_ - begin);
-  }
+  std::string_view take(bool mayJoin);
 
   std::string path_;
   std::string_view text_;
@@ -239,3 +126,141 @@ class TextReader {
 };
 
 }  // namespace sinew::io
+
+#if SINEW_DEFINES
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <climits>
+#include <cmath>
+#include <memory>
+
+namespace sinew::io {
+
+SINEW_ONCE std::string read_file(std::string const& path) {
+  struct stat info;
+  if (::stat(path.c_str(), &info) != 0) {
+    char folder[PATH_MAX];
+    std::string looked;
+    if (errno == ENOENT && !path.starts_with('/') && ::getcwd(folder, sizeof folder))
+      looked = text(" (looked for from the folder ", static_cast<char const*>(folder), ")");
+    throw Error(path,
+                text("cannot be read: ",
+                     static_cast<char const*>(std::strerror(errno)),
+                     looked,
+                     "; correct the name of the file"));
+  }
+  if (S_ISDIR(info.st_mode)) throw Error(path, "is a folder; name a file in it");
+  if (!S_ISREG(info.st_mode)) throw Error(path, "is not a regular file; copy its content into one");
+
+  auto close = [](std::FILE* f) { std::fclose(f); };
+  const std::unique_ptr<std::FILE, decltype(close)> file(std::fopen(path.c_str(), "rb"), close);
+  if (!file)
+    throw Error(path,
+                text("cannot be opened: ",
+                     static_cast<char const*>(std::strerror(errno)),
+                     "; ask for the right to read it"));
+  std::string bytes(std::size_t(info.st_size) + 1, '\0');
+  std::size_t filled = 0;
+  while (const std::size_t n = std::fread(bytes.data() + filled, 1, bytes.size() - filled, file.get())) {
+    filled += n;
+    if (filled == bytes.size()) bytes.resize(2 * bytes.size());
+  }
+  if (std::ferror(file.get()))
+    throw Error(path,
+                text("cannot be read to its end: ",
+                     static_cast<char const*>(std::strerror(errno)),
+                     "; check the disk or the network"));
+  bytes.resize(filled);
+  if (bytes.starts_with("\xEF\xBB\xBF")) bytes.erase(0, 3);
+  if (bytes.empty()) throw Error(path, "is empty; export it again, or name another file");
+  return bytes;
+}
+
+SINEW_ONCE std::string in_quotes(std::string_view word) {
+  std::string shown(word.substr(0, 40));
+  for (char& c : shown)
+    if (c < ' ' || c > '~') c = '?';
+  return text('"', shown, word.size() > 40 ? "...\"" : "\"");
+}
+
+SINEW_ONCE std::string_view TextReader::wordOnLine() {
+  for (;; ++at_) {
+    if (const std::size_t n = joined(at_)) {
+      at_ += n - 1, ++line_;
+    } else if (at_ >= text_.size() || text_[at_] == '\n' || !space(text_[at_])) {
+      break;
+    }
+  }
+  return take(true);
+}
+
+SINEW_ONCE std::string_view TextReader::restOfLine() {
+  const std::size_t end = std::min(text_.find('\n', at_), text_.size());
+  std::string_view rest = text_.substr(at_, end - at_);
+  if (rest.ends_with('\r')) rest.remove_suffix(1);
+  wordLine_ = line_, line_ += end < text_.size();
+  at_ = std::min(end + 1, text_.size());
+  return rest;
+}
+
+SINEW_ONCE double TextReader::real(std::string_view what) {
+  double value = 0;
+  if (!parse_number(word(), value)) throw expected(what);
+  if (!std::isfinite(value))
+    throw error(text("expected ",
+                     what,
+                     ", found ",
+                     in_quotes(word_),
+                     ", which is not a finite number; ",
+                     "correct it, or find out why the program that wrote the file went wrong"));
+  return value;
+}
+
+SINEW_ONCE std::size_t TextReader::count(std::string_view what, std::size_t words) {
+  const std::int64_t n = integer(what);
+  const std::size_t room = (text_.size() - at_) / (2 * words);  // a space before each word
+  if (n < 0 || std::size_t(n) > room || n > std::numeric_limits<Index>::max())
+    throw error(text(what,
+                     " is given as ",
+                     n,
+                     ", but no more than ",
+                     room,
+                     " fit into the ",
+                     text_.size() - at_,
+                     " bytes that follow; correct the number, or get a complete file"));
+  return std::size_t(n);
+}
+
+SINEW_ONCE Error TextReader::expected(std::string_view what) const {
+  if (word_.empty() && atEnd())
+    return error(text("the data end where ",
+                      what,
+                      " is expected; the file is incomplete or a count in it is wrong: get a complete one"));
+  return error(text("expected ",
+                    what,
+                    ", found ",
+                    word_.empty() ? "the end of the line" : in_quotes(word_),
+                    "; correct this line"));
+}
+
+SINEW_ONCE void TextReader::rejectBinary() const {
+  const auto bad = std::find_if(text_.begin(), text_.end(), [](char c) {
+    return (static_cast<unsigned char>(c) < ' ' && !space(c)) || c == 0x7f;
+  });
+  if (bad == text_.end()) return;
+  throw error(first_ + std::size_t(std::count(text_.begin(), bad, '\n')),
+              text("holds the byte ", int(*bad), ", which is not text; export the file as ASCII or UTF-8"));
+}
+
+SINEW_ONCE std::string_view TextReader::take(bool mayJoin) {
+  const std::size_t begin = at_;
+  while (at_ < text_.size() && !space(text_[at_]) && !(mayJoin && joined(at_))) ++at_;
+  wordLine_ = line_;
+  return word_ = text_.substr(begin, at_ - begin);
+}
+
+}  // namespace sinew::io
+#endif

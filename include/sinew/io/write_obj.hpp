@@ -1,17 +1,26 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/compiled.hpp>
 #include <sinew/core/mesh.hpp>
-#include <sinew/io/output_file.hpp>
-
-#include <cstdint>
 
 namespace sinew::io {
 
 /// Writes points (v), edges (l), triangles and quads (f) as a Wavefront OBJ file, whole or not at all.
 /// Coordinates read back with the same bits. Throws Error if the mesh has tetrahedra or hexahedra, which OBJ
 /// cannot hold, as check_mesh() does, and as write_file() does.
-inline void write_obj(std::string const& path, Mesh const& mesh) {
+void write_obj(std::string const& path, Mesh const& mesh);
+
+}  // namespace sinew::io
+
+#if SINEW_DEFINES
+#include <sinew/io/output_file.hpp>
+
+#include <cstdint>
+
+namespace sinew::io {
+
+SINEW_ONCE void write_obj(std::string const& path, Mesh const& mesh) {
   check_mesh(path, mesh);
   if (!mesh.tetrahedra.empty() || !mesh.hexahedra.empty())
     throw Error(path,
@@ -40,3 +49,4 @@ inline void write_obj(std::string const& path, Mesh const& mesh) {
 }
 
 }  // namespace sinew::io
+#endif

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/platform.hpp>
 #include <algorithm>
 #include <cstddef>
+#include <sinew/core/compiled.hpp>
 #include <span>
 #include <vector>
 
@@ -12,7 +14,22 @@ namespace sinew {
 /// approximate degree is the next (Amestoy, Davis, Duff 1996). What an elimination joins is kept as one
 /// element, the list of its unknowns, which swallows the elements it touches. rowStart, columns: the full
 /// pattern in compressed rows, as of CompressedRowSparseMatrix. Returns old indices by new.
-inline std::vector<int> minimum_degree_order(std::span<int const> rowStart, std::span<int const> columns) {
+std::vector<int> minimum_degree_order(std::span<int const> rowStart, std::span<int const> columns);
+
+/// The same elimination with children before and next to their parents: what is used together stands
+/// together. parent: the elimination tree, -1 at its roots. Returns old indices by new.
+std::vector<int> postorder(std::span<int const> parent);
+
+}  // namespace sinew
+
+#if SINEW_DEFINES
+#include <algorithm>
+#include <cstddef>
+
+namespace sinew {
+
+SINEW_ONCE std::vector<int> minimum_degree_order(std::span<int const> rowStart,
+                                                 std::span<int const> columns) {
   using Size = std::size_t;
   const int n = rowStart.empty() ? 0 : int(rowStart.size()) - 1;
   std::vector<std::vector<int>> unknowns{Size(n)}, elements{Size(n)};  // next to each unknown
@@ -77,11 +94,12 @@ inline std::vector<int> minimum_degree_order(std::span<int const> rowStart, std:
     const int others = int(fresh.size()) - 1, left = n - int(order.size()) - 1;
     for (const int i : fresh) {
       remove(i);
-      auto& next = unknowns[Size(i)];
-      next.erase(std::remove_if(
-                     next.begin(), next.end(), [&](int j) { return j == pivot || seen[Size(j)] == pivot; }),
-                 next.end());
-      int bound = int(next.size()) + others;
+      auto& neighbours = unknowns[Size(i)];
+      neighbours.erase(std::remove_if(neighbours.begin(),
+                                      neighbours.end(),
+                                      [&](int j) { return j == pivot || seen[Size(j)] == pivot; }),
+                       neighbours.end());
+      int bound = int(neighbours.size()) + others;
       auto& parts = elements[Size(i)];
       parts.erase(
           std::remove_if(
@@ -97,9 +115,7 @@ inline std::vector<int> minimum_degree_order(std::span<int const> rowStart, std:
   return order;
 }
 
-/// The same elimination with children before and next to their parents: what is used together stands
-/// together. parent: the elimination tree, -1 at its roots. Returns old indices by new.
-inline std::vector<int> postorder(std::span<int const> parent) {
+SINEW_ONCE std::vector<int> postorder(std::span<int const> parent) {
   const std::size_t n = parent.size();
   std::vector<int> child(n, -1), sibling(n, -1), order, path;
   for (std::size_t i = n; i-- > 0;)
@@ -126,3 +142,4 @@ inline std::vector<int> postorder(std::span<int const> parent) {
 }
 
 }  // namespace sinew
+#endif

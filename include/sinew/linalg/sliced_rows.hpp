@@ -26,7 +26,7 @@ struct SlicedRows {
   using L = lanes<Real, W>;
 
   struct Source {
-    int of[W];  // three times the slot of the block of each lane of a slab
+    int of[std::size_t(W)];  // three times the slot of the block of each lane of a slab
   };
   std::vector<int> sliceStart{};  // first slab of each slice; none where the pattern does not suit
   std::vector<int> distances{};   // of each slab
@@ -246,7 +246,7 @@ struct SlicedRows {
 
   SINEW_INLINE static void join(L a, L b, L c, Real* out, int n) {
     const L in[3] = {a, b, c};
-    alignas(64) Real points[W][4];
+    alignas(64) Real points[std::size_t(W)][4];
     transpose<3>(in, points);
     if (n == W)
       for (int l = 0; l < W; ++l) std::memcpy(out + 3 * l, points[l], 3 * sizeof(Real));

@@ -80,7 +80,7 @@ struct CarriedRuns {
   void interpolate(Run const& run, typename Out::VecDeriv& out, typename In::VecDeriv const& in) const {
     using L = lanes<Real>;
     auto const& origin = in[std::size_t(run.corners[0])];
-    L first[3], edges[N - 1][3];
+    L first[3], edges[std::size_t(N) - 1][3];
     for (int c = 0; c < 3; ++c) first[c] = L(Real(origin[c]));
     for (std::size_t k = 1; k < N; ++k)
       for (int c = 0; c < 3; ++c) edges[k - 1][c] = L(Real(in[std::size_t(run.corners[k])][c] - origin[c]));
@@ -103,7 +103,7 @@ struct CarriedRuns {
   template <int N>
   void collect(Run const& run, typename In::VecDeriv& in, typename Out::VecDeriv const& out) const {
     using L = lanes<Real>;
-    L sums[N][3];
+    L sums[std::size_t(N)][3];
     for (auto& sum : sums)
       for (L& component : sum) component = L(0);
     const std::size_t n = run.end - run.first;
@@ -132,7 +132,7 @@ struct CarriedRuns {
 
   // by halves
   SINEW_INLINE static Real total(lanes<Real> all) {
-    Real parts[W];
+    Real parts[std::size_t(W)];
     std::memcpy(parts, &all.v, sizeof parts);
 #pragma GCC unroll 8
     for (int half = W / 2; half > 0; half /= 2)

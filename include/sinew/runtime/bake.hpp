@@ -283,26 +283,17 @@ class Baker {
   // the component that a link leads to, and the name behind its dot; as read_scene follows links
   std::pair<Node*, Entry*> follow(Node& from, Entry const& entry, std::string_view link,
                                   std::string& data) const {
-    std::string whole(Words(link).rest());
-    std::replace(whole.begin(), whole.end(), ' ', '_');
-    std::string_view path = whole;
-    if (!path.starts_with('@')) return {};
-    path.remove_prefix(1);
-    const std::size_t slash = path.rfind('/') == path.npos ? 0 : path.rfind('/') + 1;
-    if (const std::string_view last = path.substr(slash); last != "." && last != "..")
-      if (const std::size_t dot = last.rfind('.'); dot != last.npos) {
-        data = std::string(last.substr(dot + 1));
-        path = path.substr(0, slash + dot);
-      }
-    if (path.starts_with('[')) {
-      const long at = long(&entry - from.components().data()) +
-                      read_number<int>(path.substr(1, std::min(path.find(']'), path.size()) - 1));
+    const std::optional<LinkWords> words = read_link(link);
+    if (!words) return {};
+    data = words->data;
+    if (words->offset) {
+      const long at = long(&entry - from.components().data()) + *words->offset;
       if (at < 0 || at >= long(from.components().size())) return {};
       return {&from, &from.components()[std::size_t(at)]};
     }
-    const bool based = path.starts_with('/') || path.starts_with("./") || path.starts_with("../") ||
-                       path == "." || path == ".." || path.empty();
-    for (Node* at = path.starts_with('/') ? &from.top() : &from; at; at = based ? nullptr : at->parent())
+    const std::string_view path = words->path;
+    for (Node* at = path.starts_with('/') ? &from.top() : &from; at;
+         at = words->based ? nullptr : at->parent())
       if (const auto found = walk(*at, path); found.second) return found;
     return {};
   }

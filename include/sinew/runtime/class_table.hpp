@@ -6,27 +6,40 @@
 #include <sinew/runtime/value_text.hpp>
 
 #include <array>
-#include <functional>
-#include <span>
+#include <cstddef>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace sinew {
 
-/// A field of a class whose components are known by their addresses.
-struct FieldAccess : FieldWords {
+/// What can be done with the values of a type, known by their addresses.
+struct ValueType {
   std::string (*kind)();  // "number", "list of points", ...
-  bool isFile = false, isInput = true;
-  void (*read)(void* component, std::string_view words);
-  std::string (*write)(void const* component);
-  std::string (*cpp)(void const* component);
+  void (*read)(void* value, std::string_view words);
+  std::string (*write)(void const* value);
+  std::string (*cpp)(void const* value);
+  bool isFile;
 };
 
 /// What scene files, messages and reference pages know of one field of a class.
-struct FieldInfo : FieldAccess {
+struct FieldInfo : FieldWords {
+  ValueType const* type;
+  std::ptrdiff_t offset;  // of the value in a component
+  bool isInput;
   std::string kind, defaultValue;  // in words
+  bool isFile = type->isFile;
 
+  void read(void* component, std::string_view words) const {
+    type->read(static_cast<char*>(component) + offset, words);
+  }
+  std::string write(void const* component) const {
+    return type->write(static_cast<char const*>(component) + offset);
+  }
+  std::string cpp(void const* component) const {
+    return type->cpp(static_cast<char const*>(component) + offset);
+  }
   bool known(std::string_view asked) const {
     bool found = asked == name;
     for_each_name(aliases, [&](std::string_view alias) { found = found || alias == asked; });
@@ -171,49 +184,39 @@ std::string kind_of() {
   else return text(std::tuple_size_v<T>, " of ", kind_of<typename T::value_type>());
 }
 
-// a field of a component that holds a Mesh stands for the lists of the mesh
-template <class C, auto List>
-constexpr FieldAccess mesh_field(std::string_view name, std::string_view documentation) {
-  using T = std::decay_t<decltype(std::declval<C>().mesh.*List)>;
-  return {{.name = name, .unit = "", .documentation = documentation, .range = range::any},
-          &kind_of<T>,
-          false,
-          true,
-          [](void* c, std::string_view words) { read_value(words, static_cast<C*>(c)->mesh.*List); },
-          [](void const* c) { return write_value(static_cast<C const*>(c)->mesh.*List); },
-          [](void const* c) { return cpp_value(static_cast<C const*>(c)->mesh.*List); }};
-}
+template <class T>
+inline constexpr ValueType value_type{
+    &kind_of<T>,
+    [](void* value, std::string_view words) { read_value(words, *static_cast<T*>(value)); },
+    [](void const* value) { return write_value(*static_cast<T const*>(value)); },
+    [](void const* value) { return cpp_value(*static_cast<T const*>(value)); },
+    std::is_same_v<T, DataFile>};
 
-enum class FieldList { inputs, state, outputs };
-template <class C, FieldList Which>
-constexpr auto fields_of() {
-  if constexpr (Which == FieldList::inputs)
-    return C::fields();
-  else if constexpr (Which == FieldList::state)
-    return C::state();
-  else
-    return C::outputs();
-}
+/// Adds fields of a class to what is known of it, from a component that holds the defaults.
+struct FieldsOf {
+  ClassInfo& info;
+  void const* component;
+  bool isInput;
 
-template <class C, FieldList Which>
-inline constexpr auto list_of_fields = fields_of<C, Which>();
+  template <class T>
+  void add(FieldWords const& words, T const& value) const {
+    add(words, value_type<T>, std::addressof(value));
+  }
+  template <class C, class List>
+  void addAll(C const& owner, List const& list) const {
+    boost::hana::unpack(list, [&](auto const&... fd) { (add(fd, owner.*fd.member), ...); });
+  }
 
-template <class C, FieldList Which, std::size_t I>
-constexpr FieldAccess field_access() {
-  constexpr auto const& fd = boost::hana::at_c<I>(list_of_fields<C, Which>);
-  using T = std::decay_t<decltype(std::declval<C>().*(fd.member))>;
-  return {fd,
-          &kind_of<T>,
-          std::is_same_v<T, DataFile>,
-          Which != FieldList::outputs,
-          [](void* c, std::string_view words) { read_value(words, static_cast<C*>(c)->*fd.member); },
-          [](void const* c) { return write_value(static_cast<C const*>(c)->*fd.member); },
-          [](void const* c) { return cpp_value(static_cast<C const*>(c)->*fd.member); }};
-}
-
-inline void add_fields(ClassInfo& info, std::span<FieldAccess const> fields, void const* defaults) {
-  for (FieldAccess const& f : fields) info.fields.push_back({f, f.kind(), f.write(defaults)});
-}
+ private:
+  void add(FieldWords const& words, ValueType const& type, void const* value) const {
+    info.fields.push_back({words,
+                           &type,
+                           static_cast<char const*>(value) - static_cast<char const*>(component),
+                           isInput,
+                           type.kind(),
+                           type.write(value)});
+  }
+};
 
 template <class C>
 ClassInfo class_info(int type) {
@@ -240,23 +243,16 @@ ClassInfo class_info(int type) {
   if constexpr (requires(C c) { c.ends.object1; }) info.joins = true;
   info.severalParents = requires(C c) { c.parents.paths; };
   const C defaults{};
-  auto add = [&]<FieldList Which>() {
-    [&]<std::size_t... I>(std::index_sequence<I...>) {
-      static constexpr std::array<FieldAccess, sizeof...(I)> fields{field_access<C, Which, I>()...};
-      add_fields(info, fields, &defaults);
-    }
-    (std::make_index_sequence<decltype(boost::hana::length(list_of_fields<C, Which>))::value>{});
-  };
-  add.template operator()<FieldList::inputs>();
-  if constexpr (requires { C::state(); }) add.template operator()<FieldList::state>();
-  if constexpr (requires { C::outputs(); }) add.template operator()<FieldList::outputs>();
-  if constexpr (requires(C c) { c.mesh.positions; }) {
-    static constexpr std::array<FieldAccess, 4> lists{
-        mesh_field<C, &Mesh::positions>("position", "vertices of the surface"),
-        mesh_field<C, &Mesh::edges>("edges", "edges of the surface"),
-        mesh_field<C, &Mesh::triangles>("triangles", "triangles of the surface"),
-        mesh_field<C, &Mesh::quads>("quads", "quads of the surface")};
-    add_fields(info, lists, &defaults);
+  const FieldsOf inputs{info, &defaults, true}, outputs{info, &defaults, false};
+  inputs.addAll(defaults, fields_of_class<C>);
+  if constexpr (requires { C::state(); }) inputs.addAll(defaults, C::state());
+  if constexpr (requires { C::outputs(); }) outputs.addAll(defaults, C::outputs());
+  // a component that holds a Mesh has fields for the lists of the mesh
+  if constexpr (requires { defaults.mesh.positions; }) {
+    inputs.add({"position", "", "vertices of the surface", range::any}, defaults.mesh.positions);
+    inputs.add({"edges", "", "edges of the surface", range::any}, defaults.mesh.edges);
+    inputs.add({"triangles", "", "triangles of the surface", range::any}, defaults.mesh.triangles);
+    inputs.add({"quads", "", "quads of the surface", range::any}, defaults.mesh.quads);
   }
   return info;
 }

@@ -3,6 +3,9 @@
 
 #include <sinew/core/assembly.hpp>
 #include <sinew/core/error.hpp>
+#include <sinew/linalg/block_matrix.hpp>
+
+#include <span>
 
 namespace sinew {
 
@@ -72,6 +75,28 @@ BlockTarget block_target(Matrix& matrix) {
           add};
 }
 
+// what constraints do with a matrix
+struct ProjectionTarget {
+  void (*fix)(void*, int dof);
+  void (*project)(void*, int dof, int n, double const* p);  // n: 1, 2, 3 or 6
+  void (*announceMean)(void*, std::span<int const> dofs, int coordinates);
+  void (*projectToMean)(void*, std::span<int const> dofs, int coordinates);
+};
+template <class Matrix>
+ProjectionTarget projection_target() {
+  auto project = [](void* m, int dof, int n, double const* p) {
+    auto fixed = [&]<int N>() { static_cast<Matrix*>(m)->project(dof, Eigen::Map<Mat<double, N> const>(p)); };
+    n == 1   ? fixed.template operator()<1>()
+    : n == 2 ? fixed.template operator()<2>()
+    : n == 3 ? fixed.template operator()<3>()
+             : fixed.template operator()<6>();
+  };
+  return {[](void* m, int dof) { static_cast<Matrix*>(m)->fix(dof); },
+          project,
+          [](void* m, std::span<int const> dofs, int n) { static_cast<Matrix*>(m)->announceMean(dofs, n); },
+          [](void* m, std::span<int const> dofs, int n) { static_cast<Matrix*>(m)->projectToMean(dofs, n); }};
+}
+
 // row.. += Ji' K Jj
 template <AssemblyPhase Phase, class Real, int N>
 void place_block(BlockTarget const& target, int row, int column, int columnsI, double const* ji, int columnsJ,
@@ -120,6 +145,26 @@ void expand_point(ErasedDofs const& dofs, int point, F&& f) {
   else
     f(dofs.offset + point * dofs.size, 0, static_cast<double const*>(nullptr));
 }
+
+namespace detail {
+
+// the Jacobian j of a point with respect to one above, times what that depends on
+template <class J>
+void expand_behind(J const& j, ErasedDofs const& above, int point, JacobianVisitor const& visitor) {
+  if constexpr (std::is_same_v<J, IdentityJacobian>) {
+    above.expand(above.self, point, visitor);
+  } else if constexpr (std::is_same_v<J, typename J::PlainObject>) {
+    auto chain = [&](int dof, int columns, double const* entries) {
+      with_jacobian<typename J::Scalar, J::ColsAtCompileTime>(
+          columns, entries, [&](auto const& jAbove) { emit(visitor, dof, (j * jAbove).eval()); });
+    };
+    above.expand(above.self, point, jacobian_visitor(chain));
+  } else {
+    expand_behind<typename J::PlainObject>(j, above, point, visitor);
+  }
+}
+
+}  // namespace detail
 
 /// What MatrixSink is to typed trees, with the Jacobians found at run time and the matrix out of sight: one
 /// instantiation serves all mappings and matrices, and computes the same bits.
@@ -174,36 +219,102 @@ ErasedDofs erased(MultiMappedDofs<M, P...> const& dofs) {
 }
 }  // namespace detail
 
-/// Degrees of freedom of an independent state of a runtime tree. Only what has to be fast is instantiated for
-/// each matrix: adding blocks of its own size.
-template <int N>
+/// Degrees of freedom of an independent state of a runtime tree.
+template <int N, class Real>
 struct RuntimeDofs {
   DirectDofs<N> direct;
 };
-template <int N, class F>
-void expand_point(RuntimeDofs<N> const& dofs, int point, F&& f) {
+template <int N, class Real, class F>
+void expand_point(RuntimeDofs<N, Real> const& dofs, int point, F&& f) {
   expand_point(dofs.direct, point, f);
 }
 namespace detail {
-template <int N>
-ErasedDofs erased(RuntimeDofs<N> const& dofs) {
+template <int N, class Real>
+ErasedDofs erased(RuntimeDofs<N, Real> const& dofs) {
   return erased(dofs.direct);
 }
+template <class Dofs>
+inline constexpr bool is_runtime_dofs = std::is_same_v<Dofs, ErasedDofs>;
+template <int N, class Real>
+inline constexpr bool is_runtime_dofs<RuntimeDofs<N, Real>> = true;
 }  // namespace detail
 
-template <AssemblyPhase Phase, class Matrix, class A, class B>
-requires(std::is_same_v<A, ErasedDofs> ||
-         std::is_same_v<B, ErasedDofs>) ErasedSink<Phase> make_sink(Matrix& matrix, A const& first,
-                                                                    B const& second) {
-  return {detail::block_target(matrix), detail::erased(first), detail::erased(second)};
-}
+/// The matrix of a solver of a runtime tree, whichever it is: components are instantiated for this one, and,
+/// where it has to be fast, for blocks of three rows of their own Real.
+class AnyMatrix {
+ public:
+  template <class Matrix>
+  explicit AnyMatrix(Matrix& matrix)
+      : target_(detail::block_target(matrix)), projection_(detail::projection_target<Matrix>()) {
+    if constexpr (std::is_same_v<Matrix, CompressedRowSparseMatrixMat3x3d>)
+      blocksOfDouble_ = &matrix;
+    else if constexpr (std::is_same_v<Matrix, CompressedRowSparseMatrixMat3x3f>)
+      blocksOfFloat_ = &matrix;
+  }
 
-template <AssemblyPhase Phase, class Matrix, int N>
-auto make_sink(Matrix& matrix, RuntimeDofs<N> const& first, RuntimeDofs<N> const& second) {
-  if constexpr (Phase != AssemblyPhase::pattern && Matrix::blockSize == N)
-    return make_sink<Phase>(matrix, first.direct, second.direct);
+  detail::BlockTarget const& target() const { return target_; }
+  /// The matrix itself, where it has blocks of N rows of Real; else null.
+  template <int N, class Real>
+  CompressedRowSparseMatrix<Real, 3>* blocks() const {
+    if constexpr (N != 3)
+      return nullptr;
+    else if constexpr (std::is_same_v<Real, double>)
+      return blocksOfDouble_;
+    else
+      return blocksOfFloat_;
+  }
+
+  void announce(int row, int column, int h, int w) { target_.announce(target_.matrix, row, column, h, w); }
+  template <class K>
+  void add(int row, int column, K const& k) {
+    target_.addDouble(target_.matrix, row, column, int(k.rows()), int(k.cols()), k.data());
+  }
+  void fix(int dof) { projection_.fix(target_.matrix, dof); }
+  template <class P>
+  void project(int dof, P const& p) {
+    constexpr int n = P::RowsAtCompileTime;
+    const Mat<double, n> projector = p.template cast<double>();
+    projection_.project(target_.matrix, dof, n, projector.data());
+  }
+  void announceMean(std::span<int const> dofs, int coordinates) {
+    projection_.announceMean(target_.matrix, dofs, coordinates);
+  }
+  void projectToMean(std::span<int const> dofs, int coordinates) {
+    projection_.projectToMean(target_.matrix, dofs, coordinates);
+  }
+
+ private:
+  detail::BlockTarget target_;
+  detail::ProjectionTarget projection_;
+  CompressedRowSparseMatrixMat3x3d* blocksOfDouble_ = nullptr;
+  CompressedRowSparseMatrixMat3x3f* blocksOfFloat_ = nullptr;
+};
+
+/// f(sink) where degrees of freedom are found at run time, of whichever tree the matrix is.
+template <AssemblyPhase Phase, class Matrix, class A, class B, class F>
+requires(detail::is_runtime_dofs<A> ||
+         detail::is_runtime_dofs<B>) void with_sink(Matrix& matrix, A const& first, B const& second, F&& f) {
+  detail::BlockTarget target;
+  if constexpr (std::is_same_v<Matrix, AnyMatrix>)
+    target = matrix.target();
   else
-    return ErasedSink<Phase>{detail::block_target(matrix), detail::erased(first), detail::erased(second)};
+    target = detail::block_target(matrix);
+  f(ErasedSink<Phase>{target, detail::erased(first), detail::erased(second)});
+}
+template <AssemblyPhase Phase, int N, class Real, class F>
+void with_sink(AnyMatrix& matrix, RuntimeDofs<N, Real> const& first, RuntimeDofs<N, Real> const& second,
+               F&& f) {
+  if constexpr (Phase != AssemblyPhase::pattern && N == 3)
+    if (auto* blocks = matrix.blocks<N, Real>())
+      return with_sink<Phase>(*blocks, first.direct, second.direct, f);
+  f(ErasedSink<Phase>{matrix.target(), detail::erased(first), detail::erased(second)});
+}
+template <AssemblyPhase Phase, class Matrix, int N, class Real, class F>
+void with_sink(Matrix& matrix, RuntimeDofs<N, Real> const& first, RuntimeDofs<N, Real> const& second, F&& f) {
+  if constexpr (Phase != AssemblyPhase::pattern && Matrix::blockSize == N)
+    with_sink<Phase>(matrix, first.direct, second.direct, f);
+  else
+    f(ErasedSink<Phase>{detail::block_target(matrix), detail::erased(first), detail::erased(second)});
 }
 
 }  // namespace sinew

@@ -7,15 +7,50 @@
 #include <sinew/runtime/class_table.hpp>
 #include <sinew/runtime/runtime.hpp>
 #include <sinew/runtime/scene_files.hpp>
+#include <sinew/runtime/standard_flags.hpp>
 
 namespace sinew {
+
+// kept in each file, also by --gc-sections, so that the linker looks for it
+[[gnu::used
+#if __has_cpp_attribute(gnu::retain)
+  ,
+  gnu::retain
+#endif
+]] static char const* const asked_of_sinew_standard = &StandardFlags::here;
 
 using StandardSimulation = Simulation<RuntimeNode<Standard>>;
 
 extern template detail::ComponentOperations const& AnyComponent<Standard>::operations(int);
+extern template detail::BlockTarget detail::block_target(CompressedRowSparseMatrixMat3x3d&);
+extern template detail::BlockTarget detail::block_target(CompressedRowSparseMatrixMat3x3f&);
+extern template detail::BlockTarget detail::block_target(CompressedRowSparseMatrixd&);
+extern template detail::ProjectionTarget detail::projection_target<CompressedRowSparseMatrixMat3x3d>();
+extern template detail::ProjectionTarget detail::projection_target<CompressedRowSparseMatrixMat3x3f>();
+extern template detail::ProjectionTarget detail::projection_target<CompressedRowSparseMatrixd>();
+extern template void RuntimeScope<Standard>::expand(int, JacobianVisitor const&) const;
+
+extern template void MechanicalOperations<RuntimeScope<Standard>>::propagate(CoordId, DerivId);
+extern template void MechanicalOperations<RuntimeScope<Standard>>::propagate(DerivId);
+extern template void MechanicalOperations<RuntimeScope<Standard>>::computeForce(DerivId, CoordId, DerivId,
+                                                                                double);
+extern template void MechanicalOperations<RuntimeScope<Standard>>::accFromF(DerivId, DerivId, CoordId);
+extern template void MechanicalOperations<RuntimeScope<Standard>>::projectResponse(DerivId);
+extern template void MechanicalOperations<RuntimeScope<Standard>>::projectPositionAndVelocity(double, CoordId,
+                                                                                              DerivId);
+extern template void MechanicalOperations<RuntimeScope<Standard>>::addMBKdx(DerivId, DerivId, MatrixFactors);
+extern template double MechanicalOperations<RuntimeScope<Standard>>::kineticEnergy();
+extern template double MechanicalOperations<RuntimeScope<Standard>>::potentialEnergy();
+extern template void MechanicalOperations<RuntimeScope<Standard>>::announce(AnyMatrix&);
+extern template void MechanicalOperations<RuntimeScope<Standard>>::assemblePhase<AssemblyPhase::bind>(
+    AnyMatrix&, MatrixFactors);
+extern template void MechanicalOperations<RuntimeScope<Standard>>::fill(AnyMatrix&, MatrixFactors);
 
 extern template void Simulation<RuntimeNode<Standard>>::init(double, long);
 extern template void Simulation<RuntimeNode<Standard>>::initScene(RootScope const&, InitAgain const&);
+extern template void Simulation<RuntimeNode<Standard>>::checkFields(RootScope const&, InitAgain const&);
+extern template void Simulation<RuntimeNode<Standard>>::initStates(RootScope const&, InitAgain const&);
+extern template void Simulation<RuntimeNode<Standard>>::initComponents(RootScope const&, InitAgain const&);
 extern template TopologyChange Simulation<RuntimeNode<Standard>>::removeElements(std::string_view,
                                                                                  ElementNumbers const&);
 extern template void Simulation<RuntimeNode<Standard>>::animate(double);

@@ -116,27 +116,28 @@ class SceneReader {
   }
 };
 
-}  // namespace detail
-
-template <class R>
-ReadScene<R> read_scene(std::string const& path, ReadSceneOptions const& options) {
+/// What f() returns; an Error of it as that of a scene file.
+template <class F>
+auto as_scene_error(F&& f) {
   try {
-    return detail::SceneReader<R>(options).read(path);
+    return f();
   } catch (SceneError const&) {
     throw;
   } catch (Error const& error) {
     throw SceneError({error.what()});
   }
 }
+
+}  // namespace detail
+
+template <class R>
+ReadScene<R> read_scene(std::string const& path, ReadSceneOptions const& options) {
+  return detail::as_scene_error([&] { return detail::SceneReader<R>(options).read(path); });
+}
 template <class R>
 ReadScene<R> parse_scene(std::string const& path, std::string content, ReadSceneOptions const& options) {
-  try {
-    return detail::SceneReader<R>(options).parse(path, std::move(content));
-  } catch (SceneError const&) {
-    throw;
-  } catch (Error const& error) {
-    throw SceneError({error.what()});
-  }
+  return detail::as_scene_error(
+      [&] { return detail::SceneReader<R>(options).parse(path, std::move(content)); });
 }
 
 }  // namespace sinew

@@ -5,6 +5,8 @@
 #include <sinew/io/text_reader.hpp>
 #include <sinew/runtime/node.hpp>
 
+#include <sys/stat.h>
+
 #include <optional>
 #include <utility>
 

@@ -188,28 +188,16 @@ struct RuntimeScope {
 
   template <class C, class F>
   void located(C const& c, F&& f) const {
-    auto const& entry = node.entryOf(&c);
-    try {
-      f();
-    } catch (Error const& error) {
-      if (entry.origin.empty()) throw;
-      throw Error(entry.origin, error.what());
-    }
+    locate(&c, FunctionRef(f));
   }
   template <class C, class F>
   void ifNew(C const& c, InitAgain const& again, F&& f) const {
-    auto& entry = node.entryOf(&c);
-    if (again && entry.initialised && !again.touches(&c) && entry.surroundings == surroundings(entry)) return;
-    collect([&] { located(c, f); });
+    initialise(&c, again, FunctionRef(f));
   }
   /// Goes on after an error, so that all can be said at once; raise() throws them.
   template <class F>
   void collect(F&& f) const {
-    try {
-      f();
-    } catch (Error const& error) {
-      node.top().errors.push_back(error.what());
-    }
+    collectErrors(FunctionRef(f));
   }
   void raise() const {
     auto& errors = node.top().errors;
@@ -297,11 +285,15 @@ struct RuntimeScope {
   void withDofs(F&& f) const {
     const RuntimeScope owner = stateScope();
     if (owner.mapped())
-      f(ErasedDofs{&owner, [](void const* self, int point, JacobianVisitor const& visitor) {
-                     static_cast<RuntimeScope const*>(self)->expand(point, visitor);
-                   }});
+      f(ErasedDofs{&owner, &expandScope});
     else
-      f(RuntimeDofs<D::size>{{owner.template state<D>().dofOffset}});
+      f(RuntimeDofs<D::size, typename D::Real>{{owner.template state<D>().dofOffset}});
+  }
+
+  /// A matrix as components see it.
+  template <class Matrix>
+  static AnyMatrix assembled(Matrix& matrix) {
+    return AnyMatrix(matrix);
   }
 
   template <class C, class F>
@@ -341,6 +333,37 @@ struct RuntimeScope {
         entry.component.visit(table, visitor);
       }
   }
+  // a function of the caller, called before it returns
+  struct FunctionRef {
+    void const* f;
+    void (*call)(void const* f);
+    template <class F>
+    explicit FunctionRef(F const& function)
+        : f(&function), call([](void const* p) { (*static_cast<F const*>(p))(); }) {}
+    void operator()() const { call(f); }
+  };
+  void locate(void const* c, FunctionRef f) const {
+    auto const& entry = node.entryOf(c);
+    try {
+      f();
+    } catch (Error const& error) {
+      if (entry.origin.empty()) throw;
+      throw Error(entry.origin, error.what());
+    }
+  }
+  void initialise(void const* c, InitAgain const& again, FunctionRef f) const {
+    auto& entry = node.entryOf(c);
+    if (again && entry.initialised && !again.touches(c) && entry.surroundings == surroundings(entry)) return;
+    collect([&] { locate(c, f); });
+  }
+  void collectErrors(FunctionRef f) const {
+    try {
+      f();
+    } catch (Error const& error) {
+      node.top().errors.push_back(error.what());
+    }
+  }
+
   void addSurroundings(std::vector<void const*>& all) const {
     const RuntimeScope owner = stateScope();
     all.push_back(stateAddress());
@@ -364,37 +387,37 @@ struct RuntimeScope {
   }
 
   // the Jacobian of a point of this scope's state with respect to the independent states above it
-  void expand(int point, JacobianVisitor const& visitor) const {
-    if (atMount) return mount().expand(mount().scope, point, visitor);
-    if (!mapped()) {
-      node.state()->component.template visit<role::State>([&](auto const& s) {
-        visitor.call(
-            visitor.self, s.dofOffset + point * std::decay_t<decltype(s)>::DataTypes::size, 0, nullptr);
-      });
-      return;
-    }
-    node.mapping()->component.template visit<role::Mapping>([&](auto const& mapping) {
-      using M = std::decay_t<decltype(mapping)>;
-      auto expandPart = [&](auto const& part, RuntimeScope const& parent) {
-        part.forEachJacobianBlock(point, [&](int pointAbove, auto const& j) {
-          auto chain = [&](int dof, int columns, double const* entries) {
-            detail::with_jacobian<typename M::Out::Real, M::In::size>(
-                columns, entries, [&](auto const& jAbove) {
-                  detail::emit(visitor, dof, (j * jAbove).eval());
-                });
-          };
-          parent.expand(pointAbove, detail::jacobian_visitor(chain));
-        });
-      };
-      if constexpr (HasParents<M>)
-        forEachParent(mapping, [&](std::size_t k, RuntimeScope const& parent) {
-          expandPart(mapping.parts[k], parent);
-        });
-      else
-        expandPart(mapping, above().stateScope());
-    });
+  void expand(int point, JacobianVisitor const& visitor) const;
+  static void expandScope(void const* self, int point, JacobianVisitor const& visitor) {
+    static_cast<RuntimeScope const*>(self)->expand(point, visitor);
   }
 };
+
+// Outside the class, so that a program may have it instantiated in one place: runtime/precompiled.hpp.
+template <class R>
+void RuntimeScope<R>::expand(int point, JacobianVisitor const& visitor) const {
+  if (atMount) return mount().expand(mount().scope, point, visitor);
+  if (!mapped()) {
+    node.state()->component.template visit<role::State>([&](auto const& s) {
+      visitor.call(
+          visitor.self, s.dofOffset + point * std::decay_t<decltype(s)>::DataTypes::size, 0, nullptr);
+    });
+    return;
+  }
+  node.mapping()->component.template visit<role::Mapping>([&](auto const& mapping) {
+    using M = std::decay_t<decltype(mapping)>;
+    auto expandPart = [&](auto const& part, RuntimeScope const& parent) {
+      part.forEachJacobianBlock(point, [&](int pointAbove, auto const& j) {
+        detail::expand_behind(j, {&parent, &expandScope}, pointAbove, visitor);
+      });
+    };
+    if constexpr (HasParents<M>)
+      forEachParent(mapping,
+                    [&](std::size_t k, RuntimeScope const& parent) { expandPart(mapping.parts[k], parent); });
+    else
+      expandPart(mapping, above().stateScope());
+  });
+}
 
 template <class R, class A>
 struct ScopeOf<RuntimeNode<R>, A> {

@@ -5,6 +5,8 @@
 #include <sinew/runtime/dialect.hpp>
 #include <sinew/runtime/value_text.hpp>
 
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <map>
 #include <memory>

@@ -96,59 +96,15 @@ struct MechanicalOperations {
   // physics
 
   /// Mapped states follow their parents.
-  void propagate(CoordId x, DerivId v) {
-    [[maybe_unused]] const auto span = root.span(Phase::mapping);
-    forEachMapping([&](auto& mapping, auto& child, auto& parent) {
-      mapping.apply(child[x], parent[x]);
-      mapping.applyJ(child[v], parent[v]);
-    });
-  }
-  void propagate(DerivId v) {
-    [[maybe_unused]] const auto span = root.span(Phase::mapping);
-    forEachMapping([&](auto& mapping, auto& child, auto& parent) { mapping.applyJ(child[v], parent[v]); });
-  }
+  void propagate(CoordId x, DerivId v);
+  void propagate(DerivId v);
 
   /// f = all forces at (x, v), with those on mapped states brought to the independent ones, and the external
   /// forces as they are. `turning`: see MechanicalParams.
-  void computeForce(DerivId f, CoordId x, DerivId v, double turning = 0) {
-    [[maybe_unused]] const auto span = root.span(Phase::force);
-    const MechanicalParams p{.time = time, .dt = dt, .turning = turning};
-    forEachState([&](auto& s) {
-      if (s[vec_id::externalForce].empty())
-        Vectors<decltype(s)>::clear(OneThread{}, s[f]);
-      else
-        Vectors<decltype(s)>::eq(OneThread{}, s[f], s[vec_id::externalForce]);
-    });
-    traverse(
-        root, on<role::ForceField, role::Mass, role::InteractionForceField>([&](auto& c, auto const& scope) {
-          using C = std::decay_t<decltype(c)>;
-          if constexpr (HasRole<C, role::InteractionForceField>) {
-            forEnds(c, scope, [&](auto& a, auto& b) { c.addForce(p, a[f], b[f], a[x], b[x], a[v], b[v]); });
-          } else {
-            auto& s = stateOf(c, scope);
-            MechanicalParams params = p;
-            if constexpr (HasRole<C, role::Mass>) params.gravity = scope.gravity();
-            inParts(c, params, [&](MechanicalParams const& part) { c.addForce(part, s[f], s[x], s[v]); });
-          }
-        }));
-    addContactForces(f, x, v);
-    accumulate(f, [f](auto& mapping, auto& child, auto&) {
-      if constexpr (HasGeometricStiffness<std::decay_t<decltype(mapping)>>) mapping.updateK(child[f]);
-    });
-  }
+  void computeForce(DerivId f, CoordId x, DerivId v, double turning = 0);
 
   /// a = P M^-1 f
-  void accFromF(DerivId a, DerivId f, CoordId x) {
-    [[maybe_unused]] const auto span = root.span(Phase::acceleration);
-    traverse(root, on<role::Mass>([&](auto& c, auto const& scope) {
-               if (scope.stateScope().mapped()) return;
-               auto& s = stateOf(c, scope);
-               c.accFromF(s[a], s[x], s[f]);
-             }));
-    traverse(root, on<role::ProjectiveConstraint>([&](auto& c, auto const& scope) {
-               withConstrained(c, scope, [&](auto&... s) { accelerateConstrained(c, s[a]...); });
-             }));
-  }
+  void accFromF(DerivId a, DerivId f, CoordId x);
 
   /// a = acceleration at time t in the state (x, v), mapped states included.
   template <class VecDeriv, class VecCoord>
@@ -160,72 +116,16 @@ struct MechanicalOperations {
   }
 
   /// Removes forbidden displacements.
-  void projectResponse(DerivId dx) {
-    [[maybe_unused]] const auto span = root.span(Phase::constraint);
-    traverse(root, on<role::ProjectiveConstraint>([&](auto& c, auto const& scope) {
-               withConstrained(c, scope, [&](auto&... s) { c.projectResponse(s[dx]...); });
-             }));
-  }
+  void projectResponse(DerivId dx);
   /// Puts constrained points where they have to be at time t, with the velocity they have there.
-  void projectPositionAndVelocity(double t, CoordId x, DerivId v) {
-    [[maybe_unused]] const auto span = root.span(Phase::constraint);
-    traverse(root, on<role::ProjectiveConstraint>([&](auto& c, auto const& scope) {
-               withConstrained(c, scope, [&](auto&... s) {
-                 placeConstrained(c, t, s[x]...);
-                 moveConstrained(c, t, s[v]...);
-               });
-             }));
-  }
+  void projectPositionAndVelocity(double t, CoordId x, DerivId v);
 
   /// r += (m M + b B + k K) dx, through all mappings.
-  void addMBKdx(DerivId r, DerivId dx, MatrixFactors factors) {
-    [[maybe_unused]] const auto span = root.span(Phase::product);
-    const MechanicalParams p{.time = time, .dt = dt, .m = factors.m, .b = factors.b, .k = factors.k};
-    propagate(dx);
-    forEachMapped([&](auto& s) { Vectors<decltype(s)>::clear(OneThread{}, s[r]); });
-    traverse(root,
-             on<role::ForceField, role::Mass, role::InteractionForceField>([&](auto& c, auto const& scope) {
-               using C = std::decay_t<decltype(c)>;
-               if constexpr (HasRole<C, role::Mass>) {
-                 auto& s = stateOf(c, scope);
-                 if (p.m != 0) c.addMDx(s[r], s[vec_id::position], s[dx], p.m);
-               } else if (p.k != 0 || p.b != 0) {
-                 if constexpr (HasRole<C, role::InteractionForceField>) {
-                   forEnds(c, scope, [&](auto& a, auto& b) { c.addDForce(p, a[r], b[r], a[dx], b[dx]); });
-                 } else {
-                   auto& s = stateOf(c, scope);
-                   inParts(c, p, [&](MechanicalParams const& part) { c.addDForce(part, s[r], s[dx]); });
-                 }
-               }
-             }));
-    if (p.k != 0 || p.b != 0) addContactDForces(r, dx, p);
-    accumulate(r, [&](auto& mapping, auto&, auto& parent) {
-      if constexpr (HasGeometricStiffness<std::decay_t<decltype(mapping)>>)
-        if (p.k != 0) mapping.addKx(parent[r], parent[dx], p.k);
-    });
-  }
+  void addMBKdx(DerivId r, DerivId dx, MatrixFactors factors);
 
-  double kineticEnergy() {
-    double sum = 0;
-    traverse(root, on<role::Mass>([&](auto& c, auto const& scope) {
-               auto& s = stateOf(c, scope);
-               sum += c.kineticEnergy(s[vec_id::position], s[vec_id::velocity]);
-             }));
-    return sum;
-  }
+  double kineticEnergy();
   /// Energy of the force fields, without gravity [J].
-  double potentialEnergy() {
-    double sum = 0;
-    traverse(root, on<role::ForceField, role::InteractionForceField>([&](auto& c, auto const& scope) {
-               if constexpr (HasRole<std::decay_t<decltype(c)>, role::ForceField>)
-                 sum += c.potentialEnergy(stateOf(c, scope)[vec_id::position]);
-               else
-                 forEnds(c, scope, [&](auto& a, auto& b) {
-                   sum += c.potentialEnergy(a[vec_id::position], b[vec_id::position]);
-                 });
-             }));
-    return sum;
-  }
+  double potentialEnergy();
 
   // the assembled system
 
@@ -242,17 +142,14 @@ struct MechanicalOperations {
       dofs = (dofs + block - 1) / block * block;
     });
     matrix.startPattern(dofs);
-    assemblePhase<AssemblyPhase::pattern>(matrix, {});
-    traverse(root, on<role::ProjectiveConstraint>([&](auto& c, auto const& scope) {
-               const auto sink = constraintSink<AssemblyPhase::pattern>(matrix, c, scope);
-               if constexpr (requires { c.announce(sink); }) c.announce(sink);
-             }));
+    auto&& assembled = root.assembled(matrix);
+    announce(assembled);
     matrix.finishPattern();
     if constexpr (Root::threaded && requires { matrix.split(1); }) {
       matrix.split(workers().count());
       reserveSums(std::size_t(dofs));
     }
-    assemblePhase<AssemblyPhase::bind>(matrix, {});
+    assemblePhase<AssemblyPhase::bind>(assembled, {});
   }
   /// matrix = P (m M + b B + k K) P + (I - P)
   template <class Matrix>
@@ -262,10 +159,8 @@ struct MechanicalOperations {
       matrix.setZero(workers());
     else
       matrix.setZero();
-    assemblePhase<AssemblyPhase::add>(matrix, factors);
-    traverse(root, on<role::ProjectiveConstraint>([&](auto& c, auto const& scope) {
-               c.projectMatrix(constraintSink<AssemblyPhase::add>(matrix, c, scope));
-             }));
+    auto&& assembled = root.assembled(matrix);
+    fill(assembled, factors);
     // what fills up the last block of a state is nobody's
     forEachIndependent([&](auto& s) {
       const int end = s.dofOffset + int(s.size()) * DataTypesOf<decltype(s)>::size;
@@ -397,6 +292,10 @@ struct MechanicalOperations {
     else
       c.projectResponse(a...);
   }
+  template <class Matrix>
+  void announce(Matrix& matrix);
+  template <class Matrix>
+  void fill(Matrix& matrix, MatrixFactors factors);
   template <AssemblyPhase Phase, class Matrix, class C, class S>
   static auto constraintSink(Matrix& matrix, C const& c, S const& scope) {
     using Dofs = DirectDofs<C::DataTypes::size>;
@@ -463,44 +362,195 @@ struct MechanicalOperations {
   }
 
   template <AssemblyPhase Phase, class Matrix>
-  void assemblePhase(Matrix& matrix, MatrixFactors factors) {
-    const MechanicalParams p{.time = time, .dt = dt, .m = factors.m, .b = factors.b, .k = factors.k};
-    traverse(root, on<role::Mapping>([&](auto& mapping, auto const& scope) {
-               using M = std::decay_t<decltype(mapping)>;
-               if constexpr (HasGeometricStiffness<M>)
-                 withMechanicalChild(mapping, scope, [&](auto& m, auto&, auto&) {
-                   scope.parentScope().template withDofs<typename M::In>(
-                       [&](auto const& dofs) { m.addToMatrix(p, make_sink<Phase>(matrix, dofs, dofs)); });
+  void assemblePhase(Matrix& matrix, MatrixFactors factors);
+};
+
+// Outside the class, so that a program may have them instantiated in one place: runtime/precompiled.hpp.
+
+template <class Root>
+void MechanicalOperations<Root>::propagate(CoordId x, DerivId v) {
+  [[maybe_unused]] const auto span = root.span(Phase::mapping);
+  forEachMapping([&](auto& mapping, auto& child, auto& parent) {
+    mapping.apply(child[x], parent[x]);
+    mapping.applyJ(child[v], parent[v]);
+  });
+}
+
+template <class Root>
+void MechanicalOperations<Root>::propagate(DerivId v) {
+  [[maybe_unused]] const auto span = root.span(Phase::mapping);
+  forEachMapping([&](auto& mapping, auto& child, auto& parent) { mapping.applyJ(child[v], parent[v]); });
+}
+
+template <class Root>
+void MechanicalOperations<Root>::computeForce(DerivId f, CoordId x, DerivId v, double turning) {
+  [[maybe_unused]] const auto span = root.span(Phase::force);
+  const MechanicalParams p{.time = time, .dt = dt, .turning = turning};
+  forEachState([&](auto& s) {
+    if (s[vec_id::externalForce].empty())
+      Vectors<decltype(s)>::clear(OneThread{}, s[f]);
+    else
+      Vectors<decltype(s)>::eq(OneThread{}, s[f], s[vec_id::externalForce]);
+  });
+  traverse(
+      root, on<role::ForceField, role::Mass, role::InteractionForceField>([&](auto& c, auto const& scope) {
+        using C = std::decay_t<decltype(c)>;
+        if constexpr (HasRole<C, role::InteractionForceField>) {
+          forEnds(c, scope, [&](auto& a, auto& b) { c.addForce(p, a[f], b[f], a[x], b[x], a[v], b[v]); });
+        } else {
+          auto& s = stateOf(c, scope);
+          MechanicalParams params = p;
+          if constexpr (HasRole<C, role::Mass>) params.gravity = scope.gravity();
+          inParts(c, params, [&](MechanicalParams const& part) { c.addForce(part, s[f], s[x], s[v]); });
+        }
+      }));
+  addContactForces(f, x, v);
+  accumulate(f, [f](auto& mapping, auto& child, auto&) {
+    if constexpr (HasGeometricStiffness<std::decay_t<decltype(mapping)>>) mapping.updateK(child[f]);
+  });
+}
+
+template <class Root>
+void MechanicalOperations<Root>::accFromF(DerivId a, DerivId f, CoordId x) {
+  [[maybe_unused]] const auto span = root.span(Phase::acceleration);
+  traverse(root, on<role::Mass>([&](auto& c, auto const& scope) {
+             if (scope.stateScope().mapped()) return;
+             auto& s = stateOf(c, scope);
+             c.accFromF(s[a], s[x], s[f]);
+           }));
+  traverse(root, on<role::ProjectiveConstraint>([&](auto& c, auto const& scope) {
+             withConstrained(c, scope, [&](auto&... s) { accelerateConstrained(c, s[a]...); });
+           }));
+}
+
+template <class Root>
+void MechanicalOperations<Root>::projectResponse(DerivId dx) {
+  [[maybe_unused]] const auto span = root.span(Phase::constraint);
+  traverse(root, on<role::ProjectiveConstraint>([&](auto& c, auto const& scope) {
+             withConstrained(c, scope, [&](auto&... s) { c.projectResponse(s[dx]...); });
+           }));
+}
+
+template <class Root>
+void MechanicalOperations<Root>::projectPositionAndVelocity(double t, CoordId x, DerivId v) {
+  [[maybe_unused]] const auto span = root.span(Phase::constraint);
+  traverse(root, on<role::ProjectiveConstraint>([&](auto& c, auto const& scope) {
+             withConstrained(c, scope, [&](auto&... s) {
+               placeConstrained(c, t, s[x]...);
+               moveConstrained(c, t, s[v]...);
+             });
+           }));
+}
+
+template <class Root>
+void MechanicalOperations<Root>::addMBKdx(DerivId r, DerivId dx, MatrixFactors factors) {
+  [[maybe_unused]] const auto span = root.span(Phase::product);
+  const MechanicalParams p{.time = time, .dt = dt, .m = factors.m, .b = factors.b, .k = factors.k};
+  propagate(dx);
+  forEachMapped([&](auto& s) { Vectors<decltype(s)>::clear(OneThread{}, s[r]); });
+  traverse(root,
+           on<role::ForceField, role::Mass, role::InteractionForceField>([&](auto& c, auto const& scope) {
+             using C = std::decay_t<decltype(c)>;
+             if constexpr (HasRole<C, role::Mass>) {
+               auto& s = stateOf(c, scope);
+               if (p.m != 0) c.addMDx(s[r], s[vec_id::position], s[dx], p.m);
+             } else if (p.k != 0 || p.b != 0) {
+               if constexpr (HasRole<C, role::InteractionForceField>) {
+                 forEnds(c, scope, [&](auto& a, auto& b) { c.addDForce(p, a[r], b[r], a[dx], b[dx]); });
+               } else {
+                 auto& s = stateOf(c, scope);
+                 inParts(c, p, [&](MechanicalParams const& part) { c.addDForce(part, s[r], s[dx]); });
+               }
+             }
+           }));
+  if (p.k != 0 || p.b != 0) addContactDForces(r, dx, p);
+  accumulate(r, [&](auto& mapping, auto&, auto& parent) {
+    if constexpr (HasGeometricStiffness<std::decay_t<decltype(mapping)>>)
+      if (p.k != 0) mapping.addKx(parent[r], parent[dx], p.k);
+  });
+}
+
+template <class Root>
+double MechanicalOperations<Root>::kineticEnergy() {
+  double sum = 0;
+  traverse(root, on<role::Mass>([&](auto& c, auto const& scope) {
+             auto& s = stateOf(c, scope);
+             sum += c.kineticEnergy(s[vec_id::position], s[vec_id::velocity]);
+           }));
+  return sum;
+}
+
+template <class Root>
+double MechanicalOperations<Root>::potentialEnergy() {
+  double sum = 0;
+  traverse(root, on<role::ForceField, role::InteractionForceField>([&](auto& c, auto const& scope) {
+             if constexpr (HasRole<std::decay_t<decltype(c)>, role::ForceField>)
+               sum += c.potentialEnergy(stateOf(c, scope)[vec_id::position]);
+             else
+               forEnds(c, scope, [&](auto& a, auto& b) {
+                 sum += c.potentialEnergy(a[vec_id::position], b[vec_id::position]);
+               });
+           }));
+  return sum;
+}
+
+template <class Root>
+template <class Matrix>
+void MechanicalOperations<Root>::announce(Matrix& matrix) {
+  assemblePhase<AssemblyPhase::pattern>(matrix, {});
+  traverse(root, on<role::ProjectiveConstraint>([&](auto& c, auto const& scope) {
+             const auto sink = constraintSink<AssemblyPhase::pattern>(matrix, c, scope);
+             if constexpr (requires { c.announce(sink); }) c.announce(sink);
+           }));
+}
+
+template <class Root>
+template <class Matrix>
+void MechanicalOperations<Root>::fill(Matrix& matrix, MatrixFactors factors) {
+  assemblePhase<AssemblyPhase::add>(matrix, factors);
+  traverse(root, on<role::ProjectiveConstraint>([&](auto& c, auto const& scope) {
+             c.projectMatrix(constraintSink<AssemblyPhase::add>(matrix, c, scope));
+           }));
+}
+
+template <class Root>
+template <AssemblyPhase Phase, class Matrix>
+void MechanicalOperations<Root>::assemblePhase(Matrix& matrix, MatrixFactors factors) {
+  const MechanicalParams p{.time = time, .dt = dt, .m = factors.m, .b = factors.b, .k = factors.k};
+  traverse(root, on<role::Mapping>([&](auto& mapping, auto const& scope) {
+             using M = std::decay_t<decltype(mapping)>;
+             if constexpr (HasGeometricStiffness<M>)
+               withMechanicalChild(mapping, scope, [&](auto& m, auto&, auto&) {
+                 scope.parentScope().template withDofs<typename M::In>([&](auto const& dofs) {
+                   with_sink<Phase>(matrix, dofs, dofs, [&](auto const& sink) { m.addToMatrix(p, sink); });
                  });
-             }));
-    traverse(
-        root, on<role::ForceField, role::Mass, role::InteractionForceField>([&](auto& c, auto const& scope) {
-          using C = std::decay_t<decltype(c)>;
-          using D = typename C::DataTypes;
-          auto withSink = [&](auto const& a, auto const& b, auto&& f) {
+               });
+           }));
+  traverse(
+      root, on<role::ForceField, role::Mass, role::InteractionForceField>([&](auto& c, auto const& scope) {
+        using C = std::decay_t<decltype(c)>;
+        using D = typename C::DataTypes;
+        if constexpr (HasRole<C, role::InteractionForceField>)
+          scope.withEnds(c, [&](auto const& a, auto const& b) {
             a.template withDofs<D>([&](auto const& first) {
-              b.template withDofs<D>([&](auto const& second) { f(make_sink<Phase>(matrix, first, second)); });
+              b.template withDofs<D>([&](auto const& second) {
+                with_sink<Phase>(matrix, first, second, [&](auto const& sink) { c.addToMatrix(p, sink); });
+              });
             });
-          };
-          if constexpr (HasRole<C, role::ForceField>)
-            scope.template withDofs<D>([&](auto const& dofs) {
-              const auto sink = make_sink<Phase>(matrix, dofs, dofs);
-              if constexpr (Phase == AssemblyPhase::add)
+          });
+        else
+          scope.template withDofs<D>([&](auto const& dofs) {
+            with_sink<Phase>(matrix, dofs, dofs, [&](auto const& sink) {
+              if constexpr (HasRole<C, role::Mass>)
+                c.addToMatrix(p, stateOf(c, scope)[vec_id::position], sink);
+              else if constexpr (Phase == AssemblyPhase::add)
                 inParts(c, p, [&](MechanicalParams const& part) { c.addToMatrix(part, sink); });
               else
                 c.addToMatrix(p, sink);
             });
-          else if constexpr (HasRole<C, role::Mass>)
-            scope.template withDofs<D>([&](auto const& dofs) {
-              c.addToMatrix(p, stateOf(c, scope)[vec_id::position], make_sink<Phase>(matrix, dofs, dofs));
-            });
-          else
-            scope.withEnds(c, [&](auto const& a, auto const& b) {
-              withSink(a, b, [&](auto const& sink) { c.addToMatrix(p, sink); });
-            });
-        }));
-    assembleContacts<Phase>(matrix, p);
-  }
-};
+          });
+      }));
+  assembleContacts<Phase>(matrix, p);
+}
 
 }  // namespace sinew

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <sinew/core/error.hpp>
+#include <sinew/core/compiled.hpp>
 #include <sinew/core/profile.hpp>
 
-#include <algorithm>
-#include <cstdio>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,7 +20,46 @@ struct ProfileLine {
 };
 
 /// The lines of a profile, in the order of the first calls, what is inside below what is around it.
-inline std::vector<ProfileLine> profile_lines(Profile const& profile) {
+std::vector<ProfileLine> profile_lines(Profile const& profile);
+
+/// A table of a profile: phases and components, nested, with calls, time, time in a step, share of the steps,
+/// and the share that is not in the lines below. Lines with a smaller share than `least` are left out.
+std::string profile_table(Profile const& profile, double least = 0.001);
+
+/// The events of a profile as a trace that chrome://tracing and ui.perfetto.dev open: the Trace Event Format,
+/// complete events ("X") in the order of their beginnings, microseconds since the first.
+std::string profile_trace(Profile const& profile, std::string_view title = "sinew");
+
+}  // namespace sinew
+
+#if SINEW_DEFINES
+#include <sinew/core/error.hpp>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace sinew::detail {
+
+inline void add_json_text(std::string& out, std::string_view words) {
+  out += '"';
+  for (const char c : words) {
+    if (c == '"' || c == '\\') out += '\\';
+    if (static_cast<unsigned char>(c) < ' ') {
+      char code[8];
+      std::snprintf(code, sizeof code, "\\u%04x", unsigned(c));
+      out += code;
+    } else {
+      out += c;
+    }
+  }
+  out += '"';
+}
+
+}  // namespace sinew::detail
+
+namespace sinew {
+
+SINEW_ONCE std::vector<ProfileLine> profile_lines(Profile const& profile) {
   std::vector<ProfileLine> lines;
   auto add = [&](auto const& self, int at, int depth) -> void {
     auto const& row = profile.row(at);
@@ -47,9 +84,7 @@ inline std::vector<ProfileLine> profile_lines(Profile const& profile) {
   return lines;
 }
 
-/// A table of a profile: phases and components, nested, with calls, time, time in a step, share of the steps,
-/// and the share that is not in the lines below. Lines with a smaller share than `least` are left out.
-inline std::string profile_table(Profile const& profile, double least = 0.001) {
+SINEW_ONCE std::string profile_table(Profile const& profile, double least) {
   const auto lines = profile_lines(profile);
   const double whole = std::max(1e-9, profile.seconds(Phase::step)),
                steps = double(std::max(1L, profile.calls(Phase::step)));
@@ -101,26 +136,7 @@ inline std::string profile_table(Profile const& profile, double least = 0.001) {
   return table;
 }
 
-namespace detail {
-inline void add_json_text(std::string& out, std::string_view words) {
-  out += '"';
-  for (const char c : words) {
-    if (c == '"' || c == '\\') out += '\\';
-    if (static_cast<unsigned char>(c) < ' ') {
-      char code[8];
-      std::snprintf(code, sizeof code, "\\u%04x", unsigned(c));
-      out += code;
-    } else {
-      out += c;
-    }
-  }
-  out += '"';
-}
-}  // namespace detail
-
-/// The events of a profile as a trace that chrome://tracing and ui.perfetto.dev open: the Trace Event Format,
-/// complete events ("X") in the order of their beginnings, microseconds since the first.
-inline std::string profile_trace(Profile const& profile, std::string_view title = "sinew") {
+SINEW_ONCE std::string profile_trace(Profile const& profile, std::string_view title) {
   std::vector<std::string> heads;  // name, category and arguments of each row
   for (int i = 0; i < profile.rowCount(); ++i) {
     std::string head = "{\"name\":";
@@ -162,3 +178,4 @@ inline std::string profile_trace(Profile const& profile, std::string_view title 
 }
 
 }  // namespace sinew
+#endif

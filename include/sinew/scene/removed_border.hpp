@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/compiled.hpp>
 #include <sinew/core/component.hpp>
 #include <sinew/topology/border.hpp>
 
@@ -22,42 +23,19 @@ struct BorderLists {
 class RemovedBorder {
  public:
   RemovedBorder() = default;
-  RemovedBorder(TopologyView const& before, std::array<std::vector<bool>, element_kinds> const& stays) {
-    const Border was = border_of(before.tetrahedra, before.hexahedra);
-    // of what goes: its faces that were border go too, and those of what it leaves are laid bare
-    auto gone = [](auto const& list, std::vector<bool> const& stay) {
-      std::vector<std::decay_t<decltype(list[0])>> all;
-      for (std::size_t e = 0; e < list.size(); ++e)
-        if (!stay[e]) all.push_back(list[e]);
-      return all;
-    };
-    const auto tetrahedra = gone(before.tetrahedra, stays[3]);
-    const auto hexahedra = gone(before.hexahedra, stays[4]);
-    const Border ofGone = border_of(tetrahedra, hexahedra);
-    triangles_.set(was.triangles, ofGone.triangles);
-    quads_.set(was.quads, ofGone.quads);
-  }
+  RemovedBorder(TopologyView const& before, std::array<std::vector<bool>, element_kinds> const& stays);
 
   BorderLists listed(std::span<Triangle const> triangles, std::span<Quad const> quads) const {
     return {triangles_.listed(triangles), quads_.listed(quads)};
   }
   /// Marks what goes of the lists of a topology.
   void mark(BorderLists const& is, TopologyView const& view,
-            std::array<std::vector<bool>, element_kinds>& stays) const {
-    if (is.triangles) triangles_.mark(view.triangles, stays[1]);
-    if (is.quads) quads_.mark(view.quads, stays[2]);
-  }
+            std::array<std::vector<bool>, element_kinds>& stays) const;
   /// Takes what goes out of lists.
-  void takeAway(BorderLists const& is, std::vector<Triangle>& triangles, std::vector<Quad>& quads) const {
-    if (is.triangles) std::erase_if(triangles, [this](auto const& f) { return !triangles_.stays(f); });
-    if (is.quads) std::erase_if(quads, [this](auto const& f) { return !quads_.stays(f); });
-  }
+  void takeAway(BorderLists const& is, std::vector<Triangle>& triangles, std::vector<Quad>& quads) const;
   /// Puts what is laid bare behind lists that have followed already, in the numbers of the points now.
   void layBare(BorderLists const& is, Renumbering const& points, std::vector<Triangle>* triangles,
-               std::vector<Quad>* quads) const {
-    if (is.triangles) triangles_.layBare(is.triangles, points, *triangles);
-    if (is.quads) quads_.layBare(is.quads, points, *quads);
-  }
+               std::vector<Quad>* quads) const;
 
  private:
   template <std::size_t N>
@@ -113,3 +91,44 @@ class RemovedBorder {
 };
 
 }  // namespace sinew
+
+#if SINEW_DEFINES
+namespace sinew {
+
+SINEW_ONCE RemovedBorder::RemovedBorder(TopologyView const& before,
+                                        std::array<std::vector<bool>, element_kinds> const& stays) {
+  const Border was = border_of(before.tetrahedra, before.hexahedra);
+  // of what goes: its faces that were border go too, and those of what it leaves are laid bare
+  auto gone = [](auto const& list, std::vector<bool> const& stay) {
+    std::vector<std::decay_t<decltype(list[0])>> all;
+    for (std::size_t e = 0; e < list.size(); ++e)
+      if (!stay[e]) all.push_back(list[e]);
+    return all;
+  };
+  const auto tetrahedra = gone(before.tetrahedra, stays[3]);
+  const auto hexahedra = gone(before.hexahedra, stays[4]);
+  const Border ofGone = border_of(tetrahedra, hexahedra);
+  triangles_.set(was.triangles, ofGone.triangles);
+  quads_.set(was.quads, ofGone.quads);
+}
+
+SINEW_ONCE void RemovedBorder::mark(BorderLists const& is, TopologyView const& view,
+                                    std::array<std::vector<bool>, element_kinds>& stays) const {
+  if (is.triangles) triangles_.mark(view.triangles, stays[1]);
+  if (is.quads) quads_.mark(view.quads, stays[2]);
+}
+
+SINEW_ONCE void RemovedBorder::takeAway(BorderLists const& is, std::vector<Triangle>& triangles,
+                                        std::vector<Quad>& quads) const {
+  if (is.triangles) std::erase_if(triangles, [this](auto const& f) { return !triangles_.stays(f); });
+  if (is.quads) std::erase_if(quads, [this](auto const& f) { return !quads_.stays(f); });
+}
+
+SINEW_ONCE void RemovedBorder::layBare(BorderLists const& is, Renumbering const& points,
+                                       std::vector<Triangle>* triangles, std::vector<Quad>* quads) const {
+  if (is.triangles) triangles_.layBare(is.triangles, points, *triangles);
+  if (is.quads) quads_.layBare(is.quads, points, *quads);
+}
+
+}  // namespace sinew
+#endif

@@ -302,6 +302,11 @@ struct Scope {
     });
   }
 
+  /// A matrix as components see it: runtime trees have one type for all.
+  template <class Matrix>
+  static Matrix& assembled(Matrix& matrix) {
+    return matrix;
+  }
   /// f(degrees of freedom of the state of this scope in an assembled system).
   template <class D, class F>
   void withDofs(F&& f) const {

@@ -173,8 +173,12 @@ class Simulation {
 
   void propagate();
 
-  // topologies are made first; then states, parents before children; then what acts on them
   static void initScene(RootScope const& scope, InitAgain const& again);
+  static void checkFields(RootScope const& scope, InitAgain const& again);
+  // topologies are made first; then states, parents before children
+  static void initStates(RootScope const& scope, InitAgain const& again);
+  // what acts on them
+  static void initComponents(RootScope const& scope, InitAgain const& again);
 
   // a mapping sizes and places the state of its node
   template <class C, class S>
@@ -585,10 +589,28 @@ template <class Root>
 void Simulation<Root>::initScene(RootScope const& scope, InitAgain const& again) {
   scope.check();
   scope.raise();
+  checkFields(scope, again);
+  initStates(scope, again);
+  initComponents(scope, again);
+  Collision<RootScope>{scope}.init(bool(again));
+  if constexpr (carves)
+    if (again.touched.empty()) Carving<RootScope>{scope}.check();
+  initSolvers(scope, again);
+  scope.raise();
+  initLoose(scope);
+  scope.settled();
+}
+
+template <class Root>
+void Simulation<Root>::checkFields(RootScope const& scope, InitAgain const& again) {
   traverse(scope, on<AnyRole>([&again](auto& c, auto const& s) {
              s.ifNew(c, again, [&] { check_fields(c, s.path()); });
            }));
   scope.raise();
+}
+
+template <class Root>
+void Simulation<Root>::initStates(RootScope const& scope, InitAgain const& again) {
   traverse(scope, on<role::Topology>([&again](auto& c, auto const& s) {
              if constexpr (requires { c.generate(s.path()); })
                s.ifNew(c, again, [&] { c.generate(s.path()); });
@@ -597,17 +619,14 @@ void Simulation<Root>::initScene(RootScope const& scope, InitAgain const& again)
              s.ifNew(c, again, [&] { initState(c, s); });
              s.raise();  // what follows a wrong state has nothing to stand on
            }));
+}
+
+template <class Root>
+void Simulation<Root>::initComponents(RootScope const& scope, InitAgain const& again) {
   traverse(scope, on<AnyRole>([&again](auto& c, auto const& s) {
              s.ifNew(c, again, [&] { initComponent(c, s); });
            }));
   scope.raise();
-  Collision<RootScope>{scope}.init(bool(again));
-  if constexpr (carves)
-    if (again.touched.empty()) Carving<RootScope>{scope}.check();
-  initSolvers(scope, again);
-  scope.raise();
-  initLoose(scope);
-  scope.settled();
 }
 
 template <class Root>

@@ -97,7 +97,7 @@ struct CGLinearSolver {
       s.r = s.b;
       s.p = s.b;
       iterate(
-          double(s.r.squaredNorm()),
+          double(vec::squared_norm(s.r)),
           [&] { return s.matrix.multiply(workers, s.p.data(), s.q.data()); },
           [&](double alpha) { return vec::advance(workers, s.x, s.p, s.r, s.q, Real(alpha)); },
           [&](double beta) { vec::turn(workers, s.p, s.r, Real(beta)); });

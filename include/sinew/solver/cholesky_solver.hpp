@@ -4,6 +4,7 @@
 #include <sinew/core/phase.hpp>
 #include <sinew/linalg/block_ldl.hpp>
 #include <sinew/solver/linear_system.hpp>
+#include <sinew/state/vector_operations.hpp>
 
 #include <string_view>
 
@@ -87,7 +88,7 @@ struct CholeskySolver {
     const Eigen::Index n = lower.rows();
     for (Eigen::Index k = 0; k < n; ++k) y.tail(n - k - 1) -= y[k] * lower.col(k).tail(n - k - 1);
     for (Eigen::Index k = n; k-- > 0;)
-      y[k] = y[k] / lower(k, k) - lower.col(k).tail(n - k - 1).dot(y.tail(n - k - 1));
+      y[k] = y[k] / lower(k, k) - vec::product(lower.col(k).tail(n - k - 1), y.tail(n - k - 1));
   }
 };
 

@@ -77,7 +77,7 @@ struct SystemVec {
   void eq(SystemVec const& a, double f) { v = Real(f) * a.v; }
   void peq(SystemVec const& a, double f = 1) { v += Real(f) * a.v; }
   void teq(double f) { v *= Real(f); }
-  double dot(SystemVec const& a) const { return double(v.dot(a.v)); }
+  double dot(SystemVec const& a) const { return double(vec::product(v, a.v)); }
 };
 
 }  // namespace sinew

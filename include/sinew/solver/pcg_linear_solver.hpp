@@ -162,27 +162,28 @@ struct ShewchukPCGLinearSolver {
   }
   // multiply(to, from): to = A from;  precondition(to, from): to = M^-1 from
   template <class V, class Multiply, class Precondition>
-  void iterate(V& x, V& b, V& r, V& p, V& q, Multiply&& multiply, Precondition&& approximate) {
-    const double start = b.dot(b);
+  void iterate(V& solution, V& rhs, V& res, V& dir, V& product, Multiply&& multiply,
+               Precondition&& approximate) {
+    const double start = rhs.dot(rhs);
     residuals.clear();
     residuals.push_back(1);
-    x.clear();
-    r.eq(b);
-    approximate(p, r);
-    double rho = r.dot(p), size = start;
+    solution.clear();
+    res.eq(rhs);
+    approximate(dir, res);
+    double rho = res.dot(dir), size = start;
     for (int i = 0; i < iterations; ++i) {
       if (!(size > tolerance * tolerance * start)) return;
-      multiply(q, p);
-      const double curvature = p.dot(q);
+      multiply(product, dir);
+      const double curvature = dir.dot(product);
       if (curvature == 0) return;
-      x.peq(p, rho / curvature);
-      r.peq(q, -rho / curvature);
-      size = r.dot(r);
+      solution.peq(dir, rho / curvature);
+      res.peq(product, -rho / curvature);
+      size = res.dot(res);
       residuals.push_back(std::sqrt(size / start));
-      approximate(q, r);
-      const double next = r.dot(q);
-      p.teq(next / rho);
-      p.peq(q);
+      approximate(product, res);
+      const double next = res.dot(product);
+      dir.teq(next / rho);
+      dir.peq(product);
       rho = next;
     }
   }

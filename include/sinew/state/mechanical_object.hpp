@@ -112,14 +112,14 @@ struct MechanicalObject {
 
   void init(std::string const& where) {
     const std::size_t n = position.size();
-    auto same = [&](std::size_t given, std::string_view name) {
-      if (given != 0 && given != n)
+    auto same = [&](std::size_t entries, std::string_view name) {
+      if (entries != 0 && entries != n)
         throw Error(where,
                     text(component_name<MechanicalObject>(),
                          ": ",
                          name,
                          " has ",
-                         given,
+                         entries,
                          " entries, position has ",
                          n,
                          "; give one for each, or none"));

@@ -31,6 +31,25 @@ template <class V>
 requires requires(V& v) { v.host(); }
 auto flat(V& v) { return flat(v.host()); }
 
+// Eigen's sums over vectors of any length. With AVX-512 g++ 12 takes the undefined register of its own
+// intrinsics, which they are made of, for a bug (GCC bug 105593)
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#pragma GCC diagnostic ignored "-Wuninitialized"
+#endif
+template <class Vector>
+auto squared_norm(Vector const& a) {
+  return a.squaredNorm();
+}
+template <class A, class B>
+auto product(A const& a, B const& b) {
+  return a.dot(b);
+}
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic pop
+#endif
+
 /// r = 0
 template <class V>
 void clear(V& r) {
@@ -106,6 +125,25 @@ double dot_piece(Real const* a, Real const* b, Eigen::Index n) {
   return double(sum);
 }
 
+/// The sum of n scalars, in an order of its own.
+template <class Real>
+Real sum_of(Real const* a, Eigen::Index n) {
+  typedef Real Eight __attribute__((vector_size(8 * sizeof(Real))));
+  Eight sums[2] = {};
+  Eigen::Index i = 0;
+  for (; i + 16 <= n; i += 16)
+    for (int k = 0; k < 2; ++k) {
+      Eight u;
+      std::memcpy(&u, a + i + 8 * k, sizeof u);
+      sums[k] += u;
+    }
+  const Eight both = sums[0] + sums[1];
+  Real sum = 0;
+  for (int k = 0; k < 8; ++k) sum += both[k];
+  for (; i < n; ++i) sum += a[i];
+  return sum;
+}
+
 /// x += f p, r -= f q, and r.r: a step of conjugate gradients.
 template <class Run, class X, class P, class Real>
 double advance(Run const& workers, X&& x, P const& p, X&& r, P const& q, Real f) {
@@ -151,7 +189,7 @@ double dot(V const& a, V const& b) {
 template <class D>
 int find_not_finite(typename D::VecCoord const& x) {
   if constexpr (!D::rigid)
-    if (std::isfinite(flat(x).sum())) return -1;
+    if (std::isfinite(sum_of(flat(x).data(), flat(x).size()))) return -1;
   for (std::size_t i = 0; i < x.size(); ++i)
     if (!D::finite(x[i])) return int(i);
   return -1;

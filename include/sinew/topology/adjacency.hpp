@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <sinew/core/error.hpp>
+#include <sinew/core/compiled.hpp>
 #include <sinew/core/mesh.hpp>
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
-#include <limits>
 #include <numeric>
 #include <span>
-#include <string_view>
 #include <vector>
 
 namespace sinew {
@@ -30,12 +27,71 @@ struct Adjacency {
 
 namespace detail {
 
-using Corners = std::array<std::size_t, 2>;
+using EdgeCorners = std::array<std::size_t, 2>;
+
+/// A face without its orientation, which is kept apart: the outward order is an even permutation of `points`,
+/// or odd.
+struct Face {
+  Triangle points;
+  bool odd;
+};
+
+}  // namespace detail
+
+/// The different edges of triangles, tetrahedra or hexahedra (12 a cell). In each edge the lower point comes
+/// first; the edges are in lexicographic order. Throws Error on a negative index or an edge from a point to
+/// itself.
+std::vector<Edge> edges_of(std::vector<Triangle> const& triangles);
+std::vector<Edge> edges_of(std::vector<Tetrahedron> const& tetrahedra);
+std::vector<Edge> edges_of(std::vector<Hexahedron> const& hexahedra);
+
+/// The different sides of quads, as edges_of. (Quad and Tetrahedron are one type, hence the other name.)
+std::vector<Edge> edges_of_quads(std::vector<Quad> const& quads);
+
+/// The faces that belong to one tetrahedron only, their front outwards where the tetrahedra are positively
+/// oriented. Each starts with its lowest point; they are in lexicographic order of their sorted points.
+/// Throws Error on a negative index, a point used twice by a tetrahedron, or a face of three tetrahedra.
+std::vector<Triangle> boundary_triangles(std::vector<Tetrahedron> const& tetrahedra);
+
+/// For each of `points` points the elements (edges, triangles...) that use it, in ascending order.
+/// Throws Error when an element refers to a point that is missing.
+template <class Element>
+Adjacency elements_around(std::vector<Element> const& elements, std::size_t points) {
+  detail::check_indices("elements_around", "element", elements, points);
+  Adjacency around;
+  around.offsets.assign(points + 1, 0);
+  for (Element const& element : elements)
+    for (const Index i : element) ++around.offsets[std::size_t(i) + 1];
+  std::partial_sum(around.offsets.begin(), around.offsets.end(), around.offsets.begin());
+  around.targets.resize(around.offsets.back());
+  std::vector<std::size_t> next(around.offsets.begin(), around.offsets.end() - 1);
+  for (std::size_t e = 0; e < elements.size(); ++e)
+    for (const Index i : elements[e]) around.targets[next[std::size_t(i)]++] = Index(e);
+  return around;
+}
+
+/// For each of `points` points those that an edge joins to it, in ascending order. Edges must differ, as
+/// those of edges_of do. Throws Error when an edge refers to a point that is missing.
+Adjacency neighbours(std::vector<Edge> const& edges, std::size_t points);
+
+/// Drops the points that no element uses; the others keep their order. Throws Error on an index out of range.
+void remove_unused_points(Mesh& mesh);
+
+}  // namespace sinew
+
+#if SINEW_DEFINES
+#include <sinew/core/error.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <string_view>
+
+namespace sinew::detail {
 
 /// The different edges of the elements, lower end first, in lexicographic order.
 template <class Element, std::size_t N>
 std::vector<Edge> unique_edges(std::string_view kind, std::vector<Element> const& elements,
-                               std::array<Corners, N> const& corners) {
+                               std::array<EdgeCorners, N> const& corners) {
   check_indices("edges_of", kind, elements, std::numeric_limits<std::size_t>::max());
   std::vector<Edge> edges;
   edges.reserve(N * elements.size());
@@ -52,13 +108,6 @@ std::vector<Edge> unique_edges(std::string_view kind, std::vector<Element> const
   return edges;
 }
 
-/// A face without its orientation, which is kept apart: the outward order is an even permutation of `points`,
-/// or odd.
-struct Face {
-  Triangle points;
-  bool odd;
-};
-
 inline Face sorted_face(Triangle t) {
   bool odd = false;
   auto order = [&](Index& a, Index& b) {
@@ -68,37 +117,34 @@ inline Face sorted_face(Triangle t) {
   return {t, odd};
 }
 
-}  // namespace detail
+}  // namespace sinew::detail
 
-/// The different edges of triangles, tetrahedra or hexahedra (12 a cell). In each edge the lower point comes
-/// first; the edges are in lexicographic order. Throws Error on a negative index or an edge from a point to
-/// itself.
-inline std::vector<Edge> edges_of(std::vector<Triangle> const& triangles) {
+namespace sinew {
+
+SINEW_ONCE std::vector<Edge> edges_of(std::vector<Triangle> const& triangles) {
   return detail::unique_edges(
-      "triangle", triangles, std::array<detail::Corners, 3>{{{0, 1}, {1, 2}, {0, 2}}});
+      "triangle", triangles, std::array<detail::EdgeCorners, 3>{{{0, 1}, {1, 2}, {0, 2}}});
 }
-inline std::vector<Edge> edges_of(std::vector<Tetrahedron> const& tetrahedra) {
+
+SINEW_ONCE std::vector<Edge> edges_of(std::vector<Tetrahedron> const& tetrahedra) {
   return detail::unique_edges(
       "tetrahedron",
       tetrahedra,
-      std::array<detail::Corners, 6>{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}});
+      std::array<detail::EdgeCorners, 6>{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}});
 }
-inline std::vector<Edge> edges_of(std::vector<Hexahedron> const& hexahedra) {
-  constexpr std::array<detail::Corners, 12> corners{
+
+SINEW_ONCE std::vector<Edge> edges_of(std::vector<Hexahedron> const& hexahedra) {
+  constexpr std::array<detail::EdgeCorners, 12> corners{
       {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}}};
   return detail::unique_edges("hexahedron", hexahedra, corners);
 }
 
-/// The different sides of quads, as edges_of. (Quad and Tetrahedron are one type, hence the other name.)
-inline std::vector<Edge> edges_of_quads(std::vector<Quad> const& quads) {
+SINEW_ONCE std::vector<Edge> edges_of_quads(std::vector<Quad> const& quads) {
   return detail::unique_edges(
-      "quad", quads, std::array<detail::Corners, 4>{{{0, 1}, {1, 2}, {2, 3}, {3, 0}}});
+      "quad", quads, std::array<detail::EdgeCorners, 4>{{{0, 1}, {1, 2}, {2, 3}, {3, 0}}});
 }
 
-/// The faces that belong to one tetrahedron only, their front outwards where the tetrahedra are positively
-/// oriented. Each starts with its lowest point; they are in lexicographic order of their sorted points.
-/// Throws Error on a negative index, a point used twice by a tetrahedron, or a face of three tetrahedra.
-inline std::vector<Triangle> boundary_triangles(std::vector<Tetrahedron> const& tetrahedra) {
+SINEW_ONCE std::vector<Triangle> boundary_triangles(std::vector<Tetrahedron> const& tetrahedra) {
   const std::string_view where = "boundary_triangles";
   detail::check_indices(where, "tetrahedron", tetrahedra, std::numeric_limits<std::size_t>::max());
   std::vector<detail::Face> faces;
@@ -131,26 +177,7 @@ inline std::vector<Triangle> boundary_triangles(std::vector<Tetrahedron> const& 
   return boundary;
 }
 
-/// For each of `points` points the elements (edges, triangles...) that use it, in ascending order.
-/// Throws Error when an element refers to a point that is missing.
-template <class Element>
-Adjacency elements_around(std::vector<Element> const& elements, std::size_t points) {
-  detail::check_indices("elements_around", "element", elements, points);
-  Adjacency around;
-  around.offsets.assign(points + 1, 0);
-  for (Element const& element : elements)
-    for (const Index i : element) ++around.offsets[std::size_t(i) + 1];
-  std::partial_sum(around.offsets.begin(), around.offsets.end(), around.offsets.begin());
-  around.targets.resize(around.offsets.back());
-  std::vector<std::size_t> next(around.offsets.begin(), around.offsets.end() - 1);
-  for (std::size_t e = 0; e < elements.size(); ++e)
-    for (const Index i : elements[e]) around.targets[next[std::size_t(i)]++] = Index(e);
-  return around;
-}
-
-/// For each of `points` points those that an edge joins to it, in ascending order. Edges must differ, as
-/// those of edges_of do. Throws Error when an edge refers to a point that is missing.
-inline Adjacency neighbours(std::vector<Edge> const& edges, std::size_t points) {
+SINEW_ONCE Adjacency neighbours(std::vector<Edge> const& edges, std::size_t points) {
   Adjacency around = elements_around(edges, points);
   for (std::size_t i = 0; i < points; ++i) {
     const auto begin = around.targets.begin() + std::ptrdiff_t(around.offsets[i]);
@@ -164,8 +191,7 @@ inline Adjacency neighbours(std::vector<Edge> const& edges, std::size_t points) 
   return around;
 }
 
-/// Drops the points that no element uses; the others keep their order. Throws Error on an index out of range.
-inline void remove_unused_points(Mesh& mesh) {
+SINEW_ONCE void remove_unused_points(Mesh& mesh) {
   check_mesh("remove_unused_points", mesh);
   std::vector<Index> number(mesh.positions.size(), -1);
   auto each = [&](auto change) {
@@ -184,3 +210,4 @@ inline void remove_unused_points(Mesh& mesh) {
 }
 
 }  // namespace sinew
+#endif

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/compiled.hpp>
 #include <sinew/core/error.hpp>
 #include <sinew/core/small_matrix.hpp>
 #include <sinew/topology/implicit_surface.hpp>
@@ -8,7 +9,6 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -71,36 +71,18 @@ struct BccLattice {
   int size() const { return sx * sy * layers; }
   std::array<int, 14> const& steps_of(int p) const { return steps[std::size_t(p / (sx * sy) % 2)]; }
 
-  Eigen::Vector3d lattice_position(int p) const {
-    const int k = p / (sx * sy), j = p / sx % sy, i = p % sx;
-    return origin + spacing / 2 * Eigen::Vector3d(2 * i + k % 2, 2 * j + k % 2, k);
-  }
+  Eigen::Vector3d lattice_position(int p) const;
   /// The number of a cut edge, which leads from p in this direction.
-  int cut_number(int p, int direction) const {
-    const int first = direction < 7 ? p : p + steps_of(p)[std::size_t(direction)];
-    const auto before = std::uint8_t((1u << (direction % 7)) - 1);
-    return cutStart[std::size_t(first)] + std::popcount(std::uint8_t(cutMask[std::size_t(first)] & before));
-  }
+  int cut_number(int p, int direction) const;
   /// Where the surface cuts that edge, from 0 at p to 1 at its other end.
   double cut_fraction(int p, int direction) const {
     const double t = cuts[std::size_t(cut_number(p, direction))].fraction;
     return direction < 7 ? t : 1 - t;
   }
-  Eigen::Vector3d along(int p, int direction, double fraction) const {
-    auto const& [x, y, z] = bccDirections[std::size_t(direction)];
-    return lattice_position(p) + fraction * spacing / 2 * Eigen::Vector3d(x, y, z);
-  }
+  Eigen::Vector3d along(int p, int direction, double fraction) const;
   /// Position of a mesh point: of lattice point `number`, wherever it moved to, or of cut point number -
   /// size(). The latter keeps its distance from the ends of its edge, even where no end moved for it.
-  Eigen::Vector3d position(int number) const {
-    if (number < size()) {
-      const int moved = snapped[std::size_t(number)];
-      return moved < 0 ? lattice_position(number) : along(number, moved, cut_fraction(number, moved));
-    }
-    BccCut const& cut = cuts[std::size_t(number - size())];
-    const double alpha = bcc_alpha(cut.direction);
-    return along(cut.point, cut.direction, std::clamp(cut.fraction, alpha, 1 - alpha));
-  }
+  Eigen::Vector3d position(int number) const;
   /// Moves a point back from the surface to the lattice.
   void unsnap(int p) {
     label[std::size_t(p)] = value[std::size_t(p)] < 0 ? 1 : -1;
@@ -117,50 +99,8 @@ struct BccLattice {
 };
 
 /// A lattice with its origin, sizes and steps, that covers the box. Throws Error on a bad box or spacing.
-inline BccLattice empty_bcc_lattice(std::string_view where, Eigen::Vector3d const& lo,
-                                    Eigen::Vector3d const& hi, double spacing) {
-  if (!all_finite(lo) || !all_finite(hi) || !(lo.array() < hi.array()).all())
-    throw Error(where,
-                text("the box from (",
-                     lo[0],
-                     ", ",
-                     lo[1],
-                     ", ",
-                     lo[2],
-                     ") to (",
-                     hi[0],
-                     ", ",
-                     hi[1],
-                     ", ",
-                     hi[2],
-                     ") is empty; its second corner must exceed the first in x, y and z"));
-  if (!(spacing > 0) || !std::isfinite(spacing))
-    throw Error(where, text("the spacing is ", spacing, "; it must be a positive length"));
-  const Eigen::Array3d cells = ((hi - lo).array() / spacing - 1e-9).ceil().max(1);
-  const double points = (cells[0] + 7) * (cells[1] + 7) * (2 * cells[2] + 13);
-  if (!(points <= BccLattice::maxPoints))
-    throw Error(where,
-                text("a spacing of ",
-                     spacing,
-                     " needs ",
-                     points,
-                     " lattice points in this box; at most ",
-                     BccLattice::maxPoints,
-                     " (2^28) are possible. Enlarge the spacing or shrink the box"));
-  BccLattice lattice;
-  lattice.spacing = spacing;
-  lattice.sx = int(cells[0]) + 7;
-  lattice.sy = int(cells[1]) + 7;
-  lattice.layers = 2 * int(cells[2]) + 13;
-  lattice.origin = (lo + hi) / 2 - spacing * (cells / 2 + 3).matrix();
-  for (int c = 0; c < 2; ++c)
-    for (std::size_t d = 0; d < 14; ++d) {
-      auto const& [x, y, z] = bccDirections[d];
-      const int i = (x + c + 2) / 2 - 1, j = (y + c + 2) / 2 - 1;  // floor((x + c) / 2)
-      lattice.steps[std::size_t(c)][d] = (z * lattice.sy + j) * lattice.sx + i;
-    }
-  return lattice;
-}
+BccLattice empty_bcc_lattice(std::string_view where, Eigen::Vector3d const& lo, Eigen::Vector3d const& hi,
+                             double spacing);
 
 template <class Shape>
 double finite_value(std::string_view where, Shape const& shape, Eigen::Vector3d const& p) {
@@ -252,3 +192,82 @@ BccLattice sample_bcc_lattice(std::string_view where, Shape const& shape, Eigen:
 }
 
 }  // namespace sinew::detail
+
+#if SINEW_DEFINES
+#include <bit>
+
+namespace sinew::detail {
+
+SINEW_ONCE Eigen::Vector3d BccLattice::lattice_position(int p) const {
+  const int k = p / (sx * sy), j = p / sx % sy, i = p % sx;
+  return origin + spacing / 2 * Eigen::Vector3d(2 * i + k % 2, 2 * j + k % 2, k);
+}
+
+SINEW_ONCE int BccLattice::cut_number(int p, int direction) const {
+  const int first = direction < 7 ? p : p + steps_of(p)[std::size_t(direction)];
+  const auto before = std::uint8_t((1u << (direction % 7)) - 1);
+  return cutStart[std::size_t(first)] + std::popcount(std::uint8_t(cutMask[std::size_t(first)] & before));
+}
+
+SINEW_ONCE Eigen::Vector3d BccLattice::along(int p, int direction, double fraction) const {
+  auto const& [x, y, z] = bccDirections[std::size_t(direction)];
+  return lattice_position(p) + fraction * spacing / 2 * Eigen::Vector3d(x, y, z);
+}
+
+SINEW_ONCE Eigen::Vector3d BccLattice::position(int number) const {
+  if (number < size()) {
+    const int moved = snapped[std::size_t(number)];
+    return moved < 0 ? lattice_position(number) : along(number, moved, cut_fraction(number, moved));
+  }
+  BccCut const& cut = cuts[std::size_t(number - size())];
+  const double alpha = bcc_alpha(cut.direction);
+  return along(cut.point, cut.direction, std::clamp(cut.fraction, alpha, 1 - alpha));
+}
+
+SINEW_ONCE BccLattice empty_bcc_lattice(std::string_view where, Eigen::Vector3d const& lo,
+                                        Eigen::Vector3d const& hi, double spacing) {
+  if (!all_finite(lo) || !all_finite(hi) || !(lo.array() < hi.array()).all())
+    throw Error(where,
+                text("the box from (",
+                     lo[0],
+                     ", ",
+                     lo[1],
+                     ", ",
+                     lo[2],
+                     ") to (",
+                     hi[0],
+                     ", ",
+                     hi[1],
+                     ", ",
+                     hi[2],
+                     ") is empty; its second corner must exceed the first in x, y and z"));
+  if (!(spacing > 0) || !std::isfinite(spacing))
+    throw Error(where, text("the spacing is ", spacing, "; it must be a positive length"));
+  const Eigen::Array3d cells = ((hi - lo).array() / spacing - 1e-9).ceil().max(1);
+  const double points = (cells[0] + 7) * (cells[1] + 7) * (2 * cells[2] + 13);
+  if (!(points <= BccLattice::maxPoints))
+    throw Error(where,
+                text("a spacing of ",
+                     spacing,
+                     " needs ",
+                     points,
+                     " lattice points in this box; at most ",
+                     BccLattice::maxPoints,
+                     " (2^28) are possible. Enlarge the spacing or shrink the box"));
+  BccLattice lattice;
+  lattice.spacing = spacing;
+  lattice.sx = int(cells[0]) + 7;
+  lattice.sy = int(cells[1]) + 7;
+  lattice.layers = 2 * int(cells[2]) + 13;
+  lattice.origin = (lo + hi) / 2 - spacing * (cells / 2 + 3).matrix();
+  for (int c = 0; c < 2; ++c)
+    for (std::size_t d = 0; d < 14; ++d) {
+      auto const& [x, y, z] = bccDirections[d];
+      const int i = (x + c + 2) / 2 - 1, j = (y + c + 2) / 2 - 1;  // floor((x + c) / 2)
+      lattice.steps[std::size_t(c)][d] = (z * lattice.sy + j) * lattice.sx + i;
+    }
+  return lattice;
+}
+
+}  // namespace sinew::detail
+#endif

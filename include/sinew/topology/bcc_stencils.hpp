@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/compiled.hpp>
 #include <sinew/core/mesh.hpp>
 #include <sinew/topology/bcc_lattice.hpp>
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
-#include <numbers>
-#include <utility>
 #include <vector>
 
 // The third step of isosurface stuffing: what is inside of each lattice tetrahedron, as tetrahedra.
@@ -44,6 +40,51 @@ constexpr std::array<BccTetrahedron, 12> make_bcc_tetrahedra() {
 
 inline constexpr std::array<BccTetrahedron, 12> bccTetrahedra = make_bcc_tetrahedra();
 
+/// Appends the inside of one lattice tetrahedron, whose corners are these lattice points. Where it is cut,
+/// prisms and pyramids become tetrahedra; neighbours split a common quad alike, for its diagonal follows from
+/// the quad alone: it ends at the cut point of the long edge, or else obeys the paper's parity rule. Lattice
+/// points keep their numbers, cut points have size() + cut number.
+void stuff(BccLattice const& lattice, BccTetrahedron const& cell, std::array<int, 4> const& points,
+           std::vector<Tetrahedron>& out);
+
+/// Calls body(cell, points) for each lattice tetrahedron with a corner inside, in the order of the lattice.
+/// `skinOnly` leaves out those with all corners inside, which are whole and have no boundary face.
+template <class Body>
+void for_bcc_tetrahedra(BccLattice const& lattice, bool skinOnly, Body&& body) {
+  lattice.for_inner_points([&](int p, auto const& steps) {
+    if (p / (lattice.sx * lattice.sy) % 2 != 0) return;
+    for (BccTetrahedron const& cell : bccTetrahedra) {
+      std::array<int, 4> points{p};
+      int inside = 0;
+      for (std::size_t i = 0; i < 4; ++i) {
+        if (i > 0) points[i] = p + steps[std::size_t(cell.edge[0][i])];
+        inside += lattice.label[std::size_t(points[i])] > 0;
+      }
+      if (inside > 0 && !(skinOnly && inside == 4)) body(cell, points);
+    }
+  });
+}
+
+/// Smallest dihedral angle to accept, in degrees. The paper proves it for its stencils; for these, a search
+/// over all positions of cut and moved points finds 9.2 to 161.7.
+constexpr double bccSmallestAngle = 10.7;
+
+/// Moves points back to the lattice where tetrahedra with corners on the surface have an angle below the
+/// smallest: first the corner that moved the farthest. Without such corners all angles exceed 12.7 degrees,
+/// so this ends well. True when a point moved.
+bool unsnap_flattened(BccLattice& lattice);
+
+}  // namespace sinew::detail
+
+#if SINEW_DEFINES
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace sinew::detail {
+
 /// Whether an odd number of coordinates fall in this direction.
 constexpr bool falls_oddly(int direction) {
   int count = 0;
@@ -51,12 +92,8 @@ constexpr bool falls_oddly(int direction) {
   return count % 2 == 1;
 }
 
-/// Appends the inside of one lattice tetrahedron, whose corners are these lattice points. Where it is cut,
-/// prisms and pyramids become tetrahedra; neighbours split a common quad alike, for its diagonal follows from
-/// the quad alone: it ends at the cut point of the long edge, or else obeys the paper's parity rule. Lattice
-/// points keep their numbers, cut points have size() + cut number.
-inline void stuff(BccLattice const& lattice, BccTetrahedron const& cell, std::array<int, 4> const& points,
-                  std::vector<Tetrahedron>& out) {
+SINEW_ONCE void stuff(BccLattice const& lattice, BccTetrahedron const& cell, std::array<int, 4> const& points,
+                      std::vector<Tetrahedron>& out) {
   auto label = [&](int corner) { return int(lattice.label[std::size_t(points[std::size_t(corner)])]); };
   int a = 0, b = 1, c = 2, d = 3;
   if (label(0) >= 0 && label(1) >= 0 && label(2) >= 0 && label(3) >= 0) {
@@ -125,32 +162,7 @@ inline void stuff(BccLattice const& lattice, BccTetrahedron const& cell, std::ar
   }
 }
 
-/// Calls body(cell, points) for each lattice tetrahedron with a corner inside, in the order of the lattice.
-/// `skinOnly` leaves out those with all corners inside, which are whole and have no boundary face.
-template <class Body>
-void for_bcc_tetrahedra(BccLattice const& lattice, bool skinOnly, Body&& body) {
-  lattice.for_inner_points([&](int p, auto const& steps) {
-    if (p / (lattice.sx * lattice.sy) % 2 != 0) return;
-    for (BccTetrahedron const& cell : bccTetrahedra) {
-      std::array<int, 4> points{p};
-      int inside = 0;
-      for (std::size_t i = 0; i < 4; ++i) {
-        if (i > 0) points[i] = p + steps[std::size_t(cell.edge[0][i])];
-        inside += lattice.label[std::size_t(points[i])] > 0;
-      }
-      if (inside > 0 && !(skinOnly && inside == 4)) body(cell, points);
-    }
-  });
-}
-
-/// Smallest dihedral angle to accept, in degrees. The paper proves it for its stencils; for these, a search
-/// over all positions of cut and moved points finds 9.2 to 161.7.
-constexpr double bccSmallestAngle = 10.7;
-
-/// Moves points back to the lattice where tetrahedra with corners on the surface have an angle below the
-/// smallest: first the corner that moved the farthest. Without such corners all angles exceed 12.7 degrees,
-/// so this ends well. True when a point moved.
-inline bool unsnap_flattened(BccLattice& lattice) {
+SINEW_ONCE bool unsnap_flattened(BccLattice& lattice) {
   bool any = false;
   std::vector<Tetrahedron> pieces;
   const double largest = std::cos(bccSmallestAngle * std::numbers::pi / 180);
@@ -186,3 +198,4 @@ inline bool unsnap_flattened(BccLattice& lattice) {
 }
 
 }  // namespace sinew::detail
+#endif

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/compiled.hpp>
 #include <sinew/topology/bcc_lattice.hpp>
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
-#include <vector>
 
 // The second step of isosurface stuffing: lattice points too near to the surface move onto it. What the paper
 // leaves to the resolution of the lattice is repaired, so that the boundary of the body is a closed manifold
@@ -55,7 +54,30 @@ inline constexpr BccLink bccLink = make_bcc_link();
 
 /// Whether the boundary of the body around the surface point p is one disk (or p is not on the boundary): the
 /// boundary meets the link of p in a single closed curve that passes no point twice.
-inline bool is_manifold_at(BccLattice const& lattice, int p) {
+bool is_manifold_at(BccLattice const& lattice, int p);
+
+/// Moves each point that a cut point violates (see bcc_alpha) to the nearest such cut point. The edges of a
+/// moved point count as uncut from then on, so their cut points violate no other point.
+void snap(BccLattice& lattice);
+
+/// Moves points back to the lattice where the body, too thin for this spacing, would touch itself in a point
+/// or an edge, and inside points next to flat cavities.
+void unsnap_pinched(BccLattice& lattice);
+
+/// Turns all inside points outside, except for those of the largest group whose tetrahedra are joined by
+/// faces: inside points that share an edge, or see each other through a face with three corners on the
+/// surface.
+void keep_largest_component(BccLattice& lattice);
+
+}  // namespace sinew::detail
+
+#if SINEW_DEFINES
+#include <algorithm>
+#include <vector>
+
+namespace sinew::detail {
+
+SINEW_ONCE bool is_manifold_at(BccLattice const& lattice, int p) {
   auto const& steps = lattice.steps_of(p);
   std::array<int, 14> label;
   for (std::size_t d = 0; d < 14; ++d) label[d] = lattice.label[std::size_t(p + steps[d])];
@@ -105,9 +127,7 @@ inline bool borders_flat_cavity(BccLattice const& lattice, int p) {
   });
 }
 
-/// Moves each point that a cut point violates (see bcc_alpha) to the nearest such cut point. The edges of a
-/// moved point count as uncut from then on, so their cut points violate no other point.
-inline void snap(BccLattice& lattice) {
+SINEW_ONCE void snap(BccLattice& lattice) {
   lattice.for_inner_points([&](int p, auto const& steps) {
     double nearest = 2;
     for (int d = 0; d < 14; ++d) {
@@ -115,15 +135,13 @@ inline void snap(BccLattice& lattice) {
         continue;
       const double t = lattice.cut_fraction(p, d), distance = bcc_is_long(d) ? t : t * 0.8660254037844386;
       if (t < bcc_alpha(d) && distance < nearest)
-        nearest = distance, lattice.snapped[std::size_t(p)] = (signed char)(d);
+        nearest = distance, lattice.snapped[std::size_t(p)] = static_cast<signed char>(d);
     }
     if (nearest < 2) lattice.label[std::size_t(p)] = 0;
   });
 }
 
-/// Moves points back to the lattice where the body, too thin for this spacing, would touch itself in a point
-/// or an edge, and inside points next to flat cavities.
-inline void unsnap_pinched(BccLattice& lattice) {
+SINEW_ONCE void unsnap_pinched(BccLattice& lattice) {
   std::vector<int> moved;
   lattice.for_inner_points([&](int p, auto const&) {
     if (lattice.label[std::size_t(p)] == 0) moved.push_back(p);
@@ -140,10 +158,7 @@ inline void unsnap_pinched(BccLattice& lattice) {
   }
 }
 
-/// Turns all inside points outside, except for those of the largest group whose tetrahedra are joined by
-/// faces: inside points that share an edge, or see each other through a face with three corners on the
-/// surface.
-inline void keep_largest_component(BccLattice& lattice) {
+SINEW_ONCE void keep_largest_component(BccLattice& lattice) {
   std::vector<int> stack;
   auto label = [&](int p) -> signed char& { return lattice.label[std::size_t(p)]; };
   auto flood = [&](int seed, signed char from, signed char to) {
@@ -175,7 +190,9 @@ inline void keep_largest_component(BccLattice& lattice) {
     if (const int count = flood(p, 1, 2); count > largest) largest = count, seed = p;
   });
   if (seed >= 0) flood(seed, 2, 1);
-  std::replace(lattice.label.begin(), lattice.label.end(), (signed char)(2), (signed char)(-1));
+  std::replace(
+      lattice.label.begin(), lattice.label.end(), static_cast<signed char>(2), static_cast<signed char>(-1));
 }
 
 }  // namespace sinew::detail
+#endif

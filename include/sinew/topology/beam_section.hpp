@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/compiled.hpp>
 #include <sinew/core/data_types.hpp>
-#include <sinew/core/error.hpp>
 
-#include <algorithm>
 #include <array>
-#include <cmath>
-#include <numbers>
 #include <string_view>
 
 namespace sinew {
@@ -26,7 +23,33 @@ struct BeamSection {
 };
 
 /// A disc, or a ring.
-inline BeamSection circular_section(double radius, double radiusInner, double poissonRatio) {
+BeamSection circular_section(double radius, double radiusInner, double poissonRatio);
+
+/// A rectangle with sides along y and z. With the longer side a and the shorter b, the torsion constant is
+/// a b^3 (1/3 - 64/pi^5 b/a sum over odd n of tanh(n pi a / 2b) / n^5) (Timoshenko & Goodier 1970).
+BeamSection rectangular_section(double lengthY, double lengthZ, double poissonRatio);
+
+/// The section that the fields of a beam's component give. Throws Error for a ring without a wall.
+BeamSection beam_section(std::string_view where, CrossSectionShape shape, double radius, double radiusInner,
+                         double lengthY, double lengthZ, double poissonRatio);
+
+/// Axes of a beam between two frames at rest: the first along the chord; the second as near as may be to that
+/// of the frames.
+Eigen::Quaterniond beam_axes(Eigen::Vector3d const& chord, Eigen::Quaterniond const& node0,
+                             Eigen::Quaterniond const& node1);
+
+}  // namespace sinew
+
+#if SINEW_DEFINES
+#include <sinew/core/error.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace sinew {
+
+SINEW_ONCE BeamSection circular_section(double radius, double radiusInner, double poissonRatio) {
   const double outer = radius * radius, inner = radiusInner * radiusInner, nu = poissonRatio;
   const double second = std::numbers::pi / 4 * (outer * outer - inner * inner);
   const double m = inner / outer, p = (1 + m) * (1 + m);
@@ -37,9 +60,7 @@ inline BeamSection circular_section(double radius, double radiusInner, double po
           .shear = 6 * (1 + nu) * p / ((7 + 6 * nu) * p + (20 + 12 * nu) * m)};
 }
 
-/// A rectangle with sides along y and z. With the longer side a and the shorter b, the torsion constant is
-/// a b^3 (1/3 - 64/pi^5 b/a sum over odd n of tanh(n pi a / 2b) / n^5) (Timoshenko & Goodier 1970).
-inline BeamSection rectangular_section(double lengthY, double lengthZ, double poissonRatio) {
+SINEW_ONCE BeamSection rectangular_section(double lengthY, double lengthZ, double poissonRatio) {
   using std::numbers::pi;
   const double a = std::max(lengthY, lengthZ), b = std::min(lengthY, lengthZ);
   double sum = 0;
@@ -51,9 +72,8 @@ inline BeamSection rectangular_section(double lengthY, double lengthZ, double po
           .shear = 10 * (1 + poissonRatio) / (12 + 11 * poissonRatio)};
 }
 
-/// The section that the fields of a beam's component give. Throws Error for a ring without a wall.
-inline BeamSection beam_section(std::string_view where, CrossSectionShape shape, double radius,
-                                double radiusInner, double lengthY, double lengthZ, double poissonRatio) {
+SINEW_ONCE BeamSection beam_section(std::string_view where, CrossSectionShape shape, double radius,
+                                    double radiusInner, double lengthY, double lengthZ, double poissonRatio) {
   if (shape == CrossSectionShape::rectangular) return rectangular_section(lengthY, lengthZ, poissonRatio);
   if (!(radiusInner < radius))
     throw Error(
@@ -62,10 +82,8 @@ inline BeamSection beam_section(std::string_view where, CrossSectionShape shape,
   return circular_section(radius, radiusInner, poissonRatio);
 }
 
-/// Axes of a beam between two frames at rest: the first along the chord; the second as near as may be to that
-/// of the frames.
-inline Eigen::Quaterniond beam_axes(Eigen::Vector3d const& chord, Eigen::Quaterniond const& node0,
-                                    Eigen::Quaterniond const& node1) {
+SINEW_ONCE Eigen::Quaterniond beam_axes(Eigen::Vector3d const& chord, Eigen::Quaterniond const& node0,
+                                        Eigen::Quaterniond const& node1) {
   const Eigen::Vector3d x = chord.normalized(),
                         y = node0 * Eigen::Vector3d::UnitY() + node1 * Eigen::Vector3d::UnitY();
   Eigen::Matrix3d axes;
@@ -80,3 +98,4 @@ inline Eigen::Quaterniond beam_axes(Eigen::Vector3d const& chord, Eigen::Quatern
 }
 
 }  // namespace sinew
+#endif

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/compiled.hpp>
 #include <sinew/core/mesh.hpp>
 
-#include <algorithm>
 #include <array>
 #include <span>
 #include <utility>
@@ -26,21 +26,30 @@ std::array<Index, N> sorted_corners(std::array<Index, N> face) {
   return face;
 }
 
-namespace detail {
+/// The border of volume elements, its faces turned outwards where these are positively oriented, in the order
+/// in which elements give them.
+Border border_of(std::span<Tetrahedron const> tetrahedra, std::span<Hexahedron const> hexahedra);
+
+}  // namespace sinew
+
+#if SINEW_DEFINES
+#include <algorithm>
+
+namespace sinew::detail {
 
 template <std::size_t N, std::size_t Faces, class Elements>
 std::vector<std::array<Index, N>> border_faces(Elements const& elements,
                                                std::size_t const (&corners)[Faces][N]) {
-  using Face = std::array<Index, N>;
+  using Corners = std::array<Index, N>;
   const std::size_t count = Faces * elements.size();
   auto face = [&](std::size_t number) {
-    Face f;
+    Corners f;
     for (std::size_t c = 0; c < N; ++c) f[c] = elements[number / Faces][corners[number % Faces][c]];
     return f;
   };
   // faces at their lowest point, so that only a few at a time are to be sorted
   struct Keyed {
-    Face key;
+    Corners key;
     std::size_t number;  // Faces * element + face
   };
   Index points = 0;
@@ -51,7 +60,7 @@ std::vector<std::array<Index, N>> border_faces(Elements const& elements,
   std::vector<Keyed> faces(count);
   auto next = first;
   for (std::size_t i = 0; i < count; ++i) {
-    const Face key = sorted_corners(face(i));
+    const Corners key = sorted_corners(face(i));
     faces[next[std::size_t(key[0])]++] = {key, i};
   }
   std::vector<std::size_t> once;
@@ -65,17 +74,17 @@ std::vector<std::array<Index, N>> border_faces(Elements const& elements,
     }
   }
   std::sort(once.begin(), once.end());
-  std::vector<Face> border;
+  std::vector<Corners> border;
   border.reserve(once.size());
   for (const std::size_t number : once) border.push_back(face(number));
   return border;
 }
 
-}  // namespace detail
+}  // namespace sinew::detail
 
-/// The border of volume elements, its faces turned outwards where these are positively oriented, in the order
-/// in which elements give them.
-inline Border border_of(std::span<Tetrahedron const> tetrahedra, std::span<Hexahedron const> hexahedra) {
+namespace sinew {
+
+SINEW_ONCE Border border_of(std::span<Tetrahedron const> tetrahedra, std::span<Hexahedron const> hexahedra) {
   constexpr std::size_t ofTetrahedron[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
   constexpr std::size_t ofHexahedron[6][4] = {
       {0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
@@ -83,3 +92,4 @@ inline Border border_of(std::span<Tetrahedron const> tetrahedra, std::span<Hexah
 }
 
 }  // namespace sinew
+#endif

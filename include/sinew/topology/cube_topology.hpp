@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/compiled.hpp>
 #include <sinew/topology/element_checks.hpp>
-#include <sinew/topology/regular_grid.hpp>
 
-#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -56,70 +55,7 @@ struct CubeTopology {
   TopologyView view() const { return {.positions = position, .edges = edges, .quads = quads}; }
 
   /// Throws Error when the box is empty, or above 2^24 points.
-  void generate(std::string_view where) {
-    const std::string at = text(where, ": ", className);
-    const Eigen::Vector3d lo(xmin.value_or(min[0]), ymin.value_or(min[1]), zmin.value_or(min[2]));
-    const Eigen::Vector3d hi(xmax.value_or(max[0]), ymax.value_or(max[1]), zmax.value_or(max[2]));
-    const std::array<int, 3> n{nx, ny, nz};
-    const std::vector<Eigen::Vector3d> box = detail::grid_points(at, n, lo, hi, 2, 24).positions;
-    const std::array<Index, 3> step{1, nx, nx * ny};
-
-    position.clear(), edges.clear(), quads.clear();
-    std::vector<Index> number(box.size(), -1);  // of the points of the box
-    auto use = [&](Index p) {
-      number[std::size_t(p)] = Index(position.size());
-      position.push_back(box[std::size_t(p)]);
-    };
-    if (internalPoints && !splitNormals)
-      for (Index p = 0; p < Index(box.size()); ++p) use(p);
-    else if (!splitNormals)
-      useSurface(n, use);
-
-    // which squares turn outwards depends on the side: (a, b, axis) is right-handed for z and x, left-handed
-    // for y
-    struct Face {
-      std::size_t axis, a, b;
-      bool high;
-    };
-    auto squares = [&](Face const& face) {
-      const Index base = face.high ? (n[face.axis] - 1) * step[face.axis] : 0;
-      for (int j = 0; j + 1 < n[face.b]; ++j)
-        for (int i = 0; i + 1 < n[face.a]; ++i) {
-          const Index p = base + i * step[face.a] + j * step[face.b], a = step[face.a], b = step[face.b];
-          Quad q = face.high == (face.axis != 1) ? Quad{p, p + a, p + a + b, p + b}
-                                                 : Quad{p, p + b, p + a + b, p + a};
-          for (Index& k : q) k = number[std::size_t(k)];
-          quads.push_back(q);
-        }
-    };
-    constexpr Face inOrder[] = {{2, 0, 1, false},
-                                {2, 0, 1, true},
-                                {1, 0, 2, false},
-                                {1, 0, 2, true},
-                                {0, 1, 2, false},
-                                {0, 1, 2, true}};
-    if (splitNormals) {
-      // their points have another order than their squares
-      std::vector<Quad> ofFace[6];
-      for (const std::size_t f : {4, 2, 0, 5, 3, 1}) {
-        Face const& face = inOrder[f];
-        const Index base = face.high ? (n[face.axis] - 1) * step[face.axis] : 0;
-        for (int j = 0; j < n[face.b]; ++j)
-          for (int i = 0; i < n[face.a]; ++i) use(base + i * step[face.a] + j * step[face.b]);
-        squares(face);
-        ofFace[f] = std::move(quads);
-        quads.clear();
-      }
-      for (auto const& list : ofFace) quads.insert(quads.end(), list.begin(), list.end());
-    } else {
-      for (Face const& face : inOrder) squares(face);
-    }
-    for (Quad const& q : quads)
-      for (std::size_t k = 0; k < 4; ++k)
-        edges.push_back({std::min(q[k], q[(k + 1) % 4]), std::max(q[k], q[(k + 1) % 4])});
-    std::sort(edges.begin(), edges.end());
-    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  }
+  void generate(std::string_view where);
 
   /// Throws Error where the state has fewer points than the surface.
   template <class D>
@@ -144,3 +80,78 @@ struct CubeTopology {
 };
 
 }  // namespace sinew
+
+#if SINEW_DEFINES
+#include <sinew/topology/regular_grid.hpp>
+
+#include <algorithm>
+
+namespace sinew {
+
+SINEW_ONCE void CubeTopology::generate(std::string_view where) {
+  const std::string at = text(where, ": ", className);
+  const Eigen::Vector3d lo(xmin.value_or(min[0]), ymin.value_or(min[1]), zmin.value_or(min[2]));
+  const Eigen::Vector3d hi(xmax.value_or(max[0]), ymax.value_or(max[1]), zmax.value_or(max[2]));
+  const std::array<int, 3> n{nx, ny, nz};
+  const std::vector<Eigen::Vector3d> box = detail::grid_points(at, n, lo, hi, 2, 24).positions;
+  const std::array<Index, 3> step{1, nx, nx * ny};
+
+  position.clear(), edges.clear(), quads.clear();
+  std::vector<Index> number(box.size(), -1);  // of the points of the box
+  auto use = [&](Index p) {
+    number[std::size_t(p)] = Index(position.size());
+    position.push_back(box[std::size_t(p)]);
+  };
+  if (internalPoints && !splitNormals)
+    for (Index p = 0; p < Index(box.size()); ++p) use(p);
+  else if (!splitNormals)
+    useSurface(n, use);
+
+  // which squares turn outwards depends on the side: (a, b, axis) is right-handed for z and x, left-handed
+  // for y
+  struct Face {
+    std::size_t axis, a, b;
+    bool high;
+  };
+  auto squares = [&](Face const& face) {
+    const Index base = face.high ? (n[face.axis] - 1) * step[face.axis] : 0;
+    for (int j = 0; j + 1 < n[face.b]; ++j)
+      for (int i = 0; i + 1 < n[face.a]; ++i) {
+        const Index p = base + i * step[face.a] + j * step[face.b], a = step[face.a], b = step[face.b];
+        Quad q = face.high == (face.axis != 1) ? Quad{p, p + a, p + a + b, p + b}
+                                               : Quad{p, p + b, p + a + b, p + a};
+        for (Index& k : q) k = number[std::size_t(k)];
+        quads.push_back(q);
+      }
+  };
+  constexpr Face inOrder[] = {{2, 0, 1, false},
+                              {2, 0, 1, true},
+                              {1, 0, 2, false},
+                              {1, 0, 2, true},
+                              {0, 1, 2, false},
+                              {0, 1, 2, true}};
+  if (splitNormals) {
+    // their points have another order than their squares
+    std::vector<Quad> ofFace[6];
+    for (const std::size_t f : {4U, 2U, 0U, 5U, 3U, 1U}) {
+      Face const& face = inOrder[f];
+      const Index base = face.high ? (n[face.axis] - 1) * step[face.axis] : 0;
+      for (int j = 0; j < n[face.b]; ++j)
+        for (int i = 0; i < n[face.a]; ++i) use(base + i * step[face.a] + j * step[face.b]);
+      squares(face);
+      ofFace[f] = std::move(quads);
+      quads.clear();
+    }
+    for (auto const& list : ofFace) quads.insert(quads.end(), list.begin(), list.end());
+  } else {
+    for (Face const& face : inOrder) squares(face);
+  }
+  for (Quad const& q : quads)
+    for (std::size_t k = 0; k < 4; ++k)
+      edges.push_back({std::min(q[k], q[(k + 1) % 4]), std::max(q[k], q[(k + 1) % 4])});
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+}
+
+}  // namespace sinew
+#endif

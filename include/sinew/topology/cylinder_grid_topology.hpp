@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/compiled.hpp>
 #include <sinew/topology/element_checks.hpp>
 #include <sinew/topology/round_grid.hpp>
 
@@ -62,15 +63,7 @@ struct CylinderGridTopology {
   TopologyView view() const { return detail::grid_view(*this); }
 
   /// Throws Error on an axis of no length, fewer than two points across, or more than 2^24 in all.
-  void generate(std::string_view where) {
-    const std::string at = text(where, ": ", className);
-    points = {nx.value_or(n[0]), ny.value_or(n[1]), nz.value_or(n[2])};
-    // heights are those of the layers, and are not squeezed
-    Mesh grid = detail::round_grid_points(at, points, axis, 2, radius, length);
-    position = std::move(grid.positions);
-    for (auto& p : position) p += center;
-    detail::make_grid_elements(*this);
-  }
+  void generate(std::string_view where);
 
   /// Throws Error where the state has fewer points than the grid.
   template <class D>
@@ -80,3 +73,19 @@ struct CylinderGridTopology {
 };
 
 }  // namespace sinew
+
+#if SINEW_DEFINES
+namespace sinew {
+
+SINEW_ONCE void CylinderGridTopology::generate(std::string_view where) {
+  const std::string at = text(where, ": ", className);
+  points = {nx.value_or(n[0]), ny.value_or(n[1]), nz.value_or(n[2])};
+  // heights are those of the layers, and are not squeezed
+  Mesh grid = detail::round_grid_points(at, points, axis, 2, radius, length);
+  position = std::move(grid.positions);
+  for (auto& p : position) p += center;
+  detail::make_grid_elements(*this);
+}
+
+}  // namespace sinew
+#endif

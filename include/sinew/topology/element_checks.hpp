@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/compiled.hpp>
 #include <sinew/core/component.hpp>
 
 #include <Eigen/LU>
@@ -36,14 +37,7 @@ void check_tetrahedra(std::string const& where, std::span<Tetrahedron const> tet
 }
 
 /// Throws Error where an element of a topology refers to a point that the state has not.
-inline void check_element_indices(std::string const& where, TopologyView const& topology,
-                                  std::size_t points) {
-  detail::check_indices(where, "edge", topology.edges, points);
-  detail::check_indices(where, "triangle", topology.triangles, points);
-  detail::check_indices(where, "quad", topology.quads, points);
-  detail::check_indices(where, "tetrahedron", topology.tetrahedra, points);
-  detail::check_indices(where, "hexahedron", topology.hexahedra, points);
-}
+void check_element_indices(std::string const& where, TopologyView const& topology, std::size_t points);
 
 /// Throws Error where the state has fewer points than the grid over which it is.
 inline void check_grid_state(std::string const& where, std::size_t grid, std::size_t state) {
@@ -57,3 +51,18 @@ inline void check_grid_state(std::string const& where, std::size_t grid, std::si
 }
 
 }  // namespace sinew
+
+#if SINEW_DEFINES
+namespace sinew {
+
+SINEW_ONCE void check_element_indices(std::string const& where, TopologyView const& topology,
+                                      std::size_t points) {
+  detail::check_indices(where, "edge", topology.edges, points);
+  detail::check_indices(where, "triangle", topology.triangles, points);
+  detail::check_indices(where, "quad", topology.quads, points);
+  detail::check_indices(where, "tetrahedron", topology.tetrahedra, points);
+  detail::check_indices(where, "hexahedron", topology.hexahedra, points);
+}
+
+}  // namespace sinew
+#endif

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/compiled.hpp>
 #include <sinew/core/mesh.hpp>
 #include <sinew/topology/hexahedra.hpp>
 
 #include <Eigen/LU>
-#include <algorithm>
-#include <cmath>
 #include <limits>
 #include <span>
 
@@ -50,20 +49,8 @@ struct TetrahedronFit : ElementBox {
   Eigen::Matrix3d inverse;
   double size;
 
-  TetrahedronFit(std::span<Eigen::Vector3d const> x, Tetrahedron const& t)
-      : ElementBox(x, t), origin(x[std::size_t(t[0])]) {
-    Eigen::Matrix3d edges;
-    for (int c = 0; c < 3; ++c) edges.col(c) = x[std::size_t(t[std::size_t(c) + 1])] - origin;
-    inverse = edges.inverse();
-    size = std::cbrt(std::abs(edges.determinant()));
-  }
-  ElementFit<4> fit(Eigen::Vector3d const& p) const {
-    const Eigen::Vector3d w = inverse * (p - origin);
-    const Eigen::Vector4d weights(1 - w.sum(), w[0], w[1], w[2]);
-    if (!all_finite(weights)) return {-std::numeric_limits<double>::infinity(), weights};
-    const double least = weights.minCoeff();
-    return {least < 0 ? least * size : 0, weights};
-  }
+  TetrahedronFit(std::span<Eigen::Vector3d const> x, Tetrahedron const& t);
+  ElementFit<4> fit(Eigen::Vector3d const& p) const;
 };
 
 /// Barycentric coordinates of the projection on the plane.
@@ -73,29 +60,8 @@ struct TriangleFit : ElementBox {
   Eigen::Vector3d corner[3];
   Eigen::Vector3d along[2];  // their dot products with a place are its coordinates along edges 01 and 02
 
-  TriangleFit(std::span<Eigen::Vector3d const> x, Triangle const& t) : ElementBox(x, t) {
-    for (std::size_t k = 0; k < 3; ++k) corner[k] = x[std::size_t(t[k])];
-    const Eigen::Vector3d a = corner[1] - corner[0], b = corner[2] - corner[0];
-    const double aa = a.dot(a), ab = a.dot(b), bb = b.dot(b), det = aa * bb - ab * ab;
-    along[0] = (bb / det) * a - (ab / det) * b;
-    along[1] = (aa / det) * b - (ab / det) * a;
-  }
-  ElementFit<3> fit(Eigen::Vector3d const& p) const {
-    const double u = along[0].dot(p - corner[0]), v = along[1].dot(p - corner[0]);
-    const Eigen::Vector3d weights(1 - (u + v), u, v);
-    if (!all_finite(weights)) return {-std::numeric_limits<double>::infinity(), weights};
-    Eigen::Vector3d nearest = weights[0] * corner[0] + weights[1] * corner[1] + weights[2] * corner[2];
-    if (weights.minCoeff() < 0) {  // outside: on the nearest of the sides
-      double least = std::numeric_limits<double>::infinity();
-      for (int k = 0; k < 3; ++k) {
-        const Eigen::Vector3d side = corner[(k + 1) % 3] - corner[k];
-        const double along = std::clamp((p - corner[k]).dot(side) / side.squaredNorm(), 0.0, 1.0);
-        const Eigen::Vector3d place = corner[k] + along * side;
-        if (const double d = (p - place).squaredNorm(); d < least) least = d, nearest = place;
-      }
-    }
-    return {-(p - nearest).norm(), weights};
-  }
+  TriangleFit(std::span<Eigen::Vector3d const> x, Triangle const& t);
+  ElementFit<3> fit(Eigen::Vector3d const& p) const;
 };
 
 /// Edges, quads and hexahedra: x(t) = sum_k w_k(t) x_k with multilinear w. The place t is found by
@@ -143,3 +109,54 @@ struct MultilinearFit : ElementBox {
 };
 
 }  // namespace sinew
+
+#if SINEW_DEFINES
+#include <algorithm>
+#include <cmath>
+
+namespace sinew {
+
+SINEW_ONCE TetrahedronFit::TetrahedronFit(std::span<Eigen::Vector3d const> x, Tetrahedron const& t)
+    : ElementBox(x, t), origin(x[std::size_t(t[0])]) {
+  Eigen::Matrix3d edges;
+  for (int c = 0; c < 3; ++c) edges.col(c) = x[std::size_t(t[std::size_t(c) + 1])] - origin;
+  inverse = edges.inverse();
+  size = std::cbrt(std::abs(edges.determinant()));
+}
+
+SINEW_ONCE ElementFit<4> TetrahedronFit::fit(Eigen::Vector3d const& p) const {
+  const Eigen::Vector3d w = inverse * (p - origin);
+  const Eigen::Vector4d weights(1 - w.sum(), w[0], w[1], w[2]);
+  if (!all_finite(weights)) return {-std::numeric_limits<double>::infinity(), weights};
+  const double least = weights.minCoeff();
+  return {least < 0 ? least * size : 0, weights};
+}
+
+SINEW_ONCE TriangleFit::TriangleFit(std::span<Eigen::Vector3d const> x, Triangle const& t)
+    : ElementBox(x, t) {
+  for (std::size_t k = 0; k < 3; ++k) corner[k] = x[std::size_t(t[k])];
+  const Eigen::Vector3d a = corner[1] - corner[0], b = corner[2] - corner[0];
+  const double aa = a.dot(a), ab = a.dot(b), bb = b.dot(b), det = aa * bb - ab * ab;
+  along[0] = (bb / det) * a - (ab / det) * b;
+  along[1] = (aa / det) * b - (ab / det) * a;
+}
+
+SINEW_ONCE ElementFit<3> TriangleFit::fit(Eigen::Vector3d const& p) const {
+  const double u = along[0].dot(p - corner[0]), v = along[1].dot(p - corner[0]);
+  const Eigen::Vector3d weights(1 - (u + v), u, v);
+  if (!all_finite(weights)) return {-std::numeric_limits<double>::infinity(), weights};
+  Eigen::Vector3d nearest = weights[0] * corner[0] + weights[1] * corner[1] + weights[2] * corner[2];
+  if (weights.minCoeff() < 0) {  // outside: on the nearest of the sides
+    double least = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector3d side = corner[(k + 1) % 3] - corner[k];
+      const double part = std::clamp((p - corner[k]).dot(side) / side.squaredNorm(), 0.0, 1.0);
+      const Eigen::Vector3d place = corner[k] + part * side;
+      if (const double d = (p - place).squaredNorm(); d < least) least = d, nearest = place;
+    }
+  }
+  return {-(p - nearest).norm(), weights};
+}
+
+}  // namespace sinew
+#endif

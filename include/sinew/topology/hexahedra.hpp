@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/compiled.hpp>
 #include <sinew/core/mesh.hpp>
 
-#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -21,21 +21,7 @@ inline constexpr std::size_t hexahedronFaces[6][4] = {
 /// lowest-numbered corner, whichever side one looks from. The lowest corner of the cell is joined to the six
 /// triangles of the three faces that it is not on. Positively oriented where the hexahedra are convex; a
 /// sixth of a cell each in a grid, where this is Kuhn's subdivision (1960).
-inline std::vector<Tetrahedron> hexahedra_to_tetrahedra(std::span<Hexahedron const> hexahedra) {
-  std::vector<Tetrahedron> tetrahedra;
-  tetrahedra.reserve(6 * hexahedra.size());
-  for (Hexahedron const& h : hexahedra) {
-    const Index apex = *std::min_element(h.begin(), h.end());
-    for (auto const& face : hexahedronFaces) {
-      Quad f{h[face[0]], h[face[1]], h[face[2]], h[face[3]]};
-      if (std::find(f.begin(), f.end(), apex) != f.end()) continue;
-      std::rotate(f.begin(), std::min_element(f.begin(), f.end()), f.end());
-      tetrahedra.push_back({apex, f[0], f[1], f[2]});
-      tetrahedra.push_back({apex, f[0], f[2], f[3]});
-    }
-  }
-  return tetrahedra;
-}
+std::vector<Tetrahedron> hexahedra_to_tetrahedra(std::span<Hexahedron const> hexahedra);
 
 /// Shape functions of the multilinear edge (Dim = 1), quad or hexahedron and their derivatives by its
 /// coordinates, at a place whose coordinates are 0 to 1 inside.
@@ -60,3 +46,27 @@ struct MultilinearShape {
 };
 
 }  // namespace sinew
+
+#if SINEW_DEFINES
+#include <algorithm>
+
+namespace sinew {
+
+SINEW_ONCE std::vector<Tetrahedron> hexahedra_to_tetrahedra(std::span<Hexahedron const> hexahedra) {
+  std::vector<Tetrahedron> tetrahedra;
+  tetrahedra.reserve(6 * hexahedra.size());
+  for (Hexahedron const& h : hexahedra) {
+    const Index apex = *std::min_element(h.begin(), h.end());
+    for (auto const& face : hexahedronFaces) {
+      Quad f{h[face[0]], h[face[1]], h[face[2]], h[face[3]]};
+      if (std::find(f.begin(), f.end(), apex) != f.end()) continue;
+      std::rotate(f.begin(), std::min_element(f.begin(), f.end()), f.end());
+      tetrahedra.push_back({apex, f[0], f[1], f[2]});
+      tetrahedra.push_back({apex, f[0], f[2], f[3]});
+    }
+  }
+  return tetrahedra;
+}
+
+}  // namespace sinew
+#endif

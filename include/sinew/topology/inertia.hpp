@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/compiled.hpp>
 #include <sinew/core/mesh.hpp>
 
-#include <algorithm>
 #include <span>
-#include <vector>
 
 namespace sinew {
 
@@ -25,8 +24,19 @@ struct MassProperties {
 /// which the divergence theorem gives too (Mirtich, "Fast and accurate computation of polyhedral mass
 /// properties", 1996). The front of the surface may be inside as well as outside. Throws Error, naming
 /// `where`, unless the surface is closed, its faces turned alike, and there is a volume in it.
-inline MassProperties mass_properties(std::string_view where, std::span<Eigen::Vector3d const> x,
-                                      std::span<Triangle const> triangles, std::span<Quad const> quads) {
+MassProperties mass_properties(std::string_view where, std::span<Eigen::Vector3d const> x,
+                               std::span<Triangle const> triangles, std::span<Quad const> quads);
+
+}  // namespace sinew
+
+#if SINEW_DEFINES
+#include <algorithm>
+#include <vector>
+
+namespace sinew {
+
+SINEW_ONCE MassProperties mass_properties(std::string_view where, std::span<Eigen::Vector3d const> x,
+                                          std::span<Triangle const> triangles, std::span<Quad const> quads) {
   detail::check_indices(where, "triangle", triangles, x.size());
   detail::check_indices(where, "quad", quads, x.size());
   std::vector<Triangle> all(triangles.begin(), triangles.end());
@@ -78,3 +88,4 @@ inline MassProperties mass_properties(std::string_view where, std::span<Eigen::V
 }
 
 }  // namespace sinew
+#endif

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/compiled.hpp>
 #include <sinew/core/error.hpp>
 #include <sinew/core/mesh.hpp>
 #include <sinew/topology/bcc_lattice.hpp>
@@ -10,8 +11,6 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <string_view>
@@ -34,13 +33,7 @@ BccLattice warped_bcc_lattice(std::string_view where, Shape const& shape, Eigen:
 }
 
 /// The inside of all lattice tetrahedra (see for_bcc_tetrahedra()), numbered as stuff() does.
-inline std::vector<Tetrahedron> stuff(BccLattice const& lattice, bool skinOnly) {
-  std::vector<Tetrahedron> tetrahedra;
-  for_bcc_tetrahedra(lattice, skinOnly, [&](BccTetrahedron const& cell, std::array<int, 4> const& points) {
-    stuff(lattice, cell, points, tetrahedra);
-  });
-  return tetrahedra;
-}
+std::vector<Tetrahedron> stuff(BccLattice const& lattice, bool skinOnly);
 
 /// The points that the elements use; these then refer to them. In the order of the lattice, each lattice
 /// point before the cut points of its edges.
@@ -166,3 +159,20 @@ Mesh tetrahedralize_count(Shape const& shape, Eigen::Vector3d const& lo, Eigen::
 }
 
 }  // namespace sinew
+
+#if SINEW_DEFINES
+#include <array>
+#include <bit>
+
+namespace sinew::detail {
+
+SINEW_ONCE std::vector<Tetrahedron> stuff(BccLattice const& lattice, bool skinOnly) {
+  std::vector<Tetrahedron> tetrahedra;
+  for_bcc_tetrahedra(lattice, skinOnly, [&](BccTetrahedron const& cell, std::array<int, 4> const& points) {
+    stuff(lattice, cell, points, tetrahedra);
+  });
+  return tetrahedra;
+}
+
+}  // namespace sinew::detail
+#endif

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <sinew/io/text_mesh_file.hpp>
+#include <sinew/core/compiled.hpp>
 #include <sinew/topology/element_checks.hpp>
 
 #include <vector>
@@ -58,20 +58,7 @@ struct MeshTopology {
   }
 
   /// Takes from the file, if one is named, the lists that are empty. Throws Error when it cannot be read.
-  void generate(std::string_view where) {
-    if (filename.path.empty()) return;
-    Mesh mesh;
-    try {
-      mesh = io::read_text_mesh(filename.path);
-    } catch (Error const& error) {
-      throw Error(text(where, ": MeshTopology"), error.what());
-    }
-    auto take = [](auto& list, auto& read) {
-      if (list.empty()) list = std::move(read);
-    };
-    take(position, mesh.positions), take(edges, mesh.edges), take(triangles, mesh.triangles);
-    take(quads, mesh.quads), take(tetrahedra, mesh.tetrahedra), take(hexahedra, mesh.hexahedra);
-  }
+  void generate(std::string_view where);
 
   /// Throws Error at an index that the state has no point for, and at a tetrahedron that is flat or inside
   /// out.
@@ -84,3 +71,26 @@ struct MeshTopology {
 };
 
 }  // namespace sinew
+
+#if SINEW_DEFINES
+#include <sinew/io/text_mesh_file.hpp>
+
+namespace sinew {
+
+SINEW_ONCE void MeshTopology::generate(std::string_view where) {
+  if (filename.path.empty()) return;
+  Mesh mesh;
+  try {
+    mesh = io::read_text_mesh(filename.path);
+  } catch (Error const& error) {
+    throw Error(text(where, ": MeshTopology"), error.what());
+  }
+  auto take = [](auto& list, auto& read) {
+    if (list.empty()) list = std::move(read);
+  };
+  take(position, mesh.positions), take(edges, mesh.edges), take(triangles, mesh.triangles);
+  take(quads, mesh.quads), take(tetrahedra, mesh.tetrahedra), take(hexahedra, mesh.hexahedra);
+}
+
+}  // namespace sinew
+#endif

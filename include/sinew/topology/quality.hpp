@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <sinew/core/error.hpp>
+#include <sinew/core/compiled.hpp>
 #include <sinew/core/mesh.hpp>
-#include <sinew/topology/adjacency.hpp>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <algorithm>
-#include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace sinew {
 
@@ -40,7 +36,52 @@ inline double tetrahedron_volume(Eigen::Vector3d const& x0, Eigen::Vector3d cons
 
 /// Extreme dihedral angles, smallest and total volume of the tetrahedra of a mesh.
 /// Throws Error when there are none, or when one refers to a point that is missing.
-inline TetrahedronQuality quality(Mesh const& mesh) {
+TetrahedronQuality quality(Mesh const& mesh);
+
+/// Extreme angles, area, enclosed volume and topology of the triangles of a mesh. Points that no triangle
+/// uses do not count. Throws Error when there are no triangles, or when one refers to a point that is
+/// missing.
+SurfaceQuality surface_quality(Mesh const& mesh);
+
+}  // namespace sinew
+
+#if SINEW_DEFINES
+#include <sinew/core/error.hpp>
+#include <sinew/topology/adjacency.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace sinew::detail {
+
+/// Whether the triangles of a closed surface form one ring around each point.
+inline bool has_single_rings(std::vector<Triangle> const& triangles, std::size_t points) {
+  const Adjacency around = elements_around(triangles, points);
+  for (std::size_t i = 0; i < points; ++i) {
+    auto follow = [&](Index from) {  // triangle (i, from, to)
+      for (const Index e : around[i]) {
+        Triangle const& t = triangles[std::size_t(e)];
+        for (std::size_t c = 0; c < 3; ++c)
+          if (t[c] == Index(i) && t[(c + 1) % 3] == from) return t[(c + 2) % 3];
+      }
+      return Index(-1);
+    };
+    if (around[i].empty()) continue;
+    Triangle const& first = triangles[std::size_t(around[i].front())];
+    const Index start = first[0] == Index(i) ? first[1] : first[1] == Index(i) ? first[2] : first[0];
+    std::size_t length = 0;
+    for (Index j = start; length <= around[i].size() && (length == 0 || j != start); ++length) j = follow(j);
+    if (length != around[i].size()) return false;
+  }
+  return true;
+}
+
+}  // namespace sinew::detail
+
+namespace sinew {
+
+SINEW_ONCE TetrahedronQuality quality(Mesh const& mesh) {
   if (mesh.tetrahedra.empty()) throw Error("quality", "the mesh has no tetrahedra; give a volume mesh");
   check_mesh("quality", mesh);
   constexpr int edges[6][4] = {
@@ -65,36 +106,7 @@ inline TetrahedronQuality quality(Mesh const& mesh) {
   return result;
 }
 
-namespace detail {
-
-/// Whether the triangles of a closed surface form one ring around each point.
-inline bool has_single_rings(std::vector<Triangle> const& triangles, std::size_t points) {
-  const Adjacency around = elements_around(triangles, points);
-  for (std::size_t i = 0; i < points; ++i) {
-    auto follow = [&](Index from) {  // triangle (i, from, to)
-      for (const Index e : around[i]) {
-        Triangle const& t = triangles[std::size_t(e)];
-        for (std::size_t c = 0; c < 3; ++c)
-          if (t[c] == Index(i) && t[(c + 1) % 3] == from) return t[(c + 2) % 3];
-      }
-      return Index(-1);
-    };
-    if (around[i].empty()) continue;
-    Triangle const& first = triangles[std::size_t(around[i].front())];
-    const Index start = first[0] == Index(i) ? first[1] : first[1] == Index(i) ? first[2] : first[0];
-    std::size_t length = 0;
-    for (Index j = start; length <= around[i].size() && (length == 0 || j != start); ++length) j = follow(j);
-    if (length != around[i].size()) return false;
-  }
-  return true;
-}
-
-}  // namespace detail
-
-/// Extreme angles, area, enclosed volume and topology of the triangles of a mesh. Points that no triangle
-/// uses do not count. Throws Error when there are no triangles, or when one refers to a point that is
-/// missing.
-inline SurfaceQuality surface_quality(Mesh const& mesh) {
+SINEW_ONCE SurfaceQuality surface_quality(Mesh const& mesh) {
   if (mesh.triangles.empty())
     throw Error("surface_quality", "the mesh has no triangles; give a surface mesh");
   check_mesh("surface_quality", mesh);
@@ -133,3 +145,4 @@ inline SurfaceQuality surface_quality(Mesh const& mesh) {
 }
 
 }  // namespace sinew
+#endif

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/compiled.hpp>
 #include <sinew/core/component.hpp>
 
 #include <Eigen/Core>
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace sinew {
@@ -19,69 +16,19 @@ namespace detail {
 
 /// Throws Error unless a grid has `least` points or more in each direction, 2^mostLog2 altogether at most,
 /// and a box that is not empty in directions of several points.
-inline void check_grid(std::string_view where, std::array<int, 3> const& n, Eigen::Vector3d const& lo,
-                       Eigen::Vector3d const& hi, int least, int mostLog2) {
-  const std::string grid = text("a grid of ", n[0], " x ", n[1], " x ", n[2], " points ");
-  if (std::min({n[0], n[1], n[2]}) < least)
-    throw Error(where, text(grid, "has no cells; give at least ", least, " each way"));
-  const double most = std::ldexp(1.0, mostLog2);
-  if (double(n[0]) * n[1] * n[2] > most)
-    throw Error(where,
-                text(grid, "exceeds the limit of ", most, " points (2^", mostLog2, "); make it coarser"));
-  bool room = all_finite(lo) && all_finite(hi);
-  for (int c = 0; c < 3; ++c) room = room && (n[std::size_t(c)] > 1 ? lo[c] < hi[c] : lo[c] <= hi[c]);
-  if (!room)
-    throw Error(where,
-                text("the box from (",
-                     lo[0],
-                     ", ",
-                     lo[1],
-                     ", ",
-                     lo[2],
-                     ") to (",
-                     hi[0],
-                     ", ",
-                     hi[1],
-                     ", ",
-                     hi[2],
-                     ") is empty; its second corner must exceed the first in x, y and z"));
-}
+void check_grid(std::string_view where, std::array<int, 3> const& n, Eigen::Vector3d const& lo,
+                Eigen::Vector3d const& hi, int least, int mostLog2);
 
 /// n coordinates evenly from lo to hi, which are met exactly; one is at lo.
-inline std::vector<double> grid_coordinates(int n, double lo, double hi) {
-  std::vector<double> coordinates;
-  for (int i = 0; i < n; ++i) {
-    const double t = n > 1 ? double(i) / (n - 1) : 0;
-    coordinates.push_back(lo * (1 - t) + hi * t);
-  }
-  return coordinates;
-}
+std::vector<double> grid_coordinates(int n, double lo, double hi);
 
 /// Points from lo to hi. Point (i, j, k) has number i + nx (j + ny k). Throws Error as check_grid().
-inline Mesh grid_points(std::string_view where, std::array<int, 3> const& n, Eigen::Vector3d const& lo,
-                        Eigen::Vector3d const& hi, int least = 2, int mostLog2 = 28) {
-  check_grid(where, n, lo, hi, least, mostLog2);
-  Mesh mesh;
-  mesh.positions.reserve(std::size_t(n[0]) * std::size_t(n[1]) * std::size_t(n[2]));
-  const auto xs = grid_coordinates(n[0], lo[0], hi[0]), ys = grid_coordinates(n[1], lo[1], hi[1]),
-             zs = grid_coordinates(n[2], lo[2], hi[2]);
-  for (const double z : zs)
-    for (const double y : ys)
-      for (const double x : xs) mesh.positions.push_back({x, y, z});
-  return mesh;
-}
+Mesh grid_points(std::string_view where, std::array<int, 3> const& n, Eigen::Vector3d const& lo,
+                 Eigen::Vector3d const& hi, int least = 2, int mostLog2 = 28);
 
 /// Points each way of a grid of cubic cells from lo that covers the box; its far corner becomes `hi`. A whole
 /// number of cells, to rounding, stays so.
-inline std::array<int, 3> cubic_cells(double width, Eigen::Vector3d const& lo, Eigen::Vector3d& hi) {
-  std::array<int, 3> points{};
-  for (int c = 0; c < 3; ++c) {
-    const double cells = std::ceil((hi[c] - lo[c]) / width - 1e-9);
-    points[std::size_t(c)] = int(std::clamp(cells, 0.0, 1e9)) + 1;
-    if (cells >= 0) hi[c] = lo[c] + cells * width;
-  }
-  return points;
-}
+std::array<int, 3> cubic_cells(double width, Eigen::Vector3d const& lo, Eigen::Vector3d& hi);
 
 /// Calls body(corners, i + j + k) for each cell; corners in the order of VTK's hexahedron.
 template <class Body>
@@ -157,17 +104,105 @@ TopologyView grid_view(Topology const& t) {
 
 /// Hexahedra of a box, with nx x ny x nz points, the corners lo and hi included. x runs fastest.
 /// Throws Error when a direction has fewer than 2 points, all together more than 2^28, or the box is empty.
-inline Mesh regular_grid(int nx, int ny, int nz, Eigen::Vector3d const& lo, Eigen::Vector3d const& hi) {
+Mesh regular_grid(int nx, int ny, int nz, Eigen::Vector3d const& lo, Eigen::Vector3d const& hi);
+
+/// The same box as positively oriented tetrahedra that match across cells: 6 a cell, all around the diagonal
+/// from its lowest to its highest corner (Kuhn 1960), or 5 a cell, a regular one in the middle, mirrored from
+/// cell to cell. Throws Error as regular_grid(), and on another number a cell.
+Mesh regular_grid_tetrahedra(int nx, int ny, int nz, Eigen::Vector3d const& lo, Eigen::Vector3d const& hi,
+                             int perCell = 6);
+
+/// Solid cylinder around the x, y or z axis (axis 0, 1, 2), from `lo` to `hi` on that axis, as positively
+/// oriented tetrahedra. Its cross section has `rings` concentric hexagons of triangles, stretched to circles;
+/// `layers` of them are stacked. The end planes are exactly at lo and hi, the lateral points on the radius
+/// (to rounding), so a lateral face is a chord: the volume is that of the inscribed prism, 3 n r^2 sin(pi /
+/// (3 n)) (hi - lo) for n rings. (layers + 1) (3 n (n + 1) + 1) points, 18 n^2 layers tetrahedra; points of
+/// ring 0 first, layer by layer. Throws Error when the radius or length is not positive, rings or layers < 1,
+/// axis not 0 to 2, above 2^28 points.
+Mesh cylinder_tetrahedra(int axis, double lo, double hi, double radius, int rings, int layers);
+
+}  // namespace sinew
+
+#if SINEW_DEFINES
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace sinew::detail {
+
+SINEW_ONCE void check_grid(std::string_view where, std::array<int, 3> const& n, Eigen::Vector3d const& lo,
+                           Eigen::Vector3d const& hi, int least, int mostLog2) {
+  const std::string grid = text("a grid of ", n[0], " x ", n[1], " x ", n[2], " points ");
+  if (std::min({n[0], n[1], n[2]}) < least)
+    throw Error(where, text(grid, "has no cells; give at least ", least, " each way"));
+  const double most = std::ldexp(1.0, mostLog2);
+  if (double(n[0]) * n[1] * n[2] > most)
+    throw Error(where,
+                text(grid, "exceeds the limit of ", most, " points (2^", mostLog2, "); make it coarser"));
+  bool room = all_finite(lo) && all_finite(hi);
+  for (int c = 0; c < 3; ++c) room = room && (n[std::size_t(c)] > 1 ? lo[c] < hi[c] : lo[c] <= hi[c]);
+  if (!room)
+    throw Error(where,
+                text("the box from (",
+                     lo[0],
+                     ", ",
+                     lo[1],
+                     ", ",
+                     lo[2],
+                     ") to (",
+                     hi[0],
+                     ", ",
+                     hi[1],
+                     ", ",
+                     hi[2],
+                     ") is empty; its second corner must exceed the first in x, y and z"));
+}
+
+SINEW_ONCE std::vector<double> grid_coordinates(int n, double lo, double hi) {
+  std::vector<double> coordinates;
+  for (int i = 0; i < n; ++i) {
+    const double t = n > 1 ? double(i) / (n - 1) : 0;
+    coordinates.push_back(lo * (1 - t) + hi * t);
+  }
+  return coordinates;
+}
+
+SINEW_ONCE Mesh grid_points(std::string_view where, std::array<int, 3> const& n, Eigen::Vector3d const& lo,
+                            Eigen::Vector3d const& hi, int least, int mostLog2) {
+  check_grid(where, n, lo, hi, least, mostLog2);
+  Mesh mesh;
+  mesh.positions.reserve(std::size_t(n[0]) * std::size_t(n[1]) * std::size_t(n[2]));
+  const auto xs = grid_coordinates(n[0], lo[0], hi[0]), ys = grid_coordinates(n[1], lo[1], hi[1]),
+             zs = grid_coordinates(n[2], lo[2], hi[2]);
+  for (const double z : zs)
+    for (const double y : ys)
+      for (const double x : xs) mesh.positions.push_back({x, y, z});
+  return mesh;
+}
+
+SINEW_ONCE std::array<int, 3> cubic_cells(double width, Eigen::Vector3d const& lo, Eigen::Vector3d& hi) {
+  std::array<int, 3> points{};
+  for (int c = 0; c < 3; ++c) {
+    const double cells = std::ceil((hi[c] - lo[c]) / width - 1e-9);
+    points[std::size_t(c)] = int(std::clamp(cells, 0.0, 1e9)) + 1;
+    if (cells >= 0) hi[c] = lo[c] + cells * width;
+  }
+  return points;
+}
+
+}  // namespace sinew::detail
+
+namespace sinew {
+
+SINEW_ONCE Mesh regular_grid(int nx, int ny, int nz, Eigen::Vector3d const& lo, Eigen::Vector3d const& hi) {
   Mesh mesh = detail::grid_points("regular_grid", {nx, ny, nz}, lo, hi);
   detail::for_grid_cells(nx, ny, nz, [&](Hexahedron const& c, int) { mesh.hexahedra.push_back(c); });
   return mesh;
 }
 
-/// The same box as positively oriented tetrahedra that match across cells: 6 a cell, all around the diagonal
-/// from its lowest to its highest corner (Kuhn 1960), or 5 a cell, a regular one in the middle, mirrored from
-/// cell to cell. Throws Error as regular_grid(), and on another number a cell.
-inline Mesh regular_grid_tetrahedra(int nx, int ny, int nz, Eigen::Vector3d const& lo,
-                                    Eigen::Vector3d const& hi, int perCell = 6) {
+SINEW_ONCE Mesh regular_grid_tetrahedra(int nx, int ny, int nz, Eigen::Vector3d const& lo,
+                                        Eigen::Vector3d const& hi, int perCell) {
   constexpr std::string_view where = "regular_grid_tetrahedra";
   if (perCell != 5 && perCell != 6)
     throw Error(where, text("a cell cannot be split into ", perCell, " tetrahedra; choose 5 or 6"));
@@ -190,14 +225,7 @@ inline Mesh regular_grid_tetrahedra(int nx, int ny, int nz, Eigen::Vector3d cons
   return mesh;
 }
 
-/// Solid cylinder around the x, y or z axis (axis 0, 1, 2), from `lo` to `hi` on that axis, as positively
-/// oriented tetrahedra. Its cross section has `rings` concentric hexagons of triangles, stretched to circles;
-/// `layers` of them are stacked. The end planes are exactly at lo and hi, the lateral points on the radius
-/// (to rounding), so a lateral face is a chord: the volume is that of the inscribed prism, 3 n r^2 sin(pi /
-/// (3 n)) (hi - lo) for n rings. (layers + 1) (3 n (n + 1) + 1) points, 18 n^2 layers tetrahedra; points of
-/// ring 0 first, layer by layer. Throws Error when the radius or length is not positive, rings or layers < 1,
-/// axis not 0 to 2, above 2^28 points.
-inline Mesh cylinder_tetrahedra(int axis, double lo, double hi, double radius, int rings, int layers) {
+SINEW_ONCE Mesh cylinder_tetrahedra(int axis, double lo, double hi, double radius, int rings, int layers) {
   constexpr std::string_view where = "cylinder_tetrahedra";
   if (axis < 0 || axis > 2)
     throw Error(where, text("axis ", axis, " does not exist; choose 0 (x), 1 (y) or 2 (z)"));
@@ -259,3 +287,4 @@ inline Mesh cylinder_tetrahedra(int axis, double lo, double hi, double radius, i
 }
 
 }  // namespace sinew
+#endif

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/compiled.hpp>
 #include <sinew/topology/element_checks.hpp>
 #include <sinew/topology/regular_grid.hpp>
 
@@ -74,20 +75,7 @@ struct RegularGridTopology {
   TopologyView view() const { return detail::grid_view(*this); }
 
   /// Throws Error when the box is empty in a direction of several points, or above 2^24 points.
-  void generate(std::string_view where) {
-    const std::string at = text(where, ": RegularGridTopology");
-    Eigen::Vector3d lo(xmin.value_or(min[0]), ymin.value_or(min[1]), zmin.value_or(min[2]));
-    Eigen::Vector3d hi(xmax.value_or(max[0]), ymax.value_or(max[1]), zmax.value_or(max[2]));
-    points = {nx.value_or(n[0]), ny.value_or(n[1]), nz.value_or(n[2])};
-    if (cellWidth > 0) points = detail::cubic_cells(cellWidth, lo, hi);
-    // SOFA's sheets and strings lie in the middle of the box along x and y, and at its bottom along z
-    for (int c = 0; c < 2; ++c)
-      if (points[std::size_t(c)] == 1) lo[c] = (lo[c] + hi[c]) / 2;
-    if (p0) hi += *p0 - lo, lo = *p0;
-
-    position = detail::grid_points(at, points, lo, hi, 1, 24).positions;
-    detail::make_grid_elements(*this);
-  }
+  void generate(std::string_view where);
 
   /// Throws Error where the state has fewer points than the grid.
   template <class D>
@@ -97,3 +85,24 @@ struct RegularGridTopology {
 };
 
 }  // namespace sinew
+
+#if SINEW_DEFINES
+namespace sinew {
+
+SINEW_ONCE void RegularGridTopology::generate(std::string_view where) {
+  const std::string at = text(where, ": RegularGridTopology");
+  Eigen::Vector3d lo(xmin.value_or(min[0]), ymin.value_or(min[1]), zmin.value_or(min[2]));
+  Eigen::Vector3d hi(xmax.value_or(max[0]), ymax.value_or(max[1]), zmax.value_or(max[2]));
+  points = {nx.value_or(n[0]), ny.value_or(n[1]), nz.value_or(n[2])};
+  if (cellWidth > 0) points = detail::cubic_cells(cellWidth, lo, hi);
+  // SOFA's sheets and strings lie in the middle of the box along x and y, and at its bottom along z
+  for (int c = 0; c < 2; ++c)
+    if (points[std::size_t(c)] == 1) lo[c] = (lo[c] + hi[c]) / 2;
+  if (p0) hi += *p0 - lo, lo = *p0;
+
+  position = detail::grid_points(at, points, lo, hi, 1, 24).positions;
+  detail::make_grid_elements(*this);
+}
+
+}  // namespace sinew
+#endif

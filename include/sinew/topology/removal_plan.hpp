@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/compiled.hpp>
 #include <sinew/core/component.hpp>
 
-#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -15,11 +15,7 @@ struct RemovalPlan {
   std::vector<bool> points;
   std::vector<OfTopology> elements;
 
-  TopologyChange change(std::size_t topology) const {
-    TopologyChange c{.points = Renumbering::of(points)};
-    for (std::size_t k = 0; k < element_kinds; ++k) c.elements[k] = Renumbering::of(elements[topology][k]);
-    return c;
-  }
+  TopologyChange change(std::size_t topology) const;
 };
 
 namespace detail {
@@ -29,6 +25,31 @@ template <class F>
 void for_each_kind(TopologyView const& t, F&& f) {
   f(0, t.edges), f(1, t.triangles), f(2, t.quads), f(3, t.tetrahedra), f(4, t.hexahedra);
 }
+
+bool contains(std::span<Index const> outer, std::span<Index const> inner);
+
+}  // namespace detail
+
+/// What goes with elements of topologies[first]:
+///   - an element of a lower dimension that lies in one that goes, and in none that stays: faces and edges of
+///     what is removed
+///   - a point that has no element left of the highest dimension of those that it had: one of a volume does
+///     not hang on by a wire
+///   - an element over such a point
+/// All topologies are over the same points, and their indices are in range.
+RemovalPlan plan_element_removal(std::size_t points, std::vector<TopologyView> const& topologies,
+                                 std::size_t first, ElementNumbers const& gone);
+
+/// What goes with points: the elements over them.
+RemovalPlan plan_point_removal(std::vector<bool> const& stays, std::vector<TopologyView> const& topologies);
+
+}  // namespace sinew
+
+#if SINEW_DEFINES
+#include <algorithm>
+
+namespace sinew::detail {
+
 constexpr int dimension_of_kind(int kind) { return kind == 0 ? 1 : kind < 3 ? 2 : 3; }
 
 inline RemovalPlan whole_plan(std::size_t points, std::vector<TopologyView> const& topologies) {
@@ -49,23 +70,25 @@ struct ElementOfBody {
   std::size_t number;
   std::span<Index const> points;
 };
-inline bool contains(std::span<Index const> outer, std::span<Index const> inner) {
+
+SINEW_ONCE bool contains(std::span<Index const> outer, std::span<Index const> inner) {
   return std::all_of(inner.begin(), inner.end(), [&](Index i) {
     return std::find(outer.begin(), outer.end(), i) != outer.end();
   });
 }
 
-}  // namespace detail
+}  // namespace sinew::detail
 
-/// What goes with elements of topologies[first]:
-///   - an element of a lower dimension that lies in one that goes, and in none that stays: faces and edges of
-///     what is removed
-///   - a point that has no element left of the highest dimension of those that it had: one of a volume does
-///     not hang on by a wire
-///   - an element over such a point
-/// All topologies are over the same points, and their indices are in range.
-inline RemovalPlan plan_element_removal(std::size_t points, std::vector<TopologyView> const& topologies,
-                                        std::size_t first, ElementNumbers const& gone) {
+namespace sinew {
+
+SINEW_ONCE TopologyChange RemovalPlan::change(std::size_t topology) const {
+  TopologyChange c{.points = Renumbering::of(points)};
+  for (std::size_t k = 0; k < element_kinds; ++k) c.elements[k] = Renumbering::of(elements[topology][k]);
+  return c;
+}
+
+SINEW_ONCE RemovalPlan plan_element_removal(std::size_t points, std::vector<TopologyView> const& topologies,
+                                            std::size_t first, ElementNumbers const& gone) {
   using detail::ElementOfBody;
   RemovalPlan plan = detail::whole_plan(points, topologies);
   auto forEachElement = [&](auto&& f) {
@@ -136,9 +159,8 @@ inline RemovalPlan plan_element_removal(std::size_t points, std::vector<Topology
   return plan;
 }
 
-/// What goes with points: the elements over them.
-inline RemovalPlan plan_point_removal(std::vector<bool> const& stays,
-                                      std::vector<TopologyView> const& topologies) {
+SINEW_ONCE RemovalPlan plan_point_removal(std::vector<bool> const& stays,
+                                          std::vector<TopologyView> const& topologies) {
   RemovalPlan plan = detail::whole_plan(stays.size(), topologies);
   plan.points = stays;
   for (std::size_t t = 0; t < topologies.size(); ++t)
@@ -151,3 +173,4 @@ inline RemovalPlan plan_point_removal(std::vector<bool> const& stays,
 }
 
 }  // namespace sinew
+#endif

@@ -1,8 +1,19 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/compiled.hpp>
 #include <sinew/topology/regular_grid.hpp>
 
+namespace sinew::detail {
+
+/// Points of a grid over a square (or cube) of half width `radius` around the origin, rounded in two (or
+/// three) dimensions, about `axis`; in two, along it from 0 to `length`.
+Mesh round_grid_points(std::string_view where, std::array<int, 3> const& n, Eigen::Vector3d const& axis,
+                       int dimensions, double radius, double length);
+
+}  // namespace sinew::detail
+
+#if SINEW_DEFINES
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -30,10 +41,8 @@ inline Eigen::Matrix3d axes_around(std::string_view where, Eigen::Vector3d const
   return axes;
 }
 
-/// Points of a grid over a square (or cube) of half width `radius` around the origin, rounded in two (or
-/// three) dimensions, about `axis`; in two, along it from 0 to `length`.
-inline Mesh round_grid_points(std::string_view where, std::array<int, 3> const& n,
-                              Eigen::Vector3d const& axis, int dimensions, double radius, double length) {
+SINEW_ONCE Mesh round_grid_points(std::string_view where, std::array<int, 3> const& n,
+                                  Eigen::Vector3d const& axis, int dimensions, double radius, double length) {
   const Eigen::Matrix3d axes = axes_around(where, axis);
   for (std::size_t c = 0; c < std::size_t(dimensions); ++c)
     if (n[c] < 2)
@@ -58,3 +67,4 @@ inline Mesh round_grid_points(std::string_view where, std::array<int, 3> const& 
 }
 
 }  // namespace sinew::detail
+#endif

@@ -1,7 +1,21 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/compiled.hpp>
 #include <sinew/core/mesh.hpp>
+
+namespace sinew {
+
+/// The mesh with each edge in 2, triangle and quad in 4, tetrahedron and hexahedron in 8, on the same lines,
+/// faces and volumes (those of multilinear quads and hexahedra): lengths, areas of plane elements and volumes
+/// stay what they are, elements that matched still match, and orientations stay. The points there were come
+/// first, then the new ones, level by level; an element's parts stand where it stood. Throws Error on a bad
+/// index, a point that an element uses twice, and where it might come to more than 2^28 points.
+Mesh subdivide(Mesh mesh, int levels = 1);
+
+}  // namespace sinew
+
+#if SINEW_DEFINES
 #include <sinew/topology/hexahedra.hpp>
 
 #include <algorithm>
@@ -9,9 +23,7 @@
 #include <map>
 #include <string_view>
 
-namespace sinew {
-
-namespace detail {
+namespace sinew::detail {
 
 /// The points that subdivision adds to a mesh, each once: amid an edge, a quad or the face of a hexahedron,
 /// and a hexahedron.
@@ -133,14 +145,11 @@ inline void subdivide_hexahedron(Hexahedron const& h, AddedPoints& points, std::
   }
 }
 
-}  // namespace detail
+}  // namespace sinew::detail
 
-/// The mesh with each edge in 2, triangle and quad in 4, tetrahedron and hexahedron in 8, on the same lines,
-/// faces and volumes (those of multilinear quads and hexahedra): lengths, areas of plane elements and volumes
-/// stay what they are, elements that matched still match, and orientations stay. The points there were come
-/// first, then the new ones, level by level; an element's parts stand where it stood. Throws Error on a bad
-/// index, a point that an element uses twice, and where it might come to more than 2^28 points.
-inline Mesh subdivide(Mesh mesh, int levels = 1) {
+namespace sinew {
+
+SINEW_ONCE Mesh subdivide(Mesh mesh, int levels) {
   constexpr std::string_view where = "subdivide";
   if (levels < 0) throw Error(where, text(levels, " levels were asked for; give 0 or more"));
   check_mesh(where, mesh);
@@ -191,3 +200,4 @@ inline Mesh subdivide(Mesh mesh, int levels = 1) {
 }
 
 }  // namespace sinew
+#endif

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/compiled.hpp>
 #include <sinew/core/component.hpp>
-
-#include <algorithm>
-#include <vector>
 
 namespace sinew {
 
@@ -25,33 +23,48 @@ struct VisualModel {
   std::size_t size() const { return position.size(); }
 
   /// The mesh with its vertices where they are now.
-  Mesh current() const {
-    Mesh now = mesh;
-    now.positions.resize(position.size());
-    for (std::size_t i = 0; i < position.size(); ++i)
-      now.positions[i] = {position[i][0], position[i][1], position[i][2]};
-    return now;
-  }
+  Mesh current() const;
 
   /// Vertices that go take their faces with them.
-  void follow(Renumbering const& points) {
-    points.filter(mesh.positions);
-    auto faces = [&points](auto& list) {
-      std::erase_if(list, [&](auto const& face) {
-        return std::any_of(face.begin(), face.end(), [&](Index i) { return !points.stays(i); });
-      });
-      for (auto& face : list)
-        for (Index& i : face) points.renumber(i);
-    };
-    faces(mesh.edges), faces(mesh.triangles), faces(mesh.quads), faces(mesh.tetrahedra);
-    faces(mesh.hexahedra);
-  }
+  void follow(Renumbering const& points);
 
-  void init(std::string const& where) {
-    check_mesh(text(where, ": VisualModel"), mesh);
-    position.clear();
-    for (auto const& p : mesh.positions) position.emplace_back(float(p[0]), float(p[1]), float(p[2]));
-  }
+  void init(std::string const& where);
 };
 
 }  // namespace sinew
+
+#if SINEW_DEFINES
+#include <algorithm>
+#include <vector>
+
+namespace sinew {
+
+SINEW_ONCE Mesh VisualModel::current() const {
+  Mesh now = mesh;
+  now.positions.resize(position.size());
+  for (std::size_t i = 0; i < position.size(); ++i)
+    now.positions[i] = {position[i][0], position[i][1], position[i][2]};
+  return now;
+}
+
+SINEW_ONCE void VisualModel::follow(Renumbering const& points) {
+  points.filter(mesh.positions);
+  auto faces = [&points](auto& list) {
+    std::erase_if(list, [&](auto const& face) {
+      return std::any_of(face.begin(), face.end(), [&](Index i) { return !points.stays(i); });
+    });
+    for (auto& face : list)
+      for (Index& i : face) points.renumber(i);
+  };
+  faces(mesh.edges), faces(mesh.triangles), faces(mesh.quads), faces(mesh.tetrahedra);
+  faces(mesh.hexahedra);
+}
+
+SINEW_ONCE void VisualModel::init(std::string const& where) {
+  check_mesh(text(where, ": VisualModel"), mesh);
+  position.clear();
+  for (auto const& p : mesh.positions) position.emplace_back(float(p[0]), float(p[1]), float(p[2]));
+}
+
+}  // namespace sinew
+#endif

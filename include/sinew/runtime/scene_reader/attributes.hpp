@@ -63,6 +63,14 @@ inline std::vector<XmlAttribute> take_placing(SceneItem& item) {
   return taken;
 }
 
+/// One number is that of all directions: "2" stands for "2 2 2".
+inline std::string alike(std::string const& value) {
+  Words words(value);
+  if (words.end()) return value;
+  const std::string one(words.next());
+  return words.end() ? text(one, ' ', one, ' ', one) : value;
+}
+
 /// Of each group of words the first ones, with more behind them.
 inline std::string every(std::string_view value, std::size_t group, std::size_t first,
                          std::string_view more) {

@@ -4,10 +4,38 @@
 #include <sinew/runtime/scene_reader/parts.hpp>
 
 #include <algorithm>
+#include <optional>
 
 namespace sinew {
 
 namespace detail {
+
+/// The words of a link: "@name", "@../x/y", "@/x/y", "@[-1].position", "@name.position".
+struct LinkWords {
+  std::string path, data{};     // "../x/y", "position"
+  std::optional<int> offset{};  // of "@[-1]": from the component that has the link to another of its node
+  bool based = false;           // the path starts at one place; another one at each node upwards
+};
+/// None where it is no link.
+inline std::optional<LinkWords> read_link(std::string_view link) {
+  std::string whole(Words(link).rest());
+  if (!whole.starts_with('@')) return {};
+  std::replace(whole.begin(), whole.end(), ' ', '_');  // as in names
+  std::string_view path = std::string_view(whole).substr(1);
+  LinkWords words;
+  const std::size_t slash = path.rfind('/') == path.npos ? 0 : path.rfind('/') + 1;
+  if (const std::string_view last = path.substr(slash); last != "." && last != "..")
+    if (const std::size_t dot = last.rfind('.'); dot != last.npos) {
+      words.data = std::string(last.substr(dot + 1));
+      path = path.substr(0, slash + dot);
+    }
+  if (path.starts_with('['))
+    words.offset = read_number<int>(path.substr(1, std::min(path.find(']'), path.size()) - 1));
+  words.path = std::string(path);
+  words.based = path.starts_with('/') || path.starts_with("./") || path.starts_with("../") || path == "." ||
+                path == ".." || path.empty();
+  return words;
+}
 
 /// What a link leads to: a component or a node, and what of it.
 struct LinkTarget {
@@ -37,26 +65,16 @@ inline bool walk_link(ScenePlace& from, std::string_view path, LinkTarget& targe
   return true;
 }
 
-/// "@name", "@../x/y", "@/x/y", "@[-1].position", "@name.position". Throws Error where it leads nowhere.
+/// What a link of a component leads to. Throws Error where that is nothing.
 inline LinkTarget follow_link(SceneItem& item, std::string_view link) {
-  std::string whole(Words(link).rest());
-  if (!whole.starts_with('@')) throw Error("", text(shown(link), " is no link; a link starts with @"));
-  std::replace(whole.begin(), whole.end(), ' ', '_');  // as in names
-  std::string_view path = std::string_view(whole).substr(1);
-  LinkTarget target;
-  const std::size_t slash = path.rfind('/') == path.npos ? 0 : path.rfind('/') + 1;
-  if (const std::string_view last = path.substr(slash); last != "." && last != "..")
-    if (const std::size_t dot = last.rfind('.'); dot != last.npos) {
-      target.data = std::string(last.substr(dot + 1));
-      path = path.substr(0, slash + dot);
-    }
-  if (path.starts_with('[')) {
-    const std::size_t close = path.find(']');
-    const int offset = read_number<int>(path.substr(1, std::min(close, path.size()) - 1));
+  const std::optional<LinkWords> words = read_link(link);
+  if (!words) throw Error("", text(shown(link), " is no link; a link starts with @"));
+  LinkTarget target{.data = words->data};
+  if (words->offset) {
     const auto& items = item.place->items;
     for (std::size_t i = 0; i < items.size(); ++i)
       if (items[i].get() == &item) {
-        const long at = long(i) + offset;
+        const long at = long(i) + *words->offset;
         if (at < 0 || at >= long(items.size()))
           throw Error("", text(shown(link), " leads outside the node; it has ", items.size(), " components"));
         target.item = items[std::size_t(at)].get();
@@ -64,16 +82,13 @@ inline LinkTarget follow_link(SceneItem& item, std::string_view link) {
     if (!target.item) throw Error("", text(shown(link), " leads nowhere"));
     return target;
   }
+  const std::string_view path = words->path;
   ScenePlace* from = item.place;
-  const bool based = path.starts_with('/') || path.starts_with("./") || path.starts_with("../") ||
-                     path == "." || path == ".." || path.empty();
-  if (path.starts_with('/')) {
+  if (path.starts_with('/'))
     while (from->parent) from = from->parent;
-    path.remove_prefix(1);
-  }
   while (from) {
     if (walk_link(*from, path, target)) return target;
-    from = based ? nullptr : from->parent;
+    from = words->based ? nullptr : from->parent;
   }
   std::vector<std::string> known;
   for (ScenePlace* at = item.place; at; at = at->parent) {

@@ -84,12 +84,7 @@ class SceneValues {
     FieldInfo const& position = *item.info->field("position");
     TransformEngine<Vec3d> engine;
     for (auto const& a : placing) try {
-        auto words = [&](auto& to) {
-          std::string value = a.value;
-          Words again(value);
-          if (const std::string one(again.next()); again.end()) value = text(one, ' ', one, ' ', one);
-          read_value(value, to);
-        };
+        auto words = [&](auto& to) { read_value(alike(a.value), to); };
         a.name == "translation" ? words(engine.translation)
         : a.name == "rotation"  ? words(engine.rotation)
                                 : words(engine.scale);
@@ -171,14 +166,7 @@ class SceneValues {
   }
 
   void setField(SceneItem& item, FieldInfo const& field, std::string value, XmlAttribute const& written) {
-    // one number stretches alike in all directions
-    if (field.name == "scale3d" && written.name == "scale") {
-      Words again(value);
-      if (!again.end()) {
-        const std::string one(again.next());
-        if (again.end()) value = text(one, ' ', one, ' ', one);
-      }
-    }
+    if (field.name == "scale3d" && written.name == "scale") value = alike(value);
     if (field.name == "position" && item.info->role == RoleKind::topology) value = in_space(item, value);
     if (field.isFile) {
       auto const& file = written.file ? written.file : item.element->file;

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+// What has functions in base.cpp.
+#include <sinew/core/error.hpp>
+#include <sinew/core/euler.hpp>
+#include <sinew/core/follow.hpp>
+#include <sinew/core/mesh.hpp>
+#include <sinew/core/renumbering.hpp>
+#include <sinew/core/workers.hpp>
+#include <sinew/io/base64.hpp>
+#include <sinew/io/cells.hpp>
+#include <sinew/io/output_file.hpp>
+#include <sinew/io/pvd_series.hpp>
+#include <sinew/io/read_gmsh.hpp>
+#include <sinew/io/read_obj.hpp>
+#include <sinew/io/read_rigid.hpp>
+#include <sinew/io/read_sph.hpp>
+#include <sinew/io/read_stl.hpp>
+#include <sinew/io/read_vtk.hpp>
+#include <sinew/io/text_mesh_file.hpp>
+#include <sinew/io/text_reader.hpp>
+#include <sinew/io/write_obj.hpp>
+#include <sinew/linalg/minimum_degree.hpp>
+#include <sinew/topology/adjacency.hpp>
+#include <sinew/topology/bcc_lattice.hpp>
+#include <sinew/topology/bcc_stencils.hpp>
+#include <sinew/topology/bcc_warp.hpp>
+#include <sinew/topology/beam_section.hpp>
+#include <sinew/topology/border.hpp>
+#include <sinew/topology/cube_topology.hpp>
+#include <sinew/topology/cylinder_grid_topology.hpp>
+#include <sinew/topology/element_checks.hpp>
+#include <sinew/topology/element_fit.hpp>
+#include <sinew/topology/hexahedra.hpp>
+#include <sinew/topology/inertia.hpp>
+#include <sinew/topology/isosurface_stuffing.hpp>
+#include <sinew/topology/mesh_topology.hpp>
+#include <sinew/topology/quality.hpp>
+#include <sinew/topology/regular_grid.hpp>
+#include <sinew/topology/regular_grid_topology.hpp>
+#include <sinew/topology/removal_plan.hpp>
+#include <sinew/topology/round_grid.hpp>
+#include <sinew/topology/sparse_grid_topology.hpp>
+#include <sinew/topology/sphere_grid_topology.hpp>
+#include <sinew/topology/subdivision.hpp>

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSL-1.0
+// Of sinew::compiled: components and the scene.
+#include "base.hpp"
+
+#undef SINEW_DEFINES
+#define SINEW_DEFINES 1
+#include <sinew/collision/attachment.hpp>
+#include <sinew/collision/broad_phase.hpp>
+#include <sinew/collision/collision_surface.hpp>
+#include <sinew/collision/contact_assembly.hpp>
+#include <sinew/collision/convex_hull.hpp>
+#include <sinew/collision/default_pipeline.hpp>
+#include <sinew/collision/penalty_contact.hpp>
+#include <sinew/collision/ray_hits.hpp>
+#include <sinew/collision/stick_contact.hpp>
+#include <sinew/collision/surface_elements.hpp>
+#include <sinew/constraint/constrained_points.hpp>
+#include <sinew/engine/grid_mesh_creator.hpp>
+#include <sinew/engine/mesh_loader.hpp>
+#include <sinew/engine/mesh_subdivision.hpp>
+#include <sinew/engine/roi.hpp>
+#include <sinew/engine/sphere_loader.hpp>
+#include <sinew/engine/topological_mapping.hpp>
+#include <sinew/force/element_pressure.hpp>
+#include <sinew/force/hyperelastic_material.hpp>
+#include <sinew/force/viscoelastic_material.hpp>
+#include <sinew/scene/carving.hpp>
+#include <sinew/scene/profile_report.hpp>
+#include <sinew/scene/removed_border.hpp>
+#include <sinew/visual/visual_model.hpp>

@@ -1,0 +1,12 @@
+# cmake -DPAGE=page.md -DPROGRAM=main.cpp -P: the first C++ program of the page is that of the file, but for the line of the licence.
+file(READ ${PAGE} page)
+file(READ ${PROGRAM} program)
+string(FIND "${page}" "```cpp\n" at)
+string(SUBSTRING "${page}" ${at} -1 page)
+string(REGEX REPLACE "^```cpp\n" "" page "${page}")
+string(FIND "${page}" "```\n" at)
+string(SUBSTRING "${page}" 0 ${at} page)
+string(REGEX REPLACE "^// SPDX[^\n]*\n" "" program "${program}")
+if(NOT page STREQUAL program)
+  message(FATAL_ERROR "the first program of ${PAGE} should be that of ${PROGRAM}:\n${program}\nbut is\n${page}")
+endif()

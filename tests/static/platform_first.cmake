@@ -1,0 +1,18 @@
+# cmake "-DINCLUDE=folder;folder" -P: what core/platform.hpp refuses is said before all else, by whatever header comes first:
+# the first include of each header is one of Sinew's, so that of the first of them is platform.hpp.
+cmake_minimum_required(VERSION 3.22)
+set(count 0)
+foreach(folder ${INCLUDE})
+  file(GLOB_RECURSE headers ${folder}/sinew/*.hpp)
+  foreach(header ${headers})
+    file(STRINGS ${header} includes REGEX "^ *#include " LIMIT_COUNT 1)
+    math(EXPR count "${count} + 1")
+    if(NOT includes MATCHES "<sinew/" OR (header MATCHES "/core/platform.hpp$" AND NOT includes MATCHES "see_the_error_above"))
+      message(SEND_ERROR "${header} has '${includes}' first; put #include <sinew/core/platform.hpp> before it")
+    endif()
+  endforeach()
+endforeach()
+if(count LESS 100)
+  message(FATAL_ERROR "only ${count} headers were found in ${INCLUDE}")
+endif()
+message(STATUS "${count} headers")

@@ -1,0 +1,35 @@
+# cmake "-DCOMMAND=compiler;arguments" -DSOURCE=folder -DWORK=folder -P: a program links a library that was compiled with
+# -march=x86-64-v2 only with the same lanes, alignment and options; the linker says which it has, in one error.
+cmake_minimum_required(VERSION 3.22)
+file(REMOVE_RECURSE ${WORK})
+file(MAKE_DIRECTORY ${WORK})
+set(level2 -march=x86-64-v2)
+execute_process(COMMAND ${COMMAND} ${level2} -c ${SOURCE}/library.cpp -o ${WORK}/library.o COMMAND_ERROR_IS_FATAL ANY)
+
+# ends well where there is no sentence, else with it
+function(links sentence)
+  execute_process(COMMAND ${COMMAND} ${ARGN} ${SOURCE}/main.cpp ${WORK}/library.o -o ${WORK}/main
+                  RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(sentence STREQUAL "")
+    if(NOT status EQUAL 0)
+      message(FATAL_ERROR "with ${ARGN} it should link:\n${output}")
+    endif()
+    execute_process(COMMAND ${WORK}/main COMMAND_ERROR_IS_FATAL ANY)
+    return()
+  endif()
+  string(FIND "${output}" "${sentence}" at)
+  string(REGEX MATCHALL "undefined reference" errors "${output}")
+  if(status EQUAL 0 OR at EQUAL -1 OR NOT errors STREQUAL "undefined reference")
+    message(FATAL_ERROR "with ${ARGN} the linker should say '${sentence}' and nothing else, but says\n${output}")
+  endif()
+endfunction()
+
+set(name "sinew::compile_with_the_same_flags_as<the_library, (sinew::bytes_of_lanes)")
+links("" ${level2})
+links("" ${level2} -O2 -DNDEBUG)
+links("${name}32" -march=x86-64-v3)
+links("${name}64" -march=x86-64-v4)
+links("${name}16, (sinew::alignment_of_matrices)0" ${level2} -DEIGEN_MAX_STATIC_ALIGN_BYTES=0)
+links("(sinew::bytes_of_index)4" ${level2} -DEIGEN_DEFAULT_DENSE_INDEX_TYPE=int)
+links("(sinew::checked_containers)1" ${level2} -D_GLIBCXX_DEBUG)
+links("(with_an_option)1>::here" ${level2} -DOPTION=1)
