@@ -9,9 +9,11 @@
 #include <boost/hana/unpack.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -301,25 +303,25 @@ BadNumber find_number(T const& value, Refused const& bad) {
                    "); correct this value"));
 }
 
-}  // namespace detail
-
-namespace detail {
-
-/// The value of a field, and what looks for a number that it refuses.
+/// A field, and what looks for a number in its value that it refuses.
 struct CheckedField {
   FieldWords const* words;
-  void const* value;
   BadNumber (*find)(void const* value, Refused const& bad);
 };
 template <class T>
 BadNumber find_number_at(void const* value, Refused const& bad) {
   return find_number(*static_cast<T const*>(value), bad);
 }
-inline void check_values(CheckedField const* all, std::size_t count, std::string (*component)(),
-                         std::string_view where) {
-  for (std::size_t i = 0; i < count; ++i)
-    if (const auto bad = all[i].find(all[i].value, {all[i].words->range}); bad.found)
-      refuse(where, component(), *all[i].words, bad);
+template <class C>
+inline constexpr auto checked_fields = boost::hana::unpack(fields_of_class<C>, [](auto const&... fd) {
+  return std::array<CheckedField, sizeof...(fd)>{
+      CheckedField{&fd, &find_number_at<std::decay_t<decltype(std::declval<C&>().*fd.member)>>}...};
+});
+inline void check_values(std::span<CheckedField const> fields, void const* const* values,
+                         std::string (*component)(), std::string_view where) {
+  for (std::size_t i = 0; i < fields.size(); ++i)
+    if (const auto bad = fields[i].find(values[i], {fields[i].words->range}); bad.found)
+      refuse(where, component(), *fields[i].words, bad);
 }
 
 }  // namespace detail
@@ -328,12 +330,8 @@ inline void check_values(CheckedField const* all, std::size_t count, std::string
 template <class C>
 void check_fields(C const& component, std::string_view where) {
   boost::hana::unpack(fields_of_class<C>, [&](auto const&... fd) {
-    const detail::CheckedField all[] = {
-        {&fd,
-         std::addressof(component.*fd.member),
-         &detail::find_number_at<std::decay_t<decltype(component.*fd.member)>>}...,
-        {}};
-    detail::check_values(all, sizeof...(fd), &component_name<C>, where);
+    void const* const values[] = {std::addressof(component.*fd.member)..., nullptr};
+    detail::check_values(detail::checked_fields<C>, values, &component_name<C>, where);
   });
 }
 

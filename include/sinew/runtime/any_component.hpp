@@ -20,13 +20,15 @@ struct ComponentOperations {
   void* (*copy)(void const*);
   void (*destroy)(void*);
   std::string (*name)();
+  void (*checkFields)(void const*, std::string_view where);
 };
 template <class C>
 constexpr ComponentOperations component_operations() {
   return {[]() -> void* { return new C{}; },
           [](void const* c) -> void* { return new C(*static_cast<C const*>(c)); },
           [](void* c) { delete static_cast<C*>(c); },
-          [] { return component_name<C>(); }};
+          [] { return component_name<C>(); },
+          [](void const* c, std::string_view where) { check_fields(*static_cast<C const*>(c), where); }};
 }
 template <class... Cs>
 constexpr auto all_component_operations(TypeList<Cs...>) {
@@ -121,6 +123,9 @@ class AnyComponent {
   void* address() const { return value_; }
   /// "UniformMass<Vec3d>".
   std::string name() const { return operations(type_).name(); }
+
+  /// Throws Error unless every field is finite and in its declared range.
+  void checkFields(std::string_view where) const { operations(type_).checkFields(value_, where); }
 
   template <class C>
   C* getIf() const {

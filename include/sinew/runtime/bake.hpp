@@ -24,15 +24,16 @@ struct TypeCode {
   std::string element{}, array{};
   bool copied = false;  // the constants are the elements
 };
-/// And of a field, beside its FieldInfo.
+/// And of a field, beside its FieldInfo: the pointer to its member as the compiler spells it.
 struct FieldCode {
-  std::string member;  // "restPosition", "mesh.positions"
+  std::string_view spelled;
   TypeCode const& (*type)();
 };
+/// And of a class: its fields are those of its ClassInfo.
 struct ClassCode {
-  std::string cppName;            // "CGLinearSolver<GraphScattered>"
-  std::vector<FieldCode> fields;  // as those of ClassInfo
-  bool generates;                 // a topology that has to be made before it is looked at
+  std::string_view spelled;  // "sinew::CGLinearSolver<sinew::GraphScattered>"
+  bool generates;            // a topology that has to be made before it is looked at
+  FieldCode const* fields;
 };
 
 template <class T>
@@ -91,58 +92,56 @@ inline std::string list_function(TypeCode const& type, std::string const& all, s
 }
 
 template <auto Member>
-std::string_view spelled_member() {
+consteval std::string_view spelled_member() {
   return __PRETTY_FUNCTION__;
 }
-/// The name of a member, from how the compiler spells a pointer to it.
+/// The name of a member, from how the compiler spells a pointer to it; "mesh.positions" of a list of a Mesh.
 inline std::string member_name(std::string_view spelled, std::string_view fieldName) {
+  if (spelled.starts_with("mesh.")) return std::string(spelled);
   spelled = spelled.substr(0, spelled.find_first_of(";]"));
   if (const std::size_t at = spelled.rfind("::"); at != spelled.npos)
     if (is_identifier(spelled.substr(at + 2))) return std::string(spelled.substr(at + 2));
   return camel_case(fieldName);
 }
+/// The name of a class, with the arguments of a template that `name` leaves out.
+inline std::string class_name(ClassInfo const& info, ClassCode const& code) {
+  std::string type(code.spelled);
+  for (std::size_t at = 0; (at = type.find("sinew::", at)) != type.npos;) type.erase(at, 7);
+  const bool more = type.starts_with(text(info.name, '<')) && info.cppName.find('<') == info.cppName.npos;
+  return more ? type : info.cppName;
+}
 
-template <class C, class List, std::size_t... I>
-void add_field_codes(ClassCode& code, std::index_sequence<I...>) {
-  (code.fields.push_back(
-       {member_name(spelled_member<boost::hana::at_c<I>(List::get()).member>(),
-                    boost::hana::at_c<I>(List::get()).name),
-        type_code<std::decay_t<decltype(std::declval<C&>().*(boost::hana::at_c<I>(List::get()).member))>>}),
+template <class C, auto const& List, std::size_t... I>
+constexpr void add_field_codes(FieldCode*& to, std::index_sequence<I...>) {
+  ((*to++ = {spelled_member<boost::hana::at_c<I>(List).member>(),
+             &type_code<std::decay_t<decltype(std::declval<C&>().*(boost::hana::at_c<I>(List).member))>>}),
    ...);
 }
-
+template <class C, auto const& List>
+constexpr void add_field_codes(FieldCode*& to) {
+  add_field_codes<C, List>(to, std::make_index_sequence<decltype(boost::hana::length(List))::value>{});
+}
+// in the order of for_each_field_list
 template <class C>
-ClassCode class_code() {
-  ClassCode code{HasRole<C, role::VisualModel> ? std::string(C::className) : component_name<C>(),
-                 {},
-                 requires(C c){c.generate("");
+inline constexpr auto field_codes = [] {
+  std::array<FieldCode, field_count<C>> codes{};
+  FieldCode* to = codes.data();
+  add_field_codes<C, fields_of_class<C>>(to);
+  add_field_codes<C, state_fields_of_class<C>>(to);
+  add_field_codes<C, outputs_of_class<C>>(to);
+  if constexpr (HoldsMesh<C>) {
+    *to++ = {"mesh.positions", &type_code<decltype(Mesh::positions)>};
+    *to++ = {"mesh.edges", &type_code<decltype(Mesh::edges)>};
+    *to++ = {"mesh.triangles", &type_code<decltype(Mesh::triangles)>};
+    *to++ = {"mesh.quads", &type_code<decltype(Mesh::quads)>};
+  }
+  return codes;
+}();
+template <class... Cs>
+constexpr auto class_codes(TypeList<Cs...>) {
+  return std::array<ClassCode, sizeof...(Cs)>{
+      ClassCode{type_name<Cs>(), requires(Cs c) { c.generate(""); }, field_codes<Cs>.data()}...};
 }
-};  // namespace detail
-// of a template whose arguments its name leaves out
-std::string type(type_name<C>());
-for (std::size_t at = 0; (at = type.find("sinew::", at)) != type.npos;) type.erase(at, 7);
-if (type.starts_with(text(C::className, '<')) && code.cppName.find('<') == code.cppName.npos)
-  code.cppName = type;
-struct Inputs {
-  static constexpr auto get() { return C::fields(); }
-};
-add_field_codes<C, Inputs>(code,
-                           std::make_index_sequence<decltype(boost::hana::length(Inputs::get()))::value>{});
-if constexpr (requires { C::outputs(); }) {
-  struct Outputs {
-    static constexpr auto get() { return C::outputs(); }
-  };
-  add_field_codes<C, Outputs>(
-      code, std::make_index_sequence<decltype(boost::hana::length(Outputs::get()))::value>{});
-}
-if constexpr (requires(C c) { c.mesh.positions; }) {
-  code.fields.push_back({"mesh.positions", type_code<decltype(Mesh::positions)>});
-  code.fields.push_back({"mesh.edges", type_code<decltype(Mesh::edges)>});
-  code.fields.push_back({"mesh.triangles", type_code<decltype(Mesh::triangles)>});
-  code.fields.push_back({"mesh.quads", type_code<decltype(Mesh::quads)>});
-}
-return code;
-}  // namespace sinew
 
 /// The C++ of a value as FieldInfo gives it, to initialise a member with.
 inline std::string initialiser(TypeCode const& type, std::string const& cpp) {
@@ -161,7 +160,6 @@ class Baker {
  public:
   Baker(ReadScene<R>& scene, std::string const& path, BakeOptions const& options)
       : scene_(scene), path_(path), options_(options), table_(make_class_table<R>()) {
-    for_each_registered<R>([&]<class C>() { code_.push_back(class_code<C>()); });
     namespace fs = std::filesystem;
     folder_ = fs::absolute(fs::path(path)).lexically_normal().parent_path();
   }
@@ -190,7 +188,7 @@ class Baker {
   std::string const& path_;
   BakeOptions const& options_;
   std::vector<ClassInfo> table_;
-  std::vector<ClassCode> code_{};
+  static constexpr auto code_ = class_codes(typename AnyComponent<R>::List{});
   std::filesystem::path folder_{};
   std::set<Entry const*> variables_{};  // components that are local variables
   // of one pass
@@ -203,6 +201,9 @@ class Baker {
 
   ClassInfo const& infoOf(Entry const& entry) const { return table_[std::size_t(entry.component.type())]; }
   ClassCode const& codeOf(Entry const& entry) const { return code_[std::size_t(entry.component.type())]; }
+  std::string memberOf(Entry const& entry, std::size_t field) const {
+    return member_name(codeOf(entry).fields[field].spelled, infoOf(entry).fields[field].name);
+  }
 
   void checkName() {
     bool taken = !is_identifier(options_.name);
@@ -324,7 +325,7 @@ class Baker {
     const auto [at, from] = follow(node, entry, link->second, data);
     if (!from) return {};
     const std::string value = info.fields[field].write(entry.component.address());
-    std::vector<std::pair<Entry*, std::string>> places{{from, data}};
+    std::vector<std::pair<Entry*, std::string_view>> places{{from, data}};
     // a state takes its points from the topology of its node, and rests where it starts
     if (infoOf(*from).role == RoleKind::state) {
       places.push_back({from, "position"});
@@ -370,19 +371,18 @@ class Baker {
 
   std::string value(Node& node, Entry& entry, std::size_t field) {
     ClassInfo const& info = infoOf(entry);
-    FieldCode const& code = codeOf(entry).fields[field];
     if (auto from = source(node, entry, field))
-      return text(variable(*from->node, *from->entry), '.', codeOf(*from->entry).fields[from->field].member);
+      return text(variable(*from->node, *from->entry), '.', memberOf(*from->entry, from->field));
     if (info.fields[field].isFile)
       return file(node, entry, info.fields[field].write(entry.component.address()));
-    TypeCode const& type = code.type();
+    TypeCode const& type = codeOf(entry).fields[field].type();
     const std::string cpp = initialiser(type, info.fields[field].cpp(entry.component.address()));
     if (cpp.size() < 1000 || type.element.empty()) return cpp;
     const std::string wanted = text(type.element, cpp);
     auto known = functions_.find(wanted);
     if (known == functions_.end()) {
-      const std::size_t dot = code.member.find('.');
-      const std::string member = code.member.substr(dot == code.member.npos ? 0 : dot + 1);
+      std::string member = memberOf(entry, field);
+      member.erase(0, member.find('.') + 1);
       const std::string name = unique(text(options_.name, raised(camel_case(node.name)), raised(member)));
       known = functions_.emplace(wanted, name).first;
       lists_ += list_function(type, cpp, name) + '\n';
@@ -415,7 +415,7 @@ class Baker {
     for (std::size_t f = 0; f < info.fields.size(); ++f) {
       FieldInfo const& field = info.fields[f];
       if (!field.isInput || field.write(entry.component.address()) == field.defaultValue) continue;
-      const std::string& member = codeOf(entry).fields[f].member;
+      const std::string member = memberOf(entry, f);
       const bool ofMesh = member.starts_with("mesh.");
       std::string& to = ofMesh ? mesh : members;
       to += text(to.empty() ? "" : ", ", '.', member.substr(ofMesh ? 5 : 0), " = ", value(node, entry, f));
@@ -425,7 +425,7 @@ class Baker {
     return text(className(node, entry), '{', members, '}');
   }
   std::string className(Node& node, Entry& entry) const {
-    std::string name = codeOf(entry).cppName;
+    std::string name = class_name(infoOf(entry), codeOf(entry));
     if (infoOf(entry).severalParents) {
       constexpr std::string_view linked = "LinkedParents>";
       if (!name.ends_with(linked))

@@ -192,67 +192,141 @@ inline constexpr ValueType value_type{
     [](void const* value) { return cpp_value(*static_cast<T const*>(value)); },
     std::is_same_v<T, DataFile>};
 
-/// Adds fields of a class to what is known of it, from a component that holds the defaults.
-struct FieldsOf {
-  ClassInfo& info;
-  void const* component;
+/// What is said of one field in a table of a class.
+struct FieldRow {
+  FieldWords const* words;
+  ValueType const* type;
   bool isInput;
-
-  template <class T>
-  void add(FieldWords const& words, T const& value) const {
-    add(words, value_type<T>, std::addressof(value));
-  }
-  template <class C, class List>
-  void addAll(C const& owner, List const& list) const {
-    boost::hana::unpack(list, [&](auto const&... fd) { (add(fd, owner.*fd.member), ...); });
-  }
-
- private:
-  void add(FieldWords const& words, ValueType const& type, void const* value) const {
-    info.fields.push_back({words,
-                           &type,
-                           static_cast<char const*>(value) - static_cast<char const*>(component),
-                           isInput,
-                           type.kind(),
-                           type.write(value)});
-  }
 };
+inline constexpr FieldWords meshFields[] = {{"position", "", "vertices of the surface", range::any},
+                                            {"edges", "", "edges of the surface", range::any},
+                                            {"triangles", "", "triangles of the surface", range::any},
+                                            {"quads", "", "quads of the surface", range::any}};
 
 template <class C>
-ClassInfo class_info(int type) {
-  ClassInfo info{type,
-                 C::className,
-                 class_aliases<C>(),
-                 role_kind<typename C::Role>(),
-                 {},
-                 {},
-                 {},
-                 component_name<C>(),
-                 false,
-                 {}};
-  if constexpr (requires { typename C::In; }) {
-    info.in = data_types_name<typename C::In>::value;
-    info.out = data_types_name<typename C::Out>::value;
-    info.dataTypes = text(info.in, ',', info.out);
-  } else if constexpr (requires { C::templateName; }) {
-    info.dataTypes = std::string(C::templateName);
-  } else if constexpr (requires { typename C::DataTypes; } && !HasRole<C, role::VisualModel>) {
-    info.dataTypes = std::string(data_types_name<typename C::DataTypes>::value);
+inline constexpr auto state_fields_of_class = [] {
+  if constexpr (requires { C::state(); })
+    return C::state();
+  else
+    return field_list();
+}();
+template <class C>
+inline constexpr auto outputs_of_class = [] {
+  if constexpr (requires { C::outputs(); })
+    return C::outputs();
+  else
+    return field_list();
+}();
+template <class C>
+concept HoldsMesh = requires(C c) { c.mesh.positions; };
+
+/// f(list of fields, whether they are inputs) for the lists that scene files know of a class, in their order; a component that
+/// holds a Mesh has fields for the lists of the mesh behind them.
+template <class C, class F>
+constexpr void for_each_field_list(F&& f) {
+  f(fields_of_class<C>, true);
+  f(state_fields_of_class<C>, true);
+  f(outputs_of_class<C>, false);
+}
+template <class C>
+inline constexpr std::size_t field_count = [] {
+  std::size_t count = HoldsMesh<C> ? std::size(meshFields) : 0;
+  for_each_field_list<C>([&](auto const& list, bool) { count += decltype(boost::hana::length(list))::value; });
+  return count;
+}();
+
+// Constants of each class, and one function that knows where its values are, so that a class costs the compiler little.
+template <class C>
+inline constexpr auto field_rows = [] {
+  std::array<FieldRow, field_count<C>> rows{};
+  std::size_t next = 0;
+  for_each_field_list<C>([&](auto const& list, bool isInput) {
+    boost::hana::unpack(list, [&](auto const&... fd) {
+      ((rows[next++] = {&fd, &value_type<std::decay_t<decltype(std::declval<C&>().*fd.member)>>, isInput}), ...);
+    });
+  });
+  if constexpr (HoldsMesh<C>) {
+    ValueType const* const types[] = {&value_type<decltype(Mesh::positions)>,
+                                      &value_type<decltype(Mesh::edges)>,
+                                      &value_type<decltype(Mesh::triangles)>,
+                                      &value_type<decltype(Mesh::quads)>};
+    for (std::size_t k = 0; k < std::size(meshFields); ++k) rows[next++] = {&meshFields[k], types[k], true};
   }
-  if constexpr (HasRole<C, role::VisualModel>) info.cppName = std::string(C::className);
-  if constexpr (requires(C c) { c.ends.object1; }) info.joins = true;
-  info.severalParents = requires(C c) { c.parents.paths; };
-  const C defaults{};
-  const FieldsOf inputs{info, &defaults, true}, outputs{info, &defaults, false};
-  inputs.addAll(defaults, fields_of_class<C>);
-  if constexpr (requires { C::state(); }) inputs.addAll(defaults, C::state());
-  if constexpr (requires { C::outputs(); }) outputs.addAll(defaults, C::outputs());
-  // a component that holds a Mesh has fields for the lists of the mesh
-  if constexpr (requires { defaults.mesh.positions; }) {
-    inputs.add({"position", "", "vertices of the surface", range::any}, defaults.mesh.positions);
-    inputs.add({"edges", "", "edges of the surface", range::any}, defaults.mesh.edges);
-    inputs.add({"triangles", "", "triangles of the surface", range::any}, defaults.mesh.triangles);
-    inputs.add({"quads", "", "quads of the surface", range::any}, defaults.mesh.quads);
+  return rows;
+}();
+template <class C>
+void field_addresses(void const* component, void const** to) {
+  C const& c = *static_cast<C const*>(component);
+  for_each_field_list<C>([&](auto const& list, bool) {
+    boost::hana::unpack(list, [&](auto const&... fd) { ((*to++ = std::addressof(c.*fd.member)), ...); });
+  });
+  if constexpr (HoldsMesh<C>)
+    for (void const* list : {static_cast<void const*>(&c.mesh.positions),
+                             static_cast<void const*>(&c.mesh.edges),
+                             static_cast<void const*>(&c.mesh.triangles),
+                             static_cast<void const*>(&c.mesh.quads)})
+      *to++ = list;
+}
+
+struct ClassRow {
+  std::string_view name, aliases, dataTypes, in, out;
+  RoleKind role;
+  bool joins, severalParents;
+  FieldRow const* fields;
+  std::size_t count;
+  void (*addresses)(void const* component, void const** to);
+};
+template <class C>
+constexpr ClassRow class_row() {
+  ClassRow row{.name = C::className,
+               .aliases = class_aliases<C>(),
+               .dataTypes = {},
+               .in = {},
+               .out = {},
+               .role = role_kind<typename C::Role>(),
+               .joins = requires(C c) { c.ends.object1; },
+               .severalParents = requires(C c) { c.parents.paths; },
+               .fields = field_rows<C>.data(),
+               .count = field_count<C>,
+               .addresses = &field_addresses<C>};
+  if constexpr (requires { typename C::In; }) {
+    row.in = data_types_name<typename C::In>::value;
+    row.out = data_types_name<typename C::Out>::value;
+  } else if constexpr (requires { C::templateName; }) {
+    row.dataTypes = C::templateName;
+  } else if constexpr (requires { typename C::DataTypes; } && !HasRole<C, role::VisualModel>) {
+    row.dataTypes = data_types_name<typename C::DataTypes>::value;
+  }
+  return row;
+}
+template <class... Cs>
+constexpr auto class_rows(TypeList<Cs...>) {
+  return std::array<ClassRow, sizeof...(Cs)>{class_row<Cs>()...};
+}
+
+/// `defaults`: a component of the class as it is made.
+inline ClassInfo class_info(int type, ClassRow const& row, std::string cppName, void const* defaults) {
+  ClassInfo info{.type = type,
+                 .name = row.name,
+                 .aliases = row.aliases,
+                 .role = row.role,
+                 .dataTypes = row.in.empty() ? std::string(row.dataTypes) : text(row.in, ',', row.out),
+                 .in = row.in,
+                 .out = row.out,
+                 .cppName = row.role == RoleKind::visualModel ? std::string(row.name) : std::move(cppName),
+                 .joins = row.joins,
+                 .fields = {},
+                 .severalParents = row.severalParents};
+  std::vector<void const*> values(row.count);
+  row.addresses(defaults, values.data());
+  for (std::size_t k = 0; k < row.count; ++k) {
+    FieldRow const& field = row.fields[k];
+    info.fields.push_back({*field.words,
+                           field.type,
+                           static_cast<char const*>(values[k]) - static_cast<char const*>(defaults),
+                           field.isInput,
+                           field.type->kind(),
+                           field.type->write(values[k])});
   }
   return info;
 }
@@ -262,8 +336,13 @@ ClassInfo class_info(int type) {
 /// All classes of a registry, in its order.
 template <class R>
 std::vector<ClassInfo> make_class_table() {
+  static constexpr auto rows = detail::class_rows(typename AnyComponent<R>::List{});
   std::vector<ClassInfo> table;
-  for_each_registered<R>([&]<class C>() { table.push_back(detail::class_info<C>(int(table.size()))); });
+  for (auto const& row : rows) {
+    const int type = int(table.size());
+    const auto defaults = AnyComponent<R>::make(type);
+    table.push_back(detail::class_info(type, row, defaults.name(), defaults.address()));
+  }
   return table;
 }
 

@@ -12,7 +12,7 @@ namespace detail {
 
 /// "sinew::RotationMethod", as the compiler spells it.
 template <class T>
-std::string_view type_name() {
+constexpr std::string_view type_name() {
   std::string_view whole = __PRETTY_FUNCTION__;
   const std::size_t start = whole.find("T = ") + 4;
   return whole.substr(start, whole.find_first_of(";]", start) - start);

@@ -28,6 +28,18 @@ extern template detail::BlockTarget detail::block_target(CompressedRowSparseMatr
 extern template detail::ProjectionTarget detail::projection_target<CompressedRowSparseMatrixMat3x3d>();
 extern template detail::ProjectionTarget detail::projection_target<CompressedRowSparseMatrixMat3x3f>();
 extern template detail::ProjectionTarget detail::projection_target<CompressedRowSparseMatrixd>();
+extern template void detail::place_block<AssemblyPhase::add>(
+    detail::BlockTarget const&, int, int, int, double const*, int, double const*, Mat<double, 1> const&);
+extern template void detail::place_block<AssemblyPhase::add>(
+    detail::BlockTarget const&, int, int, int, double const*, int, double const*, Mat<double, 2> const&);
+extern template void detail::place_block<AssemblyPhase::add>(
+    detail::BlockTarget const&, int, int, int, double const*, int, double const*, Mat<double, 3> const&);
+extern template void detail::place_block<AssemblyPhase::add>(
+    detail::BlockTarget const&, int, int, int, double const*, int, double const*, Mat<double, 6> const&);
+extern template void detail::place_block<AssemblyPhase::add>(
+    detail::BlockTarget const&, int, int, int, double const*, int, double const*, Mat<float, 3> const&);
+extern template void detail::place_block<AssemblyPhase::add>(
+    detail::BlockTarget const&, int, int, int, double const*, int, double const*, Mat<float, 6> const&);
 extern template void RuntimeScope<Standard>::expand(int, JacobianVisitor const&) const;
 
 extern template void MechanicalOperations<RuntimeScope<Standard>>::propagate(CoordId, DerivId);
@@ -51,6 +63,9 @@ extern template void Simulation<RuntimeNode<Standard>>::initScene(RootScope cons
 extern template void Simulation<RuntimeNode<Standard>>::checkFields(RootScope const&, InitAgain const&);
 extern template void Simulation<RuntimeNode<Standard>>::initStates(RootScope const&, InitAgain const&);
 extern template void Simulation<RuntimeNode<Standard>>::initComponents(RootScope const&, InitAgain const&);
+extern template void Simulation<RuntimeNode<Standard>>::initSolvers(RuntimeScope<Standard> const&,
+                                                                    InitAgain const&);
+extern template void Simulation<RuntimeNode<Standard>>::detectContacts(RootScope const&, double) const;
 extern template TopologyChange Simulation<RuntimeNode<Standard>>::removeElements(std::string_view,
                                                                                  ElementNumbers const&);
 extern template void Simulation<RuntimeNode<Standard>>::animate(double);

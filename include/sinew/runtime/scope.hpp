@@ -207,6 +207,13 @@ struct RuntimeScope {
     errors.clear();
     throw Error("", lines);
   }
+  void checkFields(InitAgain const& again) const {
+    for (auto const& entry : node.components()) {
+      auto checked = [&] { entry.component.checkFields(path()); };
+      initialise(entry.component.address(), again, FunctionRef(checked));
+    }
+    forEachChild([&](RuntimeScope const& child) { child.checkFields(again); });
+  }
   void check() const {
     runtime_checks(*this);
     forEachChild([](RuntimeScope const& child) { child.check(); });

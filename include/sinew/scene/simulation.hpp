@@ -266,28 +266,7 @@ class Simulation {
   }
 
   template <class S>
-  static void initSolvers(S const& scope, InitAgain const& again) {
-    auto visit = on<role::OdeSolver>([&](auto& ode) {
-      using Ode = std::decay_t<decltype(ode)>;
-      scope.located(ode, [&] {
-        MechanicalOperations<S> operations(scope);
-        if constexpr (Ode::implicit)
-          scope.withLinearSolver([&](auto& linear) {
-            operations.reserve(Ode::auxiliary + std::decay_t<decltype(linear)>::auxiliary);
-            linear.init(operations);
-          });
-        else
-          operations.reserve(Ode::auxiliary);
-        if constexpr (requires { ode.init(operations); }) ode.init(operations);
-        operations.split();
-        // what a solver remembers of the last step is not that of a scene that has changed
-        if constexpr (requires { ode.lastEnd; })
-          if (again) ode.lastEnd = -1;
-      });
-    });
-    scope.forEachComponent(visit);
-    scope.template forEachChild<role::OdeSolver>([&](auto const& child) { initSolvers(child, again); });
-  }
+  static void initSolvers(S const& scope, InitAgain const& again);
 
   // f(interaction, a, b) with the states of the ends of each interaction that no solver sees
   template <class S, class F>
@@ -356,21 +335,7 @@ class Simulation {
              }));
   }
   // contacts of a step that begins; a matrix in which other points are joined is formed anew
-  void detectContacts(RootScope const& scope, double dt) const {
-    [[maybe_unused]] const auto span = scope.span(Phase::collision);
-    Collision<RootScope>{scope}.detect(dt, [&](auto const& solved, bool) {
-      auto visit = on<role::OdeSolver>([&](auto& ode) {
-        if constexpr (std::decay_t<decltype(ode)>::implicit)
-          solved.withLinearSolver([&](auto& linear) {
-            if constexpr (needs_pattern<std::decay_t<decltype(linear)>>) {
-              MechanicalOperations<std::decay_t<decltype(solved)>> operations(solved, time_, dt);
-              linear.init(operations);
-            }
-          });
-      });
-      solved.forEachComponent(visit);
-    });
-  }
+  void detectContacts(RootScope const& scope, double dt) const;
 
   // f(component, state, step) for what acts before a step
   template <class S, class F>
@@ -603,9 +568,12 @@ void Simulation<Root>::initScene(RootScope const& scope, InitAgain const& again)
 
 template <class Root>
 void Simulation<Root>::checkFields(RootScope const& scope, InitAgain const& again) {
-  traverse(scope, on<AnyRole>([&again](auto& c, auto const& s) {
-             s.ifNew(c, again, [&] { check_fields(c, s.path()); });
-           }));
+  if constexpr (requires { scope.checkFields(again); })
+    scope.checkFields(again);
+  else
+    traverse(scope, on<AnyRole>([&again](auto& c, auto const& s) {
+               s.ifNew(c, again, [&] { check_fields(c, s.path()); });
+             }));
   scope.raise();
 }
 
@@ -627,6 +595,48 @@ void Simulation<Root>::initComponents(RootScope const& scope, InitAgain const& a
              s.ifNew(c, again, [&] { initComponent(c, s); });
            }));
   scope.raise();
+}
+
+template <class Root>
+template <class S>
+void Simulation<Root>::initSolvers(S const& scope, InitAgain const& again) {
+  auto visit = on<role::OdeSolver>([&](auto& ode) {
+    using Ode = std::decay_t<decltype(ode)>;
+    scope.located(ode, [&] {
+      MechanicalOperations<S> operations(scope);
+      if constexpr (Ode::implicit)
+        scope.withLinearSolver([&](auto& linear) {
+          operations.reserve(Ode::auxiliary + std::decay_t<decltype(linear)>::auxiliary);
+          linear.init(operations);
+        });
+      else
+        operations.reserve(Ode::auxiliary);
+      if constexpr (requires { ode.init(operations); }) ode.init(operations);
+      operations.split();
+      // what a solver remembers of the last step is not that of a scene that has changed
+      if constexpr (requires { ode.lastEnd; })
+        if (again) ode.lastEnd = -1;
+    });
+  });
+  scope.forEachComponent(visit);
+  scope.template forEachChild<role::OdeSolver>([&](auto const& child) { initSolvers(child, again); });
+}
+
+template <class Root>
+void Simulation<Root>::detectContacts(RootScope const& scope, double dt) const {
+  [[maybe_unused]] const auto span = scope.span(Phase::collision);
+  Collision<RootScope>{scope}.detect(dt, [&](auto const& solved, bool) {
+    auto visit = on<role::OdeSolver>([&](auto& ode) {
+      if constexpr (std::decay_t<decltype(ode)>::implicit)
+        solved.withLinearSolver([&](auto& linear) {
+          if constexpr (needs_pattern<std::decay_t<decltype(linear)>>) {
+            MechanicalOperations<std::decay_t<decltype(solved)>> operations(solved, time_, dt);
+            linear.init(operations);
+          }
+        });
+    });
+    solved.forEachComponent(visit);
+  });
 }
 
 template <class Root>

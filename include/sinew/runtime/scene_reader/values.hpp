@@ -59,7 +59,7 @@ class SceneValues {
     if (item.info->role == RoleKind::engine && !item.element->attribute("src")) surroundings(item, given);
     if (item.info->role == RoleKind::state) statePoints(item, given);
     messages_.locate(item, [&] {
-      component(item).template visit<AnyRole>([&](auto const& component) { check_fields(component, ""); });
+      component(item).checkFields("");
       component(item).template visit<role::Engine>([&](auto& engine) { engine.update(item.info->cppName); });
       component(item).template visit<role::Topology>([&](auto& topology) {
         if constexpr (requires { topology.generate(""); }) topology.generate(item.info->cppName);
