@@ -5,6 +5,7 @@
 #include <sinew/core/error.hpp>
 #include <sinew/core/euler.hpp>
 #include <sinew/core/follow.hpp>
+#include <sinew/core/memory_limit.hpp>
 #include <sinew/core/mesh.hpp>
 #include <sinew/core/renumbering.hpp>
 #include <sinew/core/workers.hpp>

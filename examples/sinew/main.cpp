@@ -26,7 +26,7 @@ int main(int argc, char** argv) try {
   for (auto const& message : failure.messages) std::fprintf(stderr, "%s\n", message.c_str());
   return failure.status;
 } catch (std::bad_alloc const&) {
-  std::fprintf(stderr, "sinew: there is not enough memory; make the scene smaller\n");
+  std::fprintf(stderr, "sinew: there is not enough memory; make the scene smaller, or raise --max-memory\n");
   return cli::badScene;
 } catch (std::exception const& error) {
   std::fprintf(stderr, "sinew: %s\n", error.what());

@@ -54,6 +54,11 @@ struct SceneWords {
         ->type_name("DIR")
         ->check(CLI::ExistingDirectory.description(""))
         ->allow_extra_args(false);
+    app.add_option("--max-memory",
+                   scene.maxMemory,
+                   "Memory that may be used, as in 500M or 16G (default: what is free now, and 512M for a grid)")
+        ->type_name("SIZE")
+        ->transform(CLI::AsSizeValue(true).description(""));
     app.add_flag("--lenient", scene.lenient, "Leave out components of unknown classes, with a warning");
     if (withDt)
       app.add_option("--dt", scene.dt, "Seconds a step takes (default: dt of the scene)")
@@ -197,6 +202,7 @@ Options read_options(int argc, char** argv, int& status) {
     c.b.lenient = c.a.lenient;
     c.b.data = c.a.data;
     c.b.dt = c.a.dt;
+    c.b.maxMemory = c.a.maxMemory;
     c.a.set = c.b.set = settings_of(bothWords.set, "--set");
     for (auto& s : settings_of(setA, "--set-a")) c.a.set.push_back(std::move(s));
     for (auto& s : settings_of(setB, "--set-b")) c.b.set.push_back(std::move(s));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <utility>
@@ -18,7 +19,8 @@ struct SceneOptions {
   Settings set{};
   std::vector<std::string> data{};
   bool lenient = false;
-  double dt = 0;  // 0: the scene's
+  double dt = 0;               // 0: the scene's
+  std::size_t maxMemory = 0;  // bytes; 0: what the machine has
 };
 
 /// How far to simulate: so many steps, or so many seconds where `time` is not 0.

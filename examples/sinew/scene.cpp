@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "scene.hpp"
 
+#include <sinew/core/memory_limit.hpp>
+
+#include <sys/resource.h>
+
 #include <csignal>
+#include <fstream>
 
 namespace cli {
 
@@ -35,6 +40,29 @@ bool has_place(std::string_view message) {
   return false;
 }
 
+// Memory that is free without swapping [bytes]; 0 where it is not known.
+std::size_t free_memory() {
+  std::ifstream file("/proc/meminfo");
+  std::string name, unit;
+  std::size_t kilobytes = 0;
+  while (file >> name >> kilobytes && std::getline(file, unit))
+    if (name == "MemAvailable:") return kilobytes * 1024;
+  return 0;
+}
+
+// what is asked for beyond that fails at once, and does not make the machine swap
+void limit_memory(std::size_t asked) {
+  sinew::memory_limit = asked > 0 ? asked : std::size_t(512) << 20;
+#if !defined(__SANITIZE_ADDRESS__)
+  const std::size_t bytes = asked > 0 ? asked : free_memory();
+  if (bytes == 0) return;
+  rlimit limit{};
+  if (getrlimit(RLIMIT_DATA, &limit) != 0) return;
+  limit.rlim_cur = std::min<rlim_t>(limit.rlim_max, bytes);
+  setrlimit(RLIMIT_DATA, &limit);
+#endif
+}
+
 }  // namespace
 
 std::string Count::words() const {
@@ -59,6 +87,7 @@ std::string located(std::string const& path, std::string const& message) {
 }
 
 sinew::ReadScene<sinew::Standard> read(SceneOptions const& options) {
+  limit_memory(options.maxMemory);
   try {
     auto scene =
         sinew::read_scene<sinew::Standard>(options.path, {options.data, options.lenient, options.set});
@@ -78,7 +107,10 @@ Scene start(sinew::ReadScene<sinew::Standard> scene, SceneOptions const& options
   try {
     const double dt = scene.dt;
     auto ignored = std::move(scene.ignored), warnings = std::move(scene.warnings);
-    return {sinew::start(std::move(scene)), dt, std::move(ignored), std::move(warnings), options.path};
+    Scene started{sinew::start(std::move(scene)), dt, std::move(ignored), std::move(warnings), options.path};
+    for (auto const& warning : started.simulation.root().warnings)
+      started.warnings.push_back(located(options.path, warning));
+    return started;
   } catch (sinew::Error const& error) {
     throw Failure{badScene, {located(options.path, error.what())}};
   }

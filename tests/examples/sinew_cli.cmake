@@ -257,7 +257,8 @@ elseif(CASE STREQUAL "run-interrupted")
     return()
   endif()
   set(program ${SINEW})
-  set(SINEW ${TIMEOUT} --preserve-status -s INT 3 ${program})
+  # in the foreground it sends one signal, not a second one to the group, which would end the program at once
+  set(SINEW ${TIMEOUT} --foreground --preserve-status -s INT 3 ${program})
   sinew(130 run one.scn --steps 1000000000 --every 100000 --record states.txt --vtk out --save end.scn)
   expect_output("interrupted; all files are complete")
   file(STRINGS ${WORK}/states.txt last REGEX "^end ")
@@ -320,9 +321,28 @@ elseif(CASE STREQUAL "check-wrong")
   expect_error("init.scn:4:3: .*7")
   file(WRITE ${WORK}/solver.scn "<Node>
   <EulerImplicitSolver/>
+  <MechanicalObject position='0 0 0'/>
+  <UniformMass/>
 </Node>")
   sinew(1 check solver.scn)
   expect_error("solver.scn.*linear solver")
+  # a solver that moves nothing is no mistake, and is said
+  file(WRITE ${WORK}/idle.scn "<Node>
+  <EulerImplicitSolver/>
+</Node>")
+  sinew(0 check idle.scn)
+  expect_error("warning: idle.scn:2:3: .*does nothing")
+  # a number of points that cannot be meant, unless it is
+  file(WRITE ${WORK}/large.scn "<Node>
+  <RegularGridTopology n='100 100 100'/>
+  <MechanicalObject/>
+</Node>")
+  sinew(1 check large.scn)
+  expect_error("large.scn:2:3: .*100 x 100 x 100 points would take 2.05 GB, and the limit is 537 MB; .*--max-memory")
+  sinew(0 check large.scn --max-memory 4G)
+  sinew(1 check large.scn --max-memory 4000)
+  expect_error("memory")
+  sinew(2 check large.scn --max-memory much)
 
 elseif(CASE STREQUAL "list")
   sinew(0 list)

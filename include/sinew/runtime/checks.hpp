@@ -61,22 +61,37 @@ struct RuntimeChecker {
           "has no state to act on; put it into a node with a MechanicalObject, or below one");
       if (HasRole<C, role::ProjectiveConstraint> && scope.stateScope().mapped())
         fail("acts on a mapped state, which follows its parent; constrain the parent instead");
+      if constexpr (!WatchesState<C>) moved(scope);
       if constexpr (HasRole<C, role::CollisionModel>) {
         bool managed = false;
-        scope.withContacts([&](auto&) { managed = true; });
+        for (auto* n = &scope.node; n; n = n->parent())
+          managed = managed || RuntimeScope<R>(*n).template has<role::CollisionPipeline>();
         if (!managed)
-          fail(
-              "has no DefaultPipeline above it that would look for its contacts; put one into the root, with "
-              "a "
-              "BruteForceBroadPhase, a BVHNarrowPhase, a MinProximityIntersection and a "
-              "DefaultContactManager");
+          scope.warn(entry,
+                     "collides with nothing: there is no DefaultPipeline above it; put one into the root, with a "
+                     "BruteForceBroadPhase, a BVHNarrowPhase, a MinProximityIntersection and a DefaultContactManager");
       }
     } else if constexpr (HasRole<C, role::Mapping>) {
       if constexpr (HasParents<C>)
         mappingWithParents(c);
       else
         mapping<C>();
+    } else if constexpr (HasRole<C, role::BroadPhase> || HasRole<C, role::NarrowPhase> ||
+                         HasRole<C, role::Intersection> || HasRole<C, role::ContactManager>) {
+      if (!scope.template has<role::CollisionPipeline>())
+        scope.warn(entry, "does nothing: its node has no DefaultPipeline, which would use it; add one");
     } else if constexpr (HasRole<C, role::OdeSolver>) {
+      if constexpr (!stands_beside<C>) {
+        auto const* above = scope.node.parent() ? solver(*scope.node.parent()) : nullptr;
+        if (above)
+          scope.warn(entry,
+                     text("does nothing: the ODE solver of '", above->path(), "' above it moves all that is below; remove one"));
+        else if (!scope.integrates())
+          scope.warn(entry, "does nothing: no state is below that it could move; remove it, or put it above one");
+        if (above || !scope.integrates()) return;
+      } else if (solver(scope.node) != &scope.node) {
+        fail("changes what the ODE solver of its node has done, and there is none; put it behind one");
+      }
       if constexpr (C::implicit) {
         bool found = false;
         scope.withLinearSolver([&](auto&) { found = true; });
@@ -86,11 +101,31 @@ struct RuntimeChecker {
     }
   }
 
-  // the node of the nearest ODE solver upwards; null where there is none, or above a runtime tree
+  // what a solver asks for its force or mass acts on a state that this solver moves
+  void moved(RuntimeScope<R> const& end) const {
+    const RuntimeScope<R> owner = end.stateScope();
+    auto const* mover = solver(scope.node);
+    if (mover && !owner.atMount && solver(owner.node) != mover)
+      fail(text("acts on the state of '",
+                owner.path(),
+                "', which the ODE solver of '",
+                mover->path(),
+                "' does not move; give its node a MechanicalObject, or put the solver above that state"));
+  }
+
+  // the node whose ODE solver moves a node: the topmost that has one and something to move; null where there is none, or above
+  // a runtime tree
   static RuntimeNode<R> const* solver(RuntimeNode<R> const& node) {
-    for (auto const& other : node.components())
-      if (other.component.template is<role::OdeSolver>()) return &node;
-    return node.parent() ? solver(*node.parent()) : nullptr;
+    if (node.parent())
+      if (auto const* above = solver(*node.parent())) return above;
+    if (!node.hasIndependent()) return nullptr;
+    for (auto const& other : node.components()) {
+      bool moves = false;
+      other.component.template visit<role::OdeSolver>(
+          [&](auto const& ode) { moves = !stands_beside<std::decay_t<decltype(ode)>>; });
+      if (moves) return &node;
+    }
+    return nullptr;
   }
 
   // whether a traversal comes to a node before another
@@ -151,6 +186,9 @@ struct RuntimeChecker {
     hasChild<M>();
     state<typename M::In>(
         scope.above(), "its parent", "has no parent: no node above has a MechanicalObject; add one");
+    const RuntimeScope<R> parent = scope.above().stateScope();
+    if (scope.node.state() && !parent.atMount && solver(parent.node) != solver(scope.node))
+      fail(text("is below an ODE solver that does not move its parent at '", parent.path(), "'; put the solver above both"));
   }
 
   template <class C>
@@ -177,6 +215,7 @@ struct RuntimeChecker {
             RuntimeScope<R>(*entry.ends[k]),
             text("object", k + 1),
             text("object", k + 1, ": the node at '", *paths[k], "' has no MechanicalObject"));
+        moved(RuntimeScope<R>(*entry.ends[k]));
       }
     } else {
       fail("joins two states by compile-time paths, which a runtime tree has not; use ends of type Linked");

@@ -4,6 +4,7 @@
 #include <sinew/core/profile.hpp>
 #include <sinew/runtime/any_component.hpp>
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <string_view>
@@ -55,7 +56,8 @@ class RuntimeNode {
   using Entry = RuntimeEntry<R>;
   std::string name;
   Mount mount{};
-  std::vector<std::string> errors{};  // of the top node: what init has found wrong so far
+  std::vector<std::string> errors{};    // of the top node: what init has found wrong so far
+  std::vector<std::string> warnings{};  // of the top node: what the last init has noticed
   Profile* profile = nullptr;         // of the top node: what times its steps; copies are not timed
 
   explicit RuntimeNode(std::string n = "root") : name(std::move(n)) {}
@@ -66,6 +68,7 @@ class RuntimeNode {
   RuntimeNode(RuntimeNode&& other) noexcept
       : name(std::move(other.name)),
         mount(other.mount),
+        warnings(std::move(other.warnings)),
         profile(std::exchange(other.profile, nullptr)),
         entries_(std::move(other.entries_)),
         children_(std::move(other.children_)) {
@@ -74,6 +77,7 @@ class RuntimeNode {
   RuntimeNode& operator=(RuntimeNode other) noexcept {
     name.swap(other.name);
     mount = other.mount;
+    warnings.swap(other.warnings);
     entries_.swap(other.entries_);
     children_.swap(other.children_);
     adopt();
@@ -165,6 +169,11 @@ class RuntimeNode {
         found = found->find_node(step);
     }
     return found;
+  }
+  /// Whether there is a state here or below that no mapping moves.
+  bool hasIndependent() const {
+    return (state_ && !mapping_) ||
+           std::any_of(children_.begin(), children_.end(), [](auto const& c) { return c->hasIndependent(); });
   }
   /// "root/liver/skin".
   std::string path() const { return parent_ ? text(parent_->path(), '/', name) : text('/', name); }

@@ -6,6 +6,8 @@
 #include <sinew/runtime/node.hpp>
 #include <sinew/scene/scope.hpp>
 
+#include <new>
+
 namespace sinew {
 
 template <class R>
@@ -70,6 +72,7 @@ struct RuntimeScope {
   bool ownsState() const { return atMount ? mount().state != nullptr : node.state() != nullptr; }
   bool hasState() const { return ownsState() || (!atMount && above().hasState()); }
   bool mapped() const { return atMount ? mount().mapped : node.mapping() != nullptr; }
+  bool integrates() const { return node.hasIndependent(); }
 
   std::string path() const {
     if (!atMount) return text(above().path(), '/', node.name);
@@ -214,7 +217,13 @@ struct RuntimeScope {
     }
     forEachChild([&](RuntimeScope const& child) { child.checkFields(again); });
   }
+  /// Notes what goes on, but not as it may have been meant.
+  void warn(RuntimeEntry<R> const& entry, std::string_view message) const {
+    const std::string where = text(path(), ": ", entry.component.name(), ": ", message);
+    node.top().warnings.push_back(entry.origin.empty() ? where : text(entry.origin, ": ", where));
+  }
   void check() const {
+    if (!node.parent()) node.warnings.clear();
     runtime_checks(*this);
     forEachChild([](RuntimeScope const& child) { child.check(); });
   }
@@ -356,6 +365,10 @@ struct RuntimeScope {
     } catch (Error const& error) {
       if (entry.origin.empty()) throw;
       throw Error(entry.origin, error.what());
+    } catch (std::bad_alloc const&) {
+      const std::string where = text(path(), ": ", entry.component.name());
+      throw Error(entry.origin.empty() ? where : text(entry.origin, ": ", where),
+                  "there is not enough memory for it; make the scene smaller, or give it more");
     }
   }
   void initialise(void const* c, InitAgain const& again, FunctionRef f) const {

@@ -17,6 +17,7 @@ enum class Mistake {
   partOfPipeline,
   noState,
   otherDataTypes,
+  stateAcrossSolvers,
   noTetrahedra,
   constraintOnMapped,
   constraintAcrossSolvers,
@@ -111,12 +112,18 @@ constexpr bool has_tetrahedra() {
   }
 }
 
+template <class S>
+constexpr auto find_solver();
+
 template <class C, class S>
 constexpr Mistake acts_on_state() {
   if constexpr (!S::hasState)
     return Mistake::noState;
   else if constexpr (!std::is_same_v<typename C::DataTypes, DataTypesAt<S>>)
     return Mistake::otherDataTypes;
+  else if constexpr (!WatchesState<C> && !std::is_same_v<decltype(checks::find_solver<S>()),
+                                                         decltype(checks::find_solver<Owner<S>>())>)
+    return Mistake::stateAcrossSolvers;
   else if constexpr (requires { C::needsTetrahedra; })
     return has_tetrahedra<S>() ? Mistake::none : Mistake::noTetrahedra;
   else
@@ -140,15 +147,20 @@ constexpr auto find_path() {
 template <class S, FixedString Path>
 using AtPath = typename decltype(find_path<S, Path>())::type;
 
-/// The nearest scope from S upwards that has an ODE solver; NoScope where none has.
+/// The scope whose ODE solver moves S: the topmost that has one; NoScope where none has.
 template <class S>
 constexpr auto find_solver() {
-  if constexpr (std::is_same_v<S, NoScope>)
+  if constexpr (std::is_same_v<S, NoScope>) {
     return std::type_identity<NoScope>{};
-  else if constexpr (S::NodeType::template count<role::OdeSolver> > 0)
-    return std::type_identity<S>{};
-  else
-    return find_solver<typename S::Above>();
+  } else {
+    using Above = typename decltype(find_solver<typename S::Above>())::type;
+    if constexpr (!std::is_same_v<Above, NoScope>)
+      return std::type_identity<Above>{};
+    else if constexpr ((S::NodeType::template count<role::OdeSolver>)-S::NodeType::solversBeside > 0)
+      return std::type_identity<S>{};
+    else
+      return std::type_identity<NoScope>{};
+  }
 }
 template <class S>
 using Solver = typename decltype(find_solver<S>())::type;
@@ -225,6 +237,8 @@ constexpr Mistake mapping() {
     return Mistake::mappingIn;
   } else if constexpr (!mapping_out<C, S>()) {
     return Mistake::mappingOut;
+  } else if constexpr (!S::isVisual && !std::is_same_v<Solver<S>, Solver<typename S::Above>>) {
+    return Mistake::parentsAcrossSolvers;
   } else if constexpr (requires { C::needsParentTetrahedra; }) {
     return has_tetrahedra<Owner<typename S::Above>>() ? Mistake::none : Mistake::noParentTetrahedra;
   } else {
@@ -244,10 +258,21 @@ constexpr Mistake interaction_end() {
     return Mistake::none;
 }
 
+template <class S, class End>
+constexpr bool moved_by_another() {
+  return !std::is_same_v<Solver<S>, NoScope> && !std::is_same_v<Solver<S>, Solver<Owner<End>>>;
+}
 template <class C, class S>
 constexpr Mistake interaction() {
-  constexpr auto first = interaction_end<C, AtPath<S, C::Ends::first>>();
-  return first != Mistake::none ? first : interaction_end<C, AtPath<S, C::Ends::second>>();
+  using A = AtPath<S, C::Ends::first>;
+  using B = AtPath<S, C::Ends::second>;
+  constexpr auto first = interaction_end<C, A>(), second = interaction_end<C, B>();
+  if constexpr (first != Mistake::none)
+    return first;
+  else if constexpr (second != Mistake::none)
+    return second;
+  else
+    return moved_by_another<S, A>() || moved_by_another<S, B>() ? Mistake::stateAcrossSolvers : Mistake::none;
 }
 
 template <class C, class S>

@@ -68,8 +68,7 @@ struct Collision {
   RootScope const& root;
 
   /// After all components are initialised; where that is not the first time, contacts go on that have
-  /// followed the change. Throws Error where a stage is missing, and where there are models without a
-  /// pipeline above them.
+  /// followed the change. Throws Error where a stage is missing.
   void init(bool again) const {
     std::vector<CollisionSurface*> all;
     traverse(root, on<role::CollisionModel>([&](auto& model, auto const& scope) {
@@ -101,15 +100,6 @@ struct Collision {
                  missing("contact manager", "DefaultContactManager");
                pipeline.near.reserve(pipeline.surfaces.size() * (pipeline.surfaces.size() + 1) / 2);
                for (auto* s : pipeline.surfaces) s->enclose(0, 0);  // the trees are built
-             }));
-    traverse(root, on<role::CollisionModel>([&](auto& model, auto const& scope) {
-               bool managed = false;
-               scope.withContacts([&](auto&) { managed = true; });
-               if (!managed)
-                 throw Error(scope.path(),
-                             text(component_name<std::decay_t<decltype(model)>>(),
-                                  ": no node above has a DefaultPipeline, and nothing would look for its "
-                                  "contacts; add one to the root"));
              }));
   }
 
@@ -187,7 +177,7 @@ struct Collision {
         f(scope, std::decay_t<decltype(ode)>::implicit);
       }
     });
-    scope.forEachComponent(visit);
+    if (scope.integrates()) scope.forEachComponent(visit);
     if constexpr (!S::template always<role::OdeSolver>)
       if (!solved)
         scope.template forEachChild<role::OdeSolver>([&](auto const& child) { forEachSolver(child, f); });

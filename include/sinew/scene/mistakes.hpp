@@ -28,6 +28,10 @@ struct Wrong {
       M != Mistake::otherDataTypes,
       "Sinew: a component and the MechanicalObject it acts on have different DataTypes. Give both the "
       "same, such as Vec3d.");
+  static_assert(
+      M != Mistake::stateAcrossSolvers,
+      "Sinew: a force field, mass, constraint or collision model below an ODE solver acts on a state above that "
+      "solver, which does not move it. Give its node a MechanicalObject, or put the solver above the state.");
   static_assert(M != Mistake::noTetrahedra,
                 "Sinew: a component needs tetrahedra, and its node has no topology with tetrahedra. Add a "
                 "TetrahedronTopology to the node.");
@@ -78,7 +82,7 @@ struct Wrong {
                 "Sinew: the In of a mapping differs from the DataTypes of one of its parents.");
   static_assert(
       M != Mistake::parentsAcrossSolvers,
-      "Sinew: a mapping has parents under different ODE solvers. Put it and its parents below one solver.");
+      "Sinew: a mapping and a parent of it are under different ODE solvers. Put both below one solver.");
   static_assert(
       M != Mistake::noPipeline,
       "Sinew: a collision model has no DefaultPipeline above it that would look for its contacts. Put one "

@@ -110,6 +110,13 @@ struct Scope {
   }
 
   static constexpr bool mapped() { return isMapped; }
+  /// Whether there is a state here or below that a solver of this node would move: one that no mapping moves.
+  bool integrates() const {
+    bool found = ownsState && !isMapped;
+    if constexpr (!(ownsState && !isMapped))
+      forEachChild<role::State>([&](auto const& child) { found = found || child.integrates(); });
+    return found;
+  }
   static constexpr bool overParent() {
     if constexpr (isMapped)
       return over_parent<std::decay_t<decltype(std::declval<N&>().template first<role::Mapping>())>>;

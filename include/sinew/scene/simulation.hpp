@@ -177,6 +177,8 @@ class Simulation {
   static void checkFields(RootScope const& scope, InitAgain const& again);
   // topologies are made first; then states, parents before children
   static void initStates(RootScope const& scope, InitAgain const& again);
+  template <class S>
+  static void initStatesBelow(S const& scope, InitAgain const& again);
   // what acts on them
   static void initComponents(RootScope const& scope, InitAgain const& again);
 
@@ -246,9 +248,7 @@ class Simulation {
 
   template <class C, class S>
   static void initComponent(C& c, S const& scope) {
-    if constexpr (HasRole<C, role::Topology>) {
-      scope.withContext([&](auto const& context) { c.init(context); });
-    } else if constexpr (HasRole<C, role::Execution>) {
+    if constexpr (HasRole<C, role::Execution>) {
       c.init();
     } else if constexpr (HasRole<C, role::CollisionModel>) {
       c.init(scope.template context<typename C::DataTypes>());
@@ -392,7 +392,7 @@ class Simulation {
       operations.propagate(vec_id::position, vec_id::velocity);
       solved = true;
     });
-    scope.forEachComponent(visit);
+    if (scope.integrates()) scope.forEachComponent(visit);
     if constexpr (!S::template always<role::OdeSolver>)
       if (!solved)
         scope.template forEachChild<role::OdeSolver>([&](auto const& child) { integrate(child, dt); });
@@ -583,10 +583,25 @@ void Simulation<Root>::initStates(RootScope const& scope, InitAgain const& again
              if constexpr (requires { c.generate(s.path()); })
                s.ifNew(c, again, [&] { c.generate(s.path()); });
            }));
-  traverse(scope, on<role::Mapping, role::State, role::VisualModel>([&again](auto& c, auto const& s) {
-             s.ifNew(c, again, [&] { initState(c, s); });
-             s.raise();  // what follows a wrong state has nothing to stand on
-           }));
+  initStatesBelow(scope, again);
+}
+
+// Whoever reads through a topology comes after its check: mappings of children, and what acts on the states.
+template <class Root>
+template <class S>
+void Simulation<Root>::initStatesBelow(S const& scope, InitAgain const& again) {
+  auto states = on<role::Mapping, role::State, role::VisualModel>([&](auto& c) {
+    scope.ifNew(c, again, [&] { initState(c, scope); });
+    scope.raise();  // what follows a wrong state has nothing to stand on
+  });
+  scope.forEachComponent(states);
+  auto topologies = on<role::Topology>([&](auto& c) {
+    scope.ifNew(c, again, [&] { scope.withContext([&](auto const& context) { c.init(context); }); });
+  });
+  scope.forEachComponent(topologies);
+  scope.raise();
+  scope.template forEachChild<role::Topology, role::Mapping, role::State, role::VisualModel>(
+      [&](auto const& child) { initStatesBelow(child, again); });
 }
 
 template <class Root>
@@ -600,8 +615,10 @@ void Simulation<Root>::initComponents(RootScope const& scope, InitAgain const& a
 template <class Root>
 template <class S>
 void Simulation<Root>::initSolvers(S const& scope, InitAgain const& again) {
+  bool solved = false;
   auto visit = on<role::OdeSolver>([&](auto& ode) {
     using Ode = std::decay_t<decltype(ode)>;
+    solved = true;
     scope.located(ode, [&] {
       MechanicalOperations<S> operations(scope);
       if constexpr (Ode::implicit)
@@ -618,8 +635,10 @@ void Simulation<Root>::initSolvers(S const& scope, InitAgain const& again) {
         if (again) ode.lastEnd = -1;
     });
   });
-  scope.forEachComponent(visit);
-  scope.template forEachChild<role::OdeSolver>([&](auto const& child) { initSolvers(child, again); });
+  if (scope.integrates()) scope.forEachComponent(visit);
+  if constexpr (!S::template always<role::OdeSolver>)
+    if (!solved)
+      scope.template forEachChild<role::OdeSolver>([&](auto const& child) { initSolvers(child, again); });
 }
 
 template <class Root>

@@ -3,6 +3,7 @@
 
 #include <sinew/core/compiled.hpp>
 #include <sinew/core/component.hpp>
+#include <sinew/core/memory_limit.hpp>
 
 #include <Eigen/Core>
 #include <array>
@@ -15,7 +16,7 @@ namespace sinew {
 namespace detail {
 
 /// Throws Error unless a grid has `least` points or more in each direction, 2^mostLog2 altogether at most,
-/// and a box that is not empty in directions of several points.
+/// and a box that is not empty in directions of several points. One of a scene, of 2^24 at most, is also held to memory_limit.
 void check_grid(std::string_view where, std::array<int, 3> const& n, Eigen::Vector3d const& lo,
                 Eigen::Vector3d const& hi, int least, int mostLog2);
 
@@ -133,13 +134,14 @@ namespace sinew::detail {
 
 SINEW_ONCE void check_grid(std::string_view where, std::array<int, 3> const& n, Eigen::Vector3d const& lo,
                            Eigen::Vector3d const& hi, int least, int mostLog2) {
-  const std::string grid = text("a grid of ", n[0], " x ", n[1], " x ", n[2], " points ");
+  const std::string grid = text("a grid of ", n[0], " x ", n[1], " x ", n[2], " points");
   if (std::min({n[0], n[1], n[2]}) < least)
-    throw Error(where, text(grid, "has no cells; give at least ", least, " each way"));
+    throw Error(where, text(grid, " has no cells; give at least ", least, " each way"));
   const double most = std::ldexp(1.0, mostLog2);
   if (double(n[0]) * n[1] * n[2] > most)
     throw Error(where,
-                text(grid, "exceeds the limit of ", most, " points (2^", mostLog2, "); make it coarser"));
+                text(grid, " exceeds the limit of ", most, " points (2^", mostLog2, "); make it coarser"));
+  if (mostLog2 <= 24) check_memory(where, grid, double(n[0]) * n[1] * n[2]);
   bool room = all_finite(lo) && all_finite(hi);
   for (int c = 0; c < 3; ++c) room = room && (n[std::size_t(c)] > 1 ? lo[c] < hi[c] : lo[c] <= hi[c]);
   if (!room)

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSL-1.0
+// expect: Sinew: a mapping and a parent of it are under different ODE solvers.
+#include <sinew/mapping/identity_mapping.hpp>
+#include <sinew/mass/uniform_mass.hpp>
+#include <sinew/scene/simulation.hpp>
+#include <sinew/solver/euler_explicit.hpp>
+#include <sinew/state/mechanical_object.hpp>
+
+using namespace sinew;
+
+int main() {
+  Simulation sim{node<"root">(
+      MechanicalObject<Vec3d>{},
+      UniformMass<Vec3d>{},
+      node<"child">(EulerExplicitSolver{}, MechanicalObject<Vec3d>{}, IdentityMapping<Vec3d, Vec3d>{}))};
+  sim.init();
+  sim.animate(0.1);
+}
