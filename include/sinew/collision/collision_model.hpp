@@ -25,7 +25,8 @@ constexpr auto collision_model_fields(More... more) {
             "both sides of a triangle are outside; else only the one from which its corners go round "
             "counterclockwise"),
       field("group", &M::group, "", "models that have a group in common do not collide with each other"),
-      field("proximity", &M::proximity, "m", "thickness around the primitives", range::nonNegative),
+      field("proximity", &M::proximity, "m", "thickness around the primitives", range::nonNegative)
+          .also("contactDistance"),
       field("contactStiffness",
             &M::contactStiffness,
             "N/m",

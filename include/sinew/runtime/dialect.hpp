@@ -7,8 +7,9 @@
 #include <array>
 #include <string_view>
 
-// What SOFA's scenes say that has no meaning here, or none yet: classes and attributes that a scene may have
-// without an error. Classes that do have a meaning are in the registry, with their aliases.
+// What SOFA's scenes say that has no meaning here, or none yet: classes, and attributes of nodes, that a scene may have
+// without an error. Classes that do have a meaning are in the registry, with their aliases; dialect_attributes.hpp has the
+// attributes of components.
 namespace sinew::dialect {
 
 /// Programs, pictures, windows, and helpers of data structures that Sinew does not need.
@@ -142,163 +143,6 @@ inline constexpr std::array classesOfPackages = std::to_array<ClassOfPackage>(
 inline constexpr std::array suffixesWithoutMeaning =
     std::to_array<std::string_view>({"GeometryAlgorithms", "TopologyModifier", "TopologyAlgorithms"});
 
-/// Attributes of any component that concern pictures, messages or bookkeeping.
-inline constexpr std::array attributesWithoutMeaning =
-    std::to_array<std::string_view>({"printLog",
-                                     "tags",
-                                     "bbox",
-                                     "componentState",
-                                     "listening",
-                                     "verbose",
-                                     "isToPrint",
-                                     "color",
-                                     "group",
-                                     "shadows",
-                                     "multithreading",
-                                     "texturename",
-                                     "material",
-                                     "normals",
-                                     "texcoords",
-                                     "putOnlyTexCoords",
-                                     "primitiveType",
-                                     "useVBO",
-                                     "updateNormals",
-                                     "computeTangents",
-                                     "handleDynamicTopology",
-                                     "depthTest",
-                                     "alphaBlend",
-                                     "srgbTexturing",
-                                     "fixMergedUVSeams",
-                                     "initRestPositions",
-                                     "useNormals",
-                                     "topology",
-                                     "mstate",
-                                     "context",
-                                     "mechanicalObject",
-                                     "linearSolver",
-                                     "constraintSolver",
-                                     "keepLines",
-                                     "visible",
-                                     "static",
-                                     "listActiveTriangles",
-                                     "isMechanical",
-                                     "useX0",
-                                     "tolerance_show",
-                                     "mapMatrices",
-                                     "checkJacobian",
-                                     "input_nodes",
-                                     "parallelODESolving",
-                                     "computeBoundingBox",
-                                     "updateStiffness",
-                                     "updateStiffnessMatrix",
-                                     "assembling",
-                                     "computeGlobalMatrix",
-                                     "computeVonMisesStress",
-                                     "gatherPt",
-                                     "gatherBsize",
-                                     "threading",
-                                     "debug",
-                                     "profiling",
-                                     "preserveOrder",
-                                     "mappingType",
-                                     "reserve",
-                                     "createSubelements",
-                                     "handleSeams",
-                                     "loadMaterial",
-                                     "scaleTex",
-                                     "translationTex",
-                                     "rotationTex",
-                                     "derivX",
-                                     "saveEnergyInFile",
-                                     "computeHamiltonian",
-                                     "hamiltonianEnergy",
-                                     "linearSystem",
-                                     "warnWhenLineSearchFails",
-                                     "warnWhenDiverge",
-                                     "residualGraph",
-                                     "springColor",
-                                     "noNewTriangles",
-                                     "ordering",
-                                     "orderingMethod",
-                                     "computeResidual",
-                                     "free_position",
-                                     "free_velocity",
-                                     "checkIndices",
-                                     "lineWidth",
-                                     "pointSize",
-                                     "lineSmooth",
-                                     "pointSmooth"});
-
-/// Attributes that would change what is computed, and do not yet: ignored, and said so.
-inline constexpr std::array attributesNotYet =
-    std::to_array<std::string_view>({"plasticMaxThreshold",
-                                     "plasticYieldThreshold",
-                                     "plasticCreep",
-                                     "isCompliance",
-                                     "warmStart",
-                                     "geometricStiffness",
-                                     "useRestPosition",
-                                     "cauchyStress",
-                                     "p_intensity",
-                                     "binormal",
-                                     "preconditioner",
-                                     "preconditioners",
-                                     "nbMaxIterations",
-                                     "solveVelocityConstraintFirst",
-                                     "restScale",
-                                     "externalForce",
-                                     "updateStateWhenDiverged",
-                                     "swapping",
-                                     "noInitialTriangles",
-                                     "applyRestPosition",
-                                     "mapForces",
-                                     "mapConstraints",
-                                     "mapMasses",
-                                     "lastFreeRotation",
-                                     "restRotations",
-                                     "lastPos",
-                                     "lastDir",
-                                     "clamp",
-                                     "minDistance",
-                                     "positionFactor",
-                                     "velocityFactor",
-                                     "responseFactor"});
-
-/// Attributes that mean nothing in one class only: they are left over in well-known scenes, or say where to
-/// write.
-struct AttributeOf {
-  std::string_view className, attribute;
-};
-inline constexpr std::array attributesWithoutMeaningOf =
-    std::to_array<AttributeOf>({{"MechanicalObject", "force"},
-                                {"AngularSpringForceField", "limit"},
-                                {"BeamFEMForceField", "useSymmetricAssembly"},
-                                {"AngularSpringForceField", "recompute_indices"},
-                                {"RestShapeSpringsForceField", "recompute_indices"},
-                                {"AffineMovementConstraint", "meshIndices"},
-                                {"TetrahedronFEMForceField", "indices"},
-                                {"BoxROI", "indices"},
-                                {"WriteState", "DOFsX"},
-                                {"WriteState", "DOFsV"},
-                                {"SparseLDLSolver", "iterations"},
-                                {"SparseLDLSolver", "tolerance"},
-                                {"SparseLDLSolver", "threshold"},
-                                {"TriangularShellForceField", "measure"},
-                                {"TriangularShellForceField", "arrow_radius"},
-                                {"TriangleFEMForceField", "hosfordExponant"},
-                                {"TriangleFEMForceField", "criteriaValue"},
-                                {"TriangleFEMForceField", "computePrincipalStress"},
-                                {"CarvingManager", "key"},
-                                {"CarvingManager", "keySwitch"},
-                                {"CarvingManager", "mouseEvent"},
-                                {"CarvingManager", "omniEvent"},
-                                {"CarvingManager", "narrowPhaseDetection"},
-                                {"VariationalSymplecticSolver", "file"},
-                                {"RegularGridTopology", "position"},
-                                {"GridMeshCreator", "filename"},
-                                {"TrianglePressureForceField", "useConstantForce"},
-                                {"EdgePressureForceField", "arrowSizeCoef"}});
-
 /// Attributes of nodes that concern pictures or bookkeeping.
 inline constexpr std::array nodeAttributesWithoutMeaning =
     std::to_array<std::string_view>({"printLog",
@@ -384,17 +228,6 @@ inline bool class_without_meaning(std::string_view name) {
   return std::any_of(suffixesWithoutMeaning.begin(), suffixesWithoutMeaning.end(), [&](std::string_view end) {
     return name.ends_with(end);
   });
-}
-inline bool attribute_without_meaning(std::string_view name) {
-  return name.starts_with("show") || name.starts_with("draw") || has(attributesWithoutMeaning, name);
-}
-
-/// The same in a component of the class `className`, whose own name that is, not an alias.
-inline bool attribute_without_meaning(std::string_view className, std::string_view name) {
-  return attribute_without_meaning(name) ||
-         std::any_of(attributesWithoutMeaningOf.begin(),
-                     attributesWithoutMeaningOf.end(),
-                     [&](auto const& of) { return of.className == className && of.attribute == name; });
 }
 
 }  // namespace sinew::dialect

@@ -3,6 +3,7 @@
 
 #include <sinew/io/text_reader.hpp>
 #include <sinew/runtime/dialect.hpp>
+#include <sinew/runtime/dialect_attributes.hpp>
 #include <sinew/runtime/value_text.hpp>
 
 #include <sys/stat.h>
@@ -261,7 +262,7 @@ class XmlReader {
       if (given.name == "name") {
         root.take(given, true);
         named();
-      } else if (!replace(root, given) && !dialect::attribute_without_meaning(given.name)) {
+      } else if (!replace(root, given) && !dialect::without_effect(given.name)) {
         warn(text(file->place(given.offset),
                   ": <include>: no element of ",
                   detail::shown(href),

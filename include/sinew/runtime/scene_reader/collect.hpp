@@ -49,6 +49,9 @@ class SceneCollector {
   SceneCollector(std::vector<ClassInfo> const& table, bool lenient, SceneMessages& messages)
       : table_(table), lenient_(lenient), messages_(messages) {}
 
+  /// Whether what is not simulated is left out with a warning.
+  bool lenient() const { return lenient_; }
+
   /// All in and below a node.
   void collectAll(ScenePlace& top) {
     collect(top);

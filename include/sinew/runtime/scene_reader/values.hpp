@@ -111,9 +111,9 @@ class SceneValues {
     for (auto const& f : item.info->fields)
       if (f.isInput && f.known(a.name)) field = &f;
     if (!field) {
-      if (dialect::attribute_without_meaning(item.info->name, a.name)) return;
-      if (dialect::has(dialect::attributesNotYet, a.name))
-        return void(messages_.ignored.insert(text(item.tag, '.', a.name)));
+      if (dialect::without_effect(item.info->name, a.name)) return;
+      if (auto const* known = dialect::not_simulated(item.info->name, a.name))
+        return notSimulated(item, a, *known);
       std::vector<std::string_view> names;
       for (auto const& f : item.info->fields)
         if (f.isInput) {
@@ -141,6 +141,17 @@ class SceneValues {
       item.failed = true;
       messages_.complain(item.element->place(a), text('<', item.tag, ">: ", a.name, ": ", error.what()));
     }
+  }
+
+  // what would make another scene of this one
+  void notSimulated(SceneItem& item, XmlAttribute const& a, dialect::NotSimulated const& known) {
+    if (dialect::is_standard(known, a.value)) return;
+    const std::string_view standard = known.standard.substr(0, known.standard.find('|'));
+    const std::string what = text('<', item.tag, ">: ", a.name, " is not simulated: only its default ", shown(standard), " is");
+    if (collector_.lenient())
+      return void(messages_.warnings.insert(text(item.element->place(a), ": ", what, "; it is left out")));
+    item.failed = true;
+    messages_.complain(item.element->place(a), text(what, "; remove it, or read the scene with --lenient, which leaves it out"));
   }
 
   // all of a node act over its last topology

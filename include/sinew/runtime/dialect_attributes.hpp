@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/platform.hpp>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <string>
+#include <string_view>
+#include <vector>
+
+// What becomes of the attributes that components have in SOFA and none of ours is: they have no effect on what is
+// simulated, or are not simulated, and then only their defaults are taken. tests/runtime/sofa_attributes.cpp holds these
+// lists, and the fields of all classes, against those of SOFA.
+namespace sinew::dialect {
+
+/// Attributes of any component that concern pictures, messages, storage and threads, that are results, or that are left over
+/// in well-known scenes.
+inline constexpr std::array withoutEffect = std::to_array<std::string_view>({
+    "alphaBlend", "arrowSizeCoef", "assembling", "bbox", "beamsData", "bitangents", "blendEquation",
+    "blendTransparency", "checkConnexity", "checkIndices", "checkJacobian", "checkTopology", "color",
+    "componentState", "computeAllBuffers", "computeBoundingBox", "computeGlobalMatrix", "computeHamiltonian",
+    "computeMassOnRest", "computeMaterialFaces", "computeNormals", "computeQuads", "computeResidual",
+    "computeTangents", "computeTextureCoordinates", "computeVonMisesStress", "constraint",
+    "constraintSolver", "contacts", "context", "createQuadArray", "createSubelements", "createTexCoords",
+    "createTriangleArray", "cullFace", "debug", "defaultMaterial", "depth", "depthTest", "derivX",
+    "destFactor", "displayFreePosition", "doUpdate", "edgeInfo", "edgeOutIndices", "edgePressureMap",
+    "edgesGroups", "edgesOutROI", "enable", "enableAssembly", "faceList", "factorizationInvalidation",
+    "fixMergedUVSeams", "forceBinary", "free_position", "free_velocity", "gatherBsize", "gatherPt", "graph",
+    "group", "groups", "hamiltonianEnergy", "handleDynamicTopology", "handleSeams", "handleTopologyChange",
+    "headerSize", "hexahedraGroups", "hexahedronInfo", "highOrderEdgePositions",
+    "highOrderHexahedronPositions", "highOrderQuadPositions", "highOrderTetrahedronPositions",
+    "highOrderTrianglePositions", "initialTransformation", "initRestPositions", "input_nodes",
+    "isMechanical", "isToPrint", "keepLines", "L_nnz", "linearSolver", "linearSystem", "lineSmooth",
+    "lineWidth", "listActiveTriangles", "listening", "loadMaterial", "mapMatrices", "mappingJacobian",
+    "mappingType", "material", "materials", "mechanicalObject", "mstate", "multithreading",
+    "nbMaxIterations", "nbPoints", "nbThreads", "noNewTriangles", "normal", "normals", "normalsDefinition",
+    "normalsIndex", "numberOfContacts", "ordering", "orderingMethod", "parallelDetection",
+    "parallelInverseProduct", "parallelODESolving", "ParameterFile", "planeColor", "plasticCreep",
+    "plasticYieldThreshold", "pointSize", "pointSmooth", "pointsOutROI", "polygonsGroups",
+    "positionsDefinition", "precomputeSymbolicDecomposition", "preconditioner", "preconditioners",
+    "preserveOrder", "primitiveType", "printLog", "printMass", "prismsGroups", "profiling",
+    "putOnlyTexCoords", "pyramidsGroups", "quadPressureMap", "quadsGroups", "reserve", "residual",
+    "residualGraph", "restPosition", "rotatedInitialElements", "rotationTex", "saveEnergyInFile", "scaleTex",
+    "shadows", "sourceFactor", "springColor", "srgbTexturing", "static", "stiffnessMatrices",
+    "stressMaxValue", "tags", "tangents", "taskSchedulerType", "tetrahedraGroups", "tetrahedraOutROI",
+    "tetrahedronInfo", "tetrahedronOutIndices", "texcoords", "texcoordsDefinition", "texcoordsIndex",
+    "texturename", "threading", "threadSafeVisitor", "tolerance_show", "topology", "translationTex",
+    "triangleInfo", "triangleOutIndices", "trianglePressureMap", "trianglesGroups", "trianglesOutROI",
+    "triangleState", "updateNormals", "updateStiffness", "updateStiffnessMatrix", "updateTangents",
+    "useCurvature", "useIncrementalPotentialEnergy", "useNormals", "useVBO", "useX0", "uv", "verbose",
+    "vertexInfo", "vertices", "vertNormIdx", "vertPosIdx", "visible", "vonMisesPerElement",
+    "vonMisesPerNode", "vonMisesStressColors", "warnWhenDiverge", "warnWhenLineSearchFails",
+    "writeZTransparent"});
+
+/// The same of one class, by its own name.
+struct AttributeOf {
+  std::string_view className, attribute;
+};
+inline constexpr std::array withoutEffectOf = std::to_array<AttributeOf>({
+    {"AffineMovementConstraint", "meshIndices"}, {"AngularSpringForceField", "limit"},
+    {"AngularSpringForceField", "recompute_indices"}, {"BeamFEMForceField", "useSymmetricAssembly"},
+    {"BoxROI", "indices"}, {"CarvingManager", "key"}, {"CarvingManager", "keySwitch"},
+    {"CarvingManager", "mouseEvent"}, {"CarvingManager", "narrowPhaseDetection"},
+    {"CarvingManager", "omniEvent"}, {"CubeTopology", "hexahedra"}, {"CubeTopology", "tetrahedra"},
+    {"CubeTopology", "triangles"}, {"CylinderGridTopology", "tetrahedra"},
+    {"EdgePressureForceField", "arrowSizeCoef"}, {"GenerateRigidMass", "polygons"},
+    {"GridMeshCreator", "filename"}, {"GridMeshCreator", "hexahedra"}, {"GridMeshCreator", "polygons"},
+    {"GridMeshCreator", "polylines"}, {"GridMeshCreator", "prisms"}, {"GridMeshCreator", "pyramids"},
+    {"GridMeshCreator", "tetrahedra"}, {"MechanicalObject", "force"}, {"MeshGmshLoader", "polygons"},
+    {"MeshGmshLoader", "polylines"}, {"MeshGmshLoader", "prisms"}, {"MeshGmshLoader", "pyramids"},
+    {"MeshOBJLoader", "polygons"}, {"MeshOBJLoader", "polylines"}, {"MeshOBJLoader", "prisms"},
+    {"MeshOBJLoader", "pyramids"}, {"MeshSTLLoader", "polygons"}, {"MeshSTLLoader", "polylines"},
+    {"MeshSTLLoader", "prisms"}, {"MeshSTLLoader", "pyramids"}, {"MeshVTKLoader", "polygons"},
+    {"MeshVTKLoader", "polylines"}, {"MeshVTKLoader", "prisms"}, {"MeshVTKLoader", "pyramids"},
+    {"RegularGridTopology", "position"}, {"RegularGridTopology", "tetrahedra"},
+    {"RestShapeSpringsForceField", "recompute_indices"}, {"SparseGridTopology", "tetrahedra"},
+    {"SparseLDLSolver", "iterations"}, {"SparseLDLSolver", "threshold"}, {"SparseLDLSolver", "tolerance"},
+    {"SphereGridTopology", "tetrahedra"}, {"TetrahedronFEMForceField", "indices"},
+    {"TriangleFEMForceField", "computePrincipalStress"}, {"TriangleFEMForceField", "criteriaValue"},
+    {"TriangleFEMForceField", "hosfordExponant"}, {"TrianglePressureForceField", "useConstantForce"},
+    {"TriangularShellForceField", "arrow_radius"}, {"TriangularShellForceField", "measure"},
+    {"VariationalSymplecticSolver", "file"}, {"WriteState", "DOFsV"}, {"WriteState", "DOFsX"}});
+
+/// Attributes that change what is computed in SOFA and cannot here: with another value than their default a scene is another
+/// one. `className`: of one class; empty: of any. `standard`: the values that mean nothing, apart by '|'.
+struct NotSimulated {
+  std::string_view className, attribute, standard;
+};
+inline constexpr std::array notSimulated = std::to_array<NotSimulated>({
+    {"", "activeDirections", "1 1 1 1 1 1 1"}, {"", "angleCone", "0"}, {"", "AnisotropyDirections", ""},
+    {"", "applyRestPosition", "0"}, {"", "binormal", ""}, {"", "box", ""},
+    {"", "cauchyStress", "[ 0 0 0 , 0 0 0 , 0 0 0]"}, {"", "clamp", "0"},
+    {"", "compute_mapping_inertia", "0"}, {"", "computePointList", "1"},
+    {"", "computeWeightsFromPosition", "0"}, {"", "coneFactor", "0.5"}, {"", "contactRestitution", "0"},
+    {"", "convolutionSize", "0"}, {"", "damping", "0"}, {"", "dataResolution", "0 0 0"},
+    {"", "defaultVolume", "-1"}, {"", "direction", ""}, {"", "edgeAngle", "0"}, {"", "edgeMass", ""},
+    {"", "edges", ""}, {"", "elongationOnly", "0"}, {"", "enabled", "1"}, {"", "endTime", "-1"},
+    {"", "external_points", ""}, {"", "externalForce", ""}, {"", "facets", ""}, {"", "filename", ""},
+    {"", "fillWeighted", "1"}, {"", "filterIntersection", "1"}, {"", "first", "4294967295"},
+    {"", "flipNormals", "0"}, {"", "geometricStiffness", "Exact|1"}, {"", "ignoreNotFound", "0"},
+    {"", "indexFromEnd", "0"}, {"", "indices", ""}, {"", "initialPoints", ""}, {"", "isCompliance", "0"},
+    {"", "last", "4294967295"}, {"", "lastDir", ""}, {"", "lastFreeRotation", "0"}, {"", "lastPos", ""},
+    {"", "lengths", ""}, {"MeshSpringForceField", "localRange", "4294967295 4294967295"},
+    {"PlaneForceField", "localRange", "-1 -1"}, {"QuadBendingSprings", "localRange", "-1 -1"},
+    {"SphereForceField", "localRange", "-1 -1"}, {"UniformMass", "localRange", "-1 -1"},
+    {"", "localStiffnessFactor", ""}, {"", "mainDirection", "0 0 0 0 0 0"}, {"", "mapConstraints", "1"},
+    {"", "mapForces", "1"}, {"", "mapMasses", "1"}, {"", "marchingCubeStep", "1"},
+    {"", "mergePositionUsingMap", "1"}, {"", "minDistance", "-1"}, {"", "nbVirtualFinerLevels", "0"},
+    {"", "noInitialTriangles", "0"}, {"", "onlyAttachedPoints", "0"}, {"", "p_intensity", ""},
+    {"", "pivot_points", ""}, {"", "plasticMaxThreshold", "0"}, {"", "positionFactor", "1"},
+    {"", "preserveTotalMass", "0"}, {"", "pressureLowerBound", "0"}, {"", "pressureSpeed", "0"},
+    {"", "prisms", ""}, {"", "pulseMode", "0"}, {"", "pyramids", ""}, {"", "radius", "1e-05"},
+    {"", "rayleighMass", "0"}, {"", "rayleighStiffness", "0"}, {"", "recompute_indices", "0"},
+    {"", "resizeToModel", "0"}, {"", "responseFactor", "1"}, {"", "responseParams", ""},
+    {"", "restRotations", "0"}, {"", "restScale", "1"}, {"", "rotation2", "0 0 0"},
+    {"", "separateGravity", "0"}, {"", "size", "0|1"}, {"", "solveConstraint", "0"},
+    {"", "solveVelocityConstraintFirst", "0"}, {"", "spring", ""}, {"", "springsIndices1", ""},
+    {"", "springsIndices2", ""}, {"Hexa2TetraTopologicalMapping", "swapping", "0"},
+    {"Quad2TriangleTopologicalMapping", "swapping", "1"},
+    {"", "transformation", "[1 0 0 0,0 1 0 0,0 0 1 0,0 0 0 1]"}, {"", "translation2", "0 0 0"},
+    {"", "triAngle", "0"}, {"", "triangulate", "0"}, {"", "updateStateWhenDiverged", "1"},
+    {"", "useLineLine", "1"}, {"", "useLinePoint", "1"}, {"", "useLMDFilters", "0"},
+    {"", "usePointPoint", "1"}, {"BarycentricMapping", "useRestPosition", "0"},
+    {"NearestPointROI", "useRestPosition", "1"}, {"", "useSphereTriangle", "1"},
+    {"", "useSurfaceNormals", "0"}, {"", "useTangentStiffness", "1"}, {"", "useTopology", "1"},
+    {"", "velocityFactor", "1"}, {"", "vertexMass", ""}, {"", "volumeConservationMode", "0"},
+    {"", "voxelSize", "1 1 1"}, {"", "warmStart", "0"}});
+
+inline bool without_effect(std::string_view name) {
+  return name.starts_with("show") || name.starts_with("draw") ||
+         std::find(withoutEffect.begin(), withoutEffect.end(), name) != withoutEffect.end();
+}
+/// `className`: the component's own name, not an alias.
+inline bool without_effect(std::string_view className, std::string_view name) {
+  return without_effect(name) ||
+         std::any_of(withoutEffectOf.begin(), withoutEffectOf.end(), [&](AttributeOf const& of) {
+           return of.className == className && of.attribute == name;
+         });
+}
+inline NotSimulated const* not_simulated(std::string_view className, std::string_view name) {
+  for (auto const& n : notSimulated)
+    if (n.attribute == name && (n.className.empty() || n.className == className)) return &n;
+  return nullptr;
+}
+
+namespace detail {
+// words without brackets and commas, numbers as such: "[1 0,0 1]" and "1 0 0 1.0" are the same
+inline std::vector<std::string> plain_words(std::string_view value) {
+  std::vector<std::string> words;
+  std::string word;
+  auto end = [&] {
+    if (word.empty()) return;
+    double number = 0;
+    auto [rest, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+    if (word == "true") word = "1";
+    if (word == "false") word = "0";
+    if (error == std::errc() && rest == word.data() + word.size()) {
+      char shortest[40];
+      word.assign(shortest, std::to_chars(shortest, shortest + sizeof shortest, number + 0.0).ptr);
+    }
+    words.push_back(std::move(word));
+    word.clear();
+  };
+  for (const char c : value)
+    if (c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == ',' || c == '[' || c == ']')
+      end();
+    else
+      word += c;
+  end();
+  return words;
+}
+}  // namespace detail
+
+/// Whether a value is one of those that mean nothing.
+inline bool is_standard(NotSimulated const& attribute, std::string_view value) {
+  const auto words = detail::plain_words(value);
+  for (std::string_view rest = attribute.standard;;) {
+    const std::size_t bar = std::min(rest.find('|'), rest.size());
+    if (detail::plain_words(rest.substr(0, bar)) == words) return true;
+    if (bar == rest.size()) return false;
+    rest.remove_prefix(bar + 1);
+  }
+}
+
+}  // namespace sinew::dialect
