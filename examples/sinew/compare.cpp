@@ -181,7 +181,7 @@ void print_table(Report const& report) {
 
 }  // namespace
 
-int compare(CompareOptions const& options) {
+int compare(CompareOptions const& options) try {
   Side a("a", options.a), b("b", options.b);
   const std::vector<double> times = times_of(options, a, b);
   const bool words = options.output == Output::words;
@@ -227,6 +227,10 @@ int compare(CompareOptions const& options) {
   else if (words)
     print_table(report);
   return ok;
+} catch (Failure const& failure) {
+  if (options.output == Output::json)
+    std::printf("%s\n", Json().set("errors", failure.messages).text().c_str());
+  throw;
 }
 
 }  // namespace cli

@@ -121,12 +121,55 @@ std::vector<Json> profile_json(sinew::Profile const& profile) {
   return all;
 }
 
+// what a run comes to, as --json prints it; of a scene that was refused the errors alone
+struct Summary {
+  std::string scene{};
+  Count size{};
+  double dt = std::nan("");
+  long steps = 0;
+  double time = std::nan(""), seconds = time, kinetic = time, potential = time;
+  std::vector<std::string> ignored{}, warnings{}, files{}, errors{};
+  bool interrupted = false;
+
+  Json json() const {
+    const double rate = steps > 0 ? double(steps) / seconds : std::nan("");
+    return Json()
+        .set("scene", scene)
+        .set("nodes", size.nodes)
+        .set("components", size.components)
+        .set("degreesOfFreedom", size.degreesOfFreedom)
+        .set("dt", dt)
+        .set("steps", steps)
+        .set("time", time)
+        .set("seconds", seconds)
+        .set("stepsPerSecond", rate)
+        .set("realTimeFactor", rate * dt)
+        .set("kineticEnergy", kinetic)
+        .set("potentialEnergy", potential)
+        .set("ignored", ignored)
+        .set("warnings", warnings)
+        .set("files", files)
+        .set("interrupted", interrupted)
+        .set("errors", errors);
+  }
+};
+
+Scene started(RunOptions const& options) {
+  try {
+    auto source = read(options.scene);
+    if (options.threads > 0) use_threads(source.root, options.threads);
+    return start(std::move(source), options.scene);
+  } catch (Failure const& failure) {
+    if (options.output == Output::json)
+      std::printf("%s\n", Summary{.scene = options.scene.path, .errors = failure.messages}.json().text().c_str());
+    throw;
+  }
+}
+
 }  // namespace
 
 int run(RunOptions const& options) {
-  auto source = read(options.scene);
-  if (options.threads > 0) use_threads(source.root, options.threads);
-  Scene scene = start(std::move(source), options.scene);
+  Scene scene = started(options);
   auto& simulation = scene.simulation;
   const Count size = count(simulation.root());
   const long steps = steps_of(options.duration, scene.dt);
@@ -168,24 +211,20 @@ int run(RunOptions const& options) {
   double kinetic = std::nan(""), potential = kinetic;
   if (!failure) kinetic = simulation.kineticEnergy(), potential = simulation.potentialEnergy();
   if (options.output == Output::json) {
-    Json json;
-    json.set("scene", options.scene.path)
-        .set("nodes", size.nodes)
-        .set("components", size.components)
-        .set("degreesOfFreedom", size.degreesOfFreedom)
-        .set("dt", scene.dt)
-        .set("steps", done)
-        .set("time", simulation.time())
-        .set("seconds", seconds)
-        .set("stepsPerSecond", rate)
-        .set("realTimeFactor", rate * scene.dt)
-        .set("kineticEnergy", kinetic)
-        .set("potentialEnergy", potential)
-        .set("ignored", scene.ignored)
-        .set("warnings", scene.warnings)
-        .set("files", files)
-        .set("interrupted", stopped)
-        .set("errors", failure ? failure->messages : std::vector<std::string>{});
+    Json json = Summary{.scene = options.scene.path,
+                        .size = size,
+                        .dt = scene.dt,
+                        .steps = done,
+                        .time = simulation.time(),
+                        .seconds = seconds,
+                        .kinetic = kinetic,
+                        .potential = potential,
+                        .ignored = scene.ignored,
+                        .warnings = scene.warnings,
+                        .files = files,
+                        .errors = failure ? failure->messages : std::vector<std::string>{},
+                        .interrupted = stopped}
+                    .json();
     if (options.profile) json.set("profile", profile_json(*outputs.profile()));
     std::printf("%s\n", json.text().c_str());
   } else if (words) {

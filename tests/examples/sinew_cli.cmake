@@ -247,6 +247,13 @@ elseif(CASE STREQUAL "run-diverges")
   endif()
   sinew(3 run stiff.scn --json --steps 1000)
   json(error errors 0)
+  # and of a scene that is refused
+  sinew(1 run stiff.scn --json --set body/UniformMass.vertexMass=-1)
+  json(error errors 0)
+  json(steps steps)
+  expect_equal("${steps}" 0)
+  sinew(1 compare stiff.scn stiff.scn --json --set body/UniformMass.vertexMass=-1)
+  json(error errors 0)
   sinew(3 compare one.scn stiff.scn --dt 1)
   expect_error("b: stiff.scn: step ")
 

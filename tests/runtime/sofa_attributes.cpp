@@ -31,10 +31,11 @@ std::vector<Attribute> attributes_of_sofa() {
   return all;
 }
 
-// what the reader takes beside fields: where a visual model is put, and the topology that is named
+// what the reader takes beside fields: where a visual model is put, the topology that is named, and a file, which it reads by a
+// loader where the class has no field for one
 bool taken(ClassInfo const& info, std::string_view name) {
   static const std::set<std::string_view> placing{"translation", "rotation", "scale", "scale3d", "vertices"};
-  return name == "topology" || (info.role == RoleKind::visualModel && placing.count(name) > 0);
+  return name == "topology" || name == "filename" || (info.role == RoleKind::visualModel && placing.count(name) > 0);
 }
 
 ReadScene<Standard> parse(std::string const& component, bool lenient = false) {

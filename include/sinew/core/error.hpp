@@ -57,7 +57,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b);
 template <class Names>
 std::string nearest_name(std::string_view word, Names const& known) {
   std::string best;
-  std::size_t distance = std::max<std::size_t>(2, word.size() / 2) + 1;
+  std::size_t distance = std::max<std::size_t>(2, word.size() / 3) + 1;
   for (std::string_view name : known)
     if (const std::size_t d = edit_distance(word, name); d < distance) distance = d, best = name;
   return best;

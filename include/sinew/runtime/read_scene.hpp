@@ -87,7 +87,15 @@ class SceneReader {
 
   void fill(ScenePlace& place, RuntimeNode<R>& node) {
     auto const* gravity = place.element->attribute("gravity");
-    if (gravity || !place.parent) {
+    if (gravity && place.parent) {
+      messages_.warnings.insert(text(place.element->place(*gravity),
+                                     ": <Node>: gravity has an effect in the outermost node only, as in SOFA; for what is "
+                                     "below another, put <Gravity gravity=\"",
+                                     gravity->value,
+                                     "\"/> into it"));
+      gravity = nullptr;
+    }
+    if (!place.parent) {
       Gravity value;
       try {
         if (gravity) read_value(gravity->value, value.gravity);

@@ -52,7 +52,7 @@ class SceneWriter {
     for (auto const& entry : node.components()) {
       ClassInfo const& info = table_[std::size_t(entry.component.type())];
       if (info.role == RoleKind::engine) continue;  // what it made is in the fields of others
-      if (info.role == RoleKind::context) {
+      if (info.role == RoleKind::context && !node.parent()) {
         set(to, "gravity", info.field("gravity")->write(entry.component.address()));
         continue;
       }
