@@ -40,6 +40,9 @@ bool has_place(std::string_view message) {
   return false;
 }
 
+#if defined(__SANITIZE_ADDRESS__)
+void limit_allocations(std::size_t) {}  // its shadow is larger than any machine
+#else
 // Memory that is free without swapping [bytes]; 0 where it is not known.
 std::size_t free_memory() {
   std::ifstream file("/proc/meminfo");
@@ -51,16 +54,19 @@ std::size_t free_memory() {
 }
 
 // what is asked for beyond that fails at once, and does not make the machine swap
-void limit_memory(std::size_t asked) {
-  sinew::memory_limit = asked > 0 ? asked : std::size_t(512) << 20;
-#if !defined(__SANITIZE_ADDRESS__)
+void limit_allocations(std::size_t asked) {
   const std::size_t bytes = asked > 0 ? asked : free_memory();
   if (bytes == 0) return;
   rlimit limit{};
   if (getrlimit(RLIMIT_DATA, &limit) != 0) return;
   limit.rlim_cur = std::min<rlim_t>(limit.rlim_max, bytes);
   setrlimit(RLIMIT_DATA, &limit);
+}
 #endif
+
+void limit_memory(std::size_t asked) {
+  sinew::memory_limit = asked > 0 ? asked : std::size_t(512) << 20;
+  limit_allocations(asked);
 }
 
 }  // namespace
