@@ -8,3 +8,13 @@ using Catch::Approx;
 #else
 #include <catch2/catch.hpp>
 #endif
+
+// Sanitized code without optimisation takes 25 times as long: tests that are no more than many of the same are shorter there, and
+// those with the tag [long] left out.
+#if defined(__SANITIZE_ADDRESS__)
+inline constexpr bool sanitized = true;
+#elif defined(__has_feature)
+inline constexpr bool sanitized = __has_feature(address_sanitizer);
+#else
+inline constexpr bool sanitized = false;
+#endif

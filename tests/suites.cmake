@@ -1,3 +1,9 @@
+# tests that take too long without optimisation
+set(sinew_test_spec)
+if(SINEW_SANITIZE)
+  set(sinew_test_spec "~[long]")
+endif()
+
 # What `./dev test` compiles and runs; all other files of tests belong to `./dev test all`, where they carry the label "more".
 # A folder that is not named here is in both as a whole.
 set(SINEW_TEST_SUITE quick CACHE STRING "quick: each kind of thing once, in minutes; all: everything")

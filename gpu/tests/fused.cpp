@@ -95,7 +95,7 @@ void walk(Sim& sim, int n = steps) {
 
 }  // namespace
 
-TEST_CASE("the fused step is that of the Simulation") {
+TEST_CASE("the fused step is that of the Simulation", "[long]") {
   auto host = bar<Vec3d>();
   walk(host);
   REQUIRE(difference(positions(host), host.at<"bar">().state().restPosition) > 0.05);
@@ -127,7 +127,7 @@ TEST_CASE("the fused step is that of the Simulation") {
   }
 }
 
-TEST_CASE("the fused step of springs, whose rows find their forces themselves") {
+TEST_CASE("the fused step of springs, whose rows find their forces themselves", "[long]") {
   auto host = net<Vec3d>();
   walk(host);
   REQUIRE(difference(positions(host), host.at<"bar">().state().restPosition) > 0.05);
@@ -176,7 +176,7 @@ TEST_CASE("the fused step ends iterations as CGLinearSolver does") {
   CHECK(difference(positions(full), positions(host)) > 1e-9);  // it ended early
 }
 
-TEST_CASE("copies of a scene have their own material, gravity and state") {
+TEST_CASE("copies of a scene have their own material, gravity and state", "[long]") {
   auto plain = bar<Vec3d>(), stiff = bar<Vec3d>({.youngModulus = 3e5}), moon = bar<Vec3d>({.gravity = -1.62});
   auto sim = bar<CudaVec3d>(), stiffSim = bar<CudaVec3d>({.youngModulus = 3e5}),
        moonSim = bar<CudaVec3d>({.gravity = -1.62});

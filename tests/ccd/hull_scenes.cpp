@@ -30,7 +30,7 @@ TEST_CASE("a box dropped askew comes to stand on its four corners, as deep as th
   CHECK(sim.at<"box">().state().velocity[0].norm() < 1e-7);
 }
 
-TEST_CASE("a stack of three boxes stands without creeping, each carrying what is above") {
+TEST_CASE("a stack of three boxes stands without creeping, each carrying what is above", "[long]") {
   // the second and the third lie shifted and turned on those below; polygons of up to 8 corners
   auto sim = contact_scene(near,
                            10,
@@ -57,7 +57,7 @@ TEST_CASE("a stack of three boxes stands without creeping, each carrying what is
   }
 }
 
-TEST_CASE("an aligned stack is as deep as weight over stiffness") {
+TEST_CASE("an aligned stack is as deep as weight over stiffness", "[long]") {
   auto sim = contact_scene(
       near,
       10,
@@ -79,7 +79,7 @@ TEST_CASE("an aligned stack is as deep as weight over stiffness") {
   }
 }
 
-TEST_CASE("a stiff stack that starts deep in itself and the floor gains no energy, and comes to rest") {
+TEST_CASE("a stiff stack that starts deep in itself and the floor gains no energy, and comes to rest", "[long]") {
   const double m = 3, g = 10, dt = 0.01;
   for (const double k : {2e6, 2e7})  // k dt^2/m = 67, 667
     for (const double depth : {0.0, 0.001, 0.01})
@@ -167,7 +167,7 @@ TEST_CASE("a box on a slope holds up to the angle of Coulomb, and slides beyond"
   }
 }
 
-TEST_CASE("a round can stands on 8 places of its rim") {
+TEST_CASE("a round can stands on 8 places of its rim", "[long]") {
   std::vector<Eigen::Vector3d> rim;
   for (int k = 0; k < 40; ++k) {
     const double angle = 2 * std::acos(-1.0) * k / 40;

@@ -6,7 +6,7 @@ namespace test_carving {
 
 using namespace carving;
 
-TEST_CASE("a ball moves through a block, and takes out what it touches") {
+TEST_CASE("a ball moves through a block, and takes out what it touches", "[long]") {
   for (const bool surfaceCollides : {false, true}) {
     const Block block(4, 3);
     auto sim = scene(block, {0.05, 0.2, 0.5}, surfaceCollides);

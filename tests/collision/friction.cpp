@@ -64,7 +64,7 @@ TEST_CASE("on a slope friction holds up to the angle of Coulomb, and not beyond"
   }
 }
 
-TEST_CASE("stiff or soft, a block holds below the angle of Coulomb and slides as it should above") {
+TEST_CASE("stiff or soft, a block holds below the angle of Coulomb and slides as it should above", "[long]") {
   const double friction = 0.5, critical = std::atan(friction);
   for (const double ratio : {0.1, 1.0, 10.0, 100.0, 1000.0}) {
     INFO(ratio);

@@ -19,6 +19,25 @@ TEST_CASE("the nearest known name is suggested, and none when all are far") {
   CHECK(nearest_name("youngsModulus", known) == "youngModulus");
   CHECK(nearest_name("POISSONRATIO", known) == "poissonRatio");
   CHECK(nearest_name("xyz", known).empty());
+  CHECK(edit_distance("feild", "Field") == 1);
+  CHECK(edit_distance("ca", "abc") == 3);
+  CHECK(edit_distance("", "abc") == 3);
+}
+
+TEST_CASE("what shares words with a name, but not the word that tells it from others, is another thing") {
+  const std::vector<std::string> known{"TetrahedronFEMForceField", "FixedPlaneConstraint", "CGLinearSolver", "MeshOBJLoader",
+                                       "IdentityMapping", "StiffSpringForceField", "EulerImplicitSolver"};
+  for (auto const& [word, name] : {std::pair{"TetrahedronFEMForceFeild", "TetrahedronFEMForceField"},
+                                   {"TetrahedronFemForcefield", "TetrahedronFEMForceField"},
+                                   {"TetraedronFEMForceField", "TetrahedronFEMForceField"},
+                                   {"TetrahedronFEM", "TetrahedronFEMForceField"},
+                                   {"EulerImplicit", "EulerImplicitSolver"},
+                                   {"cglinearsolver", "CGLinearSolver"},
+                                   {"FixedPlaneConstrant", "FixedPlaneConstraint"}})
+    CHECK(nearest_name(word, known) == name);
+  for (auto const* word : {"BilateralLagrangianConstraint", "BTDLinearSolver", "MeshOffLoader", "IdentityMultiMapping",
+                           "JointSpringForceField", "TaitSurfacePressureForceField", "Solver", ""})
+    CHECK(nearest_name(word, known).empty());
 }
 
 }  // namespace test_error

@@ -64,6 +64,61 @@ TEST_CASE("the surface of hexahedra in quads, and these in triangles") {
   }
 }
 
+TEST_CASE("hexahedra of a grid, mirrored in turn or not, become tetrahedra that match and fill it, as SOFA cuts them") {
+  for (const bool swapping : {false, true})
+    for (const int across : {3, 4}) {
+      const Mesh mesh = regular_grid(across, ny, nz, {0, 0, 0}, {across - 1.0, 3, 4});
+      Hexa2TetraTopologicalMapping tetra{
+          .position = mesh.positions, .elements = mesh.hexahedra, .swapping = swapping, .grid = {across, ny, nz}};
+      tetra.update("t");
+      double least = 1;
+      for (auto const& [a, b, c, d] : tetra.converted) {
+        auto from = [&](Index i) -> Eigen::Vector3d { return mesh.positions[std::size_t(i)] - mesh.positions[std::size_t(a)]; };
+        least = std::min(least, from(b).cross(from(c)).dot(from(d)) / 6);
+      }
+      CHECK(least == Approx(1.0 / 6));
+      // inner faces have two tetrahedra: what is left is the surface
+      const auto surface = boundary_triangles(tetra.converted);
+      CHECK(surface.size() == 4 * std::size_t((across - 1) * (ny - 1) + (ny - 1) * (nz - 1) + (nz - 1) * (across - 1)));
+      CHECK(volume_inside(mesh.positions, surface) == Approx(12.0 * (across - 1)));
+      // SOFA's first tetrahedron of the first cell, which is mirrored along x with swapping
+      CHECK(tetra.converted[0] == (swapping ? Tetrahedron{1, across * ny, across * ny + across, 0}
+                                            : Tetrahedron{0, across * ny + 1, 1, across * ny + across + 1}));
+    }
+  // turned by a quarter about the line between them, neighbours would not match by it
+  const Mesh two = regular_grid(3, 2, 2, {0, 0, 0}, {2, 1, 1});
+  auto turned = two.hexahedra;
+  auto const h = turned[1];
+  turned[1] = {h[3], h[2], h[6], h[7], h[0], h[1], h[5], h[4]};
+  Hexa2TetraTopologicalMapping tetra{.position = two.positions, .elements = turned};
+  tetra.update("t");
+  CHECK(boundary_triangles(tetra.converted).size() == 20);
+  CHECK(tetra.converted == hexahedra_to_tetrahedra(turned));
+}
+
+TEST_CASE("diagonals of the quads of a sheet alternate as on a chessboard, unless they shall not") {
+  const Mesh mesh = regular_grid(4, 4, 2, {0, 0, 0}, {3, 3, 1});
+  std::vector<Quad> sheet;
+  for (Index j = 0; j < 3; ++j)
+    for (Index i = 0; i < 3; ++i) {
+      const Index p = i + 4 * j;
+      sheet.push_back({p, p + 1, p + 5, p + 4});
+    }
+  for (const bool swapping : {true, false}) {
+    Quad2TriangleTopologicalMapping triangles{
+        .position = mesh.positions, .elements = sheet, .swapping = swapping, .grid = {4, 4, 1}};
+    triangles.update("t");
+    for (std::size_t q = 0; q < sheet.size(); ++q) {
+      // both triangles of a quad have its diagonal, and no more in common
+      auto const &a = triangles.converted[2 * q], &b = triangles.converted[2 * q + 1];
+      auto on = [](Triangle const& t, Index i) { return std::find(t.begin(), t.end(), i) != t.end(); };
+      const std::size_t k = swapping && (q % 3 + q / 3) % 2 == 1 ? 1 : 0;
+      CHECK((on(a, sheet[q][k]) && on(b, sheet[q][k]) && on(a, sheet[q][k + 2]) && on(b, sheet[q][k + 2])));
+      CHECK(on(a, sheet[q][k + 1]) != on(b, sheet[q][k + 1]));
+    }
+  }
+}
+
 TEST_CASE("a topological mapping says which element is wrong") {
   Quad2TriangleTopologicalMapping missing{.position = {{0, 0, 0}}, .elements = {{0, 0, 0, 7}}};
   CHECK_THROWS_WITH(missing.update("t"),

@@ -114,15 +114,15 @@ TEST_CASE("topologies are checked before anybody reads through them") {
   };
   const std::string four = "<MeshTopology position='0 0 0 1 0 0 0 1 0 0 0 1' tetrahedra='0 1 2 3'/>";
   for (std::string const model : {"<TriangleCollisionModel/>", "<LineCollisionModel/>"}) {
-    with("<MechanicalObject position='0 0 0'/>", four, model);
+    with("<MechanicalObject position='0 0 0 1 0 0'/>", four, model);
     with("<MechanicalObject position='0 0 0 1 0 0 0 1 0 0 0 1'/>", "<MeshTopology edges='0 9' triangles='0 1 9'/>", model);
     with("<MechanicalObject position='0 0 0 1 0 0 0 1 0'/>", "<MeshTopology triangles='0 1 2147483647'/>", model);
-    with("<MechanicalObject position='0 0 0'/>", "<RegularGridTopology n='2 2 2'/>", model);
+    with("<MechanicalObject position='0 0 0 1 0 0'/>", "<RegularGridTopology n='2 2 2'/>", model);
     with("<MechanicalObject/>", "<MeshTopology triangles='0 1 2'/>", model);
   }
   // mappings read through the topology of their parents
   says("<Node>" + implicit +
-           "<Node name='body'><MechanicalObject position='0 0 0'/><UniformMass/>" + four +
+           "<Node name='body'><MechanicalObject position='0 0 0 1 0 0'/><UniformMass/>" + four +
            "<Node name='child'><MechanicalObject position='0.1 0.1 0.1'/><BarycentricMapping/></Node></Node></Node>",
        "point");
   // and what stands below the state of the topology
@@ -140,6 +140,23 @@ TEST_CASE("grids that cannot be meant are refused with the memory that they woul
   says("<Node><MechanicalObject/><CubeTopology nx='10' ny='10' nz='11' min='0 0 0' max='1 1 1'/></Node>", "would take");
   says("<Node><MechanicalObject/><SphereGridTopology n='10 10 11' radius='1'/></Node>", "would take");
   memory_limit = limit;
+}
+
+TEST_CASE("forces that are not finite end in positions that are not, with each iterative solver") {
+  for (std::string const& linear : {std::string("CGLinearSolver"), std::string("CGLinearSolver template='CompressedRowSparseMatrixd'"),
+                                    std::string("ShewchukPCGLinearSolver"), std::string("MinResLinearSolver")}) {
+    INFO(linear);
+    auto simulation = start(parse_scene<Standard>(
+        "scene.scn", "<Node dt='0.01'><Node name='body'><EulerImplicitSolver/><" + linear +
+                         "/><MechanicalObject position='0 0 0 1 0 0 1 1 0'/><UniformMass vertexMass='0.1'/>"
+                         "<StiffSpringForceField spring='0 1 100 0.1 1  1 2 100 0.1 1'/>"
+                         "<ConstantForceField indices='1' forces='1e300 1e300 1e300'/></Node></Node>"));  // whose square overflows
+    CHECK_THROWS_WITH(simulation.animate(0.01), Contains("point 0 is not a finite number"));
+  }
+  // a largest number of iterations takes no memory
+  auto simulation = run("<Node dt='0.01'><Node name='body'><EulerImplicitSolver/><CGLinearSolver iterations='2147483647'/>"
+                        "<MechanicalObject position='0 0 0'/><UniformMass vertexMass='0.1'/></Node></Node>");
+  CHECK(simulation.root().find_node("body")->get<CGLinearSolver<>>()->residuals.capacity() < 2'000'000);
 }
 
 }  // namespace test_bad_places

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 // Each attribute that SOFA's classes have (v26; sofa_attributes.txt: class, attribute and default, as its factory says them) is a
 // field of ours, has no effect, or is not simulated, and is one of these only.
-#include "catch.hpp"
+#include "same_bits.hpp"
 
+#include <sinew/runtime/dialect.hpp>
 #include <sinew/runtime/dialect_attributes.hpp>
-#include <sinew/runtime/precompiled.hpp>
 
 #include <fstream>
 #include <set>
@@ -32,10 +32,10 @@ std::vector<Attribute> attributes_of_sofa() {
 }
 
 // what the reader takes beside fields: where a visual model is put, the topology that is named, and a file, which it reads by a
-// loader where the class has no field for one
+// loader where the class has no field for one; externalForce becomes a component of its own
 bool taken(ClassInfo const& info, std::string_view name) {
   static const std::set<std::string_view> placing{"translation", "rotation", "scale", "scale3d", "vertices"};
-  return name == "topology" || name == "filename" || (info.role == RoleKind::visualModel && placing.count(name) > 0);
+  return name == "topology" || name == "filename" || (info.role == RoleKind::state && name == "externalForce") || (info.role == RoleKind::visualModel && placing.count(name) > 0);
 }
 
 ReadScene<Standard> parse(std::string const& component, bool lenient = false) {
@@ -93,6 +93,61 @@ TEST_CASE("attributes that SOFA has today and that change nothing are taken") {
   const auto scene = parse("<CollisionPipeline depth='6' draw='0' verbose='0'/><BruteForceBroadPhase/><BVHNarrowPhase/>"
                            "<MinProximityIntersection/><CollisionResponse/><PointCollisionModel contactDistance='0.25'/>");
   CHECK(scene.root.get<PointCollisionModel<Vec3d>>()->proximity == 0.25);
+}
+
+TEST_CASE("externalForce of a state acts on its first points, and is nothing where it is zero") {
+  auto fall = [](std::string const& attribute) {
+    auto simulation = start(parse_scene<Standard>(
+        "test.scn", "<Node dt='0.1' gravity='0 0 0'><EulerExplicitSolver/><MechanicalObject position='0 0 0 1 0 0 2 0 0' " + attribute +
+                        "/><UniformMass vertexMass='2'/></Node>"));
+    simulation.animate(0.1);
+    return simulation.root().get<MechanicalObject<Vec3d>>()->velocity;
+  };
+  const auto pushed = fall("externalForce='4 0 0  0 -6 0'");
+  CHECK(pushed[0] == Eigen::Vector3d(0.2, 0, 0));
+  CHECK((pushed[1] - Eigen::Vector3d(0, -0.3, 0)).norm() < 1e-15);
+  CHECK(pushed[2] == Eigen::Vector3d(0, 0, 0));
+  CHECK(fall("externalForce='0 0 0'")[0] == Eigen::Vector3d(0, 0, 0));
+  CHECK_THROWS_WITH(fall("externalForce='1 0 0 2'"), Contains("test.scn:1:") && Contains("externalForce: give 3 numbers for each"));
+  CHECK_THROWS_WITH(fall("externalForce='1 0 x'"), Contains("test.scn:1:") && Contains("'x'"));
+  CHECK_THROWS_WITH(fall("externalForce='1 0 0 1 0 0 1 0 0 1 0 0'"), Contains("the state has 3 points"));
+}
+
+TEST_CASE("a state of one point takes the points of its topology, and runs along a grid that runs backwards") {
+  auto scene = start(parse_scene<Standard>(
+      "test.scn", "<Node><RegularGridTopology n='3 2 1' min='2 0 0' max='-2 1 4'/><MechanicalObject position='0 0 0'/>"
+                  "<UniformMass vertexMass='1'/></Node>"));
+  auto const& x = scene.root().get<MechanicalObject<Vec3d>>()->position;
+  REQUIRE(x.size() == 6);
+  CHECK(x[0] == Eigen::Vector3d(2, 0, 0));
+  CHECK(x[5] == Eigen::Vector3d(-2, 1, 0));
+  CHECK_THROWS_WITH(start(parse_scene<Standard>("test.scn", "<Node><RegularGridTopology n='3 2 1' min='2 0 0' max='-2 0 4'/></Node>")),
+                    Contains("is empty"));
+}
+
+TEST_CASE("translation, rotation and scale3d move points of the plane within it") {
+  auto moved = [](std::string const& attributes) {
+    return start(parse_scene<Standard>("test.scn", "<Node><MechanicalObject template='Vec2d' position='1 0 0 2' " + attributes + "/></Node>"))
+        .root().get<MechanicalObject<Vec2d>>()->position;
+  };
+  const auto x = moved("translation='3 4 0' rotation='0 0 90' scale3d='2 1 1'");
+  CHECK((x[0] - Eigen::Vector2d(3, 6)).norm() < 1e-15);
+  CHECK((x[1] - Eigen::Vector2d(1, 4)).norm() < 1e-15);
+  CHECK_THROWS_WITH(moved("rotation='0 90 0'"), Contains("test.scn:1:") && Contains("out of its plane"));
+}
+
+TEST_CASE("a name that stands for another method than SOFA's says what differs") {
+  const auto table = make_class_table<Standard>();
+  for (auto const& other : dialect::anotherMethod) {
+    INFO(other.name);
+    const bool known = std::any_of(table.begin(), table.end(), [&](auto const& info) { return info.known(other.name); });
+    CHECK((known || dialect::preconditioner_named(other.name) || other.name == "FrictionContact"));
+  }
+  const auto scene = parse("<EulerImplicitSolver/><AsyncSparseLDLSolver/><UniformMass totalMass='1'/>");
+  REQUIRE(scene.warnings.size() == 1);
+  CHECK_THAT(scene.warnings[0], Contains("test.scn:1:") && Contains("<AsyncSparseLDLSolver>: the matrix of each step"));
+  CHECK(parse("<CollisionPipeline/><CollisionResponse response='FrictionContact'/>").warnings.size() == 1);
+  CHECK(parse("<EulerImplicitSolver/><SparseLDLSolver/><UniformMass totalMass='1'/>").warnings.empty());
 }
 
 }  // namespace test_sofa_attributes

@@ -120,7 +120,7 @@ TEST_CASE("RegularGridTopology refuses boxes and sizes that make no sense") {
   CHECK(contains(refusal({.n = {2000000000, 2000000000, 2000000000}}), "2^24"));
   CHECK(contains(refusal({.cellWidth = 1e-300}), "2^24"));
   CHECK(contains(refusal({.min = {0, 1, 0}}), "is empty"));
-  CHECK(contains(refusal({.n = {2, 2, 1}, .min = {0, 0, 2}}), "is empty"));
+  CHECK(contains(refusal({.min = {0, 0, 1}}), "is empty"));
   CHECK(contains(refusal({.min = {0, 0, 2}, .cellWidth = 0.1}), "is empty"));
   CHECK(contains(refusal({.max = {1, std::nan(""), 1}}), "is empty"));
   CHECK(contains(error_of([] { check_fields(RegularGridTopology{.n = {2, 0, 2}}, "s"); }), "n[1] is 0"));

@@ -139,7 +139,7 @@ TEST_CASE("the grid is that of the surface and a hundredth more, unless it is gi
   CHECK(error_of([&] { made(onFaces); }).find("no cell is inside") != std::string::npos);  // one is 2 wide
 }
 
-TEST_CASE("cavities stay empty, bodies in bodies are full, several bodies are kept") {
+TEST_CASE("cavities stay empty, bodies in bodies are full, several bodies are kept", "[long]") {
   const Mesh outer = block({0, 0, 0}, straight, {2, 2, 2}), inner = block({0, 0, 0}, straight, {1, 1, 1}),
              beside = block({5, 0, 0}, straight, {2, 2, 2});
   auto cells = [](Mesh const& mesh) {

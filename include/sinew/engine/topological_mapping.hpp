@@ -6,7 +6,10 @@
 #include <sinew/topology/adjacency.hpp>
 #include <sinew/topology/hexahedra.hpp>
 
+#include <algorithm>
+#include <array>
 #include <map>
+#include <vector>
 
 namespace sinew {
 
@@ -35,39 +38,53 @@ std::vector<Side> border(std::vector<Element> const& elements,
   return list;
 }
 
+/// Cells each way of the grid that elements are of, x fastest, and whether their cuts alternate.
+struct Cuts {
+  bool swapping;
+  std::array<int, 3> cells;
+};
+
+/// Six tetrahedra for each hexahedron, cut as in SOFA: four around the diagonal from corner 0 to 6, and those
+/// at the corners 2 and 4. In a grid neighbours match so; where they do not, all are cut as by
+/// hexahedra_to_tetrahedra().
 struct Hexa2Tetra {
   using Elements = std::vector<Hexahedron>;
+  using Converted = std::vector<Tetrahedron>;
   static constexpr std::string_view className = "Hexa2TetraTopologicalMapping", from = "hexahedra",
-                                    to = "tetrahedra", purpose = "six tetrahedra for each hexahedron";
-  static std::vector<Tetrahedron> convert(Elements const& hexahedra) {
-    return hexahedra_to_tetrahedra(hexahedra);
-  }
+                                    to = "tetrahedra", purpose = "six tetrahedra for each hexahedron",
+                                    cuts = "whether the cells of a grid are mirrored in turn along each axis";
+  static constexpr bool swapsByDefault = false;
+  static Converted convert(Elements const& hexahedra, Cuts const& cut);
 };
 struct Tetra2Triangle {
   using Elements = std::vector<Tetrahedron>;
+  using Converted = std::vector<Triangle>;
   static constexpr std::string_view className = "Tetra2TriangleTopologicalMapping", from = "tetrahedra",
                                     to = "triangles", purpose = "the surface of the tetrahedra";
-  static std::vector<Triangle> convert(Elements const& tetrahedra) { return boundary_triangles(tetrahedra); }
+  static Converted convert(Elements const& tetrahedra) { return boundary_triangles(tetrahedra); }
 };
 struct Hexa2Quad {
   using Elements = std::vector<Hexahedron>;
+  using Converted = std::vector<Quad>;
   static constexpr std::string_view className = "Hexa2QuadTopologicalMapping", from = "hexahedra",
                                     to = "quads", purpose = "the surface of the hexahedra";
-  static std::vector<Quad> convert(Elements const& hexahedra) {
-    return border<Quad>(hexahedra, hexahedronFaces);
-  }
+  static Converted convert(Elements const& hexahedra) { return border<Quad>(hexahedra, hexahedronFaces); }
 };
 struct Quad2Triangle {
   using Elements = std::vector<Quad>;
+  using Converted = std::vector<Triangle>;
   static constexpr std::string_view className = "Quad2TriangleTopologicalMapping", from = "quads",
-                                    to = "triangles", purpose = "two triangles for each quad";
-  static std::vector<Triangle> convert(Elements const& quads);
+                                    to = "triangles", purpose = "two triangles for each quad",
+                                    cuts = "whether the diagonals of a grid alternate as on a chessboard";
+  static constexpr bool swapsByDefault = true;
+  static Converted convert(Elements const& quads, Cuts const& cut);
 };
 struct Triangle2Edge {
   using Elements = std::vector<Triangle>;
+  using Converted = std::vector<Edge>;
   static constexpr std::string_view className = "Triangle2EdgeTopologicalMapping", from = "triangles",
                                     to = "edges", purpose = "the border of the triangles";
-  static std::vector<Edge> convert(Elements const& triangles) {
+  static Converted convert(Elements const& triangles) {
     constexpr std::size_t sides[3][2] = {{0, 1}, {1, 2}, {2, 0}};
     return border<Edge>(triangles, sides);
   }
@@ -85,16 +102,34 @@ struct TopologicalMapping {
   std::vector<Eigen::Vector3d> position{};
   typename Conversion::Elements elements{};
   bool flipNormals = false;
+  // of conversions that cut elements
+  static constexpr bool hasCuts = requires { Conversion::cuts; };
+  bool swapping = [] {
+    if constexpr (hasCuts) return Conversion::swapsByDefault;
+    return false;
+  }();
+  std::array<int, 3> grid{0, 0, 0};
 
   static constexpr auto fields() {
     using T = TopologicalMapping;
-    return field_list(field("position", &T::position, "m", "points").also("points"),
-                      field(Conversion::from, &T::elements, "", "elements over them", range::nonNegative),
-                      field("flipNormals", &T::flipNormals, "", "whether faces and edges are turned over"));
+    auto with = [](auto... more) {
+      return field_list(field("position", &T::position, "m", "points").also("points"),
+                        field(Conversion::from, &T::elements, "", "elements over them", range::nonNegative),
+                        field("flipNormals", &T::flipNormals, "", "whether faces and edges are turned over"),
+                        more...);
+    };
+    if constexpr (hasCuts)
+      return with(
+          field("swapping", &T::swapping, "", Conversion::cuts),
+          field(
+              "grid", &T::grid, "", "points along x, y, z of the grid that they are of", range::nonNegative));
+    else
+      return with();
   }
 
   // after update
-  decltype(Conversion::convert(elements)) converted{};
+  using Converted = typename Conversion::Converted;
+  Converted converted{};
 
   static constexpr auto outputs() {
     using T = TopologicalMapping;
@@ -112,7 +147,10 @@ struct TopologicalMapping {
         elements,
         position.empty() ? std::size_t(std::numeric_limits<Index>::max()) : position.size());
     try {
-      converted = Conversion::convert(elements);
+      if constexpr (hasCuts)
+        converted = Conversion::convert(elements, {swapping, {grid[0] - 1, grid[1] - 1, grid[2] - 1}});
+      else
+        converted = Conversion::convert(elements);
     } catch (Error const& error) {
       throw Error(at, error.what());
     }
@@ -132,12 +170,68 @@ using Triangle2EdgeTopologicalMapping = TopologicalMapping<detail::Triangle2Edge
 #if SINEW_DEFINES
 namespace sinew::detail {
 
-SINEW_ONCE std::vector<Triangle> Quad2Triangle::convert(Elements const& quads) {
-  std::vector<Triangle> triangles;
+// as SOFA takes elements that are of no grid
+SINEW_ONCE std::array<int, 3> cells_or_none(std::array<int, 3> const& cells) {
+  return cells[0] >= 0 ? cells : std::array{2, 1, 1};
+}
+
+SINEW_ONCE Hexa2Tetra::Converted Hexa2Tetra::convert(Elements const& hexahedra, Cuts const& cut) {
+  // the second where the cell is mirrored: turned over, they are positively oriented again
+  constexpr std::size_t parts[2][6][4] = {
+      {{0, 5, 1, 6}, {0, 1, 3, 6}, {1, 3, 6, 2}, {6, 3, 0, 7}, {6, 7, 0, 5}, {7, 5, 4, 0}},
+      {{0, 5, 6, 1}, {0, 1, 6, 3}, {1, 3, 2, 6}, {6, 3, 7, 0}, {6, 7, 5, 0}, {7, 5, 0, 4}}};
+  // the diagonals by which they cut the faces, between the first and third of the corners
+  constexpr std::size_t faces[6][4] = {
+      {1, 2, 3, 0}, {5, 6, 7, 4}, {0, 1, 5, 4}, {3, 2, 6, 7}, {0, 3, 7, 4}, {1, 2, 6, 5}};
+  const std::array<int, 3> n = cells_or_none(cut.cells);
+  const std::size_t row = std::size_t(std::max(n[0], 1)), layer = row * std::size_t(std::max(n[1], 1));
+  std::map<Quad, Edge> cutBy;
+  Converted tetrahedra;
+  tetrahedra.reserve(6 * hexahedra.size());
+  for (std::size_t i = 0; i < hexahedra.size(); ++i) {
+    Hexahedron c = hexahedra[i];
+    bool mirrored = false;
+    if (cut.swapping) {
+      const bool along[3] = {
+          i % row % 2 == 0, i / row % std::size_t(std::max(n[1], 1)) % 2 == 1, i / layer % 2 == 1};
+      for (int axis = 0; axis < 3; ++axis) {
+        if (!along[axis]) continue;
+        for (std::size_t k = 0; k < 8; ++k)
+          for (std::size_t l = k + 1; l < 8; ++l) {
+            bool edge = true;  // from corner k to l, along the axis
+            for (int d = 0; d < 3; ++d)
+              edge = edge && (hexahedronCorners[k][d] == hexahedronCorners[l][d]) == (d != axis);
+            if (edge) std::swap(c[k], c[l]);
+          }
+        mirrored = !mirrored;
+      }
+    }
+    for (auto const& f : faces) {
+      Quad face{c[f[0]], c[f[1]], c[f[2]], c[f[3]]};
+      const Edge diagonal{std::min(face[0], face[2]), std::max(face[0], face[2])};
+      std::sort(face.begin(), face.end());
+      if (cutBy.try_emplace(face, diagonal).first->second != diagonal)
+        return hexahedra_to_tetrahedra(hexahedra);
+    }
+    for (auto const& t : parts[mirrored]) tetrahedra.push_back({c[t[0]], c[t[1]], c[t[2]], c[t[3]]});
+  }
+  return tetrahedra;
+}
+
+SINEW_ONCE Quad2Triangle::Converted Quad2Triangle::convert(Elements const& quads, Cuts const& cut) {
+  const std::array<int, 3> n = cells_or_none(cut.cells);
+  const std::size_t row = std::size_t(std::max(n[0] > 0 ? n[0] : n[1], 1));
+  Converted triangles;
   triangles.reserve(2 * quads.size());
-  for (auto const& q : quads) {
-    triangles.push_back({q[0], q[1], q[2]});
-    triangles.push_back({q[0], q[2], q[3]});
+  for (std::size_t i = 0; i < quads.size(); ++i) {
+    auto const& q = quads[i];
+    if (cut.swapping && (i % row + i / row) % 2 == 1) {
+      triangles.push_back({q[0], q[1], q[3]});
+      triangles.push_back({q[2], q[3], q[1]});
+    } else {
+      triangles.push_back({q[1], q[2], q[0]});
+      triangles.push_back({q[3], q[0], q[2]});
+    }
   }
   return triangles;
 }

@@ -7,9 +7,9 @@
 #include <array>
 #include <string_view>
 
-// What SOFA's scenes say that has no meaning here, or none yet: classes, and attributes of nodes, that a scene may have
-// without an error. Classes that do have a meaning are in the registry, with their aliases; dialect_attributes.hpp has the
-// attributes of components.
+// What SOFA's scenes say that has no meaning here, or none yet: classes, and attributes of nodes, that a
+// scene may have without an error. Classes that do have a meaning are in the registry, with their aliases;
+// dialect_attributes.hpp has the attributes of components.
 namespace sinew::dialect {
 
 /// Programs, pictures, windows, and helpers of data structures that Sinew does not need.
@@ -171,6 +171,38 @@ inline constexpr std::array standsFor = std::to_array<StandsFor>(
      {"BDF1", "BDFOdeSolver", "order", "1"},
      {"TriangularBendingFEMForceField", "TriangularShellForceField", "bending", "0"},
      {"NodalLinearDampingForceField", "UniformVelocityDampingForceField", "implicit", "1"}});
+
+/// Names that stand for a class which finds its answer in another way than SOFA's: what differs.
+struct AnotherMethod {
+  std::string_view name, difference;
+};
+inline constexpr std::array anotherMethod = std::to_array<AnotherMethod>(
+    {{"LocalMinDistance",
+      "all pairs of elements within the distance are contacts, as with MinProximityIntersection; SOFA leaves "
+      "out those that are no local minima of the distance"},
+     {"FrictionContact",
+      "penalties hold bodies apart and Coulomb's law rubs, as with PenalityContactForceField; SOFA solves "
+      "for multipliers"},
+     {"AsyncSparseLDLSolver",
+      "the matrix of each step is factorised before it is solved, as with SparseLDLSolver; SOFA goes on with "
+      "the factorisation of an earlier step while a thread makes the next"},
+     {"EigenSparseQR",
+      "the matrix is factorised as L D L', as with SparseLDLSolver, and has to be symmetric"},
+     {"EigenSparseLU",
+      "the matrix is factorised as L D L', as with SparseLDLSolver, and has to be symmetric"},
+     {"SparseLUSolver",
+      "the matrix is factorised as L D L', as with SparseLDLSolver, and has to be symmetric"},
+     {"WarpPreconditioner",
+      "it turns with the neighbourhood of each point, where SOFA's turns with the rotations of a force "
+      "field; the system is solved to the same tolerance"},
+     {"PrecomputedWarpPreconditioner",
+      "the factorisation of the first step turns with the neighbourhood of each point, where SOFA's inverse "
+      "turns with the rotations of a force field; the system is solved to the same tolerance"}});
+constexpr AnotherMethod const* another_method(std::string_view tag) {
+  for (auto const& other : anotherMethod)
+    if (other.name == tag) return &other;
+  return nullptr;
+}
 
 /// The implicit Euler solver of the first SOFA, which has its conjugate gradients in it.
 inline constexpr std::array implicitWithCG =

@@ -58,8 +58,7 @@ struct CGLinearSolver {
 
   template <class Operations>
   void init(Operations& operations) {
-    residuals.clear();
-    residuals.reserve(std::size_t(iterations) + 1);
+    reserve_residuals(residuals, iterations);
     if (solves_on_device(operations, !matrixFree, true)) return;
     if constexpr (!matrixFree) {
       operations.initMatrix(system.matrix);
@@ -111,15 +110,16 @@ struct CGLinearSolver {
   void iterate(double rho, Multiply&& multiply, Advance&& advance, Turn&& turn) {
     const double start = rho;
     residuals.clear();
-    residuals.push_back(1);
+    keep_residual(residuals, 1);
+    if (!std::isfinite(start)) advance(notSolved);
     for (int i = 0; i < iterations; ++i) {
       if (!(rho > tolerance * tolerance * start)) return;
       const double curvature = multiply();
-      if (!(std::abs(curvature) > threshold)) return;
-      const double next = advance(rho / curvature);
+      if (std::abs(curvature) <= threshold) return;
+      const double next = advance(std::isfinite(curvature) ? rho / curvature : notSolved);
       turn(next / rho);
       rho = next;
-      residuals.push_back(std::sqrt(rho / start));
+      keep_residual(residuals, std::sqrt(rho / start));
     }
   }
 };

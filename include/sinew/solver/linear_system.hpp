@@ -7,10 +7,13 @@
 #include <sinew/solver/multi_vec.hpp>
 #include <sinew/state/vector_operations.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 namespace sinew {
 
@@ -49,6 +52,21 @@ void solve_on_device(Solver& solver, Operations& operations, MatrixFactors facto
       if (std::exchange(first, false))
         VectorOperations<D>::solve(solver, operations, factors, x, b, state.solverRoom.numbers);
   });
+}
+
+/// What an iteration multiplies its result with where it meets a number that is not finite: the state says
+/// then that the simulation has diverged, where a method that stops would leave it standing still without a
+/// word.
+inline constexpr double notSolved = std::numeric_limits<double>::quiet_NaN();
+
+/// Room for |b - A x| / |b| of each iteration, of the first million at most.
+inline void reserve_residuals(std::vector<double>& residuals, int iterations) {
+  residuals.clear();
+  residuals.reserve(std::size_t(std::min(iterations, 1'000'000)) + 1);
+}
+/// Keeps one, as long as there is room: a step allocates nothing.
+inline void keep_residual(std::vector<double>& residuals, double value) {
+  if (residuals.size() < residuals.capacity()) residuals.push_back(value);
 }
 
 /// "point 7, component 1 of MechanicalObject<Vec3d>": what messages say of an unknown of the system.

@@ -50,8 +50,7 @@ struct MinResLinearSolver {
 
   template <class Operations>
   void init(Operations& operations) {
-    residuals.clear();
-    residuals.reserve(std::size_t(iterations) + 1);
+    reserve_residuals(residuals, iterations);
     if constexpr (!matrixFree) {
       auto& s = system;
       operations.initMatrix(s.matrix);
@@ -90,9 +89,10 @@ struct MinResLinearSolver {
     double beta = start, eta = start;         // |next Lanczos vector|, signed residual
     double c = 1, cOld = 1, s = 0, sOld = 0;  // the last two rotations
     residuals.clear();
-    residuals.push_back(1);
+    keep_residual(residuals, 1);
     for (V* zero : {&x, vOld, wOlder, wOld}) zero->clear();
     v->eq(b);
+    if (!std::isfinite(start)) x.eq(b, notSolved);
     for (int i = 0; i < iterations; ++i) {
       if (!(std::abs(eta) > tolerance * start) || !(beta > 0)) return;
       // alpha v, beta: the next column of T
@@ -106,7 +106,8 @@ struct MinResLinearSolver {
       // the two rotations before this one, and the one that clears betaNext
       const double delta = c * alpha - cOld * s * beta, r1 = std::hypot(delta, betaNext),
                    r2 = s * alpha + cOld * c * beta, r3 = sOld * beta;
-      if (!(r1 > 0)) return;  // singular, and no direction left
+      if (!std::isfinite(r1)) return x.eq(b, notSolved);
+      if (r1 <= 0) return;  // singular, and no direction left
       cOld = std::exchange(c, delta / r1);
       sOld = std::exchange(s, betaNext / r1);
       // w = (v - r3 w[-2] - r2 w[-1]) / r1
@@ -118,7 +119,7 @@ struct MinResLinearSolver {
       eta *= -s;
       beta = betaNext;
       std::swap(v, vOld);
-      residuals.push_back(std::abs(eta) / start);
+      keep_residual(residuals, std::abs(eta) / start);
     }
   }
 };

@@ -4,6 +4,7 @@
 #include <sinew/core/component.hpp>
 #include <sinew/solver/multi_vec.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string_view>
@@ -43,8 +44,9 @@ struct NewtonReport {
   }
   void init(int iterations) {
     *this = {};
-    residuals.reserve(std::size_t(iterations) + 1);
-    corrections.reserve(std::size_t(iterations));
+    const auto room = std::size_t(std::min(iterations, 1'000'000));
+    residuals.reserve(room + 1);
+    corrections.reserve(room);
   }
 };
 

@@ -75,8 +75,7 @@ struct ShewchukPCGLinearSolver {
 
   template <class Operations>
   void init(Operations& operations) {
-    residuals.clear();
-    residuals.reserve(std::size_t(iterations) + 1);
+    reserve_residuals(residuals, iterations);
     age = -1;
     if (staysOnDevice(operations, true)) return;
     operations.initMatrix(matrix);
@@ -166,20 +165,22 @@ struct ShewchukPCGLinearSolver {
                Precondition&& approximate) {
     const double start = rhs.dot(rhs);
     residuals.clear();
-    residuals.push_back(1);
+    keep_residual(residuals, 1);
     solution.clear();
     res.eq(rhs);
     approximate(dir, res);
     double rho = res.dot(dir), size = start;
+    if (!std::isfinite(start)) solution.eq(rhs, notSolved);
     for (int i = 0; i < iterations; ++i) {
       if (!(size > tolerance * tolerance * start)) return;
       multiply(product, dir);
       const double curvature = dir.dot(product);
       if (curvature == 0) return;
-      solution.peq(dir, rho / curvature);
-      res.peq(product, -rho / curvature);
+      const double alpha = std::isfinite(curvature) ? rho / curvature : notSolved;
+      solution.peq(dir, alpha);
+      res.peq(product, -alpha);
       size = res.dot(res);
-      residuals.push_back(std::sqrt(size / start));
+      keep_residual(residuals, std::sqrt(size / start));
       approximate(product, res);
       const double next = res.dot(product);
       dir.teq(next / rho);

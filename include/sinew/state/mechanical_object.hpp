@@ -5,6 +5,7 @@
 #include <sinew/core/euler.hpp>
 #include <sinew/state/vector_operations.hpp>
 
+#include <numbers>
 #include <optional>
 #include <span>
 #include <vector>
@@ -36,7 +37,10 @@ struct MechanicalObject {
   static constexpr auto fields() {
     using M = MechanicalObject;
     return field_list(
-        field("position", &M::position, "m", "positions at the start"),
+        field("position",
+              &M::position,
+              "m",
+              "positions at the start; where there is one at most, those of the node's topology"),
         field("velocity",
               &M::velocity,
               "m/s",
@@ -70,8 +74,10 @@ struct MechanicalObject {
 
   std::size_t size() const { return position.size(); }
 
-  /// Takes the points of a topology where no positions are given, and moves them as the fields say, once.
+  /// Takes the points of a topology where no positions are given, or, as in SOFA, one only, and moves them as
+  /// the fields say, once.
   void place(std::string const& where, std::span<Eigen::Vector3d const> points) {
+    if (position.size() == 1 && velocity.size() <= 1 && points.size() > 1) position.clear();
     if (position.empty())
       for (auto const& p : points) {
         position.push_back(D::zero());
@@ -79,23 +85,32 @@ struct MechanicalObject {
       }
     const Eigen::Vector3d none = Eigen::Vector3d::Zero(), whole = Eigen::Vector3d::Ones();
     if (translation == none && rotation == none && scale3d == whole) return;
-    if constexpr (D::spatial == 3) {
-      const Eigen::Quaterniond turn = rotation_of_degrees(rotation);
-      for (VecCoord* all : {&position, &restPosition})
-        for (auto& x : *all) {
-          const Eigen::Vector3d p =
-              turn * scale3d.cwiseProduct(D::center(x).template cast<double>()) + translation;
-          D::setCenter(x, p.template cast<typename D::Real>());
-          if constexpr (D::rigid) x.orientation = turn.template cast<typename D::Real>() * x.orientation;
-        }
-      translation = rotation = none;
-      scale3d = whole;
-    } else {
-      throw Error(
-          where,
-          text(component_name<MechanicalObject>(),
-               ": translation, rotation and scale3d are for points in space; move the positions instead"));
-    }
+    const Eigen::Quaterniond turn = rotation_of_degrees(rotation);
+    for (VecCoord* all : {&position, &restPosition})
+      for (auto& x : *all) {
+        Eigen::Vector3d p = Eigen::Vector3d::Zero();
+        p.template head<D::spatial>() = D::center(x).template cast<double>();
+        const double before = p.norm();
+        p = turn * scale3d.cwiseProduct(p) + translation;
+        if (p.template tail<3 - D::spatial>().norm() > 1e-9 * (p.norm() + before))
+          throw Error(where,
+                      text(component_name<MechanicalObject>(),
+                           ": translation, rotation and scale3d take a point to (",
+                           p[0],
+                           ", ",
+                           p[1],
+                           ", ",
+                           p[2],
+                           "), out of its ",
+                           D::spatial == 2 ? "plane; move and turn it within" : "line; move it along"));
+        D::setCenter(x, p.template head<D::spatial>().template cast<typename D::Real>());
+        if constexpr (D::rigid && D::spatial == 3)
+          x.orientation = turn.template cast<typename D::Real>() * x.orientation;
+        if constexpr (D::rigid && D::spatial == 2)
+          x.orientation += typename D::Real(rotation[2] * std::numbers::pi / 180);
+      }
+    translation = rotation = none;
+    scale3d = whole;
   }
 
   /// A mapped state starts from what it was given, however often it is initialised.

@@ -5,6 +5,7 @@
 #include <sinew/core/error.hpp>
 #include <sinew/core/small_matrix.hpp>
 #include <sinew/topology/implicit_surface.hpp>
+#include <sinew/topology/regular_grid.hpp>
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -227,20 +228,7 @@ SINEW_ONCE Eigen::Vector3d BccLattice::position(int number) const {
 SINEW_ONCE BccLattice empty_bcc_lattice(std::string_view where, Eigen::Vector3d const& lo,
                                         Eigen::Vector3d const& hi, double spacing) {
   if (!all_finite(lo) || !all_finite(hi) || !(lo.array() < hi.array()).all())
-    throw Error(where,
-                text("the box from (",
-                     lo[0],
-                     ", ",
-                     lo[1],
-                     ", ",
-                     lo[2],
-                     ") to (",
-                     hi[0],
-                     ", ",
-                     hi[1],
-                     ", ",
-                     hi[2],
-                     ") is empty; its second corner must exceed the first in x, y and z"));
+    detail::refuse_box(where, lo, hi);
   if (!(spacing > 0) || !std::isfinite(spacing))
     throw Error(where, text("the spacing is ", spacing, "; it must be a positive length"));
   const Eigen::Array3d cells = ((hi - lo).array() / spacing - 1e-9).ceil().max(1);

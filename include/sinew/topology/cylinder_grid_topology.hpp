@@ -54,6 +54,7 @@ struct CylinderGridTopology {
     using T = CylinderGridTopology;
     return field_list(
         field("position", &T::position, "m", "the points, the first direction across fastest").also("points"),
+        field("grid", &T::points, "", "points along x, y and z"),
         field("edges", &T::edges, "", "lines between neighbours").also("lines"),
         field("triangles", &T::triangles, "", "each quad as two"),
         field("quads", &T::quads, "", "squares of each layer, then those between layers"),

@@ -15,8 +15,13 @@ namespace sinew {
 
 namespace detail {
 
+/// Throws the Error of a box without volume.
+[[noreturn]] void refuse_box(std::string_view where, Eigen::Vector3d const& lo, Eigen::Vector3d const& hi);
+
 /// Throws Error unless a grid has `least` points or more in each direction, 2^mostLog2 altogether at most,
-/// and a box that is not empty in directions of several points. One of a scene, of 2^24 at most, is also held to memory_limit.
+/// and a box that is not empty in directions of several points. Grids that may be sheets and strings, of
+/// `least` 1, may also run backwards, as in SOFA. One of a scene, of 2^24 at most, is also held to
+/// memory_limit.
 void check_grid(std::string_view where, std::array<int, 3> const& n, Eigen::Vector3d const& lo,
                 Eigen::Vector3d const& hi, int least, int mostLog2);
 
@@ -143,22 +148,26 @@ SINEW_ONCE void check_grid(std::string_view where, std::array<int, 3> const& n, 
                 text(grid, " exceeds the limit of ", most, " points (2^", mostLog2, "); make it coarser"));
   if (mostLog2 <= 24) check_memory(where, grid, double(n[0]) * n[1] * n[2]);
   bool room = all_finite(lo) && all_finite(hi);
-  for (int c = 0; c < 3; ++c) room = room && (n[std::size_t(c)] > 1 ? lo[c] < hi[c] : lo[c] <= hi[c]);
-  if (!room)
-    throw Error(where,
-                text("the box from (",
-                     lo[0],
-                     ", ",
-                     lo[1],
-                     ", ",
-                     lo[2],
-                     ") to (",
-                     hi[0],
-                     ", ",
-                     hi[1],
-                     ", ",
-                     hi[2],
-                     ") is empty; its second corner must exceed the first in x, y and z"));
+  for (int c = 0; c < 3; ++c)
+    room = room && (n[std::size_t(c)] == 1 || (least == 1 ? lo[c] != hi[c] : lo[c] < hi[c]));
+  if (!room) refuse_box(where, lo, hi);
+}
+
+SINEW_ONCE void refuse_box(std::string_view where, Eigen::Vector3d const& lo, Eigen::Vector3d const& hi) {
+  throw Error(where,
+              text("the box from (",
+                   lo[0],
+                   ", ",
+                   lo[1],
+                   ", ",
+                   lo[2],
+                   ") to (",
+                   hi[0],
+                   ", ",
+                   hi[1],
+                   ", ",
+                   hi[2],
+                   ") is empty; its second corner must exceed the first in x, y and z"));
 }
 
 SINEW_ONCE std::vector<double> grid_coordinates(int n, double lo, double hi) {

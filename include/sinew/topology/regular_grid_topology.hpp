@@ -66,6 +66,7 @@ struct RegularGridTopology {
     using T = RegularGridTopology;
     return field_list(
         field("position", &T::position, "m", "the points, x fastest").also("points"),
+        field("grid", &T::points, "", "points along x, y and z"),
         field("edges", &T::edges, "", "lines between neighbours along x, then y, then z").also("lines"),
         field("triangles", &T::triangles, "", "each quad as two"),
         field("quads", &T::quads, "", "squares of the xy planes, then xz, then yz"),
@@ -74,7 +75,8 @@ struct RegularGridTopology {
 
   TopologyView view() const { return detail::grid_view(*this); }
 
-  /// Throws Error when the box is empty in a direction of several points, or above 2^24 points.
+  /// Throws Error when the box is empty in a direction of several points, or above 2^24 points. One that runs
+  /// backwards makes a grid that does, as in SOFA.
   void generate(std::string_view where);
 
   /// Throws Error where the state has fewer points than the grid.
@@ -94,7 +96,10 @@ SINEW_ONCE void RegularGridTopology::generate(std::string_view where) {
   Eigen::Vector3d lo(xmin.value_or(min[0]), ymin.value_or(min[1]), zmin.value_or(min[2]));
   Eigen::Vector3d hi(xmax.value_or(max[0]), ymax.value_or(max[1]), zmax.value_or(max[2]));
   points = {nx.value_or(n[0]), ny.value_or(n[1]), nz.value_or(n[2])};
-  if (cellWidth > 0) points = detail::cubic_cells(cellWidth, lo, hi);
+  if (cellWidth > 0) {
+    if (!(lo.array() <= hi.array()).all()) detail::refuse_box(at, lo, hi);
+    points = detail::cubic_cells(cellWidth, lo, hi);
+  }
   // SOFA's sheets and strings lie in the middle of the box along x and y, and at its bottom along z
   for (int c = 0; c < 2; ++c)
     if (points[std::size_t(c)] == 1) lo[c] = (lo[c] + hi[c]) / 2;

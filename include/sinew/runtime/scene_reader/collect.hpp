@@ -82,6 +82,7 @@ class SceneCollector {
       if (info.known(known)) item->candidates.push_back(&info);
     if (!item->candidates.empty()) {
       hasNoChildren(element);
+      warnOfMethod(element, tag);
       std::erase_if(element.attributes, [](XmlAttribute const& a) {
         return dialect::has(dialect::mayBeEmpty, a.name) && (a.value.empty() || a.value == "@");
       });
@@ -134,15 +135,34 @@ class SceneCollector {
         place.newton.push_back(&child);
       } else if (dialect::preconditioner_named(tag)) {
         hasNoChildren(child);
+        warnOfMethod(child, tag);
         place.preconditioners.push_back(&child);
       } else if (tag == "BoxConstraint") {
         boxConstraint(place, child);
       } else if (dialect::has(dialect::implicitWithCG, tag)) {
         cgImplicit(place, child);
       } else if (auto item = makeItem(place, child)) {
+        const bool isState = item->candidates[0]->role == RoleKind::state;
         place.items.push_back(std::move(item));
+        if (isState) externalForce(place, child);
       }
     }
+  }
+
+  // of a component, and of the response of a contact manager
+  void warnOfMethod(XmlElement const& element, std::string_view tag) {
+    auto warn = [&](std::string_view name) {
+      if (auto const* other = dialect::another_method(name))
+        messages_.warnings.insert(text(element.place(),
+                                       ": <",
+                                       tag,
+                                       ">: ",
+                                       name == tag ? "" : name,
+                                       name == tag ? "" : ": ",
+                                       other->difference));
+    };
+    warn(tag);
+    if (auto const* response = element.attribute("response")) warn(response->value);
   }
 
   void hasNoChildren(XmlElement const& component) {
@@ -168,6 +188,45 @@ class SceneCollector {
     roi.set("name", name);
     addItem(place, roi);
     addItem(place, fixed);
+  }
+
+  // <MechanicalObject externalForce="..."/>, forces on the first of its points, stands for a
+  // ConstantForceField
+  void externalForce(ScenePlace& place, XmlElement& state) {
+    auto const* const given = state.attribute("externalForce");
+    if (!given) return;
+    const XmlAttribute forces = *given;
+    std::erase_if(state.attributes, [](XmlAttribute const& a) { return a.name == "externalForce"; });
+    int numbers = 0;
+    bool zero = true;
+    io::TextReader reader("", forces.value);
+    for (std::string_view word = reader.word(); !word.empty(); word = reader.word(), ++numbers) {
+      double number = 1;
+      zero = (io::parse_number(word, number) && number == 0) && zero;
+    }
+    if (zero) return;
+    auto const* const types = state.attribute("template");
+    const std::string_view of = types ? std::string_view(types->value) : "Vec3";
+    const int each = of.find("Rigid2") != of.npos  ? 3
+                     : of.find("Rigid") != of.npos ? 6
+                     : of.find("Vec1") != of.npos  ? 1
+                     : of.find("Vec2") != of.npos  ? 2
+                     : of.find("Vec6") != of.npos  ? 6
+                                                   : 3;
+    if (is_link(forces.value) || numbers % each != 0)
+      return messages_.complain(state.place(forces),
+                                text('<',
+                                     state.tag,
+                                     ">: externalForce: give ",
+                                     each,
+                                     " numbers for each of the first points, or use a ConstantForceField"));
+    XmlElement& constant = partOf(state, "ConstantForceField");
+    std::string indices;
+    for (int i = 0; i < numbers / each; ++i) indices += text(i > 0 ? " " : "", i);
+    constant.attributes = {{"name", name_of(state, state.tag) + "_externalForce", forces.offset},
+                           {"indices", indices, forces.offset},
+                           {"forces", forces.value, forces.offset}};
+    addItem(place, constant);
   }
 
   // <CGImplicit .../> of the first SOFA is an EulerImplicitSolver, damped, with a CGLinearSolver; a node that

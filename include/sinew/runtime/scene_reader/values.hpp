@@ -311,7 +311,9 @@ class SceneValues {
 
   // a file that a visual model or a topology names is read by a loader of its own
   void expandFile(SceneItem& item) {
-    if (item.info->field("filename") || item.info->field("fileTopology")) return;
+    if (item.info->field("filename") || item.info->field("fileTopology") ||
+        dialect::without_effect(item.info->name, "filename"))
+      return;
     auto& attributes = item.element->attributes;
     auto named = std::find_if(attributes.begin(), attributes.end(), [](XmlAttribute const& a) {
       return a.name == "filename" || a.name == "fileMesh" || a.name == "fileTopology";

@@ -1,0 +1,161 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSL-1.0
+"""Runs SOFA's example scenes with the program sinew and says which run, which are refused and why, and, beside SOFA's own answers,
+how far positions are apart and how fast the steps are. A scene that runs has to agree to 1e-3 of the largest displacement, or to
+stand in the table of docs/sofa.md with the reason; else the exit status is 1.
+
+The answers are a JSON file, packed by gzip or not: for each scene, by its path below the examples, an object with `steps` that were
+done, `dt` [s], `sofaStepsPerSecond`, and `states`, a list of {path, template, positions}: of each MechanicalObject its path, as
+/Node/Child/Name, its DataTypes, and its coordinates after the steps, one after the other."""
+import argparse
+import concurrent.futures
+import gzip
+import json
+import math
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+AGREES = 1e-3
+NUMBERS = {"Vec1": 1, "Vec2": 2, "Vec3": 3, "Vec6": 6, "Rigid2": 3, "Rigid3": 7}
+
+
+def kind(types):
+    return types.rstrip("df")
+
+
+def frames_of(file):
+    """Frames of a file of `sinew run --record`: of each the positions of each body, with how many numbers a point has."""
+    frames = []
+    lines = iter(open(file))
+    for line in lines:
+        words = line.split()
+        if words[:1] == ["frame"]:
+            frames.append({})
+        elif words[:1] == ["state"]:
+            size = NUMBERS[kind(words[1])]
+            points = [[float(w) for w in next(lines).split()[:size]] for _ in range(int(words[2]))]
+            frames[-1][" ".join(words[3:])] = (size, points)
+    return frames
+
+
+def node_of(path):
+    return (path.rsplit("/", 1)[0] or "/").replace(" ", "_")
+
+
+def made_by_contact(node):
+    """Whether SOFA's responses made this node for themselves: their names are 15 letters and digits at random."""
+    return any(re.fullmatch(r"[A-Za-z0-9]{15}", part) and re.search(r"\d", part) for part in node.split("/"))
+
+
+def difference(first, last, states):
+    """The largest distance of a point from where SOFA has it, over the largest displacement of its body (over its extent where
+    nothing moves), and of which body."""
+    worst, body = 0.0, ""
+    named = {node_of(s["path"]) for s in states}
+    for state in states:
+        size = NUMBERS.get(kind(state["template"]), 0)
+        numbers, node = state["positions"], node_of(state["path"])
+        if size == 0 or not numbers or made_by_contact(node) or not all(map(math.isfinite, numbers)):
+            continue
+        count, place = len(numbers) // size, 3 if size == 7 else size
+        if node not in last:  # the outermost node has another name here
+            node = next((n for n, (s, p) in last.items() if s == size and len(p) == count and n not in named), node)
+        if node not in last or len(last[node][1]) != count:
+            return math.inf, f"{node}: SOFA has {count} points"
+        theirs = [numbers[i * size : i * size + place] for i in range(count)]
+        ours = [p[:place] for p in last[node][1]]
+        moved = max(map(math.dist, (p[:place] for p in first[node][1]), theirs))
+        extent = math.dist(*zip(*((min(c), max(c)) for c in zip(*theirs)))) or 1.0
+        apart = max(map(math.dist, ours, theirs)) / (moved if moved > 1e-6 * extent else extent)
+        if apart > worst:
+            worst, body = apart, node
+    return worst, body
+
+
+def run(options, scene, answer):
+    """What became of a scene: (state, reason or body, difference, speed over SOFA's)."""
+    data = [options.examples, options.examples.parent / "share", options.examples.parent / "share/mesh"]
+    with tempfile.TemporaryDirectory() as folder:
+        steps = answer["steps"] if answer else options.steps
+        command = [options.sinew, "run", options.examples / scene, "--steps", steps, "--every", steps, "--json"]
+        command += ["--record", f"{folder}/record"] + [w for d in data if d.is_dir() for w in ("--data", d)]
+        if answer:
+            command += ["--dt", repr(answer["dt"])]
+        try:
+            done = subprocess.run([str(w) for w in command], cwd=folder, capture_output=True, text=True, timeout=options.timeout)
+        except subprocess.TimeoutExpired:
+            return "too long", f"more than {options.timeout} s", None, None
+        if done.returncode == 1:
+            said = next((line for line in done.stderr.splitlines() if not line.startswith("ignored")), "")
+            return "refused", re.sub(r"^\S*?([^/\s]*\.(scn|xml):)", r"\1", said), None, None
+        if done.returncode != 0:
+            return "failed", f"exit status {done.returncode}", None, None
+        speed = json.loads(done.stdout).get("stepsPerSecond")
+        if not answer:
+            return "runs", "", None, None
+        frames = frames_of(f"{folder}/record")
+        apart, body = difference(frames[0], frames[-1], answer["states"])
+        return "runs", body, apart, speed / answer["sofaStepsPerSecond"] if speed else None
+
+
+def explained(page):
+    """The scenes that the table of the page names, in the first column and in code."""
+    return set(re.findall(r"^\| `([^`]+\.(?:scn|xml))`", page.read_text(), re.M)) if page.is_file() else set()
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("sinew", help="the program")
+    parser.add_argument("--examples", type=pathlib.Path, required=True, help="folder examples/ of SOFA's sources")
+    parser.add_argument("--answers", type=pathlib.Path, help="SOFA's answers")
+    parser.add_argument("--page", type=pathlib.Path, default=pathlib.Path(__file__).parents[2] / "docs/sofa.md", help="with reasons")
+    parser.add_argument("--table", type=pathlib.Path, help="file for a row of each scene, apart by tabs")
+    parser.add_argument("--steps", type=int, default=100, help="of scenes without an answer")
+    parser.add_argument("--timeout", type=float, default=300, help="[s] for a scene")
+    parser.add_argument("--jobs", type=int, default=1, help="scenes at once; speeds mean something with 1 only")
+    parser.add_argument("--only", nargs="+", metavar="PART", help="scenes whose path has one of these in it")
+    options = parser.parse_args()
+    options.examples = options.examples.resolve()
+    if not options.examples.is_dir():
+        sys.exit(f"compare.py: there is no folder {options.examples}; give that of SOFA's examples")
+    answers = {}
+    if options.answers:
+        with (gzip.open if options.answers.suffix == ".gz" else open)(options.answers, "rt") as file:
+            answers = json.load(file)
+    scenes = sorted(answers) or sorted(
+        str(f.relative_to(options.examples)) for end in ("scn", "xml") for f in options.examples.rglob(f"*.{end}"))
+    scenes = [s for s in scenes if not options.only or any(part in s for part in options.only)]
+    if not scenes:
+        sys.exit(f"compare.py: no scene of {options.examples} is meant")
+
+    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+        results = list(pool.map(lambda s: run(options, s, answers.get(s)), scenes))
+    rows = [(s, state, "" if apart is None else f"{apart:.1e}", "" if speed is None else f"{speed:.2f}", why)
+            for s, (state, why, apart, speed) in zip(scenes, results)]
+    if options.table:
+        options.table.write_text("".join("\t".join(row) + "\n" for row in rows))
+    known = explained(options.page)
+    unexplained = [(s, r) for s, r in zip(scenes, results) if r[2] is not None and r[2] > AGREES and s not in known]
+    failed = [(s, r) for s, r in zip(scenes, results) if r[0] in ("failed", "too long")]
+    for scene, (state, why, apart, _) in failed + unexplained:
+        print(f"{scene}: {state}{'' if apart is None else f', {apart:.1e} apart'}{': ' + why if why else ''}")
+
+    runs = [r for r in results if r[0] == "runs"]
+    print(f"{len(scenes)} scenes: {len(runs)} run, {sum(r[0] == 'refused' for r in results)} refused, {len(failed)} failed")
+    apart = [r[2] for r in runs if r[2] is not None]
+    if apart:
+        counts = ", ".join(f"{sum(a <= limit for a in apart)} to {limit:g}" for limit in (1e-5, 1e-3, 0.05))
+        print(f"agree with SOFA: {counts}, of {len(apart)}; {len(unexplained)} differ by more than {AGREES:g} without a reason")
+    speeds = sorted(r[3] for r in runs if r[3])
+    if speeds:
+        print(f"speed over SOFA's: median {speeds[len(speeds) // 2]:.2f}, a tenth below {speeds[len(speeds) // 10]:.2f}, "
+              f"{sum(s < 1 for s in speeds)} slower")
+    return 1 if failed or unexplained else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
