@@ -114,7 +114,8 @@ TEST_CASE("DiagonalMass says what is wrong with its elements") {
 
 TEST_CASE("TetrahedronFEMForceField over hexahedra is that over six tetrahedra in each") {
   const auto grid = box({3, 4, 3}, {1, 1.5, 0.7});
-  const std::vector<Tetrahedron> split = hexahedra_to_tetrahedra(grid.hexahedra);
+  const std::vector<Tetrahedron> split =
+      hexahedra_to_tetrahedra(grid.hexahedra, {.points = {3, 4, 3}, .swapping = true}, 0);
   std::vector<Eigen::Vector3d> x = grid.position;
   for (std::size_t i = 0; i < x.size(); ++i)
     x[i] += 0.05 * Eigen::Vector3d(std::sin(3.0 * double(i)), std::cos(double(i)), std::sin(double(i)));

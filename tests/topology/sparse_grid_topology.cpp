@@ -93,10 +93,25 @@ TEST_CASE("SparseGridTopology keeps just the cells that a turned block meets") {
       if (boxes_meet((a + b) / 2, (b - a) / 2, center, turn, half)) expected.push_back(a);
     }
     REQUIRE(grid.hexahedra.size() == expected.size());
-    bool same = true;
-    for (std::size_t i = 0; i < expected.size(); ++i)
-      same = same && grid.points[std::size_t(grid.hexahedra[i][0])] == expected[i];
-    CHECK(same);
+    std::vector<Eigen::Vector3d> found;
+    for (auto const& h : grid.hexahedra) found.push_back(grid.points[std::size_t(h[0])]);
+    auto before = [](Eigen::Vector3d const& a, Eigen::Vector3d const& b) {
+      return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+    };
+    std::sort(found.begin(), found.end(), before);
+    std::sort(expected.begin(), expected.end(), before);
+    CHECK(found == expected);
+    CHECK(std::is_sorted(grid.points.begin(), grid.points.end(), before));  // as SOFA numbers them
+    // cells that meet the surface come first: those that are there without the others
+    auto without = grid;
+    without.onlyInsideCells = true;
+    if (error_of([&] { without.generate("s"); }).empty()) {
+      const std::size_t inside = without.hexahedra.size();
+      REQUIRE(inside <= grid.hexahedra.size());
+      for (std::size_t i = 0; i < inside; ++i)
+        CHECK(without.points[std::size_t(without.hexahedra[i][0])] ==
+              grid.points[std::size_t(grid.hexahedra[grid.hexahedra.size() - inside + i][0])]);
+    }
 
     // its points are those of its cells, once each; split, it is conforming and positive
     Mesh split;

@@ -38,12 +38,6 @@ std::vector<Side> border(std::vector<Element> const& elements,
   return list;
 }
 
-/// Cells each way of the grid that elements are of, x fastest, and whether their cuts alternate.
-struct Cuts {
-  bool swapping;
-  std::array<int, 3> cells;
-};
-
 /// Six tetrahedra for each hexahedron, cut as in SOFA: four around the diagonal from corner 0 to 6, and those
 /// at the corners 2 and 4. In a grid neighbours match so; where they do not, all are cut as by
 /// hexahedra_to_tetrahedra().
@@ -54,7 +48,9 @@ struct Hexa2Tetra {
                                     to = "tetrahedra", purpose = "six tetrahedra for each hexahedron",
                                     cuts = "whether the cells of a grid are mirrored in turn along each axis";
   static constexpr bool swapsByDefault = false;
-  static Converted convert(Elements const& hexahedra, Cuts const& cut);
+  static Converted convert(Elements const& hexahedra, GridCells const& cut) {
+    return hexahedra_to_tetrahedra(hexahedra, cut, 2);
+  }
 };
 struct Tetra2Triangle {
   using Elements = std::vector<Tetrahedron>;
@@ -77,7 +73,7 @@ struct Quad2Triangle {
                                     to = "triangles", purpose = "two triangles for each quad",
                                     cuts = "whether the diagonals of a grid alternate as on a chessboard";
   static constexpr bool swapsByDefault = true;
-  static Converted convert(Elements const& quads, Cuts const& cut);
+  static Converted convert(Elements const& quads, GridCells const& cut);
 };
 struct Triangle2Edge {
   using Elements = std::vector<Triangle>;
@@ -148,7 +144,7 @@ struct TopologicalMapping {
         position.empty() ? std::size_t(std::numeric_limits<Index>::max()) : position.size());
     try {
       if constexpr (hasCuts)
-        converted = Conversion::convert(elements, {swapping, {grid[0] - 1, grid[1] - 1, grid[2] - 1}});
+        converted = Conversion::convert(elements, {grid, swapping});
       else
         converted = Conversion::convert(elements);
     } catch (Error const& error) {
@@ -170,56 +166,8 @@ using Triangle2EdgeTopologicalMapping = TopologicalMapping<detail::Triangle2Edge
 #if SINEW_DEFINES
 namespace sinew::detail {
 
-// as SOFA takes elements that are of no grid
-SINEW_ONCE std::array<int, 3> cells_or_none(std::array<int, 3> const& cells) {
-  return cells[0] >= 0 ? cells : std::array{2, 1, 1};
-}
-
-SINEW_ONCE Hexa2Tetra::Converted Hexa2Tetra::convert(Elements const& hexahedra, Cuts const& cut) {
-  // the second where the cell is mirrored: turned over, they are positively oriented again
-  constexpr std::size_t parts[2][6][4] = {
-      {{0, 5, 1, 6}, {0, 1, 3, 6}, {1, 3, 6, 2}, {6, 3, 0, 7}, {6, 7, 0, 5}, {7, 5, 4, 0}},
-      {{0, 5, 6, 1}, {0, 1, 6, 3}, {1, 3, 2, 6}, {6, 3, 7, 0}, {6, 7, 5, 0}, {7, 5, 0, 4}}};
-  // the diagonals by which they cut the faces, between the first and third of the corners
-  constexpr std::size_t faces[6][4] = {
-      {1, 2, 3, 0}, {5, 6, 7, 4}, {0, 1, 5, 4}, {3, 2, 6, 7}, {0, 3, 7, 4}, {1, 2, 6, 5}};
-  const std::array<int, 3> n = cells_or_none(cut.cells);
-  const std::size_t row = std::size_t(std::max(n[0], 1)), layer = row * std::size_t(std::max(n[1], 1));
-  std::map<Quad, Edge> cutBy;
-  Converted tetrahedra;
-  tetrahedra.reserve(6 * hexahedra.size());
-  for (std::size_t i = 0; i < hexahedra.size(); ++i) {
-    Hexahedron c = hexahedra[i];
-    bool mirrored = false;
-    if (cut.swapping) {
-      const bool along[3] = {
-          i % row % 2 == 0, i / row % std::size_t(std::max(n[1], 1)) % 2 == 1, i / layer % 2 == 1};
-      for (int axis = 0; axis < 3; ++axis) {
-        if (!along[axis]) continue;
-        for (std::size_t k = 0; k < 8; ++k)
-          for (std::size_t l = k + 1; l < 8; ++l) {
-            bool edge = true;  // from corner k to l, along the axis
-            for (int d = 0; d < 3; ++d)
-              edge = edge && (hexahedronCorners[k][d] == hexahedronCorners[l][d]) == (d != axis);
-            if (edge) std::swap(c[k], c[l]);
-          }
-        mirrored = !mirrored;
-      }
-    }
-    for (auto const& f : faces) {
-      Quad face{c[f[0]], c[f[1]], c[f[2]], c[f[3]]};
-      const Edge diagonal{std::min(face[0], face[2]), std::max(face[0], face[2])};
-      std::sort(face.begin(), face.end());
-      if (cutBy.try_emplace(face, diagonal).first->second != diagonal)
-        return hexahedra_to_tetrahedra(hexahedra);
-    }
-    for (auto const& t : parts[mirrored]) tetrahedra.push_back({c[t[0]], c[t[1]], c[t[2]], c[t[3]]});
-  }
-  return tetrahedra;
-}
-
-SINEW_ONCE Quad2Triangle::Converted Quad2Triangle::convert(Elements const& quads, Cuts const& cut) {
-  const std::array<int, 3> n = cells_or_none(cut.cells);
+SINEW_ONCE Quad2Triangle::Converted Quad2Triangle::convert(Elements const& quads, GridCells const& cut) {
+  const std::array<int, 3> n = cut.each();
   const std::size_t row = std::size_t(std::max(n[0] > 0 ? n[0] : n[1], 1));
   Converted triangles;
   triangles.reserve(2 * quads.size());

@@ -37,7 +37,9 @@ SINEW_INLINE Vec<Real, 3> times(Mat<Real, 3> const& a, Vec<Real, 3> const& b) {
   return c;
 }
 
-/// The tetrahedra of the topology, or six in each of its hexahedra where it has none. Throws Error where
+/// The tetrahedra of the topology, or six in each of its hexahedra where it has none, cut as in SOFA with the
+/// cells of a grid mirrored in turn: the line from a tetrahedron's first point to the second, and the plane
+/// with the third, by which corotation goes, are those of SOFA. Throws Error where
 /// there are none, at one that refers to a missing point, and at a hexahedron that is flat or inside out.
 template <class D>
 std::vector<Tetrahedron> tetrahedra_of(std::string const& where, InitContext<D> const& context) {
@@ -47,7 +49,8 @@ std::vector<Tetrahedron> tetrahedra_of(std::string const& where, InitContext<D> 
     detail::check_indices(where, "tetrahedron", tetrahedra, context.rest.size());
     return tetrahedra;
   }
-  tetrahedra = hexahedra_to_tetrahedra(context.topology.hexahedra);
+  tetrahedra = hexahedra_to_tetrahedra(
+      context.topology.hexahedra, {.points = context.topology.grid, .swapping = true}, 0);
   check_tetrahedra<D>(text(where, ": its hexahedra, six tetrahedra each"), tetrahedra, context.rest);
   if (tetrahedra.empty())
     throw Error(where,

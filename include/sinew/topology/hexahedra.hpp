@@ -4,6 +4,8 @@
 #include <sinew/core/compiled.hpp>
 #include <sinew/core/mesh.hpp>
 
+#include <array>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -22,6 +24,25 @@ inline constexpr std::size_t hexahedronFaces[6][4] = {
 /// triangles of the three faces that it is not on. Positively oriented where the hexahedra are convex; a
 /// sixth of a cell each in a grid, where this is Kuhn's subdivision (1960).
 std::vector<Tetrahedron> hexahedra_to_tetrahedra(std::span<Hexahedron const> hexahedra);
+
+/// The grid that elements are of, x fastest, by its points each way, zeros for none; and whether its cells
+/// are mirrored in turn along each axis before they are cut.
+struct GridCells {
+  std::array<int, 3> points{0, 0, 0};
+  bool swapping = false;
+
+  /// Cells each way, and what SOFA takes for them where there is no grid.
+  std::array<int, 3> each() const {
+    if (points[0] == 0) return {2, 1, 1};
+    return {points[0] - 1, points[1] - 1, points[2] - 1};
+  }
+};
+
+/// Six tetrahedra for each hexahedron, cut as in SOFA: four around the diagonal from corner 0 to 6, and those
+/// at the corners 2 and 4. In a grid neighbours match so; where they do not, all are cut as above. Those of
+/// mirrored cells, which would be inside out, have their points `turned` and turned + 1 exchanged.
+std::vector<Tetrahedron> hexahedra_to_tetrahedra(std::span<Hexahedron const> hexahedra, GridCells const& grid,
+                                                 std::size_t turned);
 
 /// Shape functions of the multilinear edge (Dim = 1), quad or hexahedron and their derivatives by its
 /// coordinates, at a place whose coordinates are 0 to 1 inside.
@@ -49,6 +70,8 @@ struct MultilinearShape {
 
 #if SINEW_DEFINES
 #include <algorithm>
+#include <map>
+#include <utility>
 
 namespace sinew {
 
@@ -63,6 +86,47 @@ SINEW_ONCE std::vector<Tetrahedron> hexahedra_to_tetrahedra(std::span<Hexahedron
       std::rotate(f.begin(), std::min_element(f.begin(), f.end()), f.end());
       tetrahedra.push_back({apex, f[0], f[1], f[2]});
       tetrahedra.push_back({apex, f[0], f[2], f[3]});
+    }
+  }
+  return tetrahedra;
+}
+
+SINEW_ONCE std::vector<Tetrahedron> hexahedra_to_tetrahedra(std::span<Hexahedron const> hexahedra,
+                                                            GridCells const& grid, std::size_t turned) {
+  constexpr std::size_t parts[6][4] = {
+      {0, 5, 1, 6}, {0, 1, 3, 6}, {1, 3, 6, 2}, {6, 3, 0, 7}, {6, 7, 0, 5}, {7, 5, 4, 0}};
+  // they cut the faces between the first and third of these corners
+  constexpr std::size_t faces[6][4] = {
+      {1, 2, 3, 0}, {5, 6, 7, 4}, {0, 1, 5, 4}, {3, 2, 6, 7}, {0, 3, 7, 4}, {1, 2, 6, 5}};
+  const std::array<int, 3> n = grid.each();
+  const std::size_t row = std::size_t(std::max(n[0], 1)), column = std::size_t(std::max(n[1], 1));
+  std::map<Quad, Edge> cutBy;
+  std::vector<Tetrahedron> tetrahedra;
+  tetrahedra.reserve(6 * hexahedra.size());
+  for (std::size_t i = 0; i < hexahedra.size(); ++i) {
+    const bool mirrored[3] = {i % row % 2 == 0, i / row % column % 2 == 1, i / (row * column) % 2 == 1};
+    Hexahedron c = hexahedra[i];
+    bool insideOut = false;
+    for (std::size_t axis = 0; axis < 3 && grid.swapping; ++axis) {
+      if (!mirrored[axis]) continue;
+      insideOut = !insideOut;
+      for (std::size_t k = 0; k < 8; ++k) {
+        std::array<int, 3> other{hexahedronCorners[k][0], hexahedronCorners[k][1], hexahedronCorners[k][2]};
+        if (std::exchange(other[axis], 1) == 1) continue;
+        for (std::size_t l = 0; l < 8; ++l)
+          if (std::equal(other.begin(), other.end(), hexahedronCorners[l])) std::swap(c[k], c[l]);
+      }
+    }
+    for (auto const& f : faces) {
+      Quad face{c[f[0]], c[f[1]], c[f[2]], c[f[3]]};
+      const Edge diagonal{std::min(face[0], face[2]), std::max(face[0], face[2])};
+      std::sort(face.begin(), face.end());
+      if (cutBy.try_emplace(face, diagonal).first->second != diagonal)
+        return hexahedra_to_tetrahedra(hexahedra);
+    }
+    for (auto const& t : parts) {
+      tetrahedra.push_back({c[t[0]], c[t[1]], c[t[2]], c[t[3]]});
+      if (insideOut) std::swap(tetrahedra.back()[turned], tetrahedra.back()[turned + 1]);
     }
   }
   return tetrahedra;

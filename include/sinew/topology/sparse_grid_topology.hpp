@@ -57,12 +57,16 @@ struct SparseGridTopology {
 
   static constexpr auto outputs() {
     using T = SparseGridTopology;
-    return field_list(field("position", &T::points, "m", "points of the cells, x fastest"),
-                      field("edges", &T::edges, "", "sides of the cells").also("lines"),
-                      field("hexahedra", &T::hexahedra, "", "the cells, x fastest").also("hexas"));
+    return field_list(
+        field("position", &T::points, "m", "points of the cells, z fastest, as in SOFA"),
+        field("edges", &T::edges, "", "sides of the cells").also("lines"),
+        field("hexahedra", &T::hexahedra, "", "the cells that meet the surface, then those inside")
+            .also("hexas"));
   }
 
-  TopologyView view() const { return {.positions = points, .edges = edges, .hexahedra = hexahedra}; }
+  TopologyView view() const {
+    return {.positions = points, .edges = edges, .hexahedra = hexahedra, .places = points};
+  }
 
   /// Throws Error when the file cannot be read, there is no surface or it is not closed, the box is empty,
   /// above 2^24 points, and when no cell is kept. What was made before then stays.
@@ -284,12 +288,16 @@ SINEW_ONCE void SparseGridTopology::decideRest(Grid& grid, Mesh const& surface, 
 }
 
 SINEW_ONCE void SparseGridTopology::keep(Grid const& grid, std::string const& at) {
+  // in SOFA's order, so that results compare: cells that meet the surface first, points with z fastest
   Mesh kept;
+  std::vector<Hexahedron> within;
   std::size_t cell = 0;
   detail::for_grid_cells(grid.points[0], grid.points[1], grid.points[2], [&](Hexahedron const& h, int) {
     const Kind kind = grid.kinds[cell++];
-    if (kind == inside || (kind == touched && !onlyInsideCells)) kept.hexahedra.push_back(h);
+    if (kind == inside) within.push_back(h);
+    if (kind == touched && !onlyInsideCells) kept.hexahedra.push_back(h);
   });
+  kept.hexahedra.insert(kept.hexahedra.end(), within.begin(), within.end());
   if (kept.hexahedra.empty())
     throw Error(at,
                 onlyInsideCells ? "no cell is inside the surface without touching it; take a finer grid, or "
@@ -299,13 +307,17 @@ SINEW_ONCE void SparseGridTopology::keep(Grid const& grid, std::string const& at
       grid.coordinates[0].size() * grid.coordinates[1].size() * grid.coordinates[2].size(), -1);
   for (auto const& h : kept.hexahedra)
     for (const Index i : h) number[std::size_t(i)] = 0;
-  std::size_t point = 0;
-  for (const double z : grid.coordinates[2])
-    for (const double y : grid.coordinates[1])
-      for (const double x : grid.coordinates[0])
-        if (Index& i = number[point++]; i == 0) {
-          i = Index(kept.positions.size());
-          kept.positions.push_back({x, y, z});
+  const auto [nx, ny, nz] = grid.points;
+  for (int i = 0; i < nx; ++i)
+    for (int j = 0; j < ny; ++j)
+      for (int k = 0; k < nz; ++k)
+        if (Index& p = number[std::size_t(i) +
+                              std::size_t(nx) * (std::size_t(j) + std::size_t(ny) * std::size_t(k))];
+            p == 0) {
+          p = Index(kept.positions.size());
+          kept.positions.push_back({grid.coordinates[0][std::size_t(i)],
+                                    grid.coordinates[1][std::size_t(j)],
+                                    grid.coordinates[2][std::size_t(k)]});
         }
   for (auto& h : kept.hexahedra)
     for (Index& i : h) i = number[std::size_t(i)];
