@@ -6,6 +6,7 @@
 #include <sinew/topology/element_checks.hpp>
 #include <sinew/topology/hexahedra.hpp>
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -38,9 +39,10 @@ SINEW_INLINE Vec<Real, 3> times(Mat<Real, 3> const& a, Vec<Real, 3> const& b) {
 }
 
 /// The tetrahedra of the topology, or six in each of its hexahedra where it has none, cut as in SOFA with the
-/// cells of a grid mirrored in turn: the line from a tetrahedron's first point to the second, and the plane
-/// with the third, by which corotation goes, are those of SOFA. Throws Error where
-/// there are none, at one that refers to a missing point, and at a hexahedron that is flat or inside out.
+/// cells of a grid mirrored in turn, unless that turns some inside out: the line from a tetrahedron's first
+/// point to the second, and the plane with the third, by which corotation goes, are those of SOFA. Throws
+/// Error where there are none, at one that refers to a missing point, and at a hexahedron that is flat or
+/// inside out.
 template <class D>
 std::vector<Tetrahedron> tetrahedra_of(std::string const& where, InitContext<D> const& context) {
   auto const& given = context.topology.tetrahedra;
@@ -49,8 +51,18 @@ std::vector<Tetrahedron> tetrahedra_of(std::string const& where, InitContext<D> 
     detail::check_indices(where, "tetrahedron", tetrahedra, context.rest.size());
     return tetrahedra;
   }
-  tetrahedra = hexahedra_to_tetrahedra(
-      context.topology.hexahedra, {.points = context.topology.grid, .swapping = true}, 0);
+  auto const& hexahedra = context.topology.hexahedra;
+  detail::check_indices(where, "hexahedron", hexahedra, context.rest.size());
+  tetrahedra = hexahedra_to_tetrahedra(hexahedra, {.points = context.topology.grid, .swapping = true}, 0);
+  auto insideOut = [&](Tetrahedron const& t) {
+    auto from0 = [&](std::size_t k) -> Eigen::Vector3d {
+      return (context.rest[std::size_t(t[k])] - context.rest[std::size_t(t[0])]).template cast<double>();
+    };
+    return !(from0(1).cross(from0(2)).dot(from0(3)) > 0);
+  };
+  // as at the rims of round grids
+  if (std::any_of(tetrahedra.begin(), tetrahedra.end(), insideOut))
+    tetrahedra = hexahedra_to_tetrahedra(hexahedra);
   check_tetrahedra<D>(text(where, ": its hexahedra, six tetrahedra each"), tetrahedra, context.rest);
   if (tetrahedra.empty())
     throw Error(where,
