@@ -72,9 +72,11 @@ TEST_CASE("hexahedra of a grid, mirrored in turn or not, become tetrahedra that 
           .position = mesh.positions, .elements = mesh.hexahedra, .swapping = swapping, .grid = {across, ny, nz}};
       tetra.update("t");
       double least = 1;
-      for (auto const& [a, b, c, d] : tetra.converted) {
-        auto from = [&](Index i) -> Eigen::Vector3d { return mesh.positions[std::size_t(i)] - mesh.positions[std::size_t(a)]; };
-        least = std::min(least, from(b).cross(from(c)).dot(from(d)) / 6);
+      for (Tetrahedron const& t : tetra.converted) {
+        auto edge = [&](std::size_t k) -> Eigen::Vector3d {
+          return mesh.positions[std::size_t(t[k])] - mesh.positions[std::size_t(t[0])];
+        };
+        least = std::min(least, edge(1).cross(edge(2)).dot(edge(3)) / 6);
       }
       CHECK(least == Approx(1.0 / 6));
       // inner faces have two tetrahedra: what is left is the surface
