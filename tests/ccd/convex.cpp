@@ -12,7 +12,6 @@
 namespace test_convex {
 
 using namespace sinew;
-using simplex_pairs::sanitized;
 
 namespace {
 
