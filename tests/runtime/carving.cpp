@@ -52,7 +52,7 @@ std::string scene(std::string_view tool) {
 auto typed() {
   RegularGridTopology grid{.n = {5, 3, 3}, .min = {0, 0, 0}, .max = {2, 1, 1}};
   grid.generate("grid");
-  const auto tetrahedra = hexahedra_to_tetrahedra(grid.hexahedra);
+  const auto tetrahedra = hexahedra_to_tetrahedra(grid.hexahedra, {.points = grid.points}, 2);
   MeshTopology surface;
   surface.triangles = boundary_triangles(tetrahedra);
   std::vector<int> clamped;
