@@ -63,7 +63,6 @@ struct TopologyView {
   std::span<Tetrahedron const> tetrahedra{};
   std::span<Hexahedron const> hexahedra{};
   std::array<int, 3> grid{0, 0, 0};  // points of a regular grid along x, y, z; zeros where there is none
-  std::span<Eigen::Vector3d const> places{};  // of a grid of cells: where it lies before its state is moved
 };
 
 /// What a component of a node is given at init: where it stands (for messages), the rest positions of the

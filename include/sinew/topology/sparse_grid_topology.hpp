@@ -64,9 +64,7 @@ struct SparseGridTopology {
             .also("hexas"));
   }
 
-  TopologyView view() const {
-    return {.positions = points, .edges = edges, .hexahedra = hexahedra, .places = points};
-  }
+  TopologyView view() const { return {.positions = points, .edges = edges, .hexahedra = hexahedra}; }
 
   /// Throws Error when the file cannot be read, there is no surface or it is not closed, the box is empty,
   /// above 2^24 points, and when no cell is kept. What was made before then stays.
