@@ -12,6 +12,7 @@
 #include <sinew/io/base64.hpp>
 #include <sinew/io/cells.hpp>
 #include <sinew/io/output_file.hpp>
+#include <sinew/io/streamed_file.hpp>
 #include <sinew/io/pvd_series.hpp>
 #include <sinew/io/read_gmsh.hpp>
 #include <sinew/io/read_obj.hpp>

@@ -64,7 +64,7 @@ inline auto haptic_scene(HapticOptions const& options) {
                       SphereCollisionModel<Vec3d>{.contactStiffness = reach, .radius = tipRadius})))};
 }
 
-/// What the block pushes the tip with, at the last evaluation of the contacts [N].
+/// What the block pushed the tip with, over the last step [N].
 template <class Sim>
 Eigen::Vector3d contact_force(Sim& sim) {
   // the skin of the block is the first surface of the scene, the tip the second

@@ -54,9 +54,10 @@ struct SceneWords {
         ->type_name("DIR")
         ->check(CLI::ExistingDirectory.description(""))
         ->allow_extra_args(false);
-    app.add_option("--max-memory",
-                   scene.maxMemory,
-                   "Memory that may be used, as in 500M or 16G (default: what is free now, and 512M for a grid)")
+    app.add_option(
+           "--max-memory",
+           scene.maxMemory,
+           "Memory that may be used, as in 500M or 16G (default: what is free now, and 512M for a grid)")
         ->type_name("SIZE")
         ->transform(CLI::AsSizeValue(true).description(""));
     app.add_flag("--lenient", scene.lenient, "Leave out components of unknown classes, with a warning");
@@ -117,6 +118,13 @@ Options read_options(int argc, char** argv, int& status) {
       ->type_name("DIR");
   run->add_option(
          "--record", o.run.record, "File for positions and velocities of all bodies over time, as text")
+      ->type_name("FILE");
+  run->add_option(
+         "--forces",
+         o.run.forces,
+         "File for the forces of each step as a table (CSV): of contacts and attachments on both bodies, of "
+         "constraints on each point that they hold, and all together on rigid bodies; pictures have them, "
+         "too")
       ->type_name("FILE");
   run->add_option("--every", o.run.every, "Steps from one picture and recorded state to the next (default 1)")
       ->type_name("K")

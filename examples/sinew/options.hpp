@@ -35,7 +35,7 @@ enum class Output { words, quiet, json };
 struct RunOptions {
   SceneOptions scene{};
   Duration duration{};
-  std::string vtk{}, record{}, save{};
+  std::string vtk{}, record{}, forces{}, save{};
   long every = 1;
   int threads = 0;  // as the scene says
   bool profile = false;

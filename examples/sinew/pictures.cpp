@@ -41,6 +41,44 @@ bool has_elements(sinew::TopologyView const& t) {
          !t.hexahedra.empty();
 }
 
+// what contacts do to the points of the state of a node
+std::vector<Eigen::Vector3d> contact_forces(Node& top, Node& node) {
+  std::vector<Eigen::Vector3d> all;
+  if (!node.state()) return all;
+  void const* state = node.state()->component.address();
+  node.state()->component.visit<sinew::role::State>(
+      [&](auto const& s) { all.assign(s.size(), Eigen::Vector3d::Zero()); });
+  for (auto& entry : top.components())
+    entry.component.visit<sinew::role::ContactManager>([&](auto& manager) {
+      auto add = [&](sinew::ContactSide const& side, Eigen::Vector3d const& force) {
+        if (side.surface < 0 || manager.surfaces[std::size_t(side.surface)]->state != state) return;
+        for (std::size_t k = 0; k < std::size_t(side.corners()); ++k)
+          all[std::size_t(side.vertices[k])] += side.weights[k] * force;
+      };
+      for (auto const& c : manager.contacts) add(c.a, -c.force), add(c.b, c.force);
+      for (auto const& a : manager.attachments) add(a.contact.b, a.contact.force);
+    });
+  for (auto const& child : top.children()) {
+    const auto below = contact_forces(*child, node);
+    for (std::size_t i = 0; i < below.size(); ++i) all[i] += below[i];
+  }
+  return all;
+}
+template <class D, class State>
+void add_forces(State const& state, std::vector<Eigen::Vector3d> const& contacts,
+                sinew::io::PointData& data) {
+  sinew::io::PointArray contact{"contactForce", 3}, reaction{"reaction", 3}, net{"netForce", 3};
+  auto add = [](sinew::io::PointArray& array, Eigen::Vector3d const& f) {
+    array.values.insert(array.values.end(), f.begin(), f.end());
+  };
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    add(contact, contacts[i]);
+    add(reaction, sinew::detail::wrench_of<D>(state.reaction[i]).force);
+    add(net, sinew::detail::wrench_of<D>(typename D::Deriv(state.applied[i] + state.reaction[i])).force);
+  }
+  for (auto* array : {&contact, &reaction, &net}) data.push_back(std::move(*array));
+}
+
 }  // namespace
 
 Pictures::Pictures(std::string folder, Node& top) : folder_(std::move(folder)) { collect(top); }
@@ -76,6 +114,7 @@ void Pictures::add(sinew::StandardSimulation& simulation) {
   for (auto& series : series_) {
     sinew::Mesh mesh;
     sinew::io::PointData data;
+    const auto contactForces = contact_forces(simulation.root(), *series.node);
     if (series.visual) {
       series.node->visual()->component.visit<sinew::role::VisualModel>(
           [&](auto const& visual) { mesh = visual.current(); });
@@ -84,6 +123,7 @@ void Pictures::add(sinew::StandardSimulation& simulation) {
       series.node->state()->component.visit<sinew::role::State>([&](auto const& state) {
         using D = typename std::decay_t<decltype(state)>::DataTypes;
         sinew::io::PointArray velocity{"velocity", 3};
+        if (state.reaction.size() == state.size()) add_forces<D>(state, contactForces, data);
         for (std::size_t i = 0; i < state.size(); ++i) {
           Eigen::Vector3d x = Eigen::Vector3d::Zero(), v = x;
           x.head<D::spatial>() = D::center(state.position[i]).template cast<double>();

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
+#include "forces.hpp"
 #include "json.hpp"
 #include "pictures.hpp"
 
@@ -28,9 +29,11 @@ class Outputs {
         pictures_.emplace(options.vtk, scene.simulation.root());
       }
       if (!options.record.empty()) record_.emplace(options.record);
+      if (!options.forces.empty()) forces_.emplace(options.forces);
       if (!options.save.empty()) mayWrite(options.save);
       if (!options.trace.empty()) mayWrite(options.trace);
     });
+    scene.simulation.keepForces(!options.forces.empty());
     if (!options.profile && options.trace.empty()) return;
     // 13 MB; as a file 50 MB
     profile_.emplace(options.trace.empty() ? 0 : 1u << 19);
@@ -43,6 +46,12 @@ class Outputs {
       if (record_) record_->add(sinew::capture(simulation.root(), simulation.step(), simulation.time()));
     });
   }
+  /// What every step leaves.
+  void addStep() {
+    writing([&] {
+      if (forces_) forces_->add(scene_.simulation);
+    });
+  }
   /// Where the time has gone; null where nobody has asked.
   sinew::Profile const* profile() const { return profile_ ? &*profile_ : nullptr; }
   /// Completes all files and says which they are.
@@ -51,6 +60,7 @@ class Outputs {
     writing([&] {
       if (pictures_) files = pictures_->paths();
       if (record_) record_->finish(), files.push_back(options_.record);
+      if (forces_) forces_->finish(), files.push_back(options_.forces);
       scene_.simulation.finish();
       addRecorded(scene_.simulation.root(), files);
       // what diverged is nothing to go on from
@@ -71,6 +81,7 @@ class Outputs {
   Scene& scene_;
   std::optional<Pictures> pictures_{};
   std::optional<sinew::RecordWriter> record_{};
+  std::optional<ForcesFile> forces_{};
   std::optional<sinew::Profile> profile_{};
 
   // what components of the scene have written
@@ -161,7 +172,8 @@ Scene started(RunOptions const& options) {
     return start(std::move(source), options.scene);
   } catch (Failure const& failure) {
     if (options.output == Output::json)
-      std::printf("%s\n", Summary{.scene = options.scene.path, .errors = failure.messages}.json().text().c_str());
+      std::printf("%s\n",
+                  Summary{.scene = options.scene.path, .errors = failure.messages}.json().text().c_str());
     throw;
   }
 }
@@ -199,6 +211,7 @@ int run(RunOptions const& options) {
     stepping.stop();
     if (failure) break;
     ++done;
+    outputs.addStep();
     if (done % options.every == 0) outputs.add();
     if (words) progress.at(done);
   }

@@ -30,7 +30,7 @@ Contact contact() {
 template <class Law>
 Eigen::Vector3d force(Law const& law, Contact c, Eigen::Vector3d const& u, Eigen::Vector3d const& rate) {
   law.evaluate(c, u, rate);
-  return c.force;
+  return c.evaluated;
 }
 
 // -dF/du and -dF/du' by central differences of step e: wrong by e^2 F'''/6 and rounding eps F/e
@@ -65,8 +65,8 @@ TEST_CASE("a contact that slides: the tangent across the motion is exact, and th
   Contact c = contact();
   c.slip = 0.2 * c.normal.cross(Eigen::Vector3d::UnitX()).normalized();
   law.evaluate(c, c.start, {0, 0, 0});
-  const double normal = c.force.dot(c.normal);
-  const Eigen::Vector3d tangential = c.force - normal * c.normal;
+  const double normal = c.evaluated.dot(c.normal);
+  const Eigen::Vector3d tangential = c.evaluated - normal * c.normal;
   CHECK(normal == Approx(200 * 0.05).epsilon(1e-12));
   CHECK(tangential.norm() == Approx(0.4 * normal).epsilon(1e-12));
   CHECK(tangential.dot(c.slip) < 0);
@@ -110,15 +110,15 @@ TEST_CASE("contacts push and never pull") {
   const PenalityContactForceField law;
   Contact c = contact();
   law.evaluate(c, 0.45 * c.normal, {0, 0, 0});  // gap 0.15
-  CHECK(c.force.norm() == 0);
+  CHECK(c.evaluated.norm() == 0);
   CHECK(c.stiffnessMatrix.norm() == 0);
   law.evaluate(c, 0.35 * c.normal, 10 * c.normal);  // leaves so fast that damping would pull
-  CHECK(c.force.dot(c.normal) >= 0);
+  CHECK(c.evaluated.dot(c.normal) >= 0);
   PenalityContactForceField ahead;
   ahead.dt = 0.01;
   c.implicit = true;
   law.evaluate(c, 0.45 * c.normal, -1 * c.normal);
-  CHECK(c.force.norm() == 0);  // 0.14 at the end of a step of 0 s
+  CHECK(c.evaluated.norm() == 0);  // 0.14 at the end of a step of 0 s
   ahead.evaluate(c, 0.45 * c.normal, -8 * c.normal);
   CHECK(c.normal.dot(c.stiffnessMatrix * c.normal) == Approx(200));  // will touch within the step
 }

@@ -30,7 +30,7 @@ struct ConstantContact {
   static constexpr std::string_view managerName = "ConstantContactManager";
 
   void evaluate(Contact& c, Eigen::Vector3d const&, Eigen::Vector3d const&) const {
-    c.force = c.normal;
+    c.evaluated = c.normal;
     c.stiffnessMatrix.setZero();
     c.dampingMatrix.setZero();
   }

@@ -33,7 +33,7 @@ namespace sinew {
 SINEW_ONCE void Attachment::evaluate(CollisionSurface const& s) {
   const Eigen::Vector3d p = position_of(contact.b, s) + offset,
                         rate = rate_of(contact.b, s, s.velocity, s.spin);
-  contact.force = stiffness * (target - p) + damping * (velocity - rate);
+  contact.evaluated = stiffness * (target - p) + damping * (velocity - rate);
   contact.stiffnessMatrix = Eigen::Vector3d::Constant(stiffness).asDiagonal();
   contact.dampingMatrix = Eigen::Vector3d::Constant(damping).asDiagonal();
 }

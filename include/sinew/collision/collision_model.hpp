@@ -29,8 +29,9 @@ constexpr auto collision_model_fields(More... more) {
           .also("contactDistance"),
       field("contactStiffness",
             &M::contactStiffness,
-            "N/m",
-            "stiffness of contacts: that of a pair is the product of two, over the contact distance",
+            "N^(1/2)",
+            "stiffness of contacts: that of a pair is k1 k2 / d [N/m], d the contact distance with the radii "
+            "of the two [m], and its force k times what is missing of the contact distance",
             range::nonNegative),
       field("contactFriction",
             &M::contactFriction,

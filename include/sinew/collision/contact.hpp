@@ -68,13 +68,18 @@ struct Contact {
   double memory = 0;
   bool pushed = false;  // in the last step
 
+  // on b, over the last step: impulse over dt, with what an implicit solver adds to it; where a solver has
+  // the forces of several times in a step, that at its end [N]
+  Eigen::Vector3d force{0, 0, 0};
+
   // since detection
   Eigen::Vector3d start{0, 0, 0};  // u at detection
   // from the response, at the last evaluation: the way it slides; force on b, and -dF/du, -dF/du', both
   // symmetric
   Eigen::Vector3d sliding{0, 0, 0};
-  Eigen::Vector3d force{0, 0, 0};
+  Eigen::Vector3d evaluated{0, 0, 0};
   Eigen::Matrix3d stiffnessMatrix = Eigen::Matrix3d::Zero(), dampingMatrix = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d marked{0, 0, 0};  // `force` at a time to which a solver may go back
 
   static constexpr auto fields() {
     using C = Contact;
@@ -132,8 +137,9 @@ inline void add_force(ContactSide const& side, CollisionSurface& s, Eigen::Vecto
   if (s.rigid) s.torque[std::size_t(side.vertices[0])] += lever_of(side, s).cross(f);
 }
 
-/// What answers a contact by a force: evaluate(contact, u, u') sets force, stiffnessMatrix and dampingMatrix
-/// for the relative displacement u and velocity u'; settle(contact, u) what it remembers for the next step.
+/// What answers a contact by a force: evaluate(contact, u, u') sets evaluated, stiffnessMatrix and
+/// dampingMatrix for the relative displacement u and velocity u'; settle(contact, u) what it remembers for
+/// the next step.
 template <class R>
 concept ContactLaw = requires(R const r, Contact c, Eigen::Vector3d u) {
   { R::className } -> std::convertible_to<std::string_view>;

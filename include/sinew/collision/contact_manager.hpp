@@ -35,8 +35,8 @@ consteval std::string_view manager_name() {
 /// it. Contacts stand in the order of their keys, whatever the order in which they were found.
 ///
 /// `Responses`: laws of force (ContactLaw), and what changes components that are touched (TouchResponse).
-/// Two models together have the stiffness k1 k2 / (contact distance), the sum of frictions and of dampings,
-/// as in SOFA. A response that has a `managerName` names the class, so that scene files may choose between it
+/// Two models together have the stiffness k1 k2 / (contact distance with the radii of the two) [N/m], the sum of
+/// frictions and of dampings, as in SOFA. A response that has a `managerName` names the class, so that scene files may choose between it
 /// and others.
 template <class... Responses>
 struct ContactManager {
@@ -280,14 +280,14 @@ struct ContactManager {
           law.evaluate(
               c, displacement(c), rate_of(c.b, b, b.velocity, b.spin) - rate_of(c.a, a, a.velocity, a.spin));
       });
-      add_force(c.b, b, c.force);
-      add_force(c.a, a, -c.force);
+      add_force(c.b, b, c.evaluated);
+      add_force(c.a, a, -c.evaluated);
     }
     for (Attachment& a : attachments) {
       if (!chosen(a.contact)) continue;
       auto& s = *surfaces[std::size_t(a.contact.b.surface)];
       a.evaluate(s);
-      add_force(a.contact.b, s, a.contact.force);
+      add_force(a.contact.b, s, a.contact.evaluated);
     }
   }
   /// The same for the change of the forces, k K dx + b B dx; what no solver moves stays where it is.
@@ -295,21 +295,30 @@ struct ContactManager {
   void addDForces(double k, double b, Chosen&& chosen) const {
     for (Contact const& c : contacts) {
       if (!chosen(c)) continue;
-      auto& first = *surfaces[std::size_t(c.a.surface)];
-      auto& second = *surfaces[std::size_t(c.b.surface)];
-      Eigen::Vector3d du(0, 0, 0);
-      if (second.solver == c.solver && second.simulated) du += rate_of(c.b, second, second.dx, second.turn);
-      if (first.solver == c.solver && first.simulated) du -= rate_of(c.a, first, first.dx, first.turn);
-      const Eigen::Vector3d df = -(k * (c.stiffnessMatrix * du) + b * (c.dampingMatrix * du));
-      add_force(c.b, second, df);
-      add_force(c.a, first, -df);
+      const Eigen::Vector3d df = change(c, k, b);
+      add_force(c.b, *surfaces[std::size_t(c.b.surface)], df);
+      add_force(c.a, *surfaces[std::size_t(c.a.surface)], -df);
     }
-    for (Attachment const& a : attachments) {
-      if (!chosen(a.contact)) continue;
-      auto& s = *surfaces[std::size_t(a.contact.b.surface)];
-      const Eigen::Vector3d du = rate_of(a.contact.b, s, s.dx, s.turn);
-      add_force(a.contact.b, s, -(k * a.stiffness + b * a.damping) * du);
-    }
+    for (Attachment const& a : attachments)
+      if (chosen(a.contact))
+        add_force(a.contact.b, *surfaces[std::size_t(a.contact.b.surface)], change(a, k, b));
+  }
+
+  /// f(contact) for the contacts that `chosen` picks, and for those of attachments.
+  template <class Chosen, class F>
+  void forEachChosen(Chosen&& chosen, F&& f) {
+    for (Contact& c : contacts)
+      if (chosen(c)) f(c);
+    for (Attachment& a : attachments)
+      if (chosen(a.contact)) f(a.contact);
+  }
+  /// What acted over the step gets the change of the forces, k K dx + b B dx.
+  template <class Chosen>
+  void addActed(double k, double b, Chosen&& chosen) {
+    for (Contact& c : contacts)
+      if (chosen(c)) c.force += change(c, k, b);
+    for (Attachment& a : attachments)
+      if (chosen(a.contact)) a.contact.force += change(a, k, b);
   }
   /// The blocks of those contacts in the matrix of a solver, after its models have given their vertices to
   /// `assembly`.
@@ -333,6 +342,20 @@ struct ContactManager {
   Eigen::Vector3d displacement(Contact const& c) const {
     return position_of(c.b, *surfaces[std::size_t(c.b.surface)]) -
            position_of(c.a, *surfaces[std::size_t(c.a.surface)]);
+  }
+  // of the force, where the vertices go by dx; what the solver does not move stays where it is
+  Eigen::Vector3d change(Contact const& c, double k, double b) const {
+    auto const& first = *surfaces[std::size_t(c.a.surface)];
+    auto const& second = *surfaces[std::size_t(c.b.surface)];
+    Eigen::Vector3d du(0, 0, 0);
+    if (second.solver == c.solver && second.simulated) du += rate_of(c.b, second, second.dx, second.turn);
+    if (first.solver == c.solver && first.simulated) du -= rate_of(c.a, first, first.dx, first.turn);
+    return -(k * (c.stiffnessMatrix * du) + b * (c.dampingMatrix * du));
+  }
+  Eigen::Vector3d change(Attachment const& a, double k, double b) const {
+    auto const& s = *surfaces[std::size_t(a.contact.b.surface)];
+    const Eigen::Vector3d du = rate_of(a.contact.b, s, s.dx, s.turn);
+    return -(k * a.stiffness + b * a.damping) * du;
   }
   template <std::size_t R, class F>
   void forEachTouched(F& f) {

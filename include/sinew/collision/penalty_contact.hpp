@@ -71,7 +71,7 @@ namespace sinew {
 SINEW_ONCE void PenalityContactForceField::evaluate(Contact& c, Eigen::Vector3d const& u,
                                                     Eigen::Vector3d const& rate) const {
   const double gap = c.normal.dot(u) - c.thickness, gapRate = c.normal.dot(rate);
-  c.force.setZero();
+  c.evaluated.setZero();
   c.sliding.setZero();
   c.stiffnessMatrix.setZero();
   c.dampingMatrix.setZero();
@@ -82,7 +82,7 @@ SINEW_ONCE void PenalityContactForceField::evaluate(Contact& c, Eigen::Vector3d 
   if (!c.implicit || gap < c.limit) push = std::max(0.0, push);
   const Eigen::Matrix3d nn = c.normal * c.normal.transpose(),
                         along = Eigen::Matrix3d(Eigen::Matrix3d::Identity()) - nn;
-  c.force = push * c.normal;
+  c.evaluated = push * c.normal;
   c.stiffnessMatrix = c.stiffness * nn;
   c.dampingMatrix = c.damping * nn;
   if (!(c.friction > 0)) return;
@@ -91,7 +91,7 @@ SINEW_ONCE void PenalityContactForceField::evaluate(Contact& c, Eigen::Vector3d 
   const detail::Friction friction(c, next, elasticPush(c, u));
   const bool stuck = c.implicit && c.memory != 0 && c.slide.isZero(0);
   if (stuck || !friction.slides) {
-    c.force -= c.stiffness * (way - c.normal.dot(way) * c.normal);
+    c.evaluated -= c.stiffness * (way - c.normal.dot(way) * c.normal);
     c.stiffnessMatrix += c.stiffness * along;
     return;
   }
@@ -100,18 +100,18 @@ SINEW_ONCE void PenalityContactForceField::evaluate(Contact& c, Eigen::Vector3d 
   const double most = c.stiffness * friction.most, speed = along1.norm();
   if (c.implicit && c.memory != 1 && most > 0 && speed > 0) {
     // mu N / |v| v, in which only v is of the end of the step: what an impact brings to rest does not turn
-    c.force -= most / speed * along1;
+    c.evaluated -= most / speed * along1;
     c.dampingMatrix += most / speed * along;
     return;
   }
   // the force keeps its size and turns with the direction t: -dF/du = k m/|s| (I - nn' - tt'), but for a
   // part that goes with the normal force and is not symmetric
-  c.force -= most * c.sliding;
+  c.evaluated -= most * c.sliding;
   c.stiffnessMatrix += (most / friction.way.norm()) * (along - c.sliding * c.sliding.transpose());
 }
 
 SINEW_ONCE void PenalityContactForceField::settle(Contact& c, Eigen::Vector3d const& u) const {
-  c.pushed = c.force.dot(c.normal) > 0;
+  c.pushed = c.evaluated.dot(c.normal) > 0;
   if (!(c.friction > 0)) return;
   const Eigen::Vector3d moved = u - c.start;
   const double push = elasticPush(c, u);

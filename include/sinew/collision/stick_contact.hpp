@@ -30,11 +30,11 @@ namespace sinew {
 
 SINEW_ONCE void StickContactForceField::evaluate(Contact& c, Eigen::Vector3d const& u,
                                                  Eigen::Vector3d const& rate) const {
-  c.force.setZero();
+  c.evaluated.setZero();
   c.stiffnessMatrix.setZero();
   c.dampingMatrix.setZero();
   if (c.memory == 0 && !(c.distance < c.limit)) return;
-  c.force = -c.stiffness * (c.slip + (u - c.start)) - c.damping * rate;
+  c.evaluated = -c.stiffness * (c.slip + (u - c.start)) - c.damping * rate;
   c.stiffnessMatrix.diagonal().setConstant(c.stiffness);
   c.dampingMatrix.diagonal().setConstant(c.damping);
 }

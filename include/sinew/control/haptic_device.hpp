@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/core/data_types.hpp>
+#include <sinew/core/wrench.hpp>
 
 #include <concepts>
 
@@ -14,12 +15,7 @@ struct DeviceState {
   unsigned buttons = 0;
 };
 
-/// What a haptic device is told: force [N] and torque [N m] on the hand, in the axes of the device.
-struct Wrench {
-  Eigen::Vector3d force{0, 0, 0}, torque{0, 0, 0};
-};
-
-/// A haptic device. Both functions are called by the thread of the loop, read before write, once a tick; they
+/// A haptic device. It is told the force and the torque on the hand, in its own axes. Both functions are called by the thread of the loop, read before write, once a tick; they
 /// must return well within a period. `time` [s] is that of the loop: a simulated device is there at that
 /// time, a real one needs no clock. An exception ends the loop with a force of zero. A device of three
 /// degrees of freedom leaves the orientation as it is and ignores the torque.

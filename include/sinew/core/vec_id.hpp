@@ -14,13 +14,15 @@ struct CoordId {
 };
 struct DerivId {
   int index;
-  static constexpr int reserved = 4;
+  static constexpr int reserved = 8;
   friend constexpr bool operator==(DerivId, DerivId) = default;
 };
 
 namespace vec_id {
 inline constexpr CoordId position{0}, restPosition{1}, freePosition{2};
 inline constexpr DerivId velocity{0}, force{1}, dx{2}, externalForce{3};
+// of Simulation::keepForces
+inline constexpr DerivId applied{4}, reaction{5}, startVelocity{6}, marked{7};
 }  // namespace vec_id
 
 /// How many auxiliary vectors a solver takes from the pool at the same time.

@@ -2,10 +2,9 @@
 #pragma once
 
 #include <sinew/io/output_file.hpp>
+#include <sinew/io/streamed_file.hpp>
 #include <sinew/io/text_reader.hpp>
 #include <sinew/runtime/node.hpp>
-
-#include <sys/stat.h>
 
 #include <optional>
 #include <utility>
@@ -141,77 +140,27 @@ inline std::string record_text(RecordedFrame const& frame) {
   return out;
 }
 
-/// Writes a record frame by frame, so that a long one needs no memory: under a temporary name in the folder
-/// of `path`, which finish() gives its own name. A record that is not finished leaves nothing behind, and
-/// what was at `path` before. A device such as /dev/stdout is written to directly. Functions throw Error.
+/// Writes a record frame by frame (io::StreamedFile). Functions throw Error.
 class RecordWriter {
  public:
-  explicit RecordWriter(std::string path) : path_(std::move(path)), name_(path_) {
-    struct stat info;
-    const bool exists = ::stat(path_.c_str(), &info) == 0;
-    if (exists && S_ISDIR(info.st_mode)) throw Error(path_, "is a folder; name a file in it");
-    device_ = exists && !S_ISREG(info.st_mode);
-    if (device_) file_ = std::fopen(path_.c_str(), "wb");
-    for (int n = 0; !device_ && !file_ && n < 1000 && (n == 0 || errno == EEXIST); ++n) {
-      name_ = text(path_, ".tmp", n);
-      file_ = std::fopen(name_.c_str(), "wbx");
-    }
-    if (!file_) fail("cannot be written: ", "; choose another file, in a folder that is there");
-    try {
-      write("sinew record 1\n");
-    } catch (Error const&) {
-      drop();
-      throw;
-    }
-  }
-  RecordWriter(RecordWriter&& other) noexcept
-      : path_(std::move(other.path_)),
-        name_(std::move(other.name_)),
-        file_(std::exchange(other.file_, nullptr)),
-        device_(other.device_),
-        frames_(other.frames_) {}
-  RecordWriter& operator=(RecordWriter&&) = delete;
-  ~RecordWriter() { drop(); }
+  explicit RecordWriter(std::string path) : file_(std::move(path)) { file_.write("sinew record 1\n"); }
 
   void add(RecordedFrame const& frame) {
-    write(record_text(frame));
+    file_.write(record_text(frame));
     ++frames_;
   }
   /// Completes the file; nothing can be added then.
   void finish() {
-    write(text("end ", frames_, '\n'));
-    if (std::fclose(std::exchange(file_, nullptr)) != 0) {
-      if (!device_) std::remove(name_.c_str());
-      fail("could not be written whole: ", "; nothing was kept of it");
-    }
-    if (!device_ && std::rename(name_.c_str(), path_.c_str()) != 0) {
-      std::remove(name_.c_str());
-      fail("cannot be written: ", "; choose another file");
-    }
+    file_.write(text("end ", frames_, '\n'));
+    file_.finish();
   }
 
   std::size_t size() const { return frames_; }
-  std::string const& path() const { return path_; }
+  std::string const& path() const { return file_.path(); }
 
  private:
-  std::string path_, name_;
-  std::FILE* file_ = nullptr;
-  bool device_ = false;
+  io::StreamedFile file_;
   std::size_t frames_ = 0;
-
-  void write(std::string_view bytes) {
-    if (!file_) throw Error(path_, "the record is finished; nothing can be added");
-    if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size())
-      fail("cannot be written further: ", "; make room on the disk");
-  }
-  void drop() {
-    if (!file_) return;
-    std::fclose(file_);
-    if (!device_) std::remove(name_.c_str());
-  }
-  [[noreturn]] void fail(std::string_view what, std::string_view advice) const {
-    throw Error(path_, text(what, static_cast<char const*>(std::strerror(errno)), advice));
-  }
 };
 
 /// The frames of a record, from the content of its file. Throws Error at "path:line" where it is no record,

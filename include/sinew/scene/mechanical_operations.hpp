@@ -3,6 +3,7 @@
 
 #include <sinew/collision/collision_surface.hpp>
 #include <sinew/core/assembly.hpp>
+#include <sinew/scene/acted_forces.hpp>
 #include <sinew/scene/scope.hpp>
 #include <sinew/state/vector_operations.hpp>
 
@@ -18,6 +19,7 @@ struct MechanicalOperations {
   Root const& root;
   double time, dt;
   int coordsTaken = 0, derivsTaken = 0;
+  ActedForces<MechanicalOperations> acted{*this};
 
   explicit MechanicalOperations(Root const& r, double t = 0, double h = 0) : root(r), time(t), dt(h) {}
   MechanicalOperations(MechanicalOperations const&) = delete;
@@ -197,6 +199,8 @@ struct MechanicalOperations {
   }
 
  private:
+  friend ActedForces<MechanicalOperations>;
+
   // f(params) for a component as a whole, or for each part of it, and again for what these add to each other
   template <class C, class F>
   void inParts([[maybe_unused]] C const& c, MechanicalParams const& p, F&& f) {

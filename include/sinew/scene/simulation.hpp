@@ -9,6 +9,7 @@
 #include <sinew/scene/carving.hpp>
 #include <sinew/scene/collision.hpp>
 #include <sinew/scene/element_removal.hpp>
+#include <sinew/scene/force_report.hpp>
 #include <sinew/scene/mechanical_operations.hpp>
 #include <sinew/scene/picking.hpp>
 
@@ -133,16 +134,32 @@ class Simulation {
   bool release(int attachment) {
     return picking([&](auto const& p) { return p.release(attachment); });
   }
-  /// An attachment as it is, with its force on the body at the last evaluation; null where there is none.
+  /// An attachment as it is, with its force on the body over the last step; null where there is none.
   Attachment const* attachment(int id) {
     return picking([&](auto const& p) { return p.find(id); });
+  }
+
+  /// From the next step on, states keep which forces acted over the last one, as impulse over dt [N]:
+  /// `applied`, without those of constraints, and `reaction`, what constraints did to each point, zero where
+  /// a point is free (MechanicalObject; reaction_force() and net_force() sum them up). M (v1 - v0) / dt =
+  /// applied + reaction then holds to the tolerance of the solver; under Newmark's method and BDF they are
+  /// the forces at the end of the step, with which their own accelerations are in balance; without inertia
+  /// (StaticSolver, firstOrder) without it. It takes some products of the system matrix with a vector a step.
+  /// Contacts and attachments keep theirs in any case.
+  void keepForces(bool keep) { keepsForces_ = keep; }
+  /// The forces over the last step of contacts and attachments, and where they are kept those of constraints
+  /// and the whole ones on rigid bodies, with the places where they acted.
+  std::vector<ForceOnBody> forces() {
+    initialisedFor("forces");
+    const auto scope = rootScope();
+    return ForceReport<RootScope>{scope}.list();
   }
 
  private:
   Root root_;
   double time_ = 0;
   long step_ = 0;
-  bool initialised_ = false, visualsAreCurrent_ = false;
+  bool initialised_ = false, visualsAreCurrent_ = false, keepsForces_ = false;
   static constexpr NoScope above_{};
   static constexpr bool collides = detail::primitive_kinds<RootScope>() != 0,
                         carves = holds<Root, role::Carving>();
@@ -328,7 +345,9 @@ class Simulation {
                withModels([]<class D>(auto& model, auto& state, std::type_identity<D>) {
                  see_touched<D>(model.surface, state.position, state.velocity);
                });
-               manager.addForces([](auto const& contact) { return contact.loose; });
+               auto loose = [](auto const& contact) { return contact.loose; };
+               manager.addForces(loose);
+               manager.forEachChosen(loose, [](auto& contact) { contact.force = contact.evaluated; });
                withModels([]<class D>(auto& model, auto& state, std::type_identity<D>) {
                  if (model.simulated) add_forces<D>(state.externalForce, model.surface);
                });
@@ -386,10 +405,20 @@ class Simulation {
   void integrate(S const& scope, double dt) {
     bool solved = false;
     auto visit = on<role::OdeSolver>([&](auto& ode) {
+      using Ode = std::decay_t<decltype(ode)>;
       MechanicalOperations<S> operations(scope, time_, dt);
+      if constexpr (!stands_beside<Ode>) operations.acted.begin(keepsForces_);
       ode.solve(operations, dt);
       operations.projectPositionAndVelocity(time_ + dt, vec_id::position, vec_id::velocity);
       operations.propagate(vec_id::position, vec_id::velocity);
+      if constexpr (!stands_beside<Ode>)
+        if (!operations.acted.end(vec_id::force))
+          throw Error(
+              scope.path(),
+              text(
+                  component_name<Ode>(),
+                  ": forces cannot be kept, since this solver does not say which acted over its step; let it "
+                  "call operations.acted.add(), or leave out Simulation::keepForces"));
       solved = true;
     });
     if (scope.integrates()) scope.forEachComponent(visit);

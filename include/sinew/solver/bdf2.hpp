@@ -90,18 +90,26 @@ struct BDFOdeSolver {
     const bool trapezoid = order > 2 && lastDt == 0;
     const double bh = trapezoid ? h / 2 : 1 / inverse;
     c *= bh, d *= bh;
+    // what acts are the forces at the end of the step, but for the mean of the trapezoidal rule
+    const double part = trapezoid ? 0.5 : 1;
     auto rate = [&] {
       operations.computeForce(b.id, pos.id, vel.id);
+      operations.acted.add(b.id, part);
       if (rM != 0 || rK != 0) operations.addMBKdx(b.id, vel.id, {.m = -rM, .k = rK});
+    };
+    auto damp = [&] {
+      if (rM != 0 || rK != 0) operations.acted.add(vel.id, {.m = -rM * part, .k = rK * part});
     };
     if (trapezoid) {
       rate();
+      damp();
       dvOlder.eq(b);
       dvOld.clear();
       dxOld.eq(vel, h);
       c = 0.5;
     }
 
+    operations.acted.mark();
     start = pos;
     startV = vel;
     operations.time = time + h;
@@ -115,6 +123,7 @@ struct BDFOdeSolver {
     };
     auto evaluate = [&] {
       go();
+      operations.acted.takeBack();
       rate();
       if (trapezoid) b.peq(dvOlder);
       b.teq(bh);
@@ -134,6 +143,15 @@ struct BDFOdeSolver {
                   way,
                   evaluate,
                   [&](double s) { vel.peq(dv, s); });
+    if (!newton_goes_on(*this)) operations.acted.add(dv.id, {.b = part, .k = part * bh});
+    damp();
+    if (operations.acted.kept() && !trapezoid) {
+      change.eq(vel, 1 / bh);
+      change.peq(startV, -1 / bh);
+      if (c != 0) change.peq(dvOld, -c / bh);
+      if (d != 0) change.peq(dvOlder, -d / bh);
+      operations.acted.balance(change.id, 1 / h, 1 / h);
+    }
     if (!newton_goes_on(*this)) go();
     operations.time = time;
     dxOlder.eq(dxOld);

@@ -34,10 +34,16 @@ struct CentralDifferenceSolver {
     MultiVecCoord pos(operations, vec_id::position);
     MultiVecDeriv vel(operations, vec_id::velocity), force(operations, vec_id::force), acc(operations);
     operations.computeForce(force.id, pos.id, vel.id);
+    operations.acted.add(force.id);
     operations.accFromF(acc.id, force.id, pos.id);
     const double half = 0.5 * h * rayleighMass;
+    auto drag = [&] {
+      if (half != 0) operations.acted.add(vel.id, {.m = -rayleighMass / 2});
+    };
+    drag();
     if (half != 0) vel.teq((1 - half) / (1 + half));
     vel.peq(acc, h / (1 + half));
+    drag();
     pos.peq(vel, h);
   }
 };

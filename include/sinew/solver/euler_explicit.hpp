@@ -29,6 +29,7 @@ struct EulerExplicitSolver {
     MultiVecCoord pos(operations, vec_id::position);
     MultiVecDeriv vel(operations, vec_id::velocity), force(operations, vec_id::force), acc(operations);
     operations.computeForce(force.id, pos.id, vel.id, symplectic ? dt : 0);
+    operations.acted.add(force.id);
     operations.accFromF(acc.id, force.id, pos.id);
     if (symplectic) {
       vel.peq(acc, dt);

@@ -96,6 +96,15 @@ struct EulerImplicitSolver {
     MatrixFactors factors{.m = 1 + t * h * rM, .b = -t * h, .k = -t * h * (t * h + rK)};
     if (firstOrder) factors = {.m = 1, .k = -t * h};
     sinew::newton(*this, operations, factors, false, dv, b, way, evaluate, [](double) {});
+    // what acted is f at (xt, vt), of which the first iteration alone knows the linear part
+    operations.acted.add(force.id);
+    if (firstOrder) {
+      if (!again) operations.acted.add(way.id, {.k = t * h});
+      operations.acted.balance(way.id, 1, 0);
+    } else {
+      operations.acted.add(vel.id, {.m = -rM, .k = again ? rK : t * h + rK});
+      if (!again) operations.acted.add(way.id, {.m = -t * rM, .b = t, .k = t * (t * h + rK)});
+    }
     operations.time = time;
     go(h);
     if (!firstOrder && t != 1) vel.peq(way, 1 - t);

@@ -56,6 +56,7 @@ struct NewmarkImplicitSolver {
     MultiVecDeriv vel(operations, vec_id::velocity), b(operations, vec_id::force), a1(operations, vec_id::dx);
     const double rK = rayleighStiffness, rM = rayleighMass, old = h * (1 - gamma), now = h * gamma;
     operations.computeForce(b.id, pos.id, vel.id);
+    operations.acted.add(b.id);
     if (rM != 0 || rK != 0) operations.addMBKdx(b.id, vel.id, {.m = -rM, .k = rK});
     auto solveFor = [&](auto& x, MatrixFactors factors) {
       operations.projectResponse(b.id);
@@ -70,9 +71,15 @@ struct NewmarkImplicitSolver {
     operations.addMBKdx(b.id, a.id, {.m = -old * rM, .b = old, .k = old * rK});
     solveFor(a1, {.m = 1 + now * rM, .b = -now, .k = -h * h * beta - now * rK});
     move.peq(a1, h * h * beta);
+    // the forces at the end of the step, with which M a1 is in balance
+    operations.acted.add(move.id, {.k = 1});
+    operations.acted.add(a.id, {.b = old});
+    operations.acted.add(a1.id, {.b = now});
+    operations.acted.balance(a1.id, 1 / h, 1 / h);
     pos.peq(move);
     vel.peq(a, old);
     vel.peq(a1, now);
+    if (rM != 0 || rK != 0) operations.acted.add(vel.id, {.m = -rM, .k = rK});
     a.eq(a1);
     lastEnd = operations.time + h;
     if (vdamping != 0) vel.teq(std::exp(-h * vdamping));

@@ -37,6 +37,7 @@ struct RungeKutta2Solver {
     newV.peq(acc, dt / 2);
     // the derivative in the middle serves the whole step
     computeAcc(startTime + dt / 2, acc, newX, newV);
+    operations.acted.add(vec_id::force);
     pos.peq(newV, dt);
     vel.peq(acc, dt);
   }

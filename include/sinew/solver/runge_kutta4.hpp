@@ -27,6 +27,7 @@ struct RungeKutta4Solver {
 
     // stage 1
     operations.computeAcc(startTime, acc, pos, vel);
+    operations.acted.add(vec_id::force, 1. / 6);
     startV = vel;
     k = vel;
     sumK = k;
@@ -39,6 +40,7 @@ struct RungeKutta4Solver {
       newV = startV;
       newV.peq(acc, step[stage] * dt);
       operations.computeAcc(startTime + step[stage] * dt, acc, newX, newV);
+      operations.acted.add(vec_id::force, weight[stage] / 6);
       operations.chartRate(k.id, theta.id, newV.id);
       sumK.peq(k, weight[stage]);
       sumA.peq(acc, weight[stage]);

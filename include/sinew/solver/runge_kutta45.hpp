@@ -83,6 +83,9 @@ struct RungeKutta45Solver {
     for (double done = 0; done < dt;) {
       const bool last = done + next >= dt * (1 - 1e-9);
       const double h = last ? dt - done : next;
+      // the last evaluation is that of stage 0
+      operations.acted.mark();
+      operations.acted.add(vec_id::force, weight[6][0] * h / dt);
       k[0].eq(vel);
       for (int stage = 1; stage < 7; ++stage) {
         theta.clear();
@@ -95,6 +98,7 @@ struct RungeKutta45Solver {
         newX = pos;
         newX.peq(theta);
         operations.computeAcc(start + done + time[stage] * h, acc[stage], newX, newV);
+        if (stage < 6 && weight[6][stage] != 0) operations.acted.add(vec_id::force, weight[6][stage] * h / dt);
         operations.chartRate(k[stage].id, theta.id, newV.id);
       }
       double estimate = 0;
@@ -114,6 +118,8 @@ struct RungeKutta45Solver {
       if (!(estimate <= tolerance) && h > shortest * (1 + 1e-9)) {
         ++rejected;
         next = wanted;
+        operations.acted.takeBack();
+        if (operations.acted.asked()) operations.computeAcc(start + done, acc[0], pos, vel);
         continue;
       }
       ++substeps;

@@ -40,9 +40,12 @@ struct StaticSolver {
     auto evaluate = [&] {
       operations.propagate(pos.id, vel.id);
       operations.computeForce(force.id, pos.id, vel.id);
+      operations.acted.clear();
+      operations.acted.add(force.id);
       operations.projectResponse(force.id);
     };
     vel.clear();
+    operations.acted.balanceWithoutInertia();
     sinew::newton(
         *this, operations, {.k = -1}, true, dx, force, way, evaluate, [&](double s) { pos.peq(dx, s); });
   }

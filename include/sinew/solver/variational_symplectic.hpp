@@ -47,6 +47,8 @@ struct VariationalSymplecticSolver {
     MultiVecDeriv d(operations), w(operations), change(operations);
     if (explicitIntegration) {
       operations.computeForce(b.id, pos.id, vel.id);
+      operations.acted.add(b.id);
+      if (rayleighMass != 0) operations.acted.add(vel.id, {.m = -rayleighMass});
       if (rayleighMass != 0) operations.addMBKdx(b.id, vel.id, {.m = -rayleighMass});
       operations.accFromF(dx.id, b.id, pos.id);
       vel.peq(dx, h);
@@ -66,6 +68,8 @@ struct VariationalSymplecticSolver {
       w.eq(d, 2 / h);
       operations.propagate(pos.id, w.id);
       operations.computeForce(b.id, pos.id, w.id);
+      operations.acted.clear();
+      operations.acted.add(b.id);
       change.eq(vel, 2 / h);
       change.peq(w, -2 / h);
       operations.addMBKdx(b.id, change.id, {.m = 1});
@@ -77,6 +81,9 @@ struct VariationalSymplecticSolver {
       d.peq(dx);
       if (iterations >= steps || !(dx.norm() > newtonError * d.norm())) break;
     }
+    w.eq(d, 2 / h);
+    operations.acted.add(dx.id, {.b = 2 / h, .k = 1});
+    if (rM != 0 || rK != 0) operations.acted.add(w.id, {.m = -rM, .k = rK});
     operations.time = time;
     pos = start;
     pos.peq(d, 2);

@@ -66,6 +66,9 @@ struct MechanicalObject {
   VecCoord freePosition{};
   VecDeriv externalForce{};  // of interactions with bodies under other solvers, at the start of the step [N];
                              // empty where there are none
+  // of Simulation::keepForces, empty without it: what acted over the last step, as impulse over dt, without
+  // and of constraints [N]; and what its balance needs
+  VecDeriv applied{}, reaction{}, startVelocity{}, marked{};
   std::vector<VecCoord> auxiliaryCoords{};
   std::vector<VecDeriv> auxiliaryDerivs{};
   std::optional<VecCoord> given{};  // positions that the mapping of a mapped state was given
@@ -178,7 +181,8 @@ struct MechanicalObject {
   /// Points that go leave all vectors.
   void follow(Renumbering const& points) {
     for (VecCoord* v : {&position, &restPosition, &resetPosition, &freePosition}) points.filter(*v);
-    for (VecDeriv* v : {&velocity, &resetVelocity, &force, &dx, &externalForce}) points.filter(*v);
+    for (VecDeriv* v : {&velocity, &resetVelocity, &force, &dx, &externalForce, &applied, &reaction})
+      points.filter(*v);
     for (VecCoord& v : auxiliaryCoords) points.filter(v);
     for (VecDeriv& v : auxiliaryDerivs) points.filter(v);
     if (given) points.filter(*given);
@@ -188,7 +192,7 @@ struct MechanicalObject {
   void reset() {
     position = resetPosition;
     velocity = resetVelocity;
-    for (VecDeriv* v : {&force, &dx}) v->assign(v->size(), D::Deriv::Zero());
+    for (VecDeriv* v : {&force, &dx, &applied, &reaction}) v->assign(v->size(), D::Deriv::Zero());
   }
 
   VecCoord& operator[](CoordId id) {
@@ -213,6 +217,14 @@ struct MechanicalObject {
         return dx;
       case vec_id::externalForce.index:
         return externalForce;
+      case vec_id::applied.index:
+        return applied;
+      case vec_id::reaction.index:
+        return reaction;
+      case vec_id::startVelocity.index:
+        return startVelocity;
+      case vec_id::marked.index:
+        return marked;
       default:
         return auxiliaryDerivs[std::size_t(id.index - DerivId::reserved)];
     }

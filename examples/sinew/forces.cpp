@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "forces.hpp"
+
+#include <sinew/io/output_file.hpp>
+
+namespace cli {
+
+namespace {
+
+// a field of a table: in quotes where it has what separates fields and lines
+std::string field(std::string_view word) {
+  if (word.find_first_of(",\"\n\r") == word.npos) return std::string(word);
+  std::string quoted = "\"";
+  for (const char c : word) {
+    if (c == '"') quoted += '"';
+    quoted += c;
+  }
+  return quoted + '"';
+}
+
+}  // namespace
+
+ForcesFile::ForcesFile(std::string path) : file_(std::move(path)) {
+  file_.write("step,time,kind,body,other,index,x,y,z,nx,ny,nz,fx,fy,fz,tx,ty,tz\n");
+}
+
+void ForcesFile::add(sinew::StandardSimulation& simulation) {
+  std::string lines, start = sinew::text(simulation.step(), ',');
+  sinew::io::append_number(start, simulation.time());
+  for (sinew::ForceOnBody const& f : simulation.forces()) {
+    lines += sinew::text(start,
+                         ',',
+                         enum_names(f.kind)[std::size_t(f.kind)],
+                         ',',
+                         field(f.body),
+                         ',',
+                         field(f.other),
+                         ',',
+                         f.index);
+    for (Eigen::Vector3d const& v : {f.point, f.normal, f.wrench.force, f.wrench.torque})
+      for (const double value : v) {
+        lines += ',';
+        sinew::io::append_number(lines, value);
+      }
+    lines += '\n';
+  }
+  file_.write(lines);
+}
+
+}  // namespace cli
