@@ -35,12 +35,15 @@ struct CollisionSurface {
   int solver = -1;                   // which of the ODE solvers moves it; none: -1
   bool implicit = false;             // that solver is an implicit one
   Eigen::Vector3d gravity{0, 0, 0};  // on what a solver moves
-  unsigned companions =
-      0;  // numbers of corners, as bits, of the models of points, lines and triangles on this state
+  // numbers of corners, as bits, of the models of points, lines and triangles on this state that collide as
+  // this one does
+  unsigned companions = 0;
 
   // around the primitives, from the elements
   std::vector<std::array<int, 3>> across{};  // of triangles: the corner opposite to the edge behind each
                                              // corner in the neighbour; -1: none
+  std::vector<std::array<int, 2>> beside{};  // of segments that a model of triangles on this state has as
+                                             // edges: the corners opposite to them; -1: none
   std::vector<int> firstAround{},
       around{};  // the vertices joined to each vertex by edges, in compressed rows
 
@@ -65,12 +68,29 @@ struct CollisionSurface {
     return all;
   }
 
+  bool hasAllKinds() const { return companions == 0b1110 && radius.empty(); }
+  /// Whether the other model is on the same state, of points, lines or triangles, and collides with the same.
+  bool isAccompaniedBy(CollisionSurface const& other) const {
+    return state == other.state && other.radius.empty() && other.corners > 0 && active == other.active &&
+           moving == other.moving && simulated == other.simulated && selfCollision == other.selfCollision &&
+           group == other.group && response == other.response;
+  }
+  /// Of how many corners the primitives are that have a place on a vertex (1), an edge (2) or the inside of a
+  /// triangle (3) of this surface: the smallest that hold it, of this model and of those beside it.
+  int smallestAround(int feature) const {
+    for (int n = feature; n < corners; ++n)
+      if ((companions >> n & 1u) != 0) return n;
+    return corners;
+  }
+
   /// Whether the distance d from a place of this surface, on the primitive over these vertices of an element,
   /// to somewhere else is the least one around it, and not only on this element: where it is not, a neighbour
   /// is nearer (the filter of Duriez, LocalMinDistance).
   bool isLocalMinimum(int element, std::array<int, 3> const& vertices, Eigen::Vector3d const& d) const;
 
   void findNeighbours(std::size_t vertices);
+  /// The triangles beside the segments of this surface are those of another one on the same state.
+  void findTriangles(CollisionSurface const& triangles);
 
   void resize(std::size_t vertices);
 
@@ -158,17 +178,42 @@ SINEW_ONCE bool CollisionSurface::isLocalMinimum(int element, std::array<int, 3>
       if (towards(position[std::size_t(around[std::size_t(k)])] - position[v])) return false;
     return true;
   }
-  if (corners == 2) return true;
+  // into the triangle that an edge has with a corner
+  auto intoTriangle = [&](int p, int q, int corner) {
+    const Eigen::Vector3d edge = position[std::size_t(q)] - position[std::size_t(p)];
+    const Eigen::Vector3d way = position[std::size_t(corner)] - position[std::size_t(p)];
+    return towards(way - (way.dot(edge) / std::max(edge.squaredNorm(), 1e-300)) * edge);
+  };
   auto const& e = elements[std::size_t(element)];
+  if (corners == 2) {
+    if (beside.empty()) return true;
+    for (const int corner : beside[std::size_t(element)])
+      if (corner >= 0 && intoTriangle(e[0], e[1], corner)) return false;
+    return true;
+  }
   for (std::size_t c = 0; c < 3; ++c) {
     const int p = e[c], q = e[(c + 1) % 3], other = across[std::size_t(element)][c];
-    if (!((p == vertices[0] && q == vertices[1]) || (q == vertices[0] && p == vertices[1])) || other < 0)
-      continue;
-    const Eigen::Vector3d edge = position[std::size_t(q)] - position[std::size_t(p)];
-    const Eigen::Vector3d way = position[std::size_t(other)] - position[std::size_t(p)];
-    return !towards(way - (way.dot(edge) / std::max(edge.squaredNorm(), 1e-300)) * edge);
+    if ((p == vertices[0] && q == vertices[1]) || (q == vertices[0] && p == vertices[1]))
+      return other < 0 || !intoTriangle(p, q, other);
   }
   return true;
+}
+
+SINEW_ONCE void CollisionSurface::findTriangles(CollisionSurface const& triangles) {
+  std::vector<std::array<int, 3>> edges;  // first, second vertex, opposite corner
+  for (auto const& t : triangles.elements)
+    for (std::size_t c = 0; c < 3; ++c)
+      edges.push_back({std::min(t[c], t[(c + 1) % 3]), std::max(t[c], t[(c + 1) % 3]), t[(c + 2) % 3]});
+  std::sort(edges.begin(), edges.end());
+  beside.clear();
+  for (auto const& e : elements) {
+    const auto [p, q] = std::minmax(e[0], e[1]);
+    std::array<int, 2> found{-1, -1};
+    auto at = std::lower_bound(edges.begin(), edges.end(), std::array<int, 3>{p, q, -1});
+    for (std::size_t k = 0; k < 2 && at != edges.end() && (*at)[0] == p && (*at)[1] == q; ++k, ++at)
+      found[k] = (*at)[2];
+    beside.push_back(found);
+  }
 }
 
 SINEW_ONCE void CollisionSurface::findNeighbours(std::size_t vertices) {

@@ -35,9 +35,9 @@ consteval std::string_view manager_name() {
 /// it. Contacts stand in the order of their keys, whatever the order in which they were found.
 ///
 /// `Responses`: laws of force (ContactLaw), and what changes components that are touched (TouchResponse).
-/// Two models together have the stiffness k1 k2 / (contact distance with the radii of the two) [N/m], the sum of
-/// frictions and of dampings, as in SOFA. A response that has a `managerName` names the class, so that scene files may choose between it
-/// and others.
+/// Two models together have the stiffness k1 k2 / (contact distance with the radii of the two) [N/m], the sum
+/// of frictions and of dampings, as in SOFA. A response that has a `managerName` names the class, so that
+/// scene files may choose between it and others.
 template <class... Responses>
 struct ContactManager {
   using Role = role::ContactManager;
@@ -70,6 +70,7 @@ struct ContactManager {
   // of the steps
   std::vector<Contact> found{};
   std::vector<CollisionSurface*> surfaces{};  // in the order of the scene, of this step
+  std::vector<int> bodies{};                  // of each surface, the first one that is on the same state
   std::vector<int> points{};
   int answer = 0;              // place of the response of this manager,
   std::vector<int> answers{};  // and of that of each model; -1 for one that names none
@@ -108,6 +109,12 @@ struct ContactManager {
 
   void init(std::string const& where, std::vector<CollisionSurface*> const& all, bool again = false) {
     surfaces = all;
+    bodies.clear();
+    for (auto const* s : surfaces)
+      bodies.push_back(int(std::find_if(surfaces.begin(),
+                                        surfaces.end(),
+                                        [s](auto const* other) { return other->state == s->state; }) -
+                           surfaces.begin()));
     if (again) contacts = std::exchange(keptContacts, {});
     attachments = std::exchange(keptAttachments, {});
     coupleAnew = acts();
@@ -231,8 +238,9 @@ struct ContactManager {
                             found.end(),
                             [](Contact const& x, Contact const& y) { return x.key() == y.key(); }),
                 found.end());
+    dropSamePlaces();
     couplingChanged = std::exchange(coupleAnew, false) || found.size() != contacts.size();
-    listVertices();
+    listVertices(contacts);
     auto old = contacts.begin();
     for (Contact& c : found) {
       const ContactKey key = c.key();
@@ -373,11 +381,11 @@ struct ContactManager {
         f(std::get<R>(responses), surfaces[s]->state, std::span<int const>(points));
       }
   }
-  // a vertex, or a corner of a hull, that slides from one triangle to the next goes on with the same contact;
-  // -1 stands before vertices
-  static std::array<int, 5> vertexKey(ContactKey const& k, int side) {
-    return {k.surfaces[0],
-            k.surfaces[1],
+  // a vertex, or a corner of a hull, that slides from one triangle to the next, or from that to an edge, goes
+  // on with the same contact; -1 stands before vertices
+  std::array<int, 5> vertexKey(ContactKey const& k, int side) const {
+    return {bodies[std::size_t(k.surfaces[0])],
+            bodies[std::size_t(k.surfaces[1])],
             side,
             k.vertices[std::size_t(side == 0 ? 2 : 5)],
             k.features[std::size_t(side == 0 ? 0 : 2)]};
@@ -385,16 +393,35 @@ struct ContactManager {
   static bool ofOneVertex(ContactKey const& k, int side) {
     return k.vertices[std::size_t(side == 0 ? 1 : 4)] < 0 && k.features[std::size_t(side == 0 ? 1 : 3)] == -1;
   }
-  void listVertices() {
+  void listVertices(std::vector<Contact> const& all) {
     ofVertices.clear();
-    for (std::size_t i = 0; i < contacts.size(); ++i)
+    for (std::size_t i = 0; i < all.size(); ++i)
       for (int side = 0; side < 2; ++side)
-        if (const ContactKey key = contacts[i].key(); ofOneVertex(key, side))
+        if (const ContactKey key = all[i].key(); ofOneVertex(key, side))
           ofVertices.push_back({vertexKey(key, side), int(i)});
     std::sort(ofVertices.begin(), ofVertices.end(), [](OfVertex const& x, OfVertex const& y) {
       return std::pair(x.key, x.contact) < std::pair(y.key, y.contact);
     });
   }
+  // A vertex above the border of two triangles is near the one, and near the edge of the other, at the same
+  // place: once is enough. The rounding of a place is a few units of the last digit of coordinates.
+  void dropSamePlaces() {
+    listVertices(found);
+    bool any = false;
+    for (std::size_t i = 0, j = 1; j < ofVertices.size(); ++j) {
+      if (ofVertices[i].key != ofVertices[j].key) {
+        i = j;
+        continue;
+      }
+      Contact const& first = found[std::size_t(ofVertices[i].contact)];
+      Contact& other = found[std::size_t(ofVertices[j].contact)];
+      if ((other.start - first.start).norm() > 1e-8 * first.start.norm()) continue;
+      other.response = dropped;
+      any = true;
+    }
+    if (any) std::erase_if(found, [](Contact const& c) { return c.response == dropped; });
+  }
+  static constexpr int dropped = -1;
   Contact const* ofSameVertex(ContactKey const& key) const {
     for (int side = 0; side < 2; ++side) {
       if (!ofOneVertex(key, side)) continue;

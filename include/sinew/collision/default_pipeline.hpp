@@ -88,10 +88,7 @@ SINEW_ONCE bool DefaultPipeline::compare(CollisionSurface const& a, CollisionSur
   if ((a.solver < 0 || !a.simulated) && (b.solver < 0 || !b.simulated)) return false;
   // points against triangles and lines against lines are all there is between two surfaces that have the
   // three
-  constexpr unsigned three = 0b1110;
-  if (a.companions == three && b.companions == three && a.radius.empty() && b.radius.empty() &&
-      a.corners + b.corners != 4)
-    return false;
+  if (a.hasAllKinds() && b.hasAllKinds() && a.corners + b.corners != 4) return false;
   if (&a == &b) return a.selfCollision;
   if (a.state == b.state && !(a.selfCollision && b.selfCollision)) return false;
   return std::find_first_of(a.group.begin(), a.group.end(), b.group.begin(), b.group.end()) == a.group.end();

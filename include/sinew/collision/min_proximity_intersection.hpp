@@ -27,7 +27,8 @@ struct MinProximityIntersection {
   std::optional<Contact> intersect(PrimitivePair<NA, NB> const& pair) const {
     auto contact = contact_at(pair, pair.cornersA(), pair.cornersB());
     // as far behind a one-sided triangle as in front of it: what is farther is on the other side of the body
-    if (!contact || contact->start.norm() > reach() + pair.proximity() + pair.thickness())
+    if (!contact || contact->start.norm() > reach() + pair.proximity() + pair.thickness() ||
+        !is_of_pair(pair, *contact))
       return std::nullopt;
     contact->limit = contactDistance + pair.proximity();
     return contact;

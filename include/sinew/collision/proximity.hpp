@@ -51,6 +51,16 @@ Eigen::Vector3d outer_normal(CollisionSurface const& s, std::array<Eigen::Vector
 
 }  // namespace detail
 
+/// Two bodies may have several models each, and what touches is then found by several pairs of them. One pair
+/// has it: that of the smallest primitives on which its two places are; where both have points, lines and
+/// triangles, points against triangles and lines against lines.
+template <std::size_t NA, std::size_t NB>
+bool is_of_pair(PrimitivePair<NA, NB> const& pair, Contact const& contact) {
+  const int ofA = contact.a.corners(), ofB = contact.b.corners();
+  if (pair.a.hasAllKinds() && pair.b.hasAllKinds()) return NA == 1 || (ofA >= 2 && (NB == 1 || ofB == 2));
+  return pair.a.smallestAround(ofA) == int(NA) && pair.b.smallestAround(ofB) == int(NB);
+}
+
 /// The fields of an intersection method that looks for what is near.
 template <class I>
 constexpr auto proximity_fields() {

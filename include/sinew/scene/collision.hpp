@@ -75,14 +75,17 @@ struct Collision {
                model.surface.state = scope.stateAddress();
                model.surface.solver = -1;
                model.surface.companions = 0;
+               model.surface.beside.clear();
                all.push_back(&model.surface);
              }));
     int solvers = 0;
     numberSolvers(root, solvers);
     for (auto* s : all)
       for (auto const* other : all)
-        if (s->state == other->state && other->radius.empty() && other->corners > 0)
+        if (s->isAccompaniedBy(*other)) {
           s->companions |= 1u << other->corners;
+          if (s->corners == 2 && other->corners == 3) s->findTriangles(*other);
+        }
     traverse(root, on<role::CollisionPipeline>([&](auto& pipeline, auto const& scope) {
                auto missing = [&](std::string_view stage, std::string_view such) {
                  throw Error(scope.path(),
