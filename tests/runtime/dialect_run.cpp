@@ -35,6 +35,40 @@ TEST_CASE("a surface that names elements only follows the points of its mapping"
   CHECK(again.root().get<MechanicalObject<Vec3d>>()->position == state.position);
 }
 
+TEST_CASE("what is in the cells of a grid is put into place with it, and goes on from a checkpoint") {
+  // the grid is turned by 90 degrees about z, stretched and moved; so is its child, since it lies in the grid
+  const std::string_view scene = R"(<Node gravity="0 0 -1">
+    <EulerImplicitSolver/> <CGLinearSolver/>
+    <RegularGridTopology name="grid" n="3 2 2" min="0 0 0" max="2 1 1"/>
+    <MechanicalObject POSITION translation="5 6 7" rotation="0 0 90" scale3d="2 2 2"/>
+    <UniformMass/>
+    <Node name="inner"><MechanicalObject position="0.3 0.4 0.5  1.6 0.2 0.9"/><BarycentricMapping/></Node>
+  </Node>)";
+  auto started = [&](std::string_view position) {
+    std::string text(scene);
+    text.replace(text.find("POSITION"), 8, position);
+    return start(parse_scene<Standard>("test.scn", text));
+  };
+  for (auto* position : {"", "position='@grid.position'"}) {
+    auto sim = started(position);
+    auto inner = [](auto& of) -> auto const& {
+      return of.root().find_node("inner")->template get<MechanicalObject<Vec3d>>()->position;
+    };
+    CHECK((inner(sim)[0] - Eigen::Vector3d(5 - 2 * 0.4, 6 + 2 * 0.3, 7 + 2 * 0.5)).norm() < 1e-14);
+    CHECK((inner(sim)[1] - Eigen::Vector3d(5 - 2 * 0.2, 6 + 2 * 1.6, 7 + 2 * 0.9)).norm() < 1e-14);
+    sim.animate(0.1);
+    auto again = start(parse_scene<Standard>("saved.scn", scene_text(sim, 0.1)));
+    CHECK(inner(again) == inner(sim));
+    sim.animate(0.1), again.animate(0.1);
+    CHECK(inner(again) == inner(sim));
+  }
+  // points of its own lie where they say, and the grid only has their cells
+  auto own = started("position='0 0 0 1 0 0 2 0 0  0 2 0 1 2 0 2 2 0  0 0 1 1 0 1 2 0 1  0 2 1 1 2 1 2 2 1'");
+  auto const& points = own.root().find_node("inner")->get<MechanicalObject<Vec3d>>()->position;
+  CHECK((points[0] - Eigen::Vector3d(0.3, 0.4, 0.5)).norm() < 1e-13);
+  CHECK((points[1] - Eigen::Vector3d(1.6, 0.2, 0.9)).norm() < 1e-13);
+}
+
 TEST_CASE("a checkpoint of BDF goes on bit by bit, whatever the order") {
   for (auto* order : {"1", "2", "3"}) {
     auto sim = start(parse_scene<Standard>("test.scn",

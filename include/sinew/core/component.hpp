@@ -63,6 +63,8 @@ struct TopologyView {
   std::span<Tetrahedron const> tetrahedra{};
   std::span<Hexahedron const> hexahedra{};
   std::array<int, 3> grid{0, 0, 0};  // points of a regular grid along x, y, z; zeros where there is none
+  // of a grid of cells whose points are those of the state: where they lie before the state is moved
+  std::span<Eigen::Vector3d const> places{};
 };
 
 /// What a component of a node is given at init: where it stands (for messages), the rest positions of the

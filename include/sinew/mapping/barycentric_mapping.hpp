@@ -16,7 +16,9 @@ namespace sinew {
 /// nearest one: x = sum_k w_k x_k. The weights are barycentric coordinates in tetrahedra and triangles,
 /// multilinear ones in hexahedra, quads and edges. Volumes carry where the parent has some, else surfaces,
 /// else edges; on the latter two the child follows its projection. Affine motion of the parent is reproduced
-/// exactly.
+/// exactly. Where the parent has the points of its RegularGridTopology or SparseGridTopology, the child is
+/// looked for in the cells as they lie before translation, rotation and scale3d of the parent, as in SOFA:
+/// these put the child into place with the grid.
 template <class I, class O>
 struct BarycentricMapping {
   using Role = role::Mapping;
@@ -45,7 +47,10 @@ struct BarycentricMapping {
     check_element_indices(text(where, ": ", parent.where), topology, parent.rest.size());
     std::vector<Eigen::Vector3d> points;
     points.reserve(parent.rest.size());
-    for (auto const& x : parent.rest) points.push_back(x.template cast<double>());
+    if (topology.places.size() == parent.rest.size())
+      points.assign(topology.places.begin(), topology.places.end());
+    else
+      for (auto const& x : parent.rest) points.push_back(x.template cast<double>());
 
     std::vector<Choice> choices(positions.size());
     auto offer = [&]<class Fit>(std::type_identity<Fit>, auto const& elements) {

@@ -96,8 +96,10 @@ class SceneWriter {
     copy.template visit<role::State>([&](auto& state) {
       if (mapped) {
         auto given = state.given.value_or(state.position);
+        const bool ofTopology = state.pointsOfTopology;
         state = {};
         state.position = std::move(given);
+        state.pointsOfTopology = ofTopology;
       } else {
         if (state.resetPosition == state.position) state.resetPosition.clear();
         if (state.resetVelocity == state.velocity) state.resetVelocity.clear();

@@ -131,7 +131,7 @@ struct RuntimeScope {
   }
   template <class D>
   InitContext<D> context() const {
-    return {path(), state<D>().restPosition, topology()};
+    return detail::init_context<D>(path(), state<D>(), topology());
   }
   RuntimeScope parentScope() const { return above().stateScope(); }
   template <class D>

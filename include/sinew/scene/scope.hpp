@@ -64,6 +64,13 @@ auto& node_at(N& node) {
     return node_at<rest_of_path<Path>()>(
         hana::at_c<std::size_t(N::childIndex(first_name(Path.view())))>(node.children));
 }
+/// What a component over the points of a state is given. A state with other points than its grid has does not
+/// lie where that does.
+template <class D, class S>
+InitContext<D> init_context(std::string where, S const& state, TopologyView topology) {
+  if (!state.pointsOfTopology) topology.places = {};
+  return {std::move(where), state.restPosition, topology};
+}
 }  // namespace detail
 
 template <class N, class A>
@@ -199,7 +206,7 @@ struct Scope {
   }
   template <class D>
   InitContext<D> context() const {
-    return {path(), state<D>().restPosition, topology()};
+    return detail::init_context<D>(path(), state<D>(), topology());
   }
   /// The scope that owns the state that the mapping of this node follows.
   auto const& parentScope() const { return above.stateScope(); }

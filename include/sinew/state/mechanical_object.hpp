@@ -5,6 +5,7 @@
 #include <sinew/core/euler.hpp>
 #include <sinew/state/vector_operations.hpp>
 
+#include <algorithm>
 #include <numbers>
 #include <optional>
 #include <span>
@@ -33,6 +34,8 @@ struct MechanicalObject {
 
   // of a checkpoint: what solvers keep from step to step, one auxiliary vector after the other
   VecDeriv history{};
+  // position has the points of the node's topology, moved as the fields above say
+  bool pointsOfTopology = false;
 
   static constexpr auto fields() {
     using M = MechanicalObject;
@@ -58,7 +61,11 @@ struct MechanicalObject {
         field(
             "rotation", &M::rotation, "degree", "turns all positions at the start, about x, then y, then z"),
         field("scale3d", &M::scale3d, "", "stretches all positions at the start").also("scale"),
-        field("history", &M::history, "", "what solvers keep from step to step, in a checkpoint"));
+        field("history", &M::history, "", "what solvers keep from step to step, in a checkpoint"),
+        field("points_of_topology",
+              &M::pointsOfTopology,
+              "",
+              "whether positions are those of the node's topology, moved; found out at the start"));
   }
 
   // after init
@@ -81,11 +88,16 @@ struct MechanicalObject {
   /// the fields say, once.
   void place(std::string const& where, std::span<Eigen::Vector3d const> points) {
     if (position.size() == 1 && velocity.size() <= 1 && points.size() > 1) position.clear();
+    auto center_of = [](Eigen::Vector3d const& p) -> Vec<typename D::Real, D::spatial> {
+      return p.template head<D::spatial>().template cast<typename D::Real>();
+    };
     if (position.empty())
       for (auto const& p : points) {
         position.push_back(D::zero());
-        D::setCenter(position.back(), p.head<D::spatial>().template cast<typename D::Real>());
+        D::setCenter(position.back(), center_of(p));
       }
+    auto same = [&](auto const& x, Eigen::Vector3d const& p) { return D::center(x) == center_of(p); };
+    if (!points.empty() && std::ranges::equal(position, points, same)) pointsOfTopology = true;
     const Eigen::Vector3d none = Eigen::Vector3d::Zero(), whole = Eigen::Vector3d::Ones();
     if (translation == none && rotation == none && scale3d == whole) return;
     const Eigen::Quaterniond turn = rotation_of_degrees(rotation);
@@ -106,7 +118,7 @@ struct MechanicalObject {
                            p[2],
                            "), out of its ",
                            D::spatial == 2 ? "plane; move and turn it within" : "line; move it along"));
-        D::setCenter(x, p.template head<D::spatial>().template cast<typename D::Real>());
+        D::setCenter(x, center_of(p));
         if constexpr (D::rigid && D::spatial == 3)
           x.orientation = turn.template cast<typename D::Real>() * x.orientation;
         if constexpr (D::rigid && D::spatial == 2)

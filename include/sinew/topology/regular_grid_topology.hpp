@@ -73,7 +73,11 @@ struct RegularGridTopology {
         field("hexahedra", &T::hexahedra, "", "the cells, x fastest").also("hexas"));
   }
 
-  TopologyView view() const { return detail::grid_view(*this); }
+  TopologyView view() const {
+    TopologyView all = detail::grid_view(*this);
+    if (!hexahedra.empty()) all.places = position;
+    return all;
+  }
 
   /// Throws Error when the box is empty in a direction of several points, or above 2^24 points. One that runs
   /// backwards makes a grid that does, as in SOFA.

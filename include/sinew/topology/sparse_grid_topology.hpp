@@ -64,7 +64,9 @@ struct SparseGridTopology {
             .also("hexas"));
   }
 
-  TopologyView view() const { return {.positions = points, .edges = edges, .hexahedra = hexahedra}; }
+  TopologyView view() const {
+    return {.positions = points, .edges = edges, .hexahedra = hexahedra, .places = points};
+  }
 
   /// Throws Error when the file cannot be read, there is no surface or it is not closed, the box is empty,
   /// above 2^24 points, and when no cell is kept. What was made before then stays.
