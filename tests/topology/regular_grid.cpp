@@ -35,6 +35,13 @@ TEST_CASE("regular grid of hexahedra") {
   }
 }
 
+TEST_CASE("coordinates of grids do not leave the box, and whole steps are whole") {
+  const Mesh mesh = regular_grid(7, 2, 11, {-4, 0.1, 0}, {2, 0.3, 1.1});
+  for (int i = 0; i < 7; ++i) CHECK(mesh.positions[std::size_t(i)][0] == i - 4);
+  for (auto const& p : mesh.positions) CHECK((p[0] <= 2 && p[1] <= 0.3 && p[2] <= 1.1));
+  CHECK(mesh.positions.back() == Eigen::Vector3d(2, 0.3, 1.1));
+}
+
 TEST_CASE("regular grid of tetrahedra fills the box") {
   for (const int perCell : {5, 6}) {
     const Mesh mesh = regular_grid_tetrahedra(4, 3, 6, lo, hi, perCell);

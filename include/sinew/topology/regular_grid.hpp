@@ -171,11 +171,10 @@ SINEW_ONCE void refuse_box(std::string_view where, Eigen::Vector3d const& lo, Ei
 }
 
 SINEW_ONCE std::vector<double> grid_coordinates(int n, double lo, double hi) {
-  std::vector<double> coordinates;
-  for (int i = 0; i < n; ++i) {
-    const double t = n > 1 ? double(i) / (n - 1) : 0;
-    coordinates.push_back(lo * (1 - t) + hi * t);
-  }
+  // as SOFA computes them, so that points lie in the boxes and on the planes where they lie there
+  std::vector<double> coordinates{lo};
+  const double step = (hi - lo) / std::max(n - 1, 1);
+  for (int i = 1; i < n; ++i) coordinates.push_back(i + 1 < n ? lo + i * step : hi);
   return coordinates;
 }
 
@@ -272,11 +271,10 @@ SINEW_ONCE Mesh cylinder_tetrahedra(int axis, double lo, double hi, double radiu
 
   Mesh mesh;
   const auto points = Index(disk.size());
-  for (int k = 0; k <= layers; ++k)
+  for (const double height : detail::grid_coordinates(layers + 1, lo, hi))
     for (Eigen::Vector2d const& p : disk) {
-      const double t = double(k) / layers;
       Eigen::Vector3d x;
-      x[axis] = lo * (1 - t) + hi * t, x[(axis + 1) % 3] = p[0], x[(axis + 2) % 3] = p[1];
+      x[axis] = height, x[(axis + 1) % 3] = p[0], x[(axis + 2) % 3] = p[1];
       mesh.positions.push_back(x);
     }
   // a prism becomes 3 tetrahedra; each side's diagonal rises from its lower-numbered point, as seen from both
