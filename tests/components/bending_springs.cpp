@@ -96,21 +96,25 @@ TEST_CASE("the four classes take the faces that SOFA's do") {
   CHECK(QuadularBendingSprings<Vec3d>{}.stiffness == 1e5);
 }
 
-TEST_CASE("a strip of quads that is rolled up has the energy of its springs") {
-  // n squares along x onto a cylinder of radius r: points two columns apart are 2 r sin(angle) apart
-  const int n = 12;
+TEST_CASE("a sheet of quads that is rolled up has the energy of its springs") {
+  // n x m squares along x onto a cylinder of radius r: points two columns apart are 2 r sin(angle) apart
+  const int n = 12, m = 4;
   const double angle = 0.2, r = 1 / (2 * std::sin(angle / 2)), k = 7;
   Vec3d::VecCoord flat, rolled;
   std::vector<sinew::Quad> quads;
   for (int i = 0; i <= n; ++i)
-    for (int j = 0; j < 2; ++j) {
+    for (int j = 0; j <= m; ++j) {
       flat.push_back({double(i), double(j), 0});
       rolled.push_back({r * std::sin(i * angle), double(j), r * std::cos(i * angle)});
-      if (i < n && j == 0) quads.push_back({2 * i, 2 * i + 2, 2 * i + 3, 2 * i + 1});
+      const int p = i * (m + 1) + j;
+      if (i < n && j < m) quads.push_back({p, p + m + 1, p + m + 2, p + 1});
     }
-  auto strip = ready(QuadBendingSprings<Vec3d>{.stiffness = k}, flat, {.quads = quads});
-  const double shorter = 2 - 2 * r * std::sin(angle);
-  CHECK(strip.potentialEnergy(rolled) == Approx(2 * (n - 1) * k / 2 * shorter * shorter));
+  const double shorter = 2 - 2 * r * std::sin(angle), each = k / 2 * shorter * shorter;
+  // a spring at each point of the n - 1 columns inside, or one for each side of each square there
+  auto once = ready(QuadBendingSprings<Vec3d>{.stiffness = k}, flat, {.quads = quads});
+  CHECK(once.potentialEnergy(rolled) == Approx((n - 1) * (m + 1) * each));
+  auto forEach = ready(QuadularBendingSprings<Vec3d>{.stiffness = k}, flat, {.quads = quads});
+  CHECK(forEach.potentialEnergy(rolled) == Approx((n - 1) * 2 * m * each));
 }
 
 TEST_CASE("linear bending has the energy of the folded edge") {

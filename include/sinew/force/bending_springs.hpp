@@ -6,40 +6,45 @@
 #include <sinew/force/spring_law.hpp>
 #include <sinew/topology/hinges.hpp>
 
+#include <algorithm>
+#include <set>
+#include <utility>
 #include <vector>
 
 namespace sinew {
 
-/// Which faces bend, and SOFA's settings: its four classes differ in nothing else.
+/// Which faces bend, whether points that lie across two edges have one spring or two, and SOFA's settings:
+/// its four classes differ in nothing else.
 namespace bending {
 struct Triangular {
   static constexpr std::string_view className = "TriangularBendingSprings";
   static constexpr double stiffness = 1e5, damping = 1;
-  static constexpr bool triangles = true, quads = false;
+  static constexpr bool triangles = true, quads = false, once = false;
 };
 /// Quads are two triangles each, which bend too.
 struct Triangle {
   static constexpr std::string_view className = "TriangleBendingSprings";
   static constexpr double stiffness = 100, damping = 5;
-  static constexpr bool triangles = true, quads = true;
+  static constexpr bool triangles = true, quads = true, once = false;
 };
 struct Quadular {
   static constexpr std::string_view className = "QuadularBendingSprings";
   static constexpr double stiffness = 1e5, damping = 1;
-  static constexpr bool triangles = false, quads = true;
+  static constexpr bool triangles = false, quads = true, once = false;
 };
 struct Quad {
   static constexpr std::string_view className = "QuadBendingSprings";
   static constexpr double stiffness = 100, damping = 5;
-  static constexpr bool triangles = false, quads = true;
+  static constexpr bool triangles = false, quads = true, once = true;
 };
 }  // namespace bending
 
 /// Springs across the edges that two faces of the topology share, which get shorter when the surface folds:
 /// between the points opposite the edge of two triangles; between those next to each end of the edge of two
-/// quads. They are relaxed at rest. Faces that touch at height h above their edge, folded by the angle phi
-/// from flat, have E = k/2 (2 h (1 - cos(phi/2)))^2 a spring: of the fourth order in phi, so that a flat
-/// sheet has no stiffness against small bending.
+/// quads. QuadBendingSprings joins two points once, QuadularBendingSprings for each edge that they lie
+/// across, which are two inside a sheet. They are relaxed at rest. Faces that touch at height h above their
+/// edge, folded by the angle phi from flat, have E = k/2 (2 h (1 - cos(phi/2)))^2 a spring: of the fourth
+/// order in phi, so that a flat sheet has no stiffness against small bending.
 template <class D, class Kind>
 struct BendingSprings {
   using Role = role::ForceField;
@@ -76,8 +81,10 @@ struct BendingSprings {
     detail::check_indices(where, "quad", t.quads, context.rest.size());
     std::vector<typename Driver::Indices> ends;
     std::vector<typename Driver::Rest> rest;
+    std::set<std::pair<Index, Index>> joined;
     auto join = [&](Index i, Index j) {
       if (i == j) return;  // faces on either side of one another
+      if (Kind::once && !joined.insert(std::minmax(i, j)).second) return;
       ends.push_back({i, j});
       rest.push_back({Real(stiffness),
                       Real(damping),
