@@ -50,6 +50,11 @@ TEST_CASE("rigid masses are read, with the inertia divided by the mass") {
   CHECK(io::parse_rigid("a.rigid", "Xsp 3.0\n").mass == 1);
 }
 
+TEST_CASE("an inertia beyond the largest number is refused, not kept as infinite") {
+  CHECK(says("Xsp 3.0\nmass 1e200\ninrt 1e200 0 0 0 1 0 0 0 1\n",
+             "the mass of 1e+200 kg times the inertia is beyond"));
+}
+
 TEST_CASE("broken files of rigid masses are refused with their line") {
   CHECK(says("mass 1", "a.rigid:1: expected Xsp"));
   CHECK(says("Xsp 3.0\nmass -1", "a.rigid:2: the mass is -1 kg"));

@@ -109,6 +109,15 @@ TEST_CASE("read_vtu joins pieces") {
   CHECK(mesh.edges == std::vector<Edge>{{3, 4}, {8, 9}});
 }
 
+TEST_CASE("read_vtu gives each array bytes of its own, so that a small file is no large mesh") {
+  const std::string one = encoded_sample<std::uint32_t, double, std::int32_t>(Place::appendedRaw, false);
+  const std::size_t begin = one.find("<Piece"), end = one.find("</UnstructuredGrid>");
+  std::string many = one;
+  for (int i = 0; i < 1000; ++i) many.insert(end, one.substr(begin, end - begin));
+  files::check_says(
+      error_of([&] { io::parse_vtu("f", many); }), "f:15", "each array at an offset of its own");
+}
+
 TEST_CASE("read_vtu says what it does not read") {
   using samples::vtuAscii;
   check_says(error_with(vtuAscii, "byte_order", "compressor=\"vtkZLibDataCompressor\" byte_order"),

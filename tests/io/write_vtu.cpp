@@ -49,7 +49,7 @@ TEST_CASE("write_vtu writes data at points, bit by bit") {
                            {"a \"<&>\" name", 2, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9}}};
   io::write_vtu(folder / "a.vtu", mesh, data);
   const std::string content = io::read_file(folder / "a.vtu");
-  const io::VtkXml file("a.vtu", content, "UnstructuredGrid");
+  io::VtkXml file("a.vtu", content, "UnstructuredGrid");
   auto array = file.root().child("UnstructuredGrid").child("Piece").child("PointData").child("DataArray");
   for (io::PointArray const& expected : data) {
     CHECK(array.attribute("Name").value() == expected.name);
@@ -68,7 +68,7 @@ TEST_CASE("write_vtu gives a mesh without elements vertices to see") {
   io::write_vtu(folder / "a.vtu", cloud);
   CHECK(io::read_vtu(folder / "a.vtu") == cloud);
   const std::string content = io::read_file(folder / "a.vtu");
-  const io::VtkXml file("a.vtu", content, "UnstructuredGrid");
+  io::VtkXml file("a.vtu", content, "UnstructuredGrid");
   const auto cells = file.root().child("UnstructuredGrid").child("Piece").child("Cells");
   CHECK(file.values<std::int64_t>(cells.find_child_by_attribute("Name", "connectivity")) ==
         std::vector<std::int64_t>{0, 1});

@@ -15,7 +15,7 @@ RigidMass<double, 3> parse_rigid(std::string_view path, std::string_view content
 /// Reads the mass of a rigid body from SOFA's text format: "Xsp 3.0", then the mass [kg] (mass; 1 where it is
 /// not given) and the nine entries, row by row, of the inertia about the centre divided by the mass [m^2]
 /// (inrt; the identity where it is not given). Volume, centre, frame, gravity and others are not used, as in
-/// SOFA. Throws Error with the line on anything else, and on numbers that are not finite.
+/// SOFA. Throws Error with the line on anything else, and on numbers or an inertia that are not finite.
 RigidMass<double, 3> read_rigid(std::string const& path);
 
 }  // namespace sinew::io
@@ -47,6 +47,10 @@ SINEW_ONCE RigidMass<double, 3> parse_rigid(std::string_view path, std::string_v
     }
   }
   body.inertia = body.mass * perMass;
+  if (!body.inertia.allFinite())
+    throw in.error(text("the mass of ",
+                        body.mass,
+                        " kg times the inertia is beyond the largest number; correct mass or inrt"));
   return body;
 }
 

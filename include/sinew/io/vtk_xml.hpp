@@ -52,7 +52,7 @@ class VtkXml {
   /// The values of a <DataArray> of whatever type and encoding, of which there must be items * components.
   /// T is double, or std::int64_t for an array of whole numbers.
   template <class T>
-  std::vector<T> values(Node array, std::uint64_t items, std::size_t components) const {
+  std::vector<T> values(Node array, std::uint64_t items, std::size_t components) {
     const std::vector<T> list = values<T>(array);
     if (list.size() % components != 0 || list.size() / components != items)
       throw Error(at(array),
@@ -66,7 +66,7 @@ class VtkXml {
     return list;
   }
   template <class T>
-  std::vector<T> values(Node array) const {
+  std::vector<T> values(Node array) {
     const std::string_view format = array.attribute("format").value(), source = content(array);
     if (format == "ascii") return asciiValues<T>(source);
     if (format == "binary") return convert<T>(array, bytes(array, source, true));
@@ -82,7 +82,15 @@ class VtkXml {
                        appended_.size(),
                        " bytes of <AppendedData>; get a complete file"));
     const std::string_view encoding = root().child("AppendedData").attribute("encoding").value();
-    return convert<T>(array, bytes(array, appended_.substr(offset), encoding != "raw"));
+    const std::string own = bytes(array, appended_.substr(offset), encoding != "raw");
+    // a thousand arrays at one place would make a small file a large mesh
+    used_ += own.size();
+    if (used_ > appended_.size())
+      throw Error(at(array),
+                  text("with this array the arrays have more than the ",
+                       appended_.size(),
+                       " bytes of <AppendedData>; write the file again, each array at an offset of its own"));
+    return convert<T>(array, own);
   }
 
  private:
@@ -215,6 +223,7 @@ class VtkXml {
   std::string_view xml_, appended_{};
   pugi::xml_document document_{};
   std::size_t headerSize_ = 4;
+  std::size_t used_ = 0;  // bytes of the appended data that arrays have
   bool swap_ = false;
 };
 
