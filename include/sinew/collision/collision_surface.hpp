@@ -89,6 +89,10 @@ struct CollisionSurface {
   bool isLocalMinimum(int element, std::array<int, 3> const& vertices, Eigen::Vector3d const& d) const;
 
   void findNeighbours(std::size_t vertices);
+  /// What is wrong with the order of the corners of one-sided triangles where they are now, which says what
+  /// is outside: neighbours that disagree, a closed surface that has its inside outside, and under what does
+  /// not move a floor that looks down, along gravity. Empty where nothing is.
+  std::string wrongWinding(Eigen::Vector3d const& along) const;
   /// The triangles beside the segments of this surface are those of another one on the same state.
   void findTriangles(CollisionSurface const& triangles);
 
@@ -163,8 +167,10 @@ void add_forces(typename D::VecDeriv& f, CollisionSurface const& s) {
 
 #if SINEW_DEFINES
 #include <sinew/core/data_types.hpp>
+#include <sinew/core/error.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace sinew {
 
@@ -197,6 +203,46 @@ SINEW_ONCE bool CollisionSurface::isLocalMinimum(int element, std::array<int, 3>
       return other < 0 || !intoTriangle(p, q, other);
   }
   return true;
+}
+
+SINEW_ONCE std::string CollisionSurface::wrongWinding(Eigen::Vector3d const& along) const {
+  if (corners != 3 || bothSide || elements.empty()) return {};
+  constexpr std::string_view advice =
+      "; turn them round by swapping two corners each, or say bothSide=\"true\"";
+  std::vector<std::array<int, 3>> edges;  // lower, higher vertex, whether they are passed in that order
+  Eigen::Vector3d area(0, 0, 0);
+  double volume = 0, size = 0;
+  for (auto const& t : elements) {
+    std::array<Eigen::Vector3d, 3> p;
+    for (std::size_t c = 0; c < 3; ++c) {
+      p[c] = position[std::size_t(t[c])] - position[std::size_t(elements[0][0])];
+      const int from = t[c], to = t[(c + 1) % 3];
+      edges.push_back({std::min(from, to), std::max(from, to), int(from < to)});
+    }
+    const Eigen::Vector3d twice = (p[1] - p[0]).cross(p[2] - p[0]);
+    area += twice / 2;
+    size += twice.norm() / 2;
+    volume += p[0].dot(p[1].cross(p[2])) / 6;
+  }
+  std::sort(edges.begin(), edges.end());
+  bool closed = true;
+  int disagree = 0;
+  for (std::size_t i = 0, j = 0; i < edges.size(); i = j) {
+    while (j < edges.size() && edges[j][0] == edges[i][0] && edges[j][1] == edges[i][1]) ++j;
+    closed = closed && j - i == 2;
+    if (j - i == 2 && edges[i][2] == edges[i + 1][2]) ++disagree;
+  }
+  if (disagree > 0)
+    return text("neighbouring triangles disagree at ",
+                disagree,
+                " edges about which of their sides is outside, and what touches the wrong side is pulled in",
+                advice);
+  if (closed && volume < -1e-9 * size * std::sqrt(size))
+    return text("the triangles have their inside outside (their volume is ", volume, " m^3)", advice);
+  if (!closed && solver < 0 && area.dot(along) > 0.5 * size * along.norm() && size > 0)
+    return text("the outside of the triangles is below them, so that what lies on them is drawn through",
+                advice);
+  return {};
 }
 
 SINEW_ONCE void CollisionSurface::findTriangles(CollisionSurface const& triangles) {

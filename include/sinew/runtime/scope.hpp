@@ -222,6 +222,7 @@ struct RuntimeScope {
     const std::string where = text(path(), ": ", entry.component.name(), ": ", message);
     node.top().warnings.push_back(entry.origin.empty() ? where : text(entry.origin, ": ", where));
   }
+  void warn(void const* component, std::string_view message) const { warn(node.entryOf(component), message); }
   void check() const {
     if (!node.parent()) node.warnings.clear();
     runtime_checks(*this);

@@ -103,6 +103,12 @@ struct Collision {
                  missing("contact manager", "DefaultContactManager");
                pipeline.near.reserve(pipeline.surfaces.size() * (pipeline.surfaces.size() + 1) / 2);
                for (auto* s : pipeline.surfaces) s->enclose(0, 0);  // the trees are built
+               traverse(scope, on<role::CollisionModel>([](auto& model, auto const& s) {
+                          if constexpr (requires { s.warn(&model, std::string_view()); })
+                            if (const std::string wrong = model.surface.wrongWinding(s.gravity());
+                                !wrong.empty())
+                              s.warn(&model, wrong);
+                        }));
              }));
   }
 
