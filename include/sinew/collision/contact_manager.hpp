@@ -79,7 +79,9 @@ struct ContactManager {
     std::array<int, 5> key;  // surfaces, side, vertex, corner of its hull
     int contact;
   };
-  std::vector<OfVertex> ofVertices{};     // contacts of single vertices
+  // contacts of single vertices: of the last step, and of those that were found
+  std::vector<OfVertex> ofVertices{}, foundVertices{};
+  bool listed = false;                    // whether ofVertices is that of the contacts
   long grown = 0;                         // how often there was no room
   bool couplingChanged = false;           // since the last step: other vertices meet than before
   std::vector<Attachment> attachments{};  // places that are held from outside
@@ -122,6 +124,8 @@ struct ContactManager {
     contacts.reserve(std::size_t(capacity));
     found.reserve(std::size_t(capacity));
     ofVertices.reserve(2 * std::size_t(capacity));
+    foundVertices.reserve(2 * std::size_t(capacity));
+    listed = false;
     points.reserve(6 * std::size_t(capacity));
     attachments.reserve(8);
     grown = 0;
@@ -158,6 +162,7 @@ struct ContactManager {
   void reset() {
     coupleAnew = coupleAnew || acts();
     contacts.clear();
+    listed = false;
     attachments.clear();
   }
 
@@ -240,7 +245,7 @@ struct ContactManager {
                 found.end());
     dropSamePlaces();
     couplingChanged = std::exchange(coupleAnew, false) || found.size() != contacts.size();
-    listVertices(contacts);
+    if (!listed) listVertices(contacts, ofVertices);
     auto old = contacts.begin();
     for (Contact& c : found) {
       const ContactKey key = c.key();
@@ -256,6 +261,8 @@ struct ContactManager {
     }
     contacts.swap(found);
     found.clear();
+    ofVertices.swap(foundVertices);
+    listed = true;
     std::apply([dt](auto&... r) { (setStep(r, dt), ...); }, responses);
     for (auto* s : surfaces) s->forgetTouched();
     auto touch = [&](ContactSide const& side) {
@@ -393,33 +400,35 @@ struct ContactManager {
   static bool ofOneVertex(ContactKey const& k, int side) {
     return k.vertices[std::size_t(side == 0 ? 1 : 4)] < 0 && k.features[std::size_t(side == 0 ? 1 : 3)] == -1;
   }
-  void listVertices(std::vector<Contact> const& all) {
-    ofVertices.clear();
+  void listVertices(std::vector<Contact> const& all, std::vector<OfVertex>& list) const {
+    list.clear();
     for (std::size_t i = 0; i < all.size(); ++i)
       for (int side = 0; side < 2; ++side)
         if (const ContactKey key = all[i].key(); ofOneVertex(key, side))
-          ofVertices.push_back({vertexKey(key, side), int(i)});
-    std::sort(ofVertices.begin(), ofVertices.end(), [](OfVertex const& x, OfVertex const& y) {
+          list.push_back({vertexKey(key, side), int(i)});
+    std::sort(list.begin(), list.end(), [](OfVertex const& x, OfVertex const& y) {
       return std::pair(x.key, x.contact) < std::pair(y.key, y.contact);
     });
   }
   // A vertex above the border of two triangles is near the one, and near the edge of the other, at the same
   // place: once is enough. The rounding of a place is a few units of the last digit of coordinates.
   void dropSamePlaces() {
-    listVertices(found);
+    listVertices(found, foundVertices);
     bool any = false;
-    for (std::size_t i = 0, j = 1; j < ofVertices.size(); ++j) {
-      if (ofVertices[i].key != ofVertices[j].key) {
+    for (std::size_t i = 0, j = 1; j < foundVertices.size(); ++j) {
+      if (foundVertices[i].key != foundVertices[j].key) {
         i = j;
         continue;
       }
-      Contact const& first = found[std::size_t(ofVertices[i].contact)];
-      Contact& other = found[std::size_t(ofVertices[j].contact)];
+      Contact const& first = found[std::size_t(foundVertices[i].contact)];
+      Contact& other = found[std::size_t(foundVertices[j].contact)];
       if ((other.start - first.start).norm() > 1e-8 * first.start.norm()) continue;
       other.response = dropped;
       any = true;
     }
-    if (any) std::erase_if(found, [](Contact const& c) { return c.response == dropped; });
+    if (!any) return;
+    std::erase_if(found, [](Contact const& c) { return c.response == dropped; });
+    listVertices(found, foundVertices);
   }
   static constexpr int dropped = -1;
   Contact const* ofSameVertex(ContactKey const& key) const {

@@ -57,12 +57,12 @@ class ActedForces {
     if (kept_) operations_.peq(vec_id::applied, f, part);
     eachContact([part](auto& c) { c.force += part * c.evaluated; });
   }
-  /// So does (m M + b B + k K) dx.
-  void add(DerivId dx, MatrixFactors factors) {
+  /// So does (m M + b B + k K) dx. `follows`: mapped states have their dx already.
+  void add(DerivId dx, MatrixFactors factors, bool follows = false) {
     if (kept_) operations_.addMBKdx(vec_id::applied, dx, factors);
     if (factors.k == 0 && factors.b == 0) return;
     withContacts([&](auto& manager, auto&& mine) {
-      if (!kept_) operations_.propagate(dx);
+      if (!kept_ && !follows) operations_.propagate(dx);
       traverse(operations_.root, on<role::CollisionModel>([&](auto& model, auto const& scope) {
                  using D = typename std::decay_t<decltype(model)>::DataTypes;
                  see_touched<D>(model.surface, scope.template state<D>()[dx]);

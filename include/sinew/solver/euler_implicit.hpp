@@ -102,7 +102,7 @@ struct EulerImplicitSolver {
       if (!again) operations.acted.add(way.id, {.k = t * h});
       operations.acted.balance(way.id, 1, 0);
     } else {
-      operations.acted.add(vel.id, {.m = -rM, .k = again ? rK : t * h + rK});
+      operations.acted.add(vel.id, {.m = -rM, .k = again ? rK : t * h + rK}, true);
       if (!again) operations.acted.add(way.id, {.m = -t * rM, .b = t, .k = t * (t * h + rK)});
     }
     operations.time = time;
