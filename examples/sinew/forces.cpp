@@ -18,6 +18,13 @@ std::string field(std::string_view word) {
   return quoted + '"';
 }
 
+// "/liver" for the node /root/liver, as in records; "/" for the top
+std::string below_top(std::string const& path) {
+  if (path.empty()) return {};
+  const std::size_t slash = path.find('/', 1);
+  return slash == path.npos ? "/" : path.substr(slash);
+}
+
 }  // namespace
 
 ForcesFile::ForcesFile(std::string path) : file_(std::move(path)) {
@@ -32,9 +39,9 @@ void ForcesFile::add(sinew::StandardSimulation& simulation) {
                          ',',
                          enum_names(f.kind)[std::size_t(f.kind)],
                          ',',
-                         field(f.body),
+                         field(below_top(f.body)),
                          ',',
-                         field(f.other),
+                         field(below_top(f.other)),
                          ',',
                          f.index);
     for (Eigen::Vector3d const& v : {f.point, f.normal, f.wrench.force, f.wrench.torque})

@@ -166,6 +166,18 @@ elseif(CASE STREQUAL "run-outputs")
          "frame 1 time 0.5\nstate Vec3d 1 /ball\n0 -0.25 0 0 -0.5 0\n"
          "frame 2 time 1\nstate Vec3d 1 /ball\n0 -0.75 0 0 -1 0\nend 3\n")
   expect_equal("${record}" "${wanted}")
+  # a body that is held, of 2 kg, bears its weight
+  file(WRITE ${WORK}/held.scn "<Node gravity='0 -1 0' dt='0.5'><Node name='ball'><EulerExplicitSolver/><MechanicalObject \
+position='3 0 0'/><UniformMass totalMass='2'/><FixedConstraint indices='0'/></Node></Node>")
+  sinew(0 run held.scn --steps 2 --vtk held --forces held.csv)
+  file(READ ${WORK}/held.csv forces)
+  string(CONCAT wanted "step,time,kind,body,other,index,x,y,z,nx,ny,nz,fx,fy,fz,tx,ty,tz\n"
+         "1,0.5,reaction,/ball,,0,3,0,0,0,0,0,0,2,0,0,0,0\n2,1,reaction,/ball,,0,3,0,0,0,0,0,0,2,0,0,0,0\n")
+  expect_equal("${forces}" "${wanted}")
+  file(READ ${WORK}/held/ball_0002.vtu picture)
+  if(NOT picture MATCHES "contactForce" OR NOT picture MATCHES "reaction" OR NOT picture MATCHES "netForce")
+    fail("a picture has no forces")
+  endif()
 
 elseif(CASE STREQUAL "run-profile")
   sinew(0 run one.scn --steps 4 --profile --trace trace.json)
@@ -224,7 +236,7 @@ elseif(CASE STREQUAL "run-wrong")
   # nothing is simulated where what comes out cannot be written, and nothing is left behind
   file(REMOVE ${WORK}/cut.scn ${WORK}/unknown.scn)
   file(MAKE_DIRECTORY ${WORK}/folder)
-  foreach(option --record --save --trace)
+  foreach(option --record --forces --save --trace)
     sinew(4 run one.scn ${option} no/such/folder/file)
     expect_error("no/such/folder/file: cannot be written")
     sinew(4 run one.scn ${option} folder)
