@@ -4,6 +4,10 @@
 #include "files.hpp"
 #include "samples.hpp"
 
+#include <bit>
+#include <cmath>
+#include <cstring>
+
 namespace test_read_vtk {
 
 using namespace sinew;
@@ -23,6 +27,19 @@ Mesh one_cell(int type, std::string const& points) {
                            std::to_string(1 + std::count(points.begin(), points.end(), ' ') + 1) + "\n" +
                            std::to_string(std::count(points.begin(), points.end(), ' ') + 1) + " " + points +
                            "\ncell_types 1 " + std::to_string(type));
+}
+
+// numbers as a binary file has them
+template <class T>
+std::string bytes(std::vector<T> const& numbers) {
+  std::string all;
+  for (const T number : numbers) {
+    char b[sizeof(T)];
+    std::memcpy(b, &number, sizeof(T));
+    if constexpr (std::endian::native == std::endian::little) std::reverse(b, b + sizeof(T));
+    all.append(b, sizeof(T));
+  }
+  return all;
 }
 
 }  // namespace
@@ -65,7 +82,7 @@ TEST_CASE("read_vtk brings VTK's cells into the node order of the mesh") {
 
 TEST_CASE("read_vtk names the line of an error") {
   using samples::vtkGrid3, samples::vtkGrid5, samples::vtkPoly;
-  check_says(error_with(vtkGrid3, "ASCII", "BINARY"), "f.vtk:3", "binary VTK file; export it as ASCII");
+  check_says(error_with(vtkGrid3, "ASCII", "EBCDIC"), "f.vtk:3", "expected ASCII or BINARY");
   check_says(error_with(vtkGrid3, "# vtk", "# vtx"), "f.vtk:1", "does not begin with");
   check_says(error_with(vtkGrid3, "UNSTRUCTURED_GRID", "STRUCTURED_POINTS"),
              "f.vtk:4",
@@ -90,6 +107,55 @@ TEST_CASE("read_vtk names the line of an error") {
   check_says(error_of([] { io::parse_vtk("f.vtk", vtkGrid3.substr(0, vtkGrid3.find("CELL_TYPES"))); }),
              "f.vtk:23",
              "needs CELLS");
+}
+
+TEST_CASE("read_vtk reads binary files, highest byte first") {
+  const std::vector<double> x{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0.25, 0.5, -1};
+  Mesh expected;
+  for (std::size_t i = 0; i < x.size(); i += 3) expected.positions.emplace_back(x[i], x[i + 1], x[i + 2]);
+  expected.quads = {{0, 1, 2, 3}};
+  expected.tetrahedra = {{0, 1, 2, 4}};
+  // a field of a string of 3 letters, of one of 70, of 9 bits and of two shorts stands before all
+  const std::string field = "FIELD FieldData 3\nnames 1 2 string\n" +
+                            std::string(
+                                "\xc3"
+                                "abc"
+                                "\x80\x46") +
+                            std::string(70, 'P') + "\nflags 9 1 bit\n12\nn 1 2 short\n\n\n\n\n";
+  const std::string grid = "# vtk DataFile Version 3.0\nt\nBINARY\nDATASET UNSTRUCTURED_GRID\n" + field +
+                           "POINTS 5 double\n" + bytes(x) + "\nMETADATA\nINFORMATION 0\n\nCELLS 2 10\n" +
+                           bytes<std::int32_t>({4, 0, 1, 2, 3, 4, 0, 1, 2, 4}) + "\nCELL_TYPES 2\n" +
+                           bytes<std::int32_t>({9, 10}) + "\nPOINT_DATA 5\n\1\2";
+  CHECK(io::parse_vtk("f", grid) == expected);
+  const std::string layout5 = "CELLS 3 8\nOFFSETS vtktypeint64\n" + bytes<std::int64_t>({0, 4, 8}) +
+                              "\nCONNECTIVITY vtktypeint64\n" + bytes<std::int64_t>({0, 1, 2, 3, 0, 1, 2, 4});
+  const std::size_t list = grid.find("CELLS"), types = grid.find("\nCELL_TYPES");
+  CHECK(io::parse_vtk("f", std::string(grid).replace(list, types - list, layout5)) == expected);
+  // polygons, and single precision
+  const std::string poly = "# vtk DataFile Version 3.0\nt\nBINARY\nDATASET POLYDATA\nPOINTS 3 float\n" +
+                           bytes<float>({0, 0, 0, 1, 0, 0, 0, 0.5f, 0}) + "POLYGONS 1 4\n" +
+                           bytes<std::int32_t>({3, 0, 1, 2});
+  const Mesh triangle = io::parse_vtk("f", poly);
+  CHECK(triangle.triangles == std::vector<Triangle>{{0, 1, 2}});
+  CHECK(triangle.positions[2] == Eigen::Vector3d(0, 0.5, 0));
+
+  auto error = [&](std::string const& from, std::string const& to) {
+    return error_of([&] { io::parse_vtk("f.vtk", replaced(poly, from, to)); });
+  };
+  check_says(error("POLYGONS 1 4", "POLYGONS 1 5"), "f.vtk:6", "16 bytes follow");
+  check_says(error("POLYGONS 1 4", "POLYGONS 1 3"), "f.vtk:6", "cell 0 goes beyond");
+  check_says(error("POINTS 3 float", "POINTS 3 quad"), "f.vtk:5", "of a type \"quad\"");
+  check_says(error("POINTS 3 float", "POINTS 1000 float"), "f.vtk:5", "correct the number");
+  check_says(
+      error(bytes<std::int32_t>({3, 0, 1, 2}), bytes<std::int32_t>({3, 0, 1, -2})), "f.vtk:6", "point -2");
+  check_says(error(bytes<float>({0.5f}), bytes<float>({INFINITY})), "f.vtk:5", "point 2 has a coordinate");
+  // cut off anywhere, it is refused or has nothing but fewer cells
+  for (std::size_t n = 0; n < grid.size(); ++n) {
+    const std::string cut = grid.substr(0, n);
+    CAPTURE(n);
+    if (const std::string said = error_of([&] { io::parse_vtk("f.vtk", cut); }); said.empty())
+      CHECK(n >= types + 13 + 8);
+  }
 }
 
 TEST_CASE("read_vtk takes no memory on a number's word") {

@@ -112,11 +112,25 @@ TEST_CASE("what has no meaning here is accepted, and said once") {
     <RequiredPlugin name="A"/> <RequiredPlugin name="B"/> <VisualStyle displayFlags="showForceFields"/>
     <TetrahedronSetGeometryAlgorithms drawTetrahedra="1"/>
     <MechanicalObject showObject="1" drawMode="2" printLog="0"/>
-    <OBBModel extents="1 1 1"/> <CapsuleModel radius="1"/>
+    <FreeMotionAnimationLoop/> <CollisionGroupManager/>
     <Node name="off" activated="0"><Nonsense/></Node>
   </Node>)");
   CHECK(scene.ignored.size() == 4);
-  CHECK(scene.warnings.size() == 2);
+  REQUIRE(scene.warnings.size() == 2);
+  CHECK_THAT(scene.warnings[0], Catch::Contains("test.scn:5:5: <FreeMotionAnimationLoop> does nothing"));
+  CHECK_THAT(scene.warnings[1], Catch::Contains("<CollisionGroupManager> does nothing: bodies that touch"));
+}
+
+TEST_CASE("a class that would be missed is an error, or a warning to the lenient") {
+  constexpr std::string_view content = R"(<Node>
+  <MechanicalObject/> <CapsuleModel radius="1"/> <DirectSAPNarrowPhase/>
+</Node>)";
+  const std::string all = wrong(content);
+  CHECK_THAT(all, Catch::Contains("test.scn:2:23: <CapsuleModel> collides with nothing here; take"));
+  CHECK_THAT(all, Catch::Contains("<DirectSAPNarrowPhase> is no stage here; take BVHNarrowPhase"));
+  auto scene = parse_scene<Standard>("test.scn", content, {.lenient = true});
+  REQUIRE(scene.warnings.size() == 2);
+  CHECK_THAT(scene.warnings[0], Catch::Contains("It is left out"));
 }
 
 TEST_CASE("all that is wrong is said at once, each with file, line and column") {

@@ -6,6 +6,7 @@
 #include <sinew/collision/penalty_contact.hpp>
 #include <sinew/collision/stick_contact.hpp>
 #include <sinew/core/component.hpp>
+#include <sinew/core/memory_limit.hpp>
 
 #include <array>
 #include <span>
@@ -100,9 +101,7 @@ struct ContactManager {
   static int find(std::string_view name) {
     int place = -1, i = 0;
     auto look = [&]<class R>(R const*) {
-      bool same = R::className == name;
-      for_each_name(class_aliases<R>(), [&](std::string_view other) { same = same || other == name; });
-      if (same && place < 0) place = i;
+      if (place < 0 && (R::className == name || has_name(class_aliases<R>(), name))) place = i;
       ++i;
     };
     (look(static_cast<Responses const*>(nullptr)), ...);
@@ -110,6 +109,7 @@ struct ContactManager {
   }
 
   void init(std::string const& where, std::vector<CollisionSurface*> const& all, bool again = false) {
+    check_memory(where, text("room for ", capacity, " contacts (capacity)"), capacity);
     surfaces = all;
     bodies.clear();
     for (auto const* s : surfaces)

@@ -108,6 +108,12 @@ constexpr void for_each_name(std::string_view list, F&& f) {
   }
 }
 
+constexpr bool has_name(std::string_view list, std::string_view word) {
+  bool found = false;
+  for_each_name(list, [&](std::string_view name) { found = found || name == word; });
+  return found;
+}
+
 template <class Owner, class T>
 constexpr Field<Owner, T> field(std::string_view name, T Owner::*member, std::string_view unit,
                                 std::string_view documentation, Range range = range::any) {

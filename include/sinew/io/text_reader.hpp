@@ -63,6 +63,13 @@ class TextReader {
   std::string_view wordOnLine();
   /// The rest of this line, without what ends it; the next word is from the line after it.
   std::string_view restOfLine();
+  /// The next `n` numbers of `size` bytes of a file that is not text only; from the line after this one, or
+  /// from here.
+  std::string_view bytesAfterLine(std::size_t n, std::size_t size) {
+    restOfLine();
+    return bytes(n, size);
+  }
+  std::string_view bytes(std::size_t n, std::size_t size);
   /// Skips white space; false at the end.
   bool more() {
     for (; at_ < text_.size() && space(text_[at_]); ++at_) line_ += text_[at_] == '\n';
@@ -86,8 +93,8 @@ class TextReader {
   /// of the text. So memory may be reserved for them.
   std::size_t count(std::string_view what, std::size_t words);
   /// The number of one of `points` points, counted from 0.
-  Index index(std::size_t points) {
-    const std::int64_t i = integer("the number of a point");
+  Index index(std::size_t points) { return checkedIndex(integer("the number of a point"), points); }
+  Index checkedIndex(std::int64_t i, std::size_t points) const {
     if (i < 0 || std::uint64_t(i) >= points)
       throw error(text("point ",
                        i,
@@ -204,6 +211,19 @@ SINEW_ONCE std::string_view TextReader::restOfLine() {
   wordLine_ = line_, line_ += end < text_.size();
   at_ = std::min(end + 1, text_.size());
   return rest;
+}
+
+SINEW_ONCE std::string_view TextReader::bytes(std::size_t n, std::size_t size) {
+  const std::size_t left = text_.size() - at_;
+  if (n > left / size)
+    throw error(text(n,
+                     " binary numbers of ",
+                     size,
+                     " bytes are announced, but ",
+                     left,
+                     " bytes follow; get a complete file"));
+  at_ += n * size;
+  return text_.substr(at_ - n * size, n * size);
 }
 
 SINEW_ONCE double TextReader::real(std::string_view what) {

@@ -40,11 +40,7 @@ struct FieldInfo : FieldWords {
   std::string cpp(void const* component) const {
     return type->cpp(static_cast<char const*>(component) + offset);
   }
-  bool known(std::string_view asked) const {
-    bool found = asked == name;
-    for_each_name(aliases, [&](std::string_view alias) { found = found || alias == asked; });
-    return found;
-  }
+  bool known(std::string_view asked) const { return asked == name || has_name(aliases, asked); }
 };
 
 /// The role of a class, as a value.
@@ -134,11 +130,7 @@ struct ClassInfo {
   std::vector<FieldInfo> fields;
   bool severalParents = false;  // a mapping
 
-  bool known(std::string_view asked) const {
-    bool found = asked == name;
-    for_each_name(aliases, [&](std::string_view alias) { found = found || alias == asked; });
-    return found;
-  }
+  bool known(std::string_view asked) const { return asked == name || has_name(aliases, asked); }
   FieldInfo const* field(std::string_view asked) const {
     for (auto const& f : fields)
       if (f.known(asked)) return &f;
@@ -218,10 +210,12 @@ inline constexpr auto outputs_of_class = [] {
     return field_list();
 }();
 template <class C>
-concept HoldsMesh = requires(C c) { c.mesh.positions; };
+concept HoldsMesh = requires(C c) {
+  c.mesh.positions;
+};
 
-/// f(list of fields, whether they are inputs) for the lists that scene files know of a class, in their order; a component that
-/// holds a Mesh has fields for the lists of the mesh behind them.
+/// f(list of fields, whether they are inputs) for the lists that scene files know of a class, in their order;
+/// a component that holds a Mesh has fields for the lists of the mesh behind them.
 template <class C, class F>
 constexpr void for_each_field_list(F&& f) {
   f(fields_of_class<C>, true);
@@ -231,18 +225,21 @@ constexpr void for_each_field_list(F&& f) {
 template <class C>
 inline constexpr std::size_t field_count = [] {
   std::size_t count = HoldsMesh<C> ? std::size(meshFields) : 0;
-  for_each_field_list<C>([&](auto const& list, bool) { count += decltype(boost::hana::length(list))::value; });
+  for_each_field_list<C>(
+      [&](auto const& list, bool) { count += decltype(boost::hana::length(list))::value; });
   return count;
 }();
 
-// Constants of each class, and one function that knows where its values are, so that a class costs the compiler little.
+// Constants of each class, and one function that knows where its values are, so that a class costs the
+// compiler little.
 template <class C>
 inline constexpr auto field_rows = [] {
   std::array<FieldRow, field_count<C>> rows{};
   std::size_t next = 0;
   for_each_field_list<C>([&](auto const& list, bool isInput) {
     boost::hana::unpack(list, [&](auto const&... fd) {
-      ((rows[next++] = {&fd, &value_type<std::decay_t<decltype(std::declval<C&>().*fd.member)>>, isInput}), ...);
+      ((rows[next++] = {&fd, &value_type<std::decay_t<decltype(std::declval<C&>().*fd.member)>>, isInput}),
+       ...);
     });
   });
   if constexpr (HoldsMesh<C>) {
@@ -284,21 +281,21 @@ constexpr ClassRow class_row() {
                .in = {},
                .out = {},
                .role = role_kind<typename C::Role>(),
-               .joins = requires(C c) { c.ends.object1; },
-               .severalParents = requires(C c) { c.parents.paths; },
-               .fields = field_rows<C>.data(),
-               .count = field_count<C>,
-               .addresses = &field_addresses<C>};
-  if constexpr (requires { typename C::In; }) {
-    row.in = data_types_name<typename C::In>::value;
-    row.out = data_types_name<typename C::Out>::value;
-  } else if constexpr (requires { C::templateName; }) {
-    row.dataTypes = C::templateName;
-  } else if constexpr (requires { typename C::DataTypes; } && !HasRole<C, role::VisualModel>) {
-    row.dataTypes = data_types_name<typename C::DataTypes>::value;
-  }
-  return row;
+               .joins = requires(C c){c.ends.object1;
 }
+, .severalParents = requires(C c) { c.parents.paths; }
+, .fields = field_rows<C>.data(), .count = field_count<C>, .addresses = &field_addresses<C>
+};  // namespace detail
+if constexpr (requires { typename C::In; }) {
+  row.in = data_types_name<typename C::In>::value;
+  row.out = data_types_name<typename C::Out>::value;
+} else if constexpr (requires { C::templateName; }) {
+  row.dataTypes = C::templateName;
+} else if constexpr (requires { typename C::DataTypes; } && !HasRole<C, role::VisualModel>) {
+  row.dataTypes = data_types_name<typename C::DataTypes>::value;
+}
+return row;
+}  // namespace sinew
 template <class... Cs>
 constexpr auto class_rows(TypeList<Cs...>) {
   return std::array<ClassRow, sizeof...(Cs)>{class_row<Cs>()...};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <sinew/core/platform.hpp>
+#include <sinew/core/fields.hpp>
 
 #include <algorithm>
 #include <array>
@@ -86,49 +86,43 @@ inline constexpr std::array withoutMeaning =
                                      "ConstantSparsityPatternSystem",
                                      "CompositeLinearSystem",
                                      "BaseCamera",
+                                     "CubeModel",
+                                     "CubeCollisionModel",
+                                     "CollisionLoop",
+                                     "ContactListener",
+                                     "ConstraintAttachButtonSetting",
                                      "DisplayFlagsSetting"});
 
-/// Constraints solved by multipliers, and kinds of collision models and stages that are not there yet.
-inline constexpr std::array notYet = std::to_array<std::string_view>({"DirectSAPNarrowPhase",
-                                                                      "RayTraceDetection",
-                                                                      "RayTraceNarrowPhase",
-                                                                      "CollisionGroupManager",
-                                                                      "DefaultCollisionGroupManager",
-                                                                      "TreeCollisionGroupManager",
-                                                                      "RuleBasedContactManager",
-                                                                      "TetrahedronModel",
-                                                                      "TetrahedronCollisionModel",
-                                                                      "CubeModel",
-                                                                      "CubeCollisionModel",
-                                                                      "OBBModel",
-                                                                      "CapsuleModel",
-                                                                      "CylinderModel",
-                                                                      "RayModel",
-                                                                      "RayCollisionModel",
-                                                                      "FreeMotionAnimationLoop",
-                                                                      "FreeMotionMasterSolver",
-                                                                      "GenericConstraintSolver",
-                                                                      "ProjectedGaussSeidelConstraintSolver",
-                                                                      "NNCGConstraintSolver",
-                                                                      "LCPConstraintSolver",
-                                                                      "LMConstraintSolver",
-                                                                      "ConstraintAttachButtonSetting",
-                                                                      "GenericConstraintCorrection",
-                                                                      "LinearSolverConstraintCorrection",
-                                                                      "PrecomputedConstraintCorrection",
-                                                                      "UncoupledConstraintCorrection",
-                                                                      "LMConstraintDirectSolver",
-                                                                      "ContactListener",
-                                                                      "RayTraceDetection",
-                                                                      "CollisionGroup",
-                                                                      "CollisionLoop",
-                                                                      "CompositeCollisionPipeline",
-                                                                      "Triangle",
-                                                                      "Line",
-                                                                      "Point",
-                                                                      "Sphere",
-                                                                      "BlockGaussSeidelConstraintSolver",
-                                                                      "ConstraintAnimationLoop"});
+/// Classes that are not there, by names with blanks between, and what follows from it for a scene.
+struct ClassesLeftOut {
+  std::string_view names, why;
+};
+constexpr ClassesLeftOut const* left_out(auto const& list, std::string_view tag) {
+  for (ClassesLeftOut const& classes : list)
+    if (has_name(classes.names, tag)) return &classes;
+  return nullptr;
+}
+
+/// What changes the motion in SOFA, and would be missed.
+inline constexpr std::array notYet = std::to_array<ClassesLeftOut>(
+    {{"TetrahedronModel TetrahedronCollisionModel OBBModel CapsuleModel CylinderModel RayModel "
+      "RayCollisionModel Triangle Line Point Sphere",
+      "collides with nothing here; take triangles, lines, points, spheres or convex hulls"},
+     {"DirectSAPNarrowPhase", "is no stage here; take BVHNarrowPhase, which finds the same pairs"},
+     {"RayTraceDetection RayTraceNarrowPhase CompositeCollisionPipeline RuleBasedContactManager",
+      "is no stage of collision here; take DefaultPipeline, BVHNarrowPhase and DefaultContactManager"}});
+
+/// What prepares or solves something that the scene may not have at all.
+inline constexpr std::array inert = std::to_array<ClassesLeftOut>(
+    {{"FreeMotionAnimationLoop FreeMotionMasterSolver ConstraintAnimationLoop GenericConstraintSolver "
+      "ProjectedGaussSeidelConstraintSolver BlockGaussSeidelConstraintSolver "
+      "UnbuiltGaussSeidelConstraintSolver ImprovedJacobiConstraintSolver NNCGConstraintSolver "
+      "LCPConstraintSolver LMConstraintSolver LMConstraintDirectSolver GenericConstraintCorrection "
+      "LinearSolverConstraintCorrection PrecomputedConstraintCorrection UncoupledConstraintCorrection",
+      "does nothing, as in a scene without constraints that multipliers solve; there are none here"},
+     {"CollisionGroupManager DefaultCollisionGroupManager TreeCollisionGroupManager CollisionGroup",
+      "does nothing: bodies that touch stay under their own solvers; put them below one, so that their "
+      "contact is part of its system"}});
 
 /// Classes that need a package, and are in programs that were built where it was installed.
 struct ClassOfPackage {

@@ -90,12 +90,13 @@ class SceneCollector {
     }
     if (dialect::class_without_meaning(tag)) {
       messages_.ignored.insert(tag);
-    } else if (dialect::has(dialect::notYet, tag)) {
-      messages_.warnings.insert(
-          text(tag, ": collision and constraint solving are not simulated; the component is ignored"));
+    } else if (auto const* none = dialect::left_out(dialect::inert, tag)) {
+      messages_.warnings.insert(text(element.place(), ": <", tag, "> ", none->why));
     } else {
+      auto const* missed = dialect::left_out(dialect::notYet, tag);
       const std::string message =
-          text("there is no component <", tag, ">", packageOf(tag, suggestion(tag, classNames())));
+          missed ? text('<', tag, "> ", missed->why)
+                 : text("there is no component <", tag, ">", packageOf(tag, suggestion(tag, classNames())));
       if (lenient_)
         messages_.warnings.insert(text(element.place(), ": ", message, " It is left out."));
       else
@@ -357,16 +358,13 @@ class SceneCollector {
 
   // what to do about a class that is not there for want of a package; else `otherwise`
   static std::string packageOf(std::string_view tag, std::string otherwise) {
-    for (auto const& c : dialect::classesOfPackages) {
-      bool named = false;
-      for_each_name(c.names, [&](std::string_view name) { named = named || name == tag; });
-      if (named)
+    for (auto const& c : dialect::classesOfPackages)
+      if (has_name(c.names, tag))
         return text(" in this program, which was built without ",
                     c.package,
                     "; install that (Debian: ",
                     c.debian,
                     ") and build Sinew anew");
-    }
     return otherwise;
   }
   std::vector<std::string_view> classNames() const {
