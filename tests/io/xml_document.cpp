@@ -72,6 +72,29 @@ TEST_CASE("a file includes others, never itself") {
   CHECK_THROWS_WITH(XmlReader().parse("x.scn", "<Node><include/></Node>"), Catch::Contains("has no href"));
 }
 
+TEST_CASE("a file of the folder Objects stands for an element that is no class") {
+  const files::TempFolder folder;
+  std::filesystem::create_directory(folder / "Objects");
+  folder.write("Objects/Pair.xml", "<Node name='Group'><A n='1'/><Deep/></Node>");
+  folder.write("Objects/Deep.xml", "<Node name='deep'><A n='2'/></Node>");
+  folder.write("Objects/Circle.xml", "<Group><Circle/></Group>");
+  auto isClass = [](XmlElement const& e) { return e.tag == "Node" || e.tag == "A"; };
+  XmlReader reader({folder / ""});
+  XmlElement root = reader.parse("x.scn", "<Node><A/><Node><Pair n='7' m='1'/></Node><Other/></Node>");
+  reader.expandObjects(root, isClass);
+  REQUIRE(root.children.size() == 3);
+  CHECK(root.children[2].tag == "Other");  // there is no such file
+  auto const& pair = root.children[1].children;
+  REQUIRE(pair.size() == 2);
+  CHECK(pair[0].attribute("n")->value == "7");
+  CHECK(pair[1].attribute("name")->value == "deep");
+  CHECK(pair[1].children[0].attribute("n")->value == "7");
+  REQUIRE(reader.warnings.size() == 1);
+  CHECK_THAT(reader.warnings[0], Catch::Contains("<Pair>: no element of 'Objects/Pair.xml'"));
+  XmlElement circle = reader.parse("x.scn", "<Node><Circle/></Node>");
+  CHECK_THROWS_WITH(reader.expandObjects(circle, isClass), Catch::Contains("includes itself"));
+}
+
 TEST_CASE("the children of an included group stand in the place of the include") {
   const files::TempFolder folder;
   folder.write("a.xml", "<Node name='Group' gravity='0 0 0'><A/><Node/></Node>");

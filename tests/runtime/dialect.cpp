@@ -71,6 +71,19 @@ TEST_CASE("a file in an attribute of an include lies beside the file that says s
         std::vector<std::string>{folder / "mesh.obj"});
 }
 
+TEST_CASE("a file of the folder Objects stands for a class that is not there, and never for one that is") {
+  const files::TempFolder folder;
+  std::filesystem::create_directory(folder / "Objects");
+  folder.write("Objects/Held.xml", "<Node name='Group'><FixedConstraint indices='0'/></Node>");
+  folder.write("Objects/UniformMass.xml", "<Group/>");
+  const std::string path = folder.write("main.scn",
+                                        "<Node><MechanicalObject position='0 0 0  1 0 0'/><UniformMass "
+                                        "totalMass='3'/><Held indices='1'/></Node>");
+  auto scene = read_scene<Standard>(path, {});
+  CHECK(in<FixedConstraint<Vec3d>>(scene).indices == std::vector<int>{1});
+  CHECK(in<UniformMass<Vec3d>>(scene).totalMass == 3.0);
+}
+
 TEST_CASE("a source or a file that is empty is not given") {
   CHECK(wrong("<MeshTopology src='@' fileTopology=''/><OglModel filename='' src=''/>") ==
         "nothing was wrong");

@@ -35,6 +35,7 @@ class SceneReader {
     if (root.tag != "Node")
       throw SceneError(
           {text(root.place(), ": <", root.tag, ">: the outermost element of a scene is <Node>")});
+    xml_.expandObjects(root, [this](XmlElement const& e) { return collector_.knows(tag_of(e)); });
     for (auto const& [path, value] : options_.set) set_attribute(root, path, value);
     ScenePlace top{&root, name_of(root, "root"), nullptr};
     collector_.collectAll(top);

@@ -143,6 +143,33 @@ class XmlReader {
     return root;
   }
 
+  /// As SOFA does, puts the file Objects/TAG.xml, of a data folder or beside the scene, in the place of each
+  /// element in and below one for which isClass(element) is false, where there is such a file; it is an
+  /// include with the attributes of the element. Throws Error.
+  template <class F>
+  void expandObjects(XmlElement& in, F const& isClass, int depth = 0) {
+    std::vector<XmlElement> children = std::exchange(in.children, {});
+    for (XmlElement& child : children) {
+      const std::string href = isClass(child) ? "" : text("Objects/", child.tag, ".xml");
+      std::string path;
+      try {
+        if (!href.empty()) path = find(href, child.file->folder);
+      } catch (Error const&) {
+        // it stays what it is
+      }
+      if (path.empty()) {
+        in.children.push_back(std::move(child));
+        expandObjects(in.children.back(), isClass, depth + 1);
+        continue;
+      }
+      for (XmlAttribute& a : child.attributes)
+        if (!a.file) a.file = child.file;
+      include(child, href, child.attributes, in, depth, [&](XmlElement& root) {
+        expandObjects(root, isClass, depth + 1);
+      });
+    }
+  }
+
   /// The path of a file named in a scene: beside the scene file, or below a data path. Throws Error.
   std::string find(std::string const& name, std::string const& folder) const {
     auto exists = [](std::string const& path) {
@@ -187,7 +214,7 @@ class XmlReader {
       if (child.type() != pugi::node_element) continue;
       const std::string_view tag = child.name();
       if (tag == "include")
-        include(child, buffer, file, to, depth);
+        includeNode(child, buffer, file, to, depth);
       else if (tag == "Attribute")
         attribute(child, buffer, file, to);
       else
@@ -230,22 +257,34 @@ class XmlReader {
   // The root of the other file stands in the place of the include, or its children where the name of either
   // is Group or _Group_, or the tag of the root is Group; named _Merge_, it is merged into the element
   // around. Attributes of the include replace those that elements of the other file have.
-  void include(pugi::xml_node const& node, char const* buffer, std::shared_ptr<XmlFile const> const& file,
-               XmlElement& to, int depth) {
-    XmlElement here{.tag = "include", .file = file, .offset = std::size_t(node.name() - buffer) - 1};
-    const std::string href = node.attribute("href").value();
+  void includeNode(pugi::xml_node const& node, char const* buffer, std::shared_ptr<XmlFile const> const& file,
+                   XmlElement& to, int depth) {
+    const XmlElement here{.tag = "include", .file = file, .offset = std::size_t(node.name() - buffer) - 1};
+    std::vector<XmlAttribute> attributes;
+    for (auto const& a : node.attributes())
+      if (std::string_view(a.name()) != "href")
+        attributes.push_back({a.name(), a.value(), std::size_t(a.name() - buffer), file});
+    include(here, node.attribute("href").value(), attributes, to, depth, [](XmlElement&) {});
+  }
+  // `with(root)` is what is done to the other file's elements first
+  template <class F>
+  void include(XmlElement const& here, std::string const& href, std::vector<XmlAttribute> const& attributes,
+               XmlElement& to, int depth, F&& with) {
     std::string path;
     try {
       if (href.empty()) throw Error("", "has no href; name the file to include");
-      path = find(href, file->folder);
+      path = find(href, here.file->folder);
       if (std::find(including_.begin(), including_.end(), path) != including_.end())
         throw Error("", text(detail::shown(href), " includes itself; break the circle"));
       if (int(including_.size()) > mostIncludes)
         throw Error("", text("is an include more than ", mostIncludes, " deep; flatten the files"));
     } catch (Error const& error) {
-      throw Error(here.place(), text("<include>: ", error.what()));
+      throw Error(here.place(), text('<', here.tag, ">: ", error.what()));
     }
     XmlElement root = read(path);
+    including_.push_back(path);
+    with(root);
+    including_.pop_back();
     if (depth_of(root) + depth > mostDepth)
       throw Error(here.place(), text("nests the scene more than ", mostDepth, " deep; flatten it"));
     bool group = root.tag == "Group", merge = false;
@@ -256,15 +295,15 @@ class XmlReader {
       merge = merge || name->value == "_Merge_";
     };
     named();
-    for (auto const& a : node.attributes()) {
-      const XmlAttribute given{a.name(), a.value(), std::size_t(a.name() - buffer), file};
-      if (given.name == "href") continue;
+    for (XmlAttribute const& given : attributes) {
       if (given.name == "name") {
         root.take(given, true);
         named();
       } else if (!replace(root, given) && !dialect::without_effect(given.name)) {
-        warn(text(file->place(given.offset),
-                  ": <include>: no element of ",
+        warn(text(given.file->place(given.offset),
+                  ": <",
+                  here.tag,
+                  ">: no element of ",
                   detail::shown(href),
                   " has the attribute ",
                   detail::shown(given.name),

@@ -52,6 +52,17 @@ class SceneCollector {
   /// Whether what is not simulated is left out with a warning.
   bool lenient() const { return lenient_; }
 
+  /// Whether a tag is a node, or a class that a scene may have, be it simulated or not.
+  bool knows(std::string const& tag) const {
+    return tag == "Node" || tag == "NewtonRaphsonSolver" || tag == "BoxConstraint" || classNamed(tag) ||
+           dialect::preconditioner_named(tag) || dialect::has(dialect::implicitWithCG, tag) ||
+           dialect::class_without_meaning(tag) || dialect::left_out(dialect::inert, tag) ||
+           dialect::left_out(dialect::notYet, tag) ||
+           std::any_of(dialect::standsFor.begin(), dialect::standsFor.end(), [&](auto const& other) {
+             return other.name == tag;
+           });
+  }
+
   /// All in and below a node.
   void collectAll(ScenePlace& top) {
     collect(top);
