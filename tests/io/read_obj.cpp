@@ -38,6 +38,12 @@ TEST_CASE("read_obj counts negative numbers back from the last vertex, and forwa
   CHECK(mesh.triangles == std::vector<Triangle>{{0, 1, 2}, {0, 1, 3}, {3, 2, 1}});
 }
 
+TEST_CASE("read_obj takes no offence at zero bytes behind the text") {
+  const std::string content = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  CHECK(io::parse_obj("f.obj", content + std::string(3, '\0')) == io::parse_obj("f.obj", content));
+  check_says(error_of([&] { io::parse_obj("f.obj", content + '\0' + content); }), "f.obj:5", "the byte 0");
+}
+
 TEST_CASE("read_obj names the line of an error") {
   const std::string v = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
   check_says(error_in(v + "f 1 2 4\nf 1 2 3"), "f.obj:4", "vertex 4 does not exist: there are 3");

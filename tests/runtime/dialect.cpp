@@ -84,6 +84,14 @@ TEST_CASE("a file of the folder Objects stands for a class that is not there, an
   CHECK(in<UniformMass<Vec3d>>(scene).totalMass == 3.0);
 }
 
+TEST_CASE("what is of a method that another stands for is said, and so is a picture that is missing") {
+  auto scene =
+      node("<LocalMinDistance coneFactor='0.3'/><MechanicalObject/><Node><OglModel src='@gone'/></Node>");
+  CHECK(has(scene.warnings, "<LocalMinDistance>: coneFactor is of SOFA's method"));
+  CHECK(has(scene.warnings, "<OglModel>: src: '@gone' leads nowhere"));
+  CHECK_THAT(wrong("<MinProximityIntersection coneFactor='0.3'/>"), Catch::Contains("coneFactor"));
+}
+
 TEST_CASE("a source or a file that is empty is not given") {
   CHECK(wrong("<MeshTopology src='@' fileTopology=''/><OglModel filename='' src=''/>") ==
         "nothing was wrong");

@@ -48,7 +48,7 @@ def node_of(path):
 
 def made_by_contact(node):
     """Whether SOFA's responses made this node for themselves: their names are 15 letters and digits at random."""
-    return any(re.fullmatch(r"[A-Za-z0-9]{15}", part) and re.search(r"\d", part) for part in node.split("/"))
+    return any(re.fullmatch(r"[A-Za-z0-9]{15}", part) for part in node.split("/"))
 
 
 def difference(first, last, states):
@@ -59,7 +59,7 @@ def difference(first, last, states):
     for state in states:
         size = NUMBERS.get(kind(state["template"]), 0)
         numbers, node = state["positions"], node_of(state["path"])
-        if size == 0 or not numbers or made_by_contact(node) or not all(map(math.isfinite, numbers)):
+        if size == 0 or not numbers or (node not in last and made_by_contact(node)) or not all(map(math.isfinite, numbers)):
             continue
         count, place = len(numbers) // size, 3 if size == 7 else size
         if node not in last:  # the outermost node has another name here

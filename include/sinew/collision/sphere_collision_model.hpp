@@ -28,7 +28,11 @@ struct SphereCollisionModel {
     using M = SphereCollisionModel;
     return collision_model_fields<M>(
         field("radius", &M::radius, "m", "radius of all spheres", range::positive),
-        field("listRadius", &M::listRadius, "m", "radius of each sphere, instead", range::positive)
+        field("listRadius",
+              &M::listRadius,
+              "m",
+              "radius of each sphere, instead; the last ones without have `radius`",
+              range::positive)
             .oneEach(Of::points));
   }
 
@@ -36,14 +40,15 @@ struct SphereCollisionModel {
 
   void init(InitContext<D> const& context) {
     const std::size_t n = context.rest.size();
-    if (!listRadius.empty() && listRadius.size() != n)
+    if (listRadius.size() > n)
       throw Error(context.where,
                   text(component_name<SphereCollisionModel>(),
                        ": listRadius has ",
                        listRadius.size(),
                        " entries for ",
                        n,
-                       " points; give one for each, or none"));
+                       " points; give one for each, or fewer"));
+    listRadius.resize(listRadius.empty() ? 0 : n, radius);
     surface.elements = points_of(context.topology, n);
     surface.radius = listRadius;
     if (surface.radius.empty()) surface.radius.assign(n, radius);

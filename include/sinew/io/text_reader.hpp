@@ -113,8 +113,9 @@ class TextReader {
   Error error(std::string_view message) const { return error(wordLine_, message); }
   /// The Error for a last word that is not `what`, or is missing.
   Error expected(std::string_view what) const;
-  /// Throws Error at the first byte of the text that no text file has.
-  void rejectBinary() const;
+  /// Leaves off zero bytes at the end, which some programs write, and throws Error at the first byte before
+  /// them that no text file has.
+  void rejectBinary();
 
  private:
   static constexpr bool space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
@@ -266,7 +267,8 @@ SINEW_ONCE Error TextReader::expected(std::string_view what) const {
                     "; correct this line"));
 }
 
-SINEW_ONCE void TextReader::rejectBinary() const {
+SINEW_ONCE void TextReader::rejectBinary() {
+  while (text_.ends_with('\0')) text_.remove_suffix(1);
   const auto bad = std::find_if(text_.begin(), text_.end(), [](char c) {
     return (static_cast<unsigned char>(c) < ' ' && !space(c)) || c == 0x7f;
   });

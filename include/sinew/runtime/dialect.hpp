@@ -106,7 +106,7 @@ constexpr ClassesLeftOut const* left_out(auto const& list, std::string_view tag)
 /// What changes the motion in SOFA, and would be missed.
 inline constexpr std::array notYet = std::to_array<ClassesLeftOut>(
     {{"TetrahedronModel TetrahedronCollisionModel OBBModel CapsuleModel CylinderModel RayModel "
-      "RayCollisionModel Triangle Line Point Sphere",
+      "RayCollisionModel",
       "collides with nothing here; take triangles, lines, points, spheres or convex hulls"},
      {"DirectSAPNarrowPhase", "is no stage here; take BVHNarrowPhase, which finds the same pairs"},
      {"RayTraceDetection RayTraceNarrowPhase CompositeCollisionPipeline RuleBasedContactManager",

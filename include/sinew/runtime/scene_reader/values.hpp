@@ -146,12 +146,21 @@ class SceneValues {
   // what would make another scene of this one
   void notSimulated(SceneItem& item, XmlAttribute const& a, dialect::NotSimulated const& known) {
     if (dialect::is_standard(known, a.value)) return;
+    if (dialect::another_method(item.tag))
+      return void(messages_.warnings.insert(text(item.element->place(a),
+                                                 ": <",
+                                                 item.tag,
+                                                 ">: ",
+                                                 a.name,
+                                                 " is of SOFA's method and has no effect here")));
     const std::string_view standard = known.standard.substr(0, known.standard.find('|'));
-    const std::string what = text('<', item.tag, ">: ", a.name, " is not simulated: only its default ", shown(standard), " is");
+    const std::string what =
+        text('<', item.tag, ">: ", a.name, " is not simulated: only its default ", shown(standard), " is");
     if (collector_.lenient())
       return void(messages_.warnings.insert(text(item.element->place(a), ": ", what, "; it is left out")));
     item.failed = true;
-    messages_.complain(item.element->place(a), text(what, "; remove it, or read the scene with --lenient, which leaves it out"));
+    messages_.complain(item.element->place(a),
+                       text(what, "; remove it, or read the scene with --lenient, which leaves it out"));
   }
 
   // all of a node act over its last topology
@@ -208,8 +217,11 @@ class SceneValues {
         given.insert(field.name);
       }
     } catch (Error const& error) {
+      const std::string message = text('<', item.tag, ">: src: ", error.what());
+      if (item.info->role == RoleKind::visualModel)  // nothing moves otherwise for a picture that is missing
+        return void(messages_.warnings.insert(text(item.element->place(src), ": ", message)));
       item.failed = true;
-      messages_.complain(item.element->place(src), text('<', item.tag, ">: src: ", error.what()));
+      messages_.complain(item.element->place(src), message);
     }
   }
 
