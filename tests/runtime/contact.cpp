@@ -91,6 +91,35 @@ TEST_CASE("contacts in the matrix of a direct solver, in a scene file and in a t
   compare(direct, SparseLDLSolver<CompressedRowSparseMatrixMat3x3d>{});
 }
 
+TEST_CASE("what is above a thin plate is not drawn through it by the face behind") {
+  // the lower face comes into reach first, at 3.8 m; the upper one pushes from 3 m on
+  auto sim = start(parse_scene<Standard>("plate.scn", R"(
+<Node name="root" gravity="0 0 -10">
+  <DefaultPipeline/> <BruteForceBroadPhase/> <BVHNarrowPhase/> <DefaultContactManager/>
+  <MinProximityIntersection alarmDistance="3" contactDistance="2"/>
+  <Node name="plate">
+    <MeshTopology hexahedra="0 1 2 3 4 5 6 7"/>
+    <MechanicalObject template="Vec3d" position="-9 -9 -0.2  9 -9 -0.2  9 9 -0.2  -9 9 -0.2  -9 -9 0  9 -9 0  9 9 0  -9 9 0"/>
+    <TriangleCollisionModel moving="false" simulated="false" contactStiffness="500"/>
+  </Node>
+  <Node name="balls">
+    <EulerImplicitSolver/> <CGLinearSolver iterations="25" tolerance="1e-12" threshold="0"/>
+    <MechanicalObject template="Vec3d" position="0.5 0.2 3.95  1 1 3.95"/> <UniformMass vertexMass="2"/>
+    <SphereCollisionModel radius="1"/>
+  </Node>
+</Node>)"));
+  auto const& balls = sim.root().find_node("balls")->get<MechanicalObject<Vec3d>>()->position;
+  const double dt = 0.01;
+  for (int i = 1; i <= 200; ++i) {
+    sim.animate(dt);
+    for (auto const& ball : balls) {
+      if (const double free = 3.95 - 10 * dt * dt * i * (i + 1) / 2; free > 3.1)
+        CHECK(ball.z() == Approx(free).epsilon(1e-12));
+      CHECK(ball.z() > 1);
+    }
+  }
+}
+
 TEST_CASE("a collision model without a pipeline is said to collide with nothing") {
   RuntimeNode<Standard> root("root");
   root.add(MechanicalObject<Vec3d>{.position = {{0, 0, 0}}});

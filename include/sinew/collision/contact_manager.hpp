@@ -244,6 +244,7 @@ struct ContactManager {
                             [](Contact const& x, Contact const& y) { return x.key() == y.key(); }),
                 found.end());
     dropSamePlaces();
+    dropBehindOthers();
     couplingChanged = std::exchange(coupleAnew, false) || found.size() != contacts.size();
     if (!listed) listVertices(contacts, ofVertices);
     auto old = contacts.begin();
@@ -426,7 +427,27 @@ struct ContactManager {
       other.response = dropped;
       any = true;
     }
-    if (!any) return;
+    if (any) removeDropped();
+  }
+  // What is behind a triangle is in the body, and pushed out, unless it is in front of something of the same
+  // body that is nearer in that direction: then it is above a plate, whose far side it is behind.
+  void dropBehindOthers() {
+    bool any = false;
+    for (std::size_t first = 0, last = 0; first < foundVertices.size(); first = last) {
+      while (last < foundVertices.size() && foundVertices[last].key == foundVertices[first].key) ++last;
+      auto contact = [&](std::size_t i) -> Contact& { return found[std::size_t(foundVertices[i].contact)]; };
+      auto isBehind = [](Contact const& c) { return c.normal.dot(c.start) < 0; };
+      for (std::size_t i = first; i < last; ++i)
+        for (std::size_t j = first; j < last && isBehind(contact(i)); ++j) {
+          Eigen::Vector3d const &far = contact(i).start, &near = contact(j).start;
+          if (isBehind(contact(j)) || near.squaredNorm() >= far.squaredNorm() || near.dot(far) <= 0) continue;
+          contact(i).response = dropped;
+          any = true;
+        }
+    }
+    if (any) removeDropped();
+  }
+  void removeDropped() {
     std::erase_if(found, [](Contact const& c) { return c.response == dropped; });
     listVertices(found, foundVertices);
   }

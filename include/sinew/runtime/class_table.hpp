@@ -233,7 +233,7 @@ inline constexpr std::size_t field_count = [] {
 // Constants of each class, and one function that knows where its values are, so that a class costs the
 // compiler little.
 template <class C>
-inline constexpr auto field_rows = [] {
+constexpr auto make_field_rows() {  // nvcc takes no lambda that captures in the initializer of a variable
   std::array<FieldRow, field_count<C>> rows{};
   std::size_t next = 0;
   for_each_field_list<C>([&](auto const& list, bool isInput) {
@@ -243,14 +243,16 @@ inline constexpr auto field_rows = [] {
     });
   });
   if constexpr (HoldsMesh<C>) {
-    ValueType const* const types[] = {&value_type<decltype(Mesh::positions)>,
+    [[maybe_unused]] ValueType const* const types[] = {&value_type<decltype(Mesh::positions)>,
                                       &value_type<decltype(Mesh::edges)>,
                                       &value_type<decltype(Mesh::triangles)>,
                                       &value_type<decltype(Mesh::quads)>};
     for (std::size_t k = 0; k < std::size(meshFields); ++k) rows[next++] = {&meshFields[k], types[k], true};
   }
   return rows;
-}();
+}
+template <class C>
+inline constexpr auto field_rows = make_field_rows<C>();
 template <class C>
 void field_addresses(void const* component, void const** to) {
   C const& c = *static_cast<C const*>(component);
