@@ -121,7 +121,7 @@ template <class C, auto const& List>
 constexpr void add_field_codes(FieldCode*& to) {
   add_field_codes<C, List>(to, std::make_index_sequence<decltype(boost::hana::length(List))::value>{});
 }
-// in the order of for_each_field_list
+// in the order of field_rows
 template <class C>
 inline constexpr auto field_codes = [] {
   std::array<FieldCode, field_count<C>> codes{};

@@ -214,40 +214,42 @@ concept HoldsMesh = requires(C c) {
   c.mesh.positions;
 };
 
-/// f(list of fields, whether they are inputs) for the lists that scene files know of a class, in their order;
-/// a component that holds a Mesh has fields for the lists of the mesh behind them.
-template <class C, class F>
-constexpr void for_each_field_list(F&& f) {
-  f(fields_of_class<C>, true);
-  f(state_fields_of_class<C>, true);
-  f(outputs_of_class<C>, false);
-}
+template <auto const& List>
+inline constexpr std::size_t length_of = decltype(boost::hana::length(List))::value;
+// of what scene files know of a class, in this order: fields, state, outputs; a component that holds a Mesh
+// has fields for the lists of the mesh behind them
 template <class C>
-inline constexpr std::size_t field_count = [] {
-  std::size_t count = HoldsMesh<C> ? std::size(meshFields) : 0;
-  for_each_field_list<C>(
-      [&](auto const& list, bool) { count += decltype(boost::hana::length(list))::value; });
-  return count;
-}();
+inline constexpr std::size_t field_count = length_of<fields_of_class<C>> +
+                                           length_of<state_fields_of_class<C>> +
+                                           length_of<outputs_of_class<C>> +
+                                           (HoldsMesh<C> ? std::size(meshFields) : 0);
 
 // Constants of each class, and one function that knows where its values are, so that a class costs the
-// compiler little.
+// compiler little. nvcc 13 takes neither a lambda that captures in the initializer of a variable nor one that
+// is instantiated there in another.
 template <class C>
-constexpr auto make_field_rows() {  // nvcc takes no lambda that captures in the initializer of a variable
+struct AddFieldRows {
+  FieldRow*& next;
+  bool isInput;
+
+  template <class... F>
+  constexpr void operator()(F const&... fd) const {
+    ((*next++ = {&fd, &value_type<std::decay_t<decltype(std::declval<C&>().*fd.member)>>, isInput}), ...);
+  }
+};
+template <class C>
+constexpr auto make_field_rows() {
   std::array<FieldRow, field_count<C>> rows{};
-  std::size_t next = 0;
-  for_each_field_list<C>([&](auto const& list, bool isInput) {
-    boost::hana::unpack(list, [&](auto const&... fd) {
-      ((rows[next++] = {&fd, &value_type<std::decay_t<decltype(std::declval<C&>().*fd.member)>>, isInput}),
-       ...);
-    });
-  });
+  FieldRow* next = rows.data();
+  boost::hana::unpack(fields_of_class<C>, AddFieldRows<C>{next, true});
+  boost::hana::unpack(state_fields_of_class<C>, AddFieldRows<C>{next, true});
+  boost::hana::unpack(outputs_of_class<C>, AddFieldRows<C>{next, false});
   if constexpr (HoldsMesh<C>) {
     [[maybe_unused]] ValueType const* const types[] = {&value_type<decltype(Mesh::positions)>,
-                                      &value_type<decltype(Mesh::edges)>,
-                                      &value_type<decltype(Mesh::triangles)>,
-                                      &value_type<decltype(Mesh::quads)>};
-    for (std::size_t k = 0; k < std::size(meshFields); ++k) rows[next++] = {&meshFields[k], types[k], true};
+                                                       &value_type<decltype(Mesh::edges)>,
+                                                       &value_type<decltype(Mesh::triangles)>,
+                                                       &value_type<decltype(Mesh::quads)>};
+    for (std::size_t k = 0; k < std::size(meshFields); ++k) *next++ = {&meshFields[k], types[k], true};
   }
   return rows;
 }
@@ -256,9 +258,10 @@ inline constexpr auto field_rows = make_field_rows<C>();
 template <class C>
 void field_addresses(void const* component, void const** to) {
   C const& c = *static_cast<C const*>(component);
-  for_each_field_list<C>([&](auto const& list, bool) {
-    boost::hana::unpack(list, [&](auto const&... fd) { ((*to++ = std::addressof(c.*fd.member)), ...); });
-  });
+  const auto add = [&](auto const&... fd) { ((*to++ = std::addressof(c.*fd.member)), ...); };
+  boost::hana::unpack(fields_of_class<C>, add);
+  boost::hana::unpack(state_fields_of_class<C>, add);
+  boost::hana::unpack(outputs_of_class<C>, add);
   if constexpr (HoldsMesh<C>)
     for (void const* list : {static_cast<void const*>(&c.mesh.positions),
                              static_cast<void const*>(&c.mesh.edges),
