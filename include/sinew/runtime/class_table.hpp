@@ -210,9 +210,7 @@ inline constexpr auto outputs_of_class = [] {
     return field_list();
 }();
 template <class C>
-concept HoldsMesh = requires(C c) {
-  c.mesh.positions;
-};
+concept HoldsMesh = requires(C c) { c.mesh.positions; };
 
 template <auto const& List>
 inline constexpr std::size_t length_of = decltype(boost::hana::length(List))::value;
@@ -286,21 +284,21 @@ constexpr ClassRow class_row() {
                .in = {},
                .out = {},
                .role = role_kind<typename C::Role>(),
-               .joins = requires(C c){c.ends.object1;
+               .joins = requires(C c) { c.ends.object1; },
+               .severalParents = requires(C c) { c.parents.paths; },
+               .fields = field_rows<C>.data(),
+               .count = field_count<C>,
+               .addresses = &field_addresses<C>};
+  if constexpr (requires { typename C::In; }) {
+    row.in = data_types_name<typename C::In>::value;
+    row.out = data_types_name<typename C::Out>::value;
+  } else if constexpr (requires { C::templateName; }) {
+    row.dataTypes = C::templateName;
+  } else if constexpr (requires { typename C::DataTypes; } && !HasRole<C, role::VisualModel>) {
+    row.dataTypes = data_types_name<typename C::DataTypes>::value;
+  }
+  return row;
 }
-, .severalParents = requires(C c) { c.parents.paths; }
-, .fields = field_rows<C>.data(), .count = field_count<C>, .addresses = &field_addresses<C>
-};  // namespace detail
-if constexpr (requires { typename C::In; }) {
-  row.in = data_types_name<typename C::In>::value;
-  row.out = data_types_name<typename C::Out>::value;
-} else if constexpr (requires { C::templateName; }) {
-  row.dataTypes = C::templateName;
-} else if constexpr (requires { typename C::DataTypes; } && !HasRole<C, role::VisualModel>) {
-  row.dataTypes = data_types_name<typename C::DataTypes>::value;
-}
-return row;
-}  // namespace sinew
 template <class... Cs>
 constexpr auto class_rows(TypeList<Cs...>) {
   return std::array<ClassRow, sizeof...(Cs)>{class_row<Cs>()...};
