@@ -117,8 +117,8 @@ TEST_CASE("what has no meaning here is accepted, and said once") {
   </Node>)");
   CHECK(scene.ignored.size() == 4);
   REQUIRE(scene.warnings.size() == 2);
-  CHECK_THAT(scene.warnings[0], Catch::Contains("test.scn:5:5: <FreeMotionAnimationLoop> does nothing"));
-  CHECK_THAT(scene.warnings[1], Catch::Contains("<CollisionGroupManager> does nothing: bodies that touch"));
+  CHECK_THAT(scene.warnings[0], Catch::Contains("<CollisionGroupManager> does nothing: bodies that touch"));
+  CHECK_THAT(scene.warnings[1], Catch::Contains("test.scn:5:5: <FreeMotionAnimationLoop> does nothing"));
 }
 
 TEST_CASE("a class that would be missed is an error, or a warning to the lenient") {
