@@ -19,8 +19,8 @@ namespace {
 
 // f(component) for all in and below a node
 template <class Node, class F>
-void each(Node& node, F const& f) {
-  node.forEachComponent(on<AnyRole>(f));
+void each(Node& node, F& f) {
+  node.forEachComponent(on<AnyRole>([&](auto& component) { f(component); }));
   hana::for_each(node.children, [&](auto& child) { each(child, f); });
 }
 
@@ -109,12 +109,15 @@ struct Scrambler {
   template <class Simulation>
   void changeScene(Simulation& sim) {
     int count = 0;
-    each(sim.root(), [&](auto&) { ++count; });
+    auto counted = [&](auto&) { ++count; };
+    each(sim.root(), counted);
+    REQUIRE(count > 0);
     for (int n = 1 + upTo(3); n > 0; --n) {
       int which = upTo(count);
-      each(sim.root(), [&](auto& component) {
+      auto changed = [&](auto& component) {
         if (which-- == 0) changeField(component);
-      });
+      };
+      each(sim.root(), changed);
     }
   }
 };
@@ -135,10 +138,11 @@ int run(Make const& make, unsigned seed, int count) {
     });
     if (!said.empty()) continue;
     ++ran;
-    each(sim.root(), [&](auto& component) {
+    auto finite = [](auto& component) {
       if constexpr (HasRole<std::decay_t<decltype(component)>, role::State>)
         for (auto const& v : component.velocity) CHECK(all_finite(v));
-    });
+    };
+    each(sim.root(), finite);
   }
   memory_limit = limit;
   return ran;
