@@ -16,7 +16,7 @@ elseif(NOT SINEW_TEST_SUITE STREQUAL "quick")
 endif()
 
 set(quick_topology adjacency hexahedra mesh_topology regular_grid regular_grid_topology removal_plan round_grids surface_mesh)
-set(quick_collision axis_box bounding_tree broad_phase closest_points contact_laws contact_scenes friction overlap picking ray_hits
+set(quick_collision axis_box bounding_tree broad_phase closest_points contact_laws contact_scenes friction overlap picking ray_hits surface_elements
     time_of_impact)
 set(quick_scene element_removal place replay reset simulation)
 set(quick_components bad_input constraints direct_solvers measuring_mappings solver_fields trajectory)

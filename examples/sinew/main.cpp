@@ -1,34 +1,4 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "options.hpp"
-#include "scene.hpp"
 
-#include <cstdio>
-#include <exception>
-
-int main(int argc, char** argv) try {
-  int status = cli::ok;
-  const cli::Options options = cli::read_options(argc, argv, status);
-  switch (options.command) {
-    case cli::Command::run:
-      return cli::run(options.run);
-    case cli::Command::check:
-      return cli::check(options.check);
-    case cli::Command::list:
-      return cli::list(options.list);
-    case cli::Command::bake:
-      return cli::bake(options.bake);
-    case cli::Command::compare:
-      return cli::compare(options.compare);
-    default:
-      return status;
-  }
-} catch (cli::Failure const& failure) {
-  for (auto const& message : failure.messages) std::fprintf(stderr, "%s\n", message.c_str());
-  return failure.status;
-} catch (std::bad_alloc const&) {
-  std::fprintf(stderr, "sinew: there is not enough memory; make the scene smaller, or raise --max-memory\n");
-  return cli::badScene;
-} catch (std::exception const& error) {
-  std::fprintf(stderr, "sinew: %s\n", error.what());
-  return cli::badScene;
-}
+int main(int argc, char** argv) { return cli::program(argc, argv); }

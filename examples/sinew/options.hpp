@@ -83,4 +83,7 @@ int list(ListOptions const& options);
 int bake(BakeOptions const& options);
 int compare(CompareOptions const& options);
 
+/// The program: reads the command line, runs its command, prints what fails; the exit status.
+int program(int argc, char** argv);
+
 }  // namespace cli

@@ -29,11 +29,12 @@ void check(Vec3d::VecDeriv const& f, std::vector<double> const& shares) {
 
 TEST_CASE("the load of an element at rest is shared by its points") {
   // triangles of 3, 3 and 1.5 square metres; quads of 6 and 3; edges of 2, 3 and 2 metres
-  auto t = ready(TrianglePressureForceField<Vec3d>{.pressure = p}, corners, all);
+  auto t =
+      ready(TrianglePressureForceField<Vec3d>{.pressure = p, .pressedElements = {0, 1, 2}}, corners, all);
   check(force(t, corners), {2, 1.5, 2, 1, 0.5, 0.5});
-  auto q = ready(QuadPressureForceField<Vec3d>{.pressure = p}, corners, all);
+  auto q = ready(QuadPressureForceField<Vec3d>{.pressure = p, .pressedElements = {0, 1}}, corners, all);
   check(force(q, corners), {1.5, 2.25, 2.25, 1.5, 0.75, 0.75});
-  auto e = ready(EdgePressureForceField<Vec3d>{.pressure = p}, corners, all);
+  auto e = ready(EdgePressureForceField<Vec3d>{.pressure = p, .pressedElements = {0, 1, 2}}, corners, all);
   check(force(e, corners), {1, 2.5, 2.5, 1, 0, 0});
   // it stays when the body moves, and does work
   Vec3d::VecCoord moved = corners;
@@ -65,9 +66,16 @@ TEST_CASE("loads are on the elements that are numbered, and on those between two
                      corners,
                      {.triangles = triangles});
   check(force(sides, corners), {1, 1, 0, 0, 0, 0});
-  auto around =
-      ready(EdgePressureForceField<Vec3d>{.pressure = p}, corners, {.quads = std::span(quads).first(1)});
+  auto around = ready(EdgePressureForceField<Vec3d>{.pressure = p, .pressedElements = {0, 1, 2, 3}},
+                      corners,
+                      {.quads = std::span(quads).first(1)});
   check(force(around, corners), {2.5, 2.5, 2.5, 2.5, 0, 0});
+}
+
+TEST_CASE("a selection that is empty bears no load, and neither does one that is not given") {
+  auto nothing = ready(TrianglePressureForceField<Vec3d>{.pressure = p}, corners, all);
+  check(force(nothing, corners), {0, 0, 0, 0, 0, 0});
+  CHECK(nothing.loads.empty());
 }
 
 TEST_CASE("loads go with the elements that are removed, and do not turn to all") {

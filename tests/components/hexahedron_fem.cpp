@@ -35,6 +35,22 @@ Mesh shaken_block(int n) {  // the unit cube in n^3 cells
 
 }  // namespace
 
+TEST_CASE("hexahedra that are half filled are half as stiff") {
+  const Mesh mesh = shaken_block(2);
+  const std::vector<double> fill(8, 0.5);
+  Vec3d::VecCoord moved = mesh.positions;
+  for (std::size_t i = 0; i < moved.size(); ++i)
+    moved[i] += 0.05 * Vector3d(std::sin(2.0 * double(i)), std::cos(double(i)), 0.3);
+  auto of = [&](std::span<double const> filled) {
+    return ready(Hexahedra{.youngModulus = {100}, .poissonRatio = 0.3},
+                 mesh.positions,
+                 {.hexahedra = mesh.hexahedra, .fill = filled});
+  };
+  auto whole = of({}), half = of(fill);
+  const auto all = force(whole, moved), part = force(half, moved);
+  for (std::size_t i = 0; i < all.size(); ++i) CHECK((part[i] - 0.5 * all[i]).norm() < 1e-13 * all[i].norm());
+}
+
 TEST_CASE("the stiffness of a hexahedron is the integral of B'CB") {
   // one distorted element; its corners' signs in VTK's order
   const double sign[8][3] = {

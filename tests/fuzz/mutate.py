@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSL-1.0
-"""Mutates scene files and runs them with the program sinew. A scene that is wrong has to be refused with a message; a defect is a
+"""Mutates scene files and runs them with sinew_server, the program sinew for many scenes. A scene that is wrong has to be refused with a message; a defect is a
 signal, a finding of a sanitizer, a run that takes longer than --timeout, a refusal without a word, or an end at a kinetic energy that is
 not finite. Defects are kept in --keep with what the program said. A mutant depends on the seed and its number only:
 --only NUMBER makes it again.
@@ -9,10 +9,10 @@ Mutations: values (special numbers, lists that are cut, longer or empty, links t
 components and nodes that are removed, copied, moved, nested, or replaced by those of other scenes and by classes of
 `sinew list`."""
 import argparse
-import concurrent.futures
 import copy
 import json
 import math
+import multiprocessing
 import os
 import pathlib
 import random
@@ -27,7 +27,7 @@ NUMBERS = ["0", "-0", "-1", "1", "2", "3", "7", "0.5", "99999", "-99999", "1e9",
 WORDS = ["", " ", "true", "x", "@", "@.", "@..", "@/", "@../..", "@[-1]", "@[1]", "@name.position", "Vec3d", "Rigid3d", "Vec1d,Vec3d",
          "1 2 3 4 5 6 7 8 9 10 11 12", "a" * 5000, "\u00e9\u202e", "0-5", "1e", "--1", "0x10", "1,2,3"]
 NUMBER = re.compile(r"[-+]?\d+(\.\d+)?([eE][-+]?\d+)?")
-EXITS = (0, 1, 2, 3, 4)
+EXITS = tuple(f"exit {status}" for status in range(5))
 
 
 def all_classes(program):
@@ -123,39 +123,69 @@ def finite(result):
     return isinstance(energy, (int, float)) and math.isfinite(energy)
 
 
+class Server:
+    """Runs scenes one after the other (serve.cpp)."""
+
+    def __init__(self, program, timeout):
+        environment = dict(os.environ,
+                           ASAN_OPTIONS="exitcode=99:allocator_may_return_null=0:max_allocation_size_mb=4000",
+                           UBSAN_OPTIONS="halt_on_error=1:exitcode=99:print_stacktrace=1")
+        self.timeout = timeout
+        self.process = subprocess.Popen([program], stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=environment, text=True)
+
+    def run(self, folder, arguments):
+        """How sinew ends, and what it writes on standard output and standard error."""
+        self.process.stdin.write("\t".join([str(self.timeout), folder, *arguments]) + "\n")
+        self.process.stdin.flush()
+        ended = self.process.stdout.readline().strip()
+        if not ended:
+            raise RuntimeError(f"the server of scenes has ended with {self.process.wait()}")
+        said = [pathlib.Path(folder, name).read_text(errors="replace") for name in ("out", "err")]
+        return ended, *said
+
+
 class Runner:
-    def __init__(self, arguments, mutator, folder):
-        self.arguments, self.mutator, self.folder = arguments, mutator, folder
-        self.environment = dict(os.environ,
-                                ASAN_OPTIONS="exitcode=99:allocator_may_return_null=0:max_allocation_size_mb=4000",
-                                UBSAN_OPTIONS="halt_on_error=1:exitcode=99:print_stacktrace=1")
+    """Of one process of those that share the work."""
+
+    def __init__(self, arguments, classes):
+        self.arguments = arguments
+        self.mutator = Mutator(arguments.scenes, classes)
+        self.server = Server(arguments.program, arguments.timeout)
 
     def run(self, number):
         """What is wrong with a mutant, and what the program said; nothing is wrong: None."""
         path, content = self.mutator.mutant(self.arguments.seed, number)
-        with tempfile.TemporaryDirectory(dir=self.folder) as here:
-            scene = pathlib.Path(here, "mutant.scn")
-            scene.write_text(content)
-            try:
-                done = subprocess.run([self.arguments.program, "run", scene.name, "--steps", "5", "--json", "--max-memory", "2G",
-                                       "--data", str(path.parent)],
-                                      cwd=here, env=self.environment, capture_output=True, text=True, errors="replace",
-                                      timeout=self.arguments.timeout)
-            except subprocess.TimeoutExpired:
-                return number, path, content, f"hangs for {self.arguments.timeout} s", "", None
+        with tempfile.TemporaryDirectory() as here:
+            pathlib.Path(here, "mutant.scn").write_text(content)
+            ended, out, err = self.server.run(here, ["run", "mutant.scn", "--steps", "5", "--json", "--max-memory", "2G",
+                                                     "--data", str(path.parent)])
         wrong = None
-        if done.returncode not in EXITS:
-            wrong = f"ends by {done.returncode}"
-        elif done.returncode != 0 and not done.stderr.strip() and '"errors"' not in done.stdout:
-            wrong = f"ends with {done.returncode} and says nothing"
-        elif done.returncode == 0 and not finite(json.loads(done.stdout)):
+        if ended == "hang":
+            wrong = f"hangs for {self.arguments.timeout} s"
+        elif ended not in EXITS:
+            wrong = f"ends by {ended}"
+        elif ended != "exit 0" and not err.strip() and '"errors"' not in out:
+            wrong = f"ends with {ended} and says nothing"
+        elif ended == "exit 0" and not finite(json.loads(out)):
             wrong = "ends well with a kinetic energy that is not finite"
-        return number, path, content, wrong, done.stderr, done.returncode
+        return number, path, content, wrong, err, ended
+
+
+runner = None
+
+
+def start_runner(arguments, classes):
+    global runner
+    runner = Runner(arguments, classes)
+
+
+def run_mutant(number):
+    return runner.run(number)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("program", help="the program sinew; built with sanitizers it finds more")
+    parser.add_argument("program", help="sinew_server; built with sanitizers it finds more")
     parser.add_argument("scenes", nargs="+", type=pathlib.Path)
     parser.add_argument("--seed", default="1")
     parser.add_argument("--count", type=int, default=1000)
@@ -166,30 +196,26 @@ def main():
     arguments = parser.parse_args()
     arguments.program = os.path.abspath(arguments.program)
     arguments.scenes = [scene.resolve() for scene in arguments.scenes]
-    mutator = Mutator(arguments.scenes, all_classes(arguments.program))
+    classes = all_classes(arguments.program)
+    if arguments.only is not None:
+        start_runner(arguments, classes)
+        number, path, content, wrong, said, ended = run_mutant(arguments.only)
+        print(content)
+        print(f"{path}: {wrong or ended}\n{said}", file=sys.stderr)
+        return 1 if wrong else 0
     exits, defects = {}, 0
-    with tempfile.TemporaryDirectory() as folder:
-        runner = Runner(arguments, mutator, folder)
-        if arguments.only is not None:
-            number, path, content, wrong, said, status = runner.run(arguments.only)
-            print(content)
-            print(f"{path}: {wrong or f'exit status {status}'}\n{said}", file=sys.stderr)
-            return 1 if wrong else 0
-        with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
-            # a thousand at a time, since results wait until they are looked at
-            batches = (range(first, min(first + 1000, arguments.count)) for first in range(0, arguments.count, 1000))
-            results = (result for batch in batches for result in pool.map(runner.run, batch))
-            for number, path, content, wrong, said, status in results:
-                exits[status] = exits.get(status, 0) + 1
-                if not wrong:
-                    continue
-                defects += 1
-                arguments.keep.mkdir(parents=True, exist_ok=True)
-                kept = arguments.keep / f"{arguments.seed}_{number}_{path.stem}"
-                kept.with_suffix(".scn").write_text(content)
-                kept.with_suffix(".txt").write_text(f"{wrong}\n{said}")
-                print(f"mutant {number} of {path.name} {wrong}; see {kept}.txt", flush=True)
-    ended = ", ".join(f"{count} with {status}" for status, count in sorted(exits.items(), key=str))
+    with multiprocessing.Pool(arguments.jobs, start_runner, (arguments, classes)) as pool:
+        for number, path, content, wrong, said, ended in pool.imap_unordered(run_mutant, range(arguments.count), 20):
+            exits[ended] = exits.get(ended, 0) + 1
+            if not wrong:
+                continue
+            defects += 1
+            arguments.keep.mkdir(parents=True, exist_ok=True)
+            kept = arguments.keep / f"{arguments.seed}_{number}_{path.stem}"
+            kept.with_suffix(".scn").write_text(content)
+            kept.with_suffix(".txt").write_text(f"{wrong}\n{said}")
+            print(f"mutant {number} of {path.name} {wrong}; see {kept}.txt", flush=True)
+    ended = ", ".join(f"{count} with {how}" for how, count in sorted(exits.items()))
     print(f"seed {arguments.seed}: {arguments.count} mutants of {len(arguments.scenes)} scenes, {defects} defects; ended: {ended}")
     return 1 if defects else 0
 

@@ -40,17 +40,25 @@ TEST_CASE("what is in the cells of a grid is put into place with it, and goes on
   const std::string_view scene = R"(<Node gravity="0 0 -1">
     <EulerImplicitSolver/> <CGLinearSolver/>
     <RegularGridTopology name="grid" n="3 2 2" min="0 0 0" max="2 1 1"/>
-    <MechanicalObject POSITION translation="5 6 7" rotation="0 0 90" scale3d="2 2 2"/>
+    STATE
     <UniformMass/>
     <Node name="inner"><MechanicalObject position="0.3 0.4 0.5  1.6 0.2 0.9"/><BarycentricMapping/></Node>
   </Node>)";
-  auto started = [&](std::string_view position) {
+  constexpr std::string_view moved = "translation='5 6 7' rotation='0 0 90' ";
+  auto started = [&](std::string state) {
     std::string text(scene);
-    text.replace(text.find("POSITION"), 8, position);
+    text.replace(text.find("STATE"), 5, state);
     return start(parse_scene<Standard>("test.scn", text));
   };
-  for (auto* position : {"", "position='@grid.position'"}) {
-    auto sim = started(position);
+  auto placed = [&](std::string_view position) {
+    return text("<MechanicalObject ", position, ' ', moved, "scale3d='2 2 2'/>");
+  };
+  for (auto const& state : {placed(""),
+                            placed("position='@grid.position'"),
+                            text("<TransformEngine name='move' input_position='@grid.position' ",
+                                 moved,
+                                 "scale='2 2 2'/><MechanicalObject position='@move.output_position'/>")}) {
+    auto sim = started(state);
     auto inner = [](auto& of) -> auto const& {
       return of.root().find_node("inner")->template get<MechanicalObject<Vec3d>>()->position;
     };
@@ -63,7 +71,8 @@ TEST_CASE("what is in the cells of a grid is put into place with it, and goes on
     CHECK(inner(again) == inner(sim));
   }
   // points of its own lie where they say, and the grid only has their cells
-  auto own = started("position='0 0 0 1 0 0 2 0 0  0 2 0 1 2 0 2 2 0  0 0 1 1 0 1 2 0 1  0 2 1 1 2 1 2 2 1'");
+  auto own = started(
+      placed("position='0 0 0 1 0 0 2 0 0  0 2 0 1 2 0 2 2 0  0 0 1 1 0 1 2 0 1  0 2 1 1 2 1 2 2 1'"));
   auto const& points = own.root().find_node("inner")->get<MechanicalObject<Vec3d>>()->position;
   CHECK((points[0] - Eigen::Vector3d(0.3, 0.4, 0.5)).norm() < 1e-13);
   CHECK((points[1] - Eigen::Vector3d(1.6, 0.2, 0.9)).norm() < 1e-13);

@@ -255,4 +255,16 @@ TEST_CASE("SparseGridTopology says what is wrong, and keeps what it had") {
                  "but the state"));
 }
 
+// in SOFA too
+TEST_CASE("cells that touch the surface are half filled, unless fillWeighted is off") {
+  const Mesh cube = block(Eigen::Vector3d::Zero(), straight, Eigen::Vector3d::Constant(1));
+  SparseGridTopology grid{.n = {6, 6, 6}, .position = cube.positions, .triangles = cube.triangles};
+  const auto half = made(grid);
+  // 5 cells each way, of which 3 are inside
+  REQUIRE(half.view().fill.size() == 125);
+  for (std::size_t e = 0; e < 125; ++e) CHECK(half.fill[e] == (e < 98 ? 0.5 : 1.0));
+  grid.fillWeighted = false;
+  CHECK(made(grid).view().fill.empty());
+}
+
 }  // namespace test_sparse_grid_topology

@@ -15,12 +15,13 @@ using namespace bars;
 inline const LiverShape liver{};
 inline Mesh liver_skin() { return surface(liver, liver.box_min(), liver.box_max(), 0.012); }
 
-/// The cells of a grid that touch the skin or lie inside it.
+/// The cells of a grid that touch the skin or lie inside it, all equally stiff.
 inline SparseGridTopology cells_around(Mesh const& skin, double width, bool onlyInside = false) {
   return {.position = skin.positions,
           .triangles = skin.triangles,
           .cellWidth = width,
-          .onlyInsideCells = onlyInside};
+          .onlyInsideCells = onlyInside,
+          .fillWeighted = false};
 }
 inline double volume_of(SparseGridTopology grid) {
   grid.generate("grid");

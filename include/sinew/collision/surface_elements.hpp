@@ -5,6 +5,7 @@
 #include <sinew/core/component.hpp>
 
 #include <array>
+#include <span>
 #include <vector>
 
 namespace sinew {
@@ -15,8 +16,9 @@ std::vector<PrimitiveCorners> points_of(TopologyView const&, std::size_t points)
 
 /// The surface of the volume elements of a topology, turned outwards, whatever of it is listed, so that it is
 /// that of what is left when some are removed; then the triangles and quads that are no part of it. Quads
-/// are cut in two.
-std::vector<PrimitiveCorners> triangles_of(TopologyView const& t, std::size_t = 0);
+/// are cut in two. Where positions are given, elements of negative volume have their outside outside, too.
+std::vector<PrimitiveCorners> triangles_of(TopologyView const& t,
+                                           std::span<Eigen::Vector3d const> positions = {});
 
 /// The edges of a topology; where it has none, those of its triangles (triangles_of), each once.
 std::vector<PrimitiveCorners> lines_of(TopologyView const& t, std::size_t = 0);
@@ -25,8 +27,44 @@ std::vector<PrimitiveCorners> lines_of(TopologyView const& t, std::size_t = 0);
 
 #if SINEW_DEFINES
 #include <sinew/topology/border.hpp>
+#include <sinew/topology/hexahedra.hpp>
 
+#include <Eigen/LU>
 #include <algorithm>
+
+namespace sinew::detail {
+
+// The sign of its volume: that of the determinant of its sides from a corner, or of the lines between the
+// centres of opposite faces. Elements with a corner that has no position are left as they are.
+template <std::size_t N>
+bool is_inside_out(std::array<Index, N> const& e, std::span<Eigen::Vector3d const> positions) {
+  Eigen::Matrix3d sides = Eigen::Matrix3d::Zero();
+  for (std::size_t k = 0; k < N; ++k) {
+    if (e[k] < 0 || std::size_t(e[k]) >= positions.size()) return false;
+    const Eigen::Vector3d x = positions[std::size_t(e[k])] - positions[std::size_t(e[0])];
+    if constexpr (N == 4) {
+      if (k > 0) sides.col(Eigen::Index(k) - 1) = x;
+    } else {
+      for (int c = 0; c < 3; ++c) sides.col(c) += hexahedronCorners[k][c] == 1 ? x : Eigen::Vector3d(-x);
+    }
+  }
+  return sides.determinant() < 0;
+}
+template <std::size_t N>
+std::vector<std::array<Index, N>> turned_outwards(std::span<std::array<Index, N> const> elements,
+                                                  std::span<Eigen::Vector3d const> positions) {
+  std::vector<std::array<Index, N>> all(elements.begin(), elements.end());
+  for (auto& e : all)
+    if (is_inside_out(e, positions)) {
+      if constexpr (N == 4)
+        std::swap(e[2], e[3]);
+      else
+        std::rotate(e.begin(), e.begin() + 4, e.end());
+    }
+  return all;
+}
+
+}  // namespace sinew::detail
 
 namespace sinew {
 
@@ -36,12 +74,15 @@ SINEW_ONCE std::vector<PrimitiveCorners> points_of(TopologyView const&, std::siz
   return all;
 }
 
-SINEW_ONCE std::vector<PrimitiveCorners> triangles_of(TopologyView const& t, std::size_t) {
+SINEW_ONCE std::vector<PrimitiveCorners> triangles_of(TopologyView const& t,
+                                                      std::span<Eigen::Vector3d const> positions) {
   std::vector<PrimitiveCorners> all, known;
   auto quad = [](Quad const& q) {
     return std::array<PrimitiveCorners, 2>{{{q[0], q[1], q[2]}, {q[0], q[2], q[3]}}};
   };
-  const Border border = border_of(t.tetrahedra, t.hexahedra);
+  const auto tetrahedra = detail::turned_outwards<4>(t.tetrahedra, positions);
+  const auto hexahedra = detail::turned_outwards<8>(t.hexahedra, positions);
+  const Border border = border_of(tetrahedra, hexahedra);
   all.assign(border.triangles.begin(), border.triangles.end());
   for (PrimitiveCorners const& c : all) known.push_back(sorted_corners(c));
   for (Quad const& q : border.quads) {

@@ -28,7 +28,9 @@ struct TriangleCollisionModel {
   CollisionSurface surface{};
 
   void init(InitContext<D> const& context) {
-    surface.elements = triangles_of(context.topology, context.rest.size());
+    std::vector<Eigen::Vector3d> rest;
+    for (auto const& x : context.rest) rest.push_back(D::center(x).template cast<double>());
+    surface.elements = triangles_of(context.topology, rest);
     surface.radius.clear();
     describe_surface(*this, surface, context.where, context.rest.size());
     if (surface.elements.empty())

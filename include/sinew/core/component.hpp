@@ -65,6 +65,8 @@ struct TopologyView {
   std::array<int, 3> grid{0, 0, 0};  // points of a regular grid along x, y, z; zeros where there is none
   // of a grid of cells whose points are those of the state: where they lie before the state is moved
   std::span<Eigen::Vector3d const> places{};
+  // of a grid of cells over a surface: the part of each hexahedron that counts as filled; empty where all are
+  std::span<double const> fill{};
 };
 
 /// What a component of a node is given at init: where it stands (for messages), the rest positions of the

@@ -38,8 +38,8 @@ struct Edges {
 /// points.
 ///   f_i = p A / n [N],   E = -sum_i f_i.(x_i - x_i at rest) [J]
 /// It acts on the elements with the given numbers and on those whose points all lie between two planes at
-/// rest, dmin < normal.x < dmax; where neither is given, on all. A load that follows area and normal is
-/// SurfacePressureForceField's.
+/// rest, dmin < normal.x < dmax; where neither is given, or a selection is empty, on none. A load that
+/// follows area and normal is SurfacePressureForceField's.
 template <class D, class Kind>
 struct ElementPressure {
   using Role = role::ForceField;
@@ -90,7 +90,7 @@ struct ElementPressure {
       throw Error(where, text("the topology has no ", Kind::kind, "; give the node a topology with some"));
     detail::check_indices(where, Kind::kind, elements, context.rest.size());
     if (dmin > dmax) throw Error(where, text("dmin is ", dmin, ", above dmax, ", dmax, "; exchange them"));
-    std::vector<bool> bears(elements.size(), pressedElements.empty() && !(dmin < dmax) && !none);
+    std::vector<bool> bears(elements.size(), false);
     for (const int e : pressedElements) {
       if (std::size_t(e) >= elements.size())
         throw Error(where,
@@ -118,6 +118,14 @@ struct ElementPressure {
     for (std::size_t i = 0; i < share.size(); ++i)
       if (share[i] > 0) loads.push_back({int(i), Deriv(pressure * Real(share[i]))});
     rest = context.rest;
+  }
+
+  /// What init leaves to be said; empty for nothing.
+  std::string warning() const {
+    if (!pressedElements.empty() || dmin < dmax || none) return {};
+    return text("presses nothing: no element is selected; give numbers in ",
+                Kind::list,
+                ", or normal, dmin and dmax");
   }
 
   void addForce(MechanicalParams const&, VecDeriv& f, VecCoord const&, VecDeriv const&) const {

@@ -258,7 +258,8 @@ struct HexahedronFEM {
   }
 };
 
-/// Corotational linear hexahedra.
+/// Corotational linear hexahedra. Those of a SparseGridTopology that touch its surface are half as stiff, as in
+/// SOFA, unless its fillWeighted is off.
 template <class D>
 struct HexahedronFEMForceField {
   using Role = role::ForceField;
@@ -303,6 +304,7 @@ struct HexahedronFEMForceField {
 
   void init(InitContext<D> const& context) {
     auto const& hexahedra = context.topology.hexahedra;
+    auto const& fill = context.topology.fill;
     const std::string where = text(context.where, ": ", component_name<HexahedronFEMForceField>());
     if (hexahedra.empty())
       throw Error(where, "the topology has no hexahedron; give the node a topology with hexahedra");
@@ -319,7 +321,8 @@ struct HexahedronFEMForceField {
     for (std::size_t e = 0; e < hexahedra.size(); ++e) {
       typename D::Coord x[8];
       for (std::size_t k = 0; k < 8; ++k) x[k] = context.rest[std::size_t(hexahedra[e][k])];
-      const double E = youngModulus.size() == 1 ? youngModulus[0] : youngModulus[e];
+      const double E = (youngModulus.size() == 1 ? youngModulus[0] : youngModulus[e]) *
+                       (fill.size() == hexahedra.size() ? fill[e] : 1.0);
       const double lambda = E * poissonRatio / ((1 + poissonRatio) * (1 - 2 * poissonRatio)),
                    mu = E / (2 * (1 + poissonRatio));
       rest.push_back(HexahedronFEM<D>::restOf(x, Real(mu), Real(lambda), method));

@@ -97,7 +97,7 @@ inline constexpr std::array notSimulated = std::to_array<NotSimulated>({
     {"", "convolutionSize", "0"}, {"", "damping", "0"}, {"", "dataResolution", "0 0 0"},
     {"", "defaultVolume", "-1"}, {"", "direction", ""}, {"", "edgeAngle", "0"}, {"", "edgeMass", ""},
     {"", "edges", ""}, {"", "elongationOnly", "0"}, {"", "enabled", "1"}, {"", "endTime", "-1"},
-    {"", "external_points", ""}, {"", "facets", ""}, {"", "fillWeighted", "1"},
+    {"", "external_points", ""}, {"", "facets", ""},
     {"", "filterIntersection", "1"}, {"", "first", "4294967295"}, {"", "flipNormals", "0"},
     {"", "geometricStiffness", "Exact|1"}, {"", "ignoreNotFound", "0"}, {"", "indexFromEnd", "0"},
     {"", "indices", ""}, {"", "initialPoints", ""}, {"", "isCompliance", "0"}, {"", "last", "4294967295"},

@@ -280,6 +280,9 @@ class Simulation {
                          HasRole<C, role::ProjectiveConstraint> || WatchesState<C>) {
       withContext<C, typename C::DataTypes>(scope, [&](auto const& context) { c.init(context); });
     }
+    // what goes on, but not as it may have been meant
+    if constexpr (requires { c.warning(), scope.warn(&c, std::string_view()); })
+      if (const std::string said = c.warning(); !said.empty()) scope.warn(&c, said);
   }
 
   template <class S>

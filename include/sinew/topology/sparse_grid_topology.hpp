@@ -25,7 +25,7 @@ struct SparseGridTopology {
   std::vector<Quad> quads{};
   std::optional<Eigen::Vector3d> min{}, max{};
   double cellWidth = 0;
-  bool onlyInsideCells = false;
+  bool onlyInsideCells = false, fillWeighted = true;
 
   static constexpr auto fields() {
     using T = SparseGridTopology;
@@ -47,13 +47,18 @@ struct SparseGridTopology {
               "size of the cubic cells that cover the box, in place of n; 0 for cells as n says",
               range::nonNegative),
         field(
-            "onlyInsideCells", &T::onlyInsideCells, "", "whether cells that touch the surface are left out"));
+            "onlyInsideCells", &T::onlyInsideCells, "", "whether cells that touch the surface are left out"),
+        field("fillWeighted",
+              &T::fillWeighted,
+              "",
+              "hexahedra that touch the surface count as half filled: they are half as stiff"));
   }
 
   // after generate
   std::vector<Eigen::Vector3d> points{};
   std::vector<Edge> edges{};
   std::vector<Hexahedron> hexahedra{};
+  std::vector<double> fill{};
 
   static constexpr auto outputs() {
     using T = SparseGridTopology;
@@ -65,7 +70,7 @@ struct SparseGridTopology {
   }
 
   TopologyView view() const {
-    return {.positions = points, .edges = edges, .hexahedra = hexahedra, .places = points};
+    return {.positions = points, .edges = edges, .hexahedra = hexahedra, .places = points, .fill = fill};
   }
 
   /// Throws Error when the file cannot be read, there is no surface or it is not closed, the box is empty,
@@ -297,6 +302,7 @@ SINEW_ONCE void SparseGridTopology::keep(Grid const& grid, std::string const& at
     if (kind == inside) within.push_back(h);
     if (kind == touched && !onlyInsideCells) kept.hexahedra.push_back(h);
   });
+  const std::size_t border = kept.hexahedra.size();
   kept.hexahedra.insert(kept.hexahedra.end(), within.begin(), within.end());
   if (kept.hexahedra.empty())
     throw Error(at,
@@ -324,6 +330,11 @@ SINEW_ONCE void SparseGridTopology::keep(Grid const& grid, std::string const& at
   edges = edges_of(kept.hexahedra);
   points = std::move(kept.positions);
   hexahedra = std::move(kept.hexahedra);
+  fill.clear();
+  if (fillWeighted) {
+    fill.assign(hexahedra.size(), 1.0);
+    std::fill_n(fill.begin(), border, 0.5);
+  }
 }
 
 }  // namespace sinew

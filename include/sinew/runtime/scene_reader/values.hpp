@@ -254,7 +254,7 @@ class SceneValues {
   // A state that is given no points takes, at init, those of the topology of its node; here it takes those of
   // another where that has none. One of its own without any topology has one point, at the origin.
   void statePoints(SceneItem& item, std::set<std::string_view> const& given) {
-    if (given.count("position")) return;
+    if (given.count("position")) return movedPoints(item);
     SceneItem const* const used = item.place->ofRole(RoleKind::topology);
     if (SceneItem* topology = withPoints(*item.place)) {
       if (topology != used) takeFrom(item, "position", *topology, "position");
@@ -262,6 +262,19 @@ class SceneValues {
       component(item).template visit<role::State>(
           [&](auto& state) { state.position.push_back(std::decay_t<decltype(state)>::DataTypes::zero()); });
     }
+  }
+  // those that a TransformEngine has moved from the topology of the node are its points all the same
+  void movedPoints(SceneItem& item) {
+    SceneItem* from = &item;
+    for (std::string_view name : {"position", "input_position"}) {
+      FieldInfo const* const field = from->info->field(name);
+      const auto link = field ? from->links.find(field->name) : from->links.end();
+      if (link == from->links.end()) return;
+      from = follow_link(*from, link->second).item;
+      if (!from || !from->info || (name == "position" && from->info->name != "TransformEngine")) return;
+    }
+    if (from == item.place->ofRole(RoleKind::topology))
+      if (FieldInfo const* const same = item.info->field("points_of_topology")) same->read(item.address, "1");
   }
   SceneItem* withPoints(ScenePlace& place) {
     for (auto item = place.items.rbegin(); item != place.items.rend(); ++item)

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSL-1.0
+#include <sinew/collision/surface_elements.hpp>
+#include <sinew/topology/regular_grid.hpp>
+
+#include "catch.hpp"
+
+#include <Eigen/Geometry>
+
+namespace test_surface_elements {
+
+using namespace sinew;
+
+namespace {
+
+// of what the triangles enclose: positive where all have their outside outside
+double volume_in(std::vector<PrimitiveCorners> const& triangles, std::vector<Eigen::Vector3d> const& x) {
+  double volume = 0;
+  for (auto const& t : triangles)
+    volume += x[std::size_t(t[0])].dot(x[std::size_t(t[1])].cross(x[std::size_t(t[2])])) / 6;
+  return volume;
+}
+
+}  // namespace
+
+TEST_CASE("the surface of hexahedra and tetrahedra looks outwards, whichever way their corners go round") {
+  const Mesh grid = regular_grid(3, 3, 2, {0, 0, 0}, {2, 3, 1});
+  std::vector<Hexahedron> hexahedra = grid.hexahedra;
+  REQUIRE(hexahedra.size() == 4);
+  const auto right = triangles_of({.hexahedra = hexahedra}, grid.positions);
+  CHECK(volume_in(right, grid.positions) == Approx(6).epsilon(1e-14));
+  for (const std::size_t e : {0u, 3u})
+    std::rotate(hexahedra[e].begin(), hexahedra[e].begin() + 4, hexahedra[e].end());
+  const auto turned = triangles_of({.hexahedra = hexahedra}, grid.positions);
+  CHECK(turned.size() == right.size());
+  CHECK(volume_in(turned, grid.positions) == Approx(6).epsilon(1e-14));
+  // without positions they are taken as they are
+  CHECK(volume_in(triangles_of({.hexahedra = hexahedra}), grid.positions) < 5);
+
+  const std::vector<Eigen::Vector3d> corners{{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {0, 0, 3}};
+  for (const Tetrahedron& t : {Tetrahedron{0, 1, 2, 3}, Tetrahedron{0, 2, 1, 3}, Tetrahedron{3, 1, 2, 0}}) {
+    const std::vector<Tetrahedron> one{t};
+    CHECK(volume_in(triangles_of({.tetrahedra = one}, corners), corners) == Approx(1).epsilon(1e-14));
+  }
+}
+
+}  // namespace test_surface_elements
