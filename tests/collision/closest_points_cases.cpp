@@ -2,6 +2,8 @@
 #include "catch.hpp"
 #include "collision/simplex_pairs.hpp"
 
+#include <sinew/collision/proximity.hpp>
+
 #include <limits>
 
 namespace test_closest_points_cases {
@@ -156,6 +158,39 @@ TEST_CASE("contact_direction points from a to b, and has an answer where they to
     direction(Triangle{V(0, 0, 0), V(1, 1, 1), V(2, 2, 2)}, Triangle{V(0, 0, 0), V(3, 3, 3), V(1, 1, 1)});
     CHECK(std::abs(direction(floorTriangle, floorTriangle)[2]) == 1);
   }
+}
+
+namespace {
+
+template <std::size_t NA, std::size_t NB>
+void never_parts_what_is_near() {
+  std::mt19937_64 random(NA * 10 + NB);
+  std::normal_distribution<double> normal;
+  int far = 0, told = 0;
+  for (int i = 0; i < 20000; ++i) {
+    std::array<Eigen::Vector3d, NA> a;
+    std::array<Eigen::Vector3d, NB> b;
+    const Eigen::Vector3d shift = 3 * Eigen::Vector3d(normal(random), normal(random), normal(random));
+    for (auto& x : a) x = Eigen::Vector3d(normal(random), normal(random), normal(random));
+    for (auto& x : b) x = shift + Eigen::Vector3d(normal(random), normal(random), normal(random));
+    if (NA == 3 && i % 7 == 0) a[2 % NA] = a[0];  // without a normal
+    const double distance = std::sqrt(closest_points(a, b).squaredDistance);
+    // as near to its limit as rounding allows
+    CHECK_FALSE(are_apart(a, b, distance * (1 + 1e-9)));
+    if (distance <= 0.5) continue;
+    ++far;
+    told += are_apart(a, b, 0.5);
+  }
+  CHECK(told > 0.95 * far);
+}
+
+}  // namespace
+
+TEST_CASE("no plane parts primitives that are within reach, and one parts nearly all others") {
+  never_parts_what_is_near<1, 3>();
+  never_parts_what_is_near<2, 2>();
+  never_parts_what_is_near<2, 3>();
+  never_parts_what_is_near<3, 3>();
 }
 
 }  // namespace test_closest_points_cases

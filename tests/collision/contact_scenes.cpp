@@ -38,6 +38,37 @@ TEST_CASE("a ball under gravity rests on a floor, as deep in it as its weight pr
   CHECK(sim.at<"ball">().state().velocity[0].norm() < 1e-9);
 }
 
+TEST_CASE("a floor that no solver moves is found where it has been put, also when it was picked on the way") {
+  // a ball without weight touches what comes within 0.1 m of it
+  auto sim = contact_scene(near,
+                           0,
+                           floor_node(1000, 0),
+                           node<"ball">(EulerImplicitSolver{},
+                                        CGLinearSolver<>{},
+                                        MechanicalObject<Vec3d>{.position = {{0, 0.3, 2}}},
+                                        UniformMass<Vec3d>{.vertexMass = 2},
+                                        SphereCollisionModel<Vec3d>{.contactStiffness = 100, .radius = 0.5}));
+  sim.init();
+  auto& floor = sim.at<"floor">().state().position;
+  auto const& ball = sim.at<"ball">().state();
+  auto put = [&](double z) {
+    for (auto& x : floor) x[2] = z;
+  };
+  for (int i = 0; i < 3; ++i) sim.animate(0.01);
+  CHECK(ball.velocity[0].norm() == 0);
+  put(1.45);
+  // sees where the floor is, before detection does
+  const auto pick = sim.pick({3, 1, 1.6}, {0, 0, -1});
+  REQUIRE(pick);
+  CHECK(pick->point[2] == Approx(1.45));
+  sim.animate(0.01);
+  CHECK(ball.velocity[0][2] > 0);
+  put(0);
+  const double leaving = ball.velocity[0][2];
+  for (int i = 0; i < 3; ++i) sim.animate(0.01);
+  CHECK(ball.velocity[0][2] == leaving);
+}
+
 TEST_CASE("weight holds a contact, and does not glue: what is lifted or let go leaves at once") {
   const double dt = 0.01, g = 10;
   auto way = [&](double a, int steps) { return a * dt * dt * steps * (steps + 1) / 2; };

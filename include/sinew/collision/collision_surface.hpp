@@ -57,6 +57,7 @@ struct CollisionSurface {
   std::vector<AxisBox> boxes{};  // of the elements
   AxisBox box{};
   BoundingTree tree{};
+  std::optional<std::array<double, 2>> enclosed{};  // margin and dt of the boxes, while vertices stand still
 
   std::size_t size() const { return elements.size(); }
   double radiusOf(int element) const { return radius.empty() ? 0 : radius[std::size_t(element)]; }
@@ -118,12 +119,15 @@ struct CollisionSurface {
 /// Positions and velocities of a vertex of a surface from those of a point of its state.
 template <class D>
 void see(CollisionSurface& s, std::size_t i, typename D::Coord const& x, typename D::Deriv const& v) {
-  s.position[i] = D::center(x).template cast<double>();
-  s.velocity[i] = v.template head<3>().template cast<double>();
+  auto set = [&](auto& to, auto const& value) {
+    if (s.enclosed && to != value) s.enclosed.reset();
+    to = value;
+  };
+  set(s.position[i], D::center(x).template cast<double>().eval());
+  set(s.velocity[i], v.template head<3>().template cast<double>().eval());
   if constexpr (D::rigid) {
-    s.spin[i] = v.template tail<3>().template cast<double>();
-    s.orientation[i] =
-        Eigen::Quaterniond(x.orientation.w(), x.orientation.x(), x.orientation.y(), x.orientation.z());
+    set(s.spin[i], v.template tail<3>().template cast<double>().eval());
+    set(s.orientation[i].coeffs(), x.orientation.coeffs().template cast<double>().eval());
   }
 }
 template <class D>
@@ -309,9 +313,12 @@ SINEW_ONCE void CollisionSurface::resize(std::size_t vertices) {
   touched.reserve(vertices);
   isTouched.assign(vertices, 0);
   boxes.resize(size());
+  enclosed.reset();
 }
 
 SINEW_ONCE void CollisionSurface::enclose(double margin, double dt) {
+  if (enclosed == std::array{margin, dt}) return;
+  enclosed.reset();
   box = AxisBox{};
   for (std::size_t e = 0; e < size(); ++e) {
     AxisBox b;
@@ -325,6 +332,7 @@ SINEW_ONCE void CollisionSurface::enclose(double margin, double dt) {
     box.include(boxes[e]);
   }
   tree.update(boxes);
+  if (solver < 0) enclosed = {margin, dt};  // the others hardly ever stand still
 }
 
 SINEW_ONCE AxisBox CollisionSurface::hullBox(std::size_t v, double dt) const {

@@ -25,11 +25,14 @@ struct MinProximityIntersection {
 
   template <std::size_t NA, std::size_t NB>
   std::optional<Contact> intersect(PrimitivePair<NA, NB> const& pair) const {
-    auto contact = contact_at(pair, pair.cornersA(), pair.cornersB());
+    const auto a = pair.cornersA();
+    const auto b = pair.cornersB();
+    const double far = reach() + pair.proximity() + pair.thickness();
+    if constexpr (NA + NB > 3)
+      if (are_apart(a, b, far)) return std::nullopt;
+    auto contact = contact_at(pair, a, b);
     // as far behind a one-sided triangle as in front of it: what is farther is on the other side of the body
-    if (!contact || contact->start.norm() > reach() + pair.proximity() + pair.thickness() ||
-        !is_of_pair(pair, *contact))
-      return std::nullopt;
+    if (!contact || contact->start.norm() > far || !is_of_pair(pair, *contact)) return std::nullopt;
     contact->limit = contactDistance + pair.proximity();
     return contact;
   }

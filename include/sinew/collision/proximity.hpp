@@ -4,6 +4,8 @@
 #include <sinew/collision/closest_points.hpp>
 #include <sinew/collision/contact.hpp>
 
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -80,6 +82,40 @@ constexpr auto proximity_fields() {
 /// method, add). Declared here only: hull_contacts.hpp, which needs libccd, defines it for who has hulls.
 template <std::size_t NA, std::size_t NB>
 struct HullContacts;
+
+/// Whether two primitives are farther from each other than `reach`, as planes across a few directions show:
+/// the line between their middles, the normals of triangles, and what is across both of two segments. Most
+/// that are near by their boxes only are told apart so, at a tenth of the cost of closest points; what is
+/// not may be far as well.
+template <std::size_t NA, std::size_t NB>
+bool are_apart(std::array<Eigen::Vector3d, NA> const& a, std::array<Eigen::Vector3d, NB> const& b,
+               double reach) {
+  const double square = reach * reach * (1 + 1e-9);  // rounding does not part what is near
+  auto parted = [&](Eigen::Vector3d const& n) {
+    double lowA = 0, highA = 0, lowB = (b[0] - a[0]).dot(n), highB = lowB;
+    for (std::size_t i = 1; i < NA; ++i) {
+      const double h = (a[i] - a[0]).dot(n);
+      lowA = std::min(lowA, h), highA = std::max(highA, h);
+    }
+    for (std::size_t j = 1; j < NB; ++j) {
+      const double h = (b[j] - a[0]).dot(n);
+      lowB = std::min(lowB, h), highB = std::max(highB, h);
+    }
+    const double gap = std::max(lowB - highA, lowA - highB);
+    return gap > 0 && gap * gap > square * n.squaredNorm();
+  };
+  auto normal = [](auto const& p) -> Eigen::Vector3d { return (p[1] - p[0]).cross(p[2] - p[0]); };
+  if constexpr (NB == 3)
+    if (parted(normal(b))) return true;
+  if constexpr (NA == 3)
+    if (parted(normal(a))) return true;
+  if constexpr (NA == 2 && NB == 2)
+    if (parted((a[1] - a[0]).cross(b[1] - b[0]))) return true;
+  Eigen::Vector3d between(0, 0, 0);
+  for (auto const& x : a) between -= (x - a[0]) / double(NA);
+  for (auto const& x : b) between += (x - a[0]) / double(NB);
+  return parted(between);
+}
 
 /// The contact of two primitives at their closest points, the corners being at `a` and `b`; none where a
 /// neighbour of one of them is nearer there, unless that is not asked (`onlyLocalMinima`). Where a corner or
