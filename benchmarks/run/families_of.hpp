@@ -100,8 +100,8 @@ std::vector<Work> forces() {
   add_force(list, "triangle FEM", TriangleFEMForceField<D>{}, b.surfaces(), body);
   add_force(list, "tetrahedron FEM, large", TetrahedronFEMForceField<D>{}, b.volumes(false), body);
   add_force(list,
-            "tetrahedron FEM, polar",
-            TetrahedronFEMForceField<D>{.method = RotationMethod::polar},
+            "tetrahedron FEM, nearest",
+            TetrahedronFEMForceField<D>{.method = RotationMethod::nearest},
             b.volumes(false),
             body);
   add_force(list, "hexahedron FEM, large", HexahedronFEMForceField<D>{}, b.volumes(true), body);

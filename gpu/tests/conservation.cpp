@@ -59,7 +59,7 @@ auto fem(Solvers... solvers) {
                    MechanicalObject<D>{.velocity = velocities<D>(mesh.positions.size())},
                    UniformMass<D>{.vertexMass = typename D::Real(1)},
                    TetrahedronFEMForceField<D>{
-                       .youngModulus = {3000}, .poissonRatio = 0.3, .method = RotationMethod::polar}))};
+                       .youngModulus = {3000}, .poissonRatio = 0.3, .method = RotationMethod::nearest}))};
   sim.init();
   return sim;
 }

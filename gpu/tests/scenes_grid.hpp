@@ -29,7 +29,7 @@ struct HexahedraBar : OneBody {
                      MechanicalObject<D>{},
                      UniformMass<D>{.totalMass = 500},
                      HexahedronFEMForceField<D>{
-                         .youngModulus = {1e5}, .poissonRatio = 0.3, .method = HexahedronMethod::polar},
+                         .youngModulus = {1e5}, .poissonRatio = 0.3, .method = HexahedronMethod::nearest},
                      FixedConstraint<D>{.indices = {0, 5, 10, 15, 20, 25, 30, 35, 40}}))};
   }
 };

@@ -22,7 +22,7 @@ auto scene(Topology topology, std::vector<Eigen::Vector3d> const& points) {
           topology,
           MechanicalObject<Vec3d>{points},
           DiagonalMass<Vec3d>{.massDensity = 100},
-          TetrahedronFEMForceField<Vec3d>{{1e4}, 0.3, RotationMethod::polar},
+          TetrahedronFEMForceField<Vec3d>{{1e4}, 0.3, RotationMethod::nearest},
           node<"inner">(MechanicalObject<Vec3d>{{{0.51, 0.32, 0.77}}}, BarycentricMapping<Vec3d, Vec3d>{})))};
 }
 

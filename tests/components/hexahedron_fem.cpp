@@ -20,7 +20,8 @@ namespace {
 
 using Hexahedra = HexahedronFEMForceField<Vec3d>;
 
-const auto methods = {HexahedronMethod::large, HexahedronMethod::polar, HexahedronMethod::small};
+const auto methods = {
+    HexahedronMethod::large, HexahedronMethod::polar, HexahedronMethod::small, HexahedronMethod::nearest};
 
 bool inside(Vector3d const& p) { return (p.array() > 1e-9).all() && (p.array() < 1 - 1e-9).all(); }
 
@@ -100,7 +101,7 @@ TEST_CASE("patch test: points inside an affine boundary settle to the same affin
   f << 1.05, 0.02, -0.01, 0.03, 0.98, 0.02, 0.01, -0.02, 1.04;
   // `large` takes another frame in each distorted element, and meets the test in the limit of small strain
   // only
-  for (const HexahedronMethod method : {HexahedronMethod::small, HexahedronMethod::polar}) {
+  for (const HexahedronMethod method : {HexahedronMethod::small, HexahedronMethod::nearest}) {
     auto fem = ready(Hexahedra{.youngModulus = {1e4}, .poissonRatio = 0.3, .method = method},
                      mesh.positions,
                      {.hexahedra = mesh.hexahedra});
@@ -152,7 +153,8 @@ TEST_CASE("a large rotation costs no energy, and turns the forces of a strain") 
   for (std::size_t i = 0; i < strained.size(); ++i)
     strained[i] +=
         0.1 * Vector3d(std::cos(2.0 * double(i)), std::sin(3.0 * double(i)), std::cos(5.0 * double(i)));
-  for (const HexahedronMethod method : {HexahedronMethod::large, HexahedronMethod::polar})
+  for (const HexahedronMethod method :
+       {HexahedronMethod::large, HexahedronMethod::polar, HexahedronMethod::nearest})
     for (const double angle : {0.5, 1.6, 3.1}) {
       auto fem = ready(Hexahedra{.youngModulus = {3000}, .poissonRatio = 0.3, .method = method},
                        mesh.positions,
@@ -166,6 +168,31 @@ TEST_CASE("a large rotation costs no energy, and turns the forces of a strain") 
       const auto f = force(fem, strained), g = force(fem, both);
       for (std::size_t i = 0; i < f.size(); ++i) CHECK((g[i] - turn * f[i]).norm() < 1e-11 * 3000);
     }
+}
+
+// A box of a x b x c sheared by s across y, F = (1 s; 0 1): the rotation of its edges (a s b; 0 b) in the
+// plane has tan t = -s b / (a + b), that of F itself tan t = -s / 2, and of a cube they are the same.
+TEST_CASE("the rotation of a sheared box is that of its edges, or of its deformation") {
+  const double E = 100, nu = 0.3, a = 2, c = 3, s = 0.4;
+  const double lambda = E * nu / ((1 + nu) * (1 - 2 * nu)), mu = E / (2 * (1 + nu));
+  for (const double b : {0.5, 2.0}) {
+    const Mesh mesh = regular_grid(2, 2, 2, {0, 0, 0}, {a, b, c});
+    Vec3d::VecCoord x = mesh.positions;
+    for (auto& p : x) p[0] += s * p[1];
+    for (const HexahedronMethod method : {HexahedronMethod::polar, HexahedronMethod::nearest}) {
+      const double t = method == HexahedronMethod::polar ? std::atan2(-s * b, a + b) : std::atan2(-s, 2);
+      Eigen::Matrix2d F, R;
+      F << 1, s, 0, 1;
+      R << std::cos(t), -std::sin(t), std::sin(t), std::cos(t);
+      const Eigen::Matrix2d g = F * R.transpose(),
+                            e = 0.5 * (g + g.transpose()) - Eigen::Matrix2d::Identity();
+      auto fem = ready(Hexahedra{.youngModulus = {E}, .poissonRatio = nu, .method = method},
+                       mesh.positions,
+                       {.hexahedra = mesh.hexahedra});
+      CHECK(fem.potentialEnergy(x) ==
+            Approx(a * b * c * (mu * e.squaredNorm() + lambda / 2 * e.trace() * e.trace())).epsilon(1e-12));
+    }
+  }
 }
 
 TEST_CASE("hexahedra may differ in stiffness, and are checked") {

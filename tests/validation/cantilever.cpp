@@ -9,8 +9,8 @@ using namespace bars;
 
 namespace {
 
-const HexahedronFEMForceField<Vec3d> hexahedra{.method = HexahedronMethod::polar};
-const TetrahedronFEMForceField<Vec3d> tetrahedra{.method = RotationMethod::polar};
+const HexahedronFEMForceField<Vec3d> hexahedra{.method = HexahedronMethod::nearest};
+const TetrahedronFEMForceField<Vec3d> tetrahedra{.method = RotationMethod::nearest};
 
 double hexahedra_tip(Bar const& bar) { return tip_against_theory(bar, Cells::hexahedra, hexahedra); }
 double tetrahedra_tip(Bar const& bar, Cells cells) { return tip_against_theory(bar, cells, tetrahedra); }

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "catch.hpp"
+#include "components/one_component.hpp"
 
 #include <sinew/sinew.hpp>
 #include <sinew/topology/adjacency.hpp>
 #include <sinew/topology/regular_grid.hpp>
 
 #include <Eigen/Cholesky>
+#include <Eigen/SVD>
 #include <set>
 
 namespace test_fem {
@@ -56,7 +57,7 @@ TEST_CASE("patch test: points inside an affine boundary settle to the same affin
   // `large` takes another frame in each element, and is left out: it meets the test in the limit of small
   // strain only
   for (const RotationMethod method :
-       {RotationMethod::small, RotationMethod::polar, RotationMethod::gradient}) {
+       {RotationMethod::small, RotationMethod::nearest, RotationMethod::gradient}) {
     auto sim = body(mesh,
                     {.youngModulus = {1e4}, .poissonRatio = 0.3, .method = method},
                     EulerImplicitSolver{.rayleighMass = 1},
@@ -93,7 +94,7 @@ TEST_CASE("a cylinder under traction stretches by p/E and thins by nu p/E") {
   }
   REQUIRE(loaded.size() > 20);
   for (const RotationMethod method :
-       {RotationMethod::small, RotationMethod::large, RotationMethod::polar, RotationMethod::gradient}) {
+       {RotationMethod::small, RotationMethod::large, RotationMethod::nearest, RotationMethod::gradient}) {
     auto sim = body(mesh,
                     {.youngModulus = {E}, .poissonRatio = nu, .method = method},
                     EulerImplicitSolver{.rayleighMass = 1},
@@ -172,8 +173,11 @@ TEST_CASE("a body settles under gravity to the solution of linear statics") {
 
 TEST_CASE("a body at rest stays at rest without gravity") {
   const Mesh mesh = shaken_block(3);
-  for (const RotationMethod method :
-       {RotationMethod::small, RotationMethod::large, RotationMethod::polar, RotationMethod::gradient}) {
+  for (const RotationMethod method : {RotationMethod::small,
+                                      RotationMethod::large,
+                                      RotationMethod::polar,
+                                      RotationMethod::nearest,
+                                      RotationMethod::gradient}) {
     auto sim = body(mesh,
                     {.youngModulus = {3000}, .poissonRatio = 0.3, .method = method},
                     EulerImplicitSolver{.rayleighStiffness = 0.1, .rayleighMass = 0.1});
@@ -187,7 +191,7 @@ TEST_CASE("a body at rest stays at rest without gravity") {
 TEST_CASE("a large rotation costs no elastic energy") {
   const Mesh mesh = shaken_block(2);
   for (const RotationMethod method :
-       {RotationMethod::large, RotationMethod::polar, RotationMethod::gradient}) {
+       {RotationMethod::large, RotationMethod::polar, RotationMethod::nearest, RotationMethod::gradient}) {
     auto sim =
         body(mesh, {.youngModulus = {3000}, .poissonRatio = 0.3, .method = method}, EulerImplicitSolver{});
     sim.init();
@@ -197,6 +201,97 @@ TEST_CASE("a large rotation costs no elastic energy") {
         sim.root().state().position[i] = turn * mesh.positions[i];
       CHECK(sim.potentialEnergy() < 1e-24 * 3000);  // (rounding of the strain)^2 times the modulus
     }
+  }
+}
+
+// SOFA's method="polar": f = -R K (R' x - R0' X), with the orthogonal factors R and R0 of the edges now and
+// at rest, and the stiffness K of the element turned by R0'.
+TEST_CASE("polar takes the rotation of the edges of a tetrahedron, against that at rest") {
+  using one::force;
+  using one::ready;
+  const double E = 100, nu = 0.3;
+  const double lambda = E * nu / ((1 + nu) * (1 - 2 * nu)), mu = E / (2 * (1 + nu));
+  auto edges = [](Vec3d::VecCoord const& x) {
+    Eigen::Matrix3d a;
+    for (int c = 0; c < 3; ++c) a.col(c) = x[std::size_t(c) + 1] - x[0];
+    return a;
+  };
+  auto orthogonal = [](Eigen::Matrix3d const& a) -> Eigen::Matrix3d {
+    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(a, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    return svd.matrixU() * svd.matrixV().transpose();
+  };
+  const std::vector<Tetrahedron> element{{0, 1, 2, 3}};
+  for (int sample = 0; sample < 40; ++sample) {
+    INFO("sample " << sample);
+    // shapes of all sorts, every other one left-handed, deformed by up to a third and turned
+    Vec3d::VecCoord X{{0.2, 0.1, -0.3}, {1.2, 0.3, -0.2}, {0.6, 1.3, 0.1}, {0.4, 0.2, 1.1}}, x;
+    for (std::size_t i = 0; i < 4; ++i)
+      for (int c = 0; c < 3; ++c) X[i][c] += 0.35 * std::sin(1.3 * sample + 5.0 * double(i) + 11 * c);
+    if (sample % 2 == 1) std::swap(X[1], X[2]);
+    const Eigen::AngleAxisd turn(0.4 * sample, Eigen::Vector3d(1, 2, -2) / 3);
+    for (std::size_t i = 0; i < 4; ++i)
+      x.push_back(turn * (X[i] + 0.1 * Eigen::Vector3d(std::sin(3.0 * double(i) + sample),
+                                                       std::cos(5.0 * double(i) + sample),
+                                                       std::sin(7.0 * double(i)))));
+    REQUIRE((edges(X).determinant() < 0) == (sample % 2 == 1));
+    REQUIRE(edges(x).determinant() * edges(X).determinant() > 0);
+
+    const Eigen::Matrix3d R0 = orthogonal(edges(X)), R = orthogonal(edges(x));
+    Eigen::Matrix<double, 3, 4> h;
+    h.rightCols<3>() = R0.transpose() * edges(X).inverse().transpose();
+    h.col(0) = -h.rightCols<3>().rowwise().sum();
+    Vec3d::VecDeriv expected(4, Eigen::Vector3d::Zero());
+    const double volume = std::abs(edges(X).determinant()) / 6;
+    double energy = 0;
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j < 4; ++j) {
+        const Eigen::Matrix3d K =
+            volume * (lambda * h.col(i) * h.col(j).transpose() + mu * h.col(j) * h.col(i).transpose() +
+                      mu * h.col(i).dot(h.col(j)) * Eigen::Matrix3d::Identity());
+        auto way = [&](int k) -> Eigen::Vector3d {
+          return R.transpose() * x[std::size_t(k)] - R0.transpose() * X[std::size_t(k)];
+        };
+        expected[std::size_t(i)] -= R * K * way(j);
+        energy += 0.5 * way(i).dot(K * way(j));
+      }
+    auto fem = ready(
+        TetrahedronFEMForceField<Vec3d>{
+            .youngModulus = {E}, .poissonRatio = nu, .method = RotationMethod::polar},
+        X,
+        {.tetrahedra = element});
+    const auto f = force(fem, x);
+    for (std::size_t i = 0; i < 4; ++i) CHECK((f[i] - expected[i]).norm() < 1e-11 * E);
+    CHECK(fem.potentialEnergy(x) == Approx(energy).epsilon(1e-10).margin(1e-12));
+    // the forces turn with the body
+    const Eigen::AngleAxisd again(2.1, Eigen::Vector3d(2, -1, 2) / 3);
+    for (auto& p : x) p = again * p;
+    const auto g = force(fem, x);
+    for (std::size_t i = 0; i < 4; ++i) CHECK((g[i] - again * f[i]).norm() < 1e-11 * E);
+  }
+}
+
+// A corner of a box of a x b x c sheared by s across y, F = (1 s; 0 1): the rotation of its edges (a s b; 0
+// b) in the plane has tan t = -s b / (a + b), that of F itself tan t = -s / 2.
+TEST_CASE("the rotation of a sheared corner is that of its edges, or of its deformation") {
+  const double E = 100, nu = 0.3, a = 2, b = 0.5, c = 3, s = 0.4;
+  const double lambda = E * nu / ((1 + nu) * (1 - 2 * nu)), mu = E / (2 * (1 + nu));
+  const Vec3d::VecCoord X{{0, 0, 0}, {a, 0, 0}, {0, b, 0}, {0, 0, c}},
+      x{{0, 0, 0}, {a, 0, 0}, {s * b, b, 0}, {0, 0, c}};
+  const std::vector<Tetrahedron> element{{0, 1, 2, 3}};
+  for (const bool polar : {true, false}) {
+    const double t = polar ? std::atan2(-s * b, a + b) : std::atan2(-s, 2);
+    Eigen::Matrix2d F, R;
+    F << 1, s, 0, 1;
+    R << std::cos(t), -std::sin(t), std::sin(t), std::cos(t);
+    const Eigen::Matrix2d g = F * R.transpose(), e = 0.5 * (g + g.transpose()) - Eigen::Matrix2d::Identity();
+    auto fem = one::ready(
+        TetrahedronFEMForceField<Vec3d>{.youngModulus = {E},
+                                        .poissonRatio = nu,
+                                        .method = polar ? RotationMethod::polar : RotationMethod::nearest},
+        X,
+        {.tetrahedra = element});
+    CHECK(fem.potentialEnergy(x) ==
+          Approx(a * b * c / 6 * (mu * e.squaredNorm() + lambda / 2 * e.trace() * e.trace())).epsilon(1e-12));
   }
 }
 
@@ -210,7 +305,7 @@ TEST_CASE("momentum is constant under internal forces") {
         MechanicalObject<Vec3d>{mesh.positions},
         UniformMass<Vec3d>{.vertexMass = 0.5},
         TetrahedronFEMForceField<Vec3d>{
-            .youngModulus = {300}, .poissonRatio = 0.3, .method = RotationMethod::polar},
+            .youngModulus = {300}, .poissonRatio = 0.3, .method = RotationMethod::nearest},
         StiffSpringForceField<Vec3d>{
             .springs = {{.first = 0, .second = 20, .stiffness = 50, .damping = 1, .length = 0.1}}})};
     auto& s = sim.root().state();

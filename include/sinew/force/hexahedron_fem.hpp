@@ -14,12 +14,14 @@
 namespace sinew {
 
 /// How the rotation of a corotational hexahedron is found from A, its Jacobian in the centre, the mean edges.
-///   large  frame on the first two columns of A (Nesme, Payan, Faure 2005), as SOFA's "large"
-///   polar  rotation nearest to A A_rest^-1
-///   small  none: linear elasticity
-enum class HexahedronMethod { large, polar, small };
-inline constexpr std::array<std::string_view, 3> enum_names(HexahedronMethod) {
-  return {"large", "polar", "small"};
+///   large    frame on the first two columns of A (Nesme, Payan, Faure 2005), as SOFA's "large"
+///   polar    rotation nearest to A, against the one nearest to A_rest, as SOFA's "polar"; that of `nearest`
+///            where cells are cubes
+///   small    none: linear elasticity
+///   nearest  rotation nearest to A A_rest^-1
+enum class HexahedronMethod { large, polar, small, nearest };
+inline constexpr std::array<std::string_view, 4> enum_names(HexahedronMethod) {
+  return {"large", "polar", "small", "nearest"};
 }
 
 /// Trilinear hexahedron of an isotropic material, corotational, with 2 x 2 x 2 Gauss points. With F the
@@ -44,7 +46,7 @@ struct HexahedronFEM {
   struct Rest {
     Mat3 inverse[8];  // J^-1 in each Gauss point, in the axes of the rest frame of the method [1/m]
     Real weight[8];   // det J [m^3]
-    Mat3 center;      // J^-1 in the centre, for `polar`
+    Mat3 center;      // J^-1 in the centre, for `nearest`
     Real mu, lambda;  // [Pa]
   };
   struct Tangent {
@@ -107,10 +109,9 @@ struct HexahedronFEM {
   /// Rest data of the element with rest positions x; a weight that is not positive tells of a bad shape.
   static Rest restOf(Coord const (&x)[8], Real mu, Real lambda, HexahedronMethod method) {
     Mat3 frame = Mat3::Identity();
-    if (method == HexahedronMethod::large) {
-      const Mat3 a = jacobian(x);
-      frame = frame_of(Vec3(a.col(0)), Vec3(a.col(1)));
-    }
+    const Mat3 a = jacobian(x);
+    if (method == HexahedronMethod::large) frame = frame_of(Vec3(a.col(0)), Vec3(a.col(1)));
+    if (method == HexahedronMethod::polar) frame = nearest_rotation(a);
     Vec3 y[8], column[3][4];
     turnBack(frame, x, y);
     columns(y, column);
@@ -121,7 +122,7 @@ struct HexahedronFEM {
       rest.inverse[g] = j.inverse();
       rest.weight[g] = j.determinant();
     }
-    rest.center = jacobian(x).inverse();
+    rest.center = a.inverse();
     rest.mu = mu;
     rest.lambda = lambda;
     return rest;
@@ -251,9 +252,12 @@ struct HexahedronFEM {
     }
     const Mat3 a = jacobian(x);
     if (method == HexahedronMethod::large) return frame_of(Vec3(a.col(0)), Vec3(a.col(1)));
-    for (int j = 0; j < 3; ++j)
-      for (int i = 0; i < 3; ++i)
-        r(i, j) = a(i, 0) * rest.center(0, j) + a(i, 1) * rest.center(1, j) + a(i, 2) * rest.center(2, j);
+    if (method == HexahedronMethod::polar)
+      r = a;
+    else
+      for (int j = 0; j < 3; ++j)
+        for (int i = 0; i < 3; ++i)
+          r(i, j) = a(i, 0) * rest.center(0, j) + a(i, 1) * rest.center(1, j) + a(i, 2) * rest.center(2, j);
     return nearest_rotation(r);
   }
 };

@@ -11,16 +11,20 @@
 
 namespace sinew {
 
-/// How the rotation of a corotational element is found from its deformation gradient F.
+/// How the rotation of a corotational element is found, from its edges A = (x1 - x0, x2 - x0, x3 - x0) or
+/// from its deformation gradient F = A A_rest^-1.
 ///   small    none: linear elasticity
 ///   large    frame on the edges 01 and 02 (Nesme, Payan, Faure 2005), as SOFA's "large"
-///   polar    rotation nearest to F (Etzmuss, Keckeisen, Strasser 2003); inverted elements stay rotations
+///   polar    rotation nearest to A, against the one nearest to A_rest, as SOFA's "polar": what it is depends
+///            on the order of the points, as with `large`, and it has no energy
 ///   gradient Gram-Schmidt on the columns of F: as `large`, with the body's axes in the place of the edges
-enum class RotationMethod { small, large, polar, gradient };
-inline constexpr std::array<std::string_view, 4> enum_names(RotationMethod) {
-  return {"small", "large", "polar", "gradient"};
+///   nearest  rotation nearest to F (Etzmuss, Keckeisen, Strasser 2003)
+/// Inverted elements stay rotations with all of them.
+enum class RotationMethod { small, large, polar, gradient, nearest };
+inline constexpr std::array<std::string_view, 5> enum_names(RotationMethod) {
+  return {"small", "large", "polar", "gradient", "nearest"};
 }
-/// SOFA's svd is a polar decomposition too, in which inverted elements keep a rotation, as in `polar` here.
+/// SOFA's svd is its polar, in which inverted elements keep a rotation, as in `polar` here.
 inline constexpr std::array<std::array<std::string_view, 2>, 1> enum_aliases(RotationMethod) {
   return {{{"svd", "polar"}}};
 }
@@ -30,7 +34,7 @@ inline constexpr std::array<std::array<std::string_view, 2>, 1> enum_aliases(Rot
 ///   E = V (mu e:e + lambda/2 tr(e)^2),   e = sym(F R') - I = sym(sum_k x_k h_k') - I           [J]
 ///   f_k = -V s h_k,   s = 2 mu e + lambda tr(e) I                                              [N]
 ///   df_i/dx_j = -V (lambda h_i h_j' + mu h_j h_i' + mu h_i.h_j I)          with R held fixed
-/// With `polar`, f is exactly -dE/dx; with `small`, the tangent is exact too.
+/// With `nearest`, f is exactly -dE/dx; with `small`, the tangent is exact too.
 template <class D>
 struct TetrahedronFEM {
   using Real = typename D::Real;
@@ -90,7 +94,12 @@ struct TetrahedronFEM {
     for (int c = 0; c < 3; ++c) edges.col(c) = x[c + 1] - x[0];
     const Mat3 inverse = edges.inverse();
     Rest rest;
-    rest.frame = method == RotationMethod::large ? gramSchmidt(edges) : Mat3(Mat3::Identity());
+    rest.frame = Mat3::Identity();
+    if (method == RotationMethod::large) rest.frame = gramSchmidt(edges);
+    if (method == RotationMethod::polar) {
+      const Real hand = edges.determinant() < 0 ? -1 : 1;
+      rest.frame = hand * nearest(hand * edges);
+    }
     rest.gradient = rest.frame.transpose() * inverse.transpose();
     const Real volume = abs(edges.determinant()) / 6;
     rest.volumeMu = volume * mu;
@@ -140,9 +149,24 @@ struct TetrahedronFEM {
   SINEW_INLINE Mat3 rotation(Rest const& rest, Coord const (&x)[4]) const {
     if (method == RotationMethod::small) return rest.frame;
     const Vec3 a = x[1] - x[0], b = x[2] - x[0], c = x[3] - x[0];
-    if (method == RotationMethod::polar) return polar(gradientOf(a, b, c, rest.gradient));
-    // columns of F times the rest frame
-    return gramSchmidt(gradientOf(a, b, c, rest.gradient));
+    if (method == RotationMethod::large || method == RotationMethod::gradient)
+      // columns of F times the rest frame
+      return gramSchmidt(gradientOf(a, b, c, rest.gradient));
+    const bool ofEdges = method == RotationMethod::polar;
+    Mat3 m;
+    Real hand(1);
+    if (ofEdges) {
+      // of an element that is left-handed at rest, whose frame is a reflection
+      hand = select(
+          dot(cross(rest.frame.col(0), rest.frame.col(1)), rest.frame.col(2)) < Real(0), Real(-1), hand);
+      m.col(0) = a * hand, m.col(1) = b * hand, m.col(2) = c * hand;
+    } else {
+      m = gradientOf(a, b, c, rest.gradient);
+    }
+    m = nearest(m);
+    if (ofEdges)
+      for (int i = 0; i < 9; ++i) m(i) = m(i) * hand;
+    return m;
   }
 
   SINEW_INLINE static Vec3 cross(Vec3 const& a, Vec3 const& b) {
@@ -169,7 +193,7 @@ struct TetrahedronFEM {
   /// argmax over rotations of tr(R' F): Newton steps w = (tr(M) I - M)^-1 a, M = sym(F R'), a = sum r_i x
   /// f_i, from the Gram-Schmidt frame; where M is far from definite, the safe step a / |tr M| of Mueller et
   /// al. 2016.
-  SINEW_HD static Mat3 polar(Mat3 const& f) {
+  SINEW_HD static Mat3 nearest(Mat3 const& f) {
     using std::abs, sinew::abs;
     Mat3 r = gramSchmidt(f);
     const Real scale = f.squaredNorm() + Real(std::numeric_limits<lane_scalar<Real>>::min());
@@ -245,14 +269,16 @@ struct TetrahedronFEMForceField {
               &F::method,
               "",
               "rotation of an element: small: none, linear elasticity; large: of a frame on two "
-              "edges, cheap, exerts a small torque on itself; polar: the nearest, keeps angular "
-              "momentum, and inverted elements recover; gradient: as large, on the body's axes"));
+              "edges, cheap, exerts a small torque on itself; polar: the nearest to its edges, as in SOFA, "
+              "with such a torque too; gradient: as large, on the body's axes; nearest: the nearest to its "
+              "deformation, keeps angular momentum, and inverted elements recover"));
   }
 
   ForceProperties properties() const {
     const bool small = method == RotationMethod::small;
-    return {
-        .objective = !small, .conservative = small || method == RotationMethod::polar, .exactTangent = small};
+    return {.objective = !small,
+            .conservative = small || method == RotationMethod::nearest,
+            .exactTangent = small};
   }
 
   using Driver = ElementDriver<TetrahedronFEM, D>;
