@@ -215,6 +215,10 @@ TEST_CASE("CGImplicit is implicit Euler with conjugate gradients") {
   CHECK(in<EulerImplicitSolver>(other).rayleighMass == 0);
   CHECK(in<CGLinearSolver<>>(other).threshold == 1e-10);
   CHECK(other.root.components().size() == 3);  // with gravity
+  CHECK(scene.warnings.empty());
+  CHECK(has(other.warnings,
+            "test.scn:2:23: <CGImplicit>: its node has an ODE solver already, <EulerImplicitSolver>; of this "
+            "one the conjugate gradients alone are taken, where SOFA makes a step with each"));
   for (auto const* name : {"CGImplicitSolver", "CgImplicit", "CgImplicitSolver"}) {
     auto one = node(text("<", name, " vdamping='0.2'/>"));
     CHECK(in<EulerImplicitSolver>(one).vdamping == 0.2);

@@ -242,7 +242,7 @@ class SceneCollector {
   }
 
   // <CGImplicit .../> of the first SOFA is an EulerImplicitSolver, damped, with a CGLinearSolver; a node that
-  // has a solver gets the latter only
+  // has a solver gets the latter only, with a warning
   void cgImplicit(ScenePlace& place, XmlElement& element) {
     hasNoChildren(element);
     XmlElement& ode = partOf(element, "EulerImplicitSolver");
@@ -254,10 +254,20 @@ class SceneCollector {
     ode.set("rayleighMass", "0.1", false);
     linear.set("threshold", "1e-5", false);
     linear.set("name", name_of(element, element.tag) + "_linear");
-    if (std::none_of(place.items.begin(), place.items.end(), [](auto const& item) {
-          return item->candidates[0]->role == RoleKind::odeSolver;
-        }))
+    auto const first = std::find_if(place.items.begin(), place.items.end(), [](auto const& item) {
+      return item->candidates[0]->role == RoleKind::odeSolver;
+    });
+    if (first == place.items.end())
       addItem(place, ode);
+    else
+      messages_.warnings.insert(
+          text(element.place(),
+               ": <",
+               element.tag,
+               ">: its node has an ODE solver already, <",
+               (*first)->tag,
+               ">; of this one the conjugate gradients alone are taken, where SOFA makes a step with each; "
+               "remove one of them"));
     addItem(place, linear);
   }
   ClassInfo const* classNamed(std::string_view name) const {
