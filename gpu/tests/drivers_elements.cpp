@@ -17,11 +17,12 @@ TEST_CASE("corotational hexahedra on the device equal those of the processor") {
 }
 
 TEST_CASE("tetrahedra and hexahedra on the device move freely as a whole") {
-  for (const auto method : {RotationMethod::large, RotationMethod::nearest, RotationMethod::gradient}) {
+  for (const auto method :
+       {RotationMethod::large, RotationMethod::polar, RotationMethod::nearest, RotationMethod::gradient}) {
     moves_freely<Tetrahedra, Vec3d>(int(method));
     moves_freely<Tetrahedra, Vec3f>(int(method));
   }
-  for (const auto method : {HexahedronMethod::large, HexahedronMethod::nearest})
+  for (const auto method : {HexahedronMethod::large, HexahedronMethod::polar, HexahedronMethod::nearest})
     moves_freely<Hexahedra, Vec3d>(int(method));
 }
 TEST_CASE("tetrahedra and hexahedra on the device pass the patch test") {

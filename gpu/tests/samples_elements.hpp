@@ -12,7 +12,7 @@ using namespace sinew;
 
 /// The methods to find a rotation.
 struct Tetrahedra {
-  static constexpr int variants = 4;
+  static constexpr int variants = 5;
   template <class D>
   static auto make(int v) {
     return TetrahedronFEMForceField<D>{
@@ -20,7 +20,7 @@ struct Tetrahedra {
   }
 };
 struct Hexahedra {
-  static constexpr int variants = 3;
+  static constexpr int variants = 4;
   template <class D>
   static auto make(int v) {
     return HexahedronFEMForceField<D>{
