@@ -246,7 +246,65 @@ TEST_CASE("a bar of springs rings at the frequency of its mass matrix") {
     // the amplitude is that of a cosine at its zero: the error of the phase, w dt^2 end / 12 and less
     CHECK(std::abs(run(NewmarkImplicitSolver{}, 400)) < 1e-5);
     if (lumping) CHECK(std::abs(run(RungeKutta4Solver{}, 400)) < 1e-7);
+    // symplectic Euler, with the mass that is not lumped: x_k = cos((k + 1/2) t) / cos(t/2), cos t = 1 - (w
+    // dt)^2/2
+    const double t = std::acos(1 - 0.5 * w * w * end * end / (400.0 * 400));
+    CHECK(std::abs(run(EulerExplicitSolver{}, 400) - std::cos(400.5 * t) / std::cos(t / 2)) < 1e-10);
   }
+}
+
+// An edge of 6 kg has M = (2 1; 1 2) kg, M^-1 = (2 -1; -1 2) / 3 kg; where point 1 is fixed, only 2 kg of it
+// are left.
+TEST_CASE("EulerExplicitSolver solves with the mass that is not lumped where a linear solver is in reach") {
+  auto accelerations = [](bool lumping, bool fixed, auto... linear) {
+    Simulation sim{node<"root">(
+        linear...,
+        node<"body">(EulerExplicitSolver{},
+                     EdgeChain{1},
+                     MechanicalObject<Vec1d>{.position = {Vec<double, 1>(0), Vec<double, 1>(1)}},
+                     MeshMatrixMass<Vec1d>{.totalMass = 6, .lumping = lumping},
+                     ConstantForceField<Vec1d>{.indices = {0}, .forces = {Vec<double, 1>(3)}},
+                     FixedConstraint<Vec1d>{.indices = fixed ? std::vector<int>{1} : std::vector<int>{}}))};
+    sim.init();
+    sim.animate(0.5);
+    sim.animate(0.5);
+    auto const& state = sim.template at<"body">().state();
+    CHECK(state.position[0][0] == Approx(0.75 * state.velocity[0][0]).epsilon(1e-12));  // dt (1/2 + 1) v
+    return Eigen::Vector2d(state.velocity[0][0], state.velocity[1][0]);
+  };
+  auto near = [](Eigen::Vector2d const& a, double first, double second) {
+    INFO(a.transpose());
+    CHECK((a - Eigen::Vector2d(first, second)).norm() < 1e-12);
+  };
+  const SparseLDLSolver<CompressedRowSparseMatrixd> direct;
+  const CGLinearSolver<> free{.iterations = 10, .tolerance = 1e-14};
+  near(accelerations(false, false, direct), 2, -1);
+  near(accelerations(false, false, free), 2, -1);
+  near(accelerations(false, true, direct), 1.5, 0);
+  near(accelerations(false, true, free), 1.5, 0);
+  // of row sums nothing has to be solved, and without a linear solver they are taken
+  near(accelerations(true, false, direct), 1, 0);
+  near(accelerations(false, false), 1, 0);
+}
+
+TEST_CASE("EulerExplicitSolver counts masses of mapped states where a linear solver is in reach") {
+  auto speed = [](auto... linear) {
+    const Vec1d::VecCoord place{Vec<double, 1>(0)};
+    Simulation sim{node<"root">(linear...,
+                                EulerExplicitSolver{},
+                                MechanicalObject<Vec1d>{.position = place},
+                                UniformMass<Vec1d>{.vertexMass = 1},
+                                ConstantForceField<Vec1d>{.indices = {0}, .forces = {Vec<double, 1>(12)}},
+                                node<"mapped">(MechanicalObject<Vec1d>{.position = place},
+                                               UniformMass<Vec1d>{.vertexMass = 3},
+                                               IdentityMapping<Vec1d, Vec1d>{}))};
+    sim.init();
+    sim.animate(1);
+    return sim.root().state().velocity[0][0];
+  };
+  CHECK(speed(SparseLDLSolver<CompressedRowSparseMatrixd>{}) == Approx(3).epsilon(1e-13));
+  CHECK(speed(CGLinearSolver<>{}) == Approx(3).epsilon(1e-13));
+  CHECK(speed() == Approx(12).epsilon(1e-13));
 }
 
 TEST_CASE("steps with the consistent mass do not depend on how the system is formed") {

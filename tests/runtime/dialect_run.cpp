@@ -78,6 +78,23 @@ TEST_CASE("what is in the cells of a grid is put into place with it, and goes on
   CHECK((points[1] - Eigen::Vector3d(1.6, 0.2, 0.9)).norm() < 1e-13);
 }
 
+TEST_CASE("an explicit step of the mass of elements is solved by the linear solver of the scene") {
+  // an edge of 6 kg: M^-1 = (2 -1; -1 2) / 3 kg, or 1/3 kg of each row's sum
+  auto speeds = [](std::string_view linear) {
+    auto sim = start(parse_scene<Standard>("test.scn", text("<Node gravity='0 0 0'>", linear, R"(
+      <Node name="body"> <EulerExplicitSolver/>
+        <MeshTopology position="0 0 0  1 0 0" edges="0 1"/> <MechanicalObject/>
+        <MeshMatrixMass totalMass="6"/> <ConstantForceField indices="0" forces="3 0 0"/>
+      </Node></Node>)")));
+    sim.animate(1);
+    auto const& v = sim.root().find_node("body")->template get<MechanicalObject<Vec3d>>()->velocity;
+    return Eigen::Vector2d(v[0][0], v[1][0]);
+  };
+  for (auto* linear : {"<SparseLDLSolver/>", "<CGLinearSolver/>"})
+    CHECK((speeds(linear) - Eigen::Vector2d(2, -1)).norm() < 1e-12);
+  CHECK((speeds("") - Eigen::Vector2d(1, 0)).norm() < 1e-12);
+}
+
 TEST_CASE("a checkpoint of BDF goes on bit by bit, whatever the order") {
   for (auto* order : {"1", "2", "3"}) {
     auto sim = start(parse_scene<Standard>("test.scn",

@@ -20,8 +20,8 @@ namespace sinew {
 /// body has a total of 1 kg.
 ///
 /// M^-1 f, which explicit solvers ask for, is taken with the row sums, lumped or not: the inverse of M is
-/// full, and would carry the forces on fixed points to their neighbours. (SOFA refuses there, unless a linear
-/// solver stands by.)
+/// full, and would carry the forces on fixed points to their neighbours. EulerExplicitSolver solves M a = f
+/// where a linear solver stands by. (SOFA refuses without one.)
 template <class D>
 struct MeshMatrixMass {
   using Role = role::Mass;

@@ -334,6 +334,10 @@ struct RuntimeScope {
     above().withLinearSolver(f);
   }
   template <class F>
+  void withLinearSolverIfAny(F&& f) const {
+    withLinearSolver(f);
+  }
+  template <class F>
   void withContacts(F&& f) const {
     if (atMount) return;
     for (auto& entry : node.components())

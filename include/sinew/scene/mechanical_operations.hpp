@@ -105,7 +105,16 @@ struct MechanicalOperations {
   /// forces as they are. `turning`: see MechanicalParams.
   void computeForce(DerivId f, CoordId x, DerivId v, double turning = 0);
 
-  /// a = P M^-1 f
+  /// Whether masses give M^-1 f by themselves: each is diagonal, and none is that of a mapped state.
+  bool massIsDiagonal() {
+    bool diagonal = true;
+    traverse(root, on<role::Mass>([&]([[maybe_unused]] auto const& c, auto const& scope) {
+               if (scope.stateScope().mapped()) diagonal = false;
+               if constexpr (requires { c.exactInverse(); }) diagonal = diagonal && c.exactInverse();
+             }));
+    return diagonal;
+  }
+  /// a = P M^-1 f, of the sums of the rows of masses that are not diagonal and without those of mapped states
   void accFromF(DerivId a, DerivId f, CoordId x);
 
   /// a = acceleration at time t in the state (x, v), mapped states included.

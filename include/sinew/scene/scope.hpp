@@ -22,6 +22,8 @@ struct NoScope {
   static void const* topologyAddress() { return nullptr; }
   static constexpr OneThread workers() { return {}; }
   template <class F>
+  static void withLinearSolverIfAny(F&&) {}
+  template <class F>
   static void withContacts(F&&) {}
   static constexpr NotTimed span(Phase) { return {}; }
   template <class S, class C>
@@ -381,6 +383,14 @@ struct Scope {
     } else {
       above.withLinearSolver(f);
     }
+  }
+  /// The same, if there is one.
+  template <class F>
+  void withLinearSolverIfAny(F&& f) const {
+    if constexpr (always<role::LinearSolver>)
+      withLinearSolver(f);
+    else
+      above.withLinearSolverIfAny(f);
   }
   /// f(contact manager) with the nearest one, from this node upwards, if there is one.
   template <class F>

@@ -287,6 +287,8 @@ class Simulation {
 
   template <class S>
   static void initSolvers(S const& scope, InitAgain const& again);
+  template <class Ode, class Operations, class F>
+  static void withLinearSolverOf(Operations& operations, F&& f);
 
   // f(interaction, a, b) with the states of the ends of each interaction that no solver sees
   template <class S, class F>
@@ -644,6 +646,16 @@ void Simulation<Root>::initComponents(RootScope const& scope, InitAgain const& a
   scope.raise();
 }
 
+// f(linear solver) of the systems that an ODE solver has solved, if there are some.
+template <class Root>
+template <class Ode, class Operations, class F>
+void Simulation<Root>::withLinearSolverOf([[maybe_unused]] Operations& operations, [[maybe_unused]] F&& f) {
+  if constexpr (Ode::implicit)
+    operations.root.withLinearSolver(f);
+  else if constexpr (requires { Ode::solvesMass; })
+    if (!operations.massIsDiagonal()) operations.root.withLinearSolverIfAny(f);
+}
+
 template <class Root>
 template <class S>
 void Simulation<Root>::initSolvers(S const& scope, InitAgain const& again) {
@@ -653,13 +665,11 @@ void Simulation<Root>::initSolvers(S const& scope, InitAgain const& again) {
     solved = true;
     scope.located(ode, [&] {
       MechanicalOperations<S> operations(scope);
-      if constexpr (Ode::implicit)
-        scope.withLinearSolver([&](auto& linear) {
-          operations.reserve(Ode::auxiliary + std::decay_t<decltype(linear)>::auxiliary);
-          linear.init(operations);
-        });
-      else
-        operations.reserve(Ode::auxiliary);
+      operations.reserve(Ode::auxiliary);
+      withLinearSolverOf<Ode>(operations, [&](auto& linear) {
+        operations.reserve(Ode::auxiliary + std::decay_t<decltype(linear)>::auxiliary);
+        linear.init(operations);
+      });
       if constexpr (requires { ode.init(operations); }) ode.init(operations);
       operations.split();
       // what a solver remembers of the last step is not that of a scene that has changed
@@ -678,13 +688,10 @@ void Simulation<Root>::detectContacts(RootScope const& scope, double dt) const {
   [[maybe_unused]] const auto span = scope.span(Phase::collision);
   Collision<RootScope>{scope}.detect(dt, [&](auto const& solved, bool) {
     auto visit = on<role::OdeSolver>([&](auto& ode) {
-      if constexpr (std::decay_t<decltype(ode)>::implicit)
-        solved.withLinearSolver([&](auto& linear) {
-          if constexpr (needs_pattern<std::decay_t<decltype(linear)>>) {
-            MechanicalOperations<std::decay_t<decltype(solved)>> operations(solved, time_, dt);
-            linear.init(operations);
-          }
-        });
+      MechanicalOperations<std::decay_t<decltype(solved)>> operations(solved, time_, dt);
+      withLinearSolverOf<std::decay_t<decltype(ode)>>(operations, [&](auto& linear) {
+        if constexpr (needs_pattern<std::decay_t<decltype(linear)>>) linear.init(operations);
+      });
     });
     solved.forEachComponent(visit);
   });

@@ -8,13 +8,15 @@ namespace sinew {
 
 /// Euler's method, order 1. Symplectic: v += a dt, then x += v dt with the new velocity (Stoermer-Verlet's
 /// first order kin, energy stays bounded; bodies that turn have the gyroscopic torque of the end of the step,
-/// which adds no energy). Otherwise both use the old values.
+/// which adds no energy). Otherwise both use the old values. a = M^-1 f: where M is not diagonal, as that of
+/// MeshMatrixMass or with masses of mapped states, the linear solver in reach finds it; without one it is
+/// taken with the sums of the rows of M, and without those masses.
 struct EulerExplicitSolver {
   using Role = role::OdeSolver;
   static constexpr std::string_view className = "EulerExplicitSolver";
   static constexpr std::string_view aliases =
       "EulerSolver Euler EulerExplicit ExplicitEuler ExplicitEulerSolver EulerExplicitIntegrationScheme";
-  static constexpr bool implicit = false;
+  static constexpr bool implicit = false, solvesMass = true;
   static constexpr Auxiliary auxiliary{.derivs = 1};
 
   bool symplectic = true;
@@ -30,7 +32,7 @@ struct EulerExplicitSolver {
     MultiVecDeriv vel(operations, vec_id::velocity), force(operations, vec_id::force), acc(operations);
     operations.computeForce(force.id, pos.id, vel.id, symplectic ? dt : 0);
     operations.acted.add(force.id);
-    operations.accFromF(acc.id, force.id, pos.id);
+    if (!solveMass(operations, acc, force)) operations.accFromF(acc.id, force.id, pos.id);
     if (symplectic) {
       vel.peq(acc, dt);
       pos.peq(vel, dt);
@@ -38,6 +40,23 @@ struct EulerExplicitSolver {
       pos.peq(vel, dt);
       vel.peq(acc, dt);
     }
+  }
+
+ private:
+  // P M P a = P f by the linear solver; false where there is none, or nothing to solve
+  template <class Operations>
+  static bool solveMass(Operations& operations, MultiVecDeriv<Operations>& acc,
+                        MultiVecDeriv<Operations> const& force) {
+    bool solved = false;
+    if (operations.massIsDiagonal()) return solved;
+    operations.root.withLinearSolverIfAny([&](auto& linear) {
+      MultiVecDeriv rhs(operations, vec_id::dx);
+      rhs.eq(force);
+      operations.projectResponse(rhs.id);
+      linear.solve(operations, {.m = 1}, acc, rhs);
+      solved = true;
+    });
+    return solved;
   }
 };
 
