@@ -206,20 +206,46 @@ TEST_CASE("a large rotation costs no elastic energy") {
 
 // SOFA's method="polar": f = -R K (R' x - R0' X), with the orthogonal factors R and R0 of the edges now and
 // at rest, and the stiffness K of the element turned by R0'.
+struct EdgePolar {
+  double lambda, mu, energy = 0;
+  Vec3d::VecDeriv force{};
+
+  static Eigen::Matrix3d edges(Vec3d::VecCoord const& x, Tetrahedron const& t) {
+    Eigen::Matrix3d a;
+    for (int c = 0; c < 3; ++c) a.col(c) = x[std::size_t(t[std::size_t(c) + 1])] - x[std::size_t(t[0])];
+    return a;
+  }
+  static Eigen::Matrix3d orthogonal(Eigen::Matrix3d const& a) {
+    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(a, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    return svd.matrixU() * svd.matrixV().transpose();
+  }
+  void add(Vec3d::VecCoord const& X, Vec3d::VecCoord const& x, Tetrahedron const& t) {
+    force.resize(X.size(), Eigen::Vector3d::Zero());
+    const Eigen::Matrix3d R0 = orthogonal(edges(X, t)), R = orthogonal(edges(x, t));
+    Eigen::Matrix<double, 3, 4> h;
+    h.rightCols<3>() = R0.transpose() * edges(X, t).inverse().transpose();
+    h.col(0) = -h.rightCols<3>().rowwise().sum();
+    const double volume = std::abs(edges(X, t).determinant()) / 6;
+    auto way = [&](std::size_t k) -> Eigen::Vector3d {
+      return R.transpose() * x[std::size_t(t[k])] - R0.transpose() * X[std::size_t(t[k])];
+    };
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j < 4; ++j) {
+        const Eigen::Matrix3d K =
+            volume * (lambda * h.col(i) * h.col(j).transpose() + mu * h.col(j) * h.col(i).transpose() +
+                      mu * h.col(i).dot(h.col(j)) * Eigen::Matrix3d::Identity());
+        const Eigen::Vector3d pull = K * way(std::size_t(j));
+        force[std::size_t(t[std::size_t(i)])] -= R * pull;
+        energy += 0.5 * way(std::size_t(i)).dot(pull);
+      }
+  }
+};
+
 TEST_CASE("polar takes the rotation of the edges of a tetrahedron, against that at rest") {
   using one::force;
   using one::ready;
   const double E = 100, nu = 0.3;
   const double lambda = E * nu / ((1 + nu) * (1 - 2 * nu)), mu = E / (2 * (1 + nu));
-  auto edges = [](Vec3d::VecCoord const& x) {
-    Eigen::Matrix3d a;
-    for (int c = 0; c < 3; ++c) a.col(c) = x[std::size_t(c) + 1] - x[0];
-    return a;
-  };
-  auto orthogonal = [](Eigen::Matrix3d const& a) -> Eigen::Matrix3d {
-    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(a, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    return svd.matrixU() * svd.matrixV().transpose();
-  };
   const std::vector<Tetrahedron> element{{0, 1, 2, 3}};
   for (int sample = 0; sample < 40; ++sample) {
     INFO("sample " << sample);
@@ -233,41 +259,62 @@ TEST_CASE("polar takes the rotation of the edges of a tetrahedron, against that 
       x.push_back(turn * (X[i] + 0.1 * Eigen::Vector3d(std::sin(3.0 * double(i) + sample),
                                                        std::cos(5.0 * double(i) + sample),
                                                        std::sin(7.0 * double(i)))));
-    REQUIRE((edges(X).determinant() < 0) == (sample % 2 == 1));
-    REQUIRE(edges(x).determinant() * edges(X).determinant() > 0);
+    const double now = EdgePolar::edges(x, element[0]).determinant(),
+                 rest = EdgePolar::edges(X, element[0]).determinant();
+    REQUIRE((rest < 0) == (sample % 2 == 1));
+    REQUIRE(now * rest > 0);
 
-    const Eigen::Matrix3d R0 = orthogonal(edges(X)), R = orthogonal(edges(x));
-    Eigen::Matrix<double, 3, 4> h;
-    h.rightCols<3>() = R0.transpose() * edges(X).inverse().transpose();
-    h.col(0) = -h.rightCols<3>().rowwise().sum();
-    Vec3d::VecDeriv expected(4, Eigen::Vector3d::Zero());
-    const double volume = std::abs(edges(X).determinant()) / 6;
-    double energy = 0;
-    for (int i = 0; i < 4; ++i)
-      for (int j = 0; j < 4; ++j) {
-        const Eigen::Matrix3d K =
-            volume * (lambda * h.col(i) * h.col(j).transpose() + mu * h.col(j) * h.col(i).transpose() +
-                      mu * h.col(i).dot(h.col(j)) * Eigen::Matrix3d::Identity());
-        auto way = [&](int k) -> Eigen::Vector3d {
-          return R.transpose() * x[std::size_t(k)] - R0.transpose() * X[std::size_t(k)];
-        };
-        expected[std::size_t(i)] -= R * K * way(j);
-        energy += 0.5 * way(i).dot(K * way(j));
-      }
+    EdgePolar expected{lambda, mu};
+    expected.add(X, x, element[0]);
     auto fem = ready(
         TetrahedronFEMForceField<Vec3d>{
             .youngModulus = {E}, .poissonRatio = nu, .method = RotationMethod::polar},
         X,
         {.tetrahedra = element});
     const auto f = force(fem, x);
-    for (std::size_t i = 0; i < 4; ++i) CHECK((f[i] - expected[i]).norm() < 1e-11 * E);
-    CHECK(fem.potentialEnergy(x) == Approx(energy).epsilon(1e-10).margin(1e-12));
+    for (std::size_t i = 0; i < 4; ++i) CHECK((f[i] - expected.force[i]).norm() < 1e-11 * E);
+    CHECK(fem.potentialEnergy(x) == Approx(expected.energy).epsilon(1e-10).margin(1e-12));
     // the forces turn with the body
     const Eigen::AngleAxisd again(2.1, Eigen::Vector3d(2, -1, 2) / 3);
     for (auto& p : x) p = again * p;
     const auto g = force(fem, x);
     for (std::size_t i = 0; i < 4; ++i) CHECK((g[i] - again * f[i]).norm() < 1e-11 * E);
   }
+}
+
+// SOFA cuts the cells of a grid after it has exchanged the ends of their edges along x in every other cell,
+// the first included, along y and z in every other one.
+TEST_CASE("polar starts the edges in the cells of a grid where SOFA does") {
+  const double E = 100, nu = 0.3;
+  const int n[3] = {4, 3, 3};
+  const Mesh mesh = regular_grid(n[0], n[1], n[2], {0, 0, 0}, {3, 1, 2.4});
+  Vec3d::VecCoord x = mesh.positions;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    x[i] += 0.05 *
+            Eigen::Vector3d(std::sin(3.0 * double(i)), std::cos(5.0 * double(i)), std::sin(7.0 * double(i)));
+  const std::size_t ends[3][4][2] = {
+      {{0, 1}, {3, 2}, {4, 5}, {7, 6}}, {{0, 3}, {1, 2}, {4, 7}, {5, 6}}, {{0, 4}, {1, 5}, {2, 6}, {3, 7}}};
+  const std::size_t parts[6][4] = {
+      {0, 5, 1, 6}, {0, 1, 3, 6}, {1, 3, 6, 2}, {6, 3, 0, 7}, {6, 7, 0, 5}, {7, 5, 4, 0}};
+  EdgePolar expected{E * nu / ((1 + nu) * (1 - 2 * nu)), E / (2 * (1 + nu))};
+  for (int i = 0; i < int(mesh.hexahedra.size()); ++i) {
+    Hexahedron c = mesh.hexahedra[std::size_t(i)];
+    const int nx = n[0] - 1, ny = n[1] - 1;
+    const bool exchanged[3] = {i % nx % 2 == 0, i / nx % ny % 2 == 1, i / (nx * ny) % 2 == 1};
+    for (int axis = 0; axis < 3; ++axis)
+      if (exchanged[axis])
+        for (auto const& e : ends[axis]) std::swap(c[e[0]], c[e[1]]);
+    for (auto const& t : parts) expected.add(mesh.positions, x, {c[t[0]], c[t[1]], c[t[2]], c[t[3]]});
+  }
+  TopologyView topology{.hexahedra = mesh.hexahedra};
+  topology.grid = {n[0], n[1], n[2]};
+  auto fem = one::ready(
+      TetrahedronFEMForceField<Vec3d>{
+          .youngModulus = {E}, .poissonRatio = nu, .method = RotationMethod::polar},
+      mesh.positions,
+      topology);
+  const auto f = one::force(fem, x);
+  for (std::size_t i = 0; i < f.size(); ++i) CHECK((f[i] - expected.force[i]).norm() < 1e-11 * E);
 }
 
 // A corner of a box of a x b x c sheared by s across y, F = (1 s; 0 1): the rotation of its edges (a s b; 0

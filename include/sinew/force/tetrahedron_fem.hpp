@@ -289,7 +289,8 @@ struct TetrahedronFEMForceField {
 
   void init(InitContext<D> const& context) {
     const std::string where = text(context.where, ": ", component_name<TetrahedronFEMForceField>());
-    const auto tetrahedra = tetrahedra_of(where, context);
+    // the edges of `polar` are those from the first point
+    const auto tetrahedra = tetrahedra_of(where, context, method == RotationMethod::polar ? 2 : 0);
     if (youngModulus.size() != 1 && youngModulus.size() != tetrahedra.size())
       throw Error(where,
                   text("youngModulus has ",
