@@ -263,7 +263,7 @@ class SceneCollector {
       messages_.warnings.insert(
           text(element.place(),
                ": <",
-               element.tag,
+               tag_of(element),
                ">: its node has an ODE solver already, <",
                (*first)->tag,
                ">; of this one the conjugate gradients alone are taken, where SOFA makes a step with each; "
