@@ -17,6 +17,8 @@ import os
 import pathlib
 import random
 import re
+import select
+import signal
 import subprocess
 import sys
 import tempfile
@@ -27,6 +29,7 @@ NUMBERS = ["0", "-0", "-1", "1", "2", "3", "7", "0.5", "99999", "-99999", "1e9",
 WORDS = ["", " ", "true", "x", "@", "@.", "@..", "@/", "@../..", "@[-1]", "@[1]", "@name.position", "Vec3d", "Rigid3d", "Vec1d,Vec3d",
          "1 2 3 4 5 6 7 8 9 10 11 12", "a" * 5000, "\u00e9\u202e", "0-5", "1e", "--1", "0x10", "1,2,3"]
 NUMBER = re.compile(r"[-+]?\d+(\.\d+)?([eE][-+]?\d+)?")
+SCENES_OF_ONE = 20  # scenes that one process runs before it looks for leaks
 EXITS = tuple(f"exit {status}" for status in range(5))
 
 
@@ -117,31 +120,51 @@ class Mutator:
         element.attrib[name] = value
 
 
-def finite(result):
-    """Whether the states are: of positions near the largest numbers the potential energy is beyond them."""
+def finite(result, content):
+    """Whether the states are: of speeds that a scene gives beyond 1e150 m/s the energy is beyond the largest number."""
     energy = result.get("kineticEnergy")
-    return isinstance(energy, (int, float)) and math.isfinite(energy)
+    return isinstance(energy, (int, float)) and math.isfinite(energy) or any(abs(v) > 1e150 for v in numbers_of(content))
+
+
+def numbers_of(content):
+    for match in NUMBER.finditer(content):
+        value = float(match.group(0))
+        if math.isfinite(value):
+            yield value
 
 
 class Server:
     """Runs scenes one after the other (serve.cpp)."""
 
-    def __init__(self, program, timeout):
-        environment = dict(os.environ,
-                           ASAN_OPTIONS="exitcode=99:allocator_may_return_null=0:max_allocation_size_mb=4000",
-                           UBSAN_OPTIONS="halt_on_error=1:exitcode=99:print_stacktrace=1")
-        self.timeout = timeout
-        self.process = subprocess.Popen([program], stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=environment, text=True)
+    def __init__(self, program, timeout, scenes):
+        self.program, self.timeout = program, timeout
+        self.environment = dict(os.environ, SINEW_SERVER_SCENES=str(scenes),
+                                ASAN_OPTIONS="exitcode=99:allocator_may_return_null=0:max_allocation_size_mb=4000:quarantine_size_mb=32",
+                                UBSAN_OPTIONS="halt_on_error=1:exitcode=99:print_stacktrace=1")
+        self.start()
+
+    def start(self):
+        self.process = subprocess.Popen([self.program], stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=self.environment,
+                                        start_new_session=True)
+
+    def stop(self):
+        os.killpg(self.process.pid, signal.SIGKILL)
+        self.process.wait()
 
     def run(self, folder, arguments):
         """How sinew ends, and what it writes on standard output and standard error."""
-        self.process.stdin.write("\t".join([str(self.timeout), folder, *arguments]) + "\n")
+        self.process.stdin.write(("\t".join([folder, *arguments]) + "\n").encode())
         self.process.stdin.flush()
-        ended = self.process.stdout.readline().strip()
+        ended = "hang"
+        if select.select([self.process.stdout], [], [], self.timeout)[0]:
+            ended = self.process.stdout.readline().decode().strip()
+        else:
+            self.stop()
+            self.start()
         if not ended:
             raise RuntimeError(f"the server of scenes has ended with {self.process.wait()}")
-        said = [pathlib.Path(folder, name).read_text(errors="replace") for name in ("out", "err")]
-        return ended, *said
+        said = [pathlib.Path(folder, name) for name in ("out", "err")]
+        return ended, *(path.read_text(errors="replace") if path.exists() else "" for path in said)
 
 
 class Runner:
@@ -150,7 +173,7 @@ class Runner:
     def __init__(self, arguments, classes):
         self.arguments = arguments
         self.mutator = Mutator(arguments.scenes, classes)
-        self.server = Server(arguments.program, arguments.timeout)
+        self.server = Server(arguments.program, arguments.timeout, 1 if arguments.only is not None else SCENES_OF_ONE)
 
     def run(self, number):
         """What is wrong with a mutant, and what the program said; nothing is wrong: None."""
@@ -162,11 +185,13 @@ class Runner:
         wrong = None
         if ended == "hang":
             wrong = f"hangs for {self.arguments.timeout} s"
+        elif ended == "leak":
+            wrong = f"leaks, or one of the {SCENES_OF_ONE - 1} before it that this process ran"
         elif ended not in EXITS:
             wrong = f"ends by {ended}"
         elif ended != "exit 0" and not err.strip() and '"errors"' not in out:
             wrong = f"ends with {ended} and says nothing"
-        elif ended == "exit 0" and not finite(json.loads(out)):
+        elif ended == "exit 0" and not finite(json.loads(out), content):
             wrong = "ends well with a kinetic energy that is not finite"
         return number, path, content, wrong, err, ended
 

@@ -1,24 +1,32 @@
 // SPDX-License-Identifier: BSL-1.0
 // The program sinew, started once for many scenes: with sanitizers its start takes longer than most scenes.
-// Given arguments it is sinew. Without, it reads a line a scene, apart by tabs: the seconds that it may take,
-// a folder, and the arguments; runs sinew in a process of its own there, with what it says in the files `out`
-// and `err`; and answers with a line: "exit N", "signal N" or "hang".
+// Given arguments it is sinew. Without, it reads a line a scene, apart by tabs: a folder, and the arguments;
+// runs sinew there, with what it says in the files `out` and `err`; and answers with a line: "exit N", or
+// "signal N" where it has crashed. SINEW_SERVER_SCENES are run by one process (20 where it is not set), which
+// then looks for leaks; where it finds one, the last of them answers "leak".
 #include "sinew/options.hpp"
 
 #include <fcntl.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <algorithm>
 #include <array>
-#include <cerrno>
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 #include <iostream>
 #include <string>
 #include <vector>
 
+#if defined(__SANITIZE_ADDRESS__)
+#include <sanitizer/lsan_interface.h>
+#else
+static int __lsan_do_recoverable_leak_check() { return 0; }
+#endif
+
 namespace {
+
+constexpr int noMoreScenes = 77, notRun = 98;  // exit statuses of the process that runs scenes
 
 std::vector<std::string> words_of(std::string const& line) {
   std::vector<std::string> words(1);
@@ -30,71 +38,60 @@ std::vector<std::string> words_of(std::string const& line) {
   return words;
 }
 
-void redirect(int stream, char const* path, int flags) {
-  const int file = open(path, flags, 0666);
-  if (file < 0 || dup2(file, stream) < 0) {
-    std::perror(path);
-    std::exit(98);
-  }
+[[noreturn]] void give_up(char const* what) {
+  std::perror(what);
+  _exit(notRun);
+}
+void redirect(int stream, char const* path) {
+  const int file = open(path, O_WRONLY | O_CREAT | O_TRUNC, 0666);
+  if (file < 0 || dup2(file, stream) < 0) give_up(path);
   close(file);
 }
 
-[[noreturn]] void run(std::vector<std::string>& words) {
-  if (chdir(words[1].c_str()) != 0) {
-    std::perror(words[1].c_str());
-    std::exit(98);
-  }
-  redirect(0, "/dev/null", O_RDONLY);
-  redirect(1, "out", O_WRONLY | O_CREAT | O_TRUNC);
-  redirect(2, "err", O_WRONLY | O_CREAT | O_TRUNC);
+int run(std::vector<std::string> words) {
+  if (chdir(words[0].c_str()) != 0) give_up(words[0].c_str());
+  redirect(1, "out");
+  redirect(2, "err");
   std::array<char, 6> name{"sinew"};
   std::vector<char*> arguments{name.data()};
-  for (std::size_t i = 2; i < words.size(); ++i) arguments.push_back(words[i].data());
+  for (std::size_t i = 1; i < words.size(); ++i) arguments.push_back(words[i].data());
   const int count = int(arguments.size());
   arguments.push_back(nullptr);
-  std::exit(cli::program(count, arguments.data()));
+  const int status = cli::program(count, arguments.data());
+  std::fflush(stdout);
+  std::cout.flush();
+  return status;
 }
 
-void answer(pid_t child, double seconds, sigset_t const& ends) {
-  const timespec limit{time_t(seconds), long((seconds - double(time_t(seconds))) * 1e9)};
-  int signal = 0, status = 0;
-  do signal = sigtimedwait(&ends, nullptr, &limit);
-  while (signal < 0 && errno == EINTR);
-  if (signal < 0) kill(child, SIGKILL);
-  waitpid(child, &status, 0);
-  if (signal < 0)
-    std::cout << "hang";
-  else if (WIFSIGNALED(status))
-    std::cout << "signal " << WTERMSIG(status);
-  else
-    std::cout << "exit " << WEXITSTATUS(status);
-  std::cout << std::endl;
+[[noreturn]] void run_some(int scenes, int answers) {
+  std::string line;
+  for (int i = 1; i <= scenes; ++i) {
+    if (!std::getline(std::cin, line)) _exit(noMoreScenes);
+    const int status = run(words_of(line));
+    const bool leaks = i == scenes && __lsan_do_recoverable_leak_check() != 0;
+    dprintf(answers, leaks ? "leak\n" : "exit %d\n", status);
+  }
+  _exit(0);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   if (argc > 1) return cli::program(argc, argv);
-  sigset_t ends;
-  sigemptyset(&ends);
-  sigaddset(&ends, SIGCHLD);
-  sigprocmask(SIG_BLOCK, &ends, nullptr);
-  for (std::string line; std::getline(std::cin, line);) {
-    std::vector<std::string> words = words_of(line);
-    const double seconds = std::atof(words[0].c_str());
-    if (words.size() < 3 || !(seconds > 0)) {
-      std::cerr << "serve: a line has seconds, a folder and arguments, apart by tabs\n";
-      return 1;
-    }
+  prctl(PR_SET_THP_DISABLE, 1, 0, 0, 0);  // processes that are copied would copy huge pages
+  char const* const given = std::getenv("SINEW_SERVER_SCENES");
+  const int scenes = given ? std::max(std::atoi(given), 1) : 20, answers = dup(1);
+  for (;;) {
     const pid_t child = fork();
-    if (child < 0) {
-      std::perror("serve: fork");
-      return 1;
-    }
-    if (child == 0) {
-      sigprocmask(SIG_UNBLOCK, &ends, nullptr);
-      run(words);
-    }
-    answer(child, seconds, ends);
+    if (child < 0) give_up("fork");
+    if (child == 0) run_some(scenes, answers);
+    int status = 0;
+    waitpid(child, &status, 0);
+    if (WIFSIGNALED(status))
+      dprintf(answers, "signal %d\n", WTERMSIG(status));
+    else if (WEXITSTATUS(status) == noMoreScenes)
+      return 0;
+    else if (WEXITSTATUS(status) != 0)
+      dprintf(answers, "exit %d\n", WEXITSTATUS(status));
   }
 }
