@@ -82,10 +82,10 @@ using CoreBodies =
 template <class D>
 using Playback = Registry<ReadState<D>, WriteState<D>>;
 
-using StandardForces =
-    Registry<SpatialComponents<Vec3d>, RigidComponents<Rigid3d>, SpatialRigids<Rigid3d>, CorePoints<Vec1d>,
-             CorePoints<Vec2d>, PlaneForceField<Vec2d>, CorePoints<Vec6d>, CoreRigids<Rigid2d>,
-             CoreBodies<Vec3f>, CoreRigids<Rigid3f>>;
+using StandardForces = Registry<SpatialComponents<Vec3d>, RigidComponents<Rigid3d>, SpatialRigids<Rigid3d>,
+                                CorePoints<Vec1d>, MeshSpringForceField<Vec1d>, CorePoints<Vec2d>,
+                                MeshSpringForceField<Vec2d>, PlaneForceField<Vec2d>, CorePoints<Vec6d>,
+                                CoreRigids<Rigid2d>, CoreBodies<Vec3f>, CoreRigids<Rigid3f>>;
 using MeasuringMappings = Registry<DistanceMapping<Vec3d, Vec1d>, DistanceMapping<Rigid3d, Vec1d>,
                                    DistanceMapping<Vec2d, Vec1d>, VolumeMapping<Vec3d, Vec1d>,
                                    CenterOfMassMapping<Vec3d, Vec3d>, CenterOfMassMapping<Rigid3d, Vec3d>>;
@@ -118,7 +118,7 @@ using StandardEngines =
     Registry<MeshGmshLoader, MeshOBJLoader, MeshSTLLoader, MeshVTKLoader, SphereLoader,
              GenerateRigidMass<Rigid3d>, Hexa2TetraTopologicalMapping, Tetra2TriangleTopologicalMapping,
              Hexa2QuadTopologicalMapping, Quad2TriangleTopologicalMapping, Triangle2EdgeTopologicalMapping,
-             SpatialEngines<Vec3d>, Regions<Vec3f>, SpatialEngines<Rigid3d>, Regions<Vec2d>,
+             SpatialEngines<Vec3d>, Regions<Vec3f>, SpatialEngines<Rigid3d>, BoxROI<Vec1d>, Regions<Vec2d>,
              Regions<Rigid2d>>;
 using StandardTopologies =
     Registry<TetrahedronTopology, MeshTopology, RegularGridTopology, SparseGridTopology>;

@@ -58,7 +58,7 @@ TEST_CASE("parameters out of range name node, component, field, value and range"
              "greater than 0");
   CHECK_SAYS(init({}, {one}, {corners}, {.massDensity = -2}), "massDensity is -2");
   CHECK_SAYS(init({}, {one}, {corners}, {.vertexMass = {1, 1, 0, 1}}), "vertexMass[2] is 0");
-  CHECK_SAYS(init({}, {one}, {corners}, {.vertexMass = {1, 1, 1}}), "3 entries for 4 points");
+  CHECK_SAYS(init({}, {one}, {corners}, {.vertexMass = {1, 1, 1}}), "3 entries for 4 points", "one for all");
   CHECK_SAYS(init({}, {one}, {corners}, {}), "exactly one of massDensity, totalMass and vertexMass");
 }
 

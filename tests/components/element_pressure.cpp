@@ -93,6 +93,46 @@ TEST_CASE("loads go with the elements that are removed, and do not turn to all")
   CHECK(edge.pressedElements == std::vector<int>{1});
 }
 
+TEST_CASE("edges are given by their points, and go with them") {
+  using E = EdgePressureForceField<Vec3d>;
+  // of 3 and 2 metres, the second in no topology
+  auto load = ready(E{.pressure = p, .edges = {{1, 2}, {0, 1}}}, corners, {});
+  check(force(load, corners), {1, 2.5, 1.5, 0, 0, 0});
+  auto both = ready(E{.pressure = p, .pressedElements = {2}, .edges = {{1, 2}}}, corners, all);
+  check(force(both, corners), {0, 1.5, 2.5, 1, 0, 0});
+  const Renumbering points = Renumbering::of({false, true, true, true, true, true});
+  follow_fields(load, {points, points, {}, {}});
+  CHECK(load.edges == std::vector<Edge>{{0, 1}});
+  CHECK_FALSE(load.none);
+  const Renumbering rest = Renumbering::of({true, false, true, true, true});
+  follow_fields(load, {rest, rest, {}, {}});
+  CHECK(load.none);
+  refuses(E{.edges = {{0, 6}}}, corners, {}, {"edge 0 refers to point 6", "6 points"});
+}
+
+TEST_CASE("a load across edges turns with them, at a right angle with the binormal") {
+  using E = EdgePressureForceField<Vec3d>;
+  const std::vector<Edge> side{{1, 2}};  // 3 metres at rest
+  auto load = ready(E{.intensity = -10, .binormal = {0, 0, 2}}, corners, {.edges = side});
+  // e_z x e_y = -e_x: 30 N along x, half of them on each end
+  auto f = force(load, corners);
+  CHECK((f[1] - Vector3d(15, 0, 0)).norm() < 1e-13);
+  CHECK((f[2] - Vector3d(15, 0, 0)).norm() < 1e-13);
+  CHECK(f[0].norm() + f[3].norm() == 0);
+  // the edge turned into x, and twice as long: the same force, along -y
+  Vec3d::VecCoord turned = corners;
+  turned[2] = turned[1] + Vector3d(6, 0, 0);
+  CHECK((force(load, turned)[1] - Vector3d(0, -15, 0)).norm() < 1e-13);
+  // along the binormal there is no direction across
+  turned[2] = turned[1] + Vector3d(0, 0, 1);
+  CHECK(force(load, turned)[1].norm() == 0);
+  CHECK_FALSE(load.properties().conservative);
+  // a pressure goes before
+  auto pressed = ready(E{.pressure = p, .intensity = -10, .binormal = {0, 0, 2}}, corners, {.edges = side});
+  check(force(pressed, corners), {0, 1.5, 1.5, 0, 0, 0});
+  refuses(E{.intensity = 1}, corners, all, {"EdgePressureForceField<Vec3d>", "give binormal"});
+}
+
 TEST_CASE("loads on what is not there are refused") {
   using T = TrianglePressureForceField<Vec3d>;
   refuses(T{}, corners, {}, {"the topology has no triangle"});

@@ -35,6 +35,35 @@ Eigen::VectorXd direct(bool graded = false) {
 
 }  // namespace
 
+TEST_CASE("conjugate gradients that start from the last solution begin nearer, and find the same") {
+  const Eigen::VectorXd exact = direct();
+  auto compare = [&]<class Linear>(Linear linear) {
+    Linear warm = linear;
+    warm.warmStart = true;
+    const Run cold = run(linear), started = run(warm);
+    CHECK((started.velocities - exact).norm() < 1e-9 * exact.norm());
+    CHECK(cold.residuals.front() == 1);
+    CHECK(started.residuals.front() < 0.9);
+    // the tolerance is that of the right side
+    CHECK(started.residuals.back() <= linear.tolerance);
+    CHECK(started.residuals[std::size_t(started.iterations() - 1)] > linear.tolerance);
+  };
+  compare(CGLinearSolver<>{.tolerance = 1e-12});
+  compare(CGLinearSolver<Matrix3d>{.tolerance = 1e-12});
+  // a system that is solved already takes no iteration
+  Simulation sim{node<"root">(EulerImplicitSolver{},
+                              CGLinearSolver<>{.tolerance = 1e-10, .warmStart = true},
+                              MechanicalObject<Vec1d>{{Vec1d::Coord(0.0)}},
+                              UniformMass<Vec1d>{.vertexMass = 2},
+                              ConstantForceField<Vec1d>{.forces = {Vec1d::Deriv(3.0)}})};
+  sim.init();
+  sim.animate(0.1);
+  CHECK(sim.root().get<CGLinearSolver<>>().residuals.size() == 2);
+  sim.animate(0.1);
+  CHECK(sim.root().get<CGLinearSolver<>>().residuals.size() == 1);
+  CHECK(sim.root().state().velocity[0][0] == Approx(0.3));
+}
+
 TEST_CASE("MINRES, matrix-free and assembled, finds what L D L' finds") {
   const Eigen::VectorXd exact = direct();
   const Run free = run(MinResLinearSolver<>{.tolerance = 1e-13}),

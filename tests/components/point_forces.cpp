@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "one_component.hpp"
 
+#include <sinew/core/follow.hpp>
 #include <sinew/force/constant_force.hpp>
 #include <sinew/force/linear_force_field.hpp>
 #include <sinew/force/plane_force_field.hpp>
@@ -49,6 +50,68 @@ TEST_CASE("rest shape springs pull points back to rest") {
   refuses(Springs{.stiffness = {1, 2, 3}}, four, {}, {"stiffness has 3 values for 4 points"});
   refuses(Springs{.stiffness = {}}, four, {}, {"stiffness has 0 values"});
   refuses(Springs{.stiffness = {-1}}, four, {}, {"stiffness[0] is -1 N/m", "at least 0"});
+}
+
+TEST_CASE("rest shape springs hold points at places given, and in the directions that are active") {
+  using Springs = RestShapeSpringsForceField<Vec3d>;
+  const Vec3d::VecCoord places{{5, 0, 0}, {0, 6, 0}, {0, 0, 7}, {1, 1, 1}};
+  auto all = ready(Springs{.stiffness = {2}, .externalRestShape = places}, four);
+  auto f = force(all, four);
+  for (std::size_t i = 0; i < 4; ++i) CHECK(near(f[i], 2 * (places[i] - four[i])));
+  auto some = ready(
+      Springs{.points = {2, 0}, .stiffness = {2}, .externalRestShape = places, .externalPoints = {3, 1}},
+      four);
+  f = force(some, four);
+  CHECK(near(f[2], 2 * (places[3] - four[2])));
+  CHECK(near(f[0], 2 * (places[1] - four[0])));
+  CHECK(f[1].norm() + f[3].norm() == 0);
+  // places stay with their points when one of these goes
+  const Renumbering points = Renumbering::of({true, false, true, true});
+  follow_fields(all, {points, points, {}, {}});
+  CHECK(all.externalPoints == std::vector<int>{0, 2, 3});
+
+  Vec3d::VecCoord moved = four;
+  for (auto& x : moved) x += Vector3d(1, 2, 3);
+  auto along = ready(Springs{.stiffness = {10}, .activeDirections = {true, false, true}}, four);
+  for (auto const& force : force(along, moved)) CHECK(near(force, {-10, 0, -30}));
+  CHECK(along.potentialEnergy(moved) == Approx(4 * 5 * 10));
+  CHECK(near(product(along, moved, 1, 0)[3], -10 * moved[3].cwiseProduct(Vector3d(1, 0, 1))));
+
+  refuses(
+      Springs{.externalRestShape = {{0, 0, 0}}}, four, {}, {"external_rest_shape has 1 places for 4 points"});
+  refuses(Springs{.points = {1}, .externalRestShape = places, .externalPoints = {0, 1}},
+          four,
+          {},
+          {"external_points has 2 places for 1 points"});
+  refuses(Springs{.points = {1}, .externalRestShape = places, .externalPoints = {4}},
+          four,
+          {},
+          {"external_points has 4", "4 places"});
+  refuses(Springs{.externalPoints = {0, 1, 2, 3}}, four, {}, {"external_rest_shape, which is not given"});
+  refuses(
+      Springs{.activeDirections = {true, true}}, four, {}, {"activeDirections has 2 flags for 3 directions"});
+}
+
+TEST_CASE("rest shape springs turn rigid bodies back about the axes that are active") {
+  using Springs = RestShapeSpringsForceField<Rigid3d>;
+  Rigid3d::VecCoord rest(1), x(1);
+  x[0].orientation = Eigen::AngleAxisd(0.5, Vector3d(1, 2, 2) / 3);
+  x[0].center = {1, 2, 3};
+  // SOFA's flags are those of a position, with a fourth for its quaternion
+  for (std::vector<bool> flags : {std::vector<bool>{1, 0, 1, 1, 0, 1}, {1, 0, 1, 1, 0, 1, 1}}) {
+    auto springs = ready(Springs{.stiffness = {3}, .angularStiffness = {6}, .activeDirections = flags}, rest);
+    const auto f = force(springs, x);
+    CHECK((f[0].head<3>() - Vector3d(-3, 0, -9)).norm() < 1e-14);
+    CHECK((f[0].tail<3>() - Vector3d(-1, 0, -2)).norm() < 1e-14);
+    CHECK_FALSE(springs.properties().conservative);
+    // at rest the tangent is the derivative
+    force(springs, rest);
+    Rigid3d::VecDeriv w(1);
+    w[0] << 1, 2, 3, 4, 5, 6;
+    Rigid3d::Deriv expected;
+    expected << -3, 0, -9, -24, 0, -36;
+    CHECK((product(springs, w, 1, 0)[0] - expected).norm() < 1e-13);
+  }
 }
 
 TEST_CASE("rest shape springs turn rigid bodies back") {

@@ -90,6 +90,31 @@ TEST_CASE("pressure may be on chosen elements, or on those in a box") {
   CHECK((sum(loaded({.pressure = 1, .min = {{-1, -1, 0.5}}})) - Vector3d(0, 0, 12)).norm() < 1e-13);
 }
 
+TEST_CASE("a pressure in pulses rises and falls between its bounds") {
+  auto values = [](Pressure p, int steps) {
+    std::vector<double> all;
+    for (int i = 0; i < steps; ++i) {
+      p.beginStep({i + 1, 0.25 * i, 0.25 * (i + 1), 0.25, true}, 0);
+      all.push_back(p.currentPressure());
+    }
+    p.reset();
+    CHECK(p.currentPressure() == 0);
+    return all;
+  };
+  CHECK(values({.pressure = 5, .pulseMode = true, .pressureSpeed = 8}, 7) ==
+        std::vector<double>{2, 4, 5, 3, 1, 0, 2});
+  CHECK(values({.pressure = 5, .pulseMode = true, .pressureSpeed = 8, .pressureLowerBound = 3}, 6) ==
+        std::vector<double>{2, 4, 5, 3, 5, 3});
+  CHECK(values({.pressure = -4, .pulseMode = true, .pressureLowerBound = 1}, 11) ==
+        std::vector<double>{-1, -2, -3, -4, -3, -2, -1, 0, 1, 0, -1});
+  // that is what acts
+  auto lifted = ready(Pressure{.pressure = 8, .pulseMode = true}, corners, {.triangles = lid});
+  CHECK(sum(force(lifted, corners)).norm() == 0);
+  lifted.beginStep({1, 0, 0.25, 0.25, true}, 0);
+  CHECK((sum(force(lifted, corners)) - Vector3d(0, 0, 2 * 6)).norm() < 1e-13);
+  refuses(Pressure{.pressureSpeed = -1}, corners, {.triangles = lid}, {"pressureSpeed is -1 Pa/s"});
+}
+
 TEST_CASE("pressure refuses what has no surface") {
   refuses(Pressure{}, corners, {}, {"body", "SurfacePressureForceField<Vec3d>", "neither triangle nor quad"});
   refuses(Pressure{.triangleIndices = {2}},

@@ -54,6 +54,24 @@ TEST_CASE("BoxROI chooses the points in a box, its faces included") {
   CHECK((two.indices.empty() && two.pointsInROI.empty() && two.nbIndices == 0));
 }
 
+TEST_CASE("a piece of a plane without depth is the whole plane; a box on a line an interval") {
+  const auto g = grid();
+  PlaneROI<Vec3d> plane{.plane = {Vec<double, 10>{{2, 0, 1, 0, 0, 1, 0, 2, 1, 0}}}, .position = g.position};
+  plane.update("plane");
+  CHECK(plane.nbIndices == 5 * 4);
+  for (auto const& p : plane.pointsInROI) CHECK(p[2] == 1);
+  for (auto& p : plane.position) p[2] += 1e-6;
+  plane.update("plane");
+  CHECK(plane.nbIndices == 0);
+  plane.plane[0][9] = -1;
+  CHECK(contains(error_of([&] { plane.update("p"); }), "depth of a box is -1, but must be 0 or greater"));
+
+  BoxROI<Vec1d> line{.box = {{-0.1, -9, -9, 2, 9, 9}}};
+  for (int i = 0; i < 5; ++i) line.position.push_back(Vec1d::Coord(i));
+  line.update("line");
+  CHECK(line.indices == std::vector<int>{0, 1, 2});
+}
+
 TEST_CASE("elements are chosen with all points inside, or with their mean inside") {
   const auto g = grid();
   const auto tetrahedra = hexahedra_to_tetrahedra(g.hexahedra);
@@ -178,7 +196,7 @@ TEST_CASE("regions say what is wrong, and keep what they had") {
       [](auto& b) {
         b.orientedBox = {Vec<double, 10>{{0, 0, 0, 1, 0, 0, 1, 1, 0, 0}}};
       },
-      "depth of a box is 0");
+      "depth of a box is 0, but must be greater than 0");
 
   auto sphere = [&](std::vector<Eigen::Vector3d> centers, std::vector<double> radii) {
     SphereROI<Vec3d> s{.centers = centers, .radii = radii, .position = g.position};

@@ -39,6 +39,9 @@ TEST_CASE("hexahedra become tetrahedra, their surface triangles; both enclose th
   surface.flipNormals = true;
   surface.update("t");
   CHECK(volume_inside(mesh.positions, surface.converted) == Approx(-2 * 3 * 4));
+  surface.none = true;
+  surface.update("t");
+  CHECK(surface.converted.empty());
 }
 
 TEST_CASE("the surface of hexahedra in quads, and these in triangles") {

@@ -236,6 +236,15 @@ void for_each_variant(Random& random, F&& use) {
     if constexpr (C::turns) c.target.clear();
   }
   if constexpr (requires { c.restLengths; }) c.restLengths.clear();  // those of the rest positions
+  // of bodies that turn a tangent is proved at their rest positions
+  if constexpr (requires { c.externalRestShape; }) {
+    using D = typename C::DataTypes;
+    c.externalRestShape.clear();
+    if constexpr (D::rigid && D::spatial == 3)
+      c.externalPoints.clear();
+    else
+      for (int i = 0; i < Body::n; ++i) c.externalRestShape.push_back(coord<D>(random, 2));
+  }
   if constexpr (requires { c.fixedDirections; }) c.fixedDirections.back() = c.fixedDirections.size() == 1;
   bool any = false;
   for_each_field(c, [&](auto const& fd, auto& value) {

@@ -95,6 +95,25 @@ TEST_CASE("an explicit step of the mass of elements is solved by the linear solv
   CHECK((speeds("") - Eigen::Vector2d(1, 0)).norm() < 1e-12);
 }
 
+TEST_CASE("a checkpoint goes on bit by bit from the last solution, and in a pulse of pressure") {
+  for (auto* solver : {"CGLinearSolver", "CGLinearSolver template='CompressedRowSparseMatrix'"}) {
+    auto sim = start(parse_scene<Standard>("test.scn",
+                                           text(R"(<Node gravity="0 -1 0"><EulerImplicitSolver/><)",
+                                                solver,
+                                                R"( tolerance="1e-3" warmStart="1"/>
+      <RegularGridTopology n="3 3 3" min="0 0 0" max="1 1 1"/>
+      <MechanicalObject/><UniformMass/><MeshSpringForceField stiffness="100"/><FixedConstraint indices="0-8"/>
+      <SurfacePressureForceField pressure="3" pulseMode="1" pressureSpeed="8"/></Node>)")));
+    for (int i = 0; i < 7; ++i) sim.animate(0.1);
+    auto const& pressure = *sim.root().get<SurfacePressureForceField<Vec3d>>();
+    CHECK((pressure.turned && pressure.pulse > 0.1 && pressure.pulse < 2.9));
+    auto again = start(parse_scene<Standard>("saved.scn", scene_text(sim, 0.1)));
+    for (int i = 0; i < 7; ++i) sim.animate(0.1), again.animate(0.1);
+    CHECK(again.root().get<MechanicalObject<Vec3d>>()->position ==
+          sim.root().get<MechanicalObject<Vec3d>>()->position);
+  }
+}
+
 TEST_CASE("a checkpoint of BDF goes on bit by bit, whatever the order") {
   for (auto* order : {"1", "2", "3"}) {
     auto sim = start(parse_scene<Standard>("test.scn",

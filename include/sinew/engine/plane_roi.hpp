@@ -5,7 +5,8 @@
 
 namespace sinew {
 
-/// The points and elements near pieces of planes: in parallelograms of some thickness.
+/// The points and elements near pieces of planes: in parallelograms of some thickness. One without thickness
+/// is the whole plane, as in SOFA.
 template <class D>
 struct PlaneROI {
   using Role = role::Engine;
@@ -51,7 +52,7 @@ struct PlaneROI {
     const std::string at = text(where, ": ", component_name<PlaneROI>());
     if (plane.empty()) throw Error(at, "there is no plane; give three points and a depth");
     std::vector<OrientedBox> boxes;
-    for (auto const& b : plane) boxes.emplace_back(at, b);
+    for (auto const& b : plane) boxes.emplace_back(at, b, true);
     select_in_roi(*this, at, [&](Eigen::Vector3d const& p) {
       for (auto const& b : boxes)
         if (b.contains(p)) return true;

@@ -97,14 +97,17 @@ void select_in_roi(R& roi, std::string const& where, Inside const& inside) {
 }
 
 /// A parallelogram with corners p0, p1, p2 and p0 + p2 - p1, thickened by half its depth on both sides: ten
-/// numbers, those of the points and the depth [m]. A billionth of a side is allowed for rounding.
+/// numbers, those of the points and the depth [m]. A billionth of a side is allowed for rounding. One that
+/// may be a `plane` is, without depth, the whole plane, as in SOFA.
 struct OrientedBox {
   Eigen::Vector3d p0;
   Eigen::Matrix3d inverse;
+  bool endless = false;  // in its plane
 
-  OrientedBox(std::string const& where, Vec<double, 10> const& box);
+  OrientedBox(std::string const& where, Vec<double, 10> const& box, bool plane = false);
   bool contains(Eigen::Vector3d const& p) const {
     const Eigen::Vector3d t = inverse * (p - p0) + Eigen::Vector3d(0, 0, 0.5);
+    if (endless) return t[2] >= 0 && t[2] <= 1;
     return t.minCoeff() >= -1e-9 && t.maxCoeff() <= 1 + 1e-9;
   }
 };
@@ -114,10 +117,12 @@ struct OrientedBox {
 #if SINEW_DEFINES
 #include <Eigen/LU>
 
+#include <algorithm>
+
 namespace sinew {
 
-SINEW_ONCE OrientedBox::OrientedBox(std::string const& where, Vec<double, 10> const& box)
-    : p0(box[0], box[1], box[2]) {
+SINEW_ONCE OrientedBox::OrientedBox(std::string const& where, Vec<double, 10> const& box, bool plane)
+    : p0(box[0], box[1], box[2]), endless(plane && box[9] == 0) {
   Eigen::Matrix3d sides;
   Eigen::Vector3d a, b;
   for (int k = 0; k < 3; ++k) a[k] = box[3 + k] - box[k], b[k] = box[6 + k] - box[3 + k];
@@ -125,9 +130,12 @@ SINEW_ONCE OrientedBox::OrientedBox(std::string const& where, Vec<double, 10> co
   if (!(normal.norm() > 1e-12 * a.norm() * b.norm()))
     throw Error(where,
                 "the three points of a box are on a line, or two are in one place; give a parallelogram");
-  if (!(box[9] > 0))
-    throw Error(where, text("the depth of a box is ", box[9], ", but must be greater than 0"));
-  sides.col(0) = a, sides.col(1) = b, sides.col(2) = normal.normalized() * box[9];
+  if (!(box[9] > 0) && !endless)
+    throw Error(
+        where,
+        text("the depth of a box is ", box[9], ", but must be ", plane ? "0 or " : "", "greater than 0"));
+  const double depth = endless ? 2e-9 * std::max(a.norm(), b.norm()) : box[9];
+  sides.col(0) = a, sides.col(1) = b, sides.col(2) = normal.normalized() * depth;
   inverse = sides.inverse();
 }
 

@@ -56,7 +56,8 @@ struct Tetra2Triangle {
   using Elements = std::vector<Tetrahedron>;
   using Converted = std::vector<Triangle>;
   static constexpr std::string_view className = "Tetra2TriangleTopologicalMapping", from = "tetrahedra",
-                                    to = "triangles", purpose = "the surface of the tetrahedra";
+                                    to = "triangles", purpose = "the surface of the tetrahedra",
+                                    withoutFirst = "noInitialTriangles";
   static Converted convert(Elements const& tetrahedra) { return boundary_triangles(tetrahedra); }
 };
 struct Hexa2Quad {
@@ -105,6 +106,9 @@ struct TopologicalMapping {
     return false;
   }();
   std::array<int, 3> grid{0, 0, 0};
+  // of the surface of a volume that is cut
+  static constexpr bool mayBeEmpty = requires { Conversion::withoutFirst; };
+  bool none = false;
 
   static constexpr auto fields() {
     using T = TopologicalMapping;
@@ -119,6 +123,11 @@ struct TopologicalMapping {
           field("swapping", &T::swapping, "", Conversion::cuts),
           field(
               "grid", &T::grid, "", "points along x, y, z of the grid that they are of", range::nonNegative));
+    else if constexpr (mayBeEmpty)
+      return with(field(Conversion::withoutFirst,
+                        &T::none,
+                        "",
+                        "whether the faces that are outside at the start are left out"));
     else
       return with();
   }
@@ -150,6 +159,7 @@ struct TopologicalMapping {
     } catch (Error const& error) {
       throw Error(at, error.what());
     }
+    if (none) converted.clear();
     if (flipNormals && Conversion::to != "tetrahedra")
       for (auto& element : converted) std::reverse(element.begin(), element.end());
   }

@@ -3,6 +3,7 @@
 
 #include <sinew/core/compiled.hpp>
 #include <sinew/core/component.hpp>
+#include <sinew/core/follow.hpp>
 
 #include <vector>
 
@@ -40,6 +41,11 @@ struct Edges {
 /// It acts on the elements with the given numbers and on those whose points all lie between two planes at
 /// rest, dmin < normal.x < dmax; where neither is given, or a selection is empty, on none. A load that
 /// follows area and normal is SurfacePressureForceField's.
+///
+/// Edges may also be given by their points. Where there is no `pressure` they bear, with a binormal b, an
+/// intensity p across the edge as it lies now, of unit tangent t, and of length L at rest:
+///   f_i = p L / 2 n,   n = b x t / |b x t|       [N]
+/// It has no energy, and its derivative is left out, as in SOFA.
 template <class D, class Kind>
 struct ElementPressure {
   using Role = role::ForceField;
@@ -55,20 +61,39 @@ struct ElementPressure {
   std::vector<int> pressedElements{};
   Eigen::Vector3d normal{0, 0, 0};
   double dmin = 0, dmax = 0;
+  // of edges
+  std::vector<Edge> edges{};
+  double intensity = 0;
+  Eigen::Vector3d binormal{0, 0, 0};
+
+  static constexpr bool ofEdges = std::is_same_v<Kind, pressed::Edges>;
 
   static constexpr auto fields() {
     using F = ElementPressure;
-    return field_list(
-        field("pressure", &F::pressure, Kind::unit, Kind::load),
-        field(Kind::list, &F::pressedElements, "", "numbers of the elements that bear it", range::nonNegative)
-            .also(Kind::older)
-            .numbersOf(Kind::what),
-        field("normal", &F::normal, "", "normal of the two planes, used at the length given"),
-        field("dmin", &F::dmin, "m", "where the lower plane is, normal.x = dmin"),
-        field("dmax", &F::dmax, "m", "where the higher plane is; no planes where it is dmin"));
+    auto with = [](auto... more) {
+      return field_list(
+          field("pressure", &F::pressure, Kind::unit, Kind::load),
+          field(
+              Kind::list, &F::pressedElements, "", "numbers of the elements that bear it", range::nonNegative)
+              .also(Kind::older)
+              .numbersOf(Kind::what),
+          field("normal", &F::normal, "", "normal of the two planes, used at the length given"),
+          field("dmin", &F::dmin, "m", "where the lower plane is, normal.x = dmin"),
+          field("dmax", &F::dmax, "m", "where the higher plane is; no planes where it is dmin"),
+          more...);
+    };
+    if constexpr (ofEdges)
+      return with(
+          field("edges", &F::edges, "", "edges that bear it, by their points", range::nonNegative),
+          field("p_intensity", &F::intensity, "N/m", "force per length across the edges, without pressure"),
+          field("binormal", &F::binormal, "", "direction with which the force is at a right angle"));
+    else
+      return with();
   }
 
-  static constexpr ForceProperties properties() { return {.internal = false, .objective = false}; }
+  ForceProperties properties() const {
+    return {.internal = false, .objective = false, .conservative = !turns(), .exactTangent = !turns()};
+  }
 
   bool none = false;  // all of them have been removed
   static constexpr auto state() {
@@ -82,14 +107,35 @@ struct ElementPressure {
   };
   std::vector<Load> loads{};  // each point once
   VecCoord rest{};
+  struct Across {
+    Edge points;
+    Real load;  // at each of them [N]
+  };
+  std::vector<Across> across{};  // where the load turns with the edges
+
+  /// Edges by their points go with these.
+  void follow(Followed const& change) requires ofEdges {
+    const bool some = !edges.empty();
+    std::erase_if(edges,
+                  [&](Edge const& e) { return !change.points.stays(e[0]) || !change.points.stays(e[1]); });
+    for (Edge& e : edges)
+      for (Index& i : e) change.points.renumber(i);
+    none = none || (some && edges.empty());
+  }
 
   void init(InitContext<D> const& context) {
     const std::string where = text(context.where, ": ", component_name<ElementPressure>());
     const auto elements = Kind::of(context.topology);
-    if (elements.empty() && !none)
+    if (elements.empty() && edges.empty() && !none)
       throw Error(where, text("the topology has no ", Kind::kind, "; give the node a topology with some"));
     detail::check_indices(where, Kind::kind, elements, context.rest.size());
     if (dmin > dmax) throw Error(where, text("dmin is ", dmin, ", above dmax, ", dmax, "; exchange them"));
+    if constexpr (ofEdges) {
+      detail::check_indices(where, "edge", edges, context.rest.size());
+      if (intensity != 0 && pressure.isZero() && binormal.isZero())
+        throw Error(where,
+                    "p_intensity is across the edges; give binormal, with which it is at a right angle");
+    }
     std::vector<bool> bears(elements.size(), false);
     for (const int e : pressedElements) {
       if (std::size_t(e) >= elements.size())
@@ -103,6 +149,16 @@ struct ElementPressure {
       bears[std::size_t(e)] = true;
     }
     std::vector<double> share(context.rest.size(), 0.0);
+    across.clear();
+    auto load = [&](auto const& element) {
+      auto at = [&](std::size_t k) -> Eigen::Vector3d {
+        return context.rest[std::size_t(element[k])].template cast<double>();
+      };
+      const double each = size(element, at) / double(element.size());
+      for (const Index i : element) share[std::size_t(i)] += each;
+      if constexpr (ofEdges)
+        if (turns()) across.push_back({element, Real(intensity * each)});
+    };
     for (std::size_t e = 0; e < elements.size(); ++e) {
       auto at = [&](std::size_t k) -> Eigen::Vector3d {
         return context.rest[std::size_t(elements[e][k])].template cast<double>();
@@ -110,26 +166,35 @@ struct ElementPressure {
       bool between = dmin < dmax;
       for (std::size_t k = 0; k < elements[e].size() && between; ++k)
         between = normal.dot(at(k)) > dmin && normal.dot(at(k)) < dmax;
-      if (!bears[e] && !between) continue;
-      for (const Index i : elements[e])
-        share[std::size_t(i)] += size(elements[e], at) / double(elements[e].size());
+      if (bears[e] || between) load(elements[e]);
     }
+    if constexpr (ofEdges)
+      for (Edge const& e : edges) load(e);
     loads.clear();
     for (std::size_t i = 0; i < share.size(); ++i)
-      if (share[i] > 0) loads.push_back({int(i), Deriv(pressure * Real(share[i]))});
+      if (share[i] > 0 && !turns()) loads.push_back({int(i), Deriv(pressure * Real(share[i]))});
     rest = context.rest;
   }
 
   /// What init leaves to be said; empty for nothing.
   std::string warning() const {
-    if (!pressedElements.empty() || dmin < dmax || none) return {};
+    if (!pressedElements.empty() || !edges.empty() || dmin < dmax || none) return {};
     return text("presses nothing: no element is selected; give numbers in ",
                 Kind::list,
                 ", or normal, dmin and dmax");
   }
 
-  void addForce(MechanicalParams const&, VecDeriv& f, VecCoord const&, VecDeriv const&) const {
+  void addForce(MechanicalParams const&, VecDeriv& f, VecCoord const& x, VecDeriv const&) const {
     for (Load const& l : loads) f[std::size_t(l.point)] += l.force;
+    for (auto const& [points, load] : across) {
+      auto& [a, b] = points;
+      const Deriv along = x[std::size_t(b)] - x[std::size_t(a)],
+                  n = Deriv(binormal.template cast<Real>()).cross(along);
+      const Real length = n.norm();
+      if (!(length > 0)) continue;
+      f[std::size_t(a)] += n * (load / length);
+      f[std::size_t(b)] += n * (load / length);
+    }
   }
   void addDForce(MechanicalParams const&, VecDeriv&, VecDeriv const&) const {}
   template <class Sink>
@@ -142,6 +207,8 @@ struct ElementPressure {
   }
 
  private:
+  bool turns() const { return ofEdges && pressure.isZero() && intensity != 0; }
+
   // length of an edge; area of a triangle, and of the two in a quad
   template <class Element, class At>
   static double size(Element const&, At const& at) {

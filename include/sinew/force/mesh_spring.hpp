@@ -59,6 +59,7 @@ struct MeshSpringForceField {
   using Driver = typename SpringNetwork<D>::Driver;
   using Law = typename Driver::Law;
   Driver driver{};
+  bool none = false;  // no spring
 
   Law law() const { return Law{}; }
 
@@ -97,11 +98,14 @@ struct MeshSpringForceField {
     springs.addAll(
         t.tetrahedra, tetrahedraStiffness.value_or(stiffness), tetrahedraDamping.value_or(damping));
     springs.addAll(t.hexahedra, cubesStiffness.value_or(stiffness), cubesDamping.value_or(damping));
-    if (springs.empty())
-      throw Error(where,
-                  "there is no spring; give the node a topology with edges or higher elements, and set a "
-                  "stiffness or damping of their kind");
+    none = springs.empty();
     springs.init(driver, noCompression);
+  }
+  /// What is to be noted after init.
+  std::string_view warning() const {
+    return none ? "there is no spring, so that points move freely; give the node a topology with edges or "
+                  "higher elements, and set a stiffness or damping of their kind"
+                : "";
   }
 
   void addForce(MechanicalParams const& p, VecDeriv& f, VecCoord const& x, VecDeriv const& v) {

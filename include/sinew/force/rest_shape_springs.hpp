@@ -4,6 +4,7 @@
 #include <sinew/core/component.hpp>
 #include <sinew/core/element_driver.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
@@ -14,7 +15,8 @@ namespace sinew {
 ///   E = k/2 |d|^2 + k_a/2 |t|^2                                                               [J]
 ///   f = -k d,  torque = -k_a t,   d = x - x_rest,  t = rotation vector of q q_rest^-1         [N], [N m]
 /// In space the derivative of t by a turn of the body is J = I + [t]x/2 + s [t]x [t]x with
-/// s = (1 - |t|/2 cot(|t|/2)) / |t|^2; its symmetric part is the tangent.
+/// s = (1 - |t|/2 cot(|t|/2)) / |t|^2; its symmetric part is the tangent. Directions that are not active have
+/// neither force nor torque; where torques about some axes only are left, they have no energy.
 template <class D>
 struct RestShapeSpring {
   using Real = typename D::Real;
@@ -23,6 +25,8 @@ struct RestShapeSpring {
   static constexpr int arity = 1;
   static constexpr bool usesVelocity = false, oneByOne = true;
   static constexpr bool turns = D::rigid && D::spatial == 3;
+
+  std::array<Real, D::size> active = all();  // 1, or 0 where springs do not act in a direction
 
   struct Rest {
     std::conditional_t<D::rigid, Coord, std::array<Real, D::size>> place;
@@ -54,7 +58,10 @@ struct RestShapeSpring {
   SINEW_HD void dforce(Rest const& rest, Tangent const& tangent, Deriv const (&dx)[1], Deriv (&df)[1], Real k,
                        Real /*b*/) const {
     Deriv d = dx[0] * (-k);
-    if constexpr (turns) d.template tail<3>() = (tangent.derivative * d.template tail<3>()).eval();
+    if constexpr (turns) {
+      for (int c = 3; c < 6; ++c) d[c] = d[c] * active[std::size_t(c)];
+      d.template tail<3>() = (tangent.derivative * d.template tail<3>()).eval();
+    }
     df[0] = scaled(rest, d);
   }
 
@@ -67,11 +74,19 @@ struct RestShapeSpring {
     for (int c = 0; c < D::size; ++c)
       for (int r = 0; r < D::size; ++r) block(r, c) = r == c ? diagonal[r] : Real(0);
     if constexpr (turns)
-      block.template bottomRightCorner<3, 3>() = -k * rest.angularStiffness * tangent.derivative;
+      for (int c = 3; c < 6; ++c)
+        for (int r = 3; r < 6; ++r)
+          block(r, c) = -k * rest.angularStiffness * tangent.derivative(r - 3, c - 3) *
+                        active[std::size_t(r)] * active[std::size_t(c)];
     return block;
   }
 
  private:
+  static constexpr std::array<Real, D::size> all() {
+    std::array<Real, D::size> a{};
+    for (auto& one : a) one = Real(1);
+    return a;
+  }
   SINEW_INLINE static Deriv displacement(Rest const& rest, Coord const& x) {
     if constexpr (D::rigid) {
       return D::difference(rest.place, x);
@@ -81,14 +96,15 @@ struct RestShapeSpring {
       return d;
     }
   }
-  SINEW_INLINE static Deriv scaled(Rest const& rest, Deriv d) {
+  SINEW_INLINE Deriv scaled(Rest const& rest, Deriv d) const {
     for (int c = 0; c < D::size; ++c)
-      d[c] = d[c] * (D::rigid && c >= D::spatial ? rest.angularStiffness : rest.stiffness);
+      d[c] = d[c] * ((D::rigid && c >= D::spatial ? rest.angularStiffness : rest.stiffness) *
+                     active[std::size_t(c)]);
     return d;
   }
 };
 
-/// Springs that hold points at their rest positions.
+/// Springs that hold points at their rest positions, or at places given.
 template <class D>
 struct RestShapeSpringsForceField {
   using Role = role::ForceField;
@@ -101,6 +117,9 @@ struct RestShapeSpringsForceField {
 
   std::vector<int> points{};
   std::vector<double> stiffness{100}, angularStiffness{100};
+  VecCoord externalRestShape{};
+  std::vector<int> externalPoints{};
+  std::vector<bool> activeDirections{};
 
   static constexpr auto fields() {
     using F = RestShapeSpringsForceField;
@@ -119,11 +138,33 @@ struct RestShapeSpringsForceField {
               "N m/rad",
               "torque per angle from rest of rigid bodies: one value, or one a point",
               range::nonNegative)
-            .oneEach(Of::entries));
+            .oneEach(Of::entries),
+        field("external_rest_shape",
+              &F::externalRestShape,
+              "m",
+              "places to which points are held, instead of their rest positions: those of a state that does "
+              "not move"),
+        field("external_points",
+              &F::externalPoints,
+              "",
+              "which of these places each point has; none for one after the other",
+              range::nonNegative)
+            .oneEach(Of::entries),
+        field(
+            "activeDirections",
+            &F::activeDirections,
+            "",
+            "flags of the directions in which springs act, and of rigid bodies about which; one or none for "
+            "all"));
   }
 
-  static constexpr ForceProperties properties() {
-    return {.internal = false, .objective = false, .exactTangent = !RestShapeSpring<D>::turns};
+  ForceProperties properties() const {
+    const bool some =
+        std::find(activeDirections.begin(), activeDirections.end(), false) != activeDirections.end();
+    return {.internal = false,
+            .objective = false,
+            .conservative = !(RestShapeSpring<D>::turns && some),
+            .exactTangent = !RestShapeSpring<D>::turns};
   }
 
   bool none = false;  // all of them have been removed
@@ -137,9 +178,42 @@ struct RestShapeSpringsForceField {
   using Law = typename Driver::Law;
   Driver driver{};
 
+  template <class L>
+  L law() const {
+    L law{};
+    for (std::size_t c = 0; c < law.active.size() && !activeDirections.empty(); ++c)
+      law.active[c] = typename L::Real(activeDirections[activeDirections.size() == 1 ? 0 : c] ? 1 : 0);
+    return law;
+  }
+
   void init(InitContext<D> const& context) {
     const std::string where = text(context.where, ": ", component_name<RestShapeSpringsForceField>());
     const std::size_t n = none ? 0 : points.empty() ? context.rest.size() : points.size();
+    // SOFA has a flag for each number of a position, of which a quaternion has four
+    const std::size_t directions = std::size_t(D::size),
+                      numbers = directions + (RestShapeSpring<D>::turns ? 1 : 0);
+    if (activeDirections.size() > 1 && activeDirections.size() != directions &&
+        activeDirections.size() != numbers)
+      throw Error(where,
+                  text("activeDirections has ",
+                       activeDirections.size(),
+                       " flags for ",
+                       directions,
+                       " directions; give one for each"));
+    VecCoord const& places = externalRestShape.empty() ? context.rest : externalRestShape;
+    const bool elsewhere = !externalRestShape.empty();
+    if (!elsewhere && !externalPoints.empty())
+      throw Error(where, "external_points are places of external_rest_shape, which is not given; give it");
+    const bool listed = !externalPoints.empty();
+    if (elsewhere && !none && (listed ? externalPoints.size() : places.size()) != n)
+      throw Error(where,
+                  text(listed ? "external_points has " : "external_rest_shape has ",
+                       listed ? externalPoints.size() : places.size(),
+                       " places for ",
+                       n,
+                       " points; give one for each"));
+    if (elsewhere && !listed)  // places stay with their points when some of these go
+      for (std::size_t i = 0; i < n; ++i) externalPoints.push_back(int(i));
     auto value = [&](std::string_view name, std::vector<double> const& list, std::size_t i) {
       if (list.size() != 1 && list.size() != n)
         throw Error(
@@ -160,10 +234,19 @@ struct RestShapeSpringsForceField {
                          " points, numbered from 0; correct the index"));
       indices.push_back({p});
       rest.emplace_back();
+      const std::size_t at = std::size_t(elsewhere ? externalPoints[i] : p);
+      if (at >= places.size())
+        throw Error(where,
+                    text("external_points has ",
+                         at,
+                         ", but external_rest_shape has ",
+                         places.size(),
+                         " places, numbered from 0; correct the index"));
+      auto const& place = places[at];
       if constexpr (D::rigid)
-        rest.back().place = context.rest[std::size_t(p)];
+        rest.back().place = place;
       else
-        for (int c = 0; c < D::size; ++c) rest.back().place[std::size_t(c)] = context.rest[std::size_t(p)][c];
+        for (int c = 0; c < D::size; ++c) rest.back().place[std::size_t(c)] = place[c];
       rest.back().stiffness = value("stiffness", stiffness, i);
       rest.back().angularStiffness = D::rigid ? value("angularStiffness", angularStiffness, i) : Real(0);
     }
@@ -171,15 +254,15 @@ struct RestShapeSpringsForceField {
   }
 
   void addForce(MechanicalParams const&, VecDeriv& f, VecCoord const& x, VecDeriv const& v) {
-    driver.addForce(Law{}, f, x, v);
+    driver.addForce(law<Law>(), f, x, v);
   }
   void addDForce(MechanicalParams const& p, VecDeriv& df, VecDeriv const& dx) const {
-    driver.addDForce(Law{}, df, dx, Real(p.k), Real(p.b));
+    driver.addDForce(law<Law>(), df, dx, Real(p.k), Real(p.b));
   }
-  double potentialEnergy(VecCoord const& x) const { return driver.energy(Law{}, x); }
+  double potentialEnergy(VecCoord const& x) const { return driver.energy(law<Law>(), x); }
   template <class Sink>
   void addToMatrix(MechanicalParams const& p, Sink const& sink) {
-    driver.addToMatrix(Law{}, sink, Real(p.k), Real(p.b));
+    driver.addToMatrix(law<Law>(), sink, Real(p.k), Real(p.b));
   }
 };
 

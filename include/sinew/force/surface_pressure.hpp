@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -80,9 +81,13 @@ struct TrianglePressure {
 /// Pressure on triangles and quads of the topology, along their normals: those with the given indices, else
 /// all, and of these only the ones that lie at rest in the box from `min` to `max` where one is given. A quad
 /// is the triangles 012 and 023.
+///
+/// In pulses the pressure starts from 0 and goes, by `pressureSpeed` times the step in each step, to
+/// `pressure`, then to `pressureLowerBound` and so on.
 template <class D>
 struct SurfacePressureForceField {
   using Role = role::ForceField;
+  static constexpr bool actsBeforeStep = true;
   using DataTypes = D;
   using Real = typename D::Real;
   using Coord = typename D::Coord;
@@ -93,6 +98,8 @@ struct SurfacePressureForceField {
   double pressure = 0;
   std::optional<Coord> min{}, max{};
   std::vector<int> triangleIndices{}, quadIndices{};
+  bool pulseMode = false;
+  double pressureSpeed = 0, pressureLowerBound = 0;
 
   static constexpr auto fields() {
     using F = SurfacePressureForceField;
@@ -103,7 +110,14 @@ struct SurfacePressureForceField {
         field("triangleIndices", &F::triangleIndices, "", "triangles under pressure", range::nonNegative)
             .numbersOf(Of::triangles),
         field("quadIndices", &F::quadIndices, "", "quads under pressure", range::nonNegative)
-            .numbersOf(Of::quads));
+            .numbersOf(Of::quads),
+        field("pulseMode", &F::pulseMode, "", "whether the pressure rises and falls"),
+        field("pressureSpeed",
+              &F::pressureSpeed,
+              "Pa/s",
+              "how fast it does; 0: from 0 to pressure in a second",
+              range::nonNegative),
+        field("pressureLowerBound", &F::pressureLowerBound, "Pa", "where pulses turn, besides at pressure"));
   }
 
   ForceProperties properties() const {
@@ -111,10 +125,32 @@ struct SurfacePressureForceField {
   }
 
   bool none = false;  // all of them have been removed
+  double pulse = 0;   // pressure of the pulse [Pa]
+  bool turned = false;
 
   static constexpr auto state() {
-    return field_list(field(
-        "none", &SurfacePressureForceField::none, "", "all of the elements with an index have been removed"));
+    using F = SurfacePressureForceField;
+    return field_list(
+        field("none", &F::none, "", "all of the elements with an index have been removed"),
+        field("pulse", &F::pulse, "Pa", "pressure of the pulse"),
+        field("turned", &F::turned, "", "whether the pulse goes from pressure to its other bound"));
+  }
+
+  double currentPressure() const { return pulseMode ? pulse : pressure; }
+
+  template <class State>
+  bool beginStep(StepAhead const& step, State const&) {
+    if (!pulseMode) return false;
+    const double speed = pressureSpeed > 0 ? pressureSpeed : std::abs(pressure);
+    const double to = turned ? pressureLowerBound : pressure;
+    const bool rises = turned != (pressure > 0);
+    pulse += rises ? speed * step.dt : -speed * step.dt;
+    if (rises ? pulse >= to : pulse <= to) pulse = to, turned = !turned;
+    return false;
+  }
+  void reset() {
+    pulse = 0;
+    turned = false;
   }
 
   using Driver = ElementDriver<TrianglePressure, D>;
@@ -125,7 +161,7 @@ struct SurfacePressureForceField {
   /// The pressure as it is now, for lanes or one element at a time: it may change from step to step.
   template <class L>
   L law() const {
-    return {typename L::Real(pressure)};
+    return {typename L::Real(currentPressure())};
   }
 
   void init(InitContext<D> const& context) {

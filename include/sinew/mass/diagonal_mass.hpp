@@ -37,7 +37,7 @@ struct DiagonalMass {
               "mass of a volume of the body, [kg/m^2] of a surface, [kg/m] of a wire",
               range::positive),
         field("totalMass", &M::totalMass, "kg", "mass of the body", range::positive).also("totalmass"),
-        field("vertexMass", &M::vertexMass, "kg", "mass of each point", range::positive)
+        field("vertexMass", &M::vertexMass, "kg", "mass of each point; one value for all", range::positive)
             .oneEach(Of::points)
             .also("mass"));
   }
@@ -58,11 +58,15 @@ struct DiagonalMass {
     if (int(massDensity.has_value()) + int(totalMass.has_value()) + int(!vertexMass.empty()) != 1)
       throw Error(where, "give exactly one of massDensity, totalMass and vertexMass");
     if (!vertexMass.empty()) {
-      if (vertexMass.size() != n)
-        throw Error(
-            where,
-            text("vertexMass has ", vertexMass.size(), " entries for ", n, " points; give one for each"));
-      return lumped.init(where, vertexMass);
+      if (vertexMass.size() != n && vertexMass.size() != 1)
+        throw Error(where,
+                    text("vertexMass has ",
+                         vertexMass.size(),
+                         " entries for ",
+                         n,
+                         " points; give one for all, or one for each"));
+      return lumped.init(where,
+                         vertexMass.size() == n ? vertexMass : std::vector<MassType>(n, vertexMass.front()));
     }
     if constexpr (!D::rigid) {
       const std::vector<double> share = sizes(context, where);

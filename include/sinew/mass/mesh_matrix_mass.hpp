@@ -8,16 +8,24 @@
 #include <sinew/topology/element_checks.hpp>
 #include <sinew/topology/hexahedra.hpp>
 
+#include <array>
 #include <optional>
+#include <string_view>
 
 namespace sinew {
+
+/// Which elements of a topology have mass; `highest`: those of the highest dimension.
+enum class MassElements { highest, edges, triangles, quads, tetrahedra, hexahedra };
+inline constexpr std::array<std::string_view, 6> enum_names(MassElements) {
+  return {"highest", "edges", "triangles", "quads", "tetrahedra", "hexahedra"};
+}
 
 /// The consistent mass of the elements of the topology (Archer 1963): with N_i the shape functions and rho
 /// the density,
 ///   M_ij = integral of rho N_i N_j over the undeformed body         [kg], times the identity
 /// for tetrahedra and hexahedra; where there are none, for triangles and quads (rho is that of an area); else
-/// for edges (that of a length). `lumping` keeps its row sums only, on the diagonal. Without a density the
-/// body has a total of 1 kg.
+/// for edges (that of a length); or for those of one kind. `lumping` keeps its row sums only, on the
+/// diagonal. Without a density the body has a total of 1 kg.
 ///
 /// M^-1 f, which explicit solvers ask for, is taken with the row sums, lumped or not: the inverse of M is
 /// full, and would carry the forces on fixed points to their neighbours. EulerExplicitSolver solves M a = f
@@ -36,6 +44,7 @@ struct MeshMatrixMass {
   std::vector<double> massDensity{};
   std::optional<double> totalMass{};
   bool lumping = false;
+  MassElements elements = MassElements::highest;
 
   static constexpr auto fields() {
     using M = MeshMatrixMass;
@@ -49,7 +58,8 @@ struct MeshMatrixMass {
               range::positive)
             .oneEach(Of::elements),
         field("totalMass", &M::totalMass, "kg", "mass of the body", range::positive).also("totalmass"),
-        field("lumping", &M::lumping, "", "keep the row sums only"));
+        field("lumping", &M::lumping, "", "keep the row sums only"),
+        field("elements", &M::elements, "", "which elements have mass"));
   }
 
   double scale = 1;  // of the densities
@@ -78,20 +88,23 @@ struct MeshMatrixMass {
     check_element_indices(where, context.topology, n);
 
     consistent.startPattern(int(n));
-    const std::size_t elements = forEachElement(context, [&](auto const& e, std::size_t, auto const&) {
+    const std::size_t count = forEachElement(context, [&](auto const& e, std::size_t, auto const&) {
       for (const Index i : e)
         for (const Index j : e) consistent.announce(i, j, 1, 1);
     });
     consistent.finishPattern();
-    if (elements == 0)
-      throw Error(where,
-                  "the mass is that of elements; give the node a topology with some, or take a UniformMass");
-    if (massDensity.size() > 1 && massDensity.size() != elements)
+    if (count == 0)
+      throw Error(
+          where,
+          text("the mass is that of ",
+               elements == MassElements::highest ? "elements" : enum_names(elements)[std::size_t(elements)],
+               "; give the node a topology with some, or take a UniformMass"));
+    if (massDensity.size() > 1 && massDensity.size() != count)
       throw Error(where,
                   text("massDensity has ",
                        massDensity.size(),
                        " values for ",
-                       elements,
+                       count,
                        " elements; give one for all, or one for each"));
 
     std::vector<double> rows(n, 0.0), values(consistent.columns.size(), 0.0);
@@ -175,7 +188,7 @@ struct MeshMatrixMass {
 
   // f(points, number, integral of N_i N_j) for each element; returns how many there are
   template <class F>
-  static std::size_t forEachElement(InitContext<D> const& context, F&& f) {
+  std::size_t forEachElement(InitContext<D> const& context, F&& f) const {
     auto at = [&context](Index i) {
       Eigen::Vector3d x = Eigen::Vector3d::Zero();
       x.head<D::spatial>() = D::center(context.rest[std::size_t(i)]).template cast<double>();
@@ -194,21 +207,25 @@ struct MeshMatrixMass {
       }
     };
     TopologyView const& t = context.topology;
-    if (!t.tetrahedra.empty() || !t.hexahedra.empty()) {
+    const bool highest = elements == MassElements::highest;
+    const bool volumes = !t.tetrahedra.empty() || !t.hexahedra.empty(),
+               surfaces = !volumes && (!t.triangles.empty() || !t.quads.empty());
+    auto have = [&](MassElements kind, bool ofHighest) { return highest ? ofHighest : elements == kind; };
+    if (have(MassElements::tetrahedra, volumes))
       simplices(t.tetrahedra, [&](Tetrahedron const& e) {
         return std::abs((at(e[1]) - at(e[0])).dot((at(e[2]) - at(e[0])).cross(at(e[3]) - at(e[0])))) / 6;
       });
+    if (have(MassElements::hexahedra, volumes))
       for (auto const& e : t.hexahedra) f(e, number++, multilinear<3>(e, at));
-    } else if (!t.triangles.empty() || !t.quads.empty()) {
-      // the triangles of a grid are the halves of its quads
-      if (t.grid[0] == 0 || t.quads.empty())
-        simplices(t.triangles, [&](Triangle const& e) {
-          return (at(e[1]) - at(e[0])).cross(at(e[2]) - at(e[0])).norm() / 2;
-        });
+    // the triangles of a grid are the halves of its quads
+    if (have(MassElements::triangles, surfaces && (t.grid[0] == 0 || t.quads.empty())))
+      simplices(t.triangles, [&](Triangle const& e) {
+        return (at(e[1]) - at(e[0])).cross(at(e[2]) - at(e[0])).norm() / 2;
+      });
+    if (have(MassElements::quads, surfaces))
       for (auto const& e : t.quads) f(e, number++, multilinear<2>(e, at));
-    } else {
+    if (have(MassElements::edges, !volumes && !surfaces))
       simplices(t.edges, [&](Edge const& e) { return (at(e[1]) - at(e[0])).norm(); });
-    }
     return number;
   }
 

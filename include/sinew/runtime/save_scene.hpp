@@ -27,7 +27,7 @@ class SceneWriter {
       set(node, "time", write_value(time));
       set(node, "step", std::to_string(step));
     }
-    fill(node, root, 0);
+    fill(node, root, {});
     std::ostringstream bytes;
     document.save(bytes, "  ");
     return bytes.str();
@@ -40,14 +40,22 @@ class SceneWriter {
     node.append_attribute(std::string(name).c_str()) = value.c_str();
   }
 
-  // kept: how many auxiliary vectors the solver above keeps from step to step
-  void fill(pugi::xml_node& to, RuntimeNode<R> const& node, int kept) {
+  // what the solvers above keep from step to step: how many auxiliary vectors, and whether dx
+  struct Kept {
+    int vectors = 0;
+    bool dx = false;
+  };
+  void fill(pugi::xml_node& to, RuntimeNode<R> const& node, Kept kept) {
     const bool mapped = node.mapping() != nullptr;
     for (auto const& entry : node.components())
       entry.component.template visit<role::OdeSolver>([&](auto const& ode) {
         if constexpr (stands_beside<std::decay_t<decltype(ode)>>) return;
-        kept = 0;
-        if constexpr (requires { ode.history; }) kept = ode.history.derivs;
+        kept = {};
+        if constexpr (requires { ode.history; }) kept.vectors = ode.history.derivs;
+      });
+    for (auto const& entry : node.components())
+      entry.component.template visit<role::LinearSolver>([&](auto const& linear) {
+        if constexpr (requires { linear.warmStart; }) kept.dx = linear.warmStart;
       });
     for (auto const& entry : node.components()) {
       ClassInfo const& info = table_[std::size_t(entry.component.type())];
@@ -92,7 +100,7 @@ class SceneWriter {
   }
 
   // a mapped state is what its mapping makes of what it was given
-  static AnyComponent<R> stateToWrite(AnyComponent<R> copy, bool mapped, int kept) {
+  static AnyComponent<R> stateToWrite(AnyComponent<R> copy, bool mapped, Kept kept) {
     copy.template visit<role::State>([&](auto& state) {
       if (mapped) {
         auto given = state.given.value_or(state.position);
@@ -105,7 +113,8 @@ class SceneWriter {
         if (state.resetVelocity == state.velocity) state.resetVelocity.clear();
         if (state.restPosition == state.position) state.restPosition.clear();
         state.history.clear();
-        for (int k = 0; k < kept && k < int(state.auxiliaryDerivs.size()); ++k) {
+        if (kept.dx) state.lastSolution = state.dx;
+        for (int k = 0; k < kept.vectors && k < int(state.auxiliaryDerivs.size()); ++k) {
           auto const& vector = state.auxiliaryDerivs[std::size_t(k)];
           state.history.insert(state.history.end(), vector.begin(), vector.end());
         }

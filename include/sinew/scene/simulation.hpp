@@ -282,7 +282,7 @@ class Simulation {
     }
     // what goes on, but not as it may have been meant
     if constexpr (requires { c.warning(), scope.warn(&c, std::string_view()); })
-      if (const std::string said = c.warning(); !said.empty()) scope.warn(&c, said);
+      if (const std::string said(c.warning()); !said.empty()) scope.warn(&c, said);
   }
 
   template <class S>

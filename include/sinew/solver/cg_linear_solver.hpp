@@ -9,9 +9,10 @@
 
 namespace sinew {
 
-/// Conjugate gradients (Hestenes, Stiefel 1952) from x = 0. `Matrix`: GraphScattered, or a
-/// CompressedRowSparseMatrix into which the system is assembled once a step. Where all states are on a
-/// device, so is the solver, and its matrix, of their precision; `residuals` then stays empty.
+/// Conjugate gradients (Hestenes, Stiefel 1952) from x = 0, or with `warmStart` from the last solution.
+/// `Matrix`: GraphScattered, or a CompressedRowSparseMatrix into which the system is assembled once a step.
+/// Where all states are on a device, so is the solver, and its matrix, of their precision; `residuals` then
+/// stays empty.
 template <class Matrix = GraphScattered>
 struct CGLinearSolver {
   using Role = role::LinearSolver;
@@ -24,6 +25,7 @@ struct CGLinearSolver {
   int iterations = 25;      // at most
   double tolerance = 1e-5;  // ends at |b - A x| <= tolerance |b|
   double threshold = 0;     // ends at |p.A p| <= threshold
+  bool warmStart = false;
 
   static constexpr auto fields() {
     using S = CGLinearSolver;
@@ -40,7 +42,8 @@ struct CGLinearSolver {
               "",
               "smallest curvature p.A p with which to go on",
               range::nonNegative)
-            .also("smallDenominatorThreshold"));
+            .also("smallDenominatorThreshold"),
+        field("warmStart", &S::warmStart, "", "start from the solution of the last system, instead of 0"));
   }
 
   std::vector<double>
@@ -59,7 +62,10 @@ struct CGLinearSolver {
   template <class Operations>
   void init(Operations& operations) {
     reserve_residuals(residuals, iterations);
-    if (solves_on_device(operations, !matrixFree, true)) return;
+    if (solves_on_device(operations, !matrixFree, true)) {
+      if (warmStart) throw Error(className, "warmStart is not there on a device; leave it out");
+      return;
+    }
     if constexpr (!matrixFree) {
       operations.initMatrix(system.matrix);
       for (Vector* v : {&system.x, &system.b, &system.r, &system.p, &system.q})
@@ -73,11 +79,21 @@ struct CGLinearSolver {
     if (solves_on_device(operations, !matrixFree)) return solve_on_device(*this, operations, factors, x, b);
     if constexpr (matrixFree) {
       MultiVecDeriv r(operations), p(operations), q(operations);
-      x.clear();
       r.eq(b);
-      p.eq(b);
+      const double whole = b.dot(b);
+      if (warmStart && whole > 0) {
+        operations.projectResponse(x.id);
+        q.clear();
+        operations.addMBKdx(q.id, x.id, factors);
+        operations.projectResponse(q.id);
+        r.peq(q, -1);
+      } else {
+        x.clear();
+      }
+      p.eq(r);
       iterate(
-          r.dot(r),
+          warmStart ? r.dot(r) : whole,
+          whole,
           [&] {
             q.clear();
             operations.addMBKdx(q.id, p.id, factors);
@@ -92,11 +108,20 @@ struct CGLinearSolver {
       const auto workers = operations.workers();
       operations.assemble(s.matrix, factors);
       operations.gather(s.b, b.id);
-      s.x.setZero();
       s.r = s.b;
-      s.p = s.b;
+      const double whole = double(vec::squared_norm(s.b));
+      if (warmStart && whole > 0) {
+        operations.projectResponse(x.id);
+        operations.gather(s.x, x.id);
+        s.matrix.multiply(workers, s.x.data(), s.q.data());
+        s.r -= s.q;
+      } else {
+        s.x.setZero();
+      }
+      s.p = s.r;
       iterate(
-          double(vec::squared_norm(s.r)),
+          warmStart ? double(vec::squared_norm(s.r)) : whole,
+          whole,
           [&] { return s.matrix.multiply(workers, s.p.data(), s.q.data()); },
           [&](double alpha) { return vec::advance(workers, s.x, s.p, s.r, s.q, Real(alpha)); },
           [&](double beta) { vec::turn(workers, s.p, s.r, Real(beta)); });
@@ -105,21 +130,21 @@ struct CGLinearSolver {
   }
 
  private:
-  // multiply: q = A p, returns p.q;  advance: x += alpha p, r -= alpha q, returns r.r;  turn: p = r + beta p
+  // rho = r.r, whole = b.b;  multiply: q = A p, returns p.q;  advance: x += alpha p, r -= alpha q, returns
+  // r.r; turn: p = r + beta p
   template <class Multiply, class Advance, class Turn>
-  void iterate(double rho, Multiply&& multiply, Advance&& advance, Turn&& turn) {
-    const double start = rho;
+  void iterate(double rho, double whole, Multiply&& multiply, Advance&& advance, Turn&& turn) {
     residuals.clear();
-    keep_residual(residuals, 1);
-    if (!std::isfinite(start)) advance(notSolved);
+    keep_residual(residuals, rho == whole ? 1 : std::sqrt(rho / whole));
+    if (!std::isfinite(rho) || !std::isfinite(whole)) advance(notSolved);
     for (int i = 0; i < iterations; ++i) {
-      if (!(rho > tolerance * tolerance * start)) return;
+      if (!(rho > tolerance * tolerance * whole)) return;
       const double curvature = multiply();
       if (std::abs(curvature) <= threshold) return;
       const double next = advance(std::isfinite(curvature) ? rho / curvature : notSolved);
       turn(next / rho);
       rho = next;
-      keep_residual(residuals, std::sqrt(rho / start));
+      keep_residual(residuals, std::sqrt(rho / whole));
     }
   }
 };

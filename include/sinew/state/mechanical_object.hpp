@@ -34,6 +34,7 @@ struct MechanicalObject {
 
   // of a checkpoint: what solvers keep from step to step, one auxiliary vector after the other
   VecDeriv history{};
+  VecDeriv lastSolution{};  // the last dx, of solvers that start from it
   // position has the points of the node's topology, moved as the fields above say
   bool pointsOfTopology = false;
 
@@ -62,6 +63,10 @@ struct MechanicalObject {
             "rotation", &M::rotation, "degree", "turns all positions at the start, about x, then y, then z"),
         field("scale3d", &M::scale3d, "", "stretches all positions at the start").also("scale"),
         field("history", &M::history, "", "what solvers keep from step to step, in a checkpoint"),
+        field("last_solution",
+              &M::lastSolution,
+              "",
+              "solution of the last system, from which a solver with warmStart goes on, in a checkpoint"),
         field("points_of_topology",
               &M::pointsOfTopology,
               "",
@@ -175,6 +180,8 @@ struct MechanicalObject {
     if (restPosition.empty()) restPosition = position;
     force.assign(n, D::Deriv::Zero());
     dx.assign(n, D::Deriv::Zero());
+    if (lastSolution.size() == n) dx = lastSolution;
+    lastSolution.clear();
     freePosition = position;
     if (resetPosition.empty()) resetPosition = position;
     if (resetVelocity.empty()) resetVelocity = velocity;
