@@ -349,6 +349,118 @@ TEST_CASE("of an attribute that is given twice the last counts, which is said") 
   CHECK(has(scene.warnings, "test.scn:3:2: <UniformMass>: attribute 'totalMass' is given twice"));
 }
 
+TEST_CASE("forces and masses over a kind of elements are named by their template") {
+  auto fem = [](std::string const& words) { return "<MechanicalObject position='0 0 0'/>" + words; };
+  auto hexahedra =
+      node(fem("<CorotationalFEMForceField template='Vec3,Hexahedron' youngModulus='7' "
+               "computeForceStrategy='parallel' elementSpace='0.1'/>"));
+  CHECK(in<HexahedronFEMForceField<Vec3d>>(hexahedra).method == HexahedronMethod::large);
+  CHECK(in<HexahedronFEMForceField<Vec3d>>(hexahedra).youngModulus == std::vector<double>{7});
+  CHECK(hexahedra.warnings.empty());
+  auto polar =
+      node(fem("<CorotationalFEMForceField template='Vec3d, Tetrahedron' rotationMethod='stable_polar'/>"));
+  CHECK(in<TetrahedronFEMForceField<Vec3d>>(polar).method == RotationMethod::polar);
+  auto small = node(fem("<LinearSmallStrainFEMForceField template='Vec3,Tetrahedron'/>"));
+  CHECK(in<TetrahedronFEMForceField<Vec3d>>(small).method == RotationMethod::small);
+
+  const std::string density =
+      "<NodalMassDensity property='1100'/><NodalMassDensity name='other' property='5'/>";
+  auto mass = node(fem(density + "<Node name='n'><FEMMass template='Vec3,Hexahedron'/></Node>"));
+  CHECK(in<MeshMatrixMass<Vec3d>>(mass, "n").elements == MassElements::hexahedra);
+  CHECK(in<MeshMatrixMass<Vec3d>>(mass, "n").massDensity == std::vector<double>{1100});
+  auto linked = node(fem("<FEMMass template='Vec3,Edge' nodalMassDensity='@other'/>" + density));
+  CHECK(in<MeshMatrixMass<Vec3d>>(linked).massDensity == std::vector<double>{5});
+
+  using Catch::Contains;
+  CHECK_THAT(wrong(fem("<FEMMass template='Vec3,Edge'/>")),
+             Contains("test.scn:2:") && Contains("finds no NodalMassDensity"));
+  CHECK_THAT(wrong(fem("<NodalMassDensity property='1 2'/><FEMMass template='Vec3,Edge'/>")),
+             Contains("only one density"));
+  CHECK_THAT(wrong(fem("<CorotationalFEMForceField template='Vec3,Prism'/>")),
+             Contains("'Prism'; its template names one of Hexahedron, Tetrahedron"));
+  CHECK_THAT(wrong(fem("<LinearSmallStrainFEMForceField/>")), Contains("no kind of elements"));
+  CHECK_THAT(wrong(fem("<CorotationalFEMForceField template='Vec3,Hexahedron' rotationMethod='qr'/>")),
+             Contains("rotationMethod: 'qr' is not one of triangle, "));
+}
+
+TEST_CASE("positions of a state are whole points, and frames where points are linked") {
+  auto few = node("<MechanicalObject position='0 1 2 3 4 5 6'/>");
+  CHECK(in<MechanicalObject<Vec3d>>(few).position == Vec3d::VecCoord{{0, 1, 2}, {3, 4, 5}});
+  CHECK(has(few.warnings,
+            "test.scn:2:19: <MechanicalObject>: position: goes on with 1 of the 3 numbers of a point"));
+  auto zero = node("<MechanicalObject template='Rigid3' position='5 0 0 0 0 0 0 1'/>");
+  REQUIRE(in<MechanicalObject<Rigid3d>>(zero).position.size() == 1);
+  CHECK(in<MechanicalObject<Rigid3d>>(zero).position[0].orientation.w() == 1);
+  CHECK(has(zero.warnings, "position: goes on with 1 of the 7"));
+  CHECK(has(zero.warnings, "the orientation of point 0 is zero"));
+  CHECK_THAT(wrong("<MechanicalObject position='0 1'/>"), Catch::Contains("ends where a number is expected"));
+
+  for (std::string const from : {"position='@g.position'", "src='@g'"}) {
+    auto frames =
+        node("<RegularGridTopology name='g' n='2 1 1' max='3 0 0'/><MechanicalObject template='Rigid3' " +
+             from + "/>");
+    auto const& x = in<MechanicalObject<Rigid3d>>(frames).position;
+    REQUIRE(x.size() == 2);
+    CHECK(x[1].center == Eigen::Vector3d(3, 0, 0));
+    CHECK(x[1].orientation.w() == 1);
+  }
+  auto same = node(
+      "<MechanicalObject name='a' template='Rigid3' position='1 2 3 0 0 1 0'/>"
+      "<Node name='n'><MechanicalObject template='Rigid3' position='@../a.position'/></Node>");
+  CHECK(in<MechanicalObject<Rigid3d>>(same, "n").position[0].orientation.z() == 1);
+}
+
+TEST_CASE("springs are held by a state that does not move") {
+  const std::string held =
+      "<Node name='n'><EulerExplicitSolver/><MechanicalObject position='0 0 0'/><UniformMass/>"
+      "<RestShapeSpringsForceField external_rest_shape='@../there'/></Node>";
+  auto scene = node("<MechanicalObject name='there' position='1 2 3'/>" + held);
+  CHECK(in<RestShapeSpringsForceField<Vec3d>>(scene, "n").externalRestShape == Vec3d::VecCoord{{1, 2, 3}});
+  CHECK_THAT(wrong("<EulerExplicitSolver/><MechanicalObject name='there' position='1 2 3'/>" + held),
+             Catch::Contains("external_rest_shape: '@../there' moves"));
+}
+
+TEST_CASE("a load whose elements are chosen by a link to none is on none, which is said") {
+  const std::string sheet = "<RegularGridTopology n='3 3 1' max='1 1 0'/><MechanicalObject/>";
+  auto empty = node(sheet +
+                    "<BoxROI name='roi' box='5 5 5 6 6 6'/>"
+                    "<TrianglePressureForceField pressure='1 0 0' triangleList='@roi.triangleIndices'/>");
+  CHECK(in<TrianglePressureForceField<Vec3d>>(empty).none);
+  CHECK(has(empty.warnings, "triangleList: names no element; no element bears the load"));
+  auto nowhere =
+      node(sheet + "<TrianglePressureForceField pressure='1 0 0' triangleList='@rol.triangleIndices'/>");
+  CHECK(in<TrianglePressureForceField<Vec3d>>(nowhere).none);
+  CHECK(has(nowhere.warnings, "triangleList: '@rol.triangleIndices' leads nowhere"));
+  auto all = node(sheet + "<TrianglePressureForceField pressure='1 0 0'/>");
+  CHECK_FALSE(in<TrianglePressureForceField<Vec3d>>(all).none);
+  CHECK_THAT(wrong(sheet + "<FixedConstraint indices='@rol.indices'/>"), Catch::Contains("leads nowhere"));
+}
+
+TEST_CASE("tetrahedra collide with nothing, as in SOFA, unless its method tests them against points") {
+  const std::string pipeline =
+                        "<DefaultPipeline/><BruteForceBroadPhase/><BVHNarrowPhase/><DefaultContactManager/>",
+                    model = "<MechanicalObject position='0 0 0'/><TetrahedronCollisionModel/>";
+  auto scene = node(pipeline + "<MinProximityIntersection/><PointCollisionModel/>" + model);
+  CHECK(has(scene.warnings, "<TetrahedronCollisionModel> collides with nothing, as in SOFA"));
+  CHECK(
+      has(node(pipeline + "<DiscreteIntersection/>" + model).warnings, "collides with nothing, as in SOFA"));
+  CHECK_THAT(wrong(pipeline + "<DiscreteIntersection/><PointCollisionModel/>" + model),
+             Catch::Contains("collides with points in SOFA, and with nothing here"));
+}
+
+TEST_CASE("what has no effect on a picture, or on a response that is named, is taken") {
+  auto scene = node(
+      "<MechanicalObject position='0 0 0'/><DefaultPipeline/><DefaultContactManager "
+      "response='PenalityContactForceField' responseParams='mu=0.5'/>"
+      "<Node name='n'><OglModel/><IdentityMapping mapForces='0' mapMasses='0'/></Node>");
+  CHECK(scene.warnings.empty());
+  CHECK_THAT(wrong("<MechanicalObject position='0 0 0'/><Node name='n'><MechanicalObject/><IdentityMapping "
+                   "mapForces='0'/></Node>"),
+             Catch::Contains("mapForces is not simulated"));
+  CHECK_THAT(wrong("<DefaultContactManager response='FrictionContact' responseParams='mu=0.5'/>"),
+             Catch::Contains("responseParams is not simulated"));
+}
+
 TEST_CASE("what old scenes say beside is ignored") {
   auto scene = parse(R"(<Node multiThreadSimulation="1">
     <CollisionGroupManager/> <NaturalOrderingMethod/> <MatrixLinearSystem/>

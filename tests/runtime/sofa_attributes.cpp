@@ -86,7 +86,7 @@ TEST_CASE("what is not simulated is refused unless it is as SOFA has it by defau
   REQUIRE(scene.warnings.size() == 1);
   CHECK_THAT(scene.warnings[0], Contains("test.scn:1:") && Contains("separateGravity is not simulated") && Contains("left out"));
   // the only load of a scene
-  CHECK_THROWS_WITH(parse("<EdgePressureForceField pressure='0 1 0' p_intensity='2'/>"), Contains("p_intensity is not simulated"));
+  CHECK_THROWS_WITH(parse("<SurfacePressureForceField pressure='1' volumeConservationMode='1'/>"), Contains("volumeConservationMode is not simulated"));
 }
 
 TEST_CASE("attributes that SOFA has today and that change nothing are taken") {

@@ -105,12 +105,16 @@ constexpr ClassesLeftOut const* left_out(auto const& list, std::string_view tag)
 
 /// What changes the motion in SOFA, and would be missed.
 inline constexpr std::array notYet = std::to_array<ClassesLeftOut>(
-    {{"TetrahedronModel TetrahedronCollisionModel OBBModel CapsuleModel CylinderModel RayModel "
+    {{"OBBModel CapsuleModel CylinderModel RayModel "
       "RayCollisionModel",
       "collides with nothing here; take triangles, lines, points, spheres or convex hulls"},
      {"DirectSAPNarrowPhase", "is no stage here; take BVHNarrowPhase, which finds the same pairs"},
      {"RayTraceDetection RayTraceNarrowPhase CompositeCollisionPipeline RuleBasedContactManager",
       "is no stage of collision here; take DefaultPipeline, BVHNarrowPhase and DefaultContactManager"}});
+
+/// Collide in SOFA with points, and only where DiscreteIntersection tests them
+/// (TetrahedronDiscreteIntersection.cpp).
+inline constexpr std::string_view tetrahedronModels = "TetrahedronModel TetrahedronCollisionModel";
 
 /// What prepares or solves something that the scene may not have at all.
 inline constexpr std::array inert = std::to_array<ClassesLeftOut>(
@@ -165,6 +169,33 @@ inline constexpr std::array standsFor = std::to_array<StandsFor>(
      {"BDF1", "BDFOdeSolver", "order", "1"},
      {"TriangularBendingFEMForceField", "TriangularShellForceField", "bending", "0"},
      {"NodalLinearDampingForceField", "UniformVelocityDampingForceField", "implicit", "1"}});
+
+/// Classes over a kind of elements, which their template names behind the DataTypes: "Vec3,Hexahedron".
+struct OverElements {
+  std::string_view name, element, className, attribute, value;
+};
+inline constexpr std::array overElements = std::to_array<OverElements>(
+    {{"CorotationalFEMForceField", "Hexahedron", "HexahedronFEMForceField", "method", "large"},
+     {"CorotationalFEMForceField", "Tetrahedron", "TetrahedronFEMForceField", "method", "large"},
+     {"LinearSmallStrainFEMForceField", "Hexahedron", "HexahedronFEMForceField", "method", "small"},
+     {"LinearSmallStrainFEMForceField", "Tetrahedron", "TetrahedronFEMForceField", "method", "small"},
+     {"FEMMass", "Edge", "MeshMatrixMass", "elements", "edges"},
+     {"FEMMass", "Triangle", "MeshMatrixMass", "elements", "triangles"},
+     {"FEMMass", "Quad", "MeshMatrixMass", "elements", "quads"},
+     {"FEMMass", "Tetrahedron", "MeshMatrixMass", "elements", "tetrahedra"},
+     {"FEMMass", "Hexahedron", "MeshMatrixMass", "elements", "hexahedra"}});
+constexpr bool is_over_elements(std::string_view tag) {
+  for (auto const& o : overElements)
+    if (o.name == tag) return true;
+  return false;
+}
+/// How CorotationalFEMForceField finds rotations (rotationMethod), and what that is called here.
+inline constexpr std::array rotationMethods =
+    std::to_array<std::array<std::string_view, 2>>({{"triangle", "large"},
+                                                    {"hexahedron", "large"},
+                                                    {"polar", "polar"},
+                                                    {"stable_polar", "polar"},
+                                                    {"identity", "small"}});
 
 /// Names that stand for a class which finds its answer in another way than SOFA's: what differs.
 struct AnotherMethod {

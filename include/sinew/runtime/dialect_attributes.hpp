@@ -18,15 +18,16 @@ namespace sinew::dialect {
 /// Attributes of any component that concern pictures, messages, storage and threads, that are results, or that are left over
 /// in well-known scenes.
 inline constexpr std::array withoutEffect = std::to_array<std::string_view>({
-    "alphaBlend", "arrowSizeCoef", "assembling", "bbox", "beamsData", "bitangents", "blendEquation",
+    "alphaBlend", "applyRestPosition", "arrowSizeCoef", "assembling", "bbox", "beamsData", "bitangents", "blendEquation",
     "blendTransparency", "checkConnexity", "checkIndices", "checkJacobian", "checkTopology", "color",
-    "componentState", "computeAllBuffers", "computeBoundingBox", "computeGlobalMatrix", "computeHamiltonian",
+    "componentState", "computeAllBuffers", "computeBoundingBox", "computeForceDerivStrategy",
+    "computeForceStrategy", "computeGlobalMatrix", "computeHamiltonian",
     "computeMassOnRest", "computeMaterialFaces", "computeNormals", "computeQuads", "computeResidual",
     "computeTangents", "computeTextureCoordinates", "computeVonMisesStress", "constraint",
     "constraintSolver", "contacts", "context", "createQuadArray", "createSubelements", "createTexCoords",
     "createTriangleArray", "cullFace", "debug", "defaultMaterial", "depth", "depthTest", "derivX",
     "destFactor", "displayFreePosition", "doUpdate", "edgeInfo", "edgeOutIndices", "edgePressureMap",
-    "edgesGroups", "edgesOutROI", "enable", "enableAssembly", "faceList", "factorizationInvalidation",
+    "edgesGroups", "edgesOutROI", "elementSpace", "enable", "enableAssembly", "faceList", "factorizationInvalidation",
     "fixMergedUVSeams", "forceBinary", "free_position", "free_velocity", "gatherBsize", "gatherPt", "graph",
     "group", "groups", "hamiltonianEnergy", "handleDynamicTopology", "handleSeams", "handleTopologyChange",
     "headerSize", "hexahedraGroups", "hexahedronInfo", "highOrderEdgePositions",
@@ -89,15 +90,14 @@ struct NotSimulated {
   std::string_view className, attribute, standard;
 };
 inline constexpr std::array notSimulated = std::to_array<NotSimulated>({
-    {"", "activeDirections", "1 1 1 1 1 1 1"}, {"", "angleCone", "0"}, {"", "AnisotropyDirections", ""},
-    {"", "applyRestPosition", "0"}, {"", "binormal", ""}, {"", "box", ""},
+    {"", "angleCone", "0"}, {"", "AnisotropyDirections", ""}, {"", "box", ""},
     {"", "cauchyStress", "[ 0 0 0 , 0 0 0 , 0 0 0]"}, {"", "clamp", "0"},
     {"", "compute_mapping_inertia", "0"}, {"", "computePointList", "1"},
     {"", "computeWeightsFromPosition", "0"}, {"", "coneFactor", "0.5"}, {"", "contactRestitution", "0"},
     {"", "convolutionSize", "0"}, {"", "damping", "0"}, {"", "dataResolution", "0 0 0"},
     {"", "defaultVolume", "-1"}, {"", "direction", ""}, {"", "edgeAngle", "0"}, {"", "edgeMass", ""},
-    {"", "edges", ""}, {"", "elongationOnly", "0"}, {"", "enabled", "1"}, {"", "endTime", "-1"},
-    {"", "external_points", ""}, {"", "facets", ""},
+    {"", "elongationOnly", "0"}, {"", "enabled", "1"}, {"", "endTime", "-1"},
+    {"", "facets", ""},
     {"", "filterIntersection", "1"}, {"", "first", "4294967295"}, {"", "flipNormals", "0"},
     {"", "geometricStiffness", "Exact|1"}, {"", "ignoreNotFound", "0"}, {"", "indexFromEnd", "0"},
     {"", "indices", ""}, {"", "initialPoints", ""}, {"", "isCompliance", "0"}, {"", "last", "4294967295"},
@@ -108,12 +108,10 @@ inline constexpr std::array notSimulated = std::to_array<NotSimulated>({
     {"", "localStiffnessFactor", ""}, {"", "mainDirection", "0 0 0 0 0 0"}, {"", "mapConstraints", "1"},
     {"", "mapForces", "1"}, {"", "mapMasses", "1"}, {"", "marchingCubeStep", "1"},
     {"", "mergePositionUsingMap", "1"}, {"", "minDistance", "-1"}, {"", "nbVirtualFinerLevels", "0"},
-    {"", "noInitialTriangles", "0"}, {"", "onlyAttachedPoints", "0"}, {"", "p_intensity", ""},
-    {"", "pivot_points", ""}, {"", "plasticMaxThreshold", "0"}, {"", "positionFactor", "1"},
-    {"", "preserveTotalMass", "0"}, {"", "pressureLowerBound", "0"}, {"", "pressureSpeed", "0"},
-    {"CubeTopology", "prisms", ""}, {"CylinderGridTopology", "prisms", ""}, {"MeshTopology", "prisms", ""},
+    {"", "onlyAttachedPoints", "0"}, {"", "pivot_points", ""}, {"", "plasticMaxThreshold", "0"}, {"", "positionFactor", "1"},
+    {"", "preserveTotalMass", "0"}, {"CubeTopology", "prisms", ""}, {"CylinderGridTopology", "prisms", ""}, {"MeshTopology", "prisms", ""},
     {"RegularGridTopology", "prisms", ""}, {"SparseGridTopology", "prisms", ""},
-    {"SphereGridTopology", "prisms", ""}, {"", "pulseMode", "0"}, {"CubeTopology", "pyramids", ""},
+    {"SphereGridTopology", "prisms", ""}, {"CubeTopology", "pyramids", ""},
     {"CylinderGridTopology", "pyramids", ""}, {"MeshTopology", "pyramids", ""},
     {"RegularGridTopology", "pyramids", ""}, {"SparseGridTopology", "pyramids", ""},
     {"SphereGridTopology", "pyramids", ""}, {"", "radius", "1e-05"}, {"", "rayleighMass", "0"},
@@ -129,7 +127,16 @@ inline constexpr std::array notSimulated = std::to_array<NotSimulated>({
     {"NearestPointROI", "useRestPosition", "1"}, {"", "useSphereTriangle", "1"},
     {"", "useSurfaceNormals", "0"}, {"", "useTangentStiffness", "1"}, {"", "useTopology", "1"},
     {"", "velocityFactor", "1"}, {"", "vertexMass", ""}, {"", "volumeConservationMode", "0"},
-    {"", "voxelSize", "1 1 1"}, {"", "warmStart", "0"}});
+    {"", "voxelSize", "1 1 1"}});
+
+/// Of these, what SOFA does by an approximation of which forces have no energy, and is done in another way here.
+struct AnotherLaw {
+  std::string_view className, attribute, difference;
+};
+inline constexpr std::array anotherLaw = std::to_array<AnotherLaw>(
+    {{"TetrahedronFEMForceField",
+      "updateStiffnessMatrix",
+      "SOFA takes the gradients of the deformed element; here they are those at rest, with which forces have an energy"}});
 
 inline bool without_effect(std::string_view name) {
   return name.starts_with("show") || name.starts_with("draw") ||

@@ -57,7 +57,8 @@ class SceneCollector {
     return tag == "Node" || tag == "NewtonRaphsonSolver" || tag == "BoxConstraint" || classNamed(tag) ||
            dialect::preconditioner_named(tag) || dialect::has(dialect::implicitWithCG, tag) ||
            dialect::class_without_meaning(tag) || dialect::left_out(dialect::inert, tag) ||
-           dialect::left_out(dialect::notYet, tag) ||
+           dialect::left_out(dialect::notYet, tag) || dialect::is_over_elements(tag) ||
+           tag == "NodalMassDensity" || has_name(dialect::tetrahedronModels, tag) ||
            std::any_of(dialect::standsFor.begin(), dialect::standsFor.end(), [&](auto const& other) {
              return other.name == tag;
            });
@@ -69,7 +70,9 @@ class SceneCollector {
     setNewton(top);
     warnOfLooseNewton(top);
     setPreconditioners(top);
+    setDensities(top);
     splitVisuals(top);
+    sayTetrahedra(top);
   }
 
   /// An element of another class that stands for a part of what an element asks for. It lives as long as
@@ -88,6 +91,10 @@ class SceneCollector {
         known = other.className;
         element.set(other.attribute, other.value, false);
       }
+    if (dialect::is_over_elements(tag)) {
+      known = overElements(element, tag);
+      if (known.empty()) return nullptr;
+    }
     auto item = std::make_unique<SceneItem>(SceneItem{&place, &element, tag, name_of(element, tag)});
     for (auto const& info : table_)
       if (info.known(known)) item->candidates.push_back(&info);
@@ -99,7 +106,9 @@ class SceneCollector {
       });
       return item;
     }
-    if (dialect::class_without_meaning(tag)) {
+    if (has_name(dialect::tetrahedronModels, tag)) {
+      tetrahedra_.push_back(&element);
+    } else if (dialect::class_without_meaning(tag)) {
       messages_.ignored.insert(tag);
     } else if (auto const* none = dialect::left_out(dialect::inert, tag)) {
       messages_.warnings.insert(text(element.place(), ": <", tag, "> ", none->why));
@@ -122,6 +131,7 @@ class SceneCollector {
   SceneMessages& messages_;
   std::set<XmlElement const*> takenNewton_{}, takenPreconditioners_{};
   std::vector<std::unique_ptr<XmlElement>> made_{};
+  std::vector<XmlElement const*> tetrahedra_{};  // collision models
 
   void collect(ScenePlace& place) {
     std::map<std::string, int> names;
@@ -145,6 +155,9 @@ class SceneCollector {
       } else if (const std::string tag = tag_of(child); tag == "NewtonRaphsonSolver") {
         hasNoChildren(child);
         place.newton.push_back(&child);
+      } else if (tag == "NodalMassDensity") {
+        hasNoChildren(child);
+        place.densities.push_back(&child);
       } else if (dialect::preconditioner_named(tag)) {
         hasNoChildren(child);
         warnOfMethod(child, tag);
@@ -325,6 +338,108 @@ class SceneCollector {
       if (!item.element->attribute(a.name)) item.element->take(a, true);
     }
     for (auto const& [name, value] : dialect::newtonDefaults) item.element->set(name, value, false);
+  }
+
+  // the class for a kind of elements, told what sets it apart; none where there is no such class, which is
+  // said
+  std::string_view overElements(XmlElement& element, std::string const& tag) {
+    auto const* types = element.attribute("template");
+    const std::string whole = types ? types->value : "";
+    const std::size_t comma = std::min(whole.find(','), whole.size());
+    const std::string kind(Words(std::string_view(whole).substr(std::min(comma + 1, whole.size()))).rest());
+    std::string known;
+    for (auto const& over : dialect::overElements) {
+      if (over.name != tag) continue;
+      known += text(known.empty() ? "" : ", ", over.element);
+      if (over.element != kind) continue;
+      element.set("template", whole.substr(0, comma));
+      std::string_view value = over.value;
+      if (auto const* method = element.attribute("rotationMethod"); method && over.attribute == "method") {
+        value = "";
+        std::string methods;
+        for (auto const& [name, ours] : dialect::rotationMethods) {
+          methods += text(methods.empty() ? "" : ", ", name);
+          if (method->value == name) value = ours;
+        }
+        if (value.empty())
+          return messages_.complain(
+                     element.place(*method),
+                     text('<', tag, ">: rotationMethod: ", shown(method->value), " is not one of ", methods)),
+                 "";
+        std::erase_if(element.attributes, [](auto const& a) { return a.name == "rotationMethod"; });
+      }
+      element.set(over.attribute, value);
+      return over.className;
+    }
+    messages_.complain(types ? element.place(*types) : element.place(),
+                       text('<',
+                            tag,
+                            "> is not there over ",
+                            kind.empty() ? "no kind of elements" : shown(kind),
+                            "; its template names one of ",
+                            known,
+                            ", as in Vec3,",
+                            known.substr(0, known.find(','))));
+    return "";
+  }
+
+  // FEMMass takes its density from the NodalMassDensity that it links to, or the nearest in its node or above
+  void setDensities(ScenePlace& place) {
+    for (auto& item : place.items) {
+      if (item->tag != "FEMMass") continue;
+      std::string name;
+      std::erase_if(item->element->attributes, [&](XmlAttribute const& a) {
+        if (a.name != "nodalMassDensity") return false;
+        name = a.value.substr(a.value.find_last_of("@/") + 1);
+        return true;
+      });
+      XmlElement const* found = nullptr;
+      for (ScenePlace* at = &place; at && !found; at = at->parent)
+        for (XmlElement const* density : at->densities)
+          if (!found && (name.empty() || name_of(*density, density->tag) == name)) found = density;
+      if (!found) {
+        messages_.complain(*item->element, "finds no NodalMassDensity; put one into its node, or above");
+        continue;
+      }
+      auto const* given = found->attribute("property");
+      Words words(given ? given->value : "1");
+      const std::string density(words.end() ? "1" : words.next());
+      if (!words.end() || is_link(density))
+        messages_.complain(
+            found->place(*given),
+            "<NodalMassDensity>: property: only one density for all points is simulated; give one number");
+      item->element->set("massDensity", density);
+    }
+    for (auto& child : place.children) setDensities(*child);
+  }
+
+  // tetrahedra collide with the points that DiscreteIntersection tests against them, and with nothing
+  // otherwise
+  void sayTetrahedra(ScenePlace const& top) {
+    if (tetrahedra_.empty()) return;
+    const bool collide = isThere(top, "DiscreteIntersection") && isThere(top, "PointCollisionModel");
+    for (XmlElement const* element : tetrahedra_)
+      if (collide && !lenient_)
+        messages_.complain(*element,
+                           "collides with points in SOFA, and with nothing here; take triangles, lines, "
+                           "points, spheres or convex hulls");
+      else
+        messages_.warnings.insert(
+            text(element->place(),
+                 ": <",
+                 tag_of(*element),
+                 "> collides with nothing",
+                 collide ? " here"
+                         : ", as in SOFA, where only DiscreteIntersection tests tetrahedra, against points",
+                 "; it is left out"));
+  }
+  static bool isThere(ScenePlace const& place, std::string_view className) {
+    return std::any_of(place.items.begin(),
+                       place.items.end(),
+                       [&](auto const& item) { return item->candidates[0]->name == className; }) ||
+           std::any_of(place.children.begin(), place.children.end(), [&](auto const& child) {
+             return isThere(*child, className);
+           });
   }
 
   // A preconditioner, or the linear solver that is one, is a setting of the solver that links to it.

@@ -43,7 +43,7 @@ struct ScenePlace {
   std::string state{};  // DataTypes of the state of this node; empty: none
   bool visual = false;
   std::vector<XmlElement*> newton{};  // settings for ODE solvers
-  std::vector<XmlElement*> preconditioners{};
+  std::vector<XmlElement*> preconditioners{}, densities{};
 
   SceneItem* find(std::string_view itemName) const {
     for (auto const& item : items)

@@ -133,8 +133,11 @@ class SceneValues {
         linked = (model.item ? model.item->place : model.place)->path();
         linked.erase(0, linked.find('/', 1));  // from the root on
       } else if (is_link(a.value)) {
-        linked = valueOf(follow_link(item, a.value));
+        LinkTarget target;
+        if (!followed(item, *field, a, target)) return;
+        linked = linkedValue(item, *field, std::move(target));
         item.links[std::string(field->name)] = a.value;
+        if (Words(linked).end() && choosesLoaded(*field)) pressNone(item, a, "names no element");
       }
       setField(item, *field, is_link(a.value) ? linked : a.value, a);
     } catch (Error const& error) {
@@ -143,9 +146,115 @@ class SceneValues {
     }
   }
 
+  // where a link leads; false where an element does without
+  bool followed(SceneItem& item, FieldInfo const& field, XmlAttribute const& a, LinkTarget& target) {
+    try {
+      target = follow_link(item, a.value);
+    } catch (Error const& error) {
+      if (!choosesLoaded(field)) throw;
+      pressNone(item, a, error.what());
+      return false;
+    }
+    if (field.name == "external_rest_shape") {
+      if (target.data.empty()) target.data = "position";
+      if (moves(target.item ? *target.item->place : *target.place))
+        throw Error("",
+                    text(shown(a.value),
+                         " moves, but springs are to a place that stays; join the two bodies by a "
+                         "StiffSpringForceField"));
+    }
+    return true;
+  }
+  static bool moves(ScenePlace const& place) {
+    ScenePlace const* const owner = place.owner();
+    for (ScenePlace const* at = owner; at; at = at->parent)
+      if (at->ofRole(RoleKind::odeSolver)) return true;
+    return owner && (owner->ofRole(RoleKind::mapping) || owner->find("ReadState"));
+  }
+  // the elements that bear a load, of which none are none in SOFA, and all here where they are not given
+  static bool choosesLoaded(FieldInfo const& field) {
+    static constexpr std::array lists =
+        std::to_array<std::string_view>({"triangleList", "quadList", "edgeIndices"});
+    return dialect::has(lists, field.name);
+  }
+  void pressNone(SceneItem& item, XmlAttribute const& a, std::string_view why) {
+    if (auto const* none = item.info->field("none")) none->read(item.address, "1");
+    messages_.warnings.insert(text(item.element->place(a),
+                                   ": <",
+                                   item.tag,
+                                   ">: ",
+                                   a.name,
+                                   ": ",
+                                   why,
+                                   "; no element bears the load by its number, as in SOFA"));
+  }
+
+  // of points in space for frames: these are not turned
+  std::string linkedValue(SceneItem& item, FieldInfo const& field, LinkTarget target) {
+    if (!target.item) target.item = target.place->ofRole(RoleKind::state);
+    const std::string_view types =
+        target.item && target.item->info ? target.item->info->dataTypes : "Rigid3d";
+    const bool inSpace = types.empty() || types.find("Vec3") != types.npos;
+    std::string words = valueOf(std::move(target));
+    if (!inSpace || item.info->role != RoleKind::state || !dialect::has(places, field.name)) return words;
+    if (item.info->dataTypes.find("Rigid3") != std::string_view::npos) return every(words, 3, 3, "0 0 0 1 ");
+    if (item.info->dataTypes.find("Rigid2") != std::string_view::npos) return every(words, 3, 2, "0 ");
+    return words;
+  }
+  static constexpr auto places = std::to_array<std::string_view>({"position", "rest_position"});
+
+  // positions as they are written: as in SOFA numbers at the end that are no whole point are left out; an
+  // orientation of zeros is none
+  std::string wholePoints(SceneItem& item, std::string const& value, XmlAttribute const& a) {
+    const std::string_view types = item.info->dataTypes;
+    const std::size_t each = types.find("Rigid3") != types.npos   ? 7
+                             : types.find("Rigid2") != types.npos ? 3
+                             : types.find("Vec") != types.npos
+                                 ? std::size_t(types[types.find("Vec") + 3] - '0')
+                                 : 1;
+    std::vector<std::string> numbers;
+    for (Words words(value); !words.end();) numbers.emplace_back(words.next());
+    auto note = [&](auto const&... what) {
+      messages_.warnings.insert(text(item.element->place(a), ": <", item.tag, ">: ", a.name, ": ", what...));
+    };
+    const std::size_t left = numbers.size() % each;
+    bool changed = left > 0 && numbers.size() > each;
+    if (changed) {
+      numbers.resize(numbers.size() - left);
+      note("goes on with ",
+           left,
+           " of the ",
+           each,
+           " numbers of a point, which are left out; give all, or none");
+    }
+    auto zero = [](std::string const& word) {
+      double number = 1;
+      return io::parse_number(word, number) && number == 0;
+    };
+    for (std::size_t i = 0; each == 7 && i + each <= numbers.size(); i += each)
+      if (std::all_of(
+              numbers.begin() + std::ptrdiff_t(i) + 3, numbers.begin() + std::ptrdiff_t(i + each), zero)) {
+        numbers[i + 6] = "1";
+        note("the orientation of point ", i / each, " is zero; it is taken for none, 0 0 0 1");
+        changed = true;
+      }
+    if (!changed) return value;
+    std::string all;
+    for (auto const& number : numbers) all += text(number, ' ');
+    return all;
+  }
+
   // what would make another scene of this one
   void notSimulated(SceneItem& item, XmlAttribute const& a, dialect::NotSimulated const& known) {
     if (dialect::is_standard(known, a.value)) return;
+    // a picture has neither forces nor masses
+    if (a.name.starts_with("map") && item.info->role == RoleKind::mapping && item.place->state.empty())
+      return;
+    // parameters of the response that is named: only friction has some
+    if (a.name == "responseParams")
+      if (auto const* response = item.element->attribute("response");
+          !response || response->value != "FrictionContact")
+        return;
     if (dialect::another_method(item.tag))
       return void(messages_.warnings.insert(text(item.element->place(a),
                                                  ": <",
@@ -153,6 +262,10 @@ class SceneValues {
                                                  ">: ",
                                                  a.name,
                                                  " is of SOFA's method and has no effect here")));
+    for (auto const& other : dialect::anotherLaw)
+      if (other.className == item.info->name && other.attribute == a.name)
+        return void(messages_.warnings.insert(
+            text(item.element->place(a), ": <", item.tag, ">: ", a.name, ": ", other.difference)));
     const std::string_view standard = known.standard.substr(0, known.standard.find('|'));
     const std::string what =
         text('<', item.tag, ">: ", a.name, " is not simulated: only its default ", shown(standard), " is");
@@ -188,6 +301,8 @@ class SceneValues {
   void setField(SceneItem& item, FieldInfo const& field, std::string value, XmlAttribute const& written) {
     if (field.name == "scale3d" && written.name == "scale") value = alike(value);
     if (field.name == "position" && item.info->role == RoleKind::topology) value = in_space(item, value);
+    if (item.info->role == RoleKind::state && !is_link(written.value) && dialect::has(places, field.name))
+      value = wholePoints(item, value, written);
     if (field.isFile) {
       auto const& file = written.file ? written.file : item.element->file;
       value = xml_.find(std::string(Words(value).rest()), file ? file->folder : "");
@@ -210,7 +325,7 @@ class SceneValues {
           if (other.known(field.name) && (!other.isInput || target.item->info->role != RoleKind::engine))
             offered = true;
         if (!offered) continue;
-        const std::string words = valueOf({target.item, nullptr, std::string(field.name)});
+        const std::string words = linkedValue(item, field, {target.item, nullptr, std::string(field.name)});
         if (words.empty()) continue;
         field.read(item.address, words);
         item.links[std::string(field.name)] = text(src.value, '.', field.name);
