@@ -236,20 +236,24 @@ void for_each_variant(Random& random, F&& use) {
     if constexpr (C::turns) c.target.clear();
   }
   if constexpr (requires { c.restLengths; }) c.restLengths.clear();  // those of the rest positions
-  // of bodies that turn a tangent is proved at their rest positions
+  // of bodies that turn a tangent is proved at their rest positions, about all axes
   if constexpr (requires { c.externalRestShape; }) {
     using D = typename C::DataTypes;
     c.externalRestShape.clear();
+    c.activeDirections.assign(std::size_t(D::size), true);
     if constexpr (D::rigid && D::spatial == 3)
       c.externalPoints.clear();
-    else
+    else if constexpr (D::size > 1)
+      c.activeDirections.back() = false;
+    if constexpr (!(D::rigid && D::spatial == 3))
       for (int i = 0; i < Body::n; ++i) c.externalRestShape.push_back(coord<D>(random, 2));
   }
   if constexpr (requires { c.fixedDirections; }) c.fixedDirections.back() = c.fixedDirections.size() == 1;
   bool any = false;
   for_each_field(c, [&](auto const& fd, auto& value) {
     using T = std::decay_t<decltype(value)>;
-    if (fd.name == "enabled") return;  // what is not there has no laws
+    // what is not there, or does not act, has no laws
+    if (fd.name == "enabled" || fd.name == "activeDirections") return;
     if constexpr (std::is_enum_v<T>) {
       any = true;
       for (std::size_t i = 0; i < enum_names(T{}).size(); ++i) {
