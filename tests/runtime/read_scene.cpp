@@ -75,6 +75,24 @@ TEST_CASE("components take the DataTypes of the state around them") {
   CHECK(points->get<ConstantForceField<Vec3f>>());
 }
 
+TEST_CASE("a matrix is stored as the states under its solver allow, unless the template says how") {
+  auto with = [](std::string_view solver, std::string_view state) {
+    return parse(text(
+        "<Node><EulerImplicitSolver/><", solver, "/><MechanicalObject ", state, "/><UniformMass/></Node>"));
+  };
+  constexpr std::string_view points = "position='0 1 0'",
+                             rigid = "template='Rigid3d' position='1 2 3 0 0 0 1'";
+  for (auto* any : {"SparseLDLSolver", "SparseLDLSolver template='CompressedRowSparseMatrix'"}) {
+    CHECK(with(any, points).root.get<SparseLDLSolver<CompressedRowSparseMatrixMat3x3d>>());
+    CHECK(with(any, rigid).root.get<SparseLDLSolver<CompressedRowSparseMatrixd>>());
+  }
+  CHECK(with("SparseLDLSolver template='CompressedRowSparseMatrixd'", points)
+            .root.get<SparseLDLSolver<CompressedRowSparseMatrixd>>());
+  // Jacobi's preconditioner is of numbers or of blocks
+  CHECK(with("ShewchukPCGLinearSolver template='CompressedRowSparseMatrix'", points)
+            .root.get<ShewchukPCGLinearSolver<CompressedRowSparseMatrixd>>());
+}
+
 TEST_CASE("links lead to values, in whatever order") {
   auto scene = parse(R"(<Node name="root">
     <Node name="a">

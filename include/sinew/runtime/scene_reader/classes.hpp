@@ -111,6 +111,10 @@ class SceneClasses {
         const std::string_view assembled = allStatesAre(*item.place, "Vec3")
                                                ? "CompressedRowSparseMatrixMat3x3d"
                                                : "CompressedRowSparseMatrixd";
+        // numbers one by one and in blocks have the same solution, but preconditioners differ
+        if (auto const* named = item.element->attribute("template");
+            named && named->value == "CompressedRowSparseMatrix" && !first.field("precondition"))
+          return withTypes(item, assembled);
         if (!given.empty()) return withTypes(item, given);
         for (std::string_view wanted : {std::string_view("GraphScattered"), assembled})
           for (auto const* info : item.candidates)
