@@ -121,16 +121,18 @@ class Mutator:
 
 
 def finite(result, content):
-    """Whether the states are: of speeds that a scene gives beyond 1e150 m/s the energy is beyond the largest number."""
+    """Whether the states are: of speeds beyond 1e150 m/s, as a scene may ask for, the energy is beyond the largest number."""
     energy = result.get("kineticEnergy")
-    return isinstance(energy, (int, float)) and math.isfinite(energy) or any(abs(v) > 1e150 for v in numbers_of(content))
+    return isinstance(energy, (int, float)) and math.isfinite(energy) or any(abs(v) > 1e150 for v in motions_of(content))
 
 
-def numbers_of(content):
-    for match in NUMBER.finditer(content):
-        value = float(match.group(0))
-        if math.isfinite(value):
-            yield value
+def motions_of(content):
+    """Numbers of a scene that are places, speeds and what makes them."""
+    for values in re.findall(r'\b(?:position|velocity|movements|keyTimes|gravity|forces?|dt|translation)="([^"]*)"', content, re.I):
+        for match in NUMBER.finditer(values):
+            value = float(match.group(0))
+            if math.isfinite(value):
+                yield value
 
 
 class Server:

@@ -18,7 +18,12 @@
 #include <string>
 #include <vector>
 
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define SINEW_LOOKS_FOR_LEAKS
+#endif
+#endif
+#if defined(__SANITIZE_ADDRESS__) || defined(SINEW_LOOKS_FOR_LEAKS)
 #include <sanitizer/lsan_interface.h>
 #else
 static int __lsan_do_recoverable_leak_check() { return 0; }
@@ -26,7 +31,7 @@ static int __lsan_do_recoverable_leak_check() { return 0; }
 
 namespace {
 
-constexpr int noMoreScenes = 77, notRun = 98;  // exit statuses of the process that runs scenes
+constexpr int allRun = 76, noMoreScenes = 77, notRun = 98;  // exit statuses of the process that runs scenes
 
 std::vector<std::string> words_of(std::string const& line) {
   std::vector<std::string> words(1);
@@ -71,7 +76,7 @@ int run(std::vector<std::string> words) {
     const bool leaks = i == scenes && __lsan_do_recoverable_leak_check() != 0;
     dprintf(answers, leaks ? "leak\n" : "exit %d\n", status);
   }
-  _exit(0);
+  _exit(allRun);
 }
 
 }  // namespace
@@ -91,7 +96,7 @@ int main(int argc, char** argv) {
       dprintf(answers, "signal %d\n", WTERMSIG(status));
     else if (WEXITSTATUS(status) == noMoreScenes)
       return 0;
-    else if (WEXITSTATUS(status) != 0)
+    else if (WEXITSTATUS(status) != allRun)
       dprintf(answers, "exit %d\n", WEXITSTATUS(status));
   }
 }

@@ -236,6 +236,7 @@ void for_each_variant(Random& random, F&& use) {
     if constexpr (C::turns) c.target.clear();
   }
   if constexpr (requires { c.restLengths; }) c.restLengths.clear();  // those of the rest positions
+  if constexpr (requires { c.pulse; }) c.pulse = random(1, 2);       // in the middle of one
   // of bodies that turn a tangent is proved at their rest positions, about all axes
   if constexpr (requires { c.externalRestShape; }) {
     using D = typename C::DataTypes;

@@ -114,6 +114,32 @@ TEST_CASE("a checkpoint goes on bit by bit from the last solution, and in a puls
   }
 }
 
+TEST_CASE(
+    "the last solution is that of the linear solver's node or above, goes into checkpoints and is gone after "
+    "a reset") {
+  for (auto* solver : {"EulerExplicitSolver", "EulerImplicitSolver", "NewmarkImplicitSolver"}) {
+    auto sim = start(
+        parse_scene<Standard>("test.scn",
+                              text(R"(<Node gravity="0 -1 0"><CGLinearSolver tolerance="1e-3" warmStart="1"/>
+      <Node name="body"><)",
+                                   solver,
+                                   R"(/><RegularGridTopology n="3 3 3" min="0 0 0" max="1 1 1"/>
+      <MechanicalObject/><MeshMatrixMass totalMass="1"/><MeshSpringForceField stiffness="20"/>
+      <FixedConstraint indices="0-8"/></Node></Node>)")));
+    auto places = [](auto& of) {
+      return of.root().find_node("body")->template get<MechanicalObject<Vec3d>>()->position;
+    };
+    for (int i = 0; i < 5; ++i) sim.animate(0.02);
+    const auto first = places(sim);
+    auto again = start(parse_scene<Standard>("saved.scn", scene_text(sim, 0.02)));
+    for (int i = 0; i < 5; ++i) sim.animate(0.02), again.animate(0.02);
+    CHECK(places(again) == places(sim));
+    sim.reset();
+    for (int i = 0; i < 5; ++i) sim.animate(0.02);
+    CHECK(places(sim) == first);
+  }
+}
+
 TEST_CASE("a checkpoint of BDF goes on bit by bit, whatever the order") {
   for (auto* order : {"1", "2", "3"}) {
     auto sim = start(parse_scene<Standard>("test.scn",

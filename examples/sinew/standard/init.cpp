@@ -4,5 +4,6 @@
 namespace sinew {
 template void Simulation<RuntimeNode<Standard>>::init(double, long);
 template void Simulation<RuntimeNode<Standard>>::initScene(RootScope const&, InitAgain const&);
-template void Simulation<RuntimeNode<Standard>>::initSolvers(RuntimeScope<Standard> const&, InitAgain const&);
+template void Simulation<RuntimeNode<Standard>>::initSolvers(RuntimeScope<Standard> const&, InitAgain const&,
+                                                             std::vector<void const*>&);
 }  // namespace sinew

@@ -42,8 +42,9 @@ struct Edges {
 /// rest, dmin < normal.x < dmax; where neither is given, or a selection is empty, on none. A load that
 /// follows area and normal is SurfacePressureForceField's.
 ///
-/// Edges may also be given by their points. Where there is no `pressure` they bear, with a binormal b, an
-/// intensity p across the edge as it lies now, of unit tangent t, and of length L at rest:
+/// Those of EdgePressureForceField may also be given by their points. Where there is no `pressure` they bear,
+/// with a binormal b, an intensity p across the edge as it lies now, of unit tangent t, and of length L at
+/// rest:
 ///   f_i = p L / 2 n,   n = b x t / |b x t|       [N]
 /// It has no energy, and its derivative is left out, as in SOFA.
 template <class D, class Kind>
@@ -95,10 +96,12 @@ struct ElementPressure {
     return {.internal = false, .objective = false, .conservative = !turns(), .exactTangent = !turns()};
   }
 
-  bool none = false;  // all of them have been removed
+  bool none = false;  // all of them have been removed, or a link has chosen none
   static constexpr auto state() {
-    return field_list(
-        field("none", &ElementPressure::none, "", "all of the elements with a number have been removed"));
+    return field_list(field("none",
+                            &ElementPressure::none,
+                            "",
+                            "all of the elements with a number have been removed, or none was chosen"));
   }
 
   struct Load {
@@ -132,7 +135,7 @@ struct ElementPressure {
     if (dmin > dmax) throw Error(where, text("dmin is ", dmin, ", above dmax, ", dmax, "; exchange them"));
     if constexpr (ofEdges) {
       detail::check_indices(where, "edge", edges, context.rest.size());
-      if (intensity != 0 && pressure.isZero() && binormal.isZero())
+      if (intensity != 0 && pressure.isZero(0) && binormal.isZero(0))
         throw Error(where,
                     "p_intensity is across the edges; give binormal, with which it is at a right angle");
     }
@@ -178,10 +181,11 @@ struct ElementPressure {
 
   /// What init leaves to be said; empty for nothing.
   std::string warning() const {
-    if (!pressedElements.empty() || !edges.empty() || dmin < dmax || none) return {};
-    return text("presses nothing: no element is selected; give numbers in ",
+    if (none || !loads.empty() || !across.empty()) return {};
+    return text("presses nothing: no element has a number in ",
                 Kind::list,
-                ", or normal, dmin and dmax");
+                ofEdges ? ", is in edges" : "",
+                " or lies between the planes of normal, dmin and dmax; select some");
   }
 
   void addForce(MechanicalParams const&, VecDeriv& f, VecCoord const& x, VecDeriv const&) const {
@@ -207,7 +211,7 @@ struct ElementPressure {
   }
 
  private:
-  bool turns() const { return ofEdges && pressure.isZero() && intensity != 0; }
+  bool turns() const { return ofEdges && pressure.isZero(0) && intensity != 0; }
 
   // length of an edge; area of a triangle, and of the two in a quad
   template <class Element, class At>

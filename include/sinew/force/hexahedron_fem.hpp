@@ -262,8 +262,8 @@ struct HexahedronFEM {
   }
 };
 
-/// Corotational linear hexahedra. Those of a SparseGridTopology that touch its surface are half as stiff, as in
-/// SOFA, unless its fillWeighted is off.
+/// Corotational linear hexahedra. Those of a SparseGridTopology that touch its surface are half as stiff, as
+/// in SOFA, unless its fillWeighted is off.
 template <class D>
 struct HexahedronFEMForceField {
   using Role = role::ForceField;
@@ -281,18 +281,24 @@ struct HexahedronFEMForceField {
 
   static constexpr auto fields() {
     using F = HexahedronFEMForceField;
-    return field_list(field("youngModulus",
-                            &F::youngModulus,
-                            "Pa",
-                            "stiffness of the material: one value, or one a hexahedron",
-                            range::positive)
-                          .oneEach(Of::hexahedra),
-                      field("poissonRatio",
-                            &F::poissonRatio,
-                            "",
-                            "lateral contraction over extension; 0.5 is incompressible",
-                            range::open(-1, 0.5)),
-                      field("method", &F::method, "", "how the rotation of an element is found"));
+    return field_list(
+        field("youngModulus",
+              &F::youngModulus,
+              "Pa",
+              "stiffness of the material: one value, or one a hexahedron",
+              range::positive)
+            .oneEach(Of::hexahedra),
+        field("poissonRatio",
+              &F::poissonRatio,
+              "",
+              "lateral contraction over extension; 0.5 is incompressible",
+              range::open(-1, 0.5)),
+        field("method",
+              &F::method,
+              "",
+              "rotation of an element: large: of a frame on two of its mean edges; polar: the "
+              "nearest to these, as in SOFA; small: none, linear elasticity; nearest: the nearest "
+              "to its deformation"));
   }
 
   ForceProperties properties() const {

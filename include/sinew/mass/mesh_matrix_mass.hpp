@@ -76,7 +76,7 @@ struct MeshMatrixMass {
   std::vector<int> slots{};  // of its blocks on and above the diagonal, in the matrix of the solver
 
   /// M^-1 undoes M.
-  bool exactInverse() const { return lumping; }
+  bool exactInverse() const { return consistent.columns.empty(); }
 
   void init(InitContext<D> const& context) {
     static_assert(!D::rigid,
@@ -99,6 +99,11 @@ struct MeshMatrixMass {
           text("the mass is that of ",
                elements == MassElements::highest ? "elements" : enum_names(elements)[std::size_t(elements)],
                "; give the node a topology with some, or take a UniformMass"));
+    if (massDensity.size() > 1 && elements != MassElements::highest)
+      throw Error(
+          where,
+          "massDensity has several values, but those of one kind of elements only have mass; give one "
+          "density");
     if (massDensity.size() > 1 && massDensity.size() != count)
       throw Error(where,
                   text("massDensity has ",
@@ -196,8 +201,8 @@ struct MeshMatrixMass {
     };
     std::size_t number = 0;
     // of k + 1 corners and size V: V (1 + delta_ij) / ((k + 1) (k + 2))
-    auto simplices = [&](auto const& elements, auto const& sizeOf) {
-      for (auto const& e : elements) {
+    auto simplices = [&](auto const& all, auto const& sizeOf) {
+      for (auto const& e : all) {
         constexpr int corners = int(std::tuple_size_v<std::decay_t<decltype(e)>>);
         Eigen::Matrix<double, corners, corners> mass;
         mass.setOnes();

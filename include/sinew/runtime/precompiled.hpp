@@ -64,7 +64,8 @@ extern template void Simulation<RuntimeNode<Standard>>::checkFields(RootScope co
 extern template void Simulation<RuntimeNode<Standard>>::initStates(RootScope const&, InitAgain const&);
 extern template void Simulation<RuntimeNode<Standard>>::initComponents(RootScope const&, InitAgain const&);
 extern template void Simulation<RuntimeNode<Standard>>::initSolvers(RuntimeScope<Standard> const&,
-                                                                    InitAgain const&);
+                                                                    InitAgain const&,
+                                                                    std::vector<void const*>&);
 extern template void Simulation<RuntimeNode<Standard>>::detectContacts(RootScope const&, double) const;
 extern template TopologyChange Simulation<RuntimeNode<Standard>>::removeElements(std::string_view,
                                                                                  ElementNumbers const&);

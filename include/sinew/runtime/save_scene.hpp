@@ -50,7 +50,7 @@ class SceneWriter {
     for (auto const& entry : node.components())
       entry.component.template visit<role::OdeSolver>([&](auto const& ode) {
         if constexpr (stands_beside<std::decay_t<decltype(ode)>>) return;
-        kept = {};
+        kept.vectors = 0;
         if constexpr (requires { ode.history; }) kept.vectors = ode.history.derivs;
       });
     for (auto const& entry : node.components())

@@ -13,6 +13,9 @@
 #include <sinew/scene/mechanical_operations.hpp>
 #include <sinew/scene/picking.hpp>
 
+#include <algorithm>
+#include <vector>
+
 namespace sinew {
 
 /// A typed scene that runs: init(), then animate(dt) as often as wanted. After init a step neither allocates
@@ -264,7 +267,7 @@ class Simulation {
   }
 
   template <class C, class S>
-  static void initComponent(C& c, S const& scope) {
+  static void initComponent(C& c, S const& scope, [[maybe_unused]] InitAgain const& again) {
     if constexpr (HasRole<C, role::Execution>) {
       c.init();
     } else if constexpr (HasRole<C, role::CollisionModel>) {
@@ -280,13 +283,19 @@ class Simulation {
                          HasRole<C, role::ProjectiveConstraint> || WatchesState<C>) {
       withContext<C, typename C::DataTypes>(scope, [&](auto const& context) { c.init(context); });
     }
-    // what goes on, but not as it may have been meant
-    if constexpr (requires { c.warning(), scope.warn(&c, std::string_view()); })
-      if (const std::string said(c.warning()); !said.empty()) scope.warn(&c, said);
+    // What goes on, but not as it may have been meant. In a typed scene nobody hears of it, and where
+    // elements have gone it is no mistake.
+    if constexpr (requires { c.warning(); })
+      if (const std::string said(c.warning()); !said.empty()) {
+        if constexpr (requires { scope.warn(&c, std::string_view()); })
+          scope.warn(&c, said);
+        else if (!again)
+          throw Error(text(scope.path(), ": ", component_name<C>()), said);
+      }
   }
 
   template <class S>
-  static void initSolvers(S const& scope, InitAgain const& again);
+  static void initSolvers(S const& scope, InitAgain const& again, std::vector<void const*>& served);
   template <class Ode, class Operations, class F>
   static void withLinearSolverOf(Operations& operations, F&& f);
 
@@ -540,7 +549,7 @@ void Simulation<Root>::reset() {
                c.reset();
            }));
   if constexpr (proved)
-    if (regained) initSolvers(rootScope(), {.again = true});
+    if (std::vector<void const*> served; regained) initSolvers(rootScope(), {.again = true}, served);
   time_ = 0;
   step_ = 0;
   propagate();
@@ -594,7 +603,8 @@ void Simulation<Root>::initScene(RootScope const& scope, InitAgain const& again)
   Collision<RootScope>{scope}.init(bool(again));
   if constexpr (carves)
     if (again.touched.empty()) Carving<RootScope>{scope}.check();
-  initSolvers(scope, again);
+  std::vector<void const*> served;
+  initSolvers(scope, again, served);
   scope.raise();
   initLoose(scope);
   scope.settled();
@@ -641,7 +651,7 @@ void Simulation<Root>::initStatesBelow(S const& scope, InitAgain const& again) {
 template <class Root>
 void Simulation<Root>::initComponents(RootScope const& scope, InitAgain const& again) {
   traverse(scope, on<AnyRole>([&again](auto& c, auto const& s) {
-             s.ifNew(c, again, [&] { initComponent(c, s); });
+             s.ifNew(c, again, [&] { initComponent(c, s, again); });
            }));
   scope.raise();
 }
@@ -658,7 +668,7 @@ void Simulation<Root>::withLinearSolverOf([[maybe_unused]] Operations& operation
 
 template <class Root>
 template <class S>
-void Simulation<Root>::initSolvers(S const& scope, InitAgain const& again) {
+void Simulation<Root>::initSolvers(S const& scope, InitAgain const& again, std::vector<void const*>& served) {
   bool solved = false;
   auto visit = on<role::OdeSolver>([&](auto& ode) {
     using Ode = std::decay_t<decltype(ode)>;
@@ -667,7 +677,17 @@ void Simulation<Root>::initSolvers(S const& scope, InitAgain const& again) {
       MechanicalOperations<S> operations(scope);
       operations.reserve(Ode::auxiliary);
       withLinearSolverOf<Ode>(operations, [&](auto& linear) {
-        operations.reserve(Ode::auxiliary + std::decay_t<decltype(linear)>::auxiliary);
+        using Linear = std::decay_t<decltype(linear)>;
+        if constexpr (needs_pattern<Linear>) {
+          if (std::find(served.begin(), served.end(), &linear) != served.end())
+            throw Error(text(scope.path(), ": ", component_name<Ode>()),
+                        text("the ",
+                             component_name<Linear>(),
+                             " above is that of another ODE solver already, and has one matrix; give each an "
+                             "assembled linear solver of its own, or both a CGLinearSolver without matrix"));
+          served.push_back(&linear);
+        }
+        operations.reserve(Ode::auxiliary + Linear::auxiliary);
         linear.init(operations);
       });
       if constexpr (requires { ode.init(operations); }) ode.init(operations);
@@ -680,7 +700,8 @@ void Simulation<Root>::initSolvers(S const& scope, InitAgain const& again) {
   if (scope.integrates()) scope.forEachComponent(visit);
   if constexpr (!S::template always<role::OdeSolver>)
     if (!solved)
-      scope.template forEachChild<role::OdeSolver>([&](auto const& child) { initSolvers(child, again); });
+      scope.template forEachChild<role::OdeSolver>(
+          [&](auto const& child) { initSolvers(child, again, served); });
 }
 
 template <class Root>

@@ -43,7 +43,10 @@ struct CGLinearSolver {
               "smallest curvature p.A p with which to go on",
               range::nonNegative)
             .also("smallDenominatorThreshold"),
-        field("warmStart", &S::warmStart, "", "start from the solution of the last system, instead of 0"));
+        field("warmStart",
+              &S::warmStart,
+              "",
+              "start from the solution of the last system, instead of 0; not on a device"));
   }
 
   std::vector<double>

@@ -50,10 +50,11 @@ struct EulerExplicitSolver {
     bool solved = false;
     if (operations.massIsDiagonal()) return solved;
     operations.root.withLinearSolverIfAny([&](auto& linear) {
-      MultiVecDeriv rhs(operations, vec_id::dx);
-      rhs.eq(force);
-      operations.projectResponse(rhs.id);
-      linear.solve(operations, {.m = 1}, acc, rhs);
+      MultiVecDeriv a(operations, vec_id::dx);  // from which the next solution may start
+      acc.eq(force);
+      operations.projectResponse(acc.id);
+      linear.solve(operations, {.m = 1}, a, acc);
+      acc.eq(a);
       solved = true;
     });
     return solved;

@@ -212,6 +212,7 @@ struct MechanicalObject {
     position = resetPosition;
     velocity = resetVelocity;
     for (VecDeriv* v : {&force, &dx, &applied, &reaction}) v->assign(v->size(), D::Deriv::Zero());
+    for (VecDeriv& v : auxiliaryDerivs) v.assign(v.size(), D::Deriv::Zero());
   }
 
   VecCoord& operator[](CoordId id) {

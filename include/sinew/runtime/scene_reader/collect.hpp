@@ -402,7 +402,8 @@ class SceneCollector {
         continue;
       }
       auto const* given = found->attribute("property");
-      Words words(given ? given->value : "1");
+      const std::string property = given ? given->value : "1";
+      Words words(property);
       const std::string density(words.end() ? "1" : words.next());
       if (!words.end() || is_link(density))
         messages_.complain(

@@ -171,7 +171,7 @@ class SceneValues {
       if (at->ofRole(RoleKind::odeSolver)) return true;
     return owner && (owner->ofRole(RoleKind::mapping) || owner->find("ReadState"));
   }
-  // the elements that bear a load, of which none are none in SOFA, and all here where they are not given
+  // the elements that bear a load: a link to none is meant, or a mistake that SOFA lets pass
   static bool choosesLoaded(FieldInfo const& field) {
     static constexpr std::array lists =
         std::to_array<std::string_view>({"triangleList", "quadList", "edgeIndices"});
@@ -192,8 +192,7 @@ class SceneValues {
   // of points in space for frames: these are not turned
   std::string linkedValue(SceneItem& item, FieldInfo const& field, LinkTarget target) {
     if (!target.item) target.item = target.place->ofRole(RoleKind::state);
-    const std::string_view types =
-        target.item && target.item->info ? target.item->info->dataTypes : "Rigid3d";
+    const std::string types = target.item && target.item->info ? target.item->info->dataTypes : "Rigid3d";
     const bool inSpace = types.empty() || types.find("Vec3") != types.npos;
     std::string words = valueOf(std::move(target));
     if (!inSpace || item.info->role != RoleKind::state || !dialect::has(places, field.name)) return words;
