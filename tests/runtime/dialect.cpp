@@ -431,9 +431,8 @@ TEST_CASE("a load whose elements are chosen by a link to none is on none, which 
       node(sheet + "<TrianglePressureForceField pressure='1 0 0' triangleList='@rol.triangleIndices'/>");
   CHECK(in<TrianglePressureForceField<Vec3d>>(nowhere).none);
   CHECK(has(nowhere.warnings, "triangleList: '@rol.triangleIndices' leads nowhere"));
-  CHECK_FALSE(
-      in<TrianglePressureForceField<Vec3d>>(node(sheet + "<TrianglePressureForceField pressure='1 0 0'/>"))
-          .none);
+  auto unselected = node(sheet + "<TrianglePressureForceField pressure='1 0 0'/>");
+  CHECK_FALSE(in<TrianglePressureForceField<Vec3d>>(unselected).none);
   CHECK_THAT(wrong(sheet + "<FixedConstraint indices='@rol.indices'/>"), Catch::Contains("leads nowhere"));
 }
 
