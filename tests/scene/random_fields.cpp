@@ -7,6 +7,7 @@
 
 #include <sinew/sinew.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -102,8 +103,12 @@ struct Scrambler {
     for_each_field(owner, [&](auto const&, auto&) { ++count; });
     if (count == 0) return;
     int which = upTo(count);
-    for_each_field(owner, [&](auto const&, auto& value) {
-      if (which-- == 0) change(value);
+    for_each_field(owner, [&](auto const& field, auto& value) {
+      if (which-- != 0) return;
+      change(value);
+      // where Newton's method or its line search does not converge it goes on as long as it is told to
+      if constexpr (std::is_same_v<std::decay_t<decltype(value)>, int>)
+        if (field.name.starts_with("maxNbIterations")) value = std::min(value, 1000);
     });
   }
   template <class Simulation>
