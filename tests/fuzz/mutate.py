@@ -128,7 +128,7 @@ def finite(result, content):
 
 def motions_of(content):
     """Numbers of a scene that are places, speeds and what makes them."""
-    for values in re.findall(r'\b(?:position|velocity|movements|keyTimes|gravity|forces?|dt|translation)="([^"]*)"', content, re.I):
+    for values in re.findall(r'\b(?:position|velocity|movements|keyTimes|gravity|forces?|dt|translation|target)="([^"]*)"', content, re.I):
         for match in NUMBER.finditer(values):
             value = float(match.group(0))
             if math.isfinite(value):
