@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSL-1.0
-"""Mutates scene files and runs them with sinew_server, the program sinew for many scenes. A scene that is wrong has to be refused with a message; a defect is a
-signal, a finding of a sanitizer, a run that takes longer than --timeout, a refusal without a word, or an end at a kinetic energy that is
-not finite. Defects are kept in --keep with what the program said. A mutant depends on the seed and its number only:
---only NUMBER makes it again.
+"""Mutates scene files and runs them with sinew_server, the program sinew for many scenes. A scene that is wrong has to be refused with
+a message; a defect is a signal, a finding of a sanitizer, a leak, a run that takes longer than --timeout, a refusal without a word, or
+an end at a kinetic energy that is not finite, unless the scene itself asks for places or speeds beyond 1e150. Defects are kept in --keep
+with what the program said. A mutant depends on the seed and its number only: --only NUMBER makes it again.
 
 Mutations: values (special numbers, lists that are cut, longer or empty, links that lead elsewhere, words), attributes, and
 components and nodes that are removed, copied, moved, nested, or replaced by those of other scenes and by classes of
