@@ -113,7 +113,7 @@ TEST_CASE("edges are given by their points, and go with them") {
 TEST_CASE("a load across edges turns with them, at a right angle with the binormal") {
   using E = EdgePressureForceField<Vec3d>;
   const std::vector<Edge> side{{1, 2}};  // 3 metres at rest
-  auto load = ready(E{.intensity = -10, .binormal = {0, 0, 2}}, corners, {.edges = side});
+  auto load = ready(E{.edges = side, .intensity = -10, .binormal = {0, 0, 2}}, corners, {});
   // e_z x e_y = -e_x: 30 N along x, half of them on each end
   auto f = force(load, corners);
   CHECK((f[1] - Vector3d(15, 0, 0)).norm() < 1e-13);
@@ -128,7 +128,7 @@ TEST_CASE("a load across edges turns with them, at a right angle with the binorm
   CHECK(force(load, turned)[1].norm() == 0);
   CHECK_FALSE(load.properties().conservative);
   // a pressure goes before
-  auto pressed = ready(E{.pressure = p, .intensity = -10, .binormal = {0, 0, 2}}, corners, {.edges = side});
+  auto pressed = ready(E{.pressure = p, .edges = side, .intensity = -10, .binormal = {0, 0, 2}}, corners, {});
   check(force(pressed, corners), {0, 1.5, 1.5, 0, 0, 0});
   refuses(E{.intensity = 1}, corners, all, {"EdgePressureForceField<Vec3d>", "give binormal"});
 }
