@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSL-1.0
 """Mutates scene files and runs them with sinew_server, the program sinew for many scenes. A scene that is wrong has to be refused with
-a message; a defect is a signal, a finding of a sanitizer, a leak, a run that takes longer than --timeout, a refusal without a word, or
-an end at a kinetic energy that is not finite, unless the scene itself asks for places or speeds beyond 1e150. Defects are kept in --keep
-with what the program said. A mutant depends on the seed and its number only: --only NUMBER makes it again.
+a message; a defect is a signal, a finding of a sanitizer, a leak, a run that takes --timeout seconds of the processor, or WAIT times as
+long by the clock, a refusal without a word, or an end at a kinetic energy that is not finite, unless the scene itself asks for places or
+speeds beyond 1e150. Defects are kept in --keep with what the program said. A mutant depends on the seed and its number only: --only
+NUMBER makes it again.
 
 Mutations: values (special numbers, lists that are cut, longer or empty, links that lead elsewhere, words), attributes, and
 components and nodes that are removed, copied, moved, nested, or replaced by those of other scenes and by classes of
@@ -29,6 +30,7 @@ NUMBERS = ["0", "-0", "-1", "1", "2", "3", "7", "0.5", "99999", "-99999", "1e9",
 WORDS = ["", " ", "true", "x", "@", "@.", "@..", "@/", "@../..", "@[-1]", "@[1]", "@name.position", "Vec3d", "Rigid3d", "Vec1d,Vec3d",
          "1 2 3 4 5 6 7 8 9 10 11 12", "a" * 5000, "\u00e9\u202e", "0-5", "1e", "--1", "0x10", "1,2,3"]
 NUMBER = re.compile(r"[-+]?\d+(\.\d+)?([eE][-+]?\d+)?")
+WAIT = 10  # seconds by the clock for each of the processor, which others use too
 SCENES_OF_ONE = 20  # scenes that one process runs before it looks for leaks
 EXITS = tuple(f"exit {status}" for status in range(5))
 
@@ -139,8 +141,8 @@ class Server:
     """Runs scenes one after the other (serve.cpp)."""
 
     def __init__(self, program, timeout, scenes):
-        self.program, self.timeout = program, timeout
-        self.environment = dict(os.environ, SINEW_SERVER_SCENES=str(scenes),
+        self.program, self.wait = program, WAIT * timeout
+        self.environment = dict(os.environ, SINEW_SERVER_SCENES=str(scenes), SINEW_SERVER_SECONDS=str(timeout),
                                 ASAN_OPTIONS="exitcode=99:allocator_may_return_null=0:max_allocation_size_mb=4000:quarantine_size_mb=32",
                                 UBSAN_OPTIONS="halt_on_error=1:exitcode=99:print_stacktrace=1")
         self.start()
@@ -158,7 +160,7 @@ class Server:
         self.process.stdin.write(("\t".join([folder, *arguments]) + "\n").encode())
         self.process.stdin.flush()
         ended = "hang"
-        if select.select([self.process.stdout], [], [], self.timeout)[0]:
+        if select.select([self.process.stdout], [], [], self.wait)[0]:
             ended = self.process.stdout.readline().decode().strip()
         else:
             self.stop()
@@ -218,7 +220,7 @@ def main():
     parser.add_argument("--count", type=int, default=1000)
     parser.add_argument("--only", type=int, help="the number of one mutant: it is printed and run")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
-    parser.add_argument("--timeout", type=float, default=20)
+    parser.add_argument("--timeout", type=int, default=20)
     parser.add_argument("--keep", type=pathlib.Path, default=pathlib.Path("mutants"), help="folder for what goes wrong")
     arguments = parser.parse_args()
     arguments.program = os.path.abspath(arguments.program)

@@ -2,16 +2,19 @@
 // The program sinew, started once for many scenes: with sanitizers its start takes longer than most scenes.
 // Given arguments it is sinew. Without, it reads a line a scene, apart by tabs: a folder, and the arguments;
 // runs sinew there, with what it says in the files `out` and `err`; and answers with a line: "exit N", or
-// "signal N" where it has crashed. SINEW_SERVER_SCENES are run by one process (20 where it is not set), which
-// then looks for leaks; where it finds one, the last of them answers "leak".
+// "signal N" where it has crashed, or "hang" where it has taken SINEW_SERVER_SECONDS of the processor (20).
+// SINEW_SERVER_SCENES are run by one process (20), which then looks for leaks; where it finds one, the last
+// of them answers "leak".
 #include "sinew/options.hpp"
 
 #include <fcntl.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <algorithm>
 #include <array>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
@@ -68,10 +71,25 @@ int run(std::vector<std::string> words) {
   return status;
 }
 
-[[noreturn]] void run_some(int scenes, int answers) {
+int number_in(char const* variable, int otherwise) {
+  char const* const given = std::getenv(variable);
+  return given ? std::max(std::atoi(given), 1) : otherwise;
+}
+
+/// Ends the process by SIGXCPU when it has taken the processor for so much longer.
+void limit_processor(int seconds) {
+  rusage used{};
+  getrusage(RUSAGE_SELF, &used);
+  const rlim_t until = rlim_t(used.ru_utime.tv_sec + used.ru_stime.tv_sec + 1 + seconds);
+  const rlimit limit{until, RLIM_INFINITY};
+  if (setrlimit(RLIMIT_CPU, &limit) != 0) give_up("setrlimit");
+}
+
+[[noreturn]] void run_some(int scenes, int seconds, int answers) {
   std::string line;
   for (int i = 1; i <= scenes; ++i) {
     if (!std::getline(std::cin, line)) _exit(noMoreScenes);
+    limit_processor(seconds);
     const int status = run(words_of(line));
     const bool leaks = i == scenes && __lsan_do_recoverable_leak_check() != 0;
     dprintf(answers, leaks ? "leak\n" : "exit %d\n", status);
@@ -84,15 +102,17 @@ int run(std::vector<std::string> words) {
 int main(int argc, char** argv) {
   if (argc > 1) return cli::program(argc, argv);
   prctl(PR_SET_THP_DISABLE, 1, 0, 0, 0);  // processes that are copied would copy huge pages
-  char const* const given = std::getenv("SINEW_SERVER_SCENES");
-  const int scenes = given ? std::max(std::atoi(given), 1) : 20, answers = dup(1);
+  const int scenes = number_in("SINEW_SERVER_SCENES", 20), seconds = number_in("SINEW_SERVER_SECONDS", 20),
+            answers = dup(1);
   for (;;) {
     const pid_t child = fork();
     if (child < 0) give_up("fork");
-    if (child == 0) run_some(scenes, answers);
+    if (child == 0) run_some(scenes, seconds, answers);
     int status = 0;
     waitpid(child, &status, 0);
-    if (WIFSIGNALED(status))
+    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
+      dprintf(answers, "hang\n");
+    else if (WIFSIGNALED(status))
       dprintf(answers, "signal %d\n", WTERMSIG(status));
     else if (WEXITSTATUS(status) == noMoreScenes)
       return 0;

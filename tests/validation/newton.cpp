@@ -6,6 +6,8 @@
 #include <sinew/solver/bdf2.hpp>
 #include <sinew/solver/static_solver.hpp>
 
+#include <limits>
+
 namespace test_newton {
 
 using namespace sinew;
@@ -185,19 +187,24 @@ TEST_CASE("BDF of order 1 solves the same equation") {
 }
 
 TEST_CASE("a line search that finds nothing shorter takes the whole correction") {
-  Simulation sim{node<"root">(
-      StaticSolver{.maxNbIterationsNewton = 1, .maxNbIterationsLineSearch = 4},
-      Backwards{},
-      MechanicalObject<Vec2d>{.position = {{0, 0}, {1.5, 0}}},
-      StiffSpringForceField<Vec2d>{.springs = {{.first = 0, .second = 1, .stiffness = 8, .length = 1}}},
-      FixedConstraint<Vec2d>{.indices = {0}})};
-  sim.init();
-  sim.animate(1);
-  auto const& newton = sim.root().get<StaticSolver>().newton;
-  CHECK(newton.corrections == std::vector<double>{0.5});
-  CHECK(sim.root().state().position[1] == Eigen::Vector2d(2, 0));
-  CHECK(newton.residuals == std::vector<double>{4, 8});
-  CHECK(newton.status == NewtonStatus::outOfIterations);
+  for (const int lengths : {4, std::numeric_limits<int>::max()}) {
+    CAPTURE(lengths);
+    Simulation sim{node<"root">(
+        StaticSolver{.maxNbIterationsNewton = 1, .maxNbIterationsLineSearch = lengths},
+        Backwards{},
+        MechanicalObject<Vec2d>{.position = {{0, 0}, {1.5, 0}}},
+        StiffSpringForceField<Vec2d>{.springs = {{.first = 0, .second = 1, .stiffness = 8, .length = 1}}},
+        FixedConstraint<Vec2d>{.indices = {0}})};
+    sim.init();
+    sim.animate(1);
+    auto const& newton = sim.root().get<StaticSolver>().newton;
+    CHECK(newton.corrections == std::vector<double>{0.5});
+    // each length moves the point by a power of two, of which at most one is rounded
+    CHECK((sim.root().state().position[1] - Eigen::Vector2d(2, 0)).norm() <= 4.5e-16);
+    CHECK(newton.residuals[0] == 4);
+    CHECK(newton.residuals[1] == Approx(8).epsilon(1e-15));
+    CHECK(newton.status == NewtonStatus::outOfIterations);
+  }
 }
 
 TEST_CASE("what is at rest stays there without iterations") {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string_view>
 #include <vector>
 
@@ -111,13 +112,15 @@ bool newton_goes_on(Solver const& solver) {
 
 /// Solves r = 0 by Newton's method: A dx = r, where A = -dr/dx has the given factors, then advance(s) moves
 /// the unknown by s dx. The length s is 1, or with a line search the first of 1, q, q^2... (q =
-/// lineSearchCoefficient) that makes |r| smaller than it was, and 1 again where none does. `evaluate()` puts
-/// r at the unknown into b; `way` is made the sum of the corrections. A threshold of 0 or less is not looked
-/// at. A search for an equilibrium may find it at its start, and looks at where it ends in any case.
+/// lineSearchCoefficient, down to the precision of a double) that makes |r| smaller than it was, and 1 again
+/// where none does. `evaluate()` puts r at the unknown into b; `way` is made the sum of the corrections. A
+/// threshold of 0 or less is not looked at. A search for an equilibrium may find it at its start, and looks
+/// at where it ends in any case.
 template <class Solver, class Operations, class Evaluate, class Advance>
 void newton(Solver& solver, Operations& operations, MatrixFactors factors, bool equilibrium,
             MultiVecDeriv<Operations>& dx, MultiVecDeriv<Operations>& b, MultiVecDeriv<Operations>& way,
             Evaluate&& evaluate, Advance&& advance) {
+  constexpr double lost = std::numeric_limits<double>::epsilon();
   auto& [residuals, corrections, status] = solver.newton;
   auto below = [](double value, double threshold) {
     return value == 0 || (threshold > 0 && value <= threshold);
@@ -154,7 +157,7 @@ void newton(Solver& solver, Operations& operations, MatrixFactors factors, bool 
     move(1);
     const double last = residuals.back();
     double size = residual(), s = 1;
-    for (int i = 1; i < solver.maxNbIterationsLineSearch && !(size < last); ++i) {
+    for (int i = 1; i < solver.maxNbIterationsLineSearch && !(size < last) && s > lost; ++i) {
       const double shorter = s * solver.lineSearchCoefficient;
       move(shorter - s);
       s = shorter;
