@@ -184,8 +184,7 @@ class Runner:
         path, content = self.mutator.mutant(self.arguments.seed, number)
         with tempfile.TemporaryDirectory() as here:
             pathlib.Path(here, "mutant.scn").write_text(content)
-            ended, out, err = self.server.run(here, ["run", "mutant.scn", "--steps", "5", "--json", "--max-memory", "2G",
-                                                     "--data", str(path.parent)])
+            ended, out, err = self.server.run(here, ["run", "mutant.scn", "--steps", "5", "--json", "--data", str(path.parent)])
         wrong = None
         if ended == "hang":
             wrong = f"hangs for {self.arguments.timeout} s"
