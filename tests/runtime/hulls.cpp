@@ -116,6 +116,16 @@ TEST_CASE("a hull has the names of SOFA's plugin for Bullet, and the points of a
             .size() == 8);
 }
 
+TEST_CASE("a floor so large that places on it are no numbers is said, and not touched") {
+  std::string large = scene(tetrahedron);
+  const std::string_view flat = "-5 -5 0  5 -5 0  5 5 0  -5 5 0";
+  large.replace(large.find(flat), flat.size(), "-5 -5 9e18  5 -1e300 0  5 5 0  -5 5 0");
+  auto sim = start(parse_scene<Standard>("large.scn", large));
+  REQUIRE_THROWS_WITH(
+      sim.animate(dt),
+      Catch::Contains("/root/floor: places on element 0 of its collision model are not finite"));
+}
+
 TEST_CASE("a hull without points, or of a file that is not there, is said with its place") {
   auto refused = [](std::string_view hull, std::string_view words) {
     CHECK_THROWS_WITH(start(parse_scene<Standard>("hulls.scn", scene(hull))),

@@ -27,6 +27,15 @@ struct PrimitivePair {
 
 namespace detail {
 
+[[noreturn]] inline void refuse_place(CollisionSurface const& s, int element) {
+  throw Error(
+      s.path,
+      text("places on element ",
+           element,
+           " of its collision model are not finite numbers: it is too large, or too far away; correct its "
+           "points, or scale the scene"));
+}
+
 template <std::size_t N>
 void set_side(ContactSide& side, CollisionSurface const& s, int element, Eigen::Vector3d const& weights) {
   side.element = element;
@@ -36,6 +45,7 @@ void set_side(ContactSide& side, CollisionSurface const& s, int element, Eigen::
       side.vertices[std::size_t(n)] = s.elements[std::size_t(element)][c];
       side.weights[std::size_t(n++)] = weights[Eigen::Index(c)];
     }
+  if (n == 0) refuse_place(s, element);
 }
 
 // the outer normal of a triangle whose inside is meant by the point; zero where it is not
