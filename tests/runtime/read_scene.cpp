@@ -183,6 +183,9 @@ TEST_CASE("each mistake has its sentence") {
              Catch::Contains("test.scn:1:7: <Node>: gravity: 'down' is no number"));
   CHECK_THAT(wrong("<Node gravty=\"0 0 0\"/>"), Catch::Contains("did you mean 'gravity'?"));
   CHECK_THAT(wrong("<Node><UniformMass/></Node>"), Catch::Contains("has no state to act on"));
+  // a class is named once
+  CHECK_THAT(wrong("<Node><BoxROI box='0 0 0 1 1 1'/></Node>"),
+             Catch::Contains("<BoxROI>: position is empty"));
   CHECK_THAT(wrong("<Node><Node><MechanicalObject/><IdentityMapping/></Node></Node>"),
              Catch::Contains("has no parent"));
   CHECK_THAT(wrong("<Node><MechanicalObject/><Node><IdentityMapping/></Node></Node>"),

@@ -92,7 +92,11 @@ struct SceneMessages {
       f();
     } catch (Error const& error) {
       item.failed = true;
-      complain(*item.element, error.what());
+      // the element has said the class
+      const std::string own = item.info ? text(item.info->cppName, ": ") : std::string();
+      std::string_view said = error.what();
+      while (!own.empty() && said.starts_with(own)) said.remove_prefix(own.size());
+      complain(*item.element, said);
     }
   }
 };
