@@ -71,7 +71,7 @@ TEST_CASE("a mapping out of reach of the solver of its parent is refused") {
           implicit +
           "<MechanicalObject/><IdentityMapping/>"
           "<Node name='other'><MechanicalObject position='1 0 0'/><UniformMass/></Node></Node></Node></Node>",
-      "is below an ODE solver that does not move its parent at '/root/body'");
+      "is under another ODE solver than a parent (at '/root/body')");
 }
 
 TEST_CASE("what stands below a solver and acts on a state above it is refused") {
@@ -83,7 +83,8 @@ TEST_CASE("what stands below a solver and acts on a state above it is refused") 
         "<Node><MechanicalObject position='0 0 0'/><Node name='solved'>" + implicit +
             "<Node name='body'><MechanicalObject position='1 0 0'/><UniformMass/></Node><Node name='other'>" +
             part + "</Node></Node></Node>",
-        "acts on the state of '/root', which the ODE solver of '/root/solved' does not move");
+        "acts on a state that the ODE solver above it does not move (the state of '/root', the solver of "
+        "'/root/solved')");
 }
 
 TEST_CASE("collision models without a pipeline, and its parts without it, do nothing and say so") {

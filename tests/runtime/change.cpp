@@ -127,9 +127,9 @@ TEST_CASE("a change that is wrong is refused whole") {
       refused(sim, [](auto& root) { root.find_node("a")->add(FixedConstraint<Vec3d>{.indices = {7}}); }),
       Catch::Contains("indices has 7, but the state has 2 points"));
   CHECK_THAT(refused(sim, [](auto& root) { root.find_node("a")->add(ConstantForceField<Vec3f>{}); }),
-             Catch::Contains("is over Vec3f, but what it acts on is a state over Vec3d"));
+             Catch::Contains("other DataTypes than the state on which it acts (Vec3f on Vec3d)"));
   CHECK_THAT(refused(sim, [](auto& root) { root.addChild(ball("a", 2)); }),
-             Catch::Contains("two children named 'a'"));
+             Catch::Contains("two children of the same name ('a')"));
   CHECK_THAT(refused(sim, [](auto& root) { root.remove("CGLinearSolver"); }),
              Catch::Contains("finds no linear solver"));
   CHECK_THAT(refused(sim, [](auto& root) { root.find_node("a")->add(MechanicalObject<Vec3d>{}); }),
@@ -139,7 +139,7 @@ TEST_CASE("a change that is wrong is refused whole") {
               [](auto& root) {
                 root.add(StiffSpringForceField<Vec3d, Linked>{.springs = {{}}, .ends = {"a", "nowhere"}});
               }),
-      Catch::Contains("there is no node at 'nowhere'"));
+      Catch::Contains("joins a node that is not there (object2 at 'nowhere')"));
   CHECK_THAT(refused(sim, [](auto&) { throw Error("mine", "I changed my mind"); }),
              Catch::Contains("I changed my mind"));
   // all that is wrong is said at once
@@ -159,7 +159,7 @@ TEST_CASE("what an interaction needs cannot be taken from it") {
   });
   sim.animate(0.01);
   CHECK_THAT(refused(sim, [](auto& root) { root.takeChild(*root.find_node("b")); }),
-             Catch::Contains("there is no node at 'b'"));
+             Catch::Contains("joins a node that is not there (object2 at 'b')"));
   // the two are pulled together
   CHECK(state(sim, "a").position[0].x() > 0);
   CHECK(state(sim, "b").position[0].x() < 3);

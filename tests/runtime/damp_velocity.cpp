@@ -29,7 +29,7 @@ TEST_CASE("a DampVelocitySolver stands beside the ODE solver of a node, another 
   } catch (Error const& error) {
     said = error.what();
   }
-  CHECK(said.find("is the second ODE solver of its node, beside EulerExplicitSolver") != std::string::npos);
+  CHECK(said.find("is the second ODE solver of its node (beside EulerExplicitSolver)") != std::string::npos);
 }
 
 }  // namespace test_damp_velocity

@@ -102,8 +102,9 @@ TEST_CASE("a child of several bodies follows changes in the middle of a simulati
   CHECK(points("joined")[2] == points("left")[0]);
   CHECK(points("joined")[1] == points("left")[1]);
   sim.animate(0.01);
-  CHECK_THROWS_WITH(sim.change([](auto& root) { root.takeChild(*root.find_node("left")); }),
-                    Contains("SubsetMultiMapping") && Contains("there is no node for its parent at '/left'"));
+  CHECK_THROWS_WITH(
+      sim.change([](auto& root) { root.takeChild(*root.find_node("left")); }),
+      Contains("SubsetMultiMapping") && Contains("follows a node that is not there (at '/left')"));
   sim.animate(0.01);
 }
 
@@ -116,12 +117,12 @@ TEST_CASE("bad parents in a scene file are named") {
     return xml.replace(xml.find(what), what.size(), by);
   };
   const std::string input = "input=\"@../left/dofs @/right/corner \"";
-  says(scene(left + joined + right), "comes before its parent at '/right/corner'");
+  says(scene(left + joined + right), "comes before a parent, which it follows (at '/right/corner')");
   says(with(input, ""), "names no parents");
   says(with(input, "input='left'"), "names no parents");
   says(with(input, "input='@../left @../centre'"), "leads nowhere");
   says(with(input, "input='@../left @../right'"),
-       "is over Vec3d, but its parent at '/right' is a state over Rigid3d");
+       "maps from other DataTypes than those of a parent (Vec3d from Rigid3d, at '/right')");
   says(with("indexPairs=\"1 1", "indexPairs=\"2 1"), "names parent 2");
   std::string apart = left;
   const std::string at = "<Node name=\"left\">";
@@ -132,7 +133,7 @@ TEST_CASE("bad parents in a scene file are named") {
   const std::size_t solver = without.find("<EulerImplicitSolver"), linear = without.find("<CGLinearSolver");
   REQUIRE(linear != without.npos);
   without.erase(solver, without.find("/>", linear) + 2 - solver);
-  says(without, "is under another ODE solver than its parent at '/left'");
+  says(without, "is under another ODE solver than a parent (at '/left')");
 }
 
 }  // namespace test_multi_mapping

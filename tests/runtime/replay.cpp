@@ -251,7 +251,7 @@ TEST_CASE("what is wrong with ReadState and WriteState in a scene file is said w
   root.add(MechanicalObject<Rigid3d>{.position = {{}}});
   root.add(WriteState<Vec3d>{.filename = folder / "f"});
   Runtime sim(std::move(root));
-  says(error_of([&] { sim.init(); }), {"is over Vec3d", "a state over Rigid3d"});
+  says(error_of([&] { sim.init(); }), {"other DataTypes than the state on which it acts (Vec3d on Rigid3d)"});
 }
 
 }  // namespace test_replay

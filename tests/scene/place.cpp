@@ -86,10 +86,11 @@ TEST_CASE("a place is empty at first, and refuses what does not fit") {
   sim.init();
   sim.animate(0.01);
   const auto before = sim.at<"organ">().state().position;
-  CHECK_THROWS_WITH(sim.change([](auto& root) {
-    root.template child<"organ">().template child<"tools">().addChild("bad").add(UniformMass<Rigid3d>{});
-  }),
-                    Catch::Contains("is over Rigid3d, but what it acts on is a state over Vec3d"));
+  CHECK_THROWS_WITH(
+      sim.change([](auto& root) {
+        root.template child<"organ">().template child<"tools">().addChild("bad").add(UniformMass<Rigid3d>{});
+      }),
+      Catch::Contains("has other DataTypes than the state on which it acts (Rigid3d on Vec3d)"));
   CHECK(sim.at<"organ">().state().position == before);
   CHECK(sim.at<"organ/tools">().children().empty());
   sim.animate(0.01);

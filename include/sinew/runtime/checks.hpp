@@ -2,14 +2,16 @@
 #pragma once
 
 #include <sinew/runtime/scope.hpp>
+#include <sinew/scene/rules.hpp>
 
+#include <map>
 #include <set>
 
 namespace sinew {
 
 namespace detail {
 
-/// Name of the DataTypes of the state on which components of a scope act; empty where there is none.
+/// DataTypes of the state on which components of a scope act; empty where there is none.
 template <class R>
 std::string_view data_types_at(RuntimeScope<R> const& scope) {
   const RuntimeScope<R> owner = scope.stateScope();
@@ -21,250 +23,251 @@ std::string_view data_types_at(RuntimeScope<R> const& scope) {
   return name;
 }
 
+/// The node whose ODE solver moves a node: the topmost that has one and something to move; null where there
+/// is none, or above a runtime tree.
+template <class R>
+RuntimeNode<R> const* solver_of(RuntimeNode<R> const& node) {
+  if (node.parent())
+    if (auto const* above = solver_of(*node.parent())) return above;
+  if (!node.hasIndependent()) return nullptr;
+  for (auto const& entry : node.components()) {
+    bool moves = false;
+    entry.component.template visit<role::OdeSolver>(
+        [&](auto const& ode) { moves = !stands_beside<std::decay_t<decltype(ode)>>; });
+    if (moves) return &node;
+  }
+  return nullptr;
+}
+
+/// Whether a traversal comes to a node before another.
+template <class R>
+bool comes_before(RuntimeNode<R> const& first, RuntimeNode<R> const& second) {
+  RuntimeNode<R> const* branch = &second;
+  for (auto* at = second.parent(); at; branch = at, at = at->parent()) {
+    if (at == &first) return true;
+    for (auto const& child : at->children()) {
+      if (child.get() == branch) break;
+      if (first.isBelow(*child)) return true;
+    }
+  }
+  return false;
+}
+
+/// What rules::broken asks about a component of a runtime node, and what its sentence leaves open: which
+/// node, which DataTypes. Whether a topology has tetrahedra is known when it is made, and said by the
+/// component.
+template <class R>
+struct RuntimeFacts {
+  using Node = RuntimeNode<R>;
+  using Scope = RuntimeScope<R>;
+  using Place = rules::Place;
+  using Rule = rules::Rule;
+  Scope const& scope;
+  RuntimeEntry<R>& entry;
+  std::string_view dataTypes{}, in{}, out{};  // of the component
+  std::vector<std::string> paths{};           // of its ends or parents
+  Rule wrongNames = Rule::none;
+
+  Rule named() const { return wrongNames; }
+  bool solved() const { return solver_of(scope.node); }
+  bool solverAbove() const { return scope.node.parent() && solver_of(*scope.node.parent()); }
+  bool solverHere() const { return solver_of(scope.node) == &scope.node; }
+  bool integrates() const { return scope.integrates(); }
+  bool linearSolver() const {
+    bool found = false;
+    scope.withLinearSolver([&](auto&) { found = true; });
+    return found;
+  }
+  bool pipelineAbove() const {
+    for (auto* n = &scope.node; n; n = n->parent())
+      if (Scope(*n).template has<role::CollisionPipeline>()) return true;
+    return false;
+  }
+  bool pipelineHere() const { return scope.template has<role::CollisionPipeline>(); }
+  bool allStages() const {
+    return scope.template has<role::BroadPhase>() && scope.template has<role::NarrowPhase>() &&
+           scope.template has<role::Intersection>() && scope.template has<role::ContactManager>();
+  }
+  bool visual() const { return scope.node.visual(); }
+  static constexpr bool tetrahedra() { return true; }
+  static constexpr bool parentTetrahedra() { return true; }
+  Place own() const { return place(scope, dataTypes); }
+  Place parent() const { return place(scope.above(), in); }
+  Place child() const {
+    return {.state = scope.node.state() != nullptr, .sameDataTypes = out == childDataTypes()};
+  }
+  std::vector<Place> ends() const {
+    std::vector<Place> found;
+    for (Node* end : nodes()) {
+      found.push_back(end ? place(Scope(*end), dataTypes) : Place{.there = false});
+      found.back().below = end && end->isBelow(scope.node);
+    }
+    return found;
+  }
+  std::vector<Place> parents() const {
+    std::vector<Place> found;
+    for (Node* node : nodes()) {
+      found.push_back(node ? place(Scope(*node), in) : Place{.there = false});
+      found.back().before = node && comes_before(*node, scope.node);
+    }
+    return found;
+  }
+
+  std::string details(rules::Broken const& broken) const {
+    const std::size_t which = broken.which;
+    auto path_of = [](auto const* node) { return node ? node->path() : std::string("?"); };
+    auto solver = [&] { return path_of(solver_of(scope.node)); };
+    switch (broken.rule) {
+      case Rule::otherDataTypes:
+        return text(dataTypes, " on ", data_types_at(scope));
+      case Rule::mappingIn:
+        return text(in, " from ", data_types_at(scope.above()));
+      case Rule::mappingOut:
+        return text(out, " to ", childDataTypes());
+      case Rule::solverBelowSolver:
+        return text("that of '", path_of(solver_of(*scope.node.parent())), "'");
+      case Rule::stateAcrossSolvers:
+        return text("the state of '",
+                    paths.empty() ? scope.stateScope().path() : Scope(*nodes()[which]).stateScope().path(),
+                    "', the solver of '",
+                    solver(),
+                    "'");
+      case Rule::parentsAcrossSolvers:
+        if (paths.empty()) return text("at '", scope.above().stateScope().path(), "'");
+        [[fallthrough]];
+      case Rule::noParentNode:
+      case Rule::parentComesLater:
+      case Rule::parentWithoutState:
+        return text("at '", paths[which], "'");
+      case Rule::parentOfOtherDataTypes:
+        return text(in, " from ", data_types_at(Scope(*nodes()[which])), ", at '", paths[which], "'");
+      case Rule::endOfOtherDataTypes:
+        return text(dataTypes,
+                    " on ",
+                    data_types_at(Scope(*nodes()[which])),
+                    ", object",
+                    which + 1,
+                    " at '",
+                    paths[which],
+                    "'");
+      case Rule::noEnd:
+      case Rule::endNotBelow:
+      case Rule::endWithoutState:
+        return text("object", which + 1, " at '", paths[which], "'");
+      default:
+        return {};
+    }
+  }
+
+ private:
+  std::string_view childDataTypes() const {
+    return scope.node.state() ? data_types_at(scope) : std::string_view("Vec3f");
+  }
+  std::vector<Node*> const& nodes() const { return scope.endsOf(entry); }
+  Place place(Scope const& at, std::string_view wanted) const {
+    const std::string_view found = data_types_at(at);
+    const Scope owner = at.stateScope();
+    return {.state = !found.empty(),
+            .sameDataTypes = found == wanted,
+            .mapped = owner.mapped(),
+            .sameSolver = owner.atMount || solver_of(owner.node) == solver_of(scope.node)};
+  }
+};
+
+/// An Error, or a warning, with the sentence of a rule.
+template <class R>
+void say(RuntimeScope<R> const& scope, RuntimeEntry<R> const& entry, rules::Rule rule,
+         std::string const& details) {
+  rules::Sentence const& sentence = rules::sentence(rule);
+  const std::string message =
+      text(sentence.cause, details.empty() ? "" : text(" (", details, ")"), "; ", sentence.remedy);
+  if (rules::only_warns(rule)) return scope.warn(entry, message);
+  const std::string where = text(scope.path(), ": ", entry.component.name());
+  if (entry.origin.empty()) throw Error(where, message);
+  throw Error(entry.origin, text(where, ": ", message));
+}
+
 template <class R>
 struct RuntimeChecker {
   RuntimeScope<R> const& scope;
   RuntimeEntry<R>& entry;
 
-  [[noreturn]] void fail(std::string_view message) const {
-    const std::string where = text(scope.path(), ": ", entry.component.name());
-    if (entry.origin.empty()) throw Error(where, message);
-    throw Error(entry.origin, text(where, ": ", message));
-  }
-
-  template <class D>
-  void state(RuntimeScope<R> const& at, std::string_view who, std::string_view none) const {
-    const std::string_view found = data_types_at(at), wanted = data_types_name<D>::value;
-    if (found.empty()) fail(none);
-    if (found != wanted)
-      fail(text(
-          "is over ", wanted, ", but ", who, " is a state over ", found, "; give both the same template"));
-  }
-
   template <class C>
   void operator()(C& c) const {
-    if constexpr (JoinsTwo<C>) {
-      ends(c);
-      if constexpr (HasRole<C, role::ProjectiveConstraint>)
-        for (auto* end : entry.ends) {
-          if (RuntimeScope<R>(*end).stateScope().mapped())
-            fail("acts on a mapped state, which follows its parent; constrain the parent instead");
-          if (solver(*end) != solver(scope.node))
-            fail("joins bodies under different ODE solvers; put it and both bodies below one solver");
-        }
-    } else if constexpr (HasRole<C, role::ForceField> || HasRole<C, role::Mass> ||
-                         HasRole<C, role::ProjectiveConstraint> || HasRole<C, role::CollisionModel> ||
-                         WatchesState<C>) {
-      state<typename C::DataTypes>(
-          scope,
-          "what it acts on",
-          "has no state to act on; put it into a node with a MechanicalObject, or below one");
-      if (HasRole<C, role::ProjectiveConstraint> && scope.stateScope().mapped())
-        fail("acts on a mapped state, which follows its parent; constrain the parent instead");
-      if constexpr (!WatchesState<C>) moved(scope);
-      if constexpr (HasRole<C, role::CollisionModel>) {
-        bool managed = false;
-        for (auto* n = &scope.node; n; n = n->parent())
-          managed = managed || RuntimeScope<R>(*n).template has<role::CollisionPipeline>();
-        if (!managed)
-          scope.warn(entry,
-                     "collides with nothing: there is no DefaultPipeline above it; put one into the root, with a "
-                     "BruteForceBroadPhase, a BVHNarrowPhase, a MinProximityIntersection and a DefaultContactManager");
-      }
-    } else if constexpr (HasRole<C, role::Mapping>) {
-      if constexpr (HasParents<C>)
-        mappingWithParents(c);
-      else
-        mapping<C>();
-    } else if constexpr (HasRole<C, role::BroadPhase> || HasRole<C, role::NarrowPhase> ||
-                         HasRole<C, role::Intersection> || HasRole<C, role::ContactManager>) {
-      if (!scope.template has<role::CollisionPipeline>())
-        scope.warn(entry, "does nothing: its node has no DefaultPipeline, which would use it; add one");
-    } else if constexpr (HasRole<C, role::OdeSolver>) {
-      if constexpr (!stands_beside<C>) {
-        auto const* above = scope.node.parent() ? solver(*scope.node.parent()) : nullptr;
-        if (above)
-          scope.warn(entry,
-                     text("does nothing: the ODE solver of '", above->path(), "' above it moves all that is below; remove one"));
-        else if (!scope.integrates())
-          scope.warn(entry, "does nothing: no state is below that it could move; remove it, or put it above one");
-        if (above || !scope.integrates()) return;
-      } else if (solver(scope.node) != &scope.node) {
-        fail("changes what the ODE solver of its node has done, and there is none; put it behind one");
-      }
-      if constexpr (C::implicit) {
-        bool found = false;
-        scope.withLinearSolver([&](auto&) { found = true; });
-        if (!found)
-          fail("is implicit and finds no linear solver; add one, such as CGLinearSolver, to its node");
-      }
+    constexpr rules::Kind kind = rules::kind_of<C>();
+    RuntimeFacts<R> facts{scope, entry};
+    entry.ends.clear();
+    if constexpr (kind.joins || kind.acts) facts.dataTypes = data_types_name<typename C::DataTypes>::value;
+    if constexpr (kind.maps) {
+      facts.in = data_types_name<typename C::In>::value;
+      facts.out = data_types_name<typename C::Out>::value;
     }
-  }
-
-  // what a solver asks for its force or mass acts on a state that this solver moves
-  void moved(RuntimeScope<R> const& end) const {
-    const RuntimeScope<R> owner = end.stateScope();
-    auto const* mover = solver(scope.node);
-    if (mover && !owner.atMount && solver(owner.node) != mover)
-      fail(text("acts on the state of '",
-                owner.path(),
-                "', which the ODE solver of '",
-                mover->path(),
-                "' does not move; give its node a MechanicalObject, or put the solver above that state"));
-  }
-
-  // the node whose ODE solver moves a node: the topmost that has one and something to move; null where there is none, or above
-  // a runtime tree
-  static RuntimeNode<R> const* solver(RuntimeNode<R> const& node) {
-    if (node.parent())
-      if (auto const* above = solver(*node.parent())) return above;
-    if (!node.hasIndependent()) return nullptr;
-    for (auto const& other : node.components()) {
-      bool moves = false;
-      other.component.template visit<role::OdeSolver>(
-          [&](auto const& ode) { moves = !stands_beside<std::decay_t<decltype(ode)>>; });
-      if (moves) return &node;
+    if constexpr (kind.joins) {
+      static_assert(
+          requires { c.ends.object1; },
+          "Sinew: a component of a registry names its ends in its type, which are unknown to a "
+          "runtime tree; use ends of type Linked.");
+      facts.paths = {c.ends.object1, c.ends.object2};
     }
-    return nullptr;
-  }
-
-  // whether a traversal comes to a node before another
-  static bool before(RuntimeNode<R> const& first, RuntimeNode<R> const& second) {
-    auto below = [&](RuntimeNode<R> const& top) {
-      for (auto* at = &first; at; at = at->parent())
-        if (at == &top) return true;
-      return false;
-    };
-    RuntimeNode<R> const* branch = &second;
-    for (auto* at = second.parent(); at; branch = at, at = at->parent()) {
-      if (at == &first) return true;
-      for (auto const& child : at->children()) {
-        if (child.get() == branch) break;
-        if (below(*child)) return true;
-      }
+    if constexpr (kind.severalParents) {
+      static_assert(
+          requires { c.parents.paths; },
+          "Sinew: a mapping of a registry names its parents in its type, which are unknown to a "
+          "runtime tree; use LinkedParents.");
+      facts.paths = c.parents.paths;
+      if (facts.paths.empty()) facts.wrongNames = rules::Rule::noParents;
     }
-    return false;
-  }
-
-  template <class M>
-  void mappingWithParents(M& m) const {
-    hasChild<M>();
-    if constexpr (requires { m.parents.paths; }) {
-      if (m.parents.paths.empty()) fail("has no parents; name them: input=\"@../left @../right\"");
-      entry.ends.clear();
-      auto const& parents = scope.endsOf(entry);
-      for (std::size_t k = 0; k < parents.size(); ++k) {
-        const std::string who = text("its parent at '", m.parents.paths[k], "'");
-        if (!parents[k])
-          fail(text("there is no node for ", who, "; give the path from the node of the mapping"));
-        const RuntimeScope<R> parent(*parents[k]);
-        state<typename M::In>(parent, who, text(who, " has no MechanicalObject"));
-        if (parent.stateScope().atMount) continue;
-        if (!before(*parents[k], scope.node))
-          fail(text("comes before ", who, ", which it follows; move its node behind that of the parent"));
-        if (scope.node.state() && solver(*parents[k]) != solver(scope.node))
-          fail(text("is under another ODE solver than ", who, "; put both below one solver"));
-      }
-    } else {
-      fail("names its parents by compile-time paths, which a runtime tree has not; use LinkedParents");
-    }
-  }
-
-  template <class M>
-  void hasChild() const {
-    if (!scope.node.state() && !scope.node.visual())
-      fail("has no child: its node has neither a MechanicalObject nor a VisualModel; add one");
-    if (scope.node.state())
-      state<typename M::Out>(scope, "its child", "");
-    else if (!std::is_same_v<typename M::Out, Vec3f>)
-      fail(text("maps to ",
-                data_types_name<typename M::Out>::value,
-                ", but a VisualModel is of Vec3f; map to Vec3f"));
-  }
-  template <class M>
-  void mapping() const {
-    hasChild<M>();
-    state<typename M::In>(
-        scope.above(), "its parent", "has no parent: no node above has a MechanicalObject; add one");
-    const RuntimeScope<R> parent = scope.above().stateScope();
-    if (scope.node.state() && !parent.atMount && solver(parent.node) != solver(scope.node))
-      fail(text("is below an ODE solver that does not move its parent at '", parent.path(), "'; put the solver above both"));
-  }
-
-  template <class C>
-  void ends(C& c) const {
-    if constexpr (requires { c.ends.object1; }) {
-      const std::string* paths[] = {&c.ends.object1, &c.ends.object2};
-      entry.ends.clear();
-      for (std::size_t k = 0; k < 2; ++k) {
-        if (!scope.endsOf(entry)[k])
-          fail(text("object",
-                    k + 1,
-                    ": there is no node at '",
-                    *paths[k],
-                    "'; give the path from its node to that end"));
-        bool above = false;
-        for (auto* at = entry.ends[k]; at; at = at->parent()) above = above || at == &scope.node;
-        if (!above)
-          fail(text("object",
-                    k + 1,
-                    ": the node at '",
-                    *paths[k],
-                    "' is not below that of this component; put it into a node above both ends"));
-        state<typename C::DataTypes>(
-            RuntimeScope<R>(*entry.ends[k]),
-            text("object", k + 1),
-            text("object", k + 1, ": the node at '", *paths[k], "' has no MechanicalObject"));
-        moved(RuntimeScope<R>(*entry.ends[k]));
-      }
-    } else {
-      fail("joins two states by compile-time paths, which a runtime tree has not; use ends of type Linked");
-    }
+    if (const rules::Broken broken = rules::broken<kind>(facts); broken.rule != rules::Rule::none)
+      say(scope, entry, broken.rule, facts.details(broken));
   }
 };
 
-}  // namespace detail
-
-/// What checks.hpp of scene/ proves of a typed node, for one runtime node. Throws Error.
+/// What a node has too many of.
 template <class R>
-void runtime_checks(RuntimeScope<R> const& scope) {
-  auto& node = scope.node;
-  RuntimeEntry<R>* first[10]{};
-  for (auto& entry : node.components()) {
-    auto one = [&]<class Role>(int slot, std::string_view what) {
+void check_counts(RuntimeScope<R> const& scope) {
+  using rules::Rule;
+  std::map<std::pair<Rule, int>, RuntimeEntry<R>*> first;
+  for (auto& entry : scope.node.components()) {
+    auto one = [&]<class Role>(Rule rule, int stage = 0) {
       if (!entry.component.template is<Role>()) return;
       bool beside = false;
       entry.component.template visit<role::OdeSolver>(
           [&](auto const& ode) { beside = stands_beside<std::decay_t<decltype(ode)>>; });
       if (beside) return;
-      if (first[slot])
-        return scope.collect([&] {
-          detail::RuntimeChecker<R>{scope, entry}.fail(text("is the second ",
-                                                            what,
-                                                            " of its node, beside ",
-                                                            first[slot]->component.name(),
-                                                            "; keep one, or give it a node of its own"));
-        });
-      first[slot] = &entry;
+      RuntimeEntry<R>*& earlier = first[{rule, stage}];
+      if (earlier)
+        scope.collect([&] { say(scope, entry, rule, text("beside ", earlier->component.name())); });
+      else
+        earlier = &entry;
     };
-    one.template operator()<role::State>(0, "state");
-    one.template operator()<role::VisualModel>(0, "state");
-    one.template operator()<role::Mapping>(1, "mapping");
-    one.template operator()<role::Mass>(2, "mass");
-    one.template operator()<role::OdeSolver>(3, "ODE solver");
-    one.template operator()<role::Topology>(4, "topology");
-    one.template operator()<role::CollisionPipeline>(5, "collision pipeline");
-    one.template operator()<role::BroadPhase>(6, "broad phase");
-    one.template operator()<role::NarrowPhase>(7, "narrow phase");
-    one.template operator()<role::Intersection>(8, "intersection method");
-    one.template operator()<role::ContactManager>(9, "contact manager");
+    one.template operator()<role::State>(Rule::secondState);
+    one.template operator()<role::VisualModel>(Rule::secondState);
+    one.template operator()<role::Mapping>(Rule::secondMapping);
+    one.template operator()<role::Mass>(Rule::secondMass);
+    one.template operator()<role::OdeSolver>(Rule::secondSolver);
+    one.template operator()<role::Topology>(Rule::secondTopology);
+    one.template operator()<role::CollisionPipeline>(Rule::secondStage, 1);
+    one.template operator()<role::BroadPhase>(Rule::secondStage, 2);
+    one.template operator()<role::NarrowPhase>(Rule::secondStage, 3);
+    one.template operator()<role::Intersection>(Rule::secondStage, 4);
+    one.template operator()<role::ContactManager>(Rule::secondStage, 5);
   }
   std::set<std::string_view> names;
-  for (auto const& child : node.children())
+  for (auto const& child : scope.node.children())
     if (!names.insert(child->name).second)
-      scope.collect(
-          [&] { throw Error(scope.path(), text("has two children named '", child->name, "'; rename one")); });
-  for (auto& entry : node.components())
+      scope.collect([&] {
+        rules::Sentence const& sentence = rules::sentence(Rule::sameNames);
+        throw Error(scope.path(), text(sentence.cause, " ('", child->name, "'); ", sentence.remedy));
+      });
+}
+
+}  // namespace detail
+
+/// Checks one runtime node against the rules of scene/rules.hpp. Throws Error.
+template <class R>
+void runtime_checks(RuntimeScope<R> const& scope) {
+  detail::check_counts(scope);
+  for (auto& entry : scope.node.components())
     scope.collect([&] { entry.component.template visit<AnyRole>(detail::RuntimeChecker<R>{scope, entry}); });
 }
 

@@ -58,7 +58,7 @@ class RuntimeNode {
   Mount mount{};
   std::vector<std::string> errors{};    // of the top node: what init has found wrong so far
   std::vector<std::string> warnings{};  // of the top node: what the last init has noticed
-  Profile* profile = nullptr;         // of the top node: what times its steps; copies are not timed
+  Profile* profile = nullptr;           // of the top node: what times its steps; copies are not timed
 
   explicit RuntimeNode(std::string n = "root") : name(std::move(n)) {}
   RuntimeNode(RuntimeNode const& other) : name(other.name), mount(other.mount), entries_(other.entries_) {
@@ -170,6 +170,8 @@ class RuntimeNode {
     }
     return found;
   }
+  /// Whether this is a node, or one below it.
+  bool isBelow(RuntimeNode const& node) const { return this == &node || (parent_ && parent_->isBelow(node)); }
   /// Whether there is a state here or below that no mapping moves.
   bool hasIndependent() const {
     return (state_ && !mapping_) ||

@@ -1,62 +1,27 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/scene/rules.hpp>
 #include <sinew/scene/scope.hpp>
 
 #include <type_traits>
 
 namespace sinew::checks {
 
-/// What can be wrong in a typed scene, in the order of the sentences of scene/mistakes.hpp.
-enum class Mistake {
-  none,
-  twoStates,
-  twoMappings,
-  twoMasses,
-  twoSolvers,
-  partOfPipeline,
-  noState,
-  otherDataTypes,
-  stateAcrossSolvers,
-  noTetrahedra,
-  constraintOnMapped,
-  constraintAcrossSolvers,
-  noEnd,
-  endWithoutState,
-  endOfOtherDataTypes,
-  noChild,
-  noParent,
-  mappingIn,
-  mappingOut,
-  noParentTetrahedra,
-  linkedParents,
-  noParentNode,
-  parentComesLater,
-  parentWithoutState,
-  parentOfOtherDataTypes,
-  parentsAcrossSolvers,
-  noPipeline,
-  noLinearSolver,
-  notState,
-  notForceField,
-  notMass,
-  notProjectiveConstraint,
-  notInteractionConstraint,
-  notInteractionForceField,
-  notMapping,
-  notMultiMapping,
-  notCollisionModel,
-  notOdeSolver
-};
+using rules::Place;
+using rules::Rule;
 
-template <Mistake, class C, FixedString Node>
+/// A rule that component C (void: the node itself) of a node breaks (scene/mistakes.hpp).
+template <Rule, class C, FixedString Node>
 struct Wrong;
-/// What stands where Wrong would, in a scene without a mistake.
+/// A component that does not fulfil the concept of its role.
+template <class C, FixedString Node>
+struct Unfulfilled;
+/// What stands where those would, in a scene without a mistake.
 struct Right {};
 
-// What a typed scene must fulfil, on types alone. Each check returns the first mistake that it finds; nothing
-// is asserted here (scene/mistakes.hpp says it), and Simulation leaves out what would only repeat the mistake
-// in other words.
+// What rules.hpp asks of a typed scene, on types alone. Nothing is asserted here, and Simulation leaves out
+// what would only repeat the mistake in other words.
 
 /// The nearest scope from S upwards that owns a state; NoScope where none does.
 template <class S>
@@ -78,20 +43,13 @@ using FirstOf = std::decay_t<decltype(std::declval<N&>().template first<R>())>;
 template <class S>
 using DataTypesAt = typename FirstOf<typename Owner<S>::NodeType, role::State>::DataTypes;
 
-template <class S>
-constexpr bool has_linear_solver() {
+/// A component of role R is in the node of S, or above.
+template <class S, class R>
+constexpr bool has_above() {
   if constexpr (std::is_same_v<S, NoScope>)
     return false;
   else
-    return S::NodeType::template count<role::LinearSolver> > 0 || has_linear_solver<typename S::Above>();
-}
-
-template <class S>
-constexpr bool has_contact_manager() {
-  if constexpr (std::is_same_v<S, NoScope>)
-    return false;
-  else
-    return S::NodeType::template count<role::ContactManager> > 0 || has_contact_manager<typename S::Above>();
+    return S::NodeType::template count<R> > 0 || has_above<typename S::Above, R>();
 }
 
 /// Tetrahedra are in reach of components of this scope that act on its points.
@@ -112,24 +70,6 @@ constexpr bool has_tetrahedra() {
   }
 }
 
-template <class S>
-constexpr auto find_solver();
-
-template <class C, class S>
-constexpr Mistake acts_on_state() {
-  if constexpr (!S::hasState)
-    return Mistake::noState;
-  else if constexpr (!std::is_same_v<typename C::DataTypes, DataTypesAt<S>>)
-    return Mistake::otherDataTypes;
-  else if constexpr (!WatchesState<C> && !std::is_same_v<decltype(checks::find_solver<S>()),
-                                                         decltype(checks::find_solver<Owner<S>>())>)
-    return Mistake::stateAcrossSolvers;
-  else if constexpr (requires { C::needsTetrahedra; })
-    return has_tetrahedra<S>() ? Mistake::none : Mistake::noTetrahedra;
-  else
-    return Mistake::none;
-}
-
 /// The scope at a path below S; NoScope where there is none.
 template <class S, FixedString Path>
 constexpr auto find_path() {
@@ -147,6 +87,10 @@ constexpr auto find_path() {
 template <class S, FixedString Path>
 using AtPath = typename decltype(find_path<S, Path>())::type;
 
+/// A node has an ODE solver that integrates.
+template <class N>
+inline constexpr bool solves = (N::template count<role::OdeSolver>)-N::solversBeside > 0;
+
 /// The scope whose ODE solver moves S: the topmost that has one; NoScope where none has.
 template <class S>
 constexpr auto find_solver() {
@@ -156,7 +100,7 @@ constexpr auto find_solver() {
     using Above = typename decltype(find_solver<typename S::Above>())::type;
     if constexpr (!std::is_same_v<Above, NoScope>)
       return std::type_identity<Above>{};
-    else if constexpr ((S::NodeType::template count<role::OdeSolver>)-S::NodeType::solversBeside > 0)
+    else if constexpr (solves<typename S::NodeType>)
       return std::type_identity<S>{};
     else
       return std::type_identity<NoScope>{};
@@ -189,196 +133,188 @@ constexpr bool comes_before() {
            S::NodeType::childIndex(Branch::NodeType::name.view());
 }
 
-template <class C, class S, FixedString Path>
-constexpr Mistake mapping_parent() {
-  using Parent = typename decltype(find_reach<S, Path>())::type;
-  if constexpr (std::is_same_v<Parent, NoScope>)
-    return Mistake::noParentNode;
-  else if constexpr (!comes_before<S, Path>())
-    return Mistake::parentComesLater;
-  else if constexpr (!Parent::hasState)
-    return Mistake::parentWithoutState;
-  else if constexpr (!std::is_same_v<typename C::In, DataTypesAt<Parent>>)
-    return Mistake::parentOfOtherDataTypes;
-  else if constexpr (!S::isVisual && !std::is_same_v<Solver<S>, Solver<Parent>>)
-    return Mistake::parentsAcrossSolvers;
+/// There is a state in the node of S, or below, that no mapping moves; in a runtime node there may be.
+template <class S>
+constexpr bool integrates();
+template <class S, class Name, class... Cs, class... Ns>
+constexpr bool integrates_below(std::type_identity<Node<Name, hana::tuple<Cs...>, hana::tuple<Ns...>>>) {
+  return (integrates<typename ScopeOf<Ns, S>::type>() || ...);
+}
+template <class S>
+constexpr bool integrates() {
+  if constexpr (requires { S::provedAtInit; })
+    return true;
   else
-    return Mistake::none;
-}
-template <class C, class S, FixedString... Paths>
-constexpr Mistake mapping_parents(Parents<Paths...>) {
-  Mistake m = Mistake::none;
-  (void)(((m = mapping_parent<C, S, Paths>()) == Mistake::none) && ...);
-  return m;
-}
-template <class C, class S>
-constexpr Mistake mapping_parents(LinkedParents) {
-  return Mistake::linkedParents;
+    return (S::ownsState && !S::isMapped) ||
+           checks::integrates_below<S>(std::type_identity<typename S::NodeType>{});
 }
 
-/// The Out of a mapping is that of the state, or visual model, in its node.
-template <class C, class S>
-constexpr bool mapping_out() {
-  if constexpr (S::ownsState)
-    return std::is_same_v<typename C::Out, DataTypesAt<S>>;
-  else
-    return std::is_same_v<typename C::Out, Vec3f>;
-}
-
-template <class C, class S>
-constexpr Mistake mapping() {
-  if constexpr (!S::ownsState && !S::isVisual) {
-    return Mistake::noChild;
-  } else if constexpr (HasParents<C>) {
-    return mapping_out<C, S>() ? mapping_parents<C, S>(typename C::Parents{}) : Mistake::mappingOut;
-  } else if constexpr (!S::Above::hasState) {
-    return Mistake::noParent;
-  } else if constexpr (!std::is_same_v<typename C::In, DataTypesAt<typename S::Above>>) {
-    return Mistake::mappingIn;
-  } else if constexpr (!mapping_out<C, S>()) {
-    return Mistake::mappingOut;
-  } else if constexpr (!S::isVisual && !std::is_same_v<Solver<S>, Solver<typename S::Above>>) {
-    return Mistake::parentsAcrossSolvers;
-  } else if constexpr (requires { C::needsParentTetrahedra; }) {
-    return has_tetrahedra<Owner<typename S::Above>>() ? Mistake::none : Mistake::noParentTetrahedra;
-  } else {
-    return Mistake::none;
+/// How P stands to a component over D in S, at a path from there or above it.
+template <class S, class P, class D>
+constexpr Place place() {
+  Place found;
+  if constexpr (std::is_same_v<P, NoScope>) {
+    found.there = false;
+  } else if constexpr (P::hasState) {
+    found.state = true;
+    found.sameDataTypes = std::is_same_v<D, DataTypesAt<P>>;
+    found.mapped = Owner<P>::isMapped;
+    found.sameSolver = std::is_same_v<Solver<S>, Solver<Owner<P>>>;
   }
+  return found;
+}
+template <class S, class D, FixedString Path>
+constexpr Place place_before() {
+  using P = typename decltype(find_reach<S, Path>())::type;
+  Place found = place<S, P, D>();
+  if constexpr (!std::is_same_v<P, NoScope>) found.before = comes_before<S, Path>();
+  return found;
+}
+template <class S, class D, FixedString... Paths>
+constexpr std::array<Place, sizeof...(Paths)> places_before(Parents<Paths...>) {
+  return {place_before<S, D, Paths>()...};
 }
 
-template <class C, class End>
-constexpr Mistake interaction_end() {
-  if constexpr (std::is_same_v<End, NoScope>)
-    return Mistake::noEnd;
-  else if constexpr (!End::hasState)
-    return Mistake::endWithoutState;
-  else if constexpr (!std::is_same_v<typename C::DataTypes, DataTypesAt<End>>)
-    return Mistake::endOfOtherDataTypes;
-  else
-    return Mistake::none;
-}
-
-template <class S, class End>
-constexpr bool moved_by_another() {
-  return !std::is_same_v<Solver<S>, NoScope> && !std::is_same_v<Solver<S>, Solver<Owner<End>>>;
-}
+/// What rules::broken asks about a component C of a typed node.
 template <class C, class S>
-constexpr Mistake interaction() {
-  using A = AtPath<S, C::Ends::first>;
-  using B = AtPath<S, C::Ends::second>;
-  constexpr auto first = interaction_end<C, A>(), second = interaction_end<C, B>();
-  if constexpr (first != Mistake::none)
-    return first;
-  else if constexpr (second != Mistake::none)
-    return second;
-  else
-    return moved_by_another<S, A>() || moved_by_another<S, B>() ? Mistake::stateAcrossSolvers : Mistake::none;
-}
+struct Facts {
+  using N = typename S::NodeType;
+  static constexpr bool solved() { return !std::is_same_v<Solver<S>, NoScope>; }
+  static constexpr bool solverAbove() { return !std::is_same_v<Solver<typename S::Above>, NoScope>; }
+  static constexpr bool solverHere() { return solves<N> && !solverAbove(); }
+  static constexpr bool integrates() { return checks::integrates<S>(); }
+  static constexpr bool linearSolver() { return has_above<S, role::LinearSolver>(); }
+  static constexpr bool pipelineAbove() { return has_above<S, role::CollisionPipeline>(); }
+  static constexpr bool pipelineHere() { return N::template count<role::CollisionPipeline> > 0; }
+  static constexpr bool allStages() {
+    return N::template count < role::BroadPhase >> 0 && N::template count < role::NarrowPhase >> 0 &&
+           N::template count < role::Intersection >> 0 && N::template count < role::ContactManager >> 0;
+  }
+  static constexpr bool visual() { return S::isVisual; }
+  static constexpr bool tetrahedra() { return has_tetrahedra<S>(); }
+  static constexpr bool parentTetrahedra() {
+    if constexpr (S::Above::hasState)
+      return has_tetrahedra<Owner<typename S::Above>>();
+    else
+      return false;
+  }
+  static constexpr Place own() { return place<S, S, typename C::DataTypes>(); }
+  static constexpr Place parent() { return place<S, typename S::Above, typename C::In>(); }
+  static constexpr Place child() {
+    if constexpr (S::ownsState)
+      return {.state = true, .sameDataTypes = std::is_same_v<typename C::Out, DataTypesAt<S>>};
+    else
+      return {.sameDataTypes = std::is_same_v<typename C::Out, Vec3f>};
+  }
+  static constexpr Rule named() {
+    if constexpr (HasParents<C>) {
+      return std::is_same_v<typename C::Parents, LinkedParents> ? Rule::parentsByLinks : Rule::none;
+    } else {
+      return std::is_same_v<typename C::Ends, Linked> ? Rule::endsByLinks : Rule::none;
+    }
+  }
+  static constexpr std::array<Place, 2> ends() {
+    if constexpr (named() == Rule::none)
+      return {place<S, AtPath<S, C::Ends::first>, typename C::DataTypes>(),
+              place<S, AtPath<S, C::Ends::second>, typename C::DataTypes>()};
+    else
+      return {};
+  }
+  static constexpr auto parents() {
+    if constexpr (named() == Rule::none)
+      return places_before<S, typename C::In>(typename C::Parents{});
+    else
+      return std::array<Place, 0>{};
+  }
+};
 
-template <class C, class S>
-constexpr Mistake interaction_constraint() {
-  using A = AtPath<S, C::Ends::first>;
-  using B = AtPath<S, C::Ends::second>;
-  constexpr auto ends = interaction<C, S>();
-  if constexpr (ends != Mistake::none)
-    return ends;
-  else if constexpr (Owner<A>::isMapped || Owner<B>::isMapped)
-    return Mistake::constraintOnMapped;
-  else if constexpr (!std::is_same_v<Solver<S>, Solver<A>> || !std::is_same_v<Solver<S>, Solver<B>>)
-    return Mistake::constraintAcrossSolvers;
-  else
-    return Mistake::none;
-}
-
-template <class C, class S>
-constexpr Mistake component() {
+/// Whether a component fulfils the concept of its role.
+template <class C>
+constexpr bool fulfilled() {
   using R = typename C::Role;
-  if constexpr (std::is_same_v<R, role::State>) {
-    return State<C> ? Mistake::none : Mistake::notState;
-  } else if constexpr (std::is_same_v<R, role::ForceField>) {
-    return ForceField<C> ? acts_on_state<C, S>() : Mistake::notForceField;
-  } else if constexpr (WatchesState<C>) {
-    return acts_on_state<C, S>();
-  } else if constexpr (std::is_same_v<R, role::Mass>) {
-    return Mass<C> ? acts_on_state<C, S>() : Mistake::notMass;
-  } else if constexpr (std::is_same_v<R, role::ProjectiveConstraint> && JoinsTwo<C>) {
-    return InteractionConstraint<C> ? interaction_constraint<C, S>() : Mistake::notInteractionConstraint;
-  } else if constexpr (std::is_same_v<R, role::ProjectiveConstraint>) {
-    if constexpr (!ProjectiveConstraint<C>)
-      return Mistake::notProjectiveConstraint;
-    else
-      return Owner<S>::isMapped ? Mistake::constraintOnMapped : acts_on_state<C, S>();
-  } else if constexpr (std::is_same_v<R, role::InteractionForceField>) {
-    return InteractionForceField<C> ? interaction<C, S>() : Mistake::notInteractionForceField;
-  } else if constexpr (std::is_same_v<R, role::Mapping>) {
-    if constexpr (HasParents<C>)
-      return MultiMapping<C> ? mapping<C, S>() : Mistake::notMultiMapping;
-    else
-      return Mapping<C> ? mapping<C, S>() : Mistake::notMapping;
-  } else if constexpr (std::is_same_v<R, role::CollisionModel>) {
-    if constexpr (!CollisionModel<C>)
-      return Mistake::notCollisionModel;
-    else
-      return has_contact_manager<S>() ? acts_on_state<C, S>() : Mistake::noPipeline;
-  } else if constexpr (std::is_same_v<R, role::OdeSolver>) {
-    if constexpr (!OdeSolver<C>)
-      return Mistake::notOdeSolver;
-    else
-      return !C::implicit || has_linear_solver<S>() ? Mistake::none : Mistake::noLinearSolver;
-  } else {
-    return Mistake::none;
-  }
+  if constexpr (std::is_same_v<R, role::State>)
+    return State<C>;
+  else if constexpr (std::is_same_v<R, role::ForceField>)
+    return ForceField<C>;
+  else if constexpr (std::is_same_v<R, role::Mass>)
+    return Mass<C>;
+  else if constexpr (std::is_same_v<R, role::ProjectiveConstraint> && JoinsTwo<C>)
+    return InteractionConstraint<C>;
+  else if constexpr (std::is_same_v<R, role::ProjectiveConstraint>)
+    return ProjectiveConstraint<C>;
+  else if constexpr (std::is_same_v<R, role::InteractionForceField>)
+    return InteractionForceField<C>;
+  else if constexpr (HasParents<C>)
+    return MultiMapping<C>;
+  else if constexpr (std::is_same_v<R, role::Mapping>)
+    return Mapping<C>;
+  else if constexpr (std::is_same_v<R, role::CollisionModel>)
+    return CollisionModel<C>;
+  else if constexpr (std::is_same_v<R, role::OdeSolver>)
+    return OdeSolver<C>;
+  else
+    return true;
 }
 
-/// A node has one state, mapping, mass and solver at most; and one stage of collision detection brings all of
-/// them, once.
+template <class R>
+inline constexpr bool right = std::is_same_v<R, std::type_identity<Right>>;
+
+template <Rule R, class C, class S>
+constexpr auto verdict() {
+  if constexpr (R == Rule::none)
+    return std::type_identity<Right>{};
+  else
+    return std::type_identity<Wrong<R, C, S::NodeType::name>>{};
+}
+template <class C, class S>
+constexpr auto component() {
+  if constexpr (!fulfilled<C>())
+    return std::type_identity<Unfulfilled<C, S::NodeType::name>>{};
+  else
+    return verdict<rules::broken<rules::kind_of<C>()>(Facts<C, S>{}).rule, C, S>();
+}
+
+/// What a node has too many of.
 template <class N>
-constexpr Mistake one_of_each() {
-  const auto stages = {N::template count<role::CollisionPipeline>,
-                       N::template count<role::BroadPhase>,
-                       N::template count<role::NarrowPhase>,
-                       N::template count<role::Intersection>,
-                       N::template count<role::ContactManager>};
-  if (N::template count<role::State> + N::template count < role::VisualModel >> 1) return Mistake::twoStates;
-  if (N::template count < role::Mapping >> 1) return Mistake::twoMappings;
-  if (N::template count < role::Mass >> 1) return Mistake::twoMasses;
-  if (N::template count<role::OdeSolver> - N::solversBeside > 1) return Mistake::twoSolvers;
-  for (const int n : stages)
-    if (n != *stages.begin() || n > 1) return Mistake::partOfPipeline;
-  return Mistake::none;
+constexpr Rule too_many() {
+  if (N::template count<role::State> + N::template count < role::VisualModel >> 1) return Rule::secondState;
+  if (N::template count < role::Mapping >> 1) return Rule::secondMapping;
+  if (N::template count < role::Mass >> 1) return Rule::secondMass;
+  if (N::template count<role::OdeSolver> - N::solversBeside > 1) return Rule::secondSolver;
+  if (N::template count < role::Topology >> 1) return Rule::secondTopology;
+  for (const int n : {N::template count<role::CollisionPipeline>,
+                      N::template count<role::BroadPhase>,
+                      N::template count<role::NarrowPhase>,
+                      N::template count<role::Intersection>,
+                      N::template count<role::ContactManager>})
+    if (n > 1) return Rule::secondStage;
+  return N::childNamesDiffer() ? Rule::none : Rule::sameNames;
 }
 
 /// The first mistake of the scene below a scope, as the type that says it.
 template <class S>
 constexpr auto scene();
 
+/// A rule is broken that says more than that a component has no effect.
 template <class R>
-inline constexpr bool right = std::is_same_v<R, std::type_identity<Right>>;
+inline constexpr bool grave = !right<R>;
+template <Rule R, class C, FixedString Node>
+inline constexpr bool grave<std::type_identity<Wrong<R, C, Node>>> = !rules::only_warns(R);
 
-template <class First, class... Others>
-constexpr auto first_wrong(First first, Others... others) {
-  if constexpr (!right<First> || sizeof...(Others) == 0)
-    return first;
+/// The first verdict that is wrong, a grave one if there is one; Right where none is.
+template <class... Verdicts>
+constexpr auto worst(Verdicts... verdicts) {
+  if constexpr ((grave<Verdicts> || ...))
+    return hana::at_c<detail::true_at<grave<Verdicts>...>[0]>(hana::tuple<Verdicts...>(verdicts...));
+  else if constexpr (((!right<Verdicts>) || ...))
+    return hana::at_c<detail::true_at<!right<Verdicts>...>[0]>(hana::tuple<Verdicts...>(verdicts...));
   else
-    return checks::first_wrong(others...);
-}
-
-template <Mistake M, class C, class S>
-constexpr auto verdict() {
-  if constexpr (M == Mistake::none)
     return std::type_identity<Right>{};
-  else
-    return std::type_identity<Wrong<M, C, S::NodeType::name>>{};
 }
 
 template <class S, class Name, class... Cs, class... Ns>
 constexpr auto parts(std::type_identity<Node<Name, hana::tuple<Cs...>, hana::tuple<Ns...>>>) {
-  if constexpr (((component<Cs, S>() == Mistake::none) && ...) &&
-                (right<decltype(scene<typename ScopeOf<Ns, S>::type>())> && ...))
-    return std::type_identity<Right>{};
-  else
-    return checks::first_wrong(verdict<component<Cs, S>(), Cs, S>()...,
-                               scene<typename ScopeOf<Ns, S>::type>()...);
+  return checks::worst(component<Cs, S>()..., scene<typename ScopeOf<Ns, S>::type>()...);
 }
 
 template <class S>
@@ -386,8 +322,8 @@ constexpr auto scene() {
   if constexpr (requires { S::provedAtInit; }) {
     return std::type_identity<Right>{};
   } else {
-    constexpr auto node = one_of_each<typename S::NodeType>();
-    if constexpr (node != Mistake::none)
+    constexpr auto node = too_many<typename S::NodeType>();
+    if constexpr (node != Rule::none)
       return verdict<node, void, S>();
     else
       return parts<S>(std::type_identity<typename S::NodeType>{});

@@ -87,20 +87,9 @@ struct Collision {
           if (s->corners == 2 && other->corners == 3) s->findTriangles(*other);
         }
     traverse(root, on<role::CollisionPipeline>([&](auto& pipeline, auto const& scope) {
-               auto missing = [&](std::string_view stage, std::string_view such) {
-                 throw Error(scope.path(),
-                             text("DefaultPipeline: its node has no ", stage, "; add one, such as ", such));
-               };
-               if (!detail::with_first<role::BroadPhase>(scope, [](auto&) {}))
-                 missing("broad phase", "BruteForceBroadPhase");
-               if (!detail::with_first<role::NarrowPhase>(scope, [](auto&) {}))
-                 missing("narrow phase", "BVHNarrowPhase");
-               if (!detail::with_first<role::Intersection>(scope, [](auto&) {}))
-                 missing("intersection method", "MinProximityIntersection");
                collect(pipeline, scope);
-               if (!detail::with_first<role::ContactManager>(
-                       scope, [&](auto& manager) { manager.init(scope.path(), pipeline.surfaces, again); }))
-                 missing("contact manager", "DefaultContactManager");
+               detail::with_first<role::ContactManager>(
+                   scope, [&](auto& manager) { manager.init(scope.path(), pipeline.surfaces, again); });
                pipeline.near.reserve(pipeline.surfaces.size() * (pipeline.surfaces.size() + 1) / 2);
                for (auto* s : pipeline.surfaces) s->enclose(0, 0);  // the trees are built
                traverse(scope, on<role::CollisionModel>([](auto& model, auto const& s) {

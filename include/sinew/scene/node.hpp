@@ -198,13 +198,9 @@ auto node(Parts... parts) {
   if constexpr (!((Component<Parts> || is_node<Parts>)&&...)) {
     return Node<Named<Name>, hana::tuple<>, hana::tuple<>>{};  // nothing else fails
   } else {
-    auto made = detail::compose<Named<Name>>(hana::tuple<Parts...>(std::move(parts)...),
-                                             detail::places_of<!is_node<Parts>...>(),
-                                             detail::places_of<is_node<Parts>...>());
-    static_assert(
-        decltype(made)::childNamesDiffer(),
-        "Sinew: two children of a node have the same name; a path could not tell them apart. Rename one.");
-    return made;
+    return detail::compose<Named<Name>>(hana::tuple<Parts...>(std::move(parts)...),
+                                        detail::places_of<!is_node<Parts>...>(),
+                                        detail::places_of<is_node<Parts>...>());
   }
 }
 

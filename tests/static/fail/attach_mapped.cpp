@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// expect: Sinew: a projective constraint acts on a mapped state, which follows its parent.
+// expect: Sinew: a projective constraint acts on a mapped state, which follows its parent
 #include <sinew/constraint/attach.hpp>
 #include <sinew/mapping/identity_mapping.hpp>
 #include <sinew/mass/uniform_mass.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// expect: Sinew: a constraint joins bodies under different ODE solvers.
+// expect: Sinew: a constraint joins bodies under different ODE solvers
 #include <sinew/constraint/attach.hpp>
 #include <sinew/mass/uniform_mass.hpp>
 #include <sinew/scene/simulation.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// expect: Sinew: a collision model has no DefaultPipeline above it
+// expect: Sinew: a collision model collides with nothing: there is no DefaultPipeline above it
 #include <sinew/collision/default_pipeline.hpp>
 #include <sinew/collision/sphere_collision_model.hpp>
 #include <sinew/mass/uniform_mass.hpp>

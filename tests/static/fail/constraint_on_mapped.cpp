@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// expect: Sinew: a projective constraint acts on a mapped state
+// expect: Sinew: a projective constraint acts on a mapped state, which follows its parent
 #include <sinew/constraint/fixed_constraint.hpp>
 #include <sinew/mapping/identity_mapping.hpp>
 #include <sinew/mass/uniform_mass.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// expect: Sinew: a force field, mass or constraint has no state to act on.
+// expect: Sinew: a force field, mass, constraint or collision model has no state to act on
 #include <sinew/constraint/fixed_constraint.hpp>
 #include <sinew/scene/simulation.hpp>
 #include <sinew/solver/euler_explicit.hpp>

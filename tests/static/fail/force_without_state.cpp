@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// expect: Sinew: a force field, mass or constraint has no state to act on.
+// expect: Sinew: a force field, mass, constraint or collision model has no state to act on
 #include <sinew/force/stiff_spring.hpp>
 #include <sinew/mass/uniform_mass.hpp>
 #include <sinew/scene/simulation.hpp>

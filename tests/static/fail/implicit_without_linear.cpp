@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// expect: Sinew: an implicit solver has no linear solver.
+// expect: Sinew: a solver is implicit and finds no linear solver
 #include <sinew/mass/uniform_mass.hpp>
 #include <sinew/scene/simulation.hpp>
 #include <sinew/solver/euler_implicit.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// expect: Sinew: an end of an interaction is no node.
+// expect: Sinew: an interaction joins a node that is not there
 #include <sinew/force/stiff_spring.hpp>
 #include <sinew/mass/uniform_mass.hpp>
 #include <sinew/scene/simulation.hpp>

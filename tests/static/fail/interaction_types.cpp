@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// expect: Sinew: an interaction and the MechanicalObject at one of its ends have different DataTypes.
+// expect: Sinew: an interaction has other DataTypes than a state that it joins
 #include <sinew/force/stiff_spring.hpp>
 #include <sinew/mass/uniform_mass.hpp>
 #include <sinew/scene/simulation.hpp>

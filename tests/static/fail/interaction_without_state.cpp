@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// expect: Sinew: an end of an interaction is a node without a MechanicalObject.
+// expect: Sinew: an interaction joins a node that has no MechanicalObject
 #include <sinew/force/stiff_spring.hpp>
 #include <sinew/mass/uniform_mass.hpp>
 #include <sinew/scene/simulation.hpp>

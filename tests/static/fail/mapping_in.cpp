@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// expect: Sinew: the In of a mapping differs
+// expect: Sinew: a mapping maps from other DataTypes than those of its parent
 #include <sinew/mapping/rigid_mapping.hpp>
 #include <sinew/mass/uniform_mass.hpp>
 #include <sinew/scene/simulation.hpp>

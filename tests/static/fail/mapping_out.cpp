@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// expect: Sinew: the Out of a mapping differs
+// expect: Sinew: a mapping maps to other DataTypes than those of its child
 #include <sinew/mapping/identity_mapping.hpp>
 #include <sinew/mass/uniform_mass.hpp>
 #include <sinew/scene/simulation.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// expect: Sinew: a mapping and a parent of it are under different ODE solvers.
+// expect: Sinew: a mapping is under another ODE solver than a parent
 #include <sinew/mapping/identity_mapping.hpp>
 #include <sinew/mass/uniform_mass.hpp>
 #include <sinew/scene/simulation.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// expect: Sinew: a component and the MechanicalObject it acts on have different DataTypes.
+// expect: Sinew: a component has other DataTypes than the state on which it acts
 #include <sinew/mass/uniform_mass.hpp>
 #include <sinew/scene/simulation.hpp>
 #include <sinew/solver/euler_explicit.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// expect: Sinew: a mapping comes before one of its parents
+// expect: Sinew: a mapping comes before a parent, which it follows
 #include <sinew/mapping/subset_multi_mapping.hpp>
 #include <sinew/mass/uniform_mass.hpp>
 #include <sinew/scene/simulation.hpp>

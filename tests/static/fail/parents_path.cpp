@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// expect: Sinew: a parent of a mapping is no node.
+// expect: Sinew: a mapping follows a node that is not there
 #include <sinew/mapping/subset_multi_mapping.hpp>
 #include <sinew/mass/uniform_mass.hpp>
 #include <sinew/scene/simulation.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// expect: Sinew: a parent of a mapping is a node without a MechanicalObject.
+// expect: Sinew: a mapping follows a node that has no MechanicalObject
 #include <sinew/force/gravity.hpp>
 #include <sinew/mapping/subset_multi_mapping.hpp>
 #include <sinew/mass/uniform_mass.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// expect: Sinew: two children of a node have the same name
+// expect: Sinew: a node has two children of the same name
 #include <sinew/scene/simulation.hpp>
 #include <sinew/solver/euler_explicit.hpp>
 #include <sinew/state/mechanical_object.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// expect: Sinew: a force field, mass, constraint or collision model below an ODE solver acts on a state above that solver
+// expect: Sinew: a force field, mass, constraint or collision model acts on a state that the ODE solver above it does not move
 #include <sinew/mass/uniform_mass.hpp>
 #include <sinew/scene/simulation.hpp>
 #include <sinew/solver/euler_explicit.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// expect: Sinew: a node has two mappings
+// expect: Sinew: a mapping is the second mapping of its node
 #include <sinew/mapping/identity_mapping.hpp>
 #include <sinew/mapping/subset_mapping.hpp>
 #include <sinew/mass/uniform_mass.hpp>

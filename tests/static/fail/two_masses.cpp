@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// expect: Sinew: a node has two masses.
+// expect: Sinew: a mass is the second mass of its node
 #include <sinew/mass/uniform_mass.hpp>
 #include <sinew/scene/simulation.hpp>
 #include <sinew/solver/euler_explicit.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// expect: Sinew: a node has two states.
+// expect: Sinew: a MechanicalObject or VisualModel is the second state of its node
 #include <sinew/scene/simulation.hpp>
 #include <sinew/solver/euler_explicit.hpp>
 #include <sinew/state/mechanical_object.hpp>
