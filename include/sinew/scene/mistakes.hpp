@@ -13,8 +13,7 @@ struct Wrong {
   static constexpr Rule rule = R;
 #define SINEW_RULE(name, who, cause, remedy) \
   static_assert(R != Rule::name, "Sinew: " who " " cause "; " remedy ".");
-  SINEW_RULES(SINEW_RULE)
-#undef SINEW_RULE
+#include <sinew/scene/rules.def>
 };
 
 // asserted as concepts, of which the compiler says what is missing

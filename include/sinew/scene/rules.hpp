@@ -8,102 +8,13 @@
 
 namespace sinew::rules {
 
-// What a scene has to fulfil, whether it is typed or composed at run time. Each rule has a name, the
-// components that may break it, what is wrong with such a component, and what to do. Typed scenes that break
-// a rule do not compile (scene/mistakes.hpp); at run time a rule is an Error, or a warning (only_warns) where
-// the component has no effect, as in SOFA.
-// clang-format off
-#define SINEW_RULES(RULE)                                                                                   \
-  RULE(secondState, "a MechanicalObject or VisualModel", "is the second state of its node",                 \
-       "keep one, or give it a node of its own")                                                            \
-  RULE(secondMapping, "a mapping", "is the second mapping of its node",                                     \
-       "keep one: its state can follow one parent, and several with a MultiMapping")                        \
-  RULE(secondMass, "a mass", "is the second mass of its node",                                              \
-       "keep one, or give it a node of its own")                                                            \
-  RULE(secondSolver, "a solver", "is the second ODE solver of its node",                                    \
-       "keep one")                                                                                          \
-  RULE(secondTopology, "a topology", "is the second topology of its node",                                  \
-       "keep one, or give it a node of its own")                                                            \
-  RULE(secondStage, "a stage of collision detection",                                                       \
-       "is the second of its stage of collision detection in its node",                                     \
-       "keep one")                                                                                          \
-  RULE(sameNames, "a node", "has two children of the same name",                                            \
-       "rename one")                                                                                        \
-  RULE(missingStage, "collision detection", "needs one of each stage in its node",                          \
-       "give it a DefaultPipeline, a broad phase (BruteForceBroadPhase), a narrow phase "                   \
-       "(BVHNarrowPhase), an intersection method (MinProximityIntersection) and a DefaultContactManager")   \
-  RULE(loneStage, "a stage of collision detection",                                                         \
-       "does nothing: its node has no DefaultPipeline, which would use it",                                 \
-       "add one")                                                                                           \
-  RULE(noState, "a force field, mass, constraint or collision model", "has no state to act on",             \
-       "put it into a node with a MechanicalObject, or below one")                                          \
-  RULE(otherDataTypes, "a component", "has other DataTypes than the state on which it acts",                \
-       "give both the same, such as Vec3d")                                                                 \
-  RULE(stateAcrossSolvers, "a force field, mass, constraint or collision model",                            \
-       "acts on a state that the ODE solver above it does not move",                                        \
-       "give its node a MechanicalObject, or put the solver above that state")                              \
-  RULE(noTetrahedra, "a component", "needs tetrahedra, and its node has no topology with tetrahedra",       \
-       "add a TetrahedronTopology to the node")                                                             \
-  RULE(constraintOnMapped, "a projective constraint", "acts on a mapped state, which follows its parent",   \
-       "constrain the parent instead")                                                                      \
-  RULE(constraintAcrossSolvers, "a constraint", "joins bodies under different ODE solvers",                 \
-       "put it and both bodies below one solver")                                                           \
-  RULE(noEnd, "an interaction", "joins a node that is not there",                                           \
-       "give the paths from its node to both ends, names joined by '/', and look for a misspelt name")      \
-  RULE(endNotBelow, "an interaction", "joins a node that is not below its own",                             \
-       "put it into a node above both ends")                                                                \
-  RULE(endWithoutState, "an interaction", "joins a node that has no MechanicalObject",                      \
-       "give it one, or join another node")                                                                 \
-  RULE(endOfOtherDataTypes, "an interaction", "has other DataTypes than a state that it joins",             \
-       "give all the same, such as Vec3d")                                                                  \
-  RULE(endsByLinks, "an interaction", "in a typed scene names its ends in its type",                        \
-       "write Between<\"left\", \"right\">")                                                                \
-  RULE(noChild, "a mapping", "has no child: its node has neither a MechanicalObject nor a VisualModel",     \
-       "add one")                                                                                           \
-  RULE(noParent, "a mapping", "has no parent: no node above has a MechanicalObject",                        \
-       "add one")                                                                                           \
-  RULE(mappingIn, "a mapping",                                                                              \
-       "maps from other DataTypes than those of its parent, the MechanicalObject above it",                 \
-       "give its In those")                                                                                 \
-  RULE(mappingOut, "a mapping",                                                                             \
-       "maps to other DataTypes than those of its child, the MechanicalObject in its node (Vec3f for a "    \
-       "VisualModel)",                                                                                      \
-       "give its Out those")                                                                                \
-  RULE(noParentTetrahedra, "a mapping", "needs tetrahedra, and its parent has no topology with tetrahedra", \
-       "add a TetrahedronTopology to the node of the parent")                                               \
-  RULE(parentsByLinks, "a mapping", "in a typed scene names its parents in its type",                       \
-       "write Parents<\"../left\", \"../right\">")                                                          \
-  RULE(noParents, "a mapping", "has no parents",                                                            \
-       "name them: input=\"@../left @../right\"")                                                           \
-  RULE(noParentNode, "a mapping", "follows a node that is not there",                                       \
-       "give the paths from its node, up by \"..\" and down by names (\"../left\"), and look for a misspelt "\
-       "name")                                                                                              \
-  RULE(parentComesLater, "a mapping", "comes before a parent, which it follows",                            \
-       "move its node behind that of the parent")                                                           \
-  RULE(parentWithoutState, "a mapping", "follows a node that has no MechanicalObject",                      \
-       "give it one, or follow another node")                                                               \
-  RULE(parentOfOtherDataTypes, "a mapping", "maps from other DataTypes than those of a parent",             \
-       "give its In those")                                                                                 \
-  RULE(parentsAcrossSolvers, "a mapping", "is under another ODE solver than a parent",                      \
-       "put both below one solver")                                                                         \
-  RULE(noPipeline, "a collision model", "collides with nothing: there is no DefaultPipeline above it",      \
-       "put one into the root, with a BruteForceBroadPhase, a BVHNarrowPhase, a MinProximityIntersection "  \
-       "and a DefaultContactManager")                                                                       \
-  RULE(solverBelowSolver, "a solver", "does nothing: an ODE solver above it moves all that is below",       \
-       "remove one")                                                                                        \
-  RULE(nothingToMove, "a solver", "does nothing: no state is below that it could move",                     \
-       "remove it, or put it above one")                                                                    \
-  RULE(besideNoSolver, "a solver", "changes what the ODE solver of its node has done, and there is none",   \
-       "put it behind one")                                                                                 \
-  RULE(noLinearSolver, "a solver", "is implicit and finds no linear solver",                                \
-       "add one, such as CGLinearSolver, to its node or above")
-// clang-format on
-
+/// What a scene has to fulfil (scene/rules.def). Typed scenes that break a rule do not compile
+/// (scene/mistakes.hpp); at run time a rule that is broken is an Error, or a warning (only_warns) where the
+/// component has no effect, as in SOFA.
 enum class Rule {
   none,
 #define SINEW_RULE(name, who, cause, remedy) name,
-  SINEW_RULES(SINEW_RULE)
-#undef SINEW_RULE
+#include <sinew/scene/rules.def>
 };
 
 struct Sentence {
@@ -112,8 +23,7 @@ struct Sentence {
 };
 inline constexpr std::array sentences{
 #define SINEW_RULE(name, who, cause, remedy) Sentence{Rule::name, #name, cause, remedy},
-    SINEW_RULES(SINEW_RULE)
-#undef SINEW_RULE
+#include <sinew/scene/rules.def>
 };
 constexpr Sentence const& sentence(Rule rule) { return sentences[std::size_t(rule) - 1]; }
 
