@@ -115,8 +115,6 @@ struct RuntimeFacts {
 
   std::string details(rules::Broken const& broken) const {
     const std::size_t which = broken.which;
-    auto path_of = [](auto const* node) { return node ? node->path() : std::string("?"); };
-    auto solver = [&] { return path_of(solver_of(scope.node)); };
     switch (broken.rule) {
       case Rule::otherDataTypes:
         return text(dataTypes, " on ", data_types_at(scope));
@@ -125,12 +123,12 @@ struct RuntimeFacts {
       case Rule::mappingOut:
         return text(out, " to ", childDataTypes());
       case Rule::solverBelowSolver:
-        return text("that of '", path_of(solver_of(*scope.node.parent())), "'");
+        return text("that of '", solver_of(*scope.node.parent())->path(), "'");
       case Rule::stateAcrossSolvers:
         return text("the state of '",
                     paths.empty() ? scope.stateScope().path() : Scope(*nodes()[which]).stateScope().path(),
                     "', the solver of '",
-                    solver(),
+                    solver_of(scope.node)->path(),
                     "'");
       case Rule::parentsAcrossSolvers:
         if (paths.empty()) return text("at '", scope.above().stateScope().path(), "'");
