@@ -43,6 +43,7 @@
 #include <sinew/topology/regular_grid_topology.hpp>
 #include <sinew/topology/removal_plan.hpp>
 #include <sinew/topology/round_grid.hpp>
+#include <sinew/topology/shape_file.hpp>
 #include <sinew/topology/sparse_grid_topology.hpp>
 #include <sinew/topology/sphere_grid_topology.hpp>
 #include <sinew/topology/subdivision.hpp>

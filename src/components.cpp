@@ -24,7 +24,7 @@
 #include <sinew/force/element_pressure.hpp>
 #include <sinew/force/hyperelastic_material.hpp>
 #include <sinew/force/viscoelastic_material.hpp>
-#include <sinew/scene/carving.hpp>
+#include <sinew/scene/path.hpp>
 #include <sinew/scene/profile_report.hpp>
 #include <sinew/scene/removed_border.hpp>
 #include <sinew/visual/visual_model.hpp>

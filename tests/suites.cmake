@@ -5,7 +5,8 @@ if(SINEW_SANITIZE)
 endif()
 
 # What `./dev test` compiles and runs; all other files of tests belong to `./dev test all`, where they carry the label "more".
-# A folder that is not named here is in both as a whole.
+# Each list is that of a program, with the folder of a file where the program has files of several folders. A program without a list
+# is in both as a whole.
 set(SINEW_TEST_SUITE quick CACHE STRING "quick: each kind of thing once, in minutes; all: everything")
 set_property(CACHE SINEW_TEST_SUITE PROPERTY STRINGS quick all)
 set(more OFF)
@@ -16,10 +17,10 @@ elseif(NOT SINEW_TEST_SUITE STREQUAL "quick")
 endif()
 
 set(quick_topology adjacency hexahedra mesh_topology regular_grid regular_grid_topology removal_plan round_grids surface_mesh)
-set(quick_collision axis_box bounding_tree broad_phase closest_points contact_laws contact_scenes friction overlap picking ray_hits surface_elements
+set(quick_collision axis_box bounding_tree broad_phase closest_points contact_laws contact_scenes friction overlap ray_hits surface_elements
     time_of_impact)
-set(quick_scene element_removal place replay reset simulation)
-set(quick_components bad_input constraints direct_solvers measuring_mappings solver_fields trajectory)
+set(quick_scene bad_input element_removal picking place replay reset simulation)
+set(quick_components constraint/constraints control/trajectory mapping/measuring_mappings solver/direct_solvers solver/solver_fields)
 # each component over the DataTypes that most scenes have
 set(quick_laws constraints_vec3 elements_vec3d force_rigid3d force_vec3d hyperelastic_vec3d loads_vec3d mappings_points
     mappings_rigid masses spatial_springs_vec3d)
@@ -27,28 +28,30 @@ set(quick_validation cantilever kepler settled statics vibration)
 set(quick_runtime bad_places bake_text change contact dialect dialect_run read_scene same_bits_string sofa_attributes
     step_forces)
 set(quick_baked tetrahedra)
-set(quick_ccd hull_pairs)
+set(quick_ccd collision/hull_pairs)
 set(quick_examples liver one_tetrahedron string_on_rigid)
 # the mistakes that beginners make
 set(quick_mistakes collision_without_pipeline force_of_other_types force_without_state implicit_without_linear mapping_without_parent
     mass_without_state not_a_component tetrahedra_without_topology two_states unknown_path)
 
-# the files of a folder that are in quick, and the others; without those, where they are not asked for
-function(sinew_suite folder)
+# the files of a program that are in quick, and the others; without those, where they are not asked for
+function(sinew_suite name)
   set(of_quick ${ARGN})
   set(of_more)
-  if(DEFINED quick_${folder})
-    set(missing ${quick_${folder}})
+  if(DEFINED quick_${name})
+    set(missing ${quick_${name}})
     foreach(file ${ARGN})
       get_filename_component(stem ${file} NAME_WE)
-      if(NOT stem IN_LIST quick_${folder})
+      get_filename_component(folder ${file} DIRECTORY)
+      get_filename_component(folder ${folder} NAME)
+      if(NOT stem IN_LIST quick_${name} AND NOT ${folder}/${stem} IN_LIST quick_${name})
         list(REMOVE_ITEM of_quick ${file})
         list(APPEND of_more ${file})
       endif()
-      list(REMOVE_ITEM missing ${stem})
+      list(REMOVE_ITEM missing ${stem} ${folder}/${stem})
     endforeach()
     if(missing)
-      message(FATAL_ERROR "tests/suites.cmake names what tests/${folder} does not have: ${missing}")
+      message(FATAL_ERROR "tests/suites.cmake names files that the suite ${name} does not have: ${missing}")
     endif()
   endif()
   if(NOT more)

@@ -12,8 +12,8 @@ import sys
 import tempfile
 
 root = pathlib.Path(__file__).resolve().parents[2]
-layers = ["core", "topology", "linalg", "state", "force", "mass", "constraint", "mapping", "collision", "solver", "io",
-          "engine", "control", "visual", "scene", "runtime"]
+layers = ["core", "topology", "linalg", "state", "context", "force", "mass", "constraint", "mapping", "collision", "solver",
+          "io", "engine", "control", "visual", "scene", "runtime"]
 COMPILED = "#define SINEW_COMPILED\n"
 optional = {"cholmod_solver.hpp", "convex.hpp", "hull_contacts.hpp", "convex_collision_model.hpp"}  # need a package
 

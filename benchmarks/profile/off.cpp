@@ -3,7 +3,7 @@
 // `assembled`, a body of 2,058 tetrahedra, and `nodes`, 128 nodes with a tetrahedron each, where finding
 // components is most of the work.
 #include <sinew/constraint/fixed_constraint.hpp>
-#include <sinew/force/gravity.hpp>
+#include <sinew/context/gravity.hpp>
 #include <sinew/force/tetrahedron_fem.hpp>
 #include <sinew/mass/uniform_mass.hpp>
 #include <sinew/runtime/checks.hpp>

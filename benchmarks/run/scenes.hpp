@@ -3,7 +3,7 @@
 #pragma once
 
 #include <sinew/constraint/fixed_constraint.hpp>
-#include <sinew/force/gravity.hpp>
+#include <sinew/context/gravity.hpp>
 #include <sinew/force/regular_grid_spring.hpp>
 #include <sinew/force/tetrahedron_fem.hpp>
 #include <sinew/mass/diagonal_mass.hpp>

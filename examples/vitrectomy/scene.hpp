@@ -9,8 +9,8 @@
 #include <sinew/collision/min_proximity_intersection.hpp>
 #include <sinew/collision/sphere_collision_model.hpp>
 #include <sinew/constraint/fixed_constraint.hpp>
+#include <sinew/context/gravity.hpp>
 #include <sinew/control/read_state.hpp>
-#include <sinew/force/gravity.hpp>
 #include <sinew/mapping/rigid_mapping.hpp>
 #include <sinew/mapping/subset_mapping.hpp>
 #include <sinew/mass/diagonal_mass.hpp>

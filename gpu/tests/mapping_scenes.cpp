@@ -12,7 +12,7 @@
 #include <sinew/collision/sphere_collision_model.hpp>
 #include <sinew/collision/triangle_collision_model.hpp>
 #include <sinew/constraint/fixed_constraint.hpp>
-#include <sinew/force/gravity.hpp>
+#include <sinew/context/gravity.hpp>
 #include <sinew/force/plane_force_field.hpp>
 #include <sinew/force/tetrahedron_fem.hpp>
 #include <sinew/mapping/barycentric_mapping.hpp>

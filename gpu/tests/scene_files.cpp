@@ -6,8 +6,8 @@
 #include <sinew/gpu/gpu.hpp>
 
 #include <sinew/constraint/fixed_constraint.hpp>
+#include <sinew/context/gravity.hpp>
 #include <sinew/engine/box_roi.hpp>
-#include <sinew/force/gravity.hpp>
 #include <sinew/force/regular_grid_spring.hpp>
 #include <sinew/mapping/barycentric_mapping.hpp>
 #include <sinew/mapping/subset_mapping.hpp>

@@ -4,7 +4,7 @@
 // Scenes over any DataTypes, and how they went over the processor's: computed in files of their own, without
 // Thrust, once for all backends.
 
-#include <sinew/force/gravity.hpp>
+#include <sinew/context/gravity.hpp>
 #include <sinew/mass/uniform_mass.hpp>
 #include <sinew/scene/simulation.hpp>
 #include <sinew/state/mechanical_object.hpp>

@@ -17,6 +17,7 @@
 #include <sinew/constraint/project_to_line.hpp>
 #include <sinew/constraint/project_to_plane.hpp>
 #include <sinew/constraint/project_to_point.hpp>
+#include <sinew/context/gravity.hpp>
 #include <sinew/control/step_callback.hpp>
 #include <sinew/control/threads.hpp>
 #include <sinew/force/angular_spring.hpp>
@@ -25,7 +26,6 @@
 #include <sinew/force/constant_force.hpp>
 #include <sinew/force/element_pressure.hpp>
 #include <sinew/force/fast_triangular_bending_springs.hpp>
-#include <sinew/force/gravity.hpp>
 #include <sinew/force/hexahedron_fem.hpp>
 #include <sinew/force/linear_force_field.hpp>
 #include <sinew/force/mesh_spring.hpp>

@@ -10,7 +10,7 @@
 #include <sinew/collision/point_collision_model.hpp>
 #include <sinew/collision/sphere_collision_model.hpp>
 #include <sinew/collision/triangle_collision_model.hpp>
-#include <sinew/force/gravity.hpp>
+#include <sinew/context/gravity.hpp>
 #include <sinew/mass/uniform_mass.hpp>
 #include <sinew/scene/simulation.hpp>
 #include <sinew/solver/cg_linear_solver.hpp>

@@ -6,8 +6,8 @@
 #include <sinew/collision/default_pipeline.hpp>
 #include <sinew/collision/min_proximity_intersection.hpp>
 #include <sinew/collision/sphere_collision_model.hpp>
+#include <sinew/context/gravity.hpp>
 #include <sinew/core/registry.hpp>
-#include <sinew/force/gravity.hpp>
 #include <sinew/mass/uniform_mass.hpp>
 #include <sinew/runtime/read_scene.hpp>
 #include <sinew/runtime/runtime.hpp>

@@ -4,7 +4,7 @@
 #include "catch.hpp"
 #include "scene/profile_lines.hpp"
 
-#include <sinew/force/gravity.hpp>
+#include <sinew/context/gravity.hpp>
 #include <sinew/force/stiff_spring.hpp>
 #include <sinew/mass/uniform_mass.hpp>
 #include <sinew/runtime/checks.hpp>

@@ -4,7 +4,7 @@
 #include "profile_lines.hpp"
 
 #include <sinew/constraint/fixed_constraint.hpp>
-#include <sinew/force/gravity.hpp>
+#include <sinew/context/gravity.hpp>
 #include <sinew/force/stiff_spring.hpp>
 #include <sinew/mapping/subset_mapping.hpp>
 #include <sinew/mass/uniform_mass.hpp>

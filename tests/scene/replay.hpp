@@ -8,9 +8,9 @@
 
 #include <sinew/constraint/fixed_constraint.hpp>
 #include <sinew/constraint/linear_movement.hpp>
+#include <sinew/context/gravity.hpp>
 #include <sinew/control/read_state.hpp>
 #include <sinew/control/write_state.hpp>
-#include <sinew/force/gravity.hpp>
 #include <sinew/force/stiff_spring.hpp>
 #include <sinew/mapping/rigid_mapping.hpp>
 #include <sinew/mass/uniform_mass.hpp>

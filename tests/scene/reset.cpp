@@ -3,7 +3,7 @@
 #include "reset.hpp"
 
 #include <sinew/constraint/fixed_constraint.hpp>
-#include <sinew/force/gravity.hpp>
+#include <sinew/context/gravity.hpp>
 #include <sinew/force/stiff_spring.hpp>
 #include <sinew/force/tetrahedron_viscoelasticity.hpp>
 #include <sinew/mass/uniform_mass.hpp>

@@ -5,8 +5,8 @@
 #include "catch.hpp"
 
 #include <sinew/constraint/fixed_constraint.hpp>
+#include <sinew/context/gravity.hpp>
 #include <sinew/control/threads.hpp>
-#include <sinew/force/gravity.hpp>
 #include <sinew/force/tetrahedron_fem.hpp>
 #include <sinew/mass/uniform_mass.hpp>
 #include <sinew/scene/simulation.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // One step of a scene that is not profiled: its code is compared with that from headers without timers.
 #include <sinew/constraint/fixed_constraint.hpp>
-#include <sinew/force/gravity.hpp>
+#include <sinew/context/gravity.hpp>
 #include <sinew/force/stiff_spring.hpp>
 #include <sinew/mapping/subset_mapping.hpp>
 #include <sinew/mass/uniform_mass.hpp>

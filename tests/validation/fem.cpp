@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "components/one_component.hpp"
+#include "one_component.hpp"
 
 #include <sinew/sinew.hpp>
 #include <sinew/topology/adjacency.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "components/equilibrium.hpp"
+#include "equilibrium.hpp"
 #include "hyperelastic_laws.hpp"
 #include "record.hpp"
 

@@ -6,7 +6,7 @@
 #include <sinew/collision/collision_model.hpp>
 #include <sinew/collision/hull_contacts.hpp>
 #include <sinew/collision/surface_elements.hpp>
-#include <sinew/io/text_mesh_file.hpp>
+#include <sinew/topology/shape_file.hpp>
 
 namespace sinew {
 
@@ -54,7 +54,7 @@ struct ConvexCollisionModel {
       throw Error(where, "there are no points to make a hull of; give points, or the filename of a mesh");
     std::vector<Eigen::Vector3d> all = points;
     if (!filename.path.empty()) try {
-        all = io::read_text_mesh(filename.path).positions;
+        all = points_in_file(filename.path);
       } catch (Error const& error) {
         throw Error(where, error.what());
       }

@@ -2,10 +2,8 @@
 #pragma once
 
 #include <sinew/core/follow.hpp>
-#include <sinew/io/read_rigid.hpp>
-#include <sinew/io/text_mesh_file.hpp>
 #include <sinew/mass/lumped_mass.hpp>
-#include <sinew/topology/inertia.hpp>
+#include <sinew/topology/shape_file.hpp>
 
 #include <optional>
 
@@ -99,33 +97,12 @@ struct UniformMass {
   }
 
   MassType massInFile(std::string const& where) const {
-    RigidMass<double, 3> body;
     try {
-      if (io::file_ending(filename.path) == ".rigid")
-        body = io::read_rigid(filename.path);
-      else
-        body = insideOf(io::read_text_mesh(filename.path, " and .rigid"));
+      const RigidMass<double, 3> body = rigid_mass_in_file(filename.path);
+      return {Real(body.mass), body.inertia.template cast<Real>()};
     } catch (Error const& error) {
       throw Error(where, error.what());
     }
-    return {Real(body.mass), body.inertia.template cast<Real>()};
-  }
-  // 1 kg in the surface; a mesh that is round about the origin has its centre there up to what faces take
-  // away
-  RigidMass<double, 3> insideOf(Mesh const& mesh) const {
-    const MassProperties p = mass_properties(filename.path, mesh.positions, mesh.triangles, mesh.quads);
-    const double radius = std::sqrt(p.inertia.trace() / (2 * p.volume));
-    if (p.center.norm() > 0.01 * radius)
-      throw Error(filename.path,
-                  text("the centre of mass is at (",
-                       p.center[0],
-                       ", ",
-                       p.center[1],
-                       ", ",
-                       p.center[2],
-                       ") m, but a rigid body has it at the origin; move the surface there, or take "
-                       "GenerateRigidMass and its centerToOrigin"));
-    return {1, p.inertia / p.volume};
   }
 };
 

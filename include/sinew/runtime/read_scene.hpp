@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <sinew/force/gravity.hpp>
+#include <sinew/context/gravity.hpp>
 #include <sinew/runtime/scene_files.hpp>
 #include <sinew/runtime/scene_reader/classes.hpp>
 #include <sinew/runtime/scene_reader/values.hpp>

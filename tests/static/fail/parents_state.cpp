@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // expect: Sinew: a mapping follows a node that has no MechanicalObject
-#include <sinew/force/gravity.hpp>
+#include <sinew/context/gravity.hpp>
 #include <sinew/mapping/subset_multi_mapping.hpp>
 #include <sinew/mass/uniform_mass.hpp>
 #include <sinew/scene/simulation.hpp>

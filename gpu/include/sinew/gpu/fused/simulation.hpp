@@ -2,7 +2,7 @@
 #pragma once
 
 #include <sinew/constraint/fixed_constraint.hpp>
-#include <sinew/force/gravity.hpp>
+#include <sinew/context/gravity.hpp>
 #include <sinew/gpu/assembled_system.hpp>
 #include <sinew/gpu/fused/field.hpp>
 #include <sinew/gpu/fused/plan.hpp>

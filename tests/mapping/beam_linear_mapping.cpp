@@ -5,7 +5,7 @@
 
 #include <numbers>
 
-namespace test_beam_mapping {
+namespace test_beam_linear_mapping {
 
 using namespace sinew;
 using Eigen::AngleAxisd;
@@ -135,4 +135,4 @@ TEST_CASE("beams that carry nothing are refused") {
   says([&] { ready({}, {frame({0, 0, 0}), frame({0, 0, 0})}, out); }, {"have no length"});
 }
 
-}  // namespace test_beam_mapping
+}  // namespace test_beam_linear_mapping

@@ -5,9 +5,9 @@
 #include <sinew/solver/euler_explicit.hpp>
 #include <sinew/solver/sparse_ldl_solver.hpp>
 
-#include "contact_scene.hpp"
+#include "collision/contact_scene.hpp"
 
-namespace test_attach_spring {
+namespace test_mouse_interactor {
 
 using namespace sinew;
 using Point = Eigen::Vector3d;
@@ -235,4 +235,4 @@ TEST_CASE("a mouse presses, moves in the plane that it faces, and releases") {
   CHECK(sim.root().get<Contacts>().attachments.empty());
 }
 
-}  // namespace test_attach_spring
+}  // namespace test_mouse_interactor

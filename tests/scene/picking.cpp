@@ -2,7 +2,7 @@
 // What a ray meets first in a scene.
 #include <sinew/mapping/rigid_mapping.hpp>
 
-#include "contact_scene.hpp"
+#include "collision/contact_scene.hpp"
 
 namespace test_picking {
 

@@ -10,7 +10,7 @@
 #include <sinew/topology/tetrahedron_topology.hpp>
 #include <sinew/visual/visual_model.hpp>
 
-#include "contact_scene.hpp"
+#include "collision/contact_scene.hpp"
 
 #include <numeric>
 #include <random>

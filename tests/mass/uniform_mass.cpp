@@ -5,7 +5,7 @@
 #include <sinew/io/write_obj.hpp>
 #include <sinew/mass/uniform_mass.hpp>
 
-namespace test_rigid_inertia {
+namespace test_uniform_mass {
 
 using namespace sinew;
 using Eigen::Vector3d;
@@ -93,4 +93,4 @@ TEST_CASE("files that tell no inertia are refused") {
   refuses(Mass3{.filename = {folder / "open.obj"}}, two, {}, {"open.obj", "not closed"});
 }
 
-}  // namespace test_rigid_inertia
+}  // namespace test_uniform_mass

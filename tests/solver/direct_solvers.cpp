@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "catch.hpp"
-#include "components/fem_bar.hpp"
+#include "solver/fem_bar.hpp"
 #include "error_of.hpp"
 
 #include <sinew/solver/cholesky_solver.hpp>

@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-namespace test_viscoelasticity {
+namespace test_tetrahedron_viscoelasticity {
 
 using namespace sinew;
 using Eigen::Matrix3d;
@@ -177,4 +177,4 @@ TEST_CASE("viscoelastic bodies are checked") {
   refuses(good, corners, {.tetrahedra = far}, {"tetrahedron 0 refers to point 4", "4 points"});
 }
 
-}  // namespace test_viscoelasticity
+}  // namespace test_tetrahedron_viscoelasticity

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "catch.hpp"
-#include "components/fem_bar.hpp"
+#include "solver/fem_bar.hpp"
 
 #include <sinew/solver/min_res_linear_solver.hpp>
 #include <sinew/solver/pcg_linear_solver.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "one_component.hpp"
 
-#include <sinew/force/gravity.hpp>
+#include <sinew/context/gravity.hpp>
 #include <sinew/force/virtual_coupling.hpp>
 #include <sinew/mass/uniform_mass.hpp>
 #include <sinew/scene/simulation.hpp>

@@ -8,7 +8,7 @@
 #include "catch.hpp"
 #include "error_of.hpp"
 
-namespace test_barycentric_elements {
+namespace test_barycentric_mapping {
 
 using namespace sinew;
 
@@ -343,4 +343,4 @@ TEST_CASE("BarycentricMapping says what is wrong with its parent") {
   CHECK(error_of([&] { mapped(x, {.triangles = good}, none); }).empty());
 }
 
-}  // namespace test_barycentric_elements
+}  // namespace test_barycentric_mapping

@@ -3,7 +3,7 @@
 
 #include <sinew/sinew.hpp>
 
-namespace test_velocities {
+namespace test_mechanical_object {
 
 using namespace sinew;
 
@@ -24,4 +24,4 @@ TEST_CASE("points that are given no velocity have the last one that is given") {
                     Catch::Contains("velocity has 4 entries, position has 3"));
 }
 
-}  // namespace test_velocities
+}  // namespace test_mechanical_object

@@ -5,7 +5,7 @@
 #include <sinew/force/regular_grid_spring.hpp>
 #include <sinew/force/stiff_spring.hpp>
 
-namespace test_spring_options {
+namespace test_stiff_spring {
 
 using namespace sinew;
 using Eigen::Vector3d;
@@ -146,4 +146,4 @@ TEST_CASE("lists of springs that do not fit are refused") {
           {"enabled has 3 values for 2 springs"});
 }
 
-}  // namespace test_spring_options
+}  // namespace test_stiff_spring

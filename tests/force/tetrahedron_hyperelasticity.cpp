@@ -8,7 +8,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-namespace test_hyperelasticity {
+namespace test_tetrahedron_hyperelasticity {
 
 using namespace sinew;
 using Eigen::Matrix3d;
@@ -230,4 +230,4 @@ TEST_CASE("hyperelastic bodies are checked") {
   refuses(good, corners, {.tetrahedra = far}, {"tetrahedron 0 refers to point 4", "4 points"});
 }
 
-}  // namespace test_hyperelasticity
+}  // namespace test_tetrahedron_hyperelasticity

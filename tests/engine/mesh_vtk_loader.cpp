@@ -2,8 +2,8 @@
 // Here, among what needs pugixml.
 #include <sinew/engine/mesh_vtk_loader.hpp>
 
-#include "files.hpp"
-#include "samples.hpp"
+#include "io/files.hpp"
+#include "io/samples.hpp"
 
 namespace test_mesh_vtk_loader {
 

@@ -4,7 +4,7 @@
 
 #include "contact_scene.hpp"
 
-namespace test_bullets {
+namespace test_continuous_intersection {
 
 using namespace sinew;
 
@@ -127,4 +127,4 @@ TEST_CASE("a tool that is driven through a ball within a step takes it along") {
   CHECK(sim.at<"ball">().state().position[0][0] > 2);
 }
 
-}  // namespace test_bullets
+}  // namespace test_continuous_intersection

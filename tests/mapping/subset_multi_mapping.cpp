@@ -4,7 +4,7 @@
 
 #include "one_component.hpp"
 
-namespace test_multi_mapping {
+namespace test_subset_multi_mapping {
 
 using namespace sinew;
 using one::says;
@@ -182,4 +182,4 @@ TEST_CASE("bad indexPairs are named") {
   says(with({{0, 1}}, {.position = {{0, 0, 0}, {1, 1, 1}}}), {"2 points for 1 indexPairs"});
 }
 
-}  // namespace test_multi_mapping
+}  // namespace test_subset_multi_mapping
