@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/error.hpp>
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string_view>
+#include <vector>
+
+namespace sinew {
+
+/// Rows of constraints that are solved together. d is their violation at the end of the step, f their
+/// multipliers.
+struct ConstraintBlock {
+  enum class Kind {
+    equality,  // d = 0
+    interval,  // one row: lower <= d <= upper; f >= 0 at the lower end, f <= 0 at the upper one, else 0
+    friction,  // a normal and two tangents: d_n >= 0, f_n >= 0, d_n f_n = 0, |f_t| <= mu f_n; where d_t is
+               // not 0, f_t = -mu f_n d_t / |d_t| (Signorini, Coulomb)
+  };
+  static constexpr int most = 6;  // rows
+
+  Kind kind = Kind::equality;
+  int first = 0, rows = 1;
+  double friction = 0;  // mu
+  double lower = 0, upper = std::numeric_limits<double>::infinity();
+
+  static ConstraintBlock equality(int first, int rows) { return {Kind::equality, first, rows}; }
+  static ConstraintBlock unilateral(int first) { return {Kind::interval, first, 1}; }
+  static ConstraintBlock interval(int first, double lower, double upper) {
+    return {Kind::interval, first, 1, 0, lower, upper};
+  }
+  static ConstraintBlock contact(int first, double mu) { return {Kind::friction, first, 3, mu}; }
+};
+
+/// The constraints of a step: d = W f + d_free with the compliance W = J A^-1 J', which is symmetric and
+/// positive semidefinite, and a condition between d and f for each block.
+struct ConstraintProblem {
+  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+  Matrix compliance{};              // W
+  Eigen::VectorXd freeViolation{};  // d_free, of the motion without multipliers
+  Eigen::VectorXd multipliers{};    // f: the first guess, then the solution
+  std::vector<ConstraintBlock> blocks{};
+
+  int rows() const { return int(freeViolation.size()); }
+  Eigen::VectorXd violation() const { return compliance * multipliers + freeViolation; }
+
+  /// Throws Error where sizes do not fit, a number is not one, blocks do not cover each row once, mu is
+  /// negative, or no multiplier of a block changes its violation.
+  void check(std::string_view where) const;
+
+  /// How far f is from a solution, in the unit of d: the largest |f - P(f - r (d + c))| / r over the blocks,
+  /// with the projection P on what f may be, r = 1 / mean diagonal of W in the block, and c = mu |d_t| along
+  /// the normal of a contact with friction (De Saxce 1992). Zero for solutions only.
+  double residual() const;
+};
+
+/// The point of the cone |t| <= mu n that is nearest to (n, t).
+inline Eigen::Vector3d project_on_cone(Eigen::Vector3d const& f, double mu) {
+  const double n = f[0], t = f.tail<2>().norm();
+  if (t <= mu * n) return f;
+  if (mu * t <= -n) return {0, 0, 0};
+  const double onCone = (n + mu * t) / (1 + mu * mu);
+  return {onCone, mu * onCone * f[1] / t, mu * onCone * f[2] / t};
+}
+
+inline void ConstraintProblem::check(std::string_view where) const {
+  const auto n = freeViolation.size();
+  if (compliance.rows() != n || compliance.cols() != n || multipliers.size() != n)
+    throw Error(where,
+                text("constraints have ",
+                     n,
+                     " violations, a compliance of ",
+                     compliance.rows(),
+                     " x ",
+                     compliance.cols(),
+                     " and ",
+                     multipliers.size(),
+                     " multipliers; give each as many"));
+  if (!compliance.allFinite() || !freeViolation.allFinite() || !multipliers.allFinite())
+    throw Error(where, "the compliance, a violation or a multiplier of constraints is not a finite number");
+  int next = 0;
+  for (ConstraintBlock const& b : blocks) {
+    if (b.first != next || b.rows < 1 || b.rows > ConstraintBlock::most || b.rows > int(n) - next)
+      throw Error(where,
+                  text("a block of constraints has rows ",
+                       b.first,
+                       " to ",
+                       b.first + b.rows - 1,
+                       " where ",
+                       next,
+                       " is the next of ",
+                       n,
+                       "; blocks have 1 to ",
+                       ConstraintBlock::most,
+                       " rows and follow each other without a gap"));
+    if (b.kind == ConstraintBlock::Kind::friction &&
+        (b.rows != 3 || !(b.friction >= 0) || !std::isfinite(b.friction)))
+      throw Error(where,
+                  text("the contact at row ",
+                       b.first,
+                       " has ",
+                       b.rows,
+                       " rows and the friction ",
+                       b.friction,
+                       "; it needs a normal and two tangents, and a finite friction of at least 0"));
+    if (b.kind == ConstraintBlock::Kind::interval && (b.rows != 1 || !(b.lower <= b.upper)))
+      throw Error(where,
+                  text("the one-sided constraint at row ",
+                       b.first,
+                       " is between ",
+                       b.lower,
+                       " and ",
+                       b.upper,
+                       " with ",
+                       b.rows,
+                       " rows; it needs one row, and a lower end that is not above the upper one"));
+    for (int i = b.first; i < b.first + b.rows; ++i)
+      if (!(compliance(i, i) > 0))
+        throw Error(where,
+                    text("nothing that constraint ",
+                         i,
+                         " holds can move (its compliance is ",
+                         compliance(i, i),
+                         "): it is between fixed points, or its direction is zero"));
+    next += b.rows;
+  }
+  if (next != int(n)) throw Error(where, text("blocks of constraints cover ", next, " rows of ", n));
+}
+
+inline double ConstraintProblem::residual() const {
+  const Eigen::VectorXd d = violation();
+  double worst = 0;
+  for (ConstraintBlock const& b : blocks) {
+    const double r = b.rows / compliance.block(b.first, b.first, b.rows, b.rows).trace();
+    switch (b.kind) {
+      case ConstraintBlock::Kind::equality:
+        worst = std::max(worst, d.segment(b.first, b.rows).norm());
+        break;
+      case ConstraintBlock::Kind::interval: {
+        // d may be anywhere in the interval; the nearest d that f permits
+        const double f = multipliers[b.first];
+        worst = std::max(worst, std::abs(d[b.first] - std::clamp(d[b.first] - f / r, b.lower, b.upper)));
+        break;
+      }
+      case ConstraintBlock::Kind::friction: {
+        const Eigen::Vector3d f = multipliers.segment<3>(b.first);
+        Eigen::Vector3d v = d.segment<3>(b.first);
+        v[0] += b.friction * v.tail<2>().norm();
+        worst = std::max(worst, (f - project_on_cone(f - r * v, b.friction)).norm() / r);
+        break;
+      }
+    }
+  }
+  return worst;
+}
+
+}  // namespace sinew

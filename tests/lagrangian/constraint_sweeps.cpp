@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "catch.hpp"
+#include "error_of.hpp"
+
+#include <sinew/lagrangian/constraint_sweeps.hpp>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <random>
+
+namespace test_constraint_sweeps {
+
+using namespace sinew;
+
+ConstraintProblem problem_of(ConstraintProblem::Matrix const& W, Eigen::VectorXd const& free,
+                             std::vector<ConstraintBlock> blocks) {
+  return {W, free, Eigen::VectorXd::Zero(free.size()), std::move(blocks)};
+}
+// W = J J' / 1 kg of points that move freely, each in contact with one before it: the contacts are a tree, so
+// that the rows of J are independent and W is positive definite
+ConstraintProblem random_contacts(int contacts, double mu, unsigned seed) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal;
+  ConstraintProblem::Matrix J = ConstraintProblem::Matrix::Zero(3 * contacts, 3 * contacts + 3);
+  Eigen::VectorXd free(3 * contacts);
+  std::vector<ConstraintBlock> blocks;
+  for (int c = 0; c < contacts; ++c) {
+    Eigen::Matrix3d frame;
+    for (double& entry : frame.reshaped()) entry = normal(random);
+    frame = Eigen::Matrix3d(frame.householderQr().householderQ());
+    J.block<3, 3>(3 * c, 3 * std::uniform_int_distribution<int>(0, c)(random)) = frame;
+    J.block<3, 3>(3 * c, 3 * c + 3) = -frame;
+    for (int k = 0; k < 3; ++k) free[3 * c + k] = 0.1 * normal(random);
+    free[3 * c] = -std::abs(free[3 * c]);  // it penetrates
+    blocks.push_back(ConstraintBlock::contact(3 * c, mu));
+  }
+  ConstraintProblem::Matrix W = J * J.transpose();
+  return problem_of(W, free, blocks);
+}
+constexpr SweepSettings exact{.maxIterations = 100000, .tolerance = 1e-12, .scaleTolerance = false};
+
+TEST_CASE("a mass of 2 kg on a rail is stopped, held, or let go") {
+  // d = f / m + d_free
+  const ConstraintProblem::Matrix W{{0.5}};
+  ConstraintSweeps sweeps;
+  auto f = [&](double free, ConstraintBlock const& block) {
+    ConstraintProblem p = problem_of(W, Eigen::VectorXd::Constant(1, free), {block});
+    CHECK(sweeps.gaussSeidel(p, exact, "test").converged);
+    CHECK(p.residual() < 1e-12);
+    return p.multipliers[0];
+  };
+  CHECK(f(-3, ConstraintBlock::equality(0, 1)) == Approx(6));
+  CHECK(f(3, ConstraintBlock::equality(0, 1)) == Approx(-6));
+  CHECK(f(-3, ConstraintBlock::unilateral(0)) == Approx(6));
+  CHECK(f(3, ConstraintBlock::unilateral(0)) == 0);
+  CHECK(f(3, ConstraintBlock::interval(0, -1, 2)) == Approx(-2));
+  CHECK(f(-3, ConstraintBlock::interval(0, -1, 2)) == Approx(4));
+  CHECK(f(1, ConstraintBlock::interval(0, -1, 2)) == 0);
+}
+
+TEST_CASE("a block of 2 kg on an incline sticks below the angle of friction and slides down above it") {
+  // velocities at the end of a step h: d_free = h g (-cos a, sin a, 0); sliding has the acceleration g (sin a
+  // - mu cos a)
+  const double h = 0.01, g = 9.81, mu = 0.5;
+  ConstraintSweeps sweeps;
+  for (const double angle : {0.2, 0.46, 0.47, 1.0}) {
+    ConstraintProblem p = problem_of(ConstraintProblem::Matrix::Identity(3, 3) / 2,
+                                     h * g * Eigen::Vector3d(-std::cos(angle), std::sin(angle), 0),
+                                     {ConstraintBlock::contact(0, mu)});
+    REQUIRE(sweeps.gaussSeidel(p, exact, "test").converged);
+    CHECK(p.residual() < 1e-12);
+    const Eigen::VectorXd d = p.violation();
+    CHECK(std::abs(d[0]) < 1e-14);
+    CHECK(p.multipliers[0] == Approx(2 * h * g * std::cos(angle)));
+    const double slides = std::max(0., g * (std::sin(angle) - mu * std::cos(angle)));
+    CHECK(d[1] == Approx(h * slides).margin(1e-14));
+  }
+}
+
+TEST_CASE("three equalities are solved at once, whatever couples them") {
+  const ConstraintProblem::Matrix W{{2, 1, 0.5}, {1, 3, -1}, {0.5, -1, 2}};
+  const Eigen::Vector3d free(1, -2, 3);
+  ConstraintProblem p = problem_of(W, free, {ConstraintBlock::equality(0, 3)});
+  ConstraintSweeps sweeps;
+  const SweepResult result = sweeps.gaussSeidel(p, exact, "test");
+  CHECK(result.iterations == 2);  // the second finds nothing to do
+  CHECK(p.violation().norm() < 1e-14);
+}
+
+// W is positive definite, and so small a friction leaves one solution.
+TEST_CASE("all methods find the same multipliers of contacts with friction, in any order of the contacts") {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    const double mu = 0.3;
+    const ConstraintProblem p = random_contacts(12, mu, seed);
+    Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> spectrum(p.compliance);
+    ConstraintSweeps sweeps;
+    ConstraintProblem a = p, b = p, c = p;
+    REQUIRE(sweeps.gaussSeidel(a, exact, "test").converged);
+    REQUIRE(sweeps.nonsmoothConjugateGradients(b, exact, "test").converged);
+    // diagonals of W are 2
+    REQUIRE(sweeps.jacobi(c, exact, 2 / spectrum.eigenvalues()[p.rows() - 1], "test").converged);
+    // the last change of 1e-12 is smaller than the error by the rate of convergence, 1 - O(smallest / largest
+    // eigenvalue)
+    const double error = 1e-12 * spectrum.eigenvalues()[p.rows() - 1] / spectrum.eigenvalues()[0] * 100;
+    CAPTURE(seed, error);
+    CHECK(a.residual() < error);
+    CHECK(b.residual() < error);
+    CHECK(c.residual() < error);
+    CHECK((a.multipliers - b.multipliers).norm() < error / spectrum.eigenvalues()[0]);
+    CHECK((a.multipliers - c.multipliers).norm() < error / spectrum.eigenvalues()[0]);
+
+    // the last contact first
+    ConstraintProblem turned = p;
+    const int n = p.rows() / 3;
+    for (int i = 0; i < n; ++i) {
+      turned.freeViolation.segment<3>(3 * i) = p.freeViolation.segment<3>(3 * (n - 1 - i));
+      for (int j = 0; j < n; ++j)
+        turned.compliance.block<3, 3>(3 * i, 3 * j) =
+            p.compliance.block<3, 3>(3 * (n - 1 - i), 3 * (n - 1 - j));
+    }
+    REQUIRE(sweeps.gaussSeidel(turned, exact, "test").converged);
+    for (int i = 0; i < n; ++i)
+      CHECK((turned.multipliers.segment<3>(3 * i) - a.multipliers.segment<3>(3 * (n - 1 - i))).norm() <
+            error / spectrum.eigenvalues()[0]);
+  }
+}
+
+TEST_CASE("conjugate gradients need fewer sweeps than Gauss-Seidel for a long pile") {
+  // blocks on each other without friction: W is the second difference, whose condition grows with the square
+  // of the height
+  const int n = 60;
+  ConstraintProblem::Matrix W = ConstraintProblem::Matrix::Zero(n, n);
+  std::vector<ConstraintBlock> blocks;
+  for (int i = 0; i < n; ++i) {
+    W(i, i) = i == 0 ? 1 : 2;
+    if (i > 0) W(i, i - 1) = W(i - 1, i) = -1;
+    blocks.push_back(ConstraintBlock::unilateral(i));
+  }
+  Eigen::VectorXd free = Eigen::VectorXd::Zero(n);
+  free[0] = -1;  // only the lowest falls onto the ground, all others as it does
+  ConstraintProblem a = problem_of(W, free, blocks), b = a;
+  ConstraintSweeps sweeps;
+  const SweepResult slow = sweeps.gaussSeidel(a, exact, "test");
+  const SweepResult fast = sweeps.nonsmoothConjugateGradients(b, exact, "test");
+  REQUIRE(slow.converged);
+  REQUIRE(fast.converged);
+  for (int i = 0; i < n; ++i)
+    CHECK(b.multipliers[i] == Approx(n - i).epsilon(1e-6));  // each carries what is above it
+  CHECK(fast.iterations * 5 < slow.iterations);
+}
+
+TEST_CASE("the residual is that of the nearest condition that is broken") {
+  const ConstraintProblem::Matrix W = ConstraintProblem::Matrix::Identity(3, 3);
+  ConstraintProblem p = problem_of(W, Eigen::Vector3d(-0.25, 0, 0), {ConstraintBlock::contact(0, 0.5)});
+  CHECK(p.residual() == Approx(0.25));  // it penetrates by that
+  p.multipliers = Eigen::Vector3d(0.25, 0, 0);
+  CHECK(p.residual() == 0);
+  p.multipliers = Eigen::Vector3d(0.25, 0.2, 0);  // beyond the cone
+  CHECK(p.residual() > 0.05);
+  CHECK((project_on_cone({1, 3, 4}, 0.5) - Eigen::Vector3d(2.8, 0.84, 1.12)).norm() < 1e-14);
+  CHECK(project_on_cone({-3, 1, 0}, 0.5) == Eigen::Vector3d(0, 0, 0));
+  CHECK(project_on_cone({3, 1, 0}, 0.5) == Eigen::Vector3d(3, 1, 0));
+}
+
+TEST_CASE("iterations that do not suffice say so, with what is left") {
+  ConstraintProblem p = random_contacts(12, 0.3, 1);
+  ConstraintSweeps sweeps;
+  const SweepResult result = sweeps.gaussSeidel(p, {.maxIterations = 2, .tolerance = 1e-12}, "test");
+  CHECK_FALSE(result.converged);
+  CHECK(result.iterations == 2);
+  CHECK(result.error > 1e-12);
+}
+
+TEST_CASE("problems that cannot be solved are refused, with their rows") {
+  ConstraintSweeps sweeps;
+  auto says = [&](ConstraintProblem p) { return error_of([&] { sweeps.gaussSeidel(p, exact, "root"); }); };
+  const ConstraintProblem::Matrix one = ConstraintProblem::Matrix::Ones(2, 2),
+                                  two = ConstraintProblem::Matrix::Identity(2, 2);
+  const Eigen::Vector2d free(1, 1);
+  CHECK_THAT(says(problem_of(one, free, {ConstraintBlock::equality(0, 2)})),
+             Catch::Contains("rows 0 to 1 depend on each other"));
+  CHECK_THAT(
+      says(problem_of(0 * two, free, {ConstraintBlock::equality(0, 1), ConstraintBlock::unilateral(1)})),
+      Catch::Contains("constraint 0") && Catch::Contains("fixed points"));
+  CHECK_THAT(says(problem_of(two, Eigen::Vector2d(1, std::nan("")), {ConstraintBlock::equality(0, 2)})),
+             Catch::Contains("not a finite number"));
+  CHECK_THAT(says(problem_of(two, free, {ConstraintBlock::equality(0, 1)})),
+             Catch::Contains("cover 1 rows of 2"));
+  CHECK_THAT(says(problem_of(two, free, {ConstraintBlock::equality(1, 1)})),
+             Catch::Contains("where 0 is the next"));
+  CHECK_THAT(says(problem_of(two, free, {ConstraintBlock::contact(0, 0.5)})), Catch::Contains("rows 0 to 2"));
+  CHECK_THAT(says(problem_of(ConstraintProblem::Matrix::Identity(3, 3),
+                             Eigen::Vector3d::Ones(),
+                             {ConstraintBlock::contact(0, -1)})),
+             Catch::Contains("friction -1"));
+  CHECK_THAT(
+      says(problem_of(two, free, {ConstraintBlock::interval(0, 2, 1), ConstraintBlock::unilateral(1)})),
+      Catch::Contains("between 2 and 1"));
+}
+
+}  // namespace test_constraint_sweeps
