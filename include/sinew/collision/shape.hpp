@@ -36,15 +36,19 @@ inline constexpr Shapes allSimplices =
 template <Shape...>
 struct ShapeList {};
 
+namespace detail {
+
 /// The shapes of a set as a type.
 template <Shapes Set, int Next = 0, Shape... Found>
-constexpr auto shape_list() {
+constexpr auto list_of_shapes() {
   if constexpr (Next > int(Shape::sphere))
     return ShapeList<Found...>{};
   else if constexpr (Set.has(Shape(Next)))
-    return shape_list<Set, Next + 1, Found..., Shape(Next)>();
+    return list_of_shapes<Set, Next + 1, Found..., Shape(Next)>();
   else
-    return shape_list<Set, Next + 1, Found...>();
+    return list_of_shapes<Set, Next + 1, Found...>();
 }
+
+}  // namespace detail
 
 }  // namespace sinew

@@ -97,37 +97,38 @@ struct Collision {
   /// for the nodes with a solver in whose matrix other vertices meet now.
   template <class F>
   void detect(double dt, F&& newPattern) const {
-    traverse(root, on<role::CollisionPipeline>([&](auto& pipeline, auto const& scope) {
-               {
-                 [[maybe_unused]] const auto span = root.span(Phase::positions);
-                 collect(pipeline, scope);
-                 detail::with_first<role::ContactManager>(
-                     scope, [&](auto& manager) { manager.settle(pipeline.surfaces); });
-               }
-               detail::with_first<role::Intersection>(scope, [&](auto const& intersection) {
-                 [[maybe_unused]] const auto span = root.span(Phase::boundingTrees);
-                 for (auto* s : pipeline.surfaces)
-                   s->enclose(intersection.reach() / 2, intersection.continuous ? dt : 0);
-               });
-               detail::with_first<role::BroadPhase>(scope, [&](auto& broad) {
-                 [[maybe_unused]] const auto span = root.span(Phase::broadPhase);
-                 pipeline.findNear(broad);
-               });
-               detail::with_first<role::ContactManager>(scope, [&](auto& manager) {
-                 detail::with_first<role::NarrowPhase>(scope, [&](auto& narrow) {
-                   [[maybe_unused]] const auto span = root.span(Phase::narrowPhase);
-                   detail::with_first<role::Intersection>(scope, [&](auto const& intersection) {
-                     using S = std::decay_t<decltype(scope)>;
-                     pipeline.findContacts(
-                         shape_list<detail::shapes_below<S>()>(), narrow, intersection, manager, dt);
-                   });
-                 });
-                 [[maybe_unused]] const auto span = root.span(Phase::response);
-                 manager.manage(dt);
-                 touch(manager);
-                 if (manager.couplingChanged) forEachSolver(root, newPattern);
-               });
-             }));
+    traverse(
+        root, on<role::CollisionPipeline>([&](auto& pipeline, auto const& scope) {
+          {
+            [[maybe_unused]] const auto span = root.span(Phase::positions);
+            collect(pipeline, scope);
+            detail::with_first<role::ContactManager>(
+                scope, [&](auto& manager) { manager.settle(pipeline.surfaces); });
+          }
+          detail::with_first<role::Intersection>(scope, [&](auto const& intersection) {
+            [[maybe_unused]] const auto span = root.span(Phase::boundingTrees);
+            for (auto* s : pipeline.surfaces)
+              s->enclose(intersection.reach() / 2, intersection.continuous ? dt : 0);
+          });
+          detail::with_first<role::BroadPhase>(scope, [&](auto& broad) {
+            [[maybe_unused]] const auto span = root.span(Phase::broadPhase);
+            pipeline.findNear(broad);
+          });
+          detail::with_first<role::ContactManager>(scope, [&](auto& manager) {
+            detail::with_first<role::NarrowPhase>(scope, [&](auto& narrow) {
+              [[maybe_unused]] const auto span = root.span(Phase::narrowPhase);
+              detail::with_first<role::Intersection>(scope, [&](auto const& intersection) {
+                using S = std::decay_t<decltype(scope)>;
+                pipeline.findContacts(
+                    detail::list_of_shapes<detail::shapes_below<S>()>(), narrow, intersection, manager, dt);
+              });
+            });
+            [[maybe_unused]] const auto span = root.span(Phase::response);
+            manager.manage(dt);
+            touch(manager);
+            if (manager.couplingChanged) forEachSolver(root, newPattern);
+          });
+        }));
   }
 
  private:
