@@ -14,6 +14,7 @@
 #include <sinew/collision/ray_hits.hpp>
 #include <sinew/collision/stick_contact.hpp>
 #include <sinew/collision/surface_elements.hpp>
+#include <sinew/collision/vertex_contacts.hpp>
 #include <sinew/constraint/constrained_points.hpp>
 #include <sinew/engine/grid_mesh_creator.hpp>
 #include <sinew/engine/mesh_loader.hpp>

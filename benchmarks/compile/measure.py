@@ -15,7 +15,8 @@ root = pathlib.Path(__file__).resolve().parents[2]
 layers = ["core", "topology", "linalg", "state", "context", "force", "mass", "constraint", "mapping", "collision", "solver",
           "io", "engine", "control", "visual", "scene", "runtime"]
 COMPILED = "#define SINEW_COMPILED\n"
-optional = {"cholmod_solver.hpp", "convex.hpp", "hull_contacts.hpp", "convex_collision_model.hpp"}  # need a package
+optional = {"cholmod_solver.hpp", "convex.hpp", "contact_manifold.hpp", "hull_contacts.hpp", "hull_impact.hpp",
+            "hull_ray.hpp", "moved_primitive.hpp", "convex_collision_model.hpp"}  # need a package
 
 
 def layer(name):

@@ -21,7 +21,7 @@ Contact contact() {
   c.damping = 3;
   c.friction = 0.4;
   c.distance = 0.05;
-  c.slip = Eigen::Vector3d(0.004, -0.003, 0);
+  c.frictionState.slip = Eigen::Vector3d(0.004, -0.003, 0);
   c.start = 0.35 * c.normal;
   return c;
 }
@@ -63,13 +63,13 @@ TEST_CASE("the tangents of sticking are those of its force") {
 TEST_CASE("a contact that slides: the tangent across the motion is exact, and the force is on the cone") {
   const PenalityContactForceField law;
   Contact c = contact();
-  c.slip = 0.2 * c.normal.cross(Eigen::Vector3d::UnitX()).normalized();
+  c.frictionState.slip = 0.2 * c.normal.cross(Eigen::Vector3d::UnitX()).normalized();
   law.evaluate(c, c.start, {0, 0, 0});
   const double normal = c.evaluated.dot(c.normal);
   const Eigen::Vector3d tangential = c.evaluated - normal * c.normal;
   CHECK(normal == Approx(200 * 0.05).epsilon(1e-12));
   CHECK(tangential.norm() == Approx(0.4 * normal).epsilon(1e-12));
-  CHECK(tangential.dot(c.slip) < 0);
+  CHECK(tangential.dot(c.frictionState.slip) < 0);
   const Eigen::Vector3d across = c.normal.cross(tangential.normalized());
   const double e = 1e-6;
   const Eigen::Vector3d du =
@@ -86,7 +86,7 @@ TEST_CASE("friction does work against the motion only, however a contact is move
   const PenalityContactForceField law;
   Contact c = contact();
   c.damping = 0;
-  c.slip.setZero();
+  c.frictionState.slip.setZero();
   Eigen::Vector3d u = c.start;
   double work = 0;
   for (int i = 0; i < 20000; ++i) {

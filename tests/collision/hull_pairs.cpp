@@ -99,7 +99,7 @@ TEST_CASE("a segment over a face touches it at two places, a triangle at three")
     REQUIRE(contacts.size() == 3);
     for (Contact const& c : contacts) {
       REQUIRE(c.b.vertices[1] == -1);
-      CHECK(c.a.feature == std::array<int, 2>{-2, -2});
+      CHECK(c.a.feature == Feature::face());
       CHECK(c.distance == Approx(0.02 + 0.01 * c.b.vertices[0]).margin(1e-3));
     }
   }

@@ -117,7 +117,7 @@ TEST_CASE("contacts of what stays remember, and those of what has gone are dropp
   auto& manager = sim.root().get<Contacts>();
   const auto before = manager.contacts;
   REQUIRE(!before.empty());
-  CHECK(before[0].slip.norm() > 1e-5);
+  CHECK(before[0].frictionState.slip.norm() > 1e-5);
   auto where = [&](Contact const& c) {
     return position_of(c.a, *manager.surfaces[std::size_t(c.a.surface)]);
   };
@@ -133,7 +133,7 @@ TEST_CASE("contacts of what stays remember, and those of what has gone are dropp
   REQUIRE(change.points.changes());
   REQUIRE(manager.contacts.size() == before.size());
   for (std::size_t i = 0; i < before.size(); ++i) {
-    CHECK(manager.contacts[i].slip == before[i].slip);
+    CHECK(manager.contacts[i].frictionState.slip == before[i].frictionState.slip);
     for (std::size_t k = 0; k < 3; ++k) {
       const int old = before[i].a.vertices[k];
       CHECK(manager.contacts[i].a.vertices[k] == (old < 0 ? -1 : change.points.now[std::size_t(old)]));
@@ -142,7 +142,7 @@ TEST_CASE("contacts of what stays remember, and those of what has gone are dropp
   sim.animate(1e-9);  // the same place but for the step before, and what it remembers
   REQUIRE(!manager.contacts.empty());
   CHECK((where(manager.contacts[0]) - at).norm() < 1e-3);
-  CHECK(manager.contacts[0].slip.norm() > 1e-5);
+  CHECK(manager.contacts[0].frictionState.slip.norm() > 1e-5);
   // and what is under the ball
   std::set<Index> under;
   auto const& left = sim.at<"block">().get<TetrahedronTopology>().tetrahedra;

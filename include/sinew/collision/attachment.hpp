@@ -39,7 +39,8 @@ SINEW_ONCE void Attachment::evaluate(CollisionSurface const& s) {
 }
 
 SINEW_ONCE void find_solver(Contact& c, CollisionSurface const* a, CollisionSurface const* b) {
-  const int sa = a && a->simulated ? a->solver : -1, sb = b && b->simulated ? b->solver : -1;
+  const int sa = a && a->settings.simulated ? a->solver : -1,
+            sb = b && b->settings.simulated ? b->solver : -1;
   c.loose = sa >= 0 && sb >= 0 && sa != sb;
   c.solver = c.loose ? -1 : std::max(sa, sb);
   c.implicit = !c.loose && ((sa >= 0 && a->implicit) || (sa < 0 && sb >= 0 && b->implicit));

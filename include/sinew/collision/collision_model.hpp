@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/collision/collision_settings.hpp>
 #include <sinew/collision/collision_surface.hpp>
 #include <sinew/core/component.hpp>
 
@@ -8,67 +9,50 @@
 
 namespace sinew {
 
-/// The fields that all collision models have, and those of one kind behind them.
-template <class M, class... More>
-constexpr auto collision_model_fields(More... more) {
-  return field_list(
-      field("active", &M::active, "", "takes part in collisions"),
-      field("moving", &M::moving, "", "moves: two models that do not are never compared"),
-      field("simulated", &M::simulated, "", "feels the forces of its contacts"),
-      field("selfCollision",
-            &M::selfCollision,
-            "",
-            "collides with itself; primitives that share a point do not"),
-      field("bothSide",
-            &M::bothSide,
-            "",
-            "both sides of a triangle are outside; else only the one from which its corners go round "
-            "counterclockwise"),
-      field("group", &M::group, "", "models that have a group in common do not collide with each other"),
-      field("proximity", &M::proximity, "m", "thickness around the primitives", range::nonNegative)
-          .also("contactDistance"),
-      field("contactStiffness",
-            &M::contactStiffness,
-            "N^(1/2)",
-            "stiffness of contacts: that of a pair is k1 k2 / d [N/m], d the contact distance with the radii "
-            "of the two [m], and its force k times what is missing of the contact distance",
-            range::nonNegative),
-      field("contactFriction",
-            &M::contactFriction,
-            "",
-            "coefficient of friction: that of a pair is the sum",
-            range::nonNegative),
-      field("contactDamping",
-            &M::contactDamping,
-            "N s/m",
-            "damping of contacts along their normal: that of a pair is the sum",
-            range::nonNegative),
-      field("contactResponse",
-            &M::contactResponse,
-            "",
-            "class that answers contacts of this model; that of the contact manager when not given"),
-      more...);
-}
-
-/// What a model says of itself to detection and response.
+/// What a model says of itself to detection and response; its elements are there.
 template <class M>
 void describe_surface(M const& model, CollisionSurface& surface, std::string const& where,
                       std::size_t vertices) {
-  surface.corners = M::corners;
+  surface.shape = M::shape;
   surface.rigid = M::DataTypes::rigid;
-  surface.active = model.active;
-  surface.moving = model.moving;
-  surface.simulated = model.simulated;
-  surface.selfCollision = model.selfCollision;
-  surface.bothSide = model.bothSide;
-  surface.group = model.group;
-  surface.proximity = model.proximity;
-  surface.stiffness = model.contactStiffness;
-  surface.friction = model.contactFriction;
-  surface.damping = model.contactDamping;
-  surface.response = model.contactResponse;
+  copy_fields(model, collision_model_fields<M>(), surface.settings, CollisionSettings::fields());
   surface.path = where;
   surface.resize(vertices);
 }
+
+/// The model of the points, lines or triangles of a topology. `Kind` says which: shape, elements(context),
+/// and what scene files call it; `noun` is for messages. C++ has no designated initialisers for members of a
+/// base class or of an inner struct, which is why settings stand in each class that has fields of its own
+/// beside them.
+template <class D, class Kind>
+struct MeshCollisionModel {
+  using Role = role::CollisionModel;
+  using DataTypes = D;
+  static_assert(D::spatial == 3,
+                "Sinew: collision models are in space; take Vec3d, Vec3f, Rigid3d or Rigid3f.");
+  static constexpr std::string_view className = Kind::className;
+  static constexpr std::string_view aliases = Kind::aliases;
+  static constexpr Shape shape = Kind::shape;
+
+  bool active = true, moving = true, simulated = true, selfCollision = false, bothSide = Kind::bothSide;
+  std::vector<int> group{};
+  double proximity = 0, contactStiffness = 10, contactFriction = 0, contactDamping = 0;
+  std::string contactResponse{};
+
+  static constexpr auto fields() { return collision_model_fields<MeshCollisionModel>(); }
+
+  CollisionSurface surface{};
+
+  void init(InitContext<D> const& context) {
+    surface.elements = Kind::elements(context);
+    describe_surface(*this, surface, context.where, context.rest.size());
+    if (surface.elements.empty())
+      throw Error(context.where,
+                  text(component_name<MeshCollisionModel>(),
+                       ": there is no ",
+                       Kind::noun,
+                       " to collide with; give the node points, or a topology that has some"));
+  }
+};
 
 }  // namespace sinew

@@ -3,7 +3,9 @@
 
 #include <sinew/collision/axis_box.hpp>
 #include <sinew/collision/bounding_tree.hpp>
+#include <sinew/collision/collision_settings.hpp>
 #include <sinew/collision/convex_hull.hpp>
+#include <sinew/collision/shape.hpp>
 #include <sinew/core/compiled.hpp>
 
 #include <Eigen/Geometry>
@@ -20,24 +22,19 @@ namespace sinew {
 /// what is between them is compiled once.
 struct CollisionSurface {
   // of the model, at init
-  int corners = 0;  // of a primitive: 1 point or sphere, 2 segment, 3 triangle; 0 a hull
+  Shape shape = Shape::hull;  // of a primitive
   bool rigid = false;
-  bool active = true, moving = true, simulated = true, selfCollision = false, bothSide = true;
-  double proximity = 0, stiffness = 10, friction = 0, damping = 0;
-  std::string response{};    // the class that answers its contacts; the manager's own where empty
-  std::vector<int> group{};  // models that share one do not collide
-  std::vector<std::array<int, 3>> elements{};  // their corners, -1 behind the last
-  std::vector<double> radius{};                // of each element; empty: 0
-  std::optional<ConvexHull> hull{};  // of each element, in the axes of its rigid, where corners is 0
-  std::string path{};                // for messages
+  CollisionSettings settings{};
+  std::vector<std::array<int, 3>> elements{};  // their corners, -1 behind the last; of a hull its centre
+  std::vector<double> radius{};                // of each sphere
+  std::optional<ConvexHull> hull{};            // of each element, in the axes of its rigid
+  std::string path{};                          // for messages
   void const* state = nullptr;
   int number = -1;                   // among the surfaces of the scene, in their order
   int solver = -1;                   // which of the ODE solvers moves it; none: -1
   bool implicit = false;             // that solver is an implicit one
   Eigen::Vector3d gravity{0, 0, 0};  // on what a solver moves
-  // numbers of corners, as bits, of the models of points, lines and triangles on this state that collide as
-  // this one does
-  unsigned companions = 0;
+  Shapes companions{};  // of the models of points, lines and triangles on this state that collide as this one
 
   // around the primitives, from the elements
   std::vector<std::array<int, 3>> across{};  // of triangles: the corner opposite to the edge behind each
@@ -60,7 +57,8 @@ struct CollisionSurface {
   std::optional<std::array<double, 2>> enclosed{};  // margin and dt of the boxes, while vertices stand still
 
   std::size_t size() const { return elements.size(); }
-  double radiusOf(int element) const { return radius.empty() ? 0 : radius[std::size_t(element)]; }
+  int corners() const { return corners_of(shape); }
+  double radiusOf(int element) const { return shape == Shape::sphere ? radius[std::size_t(element)] : 0; }
   /// The corners of an element.
   template <std::size_t N>
   std::array<Eigen::Vector3d, N> corner(std::vector<Eigen::Vector3d> const& of, int element) const {
@@ -69,19 +67,15 @@ struct CollisionSurface {
     return all;
   }
 
-  bool hasAllKinds() const { return companions == 0b1110 && radius.empty(); }
+  bool hasAllSimplices() const { return companions == allSimplices && shape != Shape::sphere; }
   /// Whether the other model is on the same state, of points, lines or triangles, and collides with the same.
-  bool isAccompaniedBy(CollisionSurface const& other) const {
-    return state == other.state && other.radius.empty() && other.corners > 0 && active == other.active &&
-           moving == other.moving && simulated == other.simulated && selfCollision == other.selfCollision &&
-           group == other.group && response == other.response;
-  }
-  /// Of how many corners the primitives are that have a place on a vertex (1), an edge (2) or the inside of a
-  /// triangle (3) of this surface: the smallest that hold it, of this model and of those beside it.
-  int smallestAround(int feature) const {
-    for (int n = feature; n < corners; ++n)
-      if ((companions >> n & 1u) != 0) return n;
-    return corners;
+  bool isAccompaniedBy(CollisionSurface const& other) const;
+  /// Of which shape the primitives are that have a place on the simplex over so many vertices of this
+  /// surface: the smallest that hold it, of this model and of those beside it.
+  Shape smallestAround(int vertices) const {
+    for (int n = vertices; n < corners(); ++n)
+      if (companions.has(simplex(n))) return simplex(n);
+    return skeleton(shape);
   }
 
   /// Whether the distance d from a place of this surface, on the primitive over these vertices of an element,
@@ -178,9 +172,17 @@ void add_forces(typename D::VecDeriv& f, CollisionSurface const& s) {
 
 namespace sinew {
 
+SINEW_ONCE bool CollisionSurface::isAccompaniedBy(CollisionSurface const& other) const {
+  auto const &mine = settings, &its = other.settings;
+  return state == other.state && is_simplex(other.shape) && mine.active == its.active &&
+         mine.moving == its.moving && mine.simulated == its.simulated &&
+         mine.selfCollision == its.selfCollision && mine.group == its.group &&
+         mine.contactResponse == its.contactResponse;
+}
+
 SINEW_ONCE bool CollisionSurface::isLocalMinimum(int element, std::array<int, 3> const& vertices,
                                                  Eigen::Vector3d const& d) const {
-  if (corners < 2 || vertices[2] >= 0) return true;
+  if (corners() < 2 || vertices[2] >= 0) return true;
   auto towards = [&](Eigen::Vector3d const& way) { return d.dot(way) > 1e-9 * d.norm() * way.norm(); };
   if (vertices[1] < 0) {
     const auto v = std::size_t(vertices[0]);
@@ -195,7 +197,7 @@ SINEW_ONCE bool CollisionSurface::isLocalMinimum(int element, std::array<int, 3>
     return towards(way - (way.dot(edge) / std::max(edge.squaredNorm(), 1e-300)) * edge);
   };
   auto const& e = elements[std::size_t(element)];
-  if (corners == 2) {
+  if (shape == Shape::line) {
     if (beside.empty()) return true;
     for (const int corner : beside[std::size_t(element)])
       if (corner >= 0 && intoTriangle(e[0], e[1], corner)) return false;
@@ -210,7 +212,7 @@ SINEW_ONCE bool CollisionSurface::isLocalMinimum(int element, std::array<int, 3>
 }
 
 SINEW_ONCE std::string CollisionSurface::wrongWinding(Eigen::Vector3d const& along) const {
-  if (corners != 3 || bothSide || elements.empty()) return {};
+  if (shape != Shape::triangle || settings.bothSide || elements.empty()) return {};
   constexpr std::string_view advice =
       "; turn them round by swapping two corners each, or say bothSide=\"true\"";
   std::vector<std::array<int, 3>> edges;  // lower, higher vertex, whether they are passed in that order
@@ -267,15 +269,16 @@ SINEW_ONCE void CollisionSurface::findTriangles(CollisionSurface const& triangle
 }
 
 SINEW_ONCE void CollisionSurface::findNeighbours(std::size_t vertices) {
+  const bool ofTriangles = shape == Shape::triangle;
   std::vector<std::array<int, 3>> edges;  // first, second vertex, 3 * triangle + corner
   for (int e = 0; e < int(size()); ++e)
-    for (int c = 0; c < (corners == 3 ? 3 : corners - 1); ++c) {
+    for (int c = 0; c < (ofTriangles ? 3 : corners() - 1); ++c) {
       const auto [p, q] = std::minmax(elements[std::size_t(e)][std::size_t(c)],
-                                      elements[std::size_t(e)][std::size_t((c + 1) % corners)]);
+                                      elements[std::size_t(e)][std::size_t((c + 1) % corners())]);
       edges.push_back({p, q, 3 * e + c});
     }
   std::sort(edges.begin(), edges.end());
-  across.assign(corners == 3 ? size() : 0, {-1, -1, -1});
+  across.assign(ofTriangles ? size() : 0, {-1, -1, -1});
   firstAround.assign(vertices + 1, 0);
   auto same = [&](std::size_t i, std::size_t j) {
     return edges[i][0] == edges[j][0] && edges[i][1] == edges[j][1];
@@ -289,7 +292,7 @@ SINEW_ONCE void CollisionSurface::findNeighbours(std::size_t vertices) {
   around.assign(std::size_t(firstAround[vertices]), -1);
   auto next = firstAround;
   for (std::size_t i = 0; i < edges.size(); ++i) {
-    if (corners == 3)  // of two triangles at an edge; more than two are beyond this filter
+    if (ofTriangles)  // of two triangles at an edge; more than two are beyond this filter
       for (const std::size_t j : {i + 1, i - 1})
         if (j < edges.size() && same(i, j)) {
           const int there = edges[j][2];
@@ -322,13 +325,13 @@ SINEW_ONCE void CollisionSurface::enclose(double margin, double dt) {
   box = AxisBox{};
   for (std::size_t e = 0; e < size(); ++e) {
     AxisBox b;
-    for (int c = 0; c < corners; ++c) {
+    for (int c = 0; c < corners(); ++c) {
       const auto v = std::size_t(elements[e][std::size_t(c)]);
       b.include(position[v]);
       if (dt > 0) b.include(position[v] + (solver < 0 ? -dt : dt) * velocity[v]);
     }
     if (hull) b = hullBox(std::size_t(elements[e][0]), dt);
-    boxes[e] = b.grown(proximity + margin + radiusOf(int(e)));
+    boxes[e] = b.grown(settings.proximity + margin + radiusOf(int(e)));
     box.include(boxes[e]);
   }
   tree.update(boxes);

@@ -2,12 +2,12 @@
 #pragma once
 
 #include <sinew/collision/collision_surface.hpp>
+#include <sinew/collision/contact_key.hpp>
 #include <sinew/core/fields.hpp>
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
-#include <compare>
 #include <concepts>
 #include <span>
 #include <string_view>
@@ -22,8 +22,7 @@ struct ContactSide {
   std::array<int, 3> vertices{-1, -1, -1};  // those of weight 0 are left out
   std::array<double, 3> weights{0, 0, 0};
   Eigen::Vector3d lever{0, 0, 0};  // from the centre of the rigid, in its axes
-  // of a hull: its corner i as {i, -1}, its edge from i to j as {i, j}, a face as {-2, -2}
-  std::array<int, 2> feature{-1, -1};
+  Feature feature{};               // of a hull; what touches of a simplex, its vertices say
 
   static constexpr auto fields() {
     using S = ContactSide;
@@ -32,19 +31,32 @@ struct ContactSide {
                       field("vertices", &S::vertices, "", "its vertices, -1 behind the last"),
                       field("weights", &S::weights, "", "of the vertices"),
                       field("lever", &S::lever, "m", "from the centre of a rigid, in its axes"),
-                      field("feature", &S::feature, "", "of a hull: its corner, or the two of its edge"));
+                      field("feature", &S::feature, "", "of a hull"));
   }
   int corners() const { return 3 - int(vertices[1] < 0) - int(vertices[2] < 0); }
 };
 
-/// By what a contact is known again in the next step, and in which order contacts stand: surfaces in the
-/// order of the scene, the vertices that meet, and the corners and edges of hulls.
-struct ContactKey {
-  std::array<int, 2> surfaces;
-  std::array<int, 6> vertices;
-  std::array<int, 4> features{-1, -1, -1, -1};
-  auto operator<=>(ContactKey const&) const = default;
+/// What friction, or sticking, remembers of a contact from step to step.
+struct FrictionState {
+  /// At the end of the last step: apart, nothing holds the two together; sticks, the slip is held against;
+  /// slides, the force is on the cone of Coulomb.
+  enum class Mode { apart, sticks, slides };
+  Mode mode = Mode::apart;
+  int impact = 0;                 // steps for which an impact still goes on
+  Eigen::Vector3d slip{0, 0, 0};  // displacement since it sticks [m]
+
+  /// Neither in its first step nor in an impact.
+  bool isSteady() const { return mode != Mode::apart && impact == 0; }
+  static constexpr auto fields() {
+    using S = FrictionState;
+    return field_list(field("mode", &S::mode, "", "at the end of the last step"),
+                      field("impact", &S::impact, "", "steps for which an impact still goes on"),
+                      field("slip", &S::slip, "m", "displacement since it sticks"));
+  }
 };
+constexpr std::array<std::string_view, 3> enum_names(FrictionState::Mode) {
+  return {"apart", "sticks", "slides"};
+}
 
 /// Two places near each other. All is measured along u = p_b - p_a.
 struct Contact {
@@ -62,10 +74,8 @@ struct Contact {
   bool implicit = false;  // the solver takes what the force will be at the end of the step
   double fall = 0;        // at which gravity may bring the two together [m/s^2]
 
-  // memory of the response: the tangential displacement that friction holds against, the unit vector of the
-  // way it slid in the last step, and any other scalar
-  Eigen::Vector3d slip{0, 0, 0}, slide{0, 0, 0};
-  double memory = 0;
+  // memory of the response
+  FrictionState frictionState{};
   bool pushed = false;  // in the last step
 
   // on b, over the last step: impulse over dt, with what an implicit solver adds to it; where a solver has
@@ -93,18 +103,15 @@ struct Contact {
                       field("friction", &C::friction, "", "coefficient"),
                       field("damping", &C::damping, "N s/m", "along the normal"),
                       field("response", &C::response, "", "place among the responses"),
-                      field("slip", &C::slip, "m", "tangential displacement since it sticks"),
-                      field("slide", &C::slide, "", "the way it slid before"),
-                      field("memory", &C::memory, "", "of the response"),
+                      field("frictionState", &C::frictionState, "", "what friction remembers"),
                       field("pushed", &C::pushed, "", "it pushed in the last step"),
                       field("start", &C::start, "m", "displacement at detection"),
                       field("sliding", &C::sliding, "", "the way it slides"));
   }
 
   ContactKey key() const {
-    ContactKey k{{a.surface, b.surface}, {}, {a.feature[0], a.feature[1], b.feature[0], b.feature[1]}};
-    for (std::size_t c = 0; c < 3; ++c) k.vertices[c] = a.vertices[c], k.vertices[3 + c] = b.vertices[c];
-    for (auto first : {k.vertices.begin(), k.vertices.begin() + 3}) std::sort(first, first + 3);
+    ContactKey k{{a.surface, b.surface}, {a.vertices, b.vertices}, {a.feature, b.feature}};
+    for (auto& vertices : k.vertices) std::sort(vertices.begin(), vertices.end());
     return k;
   }
 };

@@ -3,8 +3,10 @@
 
 #include <sinew/collision/attachment.hpp>
 #include <sinew/collision/contact_assembly.hpp>
+#include <sinew/collision/contact_responses.hpp>
 #include <sinew/collision/penalty_contact.hpp>
 #include <sinew/collision/stick_contact.hpp>
+#include <sinew/collision/vertex_contacts.hpp>
 #include <sinew/core/component.hpp>
 #include <sinew/core/memory_limit.hpp>
 
@@ -17,20 +19,6 @@
 
 namespace sinew {
 
-namespace detail {
-/// The name that the first response that has one gives its manager; nothing where none has.
-template <class... Responses>
-consteval std::string_view manager_name() {
-  std::string_view name;
-  auto look = [&]<class R>(R const*) {
-    if constexpr (requires { R::managerName; })
-      if (name.empty()) name = R::managerName;
-  };
-  (look(static_cast<Responses const*>(nullptr)), ...);
-  return name;
-}
-}  // namespace detail
-
 /// Keeps the contacts from step to step and has them answered: by the response of a model that names one,
 /// else by its own. A contact is known again by the vertices that meet; what its response remembers goes with
 /// it. Contacts stand in the order of their keys, whatever the order in which they were found.
@@ -42,7 +30,8 @@ consteval std::string_view manager_name() {
 template <class... Responses>
 struct ContactManager {
   using Role = role::ContactManager;
-  static constexpr std::string_view ownName = detail::manager_name<Responses...>();
+  using All = ContactResponses<Responses...>;
+  static constexpr std::string_view ownName = All::managerName();
   static constexpr std::string_view className = ownName.empty() ? "DefaultContactManager" : ownName;
   static constexpr std::string_view aliases = ownName.empty() ? "CollisionResponse" : "";
 
@@ -76,37 +65,15 @@ struct ContactManager {
   int answer = 0;              // place of the response of this manager,
   std::vector<int> answers{};  // and of that of each model; -1 for one that names none
   ContactAssembly assembly{};
-  struct OfVertex {
-    std::array<int, 5> key;  // surfaces, side, vertex, corner of its hull
-    int contact;
-  };
-  // contacts of single vertices: of the last step, and of those that were found
-  std::vector<OfVertex> ofVertices{}, foundVertices{};
-  bool listed = false;                    // whether ofVertices is that of the contacts
-  long grown = 0;                         // how often there was no room
-  bool couplingChanged = false;           // since the last step: other vertices meet than before
-  std::vector<Attachment> attachments{};  // places that are held from outside
-  std::vector<Contact> keptContacts{};    // those that follow a change of the scene, until init
+  VertexContacts ofVertices{}, foundVertices{};  // of the last step, and of those that were found
+  bool listed = false;                           // whether ofVertices is that of the contacts
+  long grown = 0;                                // how often there was no room
+  bool couplingChanged = false;                  // since the last step: other vertices meet than before
+  std::vector<Attachment> attachments{};         // places that are held from outside
+  std::vector<Contact> keptContacts{};           // those that follow a change of the scene, until init
   std::vector<Attachment> keptAttachments{};
   bool coupleAnew = false;  // whatever the contacts are
   int lastAttachment = 0;
-
-  static constexpr int count = int(sizeof...(Responses));
-  static std::string names() {
-    std::string all;
-    ((all += text(all.empty() ? "" : ", ", Responses::className)), ...);
-    return all;
-  }
-  /// Place of a response among those of this manager; -1 where it has none of that name.
-  static int find(std::string_view name) {
-    int place = -1, i = 0;
-    auto look = [&]<class R>(R const*) {
-      if (place < 0 && (R::className == name || has_name(class_aliases<R>(), name))) place = i;
-      ++i;
-    };
-    (look(static_cast<Responses const*>(nullptr)), ...);
-    return place;
-  }
 
   void init(std::string const& where, std::vector<CollisionSurface*> const& all, bool again = false) {
     check_memory(where, text("room for ", capacity, " contacts (capacity)"), capacity);
@@ -123,31 +90,32 @@ struct ContactManager {
     found.clear();
     contacts.reserve(std::size_t(capacity));
     found.reserve(std::size_t(capacity));
-    ofVertices.reserve(2 * std::size_t(capacity));
-    foundVertices.reserve(2 * std::size_t(capacity));
+    ofVertices.reserve(std::size_t(capacity));
+    foundVertices.reserve(std::size_t(capacity));
     listed = false;
     points.reserve(6 * std::size_t(capacity));
     attachments.reserve(8);
     grown = 0;
     auto known = [&](std::string_view place, std::string_view name) {
-      if (find(name) < 0)
+      if (All::find(name) < 0)
         throw Error(place,
                     text("contacts are to be answered by '",
                          name,
                          "', which this contact manager does not have; take one of: ",
-                         names()));
+                         All::names()));
     };
     known(where, response);
-    answer = find(response);
+    answer = All::find(response);
     answers.assign(surfaces.size(), -1);
     for (std::size_t s = 0; s < surfaces.size(); ++s) {
-      if (surfaces[s]->response.empty()) continue;
-      known(surfaces[s]->path, surfaces[s]->response);
-      answers[s] = find(surfaces[s]->response);
+      std::string const& wanted = surfaces[s]->settings.contactResponse;
+      if (wanted.empty()) continue;
+      known(surfaces[s]->path, wanted);
+      answers[s] = All::find(wanted);
     }
     for (std::size_t i = 0; i < contacts.size(); ++i)
       if (!fits(contacts[i].a) || !fits(contacts[i].b) || contacts[i].response < 0 ||
-          contacts[i].response >= count)
+          contacts[i].response >= All::count)
         throw Error(where,
                     text(component_name<ContactManager>(),
                          ": contact ",
@@ -205,21 +173,12 @@ struct ContactManager {
       if (stays(a.contact)) keptAttachments.push_back(a);
   }
 
-  /// f(response) for the one that answers a contact.
-  template <class F>
-  void withResponse(Contact const& c, F&& f) const {
-    [&]<std::size_t... I>(std::index_sequence<I...>) {
-      ((c.response == int(I) ? f(std::get<I>(responses)) : void()), ...);
-    }
-    (std::index_sequence_for<Responses...>{});
-  }
-
   /// What the responses remember of the step that has ended, the surfaces being where it, and what has moved
   /// since, has brought them.
   void settle(std::vector<CollisionSurface*> const& all) {
     surfaces.assign(all.begin(), all.end());
     for (Contact& c : contacts)
-      withResponse(c, [&](auto const& law) {
+      All::visit(responses, c.response, [&](auto const& law) {
         if constexpr (requires { law.settle(c, c.start); }) law.settle(c, displacement(c));
       });
   }
@@ -243,10 +202,11 @@ struct ContactManager {
                             found.end(),
                             [](Contact const& x, Contact const& y) { return x.key() == y.key(); }),
                 found.end());
-    dropSamePlaces();
-    dropBehindOthers();
+    foundVertices.list(found, bodies);
+    foundVertices.dropSamePlaces(found, bodies);
+    foundVertices.dropBehindOthers(found, bodies);
     couplingChanged = std::exchange(coupleAnew, false) || found.size() != contacts.size();
-    if (!listed) listVertices(contacts, ofVertices);
+    if (!listed) ofVertices.list(contacts, bodies);
     auto old = contacts.begin();
     for (Contact& c : found) {
       const ContactKey key = c.key();
@@ -257,14 +217,14 @@ struct ContactManager {
       c.start = displacement(c);
       if (again)
         remember(c, *old);
-      else if (Contact const* other = ofSameVertex(key))
-        remember(c, *other);
+      else if (const int other = ofVertices.find(key, bodies); other >= 0)
+        remember(c, contacts[std::size_t(other)]);
     }
     contacts.swap(found);
     found.clear();
     ofVertices.swap(foundVertices);
     listed = true;
-    std::apply([dt](auto&... r) { (setStep(r, dt), ...); }, responses);
+    All::setStep(responses, dt);
     for (auto* s : surfaces) s->forgetTouched();
     auto touch = [&](ContactSide const& side) {
       for (int k = 0; k < side.corners(); ++k)
@@ -291,7 +251,7 @@ struct ContactManager {
       if (!chosen(c)) continue;
       auto& a = *surfaces[std::size_t(c.a.surface)];
       auto& b = *surfaces[std::size_t(c.b.surface)];
-      withResponse(c, [&](auto const& law) {
+      All::visit(responses, c.response, [&](auto const& law) {
         if constexpr (requires { law.evaluate(c, c.start, c.start); })
           law.evaluate(
               c, displacement(c), rate_of(c.b, b, b.velocity, b.spin) - rate_of(c.a, a, a.velocity, a.spin));
@@ -364,8 +324,9 @@ struct ContactManager {
     auto const& first = *surfaces[std::size_t(c.a.surface)];
     auto const& second = *surfaces[std::size_t(c.b.surface)];
     Eigen::Vector3d du(0, 0, 0);
-    if (second.solver == c.solver && second.simulated) du += rate_of(c.b, second, second.dx, second.turn);
-    if (first.solver == c.solver && first.simulated) du -= rate_of(c.a, first, first.dx, first.turn);
+    if (second.solver == c.solver && second.settings.simulated)
+      du += rate_of(c.b, second, second.dx, second.turn);
+    if (first.solver == c.solver && first.settings.simulated) du -= rate_of(c.a, first, first.dx, first.turn);
     return -(k * (c.stiffnessMatrix * du) + b * (c.dampingMatrix * du));
   }
   Eigen::Vector3d change(Attachment const& a, double k, double b) const {
@@ -389,103 +350,20 @@ struct ContactManager {
         f(std::get<R>(responses), surfaces[s]->state, std::span<int const>(points));
       }
   }
-  // a vertex, or a corner of a hull, that slides from one triangle to the next, or from that to an edge, goes
-  // on with the same contact; -1 stands before vertices
-  std::array<int, 5> vertexKey(ContactKey const& k, int side) const {
-    return {bodies[std::size_t(k.surfaces[0])],
-            bodies[std::size_t(k.surfaces[1])],
-            side,
-            k.vertices[std::size_t(side == 0 ? 2 : 5)],
-            k.features[std::size_t(side == 0 ? 0 : 2)]};
-  }
-  static bool ofOneVertex(ContactKey const& k, int side) {
-    return k.vertices[std::size_t(side == 0 ? 1 : 4)] < 0 && k.features[std::size_t(side == 0 ? 1 : 3)] == -1;
-  }
-  void listVertices(std::vector<Contact> const& all, std::vector<OfVertex>& list) const {
-    list.clear();
-    for (std::size_t i = 0; i < all.size(); ++i)
-      for (int side = 0; side < 2; ++side)
-        if (const ContactKey key = all[i].key(); ofOneVertex(key, side))
-          list.push_back({vertexKey(key, side), int(i)});
-    std::sort(list.begin(), list.end(), [](OfVertex const& x, OfVertex const& y) {
-      return std::pair(x.key, x.contact) < std::pair(y.key, y.contact);
-    });
-  }
-  // A vertex above the border of two triangles is near the one, and near the edge of the other, at the same
-  // place: once is enough. The rounding of a place is a few units of the last digit of coordinates.
-  void dropSamePlaces() {
-    listVertices(found, foundVertices);
-    bool any = false;
-    for (std::size_t i = 0, j = 1; j < foundVertices.size(); ++j) {
-      if (foundVertices[i].key != foundVertices[j].key) {
-        i = j;
-        continue;
-      }
-      Contact const& first = found[std::size_t(foundVertices[i].contact)];
-      Contact& other = found[std::size_t(foundVertices[j].contact)];
-      if ((other.start - first.start).norm() > 1e-8 * first.start.norm()) continue;
-      other.response = dropped;
-      any = true;
-    }
-    if (any) removeDropped();
-  }
-  // What is behind a triangle is in the body, and pushed out, unless it is in front of something of the same
-  // body that is nearer in that direction: then it is above a plate, whose far side it is behind.
-  void dropBehindOthers() {
-    bool any = false;
-    for (std::size_t first = 0, last = 0; first < foundVertices.size(); first = last) {
-      while (last < foundVertices.size() && foundVertices[last].key == foundVertices[first].key) ++last;
-      auto contact = [&](std::size_t i) -> Contact& { return found[std::size_t(foundVertices[i].contact)]; };
-      auto isBehind = [](Contact const& c) { return c.normal.dot(c.start) < 0; };
-      for (std::size_t i = first; i < last; ++i)
-        for (std::size_t j = first; j < last && isBehind(contact(i)); ++j) {
-          Eigen::Vector3d const &far = contact(i).start, &near = contact(j).start;
-          if (isBehind(contact(j)) || near.squaredNorm() >= far.squaredNorm() || near.dot(far) <= 0) continue;
-          contact(i).response = dropped;
-          any = true;
-        }
-    }
-    if (any) removeDropped();
-  }
-  void removeDropped() {
-    std::erase_if(found, [](Contact const& c) { return c.response == dropped; });
-    listVertices(found, foundVertices);
-  }
-  static constexpr int dropped = -1;
-  Contact const* ofSameVertex(ContactKey const& key) const {
-    for (int side = 0; side < 2; ++side) {
-      if (!ofOneVertex(key, side)) continue;
-      const auto wanted = vertexKey(key, side);
-      const auto first = std::lower_bound(
-          ofVertices.begin(), ofVertices.end(), wanted, [](OfVertex const& x, auto const& k) {
-            return x.key < k;
-          });
-      if (first != ofVertices.end() && first->key == wanted) return &contacts[std::size_t(first->contact)];
-    }
-    return nullptr;
-  }
-
-  template <class R>
-  static void setStep(R& response, double dt) {
-    if constexpr (requires { response.dt = dt; }) response.dt = dt;
-  }
   void describe(Contact& c, CollisionSurface const& a, CollisionSurface const& b) const {
     const double reach = c.limit + a.radiusOf(c.a.element) + b.radiusOf(c.b.element);
-    c.stiffness = a.stiffness * b.stiffness / (reach > 0 ? reach : 1);
-    c.friction = a.friction + b.friction;
-    c.damping = a.damping + b.damping;
+    CollisionSettings const &ofA = a.settings, &ofB = b.settings;
+    c.stiffness = ofA.contactStiffness * ofB.contactStiffness / (reach > 0 ? reach : 1);
+    c.friction = ofA.contactFriction + ofB.contactFriction;
+    c.damping = ofA.contactDamping + ofB.contactDamping;
     c.fall = std::max({0.0, c.normal.dot(a.gravity), -c.normal.dot(b.gravity)});
-    const int ofA = answers[std::size_t(c.a.surface)], ofB = answers[std::size_t(c.b.surface)];
-    c.response = ofA >= 0 ? ofA : ofB >= 0 ? ofB : answer;
+    const int byA = answers[std::size_t(c.a.surface)], byB = answers[std::size_t(c.b.surface)];
+    c.response = byA >= 0 ? byA : byB >= 0 ? byB : answer;
     find_solver(c, &a, &b);
-    // what changes components is no force, and no solver needs to know
-    constexpr std::array isForce{ContactLaw<Responses>...};
-    if (!isForce[std::size_t(c.response)]) c.solver = -1, c.loose = false;
+    if (!All::isForce(c.response)) c.solver = -1, c.loose = false;
   }
   static void remember(Contact& c, Contact const& old) {
-    c.slip = old.slip;
-    c.slide = old.slide;
-    c.memory = old.memory;
+    c.frictionState = old.frictionState;
     c.pushed = old.pushed;
   }
 };

@@ -24,8 +24,8 @@ struct ContinuousIntersection {
   double reach() const { return std::max(alarmDistance, contactDistance); }
   double limit() const { return contactDistance; }
 
-  template <std::size_t NA, std::size_t NB>
-  std::optional<Contact> intersect(PrimitivePair<NA, NB> const& pair) const {
+  template <Shape A, Shape B>
+  std::optional<Contact> intersect(PrimitivePair<A, B> const& pair) const {
     const auto a = pair.cornersA();
     const auto b = pair.cornersB();
     const double limit = contactDistance + pair.proximity();

@@ -5,6 +5,7 @@
 // installed, brings it.
 #include <sinew/collision/collision_model.hpp>
 #include <sinew/collision/hull_contacts.hpp>
+#include <sinew/collision/hull_ray.hpp>
 #include <sinew/collision/surface_elements.hpp>
 #include <sinew/topology/shape_file.hpp>
 
@@ -25,7 +26,7 @@ struct ConvexCollisionModel {
   // of SOFA's plugin for Bullet
   static constexpr std::string_view aliases =
       "TBulletConvexHullModel BulletConvexHullModel BtConvexHullModel BulletConvexHull BtConvexHull";
-  static constexpr int corners = 0;
+  static constexpr Shape shape = Shape::hull;
 
   bool active = true, moving = true, simulated = true, selfCollision = false, bothSide = true;
   std::vector<int> group{};
@@ -60,7 +61,6 @@ struct ConvexCollisionModel {
       }
     surface.hull.emplace(std::move(all), where);
     surface.elements = points_of(context.topology, context.rest.size());
-    surface.radius.clear();
     describe_surface(*this, surface, context.where, context.rest.size());
   }
 };

@@ -39,37 +39,36 @@ struct DefaultPipeline {
     });
   }
 
-  /// Contacts of all pairs, into a manager. `Kinds`: the numbers of corners of the primitives that the scene
-  /// has.
-  template <std::size_t... Kinds, class Narrow, class Intersection, class Manager>
-  void findContacts(std::index_sequence<Kinds...> kinds, Narrow& narrow, Intersection const& intersection,
+  /// Contacts of all pairs, into a manager. `Known`: the shapes that the scene has, without radii.
+  template <Shape... Known, class Narrow, class Intersection, class Manager>
+  void findContacts(ShapeList<Known...> known, Narrow& narrow, Intersection const& intersection,
                     Manager& manager, double dt) {
     boxTests = 0;
-    for (auto [i, j] : near) (withKind<Kinds>(kinds, narrow, intersection, manager, i, j, dt), ...);
+    for (auto [i, j] : near) (withShape<Known>(known, narrow, intersection, manager, i, j, dt), ...);
   }
 
  private:
-  template <std::size_t NA, std::size_t... Kinds, class Narrow, class Intersection, class Manager>
-  void withKind(std::index_sequence<Kinds...>, Narrow& narrow, Intersection const& intersection,
-                Manager& manager, int i, int j, double dt) {
-    if (surfaces[std::size_t(i)]->corners == int(NA))
-      (detect<NA, Kinds>(narrow, intersection, manager, i, j, dt), ...);
+  template <Shape A, Shape... Known, class Narrow, class Intersection, class Manager>
+  void withShape(ShapeList<Known...>, Narrow& narrow, Intersection const& intersection, Manager& manager,
+                 int i, int j, double dt) {
+    if (skeleton(surfaces[std::size_t(i)]->shape) == A)
+      (detect<A, Known>(narrow, intersection, manager, i, j, dt), ...);
   }
-  template <std::size_t NA, std::size_t NB, class Narrow, class Intersection, class Manager>
+  template <Shape A, Shape B, class Narrow, class Intersection, class Manager>
   void detect(Narrow& narrow, Intersection const& intersection, Manager& manager, int i, int j, double dt) {
     CollisionSurface const &a = *surfaces[std::size_t(i)], &b = *surfaces[std::size_t(j)];
-    if (b.corners != int(NB)) return;
+    if (skeleton(b.shape) != B) return;
     narrow.pairs(a, b, [&](int elementA, int elementB) {
       ++boxTests;
       if (adjacent(a, elementA, b, elementB)) return;
-      const PrimitivePair<NA, NB> pair{a, b, elementA, elementB, dt};
+      const PrimitivePair<A, B> pair{a, b, elementA, elementB, dt};
       auto add = [&](Contact& contact) {
         contact.a.surface = i;
         contact.b.surface = j;
         manager.add(contact);
       };
-      if constexpr (NA == 0 || NB == 0)
-        HullContacts<NA, NB>::find(pair, intersection, add);
+      if constexpr (A == Shape::hull || B == Shape::hull)
+        HullContacts<A, B>::find(pair, intersection, add);
       else if (auto contact = intersection.intersect(pair))
         add(*contact);
     });
@@ -84,14 +83,16 @@ struct DefaultPipeline {
 namespace sinew {
 
 SINEW_ONCE bool DefaultPipeline::compare(CollisionSurface const& a, CollisionSurface const& b) {
-  if (!a.active || !b.active || (!a.moving && !b.moving)) return false;
-  if ((a.solver < 0 || !a.simulated) && (b.solver < 0 || !b.simulated)) return false;
+  CollisionSettings const &ofA = a.settings, &ofB = b.settings;
+  if (!ofA.active || !ofB.active || (!ofA.moving && !ofB.moving)) return false;
+  if ((a.solver < 0 || !ofA.simulated) && (b.solver < 0 || !ofB.simulated)) return false;
   // points against triangles and lines against lines are all there is between two surfaces that have the
   // three
-  if (a.hasAllKinds() && b.hasAllKinds() && a.corners + b.corners != 4) return false;
-  if (&a == &b) return a.selfCollision;
-  if (a.state == b.state && !(a.selfCollision && b.selfCollision)) return false;
-  return std::find_first_of(a.group.begin(), a.group.end(), b.group.begin(), b.group.end()) == a.group.end();
+  if (a.hasAllSimplices() && b.hasAllSimplices() && a.corners() + b.corners() != 4) return false;
+  if (&a == &b) return ofA.selfCollision;
+  if (a.state == b.state && !(ofA.selfCollision && ofB.selfCollision)) return false;
+  return std::find_first_of(ofA.group.begin(), ofA.group.end(), ofB.group.begin(), ofB.group.end()) ==
+         ofA.group.end();
 }
 
 SINEW_ONCE bool DefaultPipeline::adjacent(CollisionSurface const& a, int i, CollisionSurface const& b,

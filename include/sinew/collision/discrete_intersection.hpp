@@ -18,8 +18,8 @@ struct DiscreteIntersection {
   static double reach() { return 0; }
   static double limit() { return 0; }
 
-  template <std::size_t NA, std::size_t NB>
-  std::optional<Contact> intersect(PrimitivePair<NA, NB> const& pair) const {
+  template <Shape A, Shape B>
+  std::optional<Contact> intersect(PrimitivePair<A, B> const& pair) const {
     const auto a = pair.cornersA();
     const auto b = pair.cornersB();
     if (pair.thickness() == 0 && !overlap(a, b)) return std::nullopt;

@@ -23,12 +23,12 @@ struct MinProximityIntersection {
   double reach() const { return std::max(alarmDistance, contactDistance); }
   double limit() const { return contactDistance; }
 
-  template <std::size_t NA, std::size_t NB>
-  std::optional<Contact> intersect(PrimitivePair<NA, NB> const& pair) const {
+  template <Shape A, Shape B>
+  std::optional<Contact> intersect(PrimitivePair<A, B> const& pair) const {
     const auto a = pair.cornersA();
     const auto b = pair.cornersB();
     const double far = reach() + pair.proximity() + pair.thickness();
-    if constexpr (NA + NB > 3)
+    if constexpr (corners_of(A) + corners_of(B) > 3)
       if (are_apart(a, b, far)) return std::nullopt;
     auto contact = contact_at(pair, a, b);
     // as far behind a one-sided triangle as in front of it: what is farther is on the other side of the body

@@ -29,13 +29,11 @@ struct PenalityContactForceField {
   double dt = 0;  // of the step, set by the manager
 
   void evaluate(Contact& c, Eigen::Vector3d const& u, Eigen::Vector3d const& rate) const;
-  /// slip: s at the end of the step; slide: the way it slides, 0 where it sticks.
+  /// The slip is s at the end of the step.
   void settle(Contact& c, Eigen::Vector3d const& u) const;
 
  private:
-  // memory of a contact that pushes: 1, and for how many steps an impact goes on, from where it pushes twice
-  // or half as much as a step before
-  static constexpr double impactSteps = 4;
+  static constexpr int impactSteps = 4;  // for which an impact goes on
   static double elasticPush(Contact const& c, Eigen::Vector3d const& u) {
     return c.stiffness * std::max(0.0, c.limit + c.thickness - c.normal.dot(u));
   }
@@ -86,10 +84,10 @@ SINEW_ONCE void PenalityContactForceField::evaluate(Contact& c, Eigen::Vector3d 
   c.stiffnessMatrix = c.stiffness * nn;
   c.dampingMatrix = c.damping * nn;
   if (!(c.friction > 0)) return;
-  const Eigen::Vector3d way = c.slip + (u - c.start),
+  const Eigen::Vector3d way = c.frictionState.slip + (u - c.start),
                         next = c.implicit ? Eigen::Vector3d(way + dt * rate) : way;
   const detail::Friction friction(c, next, elasticPush(c, u));
-  const bool stuck = c.implicit && c.memory != 0 && c.slide.isZero(0);
+  const bool stuck = c.implicit && c.frictionState.mode == FrictionState::Mode::sticks;
   if (stuck || !friction.slides) {
     c.evaluated -= c.stiffness * (way - c.normal.dot(way) * c.normal);
     c.stiffnessMatrix += c.stiffness * along;
@@ -98,7 +96,7 @@ SINEW_ONCE void PenalityContactForceField::evaluate(Contact& c, Eigen::Vector3d 
   c.sliding = friction.way.normalized();
   const Eigen::Vector3d along1 = along * rate;
   const double most = c.stiffness * friction.most, speed = along1.norm();
-  if (c.implicit && c.memory != 1 && most > 0 && speed > 0) {
+  if (c.implicit && !c.frictionState.isSteady() && most > 0 && speed > 0) {
     // mu N / |v| v, in which only v is of the end of the step: what an impact brings to rest does not turn
     c.evaluated -= most / speed * along1;
     c.dampingMatrix += most / speed * along;
@@ -115,14 +113,18 @@ SINEW_ONCE void PenalityContactForceField::settle(Contact& c, Eigen::Vector3d co
   if (!(c.friction > 0)) return;
   const Eigen::Vector3d moved = u - c.start;
   const double push = elasticPush(c, u);
-  const detail::Friction friction(c, c.slip + moved, push);
+  FrictionState& state = c.frictionState;
+  const detail::Friction friction(c, state.slip + moved, push);
   const bool slid = !c.sliding.isZero(0), turnedBack = moved.dot(c.sliding) <= 0;
-  c.slip = friction.slip;
-  c.slide.setZero();
-  if (push > 0 && (slid ? !turnedBack : friction.slides)) c.slide = friction.way.normalized();
+  state.slip = friction.slip;
+  const bool slides = slid ? !turnedBack : friction.slides;
+  state.mode = !(push > 0) ? FrictionState::Mode::apart
+               : slides    ? FrictionState::Mode::slides
+                           : FrictionState::Mode::sticks;
+  // an impact: it pushes twice or half as much as a step before
   const double before = elasticPush(c, c.start);
   const bool impact = push > 2 * before || 2 * push < before;
-  c.memory = !(push > 0) ? 0 : impact ? 1 + impactSteps : std::max(1.0, c.memory - 1);
+  state.impact = !(push > 0) ? 0 : impact ? impactSteps : std::max(0, state.impact - 1);
 }
 
 }  // namespace sinew

@@ -11,18 +11,22 @@
 
 namespace sinew {
 
+/// The corners of a primitive of a shape.
+template <Shape S>
+using ShapeCorners = std::array<Eigen::Vector3d, std::size_t(corners_of(S))>;
+
 /// Two primitives of two surfaces, seen by an intersection method: their corners, and the way these go during
-/// the step.
-template <std::size_t NA, std::size_t NB>
+/// the step. Spheres are points here; radiusOf() of their surfaces is around them.
+template <Shape A, Shape B>
 struct PrimitivePair {
   CollisionSurface const &a, &b;
   int elementA, elementB;
   double dt;
 
-  auto cornersA() const { return a.corner<NA>(a.position, elementA); }
-  auto cornersB() const { return b.corner<NB>(b.position, elementB); }
+  auto cornersA() const { return a.corner<std::size_t(corners_of(A))>(a.position, elementA); }
+  auto cornersB() const { return b.corner<std::size_t(corners_of(B))>(b.position, elementB); }
   double thickness() const { return a.radiusOf(elementA) + b.radiusOf(elementB); }
-  double proximity() const { return a.proximity + b.proximity; }
+  double proximity() const { return a.settings.proximity + b.settings.proximity; }
 };
 
 namespace detail {
@@ -36,11 +40,11 @@ namespace detail {
            "points, or scale the scene"));
 }
 
-template <std::size_t N>
+template <Shape S>
 void set_side(ContactSide& side, CollisionSurface const& s, int element, Eigen::Vector3d const& weights) {
   side.element = element;
   int n = 0;
-  for (std::size_t c = 0; c < N; ++c)
+  for (std::size_t c = 0; c < std::size_t(corners_of(S)); ++c)
     if (weights[Eigen::Index(c)] > 0) {
       side.vertices[std::size_t(n)] = s.elements[std::size_t(element)][c];
       side.weights[std::size_t(n++)] = weights[Eigen::Index(c)];
@@ -53,7 +57,7 @@ template <std::size_t N>
 Eigen::Vector3d outer_normal(CollisionSurface const& s, std::array<Eigen::Vector3d, N> const& p,
                              Eigen::Vector3d const& weights) {
   if constexpr (N == 3)
-    if (!s.bothSide && weights.minCoeff() > 0) {
+    if (!s.settings.bothSide && weights.minCoeff() > 0) {
       const Eigen::Vector3d n = (p[1] - p[0]).cross(p[2] - p[0]);
       const double length = n.norm();
       if (length > 0) return n / length;
@@ -66,11 +70,12 @@ Eigen::Vector3d outer_normal(CollisionSurface const& s, std::array<Eigen::Vector
 /// Two bodies may have several models each, and what touches is then found by several pairs of them. One pair
 /// has it: that of the smallest primitives on which its two places are; where both have points, lines and
 /// triangles, points against triangles and lines against lines.
-template <std::size_t NA, std::size_t NB>
-bool is_of_pair(PrimitivePair<NA, NB> const& pair, Contact const& contact) {
+template <Shape A, Shape B>
+bool is_of_pair(PrimitivePair<A, B> const& pair, Contact const& contact) {
   const int ofA = contact.a.corners(), ofB = contact.b.corners();
-  if (pair.a.hasAllKinds() && pair.b.hasAllKinds()) return NA == 1 || (ofA >= 2 && (NB == 1 || ofB == 2));
-  return pair.a.smallestAround(ofA) == int(NA) && pair.b.smallestAround(ofB) == int(NB);
+  if (pair.a.hasAllSimplices() && pair.b.hasAllSimplices())
+    return A == Shape::point || (ofA >= 2 && (B == Shape::point || ofB == 2));
+  return pair.a.smallestAround(ofA) == A && pair.b.smallestAround(ofB) == B;
 }
 
 /// The fields of an intersection method that looks for what is near.
@@ -88,9 +93,9 @@ constexpr auto proximity_fields() {
                           range::nonNegative));
 }
 
-/// Finds the contacts of pairs with a hull, which is the primitive of 0 corners: find(pair, intersection
-/// method, add). Declared here only: hull_contacts.hpp, which needs libccd, defines it for who has hulls.
-template <std::size_t NA, std::size_t NB>
+/// Finds the contacts of pairs with a hull: find(pair, intersection method, add). Declared here only:
+/// hull_contacts.hpp, which needs libccd, defines it for who has hulls.
+template <Shape A, Shape B>
 struct HullContacts;
 
 /// Whether two primitives are farther from each other than `reach`, as planes across a few directions show:
@@ -131,14 +136,14 @@ bool are_apart(std::array<Eigen::Vector3d, NA> const& a, std::array<Eigen::Vecto
 /// neighbour of one of them is nearer there, unless that is not asked (`onlyLocalMinima`). Where a corner or
 /// the inside of an edge is nearest to the inside of a triangle of a one-sided surface (bothSide = false),
 /// the normal is that of the triangle, and the distance is negative behind it.
-template <std::size_t NA, std::size_t NB>
-std::optional<Contact> contact_at(PrimitivePair<NA, NB> const& pair, std::array<Eigen::Vector3d, NA> const& a,
-                                  std::array<Eigen::Vector3d, NB> const& b, bool onlyLocalMinima = true) {
+template <Shape A, Shape B>
+std::optional<Contact> contact_at(PrimitivePair<A, B> const& pair, ShapeCorners<A> const& a,
+                                  ShapeCorners<B> const& b, bool onlyLocalMinima = true) {
   const auto closest = closest_points(a, b);
   Contact contact;
   contact.start = closest.pointB - closest.pointA;
-  detail::set_side<NA>(contact.a, pair.a, pair.elementA, closest.weightsA);
-  detail::set_side<NB>(contact.b, pair.b, pair.elementB, closest.weightsB);
+  detail::set_side<A>(contact.a, pair.a, pair.elementA, closest.weightsA);
+  detail::set_side<B>(contact.b, pair.b, pair.elementB, closest.weightsB);
   const Eigen::Vector3d between = contact.start;
   if (onlyLocalMinima && (!pair.a.isLocalMinimum(pair.elementA, contact.a.vertices, between) ||
                           !pair.b.isLocalMinimum(pair.elementB, contact.b.vertices, -between)))

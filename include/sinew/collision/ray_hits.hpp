@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <sinew/core/platform.hpp>
 #include <sinew/core/compiled.hpp>
+#include <sinew/core/platform.hpp>
 
 #include <Eigen/Geometry>
 #include <array>
@@ -29,7 +29,7 @@ struct RayHit {
 RayHit ray_sphere(Ray const& ray, Eigen::Vector3d const& center, double radius);
 
 /// Where it enters a hull, or leaves that in which it begins: of(ray, surface, element, end), up to the
-/// distance `end`. Declared here only: hull_contacts.hpp, which needs libccd, defines it for who has hulls.
+/// distance `end`. Declared here only: hull_ray.hpp, which needs libccd, defines it for who has hulls.
 template <class Hulls>
 struct HullRay;
 

@@ -15,7 +15,7 @@ struct SphereCollisionModel {
                 "Sinew: collision models are in space; take Vec3d, Vec3f, Rigid3d or Rigid3f.");
   static constexpr std::string_view className = "SphereCollisionModel";
   static constexpr std::string_view aliases = "Sphere SphereModel TSphereModel";
-  static constexpr int corners = 1;
+  static constexpr Shape shape = Shape::sphere;
 
   bool active = true, moving = true, simulated = true, selfCollision = false, bothSide = true;
   std::vector<int> group{};

@@ -15,11 +15,15 @@ struct StickContactForceField {
   double dt = 0;
 
   void evaluate(Contact& c, Eigen::Vector3d const& u, Eigen::Vector3d const& rate) const;
-  /// memory: 1 since it sticks; slip: u - u0.
+  /// The slip is u - u0.
   void settle(Contact& c, Eigen::Vector3d const& u) const {
-    if (c.memory == 0 && !(c.distance < c.limit)) return;
-    c.memory = 1;
-    c.slip += u - c.start;
+    if (!holds(c)) return;
+    c.frictionState = {.mode = FrictionState::Mode::sticks, .slip = c.frictionState.slip + (u - c.start)};
+  }
+
+ private:
+  static bool holds(Contact const& c) {
+    return c.frictionState.mode != FrictionState::Mode::apart || c.distance < c.limit;
   }
 };
 
@@ -33,8 +37,8 @@ SINEW_ONCE void StickContactForceField::evaluate(Contact& c, Eigen::Vector3d con
   c.evaluated.setZero();
   c.stiffnessMatrix.setZero();
   c.dampingMatrix.setZero();
-  if (c.memory == 0 && !(c.distance < c.limit)) return;
-  c.evaluated = -c.stiffness * (c.slip + (u - c.start)) - c.damping * rate;
+  if (!holds(c)) return;
+  c.evaluated = -c.stiffness * (c.frictionState.slip + (u - c.start)) - c.damping * rate;
   c.stiffnessMatrix.diagonal().setConstant(c.stiffness);
   c.dampingMatrix.diagonal().setConstant(c.damping);
 }

@@ -302,7 +302,7 @@ inline constexpr bool needs_pattern = !requires {
 /// Primitives over the points of a state, at init; the rest is done with its `surface` (collision/).
 template <class C, class D = typename C::DataTypes>
 concept CollisionModel = HasRole<C, role::CollisionModel> && requires(C m, InitContext<D> c) {
-  { C::corners } -> std::convertible_to<int>;
+  C::shape;
   m.init(c);
   m.surface.elements;
 };

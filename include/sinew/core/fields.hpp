@@ -145,6 +145,15 @@ constexpr void for_each_field(T& owner, F&& f) {
   boost::hana::for_each(std::remove_const_t<T>::fields(), [&](auto const& fd) { f(fd, owner.*fd.member); });
 }
 
+/// The values of some fields of one object to as many fields of another, in their order.
+template <class From, class Fields, class To, class Targets>
+constexpr void copy_fields(From const& from, Fields const& fields, To& to, Targets const& targets) {
+  boost::hana::unpack(fields, [&](auto const&... source) {
+    boost::hana::unpack(targets,
+                        [&](auto const&... target) { ((to.*target.member = from.*source.member), ...); });
+  });
+}
+
 /// f(field) for each field of a class.
 template <class T, class F>
 constexpr void for_each_field_of(F&& f) {

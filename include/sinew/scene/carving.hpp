@@ -65,7 +65,7 @@ struct Carving {
                models += text(models.empty() ? "" : ", ", path);
                if (isBelow(path, tool))
                  hasTool = true;
-               else if (isBelow(path, body) && model.surface.corners == 3)
+               else if (isBelow(path, body) && model.surface.shape == Shape::triangle)
                  hasBody = hasBody || bodyUnder(s.stateAddress()).address;
              }));
     if (!hasTool)
@@ -131,7 +131,8 @@ struct Carving {
     std::string const &tool = carving.tool, &body = carving.body;
     for (std::size_t s = 0; s < manager.surfaces.size(); ++s) {
       CollisionSurface const& surface = *manager.surfaces[s];
-      if (surface.corners != 3 || isBelow(surface.path, tool) || !isBelow(surface.path, body)) continue;
+      if (surface.shape != Shape::triangle || isBelow(surface.path, tool) || !isBelow(surface.path, body))
+        continue;
       std::vector<Corners> triangles;
       for (Contact const& c : manager.contacts) {
         if (!near(c)) continue;

@@ -15,38 +15,30 @@ namespace sinew {
 namespace detail {
 
 template <class C>
-constexpr unsigned primitive_kind() {
+constexpr Shapes shapes_of() {
   if constexpr (HasRole<C, role::CollisionModel>)
-    return 1u << C::corners;
+    return Shapes::of(skeleton(C::shape));
   else
-    return 0;
+    return {};
 }
-/// The numbers of corners of the primitives below a scope, as bits. A runtime tree may have all that its
-/// registry has.
+/// The shapes of the primitives below a scope, without radii. A runtime tree may have all that its registry
+/// has.
 template <class S>
-constexpr unsigned primitive_kinds();
+constexpr Shapes shapes_below();
 template <class S, class Name, class... Cs, class... Ns>
-constexpr unsigned primitive_kinds(std::type_identity<Node<Name, hana::tuple<Cs...>, hana::tuple<Ns...>>>) {
-  return (0u | ... | primitive_kind<Cs>()) | (0u | ... | primitive_kinds<typename ScopeOf<Ns, S>::type>());
+constexpr Shapes shapes_below(std::type_identity<Node<Name, hana::tuple<Cs...>, hana::tuple<Ns...>>>) {
+  return (Shapes{} | ... | shapes_of<Cs>()) |
+         (Shapes{} | ... | shapes_below<typename ScopeOf<Ns, S>::type>());
 }
 template <class S>
-constexpr unsigned primitive_kinds() {
+constexpr Shapes shapes_below() {
   if constexpr (requires { S::provedAtInit; }) {
-    unsigned kinds = 0;
-    for_each_registered<typename S::Classes>([&]<class C>() constexpr { kinds |= primitive_kind<C>(); });
-    return kinds;
+    Shapes shapes;
+    for_each_registered<typename S::Classes>([&]<class C>() constexpr { shapes = shapes | shapes_of<C>(); });
+    return shapes;
   } else {
-    return primitive_kinds<S>(std::type_identity<typename S::NodeType>{});
+    return shapes_below<S>(std::type_identity<typename S::NodeType>{});
   }
-}
-template <unsigned Kinds, std::size_t Next = 0, std::size_t... Found>
-constexpr auto kind_sequence() {
-  if constexpr (Next > 3)
-    return std::index_sequence<Found...>{};
-  else if constexpr ((Kinds >> Next & 1u) != 0)
-    return kind_sequence<Kinds, Next + 1, Found..., Next>();
-  else
-    return kind_sequence<Kinds, Next + 1, Found...>();
 }
 
 // f(component) for the first with a role in the node of a scope
@@ -74,7 +66,7 @@ struct Collision {
     traverse(root, on<role::CollisionModel>([&](auto& model, auto const& scope) {
                model.surface.state = scope.stateAddress();
                model.surface.solver = -1;
-               model.surface.companions = 0;
+               model.surface.companions = {};
                model.surface.beside.clear();
                all.push_back(&model.surface);
              }));
@@ -83,8 +75,8 @@ struct Collision {
     for (auto* s : all)
       for (auto const* other : all)
         if (s->isAccompaniedBy(*other)) {
-          s->companions |= 1u << other->corners;
-          if (s->corners == 2 && other->corners == 3) s->findTriangles(*other);
+          s->companions = s->companions | Shapes::of(other->shape);
+          if (s->shape == Shape::line && other->shape == Shape::triangle) s->findTriangles(*other);
         }
     traverse(root, on<role::CollisionPipeline>([&](auto& pipeline, auto const& scope) {
                collect(pipeline, scope);
@@ -128,7 +120,7 @@ struct Collision {
               detail::with_first<role::Intersection>(scope, [&](auto const& intersection) {
                 using S = std::decay_t<decltype(scope)>;
                 pipeline.findContacts(
-                    detail::kind_sequence<detail::primitive_kinds<S>()>(), narrow, intersection, manager, dt);
+                    detail::list_of_shapes<detail::shapes_below<S>()>(), narrow, intersection, manager, dt);
               });
             });
             [[maybe_unused]] const auto span = root.span(Phase::response);

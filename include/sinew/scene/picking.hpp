@@ -54,7 +54,7 @@ struct Picking {
                auto const& state = scope.template state<D>();
                CollisionSurface& s = model.surface;
                const int mine = number++;
-               if (!s.active || s.size() == 0) return;
+               if (!s.settings.active || s.size() == 0) return;
                see<D>(s, state.position, state.velocity);
                const auto found = nearestOf(ray, s, nearest ? nearest->distance : maxDistance, tolerance);
                if (!found.second || (nearest && found.second.distance >= nearest->distance)) return;
@@ -134,7 +134,7 @@ struct Picking {
   }
 
  private:
-  static bool isSimulated(CollisionSurface const& s) { return s.simulated && s.solver >= 0; }
+  static bool isSimulated(CollisionSurface const& s) { return s.settings.simulated && s.solver >= 0; }
 
   // the element that is hit first, the lowest of several at one distance
   static std::pair<int, RayHit> nearestOf(Ray const& ray, CollisionSurface& s, double end, double tolerance) {
@@ -144,17 +144,7 @@ struct Picking {
     s.enclose(tolerance + 1e-12 * scale, 0);
     std::pair<int, RayHit> best{-1, {}};
     s.tree.ray(ray.origin, ray.direction, end, [&](int e, double until) {
-      RayHit hit;
-      if (s.corners == 0)
-        hit = rayHull(ray, s, e, until);
-      else if (s.corners == 3)
-        hit = ray_triangle(ray, s.corner<3>(s.position, e), s.elements[std::size_t(e)]);
-      else if (s.corners == 2)
-        hit = ray_segment(ray, s.corner<2>(s.position, e), tolerance);
-      else if (s.radius.empty())
-        hit = ray_point(ray, s.corner<1>(s.position, e)[0], tolerance);
-      else
-        hit = ray_sphere(ray, s.corner<1>(s.position, e)[0], s.radiusOf(e));
+      const RayHit hit = hitOf(ray, s, e, until, tolerance);
       if (!(hit.distance <= until)) return until;
       if (hit.distance < best.second.distance || e < best.first) best = {e, hit};
       return hit.distance;
@@ -162,18 +152,30 @@ struct Picking {
     return best;
   }
   template <class Surface>
-  static RayHit rayHull(Ray const& ray, Surface const& s, int element, double end) {
-    if constexpr ((detail::primitive_kinds<RootScope>() & 1u) != 0)
-      return HullRay<Surface>::of(ray, s, element, end);
-    else
-      return {};
+  static RayHit hitOf(Ray const& ray, Surface const& s, int e, double until, double tolerance) {
+    switch (s.shape) {
+      case Shape::hull:
+        if constexpr (detail::shapes_below<RootScope>().has(Shape::hull))
+          return HullRay<Surface>::of(ray, s, e, until);
+        else
+          return {};
+      case Shape::point:
+        return ray_point(ray, s.template corner<1>(s.position, e)[0], tolerance);
+      case Shape::line:
+        return ray_segment(ray, s.template corner<2>(s.position, e), tolerance);
+      case Shape::triangle:
+        return ray_triangle(ray, s.template corner<3>(s.position, e), s.elements[std::size_t(e)]);
+      case Shape::sphere:
+        return ray_sphere(ray, s.template corner<1>(s.position, e)[0], s.radiusOf(e));
+    }
+    return {};
   }
   static void describe(Pick& pick, Ray const& ray, CollisionSurface const& s, int element,
                        RayHit const& hit) {
     ContactSide& side = pick.place;
     side.element = element;
     int n = 0;
-    for (int c = 0; c < std::max(1, s.corners); ++c)
+    for (int c = 0; c < std::max(1, s.corners()); ++c)
       if (hit.weights[std::size_t(c)] > 0) {
         side.vertices[std::size_t(n)] = s.elements[std::size_t(element)][std::size_t(c)];
         side.weights[std::size_t(n++)] = hit.weights[std::size_t(c)];
@@ -183,7 +185,7 @@ struct Picking {
     pick.point = ray.at(hit.distance);
     // of what has no surface, the place itself
     const Eigen::Vector3d place = position_of(side, s);
-    if (s.corners == 2 || (s.corners == 1 && s.radius.empty())) pick.point = place;
+    if (s.shape == Shape::line || s.shape == Shape::point) pick.point = place;
     if (s.rigid) side.lever = s.orientation[std::size_t(side.vertices[0])].conjugate() * (pick.point - place);
   }
   // surfaces are numbered from the pipeline on that they are below

@@ -164,7 +164,7 @@ class Simulation {
   long step_ = 0;
   bool initialised_ = false, visualsAreCurrent_ = false, keepsForces_ = false;
   static constexpr NoScope above_{};
-  static constexpr bool collides = detail::primitive_kinds<RootScope>() != 0,
+  static constexpr bool collides = !detail::shapes_below<RootScope>().empty(),
                         carves = holds<Root, role::Carving>();
 
   static RootScope scopeOf(Root& root) {

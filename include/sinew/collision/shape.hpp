@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+namespace sinew {
+
+/// What the primitives of a collision model are: the convex hull of a rigid, simplices over one, two or three
+/// vertices, or a sphere around a vertex.
+enum class Shape { hull, point, line, triangle, sphere };
+
+/// The shape without the radius around it, by which geometry knows it: a sphere is a point.
+constexpr Shape skeleton(Shape s) { return s == Shape::sphere ? Shape::point : s; }
+
+/// Vertices of which a primitive is the convex hull; 0 of a hull, which has points of its own.
+constexpr int corners_of(Shape s) { return int(skeleton(s)); }
+
+/// The simplex over so many vertices.
+constexpr Shape simplex(int corners) { return Shape(corners); }
+
+constexpr bool is_simplex(Shape s) { return s != Shape::hull && s != Shape::sphere; }
+
+/// A set of shapes.
+struct Shapes {
+  unsigned bits = 0;
+
+  static constexpr Shapes of(Shape s) { return {1u << unsigned(s)}; }
+  constexpr bool has(Shape s) const { return (bits >> unsigned(s) & 1u) != 0; }
+  constexpr bool empty() const { return bits == 0; }
+  constexpr bool operator==(Shapes const&) const = default;
+};
+constexpr Shapes operator|(Shapes a, Shapes b) { return {a.bits | b.bits}; }
+
+inline constexpr Shapes allSimplices =
+    Shapes::of(Shape::point) | Shapes::of(Shape::line) | Shapes::of(Shape::triangle);
+
+/// Shapes as a type.
+template <Shape...>
+struct ShapeList {};
+
+namespace detail {
+
+/// The shapes of a set as a type.
+template <Shapes Set, int Next = 0, Shape... Found>
+constexpr auto list_of_shapes() {
+  if constexpr (Next > int(Shape::sphere))
+    return ShapeList<Found...>{};
+  else if constexpr (Set.has(Shape(Next)))
+    return list_of_shapes<Set, Next + 1, Found..., Shape(Next)>();
+  else
+    return list_of_shapes<Set, Next + 1, Found...>();
+}
+
+}  // namespace detail
+
+}  // namespace sinew

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/collision/contact.hpp>
+#include <sinew/core/compiled.hpp>
+
+#include <array>
+#include <vector>
+
+namespace sinew {
+
+/// The contacts of single vertices, or corners of hulls, among some contacts. A vertex that slides from one
+/// triangle to the next, or from that to an edge, goes on with the same contact.
+class VertexContacts {
+ public:
+  void reserve(std::size_t contacts) { list_.reserve(2 * contacts); }
+  void swap(VertexContacts& other) { list_.swap(other.list_); }
+
+  /// `bodies`: of each surface, the first one that is on the same state.
+  void list(std::vector<Contact> const& all, std::vector<int> const& bodies);
+
+  /// The number of the first contact that has a vertex of this one for itself; -1: there is none.
+  int find(ContactKey const& key, std::vector<int> const& bodies) const;
+
+  /// A vertex above the border of two triangles is near the one, and near the edge of the other, at the same
+  /// place: once is enough. The list is that of `found`.
+  void dropSamePlaces(std::vector<Contact>& found, std::vector<int> const& bodies);
+
+  /// What is behind a triangle is in the body, and pushed out, unless it is in front of something of the same
+  /// body that is nearer in that direction: then it is above a plate, whose far side it is behind.
+  void dropBehindOthers(std::vector<Contact>& found, std::vector<int> const& bodies);
+
+ private:
+  // the two bodies, the side, the vertex, and the corner of its hull
+  using Identity = std::array<int, 5>;
+  struct Entry {
+    Identity vertex;
+    int contact;
+  };
+  std::vector<Entry> list_{};
+
+  static Identity identity(ContactKey const& k, std::size_t side, std::vector<int> const& bodies) {
+    return {bodies[std::size_t(k.surfaces[0])],
+            bodies[std::size_t(k.surfaces[1])],
+            int(side),
+            k.vertices[side][2],
+            k.features[side].first};
+  }
+  static constexpr int dropped = -1;  // in place of a response
+  void removeDropped(std::vector<Contact>& found, std::vector<int> const& bodies);
+};
+
+}  // namespace sinew
+
+#if SINEW_DEFINES
+#include <algorithm>
+#include <utility>
+
+namespace sinew {
+
+SINEW_ONCE void VertexContacts::list(std::vector<Contact> const& all, std::vector<int> const& bodies) {
+  list_.clear();
+  for (std::size_t i = 0; i < all.size(); ++i)
+    for (std::size_t side = 0; side < 2; ++side)
+      if (const ContactKey key = all[i].key(); key.ofOneVertex(side))
+        list_.push_back({identity(key, side, bodies), int(i)});
+  std::sort(list_.begin(), list_.end(), [](Entry const& x, Entry const& y) {
+    return std::pair(x.vertex, x.contact) < std::pair(y.vertex, y.contact);
+  });
+}
+
+SINEW_ONCE int VertexContacts::find(ContactKey const& key, std::vector<int> const& bodies) const {
+  for (std::size_t side = 0; side < 2; ++side) {
+    if (!key.ofOneVertex(side)) continue;
+    const Identity wanted = identity(key, side, bodies);
+    const auto first = std::lower_bound(
+        list_.begin(), list_.end(), wanted, [](Entry const& x, Identity const& k) { return x.vertex < k; });
+    if (first != list_.end() && first->vertex == wanted) return first->contact;
+  }
+  return -1;
+}
+
+SINEW_ONCE void VertexContacts::dropSamePlaces(std::vector<Contact>& found, std::vector<int> const& bodies) {
+  bool any = false;
+  for (std::size_t i = 0, j = 1; j < list_.size(); ++j) {
+    if (list_[i].vertex != list_[j].vertex) {
+      i = j;
+      continue;
+    }
+    Contact const& first = found[std::size_t(list_[i].contact)];
+    Contact& other = found[std::size_t(list_[j].contact)];
+    // the rounding of a place is a few units of the last digit of coordinates
+    if ((other.start - first.start).norm() > 1e-8 * first.start.norm()) continue;
+    other.response = dropped;
+    any = true;
+  }
+  if (any) removeDropped(found, bodies);
+}
+
+SINEW_ONCE void VertexContacts::dropBehindOthers(std::vector<Contact>& found,
+                                                 std::vector<int> const& bodies) {
+  bool any = false;
+  for (std::size_t first = 0, last = 0; first < list_.size(); first = last) {
+    while (last < list_.size() && list_[last].vertex == list_[first].vertex) ++last;
+    auto contact = [&](std::size_t i) -> Contact& { return found[std::size_t(list_[i].contact)]; };
+    auto isBehind = [](Contact const& c) { return c.normal.dot(c.start) < 0; };
+    for (std::size_t i = first; i < last; ++i)
+      for (std::size_t j = first; j < last && isBehind(contact(i)); ++j) {
+        Eigen::Vector3d const &far = contact(i).start, &near = contact(j).start;
+        if (isBehind(contact(j)) || near.squaredNorm() >= far.squaredNorm() || near.dot(far) <= 0) continue;
+        contact(i).response = dropped;
+        any = true;
+      }
+  }
+  if (any) removeDropped(found, bodies);
+}
+
+SINEW_ONCE void VertexContacts::removeDropped(std::vector<Contact>& found, std::vector<int> const& bodies) {
+  std::erase_if(found, [](Contact const& c) { return c.response == dropped; });
+  list(found, bodies);
+}
+
+}  // namespace sinew
+#endif
