@@ -43,12 +43,14 @@ void turn_elements(Mesh& mesh);
 
 }  // namespace detail
 
-/// A mesh from a file of the Format, which has a className and read(path), at the place and size that the
-/// scene wants. Throws Error when the file cannot be read; what was loaded before then stays.
+/// A mesh from a file of the Format, which has a className, aliases, the endings of such files, a header
+/// where sinew.hpp does not have it, and read(path), at the place and size that the scene wants. Throws Error
+/// when the file cannot be read; what was loaded before then stays.
 template <class Format>
 struct MeshLoader {
   using Role = role::Engine;
-  static constexpr std::string_view className = Format::className, aliases = Format::aliases;
+  static constexpr std::string_view className = Format::className, aliases = Format::aliases,
+                                    endings = Format::endings, header = Format::header;
 
   DataFile filename{};
   Eigen::Vector3d translation{0, 0, 0}, rotation{0, 0, 0}, scale3d{1, 1, 1};
@@ -146,15 +148,16 @@ struct MeshLoader {
 
 namespace detail {
 struct GmshFormat {
-  static constexpr std::string_view className = "MeshGmshLoader", aliases = "";
+  static constexpr std::string_view className = "MeshGmshLoader", aliases = "", endings = ".msh", header = "";
   static Mesh read(std::string const& path) { return io::read_gmsh(path); }
 };
 struct ObjFormat {
-  static constexpr std::string_view className = "MeshOBJLoader", aliases = "MeshObjLoader";
+  static constexpr std::string_view className = "MeshOBJLoader", aliases = "MeshObjLoader", endings = ".obj",
+                                    header = "";
   static Mesh read(std::string const& path) { return io::read_obj(path); }
 };
 struct StlFormat {
-  static constexpr std::string_view className = "MeshSTLLoader", aliases = "";
+  static constexpr std::string_view className = "MeshSTLLoader", aliases = "", endings = ".stl", header = "";
   static Mesh read(std::string const& path) { return io::read_stl(path); }
 };
 }  // namespace detail
