@@ -2,6 +2,7 @@
 #pragma once
 
 // Bodies that touch: collision models, the stages of detection, and what answers contacts.
+// All components of collision:
 #include <sinew/collision/brute_force_broad_phase.hpp>
 #include <sinew/collision/bvh_narrow_phase.hpp>
 #include <sinew/collision/carving_manager.hpp>
