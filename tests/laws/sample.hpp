@@ -174,6 +174,11 @@ constexpr std::size_t child_points(M const&) {
   const bool makes = over_parent<M> || needs_masses<M> || requires { M::samePoints; };
   return makes ? 0 : 7;
 }
+/// Whether the stabilized geometric stiffness of a mapping has all directions negative.
+template <class M>
+constexpr bool stabilizes(M const&) {
+  return false;
+}
 /// Gives a mass a value of its own for each point, or for all.
 template <class M>
 void give_masses(M&, std::size_t, Random&) {}

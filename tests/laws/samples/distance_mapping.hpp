@@ -11,5 +11,9 @@ template <class... A>
 void prepare(DistanceMapping<A...>& c, Random&) {
   c.restLengths.clear();  // those of the rest positions
 }
+template <class I, class O>
+constexpr bool stabilizes(DistanceMapping<I, O> const&) {
+  return true;
+}
 
 }  // namespace sample

@@ -381,7 +381,7 @@ class SceneValues {
           [&](auto& state) { state.position.push_back(std::decay_t<decltype(state)>::DataTypes::zero()); });
     }
   }
-  // those that a TransformEngine has moved from the topology of the node are its points all the same
+  // those that an engine has moved, from its input_position, are the points of the topology all the same
   void movedPoints(SceneItem& item) {
     SceneItem* from = &item;
     for (std::string_view name : {"position", "input_position"}) {
