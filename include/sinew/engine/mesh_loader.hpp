@@ -43,9 +43,8 @@ void turn_elements(Mesh& mesh);
 
 }  // namespace detail
 
-/// A mesh from a file of the Format, which has a className, aliases, the endings of such files, a header
-/// where sinew.hpp does not have it, and read(path), at the place and size that the scene wants. Throws Error
-/// when the file cannot be read; what was loaded before then stays.
+/// A mesh from a file of the Format, which has a className and read(path), at the place and size that the
+/// scene wants. Throws Error when the file cannot be read; what was loaded before then stays.
 template <class Format>
 struct MeshLoader {
   using Role = role::Engine;
@@ -147,6 +146,8 @@ struct MeshLoader {
 };
 
 namespace detail {
+// beside its className and read(path), a format says other names of its loader, the endings of its files, and
+// the header of the loader, where sinew.hpp does not have it
 struct GmshFormat {
   static constexpr std::string_view className = "MeshGmshLoader", aliases = "", endings = ".msh", header = "";
   static Mesh read(std::string const& path) { return io::read_gmsh(path); }
