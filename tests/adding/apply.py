@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSL-1.0
-"""Applies the diffs of a Markdown file to a copy of the tree: apply.py CONTRIBUTING.md FOLDER. Prints the new .cpp files.
+"""Applies the diffs of a Markdown file to a copy of the tree: apply.py CONTRIBUTING.md FOLDER.
 
 A hunk is found by its lines, not by numbers: those that are there (' ', '-') must follow one another in the file, once."""
 import pathlib
@@ -8,27 +8,21 @@ import sys
 
 
 def apply(lines, top):
-    """One diff; returns the files that it makes."""
-    made = []
     path, hunks = None, []
     for line in lines + ["+++ "]:
         if line.startswith("+++ "):
             if path:
-                write(top / path, hunks, made)
+                write(top / path, hunks)
             path, hunks = line[4:].strip(), []
         elif line.startswith("@@"):
             hunks.append([])
         elif not line.startswith("---"):
             hunks = hunks or [[]]
             hunks[-1].append(line or " ")
-    return made
 
 
-def write(path, hunks, made):
-    old = path.read_text() if path.exists() else None
-    if old is None:
-        made.append(path)
-        old = ""
+def write(path, hunks):
+    old = path.read_text() if path.exists() else ""
     for hunk in hunks:
         before = "".join(line[1:] + "\n" for line in hunk if line[0] in " -")
         after = "".join(line[1:] + "\n" for line in hunk if line[0] in " +")
@@ -41,6 +35,4 @@ def write(path, hunks, made):
 
 text, top = pathlib.Path(sys.argv[1]).read_text(), pathlib.Path(sys.argv[2])
 for diff in re.findall(r"^```diff\n(.*?)^```$", text, re.S | re.M):
-    for path in apply(diff.splitlines(), top):
-        if path.suffix == ".cpp":
-            print(path)
+    apply(diff.splitlines(), top)
