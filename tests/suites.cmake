@@ -25,7 +25,7 @@ set(quick_components constraint/constraints control/trajectory mapping/measuring
 set(quick_laws constraints_vec3 elements_vec3d force_rigid3d force_vec3d hyperelastic_vec3d loads_vec3d mappings_points
     mappings_rigid masses spatial_springs_vec3d)
 set(quick_validation cantilever kepler settled statics vibration)
-set(quick_runtime bad_places bake_text change contact dialect dialect_run read_scene same_bits_string sofa_attributes
+set(quick_runtime bad_places bake_text change contact dialect dialect_run every_class read_scene same_bits_string sofa_attributes
     step_forces)
 set(quick_baked tetrahedra)
 set(quick_ccd collision/hull_pairs)

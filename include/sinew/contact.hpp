@@ -2,9 +2,11 @@
 #pragma once
 
 // Bodies that touch: collision models, the stages of detection, and what answers contacts.
+// All components of collision:
 #include <sinew/collision/brute_force_broad_phase.hpp>
 #include <sinew/collision/bvh_narrow_phase.hpp>
 #include <sinew/collision/carving_manager.hpp>
+#include <sinew/collision/collision_model.hpp>
 #include <sinew/collision/contact_manager.hpp>
 #include <sinew/collision/continuous_intersection.hpp>
 #include <sinew/collision/default_pipeline.hpp>

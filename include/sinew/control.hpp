@@ -2,6 +2,10 @@
 #pragma once
 
 // What plays, records or pulls at a scene while it runs.
-#include <sinew/control/read_state.hpp>
-#include <sinew/control/write_state.hpp>
 #include <sinew/scene/mouse_interactor.hpp>
+
+// All components of control:
+#include <sinew/control/read_state.hpp>
+#include <sinew/control/step_callback.hpp>
+#include <sinew/control/threads.hpp>
+#include <sinew/control/write_state.hpp>

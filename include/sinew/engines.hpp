@@ -2,6 +2,7 @@
 #pragma once
 
 // Data made before a scene starts: meshes that are loaded, generated or changed, and selections of points.
+// All components of engine, topology:
 #include <sinew/engine/box_roi.hpp>
 #include <sinew/engine/generate_rigid_mass.hpp>
 #include <sinew/engine/grid_mesh_creator.hpp>
@@ -16,6 +17,8 @@
 #include <sinew/engine/transform_engine.hpp>
 #include <sinew/topology/cube_topology.hpp>
 #include <sinew/topology/cylinder_grid_topology.hpp>
+#include <sinew/topology/mesh_topology.hpp>
 #include <sinew/topology/regular_grid_topology.hpp>
 #include <sinew/topology/sparse_grid_topology.hpp>
 #include <sinew/topology/sphere_grid_topology.hpp>
+#include <sinew/topology/tetrahedron_topology.hpp>

@@ -2,6 +2,13 @@
 #pragma once
 
 // Scenes of bodies: states, masses, forces, constraints, mappings and solvers, over meshes that are given.
+#include <sinew/control/step_callback.hpp>
+#include <sinew/control/threads.hpp>
+#include <sinew/scene/simulation.hpp>
+#include <sinew/topology/mesh_topology.hpp>
+#include <sinew/topology/tetrahedron_topology.hpp>
+
+// All components of constraint, context, force, mapping, mass, solver, state, visual:
 #include <sinew/constraint/affine_movement.hpp>
 #include <sinew/constraint/attach.hpp>
 #include <sinew/constraint/fixed_constraint.hpp>
@@ -18,8 +25,6 @@
 #include <sinew/constraint/project_to_plane.hpp>
 #include <sinew/constraint/project_to_point.hpp>
 #include <sinew/context/gravity.hpp>
-#include <sinew/control/step_callback.hpp>
-#include <sinew/control/threads.hpp>
 #include <sinew/force/angular_spring.hpp>
 #include <sinew/force/beam_fem.hpp>
 #include <sinew/force/bending_springs.hpp>
@@ -57,7 +62,6 @@
 #include <sinew/mass/diagonal_mass.hpp>
 #include <sinew/mass/mesh_matrix_mass.hpp>
 #include <sinew/mass/uniform_mass.hpp>
-#include <sinew/scene/simulation.hpp>
 #include <sinew/solver/bdf2.hpp>
 #include <sinew/solver/central_difference.hpp>
 #include <sinew/solver/cg_linear_solver.hpp>
@@ -75,6 +79,4 @@
 #include <sinew/solver/static_solver.hpp>
 #include <sinew/solver/variational_symplectic.hpp>
 #include <sinew/state/mechanical_object.hpp>
-#include <sinew/topology/mesh_topology.hpp>
-#include <sinew/topology/tetrahedron_topology.hpp>
 #include <sinew/visual/visual_model.hpp>

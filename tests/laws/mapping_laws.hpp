@@ -12,7 +12,8 @@ namespace laws {
 using namespace sinew;
 using sample::Random;
 
-template <class M>
+/// `Component`: what a sample is made of, M or a base of it.
+template <class M, class Component = M>
 struct MappingSuite {
   using In = typename M::In;
   using Out = typename M::Out;
@@ -25,15 +26,11 @@ struct MappingSuite {
 
   void run() {
     INFO(component_name<M>());
-    sample::for_each_variant<M>(random, [&](M mapping) {
-      // as many points in the child as the mapping has indices
-      std::size_t points = 7;
-      if constexpr (requires { mapping.carriers; }) points = 40;
-      // those that make their child
-      if constexpr (std::is_same_v<M, IdentityMapping<In, Out>> || over_parent<M> || needs_masses<M>)
-        points = 0;
+    sample::for_each_variant<Component>(random, [&](Component const& sampled) {
+      M mapping{sampled};
       typename Out::VecCoord child;
-      for (std::size_t i = 0; i < points; ++i) child.push_back(sample::coord<Out>(random, 1.5));
+      for (std::size_t i = 0; i < sample::child_points(sampled); ++i)
+        child.push_back(sample::coord<Out>(random, 1.5));
       const typename Out::VecCoord childRest = child;
       std::vector<double> masses;
       for (std::size_t i = 0; i < parentRest.size(); ++i) masses.push_back(random(0.5, 2));
@@ -117,8 +114,8 @@ struct MappingSuite {
     CHECK(size > 0.1);
     assembled(mapping, u);
 
-    if constexpr (std::is_same_v<Option, GeometricStiffness> && std::is_same_v<M, DistanceMapping<In, Out>>)
-      if (mapping.geometricStiffness == GeometricStiffness::stabilized)
+    if constexpr (std::is_same_v<Option, GeometricStiffness>)
+      if (sample::stabilizes(mapping) && mapping.geometricStiffness == GeometricStiffness::stabilized)
         CHECK(vec::dot(ku, u) < 0);  // of what pulls alone
     if constexpr (isDouble) {
       typename In::VecDeriv du = derivative(mapping, x, at, f, u), dw = derivative(mapping, x, at, f, w);
@@ -217,7 +214,7 @@ void check_mappings() {
       if constexpr (C::In::rigid == Rigid) {
         ++found;
         if constexpr (HasParents<C>)
-          MappingSuite<Joined<C>>{}.run();
+          MappingSuite<Joined<C>, C>{}.run();
         else
           MappingSuite<C>{}.run();
       }

@@ -31,13 +31,7 @@ struct SubjectOf : Subject<D> {
   C mass{};
 
   SubjectOf(InitContext<D> const& context, Random& random) {
-    if constexpr (requires { mass.vertexMass.resize(1); }) {
-      mass.vertexMass.resize(context.rest.size());
-      for (auto& m : mass.vertexMass) sample::randomise(m, range::positive, random);
-    } else if constexpr (requires { mass.vertexMass.emplace(); }) {
-      mass.vertexMass.emplace();
-      sample::randomise(*mass.vertexMass, range::positive, random);
-    }
+    sample::give_masses(mass, context.rest.size(), random);
     mass.init(context);
     if constexpr (requires { mass.exactInverse(); }) this->exactInverse = mass.exactInverse();
   }

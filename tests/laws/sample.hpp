@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-// Random bodies and random field values, from which the law suites make a sample of any component: its author
-// writes nothing for them.
+// Random bodies and random field values, from which the law suites make a sample of any component. Its author
+// writes nothing for them, or what values have to do with each other (samples/).
 
 #include <sinew/registry.hpp>
 #include <sinew/topology/adjacency.hpp>
@@ -143,113 +143,55 @@ void randomise(T& value, Range range, Random& random) {
   }
 }
 
-/// f(component) for a random one with each value of each enum and each bool, or list of one, among its
-/// fields.
+/// Ends of springs that join no point to itself.
+inline void join_two_points(std::vector<int> const& first, std::vector<int>& second) {
+  for (std::size_t s = 0; s < first.size(); ++s)
+    if (first[s] == second[s]) second[s] = (first[s] + 1) % Body::n;
+}
+/// Values at three key times.
+template <class V>
+void fill(std::vector<V>& values, Random& random) {
+  values = {vector<V>(random), vector<V>(random), vector<V>(random)};
+}
+/// As many parameters as a material has.
+template <class Material>
+void take_parameters(std::vector<double>& parameters, Material material, Random& random) {
+  parameters.clear();
+  while (!takes_parameters(material, parameters.size())) parameters.push_back(random(1, 3));
+}
+
+// What random values in the ranges of its fields do not say of a component, overloads of these functions in
+// samples/ do, one file a component.
+
+/// Whether a component has laws at all.
+template <class C>
+constexpr bool has_laws(C const&) {
+  return true;
+}
+/// Points below a mapping: as many as a list of indices has, none where the mapping makes them.
+template <class M>
+constexpr std::size_t child_points(M const&) {
+  const bool makes = over_parent<M> || needs_masses<M> || requires { M::samePoints; };
+  return makes ? 0 : 7;
+}
+/// Whether the stabilized geometric stiffness of a mapping has all directions negative.
+template <class M>
+constexpr bool stabilizes(M const&) {
+  return false;
+}
+/// Gives a mass a value of its own for each point, or for all.
+template <class M>
+void give_masses(M&, std::size_t, Random&) {}
+/// Makes random values of fields agree with each other and with the body.
+template <class C>
+void prepare(C&, Random&) {}
+/// The same after each choice of enums and bools.
+template <class C>
+void complete(C&, Random&) {}
+
+/// f(component) with each value of each enum and each bool, or list of one, among its fields.
 template <class C, class F>
-void for_each_variant(Random& random, F&& use) {
-  // materials differ in the number of their parameters
-  auto f = [&](C complete) {
-    if constexpr (requires { complete.parameterSet; }) {
-      complete.parameterSet.clear();
-      while (!takes_parameters(complete.materialName, complete.parameterSet.size()))
-        complete.parameterSet.push_back(random(1, 3));
-    }
-    use(complete);
-  };
-  C c{};
-  for_each_field(c, [&](auto const& fd, auto& value) { randomise(value, fd.range, random); });
-  if constexpr (requires { c.springs; })
-    for (auto& s : c.springs)
-      if (s.first == s.second) s.second = (s.first + 1) % Body::n;
-  if constexpr (requires { c.springsIndices1; })
-    for (std::size_t s = 0; s < c.springsIndices1.size(); ++s)
-      if (c.springsIndices1[s] == c.springsIndices2[s])
-        c.springsIndices2[s] = (c.springsIndices1[s] + 1) % Body::n;
-  if constexpr (requires { c.polynomialDegree; }) {
-    c.polynomialDegree = {3}, c.polynomialStiffness = {3, 1, 2};
-    for (std::size_t s = 0; s < c.firstObjectPoints.size(); ++s)
-      if (c.firstObjectPoints[s] == c.secondObjectPoints[s])
-        c.secondObjectPoints[s] = (c.firstObjectPoints[s] + 1) % Body::n;
-  }
-  if constexpr (requires { c.radiusInner; }) c.radiusInner = c.radius / 2;
-  // bodies that the one before them holds
-  if constexpr (requires { c.indices, c.angularStiffness; })
-    for (int& i : c.indices) i = std::max(i, 1);
-  // a pressure is proved on a closed surface, where it has an energy: all of that of the body
-  if constexpr (requires { c.triangleIndices; }) {
-    c.triangleIndices.clear(), c.quadIndices.clear();
-    c.min.reset(), c.max.reset();
-  }
-  if constexpr (requires { c.pressedElements; })
-    for (int& i : c.pressedElements) i %= 24;  // quads of the body
-  // movements over the times 0 to 2; a velocity turns a body about one axis, as its orientation has it
-  if constexpr (requires { c.keyTimes; }) {
-    auto fill = [&](auto& values, bool oneAxis) {
-      using V = typename std::decay_t<decltype(values)>::value_type;
-      values = {vector<V>(random), vector<V>(random), vector<V>(random)};
-      if constexpr (C::DataTypes::rigid && C::DataTypes::spatial == 3)
-        for (std::size_t k = 1; oneAxis && k < 3; ++k)
-          values[k].template tail<3>() = values[0].template tail<3>() * typename V::Scalar(k + 1);
-    };
-    c.keyTimes = {0, 1, 2};
-    if constexpr (requires { c.movements; }) fill(c.movements, false);
-    if constexpr (requires { c.velocities; }) fill(c.velocities, true);
-    if constexpr (requires { c.coordinates; }) c.coordinates.assign(1, 0);
-    // all points, on a way of their own
-    if constexpr (requires { c.keyPositions; }) {
-      using D = typename C::DataTypes;
-      c.keyPositions.clear(), c.keyVelocities.clear();
-      for (int i = 0; i < 3 * Body::n; ++i) c.keyPositions.push_back(coord<D>(random));
-      c.shift = 0.1;
-      if constexpr (D::spatial != 3) c.scalePos = 1, c.rotation.setZero(), c.translation.setZero();
-    }
-  }
-  if constexpr (requires { c.endConstraintTime; }) c.beginConstraintTime = 0, c.endConstraintTime = 2;
-  if constexpr (requires { c.minDistValidity; }) c.minDistValidity = 0;
-  if constexpr (requires { c.endTime; }) c.beginTime = 0, c.endTime = 2;
-  // at least one axis is held
-  if constexpr (requires { c.fixedXRotation; }) {
-    for (int axes = 1; axes < 8; ++axes) {
-      c.fixedXRotation = axes & 1, c.fixedYRotation = axes & 2, c.fixedZRotation = axes & 4;
-      f(c);
-    }
-    return;
-  }
-  if constexpr (requires { c.dmax; }) c.dmin = 0, c.dmax = 1;
-  // some points attached to others, one of them to three
-  if constexpr (requires { c.twoWay; })
-    c.indices1 = {0, 1, 2, 2, 9}, c.indices2 = {10, 13, 11, 20, 15}, c.constraintFactor = {1, 1, 1, 1, 0};
-  // the nearest frames, with the weights that follow
-  if constexpr (requires { c.nbRef; }) {
-    c.nbRef = {3};
-    c.indices.clear(), c.weight.clear(), c.initPos.clear();
-  }
-  // points of three parents, of nine points each
-  if constexpr (requires { c.indexPairs; }) {
-    c.indexPairs.resize(7);
-    for (std::size_t i = 0; i < 7; ++i) c.indexPairs[i] = {int(i) % 3, random.index(9)};
-  }
-  // an energy is that of a body at rest, beside a target at rest; of bodies that turn, a tangent is proved at
-  // their rest positions, which are then the target
-  if constexpr (requires { c.target, c.targetVelocity; }) {
-    c.targetVelocity.clear();
-    if constexpr (C::turns) c.target.clear();
-  }
-  if constexpr (requires { c.restLengths; }) c.restLengths.clear();  // those of the rest positions
-  if constexpr (requires { c.pulse; }) c.pulse = random(1, 2);       // in the middle of one
-  // of bodies that turn a tangent is proved at their rest positions, about all axes
-  if constexpr (requires { c.externalRestShape; }) {
-    using D = typename C::DataTypes;
-    c.externalRestShape.clear();
-    c.activeDirections.assign(std::size_t(D::size), true);
-    if constexpr (D::rigid && D::spatial == 3)
-      c.externalPoints.clear();
-    else if constexpr (D::size > 1)
-      c.activeDirections.back() = false;
-    if constexpr (!(D::rigid && D::spatial == 3))
-      for (int i = 0; i < Body::n; ++i) c.externalRestShape.push_back(coord<D>(random, 2));
-  }
-  if constexpr (requires { c.fixedDirections; }) c.fixedDirections.back() = c.fixedDirections.size() == 1;
+void for_each_choice(C& c, Random&, F&& f) {
   bool any = false;
   for_each_field(c, [&](auto const& fd, auto& value) {
     using T = std::decay_t<decltype(value)>;
@@ -277,4 +219,18 @@ void for_each_variant(Random& random, F&& use) {
   if (!any) f(c);
 }
 
+/// f(component) for a random one with each choice.
+template <class C, class F>
+void for_each_variant(Random& random, F&& f) {
+  C c{};
+  for_each_field(c, [&](auto const& fd, auto& value) { randomise(value, fd.range, random); });
+  prepare(c, random);
+  for_each_choice(c, random, [&](C chosen) {
+    complete(chosen, random);
+    f(chosen);
+  });
+}
+
 }  // namespace sample
+
+#include "samples.hpp"

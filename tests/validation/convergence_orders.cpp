@@ -12,28 +12,6 @@ using namespace closed_form;
 
 namespace {
 
-/// What each solver of the registry claims, with its settings as they are by default.
-struct Claim {
-  std::string_view solver;
-  int order;  // 0 for one that does not integrate in time
-};
-constexpr Claim claims[] = {{"EulerExplicitSolver", 1},
-                            {"CentralDifferenceSolver", 2},
-                            {"RungeKutta2Solver", 2},
-                            {"RungeKutta4Solver", 4},
-                            {"RungeKutta45Solver", 5},
-                            {"EulerImplicitSolver", 1},
-                            {"NewmarkImplicitSolver", 2},
-                            {"VariationalSymplecticSolver", 2},
-                            {"BDFOdeSolver", 2},
-                            {"StaticSolver", 0},
-                            {"DampVelocitySolver", 0}};
-constexpr int claimed_order(std::string_view solver) {
-  for (Claim const& claim : claims)
-    if (claim.solver == solver) return claim.order;
-  return -1;
-}
-
 /// Error at the end of a circular orbit about the end of a spring, of radius 2, with w = sqrt(2): not linear.
 template <class Solver>
 double error_of(Solver const& solver, int steps) {
@@ -68,12 +46,10 @@ TEST_CASE("every solver of the registry has the order that it claims", "[page]")
   };
   for_each_registered<Standard>([&]<class C>() {
     if constexpr (std::is_same_v<typename C::Role, role::OdeSolver>) {
-      constexpr int claimed = claimed_order(C::className);
-      static_assert(claimed >= 0, "say the order of this solver in `claims`");
-      if constexpr (claimed > 0) {
+      if constexpr (C::convergenceOrder > 0) {
         C solver{};
         if constexpr (requires { solver.tolerance; }) solver.tolerance = 0;  // no control of the step
-        measure(std::string(C::className), solver, claimed);
+        measure(std::string(C::className), solver, C::convergenceOrder);
       }
     }
   });

@@ -26,6 +26,7 @@ struct ConvexCollisionModel {
   // of SOFA's plugin for Bullet
   static constexpr std::string_view aliases =
       "TBulletConvexHullModel BulletConvexHullModel BtConvexHullModel BulletConvexHull BtConvexHull";
+  static constexpr std::string_view header = "sinew/collision/convex_collision_model.hpp";
   static constexpr Shape shape = Shape::hull;
 
   bool active = true, moving = true, simulated = true, selfCollision = false, bothSide = true;

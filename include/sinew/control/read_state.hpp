@@ -31,7 +31,7 @@ struct ReadState {
   using VecCoord = typename D::VecCoord;
   using VecDeriv = typename D::VecDeriv;
   static constexpr std::string_view className = "ReadState";
-  static constexpr bool actsBeforeStep = true;
+  static constexpr bool actsBeforeStep = true, movesState = true;
 
   DataFile filename{};
   double interval = 0, shift = 0;

@@ -274,6 +274,8 @@ concept Engine = HasRole<C, role::Engine> && requires(C e, std::string where) {
   e.update(where);
 };
 
+/// `convergenceOrder`, that of the error in time with its settings as they are by default, is proved in
+/// tests/validation; 0 for one that does not integrate.
 template <class C>
 concept OdeSolver = HasRole<C, role::OdeSolver> && requires {
   { C::implicit } -> std::convertible_to<bool>;

@@ -48,7 +48,8 @@ void turn_elements(Mesh& mesh);
 template <class Format>
 struct MeshLoader {
   using Role = role::Engine;
-  static constexpr std::string_view className = Format::className, aliases = Format::aliases;
+  static constexpr std::string_view className = Format::className, aliases = Format::aliases,
+                                    endings = Format::endings, header = Format::header;
 
   DataFile filename{};
   Eigen::Vector3d translation{0, 0, 0}, rotation{0, 0, 0}, scale3d{1, 1, 1};
@@ -145,16 +146,19 @@ struct MeshLoader {
 };
 
 namespace detail {
+// beside its className and read(path), a format says other names of its loader, the endings of its files, and
+// the header of the loader, where sinew.hpp does not have it
 struct GmshFormat {
-  static constexpr std::string_view className = "MeshGmshLoader", aliases = "";
+  static constexpr std::string_view className = "MeshGmshLoader", aliases = "", endings = ".msh", header = "";
   static Mesh read(std::string const& path) { return io::read_gmsh(path); }
 };
 struct ObjFormat {
-  static constexpr std::string_view className = "MeshOBJLoader", aliases = "MeshObjLoader";
+  static constexpr std::string_view className = "MeshOBJLoader", aliases = "MeshObjLoader", endings = ".obj",
+                                    header = "";
   static Mesh read(std::string const& path) { return io::read_obj(path); }
 };
 struct StlFormat {
-  static constexpr std::string_view className = "MeshSTLLoader", aliases = "";
+  static constexpr std::string_view className = "MeshSTLLoader", aliases = "", endings = ".stl", header = "";
   static Mesh read(std::string const& path) { return io::read_stl(path); }
 };
 }  // namespace detail

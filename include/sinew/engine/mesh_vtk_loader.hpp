@@ -11,7 +11,8 @@ namespace sinew {
 
 namespace detail {
 struct VtkFormat {
-  static constexpr std::string_view className = "MeshVTKLoader", aliases = "";
+  static constexpr std::string_view className = "MeshVTKLoader", aliases = "", endings = ".vtk .vtu",
+                                    header = "sinew/engine/mesh_vtk_loader.hpp";
   static Mesh read(std::string const& path) {
     return io::file_ending(path) == ".vtu" ? io::read_vtu(path) : io::read_vtk(path);
   }

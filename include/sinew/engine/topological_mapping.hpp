@@ -94,6 +94,7 @@ struct Triangle2Edge {
 template <class Conversion>
 struct TopologicalMapping {
   using Role = role::Engine;
+  static constexpr bool joinsTopologies = true;
   static constexpr std::string_view className = Conversion::className;
 
   std::vector<Eigen::Vector3d> position{};

@@ -139,8 +139,12 @@ inline constexpr auto field_codes = [] {
 }();
 template <class... Cs>
 constexpr auto class_codes(TypeList<Cs...>) {
-  return std::array<ClassCode, sizeof...(Cs)>{
-      ClassCode{type_name<Cs>(), requires(Cs c) { c.generate(""); }, field_codes<Cs>.data()}...};
+  return std::array<ClassCode, sizeof...(Cs)>{ClassCode{type_name<Cs>(), requires(Cs c){c.generate("");
+}
+, field_codes<Cs>.data()
+}  // namespace detail
+...
+};  // namespace sinew
 }
 
 /// The C++ of a value as FieldInfo gives it, to initialise a member with.
@@ -195,6 +199,7 @@ class Baker {
   std::map<Entry const*, std::string> names_{};
   std::map<std::string, std::string> functions_{};  // of a list, by what it returns
   std::set<std::string, std::less<>> taken_{};
+  std::set<std::string> headers_{};  // of components, beside sinew.hpp
   std::string locals_{}, lists_{}, tree_{};
   std::set<Entry const*> busy_{};  // components being written
   bool readsFiles_ = false;
@@ -410,6 +415,7 @@ class Baker {
   /// "UniformMass<Vec3d>{.totalMass = 2}".
   std::string component(Node& node, Entry& entry) {
     ClassInfo const& info = infoOf(entry);
+    if (!info.traits.header.empty()) headers_.emplace(info.traits.header);
     busy_.insert(&entry);
     std::string members, mesh;
     for (std::size_t f = 0; f < info.fields.size(); ++f) {
@@ -493,11 +499,8 @@ class Baker {
     const bool onDevice = locals_.find("<Cuda") != locals_.npos || tree_.find("<Cuda") != tree_.npos;
     if (onDevice) cpp += "#include <sinew/gpu/gpu.hpp>\n\n";
     cpp += "#include <sinew/sinew.hpp>\n";
-    std::set<std::string> more(options_.includes.begin(), options_.includes.end());
-    if (locals_.find("MeshVTKLoader") != locals_.npos) more.insert("sinew/engine/mesh_vtk_loader.hpp");
-    if (tree_.find("ConvexCollisionModel") != tree_.npos ||
-        locals_.find("ConvexCollisionModel") != locals_.npos)
-      more.insert("sinew/collision/convex_collision_model.hpp");
+    std::set<std::string> more = headers_;
+    more.insert(options_.includes.begin(), options_.includes.end());
     for (auto const& include : more) cpp += text("#include <", include, ">\n");
     cpp +=
         "\n#include <array>\n#include <string>\n#include <vector>\n\nnamespace baked {\n\nusing namespace "

@@ -118,6 +118,15 @@ constexpr RoleKind role_kind() {
   return RoleKind(found);
 }
 
+/// What a class says of itself, as static members of these names, to those who know it by its name only.
+struct ClassTraits {
+  std::string_view header;    // to include beside sinew.hpp, which does not have the class
+  std::string_view endings;   // of the files that a loader of meshes reads: ".vtk .vtu"
+  bool samePoints = false;    // point i below a mapping is point i above it
+  bool movesState = false;    // where no solver does
+  bool joinsTopologies = false;  // an engine that makes the elements of its `output` of those of its `input`
+};
+
 /// What scene files, messages and reference pages know of one class of a registry.
 struct ClassInfo {
   int type;  // place in the registry
@@ -129,6 +138,7 @@ struct ClassInfo {
   bool joins = false;        // has ends object1 and object2
   std::vector<FieldInfo> fields;
   bool severalParents = false;  // a mapping
+  ClassTraits traits{};
 
   bool known(std::string_view asked) const { return asked == name || has_name(aliases, asked); }
   FieldInfo const* field(std::string_view asked) const {
@@ -268,10 +278,22 @@ void field_addresses(void const* component, void const** to) {
       *to++ = list;
 }
 
+template <class C>
+constexpr ClassTraits class_traits() {
+  ClassTraits traits{};
+  if constexpr (requires { C::header; }) traits.header = C::header;
+  if constexpr (requires { C::endings; }) traits.endings = C::endings;
+  if constexpr (requires { C::samePoints; }) traits.samePoints = C::samePoints;
+  if constexpr (requires { C::movesState; }) traits.movesState = C::movesState;
+  if constexpr (requires { C::joinsTopologies; }) traits.joinsTopologies = C::joinsTopologies;
+  return traits;
+}
+
 struct ClassRow {
   std::string_view name, aliases, dataTypes, in, out;
   RoleKind role;
   bool joins, severalParents;
+  ClassTraits traits;
   FieldRow const* fields;
   std::size_t count;
   void (*addresses)(void const* component, void const** to);
@@ -286,6 +308,7 @@ constexpr ClassRow class_row() {
                .role = role_kind<typename C::Role>(),
                .joins = requires(C c) { c.ends.object1; },
                .severalParents = requires(C c) { c.parents.paths; },
+               .traits = class_traits<C>(),
                .fields = field_rows<C>.data(),
                .count = field_count<C>,
                .addresses = &field_addresses<C>};
@@ -316,7 +339,8 @@ inline ClassInfo class_info(int type, ClassRow const& row, std::string cppName, 
                  .cppName = row.role == RoleKind::visualModel ? std::string(row.name) : std::move(cppName),
                  .joins = row.joins,
                  .fields = {},
-                 .severalParents = row.severalParents};
+                 .severalParents = row.severalParents,
+                 .traits = row.traits};
   std::vector<void const*> values(row.count);
   row.addresses(defaults, values.data());
   for (std::size_t k = 0; k < row.count; ++k) {

@@ -20,6 +20,7 @@ struct BDFOdeSolver {
   static constexpr std::string_view className = "BDFOdeSolver";
   static constexpr std::string_view aliases = "BDF2OdeSolver BDF2";
   static constexpr bool implicit = true;
+  static constexpr int convergenceOrder = 2;
   static constexpr Auxiliary auxiliary{.coords = 1, .derivs = 8};
   /// The first four auxiliary derivs, dx-, dv-, dx-- and dv--, keep their values from step to step.
   static constexpr Auxiliary history{.derivs = 4};

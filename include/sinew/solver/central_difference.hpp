@@ -17,6 +17,7 @@ struct CentralDifferenceSolver {
   static constexpr std::string_view className = "CentralDifferenceSolver";
   static constexpr std::string_view aliases = "CentralDifference";
   static constexpr bool implicit = false;
+  static constexpr int convergenceOrder = 2;
   static constexpr Auxiliary auxiliary{.derivs = 1};
 
   double rayleighMass = 0;

@@ -107,6 +107,7 @@ template <class Matrix = CompressedRowSparseMatrixMat3x3d>
 struct CholmodSolver {
   using Role = role::LinearSolver;
   static constexpr std::string_view className = "CholmodSolver";
+  static constexpr std::string_view header = "sinew/solver/cholmod_solver.hpp";
   static constexpr std::string_view templateName = Matrix::name;
   static constexpr Auxiliary auxiliary{};
 

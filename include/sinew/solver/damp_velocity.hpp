@@ -17,6 +17,7 @@ struct DampVelocitySolver {
   static constexpr std::string_view className = "DampVelocitySolver";
   static constexpr std::string_view aliases = "DampVelocity DampVelocityIntegrationScheme";
   static constexpr bool implicit = false, beside = true;
+  static constexpr int convergenceOrder = 0;
   static constexpr Auxiliary auxiliary{};
 
   double rate = 0.99, threshold = 0;

@@ -17,6 +17,7 @@ struct EulerExplicitSolver {
   static constexpr std::string_view aliases =
       "EulerSolver Euler EulerExplicit ExplicitEuler ExplicitEulerSolver EulerExplicitIntegrationScheme";
   static constexpr bool implicit = false, solvesMass = true;
+  static constexpr int convergenceOrder = 1;
   static constexpr Auxiliary auxiliary{.derivs = 1};
 
   bool symplectic = true;

@@ -22,6 +22,7 @@ struct EulerImplicitSolver {
   static constexpr std::string_view aliases =
       "EulerImplicit ImplicitEulerSolver ImplicitEuler EulerImplicitIntegrationScheme";
   static constexpr bool implicit = true;
+  static constexpr int convergenceOrder = 1;
   static constexpr Auxiliary auxiliary{.coords = 1, .derivs = 3};
 
   double rayleighStiffness = 0;

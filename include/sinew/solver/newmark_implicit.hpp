@@ -19,6 +19,7 @@ struct NewmarkImplicitSolver {
   using Role = role::OdeSolver;
   static constexpr std::string_view className = "NewmarkImplicitSolver";
   static constexpr bool implicit = true;
+  static constexpr int convergenceOrder = 2;
   static constexpr Auxiliary auxiliary{.derivs = 2};
   /// The first auxiliary deriv, a, keeps its value from step to step.
   static constexpr Auxiliary history{.derivs = 1};

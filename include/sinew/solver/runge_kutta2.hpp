@@ -12,6 +12,7 @@ struct RungeKutta2Solver {
   static constexpr std::string_view className = "RungeKutta2Solver";
   static constexpr std::string_view aliases = "RungeKutta2";
   static constexpr bool implicit = false;
+  static constexpr int convergenceOrder = 2;
   static constexpr Auxiliary auxiliary{.coords = 1, .derivs = 2};
 
   static constexpr auto fields() { return field_list(); }

@@ -13,6 +13,7 @@ struct RungeKutta4Solver {
   static constexpr std::string_view className = "RungeKutta4Solver";
   static constexpr std::string_view aliases = "RungeKutta4";
   static constexpr bool implicit = false;
+  static constexpr int convergenceOrder = 4;
   static constexpr Auxiliary auxiliary{.coords = 1, .derivs = 7};
 
   static constexpr auto fields() { return field_list(); }

@@ -17,6 +17,7 @@ struct RungeKutta45Solver {
   using Role = role::OdeSolver;
   static constexpr std::string_view className = "RungeKutta45Solver";
   static constexpr bool implicit = false;
+  static constexpr int convergenceOrder = 5;
   static constexpr Auxiliary auxiliary{.coords = 1, .derivs = 16};
 
   double tolerance = 1e-6;

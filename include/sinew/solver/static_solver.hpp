@@ -12,6 +12,7 @@ struct StaticSolver {
   static constexpr std::string_view className = "StaticSolver";
   static constexpr std::string_view aliases = "StaticOdeSolver StaticEquilibriumIntegrationScheme";
   static constexpr bool implicit = true;
+  static constexpr int convergenceOrder = 0;
   static constexpr Auxiliary auxiliary{.derivs = 1};
 
   int maxNbIterationsNewton = 1;

@@ -16,6 +16,7 @@ struct VariationalSymplecticSolver {
   using Role = role::OdeSolver;
   static constexpr std::string_view className = "VariationalSymplecticSolver";
   static constexpr bool implicit = true;
+  static constexpr int convergenceOrder = 2;
   static constexpr Auxiliary auxiliary{.coords = 1, .derivs = 3};
 
   double newtonError = 0.01;

@@ -225,8 +225,7 @@ class SceneClasses {
   // a topological mapping takes elements from its input, the topology above where none is named, and its
   // output, or the topology of its node, takes what it makes of them
   void connect(SceneItem& item) {
-    if (!item.info || item.info->role != RoleKind::engine || !item.info->name.ends_with("TopologicalMapping"))
-      return;
+    if (!item.info || !item.info->traits.joinsTopologies) return;
     auto topologyOf = [&](std::initializer_list<std::string_view> names,
                           ScenePlace* otherwise) -> SceneItem* {
       for (const std::string_view name : names)

@@ -82,6 +82,19 @@ class SceneCollector {
         XmlElement{.tag = std::string(tag), .file = element.file, .offset = element.offset}));
     return *made_.back();
   }
+  /// The class of loaders that reads files with an ending, ".obj"; none where there is none.
+  ClassInfo const* loaderOf(std::string_view ending) const {
+    for (auto const& info : table_)
+      if (has_name(info.traits.endings, ending)) return &info;
+    return nullptr;
+  }
+  /// All endings of files with meshes.
+  std::string endings() const {
+    std::string all;
+    for (auto const& info : table_)
+      if (!info.traits.endings.empty()) all += text(all.empty() ? "" : " ", info.traits.endings);
+    return all;
+  }
   /// The component that an element is; none where there is no such class, which is said.
   std::unique_ptr<SceneItem> makeItem(ScenePlace& place, XmlElement& element) {
     const std::string tag = tag_of(element);

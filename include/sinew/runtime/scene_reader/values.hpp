@@ -169,7 +169,11 @@ class SceneValues {
     ScenePlace const* const owner = place.owner();
     for (ScenePlace const* at = owner; at; at = at->parent)
       if (at->ofRole(RoleKind::odeSolver)) return true;
-    return owner && (owner->ofRole(RoleKind::mapping) || owner->find("ReadState"));
+    if (!owner) return false;
+    return owner->ofRole(RoleKind::mapping) ||
+           std::any_of(owner->items.begin(), owner->items.end(), [](auto const& item) {
+             return item->info && item->info->traits.movesState;
+           });
   }
   // the elements that bear a load: a link to none is meant, or a mistake that SOFA lets pass
   static bool choosesLoaded(FieldInfo const& field) {
@@ -377,7 +381,7 @@ class SceneValues {
           [&](auto& state) { state.position.push_back(std::decay_t<decltype(state)>::DataTypes::zero()); });
     }
   }
-  // those that a TransformEngine has moved from the topology of the node are its points all the same
+  // those that an engine has moved, from its input_position, are the points of the topology all the same
   void movedPoints(SceneItem& item) {
     SceneItem* from = &item;
     for (std::string_view name : {"position", "input_position"}) {
@@ -385,7 +389,7 @@ class SceneValues {
       const auto link = field ? from->links.find(field->name) : from->links.end();
       if (link == from->links.end()) return;
       from = follow_link(*from, link->second).item;
-      if (!from || !from->info || (name == "position" && from->info->name != "TransformEngine")) return;
+      if (!from || !from->info) return;
     }
     if (from == item.place->ofRole(RoleKind::topology))
       if (FieldInfo const* const same = item.info->field("points_of_topology")) same->read(item.address, "1");
@@ -406,11 +410,11 @@ class SceneValues {
 
   static bool isIdentity(ScenePlace const& place) {
     SceneItem const* const mapping = place.ofRole(RoleKind::mapping);
-    return mapping && mapping->info->name == "IdentityMapping";
+    return mapping && mapping->info->traits.samePoints;
   }
 
-  // A visual model without vertices has, below an IdentityMapping, those of the state above, otherwise those
-  // of the nearest topology; and its elements, where it has none of its own.
+  // A visual model without vertices has, below a mapping of the same points, those of the state above,
+  // otherwise those of the nearest topology; and its elements, where it has none of its own.
   void clothe(SceneItem& item, std::set<std::string_view> const& given) {
     if (given.count("position")) return;
     SceneItem* topology = nullptr;
@@ -461,12 +465,20 @@ class SceneValues {
     const XmlAttribute file = *named;
     const std::string ending = io::lower_case(
         std::string_view(file.value).substr(std::min(file.value.rfind('.'), file.value.size())));
-    const std::string_view loader = ending == ".obj"                       ? "MeshOBJLoader"
-                                    : ending == ".msh"                     ? "MeshGmshLoader"
-                                    : ending == ".stl"                     ? "MeshSTLLoader"
-                                    : ending == ".vtk" || ending == ".vtu" ? "MeshVTKLoader"
-                                                                           : "";
-    XmlElement& element = collector_.partOf(*item.element, loader);
+    ClassInfo const* const loader = collector_.loaderOf(ending);
+    if (!loader) {
+      item.failed = true;
+      return messages_.complain(item.element->place(file),
+                                text('<',
+                                     item.tag,
+                                     ">: ",
+                                     file.name,
+                                     ": ",
+                                     shown(file.value),
+                                     " has no ending that is known; meshes are ",
+                                     collector_.endings()));
+    }
+    XmlElement& element = collector_.partOf(*item.element, loader->name);
     element.attributes = {{"name", text(item.name, "_loader"), file.offset},
                           {"filename", file.value, file.offset}};
     attributes.erase(named);
@@ -478,17 +490,6 @@ class SceneValues {
       } else {
         ++a;
       }
-    if (loader.empty()) {
-      item.failed = true;
-      return messages_.complain(item.element->place(file),
-                                text('<',
-                                     item.tag,
-                                     ">: ",
-                                     file.name,
-                                     ": ",
-                                     shown(file.value),
-                                     " has no ending that is known; meshes are .obj .msh .vtk .vtu .stl"));
-    }
     auto made = collector_.makeItem(*item.place, element);
     if (!made) return void(item.failed = true);
     made->info = made->candidates[0];
