@@ -196,4 +196,8 @@ struct Collision {
   }
 };
 
+/// Whether there may be collision models below a scope.
+template <class S>
+inline constexpr bool collides = detail::primitive_kinds<S>() != 0;
+
 }  // namespace sinew
