@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSL-1.0
 # Headers that include all of some folders: `cmake -P cmake/umbrellas.cmake` writes the lines below "// All components of ...:", the
-# headers in these folders that have a component (its role, or that of its template) which does not say that it has to be included beside them (header);
-# and below "// All files of ...:" all. With -D CHECK=ON what is not up to date is an error.
+# headers in these folders that have a component (its role, or that of its template) and do not say that it has to be included beside
+# them (header); and below "// All files of ...:" all. With -D CHECK=ON what is not up to date is an error.
 get_filename_component(top ${CMAKE_CURRENT_LIST_DIR} DIRECTORY)
 set(include ${top}/include)
 set(stale)

@@ -7,7 +7,7 @@ using CudaSimulation = Simulation<RuntimeNode<CudaScenes>>;
 extern template detail::ComponentOperations const& AnyComponent<CudaScenes>::operations(int);
 extern template void Simulation<RuntimeNode<CudaScenes>>::propagate();
 template void Simulation<RuntimeNode<CudaScenes>>::init(double, long);
-template void Simulation<RuntimeNode<CudaScenes>>::initScene(RootScope const&, InitAgain const&);
+template void Initialisation<RuntimeScope<CudaScenes>>::run();
 template void Simulation<RuntimeNode<CudaScenes>>::reset();
 template void Simulation<RuntimeNode<CudaScenes>>::finish();
 template void Simulation<RuntimeNode<CudaScenes>>::updateVisual();

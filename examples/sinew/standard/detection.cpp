@@ -2,5 +2,5 @@
 #include <sinew/runtime/precompiled.hpp>
 
 namespace sinew {
-template void Simulation<RuntimeNode<Standard>>::detectContacts(RootScope const&, double) const;
+template void Step<RuntimeScope<Standard>>::detectContacts() const;
 }  // namespace sinew

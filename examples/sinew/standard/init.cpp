@@ -3,7 +3,6 @@
 
 namespace sinew {
 template void Simulation<RuntimeNode<Standard>>::init(double, long);
-template void Simulation<RuntimeNode<Standard>>::initScene(RootScope const&, InitAgain const&);
-template void Simulation<RuntimeNode<Standard>>::initSolvers(RuntimeScope<Standard> const&, InitAgain const&,
-                                                             std::vector<void const*>&);
+template void Initialisation<RuntimeScope<Standard>>::run();
+template void Initialisation<RuntimeScope<Standard>>::initSolversBelow(RuntimeScope<Standard> const&);
 }  // namespace sinew

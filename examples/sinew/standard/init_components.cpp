@@ -2,5 +2,5 @@
 #include <sinew/runtime/precompiled.hpp>
 
 namespace sinew {
-template void Simulation<RuntimeNode<Standard>>::initComponents(RootScope const&, InitAgain const&);
+template void Initialisation<RuntimeScope<Standard>>::initComponents();
 }  // namespace sinew

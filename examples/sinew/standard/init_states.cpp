@@ -2,6 +2,6 @@
 #include <sinew/runtime/precompiled.hpp>
 
 namespace sinew {
-template void Simulation<RuntimeNode<Standard>>::checkFields(RootScope const&, InitAgain const&);
-template void Simulation<RuntimeNode<Standard>>::initStates(RootScope const&, InitAgain const&);
+template void Initialisation<RuntimeScope<Standard>>::checkFields();
+template void Initialisation<RuntimeScope<Standard>>::initStates();
 }  // namespace sinew

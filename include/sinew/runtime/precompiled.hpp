@@ -59,14 +59,12 @@ extern template void MechanicalOperations<RuntimeScope<Standard>>::assemblePhase
 extern template void MechanicalOperations<RuntimeScope<Standard>>::fill(AnyMatrix&, MatrixFactors);
 
 extern template void Simulation<RuntimeNode<Standard>>::init(double, long);
-extern template void Simulation<RuntimeNode<Standard>>::initScene(RootScope const&, InitAgain const&);
-extern template void Simulation<RuntimeNode<Standard>>::checkFields(RootScope const&, InitAgain const&);
-extern template void Simulation<RuntimeNode<Standard>>::initStates(RootScope const&, InitAgain const&);
-extern template void Simulation<RuntimeNode<Standard>>::initComponents(RootScope const&, InitAgain const&);
-extern template void Simulation<RuntimeNode<Standard>>::initSolvers(RuntimeScope<Standard> const&,
-                                                                    InitAgain const&,
-                                                                    std::vector<void const*>&);
-extern template void Simulation<RuntimeNode<Standard>>::detectContacts(RootScope const&, double) const;
+extern template void Initialisation<RuntimeScope<Standard>>::run();
+extern template void Initialisation<RuntimeScope<Standard>>::checkFields();
+extern template void Initialisation<RuntimeScope<Standard>>::initStates();
+extern template void Initialisation<RuntimeScope<Standard>>::initComponents();
+extern template void Initialisation<RuntimeScope<Standard>>::initSolversBelow(RuntimeScope<Standard> const&);
+extern template void Step<RuntimeScope<Standard>>::detectContacts() const;
 extern template TopologyChange Simulation<RuntimeNode<Standard>>::removeElements(std::string_view,
                                                                                  ElementNumbers const&);
 extern template void Simulation<RuntimeNode<Standard>>::animate(double);

@@ -127,7 +127,7 @@ class ActedForces {
   // f(contact manager, which of its contacts this solver sees)
   template <class F>
   void withContacts(F&& f) {
-    operations_.withContacts([&](auto& manager, int solver) {
+    operations_.contacts().with([&](auto& manager, int solver) {
       f(manager, [solver](auto const& contact) { return contact.solver == solver; });
     });
   }

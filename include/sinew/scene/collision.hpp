@@ -188,4 +188,8 @@ struct Collision {
   }
 };
 
+/// Whether there may be collision models below a scope.
+template <class S>
+inline constexpr bool collides = !detail::shapes_below<S>().empty();
+
 }  // namespace sinew

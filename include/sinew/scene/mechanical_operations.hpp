@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <sinew/collision/collision_surface.hpp>
 #include <sinew/core/assembly.hpp>
 #include <sinew/scene/acted_forces.hpp>
 #include <sinew/scene/scope.hpp>
+#include <sinew/scene/solver_contacts.hpp>
 #include <sinew/state/vector_operations.hpp>
 
 #include <cmath>
@@ -45,6 +45,14 @@ struct MechanicalOperations {
       traverse(root, on<role::ForceField>([&](auto& c, auto const&) {
                  if constexpr (takes_parts<std::decay_t<decltype(c)>>) c.driver.split(workers().count());
                }));
+  }
+  /// f(linear solver) of the systems that an ODE solver has solved, if there are some.
+  template <class Ode, class F>
+  void withLinearSolverOf([[maybe_unused]] F&& f) {
+    if constexpr (Ode::implicit)
+      root.withLinearSolver(f);
+    else if constexpr (requires { Ode::solvesMass; })
+      if (!massIsDiagonal()) root.withLinearSolverIfAny(f);
   }
   /// The threads by which this solver works.
   auto workers() const { return root.workers(); }
@@ -320,60 +328,7 @@ struct MechanicalOperations {
     return MatrixSink<Phase, Matrix, Dofs>{matrix, first, second};
   }
 
-  // f(contact manager, number of this solver), if there are collision models below it
-  template <class F>
-  void withContacts(F&& f) {
-    root.withContacts([&](auto& manager) {
-      [[maybe_unused]] const auto span = root.span(Phase::contacts);
-      int solver = -1;
-      traverse(root,
-               on<role::CollisionModel>([&](auto& model, auto const&) { solver = model.surface.solver; }));
-      if (solver >= 0 && manager.acts()) f(manager, solver);
-    });
-  }
-  void addContactForces(DerivId f, CoordId x, DerivId v) {
-    withContacts([&](auto& manager, int solver) {
-      traverse(root, on<role::CollisionModel>([&](auto& model, auto const& scope) {
-                 auto& s = stateOf(model, scope);
-                 see_touched<DataTypesOf<decltype(s)>>(model.surface, s[x], s[v]);
-               }));
-      manager.addForces([=](auto const& contact) { return contact.solver == solver; });
-      scatterContactForces(f);
-    });
-  }
-  void addContactDForces(DerivId r, DerivId dx, MechanicalParams const& p) {
-    withContacts([&](auto& manager, int solver) {
-      traverse(root, on<role::CollisionModel>([&](auto& model, auto const& scope) {
-                 auto& s = stateOf(model, scope);
-                 see_touched<DataTypesOf<decltype(s)>>(model.surface, s[dx]);
-               }));
-      manager.addDForces(p.k, p.b, [=](auto const& contact) { return contact.solver == solver; });
-      scatterContactForces(r);
-    });
-  }
-  void scatterContactForces(DerivId f) {
-    traverse(root, on<role::CollisionModel>([&](auto& model, auto const& scope) {
-               auto& s = stateOf(model, scope);
-               if (model.simulated) add_forces<DataTypesOf<decltype(s)>>(s[f], model.surface);
-             }));
-  }
-  template <AssemblyPhase Phase, class Matrix>
-  void assembleContacts(Matrix& matrix, MechanicalParams const& p) {
-    if constexpr (Phase != AssemblyPhase::bind)
-      withContacts([&](auto& manager, int solver) {
-        manager.assembly.entries.clear();
-        traverse(root, on<role::CollisionModel>([&](auto& model, auto const& scope) {
-                   using D = typename std::decay_t<decltype(model)>::DataTypes;
-                   if (model.simulated)
-                     scope.template withDofs<D>([&](auto const& dofs) {
-                       manager.assembly.template addVertices<D>(model.surface, dofs);
-                     });
-                 }));
-        manager.template assemble<Phase>(
-            matrix, p.k, p.b, [=](auto const& contact) { return contact.solver == solver; });
-      });
-  }
-
+  SolverContacts<Root> contacts() const { return {root}; }
   template <AssemblyPhase Phase, class Matrix>
   void assemblePhase(Matrix& matrix, MatrixFactors factors);
 };
@@ -417,7 +372,7 @@ void MechanicalOperations<Root>::computeForce(DerivId f, CoordId x, DerivId v, d
           inParts(c, params, [&](MechanicalParams const& part) { c.addForce(part, s[f], s[x], s[v]); });
         }
       }));
-  addContactForces(f, x, v);
+  contacts().addForces(f, x, v);
   accumulate(f, [f](auto& mapping, auto& child, auto&) {
     if constexpr (HasGeometricStiffness<std::decay_t<decltype(mapping)>>) mapping.updateK(child[f]);
   });
@@ -476,7 +431,7 @@ void MechanicalOperations<Root>::addMBKdx(DerivId r, DerivId dx, MatrixFactors f
                }
              }
            }));
-  if (p.k != 0 || p.b != 0) addContactDForces(r, dx, p);
+  if (p.k != 0 || p.b != 0) contacts().addDForces(r, dx, p);
   accumulate(r, [&](auto& mapping, auto&, auto& parent) {
     if constexpr (HasGeometricStiffness<std::decay_t<decltype(mapping)>>)
       if (p.k != 0) mapping.addKx(parent[r], parent[dx], p.k);
@@ -563,7 +518,7 @@ void MechanicalOperations<Root>::assemblePhase(Matrix& matrix, MatrixFactors fac
             });
           });
       }));
-  assembleContacts<Phase>(matrix, p);
+  contacts().template assemble<Phase>(matrix, p);
 }
 
 }  // namespace sinew

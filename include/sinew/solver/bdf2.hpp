@@ -135,15 +135,11 @@ struct BDFOdeSolver {
       operations.addMBKdx(b.id, change.id, {.m = 1});
       operations.projectResponse(b.id);
     };
-    sinew::newton(*this,
-                  operations,
-                  {.m = 1 + bh * rM, .b = -bh, .k = -bh * (bh + rK)},
-                  false,
-                  dv,
-                  b,
-                  way,
-                  evaluate,
-                  [&](double s) { vel.peq(dv, s); });
+    sinew::newton(
+        *this,
+        operations,
+        {.factors = {.m = 1 + bh * rM, .b = -bh, .k = -bh * (bh + rK)}, .dx = dv, .b = b, .way = way},
+        NewtonCallbacks{evaluate, [&](double s) { vel.peq(dv, s); }});
     if (!newton_goes_on(*this)) operations.acted.add(dv.id, {.b = part, .k = part * bh});
     damp();
     if (operations.acted.kept() && !trapezoid) {

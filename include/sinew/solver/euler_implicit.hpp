@@ -96,7 +96,10 @@ struct EulerImplicitSolver {
     };
     MatrixFactors factors{.m = 1 + t * h * rM, .b = -t * h, .k = -t * h * (t * h + rK)};
     if (firstOrder) factors = {.m = 1, .k = -t * h};
-    sinew::newton(*this, operations, factors, false, dv, b, way, evaluate, [](double) {});
+    sinew::newton(*this,
+                  operations,
+                  {.factors = factors, .dx = dv, .b = b, .way = way},
+                  NewtonCallbacks{evaluate, [](double) {}});
     // what acted is f at (xt, vt), of which the first iteration alone knows the linear part
     operations.acted.add(force.id);
     if (firstOrder) {

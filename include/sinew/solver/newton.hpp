@@ -104,86 +104,156 @@ constexpr auto newton_fields(std::string_view residual, std::string_view correct
             range::open(0, 1)));
 }
 
-/// Whether the residual is looked at again after the first iteration of a solver in time.
+/// The values of those fields: when the method stops, and which lengths of a correction it tries.
+struct NewtonSettings {
+  int maxNbIterationsNewton;
+  double relativeSuccessiveStoppingThreshold, relativeInitialStoppingThreshold,
+      absoluteResidualStoppingThreshold, relativeEstimateDifferenceThreshold,
+      absoluteEstimateDifferenceThreshold;
+  bool shouldDivergeWhenResidualIsGrowing;
+  int maxNbIterationsLineSearch;
+  double lineSearchCoefficient;
+};
 template <class Solver>
-bool newton_goes_on(Solver const& solver) {
-  return solver.maxNbIterationsNewton > 1 || solver.maxNbIterationsLineSearch > 1;
+NewtonSettings newton_settings(Solver const& s) {
+  return {s.maxNbIterationsNewton,
+          s.relativeSuccessiveStoppingThreshold,
+          s.relativeInitialStoppingThreshold,
+          s.absoluteResidualStoppingThreshold,
+          s.relativeEstimateDifferenceThreshold,
+          s.absoluteEstimateDifferenceThreshold,
+          s.shouldDivergeWhenResidualIsGrowing,
+          s.maxNbIterationsLineSearch,
+          s.lineSearchCoefficient};
 }
 
-/// Solves r = 0 by Newton's method: A dx = r, where A = -dr/dx has the given factors, then advance(s) moves
-/// the unknown by s dx. The length s is 1, or with a line search the first of 1, q, q^2... (q =
-/// lineSearchCoefficient, down to the precision of a double) that makes |r| smaller than it was, and 1 again
-/// where none does. `evaluate()` puts r at the unknown into b; `way` is made the sum of the corrections. A
-/// threshold of 0 or less is not looked at. A search for an equilibrium may find it at its start, and looks
-/// at where it ends in any case.
-template <class Solver, class Operations, class Evaluate, class Advance>
-void newton(Solver& solver, Operations& operations, MatrixFactors factors, bool equilibrium,
-            MultiVecDeriv<Operations>& dx, MultiVecDeriv<Operations>& b, MultiVecDeriv<Operations>& way,
-            Evaluate&& evaluate, Advance&& advance) {
-  constexpr double lost = std::numeric_limits<double>::epsilon();
-  auto& [residuals, corrections, status] = solver.newton;
-  auto below = [](double value, double threshold) {
+/// Whether the residual is looked at again after the first iteration of a solver in time.
+template <class Settings>
+bool newton_goes_on(Settings const& settings) {
+  return settings.maxNbIterationsNewton > 1 || settings.maxNbIterationsLineSearch > 1;
+}
+
+/// The linear system A dx = b of each iteration, where A = -dr/dx has the given factors and b is r; `way` is
+/// made the sum of the corrections. A search for an equilibrium may find it at its start, and looks at where
+/// it ends in any case.
+template <class Operations>
+struct NewtonSystem {
+  MatrixFactors factors;
+  MultiVecDeriv<Operations>&dx, &b, &way;
+  bool equilibrium = false;
+};
+
+/// evaluate() puts r at the unknown into b; advance(s) moves the unknown by s dx.
+template <class Evaluate, class Advance>
+struct NewtonCallbacks {
+  Evaluate evaluate;
+  Advance advance;
+};
+template <class Evaluate, class Advance>
+NewtonCallbacks(Evaluate, Advance) -> NewtonCallbacks<Evaluate, Advance>;
+
+namespace detail {
+
+template <class Operations, class Callbacks>
+struct NewtonSearch {
+  NewtonSettings settings;
+  NewtonReport& report;
+  Operations& operations;
+  NewtonSystem<Operations> const& system;
+  Callbacks& callbacks;
+
+  void run() {
+    report.residuals.clear();
+    report.corrections.clear();
+    report.status = NewtonStatus::outOfIterations;
+    if (!system.equilibrium && !newton_goes_on(settings)) return iterateOnce();
+    system.way.clear();
+    report.residuals.push_back(residual());
+    if (system.equilibrium && below(report.residuals[0], settings.absoluteResidualStoppingThreshold)) {
+      report.status = NewtonStatus::alreadyInEquilibrium;
+      return;
+    }
+    while (report.status == NewtonStatus::outOfIterations &&
+           int(report.corrections.size()) < settings.maxNbIterationsNewton)
+      iterate();
+  }
+
+ private:
+  static bool below(double value, double threshold) {
     return value == 0 || (threshold > 0 && value <= threshold);
-  };
-  auto residual = [&] {
-    evaluate();
-    return b.norm();
-  };
-  auto move = [&](double s) {
-    way.peq(dx, s);
-    advance(s);
-  };
-  auto solve = [&] {
-    operations.root.withLinearSolver([&](auto& linear) { linear.solve(operations, factors, dx, b); });
-  };
-  residuals.clear();
-  corrections.clear();
-  status = NewtonStatus::outOfIterations;
-  if (!equilibrium && !newton_goes_on(solver)) {
-    evaluate();
+  }
+
+  // without a look at residuals
+  void iterateOnce() {
+    callbacks.evaluate();
     solve();
-    way.eq(dx);
-    advance(1);
-    return;
+    system.way.eq(system.dx);
+    callbacks.advance(1);
   }
-  way.clear();
-  residuals.push_back(residual());
-  if (equilibrium && below(residuals[0], solver.absoluteResidualStoppingThreshold)) {
-    status = NewtonStatus::alreadyInEquilibrium;
-    return;
-  }
-  while (status == NewtonStatus::outOfIterations && int(corrections.size()) < solver.maxNbIterationsNewton) {
+  void iterate() {
     solve();
     move(1);
-    const double last = residuals.back();
-    double size = residual(), s = 1;
-    for (int i = 1; i < solver.maxNbIterationsLineSearch && !(size < last) && s > lost; ++i) {
-      const double shorter = s * solver.lineSearchCoefficient;
-      move(shorter - s);
-      s = shorter;
-      size = residual();
-    }
-    if (s != 1 && !(size < last)) {
-      move(1 - s);
-      s = 1;
-      size = residual();
-    }
-    const double correction = s * dx.norm();
-    residuals.push_back(size);
-    corrections.push_back(correction);
-
-    if (!std::isfinite(size) || !std::isfinite(correction))
-      status = NewtonStatus::notFinite;
-    else if (solver.shouldDivergeWhenResidualIsGrowing && size > last)
-      status = NewtonStatus::residualGrew;
-    else if (below(size, solver.absoluteResidualStoppingThreshold) ||
-             below(size, solver.relativeInitialStoppingThreshold * residuals[0]) ||
-             below(size, solver.relativeSuccessiveStoppingThreshold * last))
-      status = NewtonStatus::residualSmall;
-    else if (below(correction, solver.absoluteEstimateDifferenceThreshold) ||
-             below(correction, solver.relativeEstimateDifferenceThreshold * way.norm()))
-      status = NewtonStatus::correctionSmall;
+    const double last = report.residuals.back();
+    double size = residual();
+    const double correction = searchLine(last, size) * system.dx.norm();
+    report.residuals.push_back(size);
+    report.corrections.push_back(correction);
+    report.status = judge(size, correction, last);
   }
+
+  void solve() {
+    operations.root.withLinearSolver(
+        [&](auto& linear) { linear.solve(operations, system.factors, system.dx, system.b); });
+  }
+  void move(double s) {
+    system.way.peq(system.dx, s);
+    callbacks.advance(s);
+  }
+  double residual() {
+    callbacks.evaluate();
+    return system.b.norm();
+  }
+
+  // the length of the correction, of which the whole is taken already; `size` is made |r| there
+  double searchLine(double last, double& size) {
+    constexpr double lost = std::numeric_limits<double>::epsilon();
+    double s = 1;
+    auto take = [&](double length) {
+      move(length - s);
+      s = length;
+      size = residual();
+    };
+    for (int i = 1; i < settings.maxNbIterationsLineSearch && !(size < last) && s > lost; ++i)
+      take(s * settings.lineSearchCoefficient);
+    if (s != 1 && !(size < last)) take(1);
+    return s;
+  }
+
+  NewtonStatus judge(double size, double correction, double last) const {
+    if (!std::isfinite(size) || !std::isfinite(correction)) return NewtonStatus::notFinite;
+    if (settings.shouldDivergeWhenResidualIsGrowing && size > last) return NewtonStatus::residualGrew;
+    if (below(size, settings.absoluteResidualStoppingThreshold) ||
+        below(size, settings.relativeInitialStoppingThreshold * report.residuals[0]) ||
+        below(size, settings.relativeSuccessiveStoppingThreshold * last))
+      return NewtonStatus::residualSmall;
+    if (below(correction, settings.absoluteEstimateDifferenceThreshold) ||
+        below(correction, settings.relativeEstimateDifferenceThreshold * system.way.norm()))
+      return NewtonStatus::correctionSmall;
+    return NewtonStatus::outOfIterations;
+  }
+};
+
+}  // namespace detail
+
+/// Solves r = 0 by Newton's method: A dx = r, then the unknown moves by s dx. The length s is 1, or with a
+/// line search the first of 1, q, q^2... (q = lineSearchCoefficient, down to the precision of a double) that
+/// makes |r| smaller than it was, and 1 again where none does. A threshold of 0 or less is not looked at.
+template <class Solver, class Operations, class Evaluate, class Advance>
+void newton(Solver& solver, Operations& operations, NewtonSystem<Operations> const& system,
+            NewtonCallbacks<Evaluate, Advance> callbacks) {
+  detail::NewtonSearch<Operations, NewtonCallbacks<Evaluate, Advance>>{
+      newton_settings(solver), solver.newton, operations, system, callbacks}
+      .run();
 }
 
 }  // namespace sinew

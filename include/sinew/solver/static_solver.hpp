@@ -47,8 +47,10 @@ struct StaticSolver {
     };
     vel.clear();
     operations.acted.balanceWithoutInertia();
-    sinew::newton(
-        *this, operations, {.k = -1}, true, dx, force, way, evaluate, [&](double s) { pos.peq(dx, s); });
+    sinew::newton(*this,
+                  operations,
+                  {.factors = {.k = -1}, .dx = dx, .b = force, .way = way, .equilibrium = true},
+                  NewtonCallbacks{evaluate, [&](double s) { pos.peq(dx, s); }});
   }
 };
 

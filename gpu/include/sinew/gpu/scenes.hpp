@@ -16,7 +16,7 @@ using CudaSimulation = Simulation<RuntimeNode<CudaScenes>>;
 extern template detail::ComponentOperations const& AnyComponent<CudaScenes>::operations(int);
 
 extern template void Simulation<RuntimeNode<CudaScenes>>::init(double, long);
-extern template void Simulation<RuntimeNode<CudaScenes>>::initScene(RootScope const&, InitAgain const&);
+extern template void Initialisation<RuntimeScope<CudaScenes>>::run();
 extern template void Simulation<RuntimeNode<CudaScenes>>::animate(double);
 extern template void Simulation<RuntimeNode<CudaScenes>>::reset();
 extern template void Simulation<RuntimeNode<CudaScenes>>::finish();

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/scene/carving.hpp>
+#include <sinew/scene/collision.hpp>
+#include <sinew/scene/loose_interactions.hpp>
+#include <sinew/scene/mechanical_operations.hpp>
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sinew {
+
+/// The init of a scene, or that of what has changed in one. Fields are checked, states sized from the root
+/// on, then components initialised, and solvers last. Throws Error, naming node, component and field.
+template <class RootScope>
+class Initialisation {
+ public:
+  explicit Initialisation(RootScope const& root, InitAgain again = {})
+      : root_(root), again_(std::move(again)) {}
+
+  void run();
+  /// The solvers alone: of a scene whose elements have come back.
+  void initSolvers() {
+    served_.clear();
+    initSolversBelow(root_);
+  }
+
+ private:
+  RootScope const& root_;
+  const InitAgain again_;
+  std::vector<void const*> served_{};  // linear solvers that have a matrix
+
+  void checkFields();
+  // topologies are made first; then states, parents before children
+  void initStates();
+  template <class S>
+  void initStatesBelow(S const& scope);
+  // what acts on them
+  void initComponents();
+  template <class S>
+  void initSolversBelow(S const& scope);
+
+  template <class C, class S>
+  static void initState(C& c, S const& scope) {
+    if constexpr (HasRole<C, role::Mapping>) {
+      initMappedState(c, scope);
+    } else if (!scope.mapped()) {
+      if constexpr (HasRole<C, role::State>) c.place(scope.path(), scope.topology().positions);
+      c.init(scope.path());
+    }
+  }
+  // a mapping sizes and places the state of its node
+  template <class C, class S>
+  static void initMappedState(C& c, S const& scope) {
+    scope.withChild(c, [&](auto& child) {
+      if constexpr (HasRole<std::decay_t<decltype(child)>, role::VisualModel>) {
+        child.init(scope.path());
+        initMapping(c, scope, child.position, child.position);
+      } else {
+        child.place(scope.path(), scope.topology().positions);
+        child.takeGiven();
+        initMapping(c, scope, child.position, child.position);
+        child.restPosition.assign(child.position.size(), C::Out::zero());
+      }
+    });
+    scope.withMapped(c, [&](auto& mapping, auto& child, auto& parent) {
+      if constexpr (HasRole<std::decay_t<decltype(child)>, role::State>)
+        mapping.apply(child.restPosition, parent.restPosition);
+      mapping.apply(child.position, parent.position);
+    });
+    scope.withChild(c, [&](auto& child) {
+      if constexpr (HasRole<std::decay_t<decltype(child)>, role::State>) child.init(scope.path());
+    });
+  }
+  template <class C, class S, class VecCoord>
+  static void initMapping(C& c, S const& scope, VecCoord const& rest, VecCoord& positions) {
+    using In = typename C::In;
+    const InitContext<typename C::Out> own{scope.path(), rest, scope.topology()};
+    if constexpr (HasParents<C>) {
+      std::vector<InitContext<In>> parents;
+      scope.forEachParent(
+          c, [&](std::size_t, auto const& parent) { parents.push_back(parent.template context<In>()); });
+      c.init(parents, own, positions);
+    } else {
+      withContext<C, In>(scope.parentScope(), [&](auto const& parent) { c.init(parent, own, positions); });
+    }
+  }
+
+  template <class C, class S>
+  void initComponent(C& c, S const& scope) {
+    if constexpr (HasRole<C, role::Execution>) {
+      c.init();
+    } else if constexpr (HasRole<C, role::CollisionModel>) {
+      c.init(scope.template context<typename C::DataTypes>());
+    } else if constexpr (JoinsTwo<C>) {
+      using D = typename C::DataTypes;
+      scope.withEnds(c, [&](auto const& a, auto const& b) {
+        withContext<C, D>(a, [&](auto const& first) {
+          withContext<C, D>(b, [&](auto const& second) { c.init(first, second); });
+        });
+      });
+    } else if constexpr (HasRole<C, role::ForceField> || HasRole<C, role::Mass> ||
+                         HasRole<C, role::ProjectiveConstraint> || WatchesState<C>) {
+      withContext<C, typename C::DataTypes>(scope, [&](auto const& context) { c.init(context); });
+    }
+    if constexpr (requires { c.warning(); }) warn(c, scope);
+  }
+  // What goes on, but not as it may have been meant. In a typed scene nobody hears of it, and where elements
+  // have gone it is no mistake.
+  template <class C, class S>
+  void warn(C const& c, S const& scope) const {
+    const std::string said(c.warning());
+    if (said.empty()) return;
+    if constexpr (requires { scope.warn(&c, std::string_view()); })
+      scope.warn(&c, said);
+    else if (!again_)
+      throw Error(text(scope.path(), ": ", component_name<C>()), said);
+  }
+
+  // f(what a component of class C is given at init of the state of a scope)
+  template <class C, class D, class S, class F>
+  static void withContext(S const& scope, F&& f) {
+    auto context = scope.template context<D>();
+    std::vector<double> masses;
+    if constexpr (needs_masses<C>) masses = massesOf(scope, context);
+    context.masses = masses;
+    f(context);
+  }
+  // of the points of a state: the sums of the rows of M; empty where there is no mass
+  template <class S, class D>
+  static std::vector<double> massesOf(S const& scope, InitContext<D> const& context) {
+    std::vector<double> masses;
+    scope.stateScope().withMass([&](auto& mass) {
+      if constexpr (std::is_same_v<typename std::decay_t<decltype(mass)>::DataTypes, D>) {
+        mass.init(context);
+        typename D::VecDeriv along(context.rest.size(), D::Deriv::Unit(0)),
+            sums(along.size(), D::Deriv::Zero());
+        mass.addMDx(sums, context.rest, along, 1.0);
+        for (auto const& sum : sums) masses.push_back(double(sum[0]));
+      }
+    });
+    return masses;
+  }
+
+  template <class Ode, class S>
+  void initSolver(Ode& ode, S const& scope) {
+    MechanicalOperations<S> operations(scope);
+    operations.reserve(Ode::auxiliary);
+    operations.template withLinearSolverOf<Ode>([&](auto& linear) {
+      using Linear = std::decay_t<decltype(linear)>;
+      if constexpr (needs_pattern<Linear>) serveOne<Ode>(linear, scope);
+      operations.reserve(Ode::auxiliary + Linear::auxiliary);
+      linear.init(operations);
+    });
+    if constexpr (requires { ode.init(operations); }) ode.init(operations);
+    operations.split();
+    // what a solver remembers of the last step is not that of a scene that has changed
+    if constexpr (requires { ode.lastEnd; })
+      if (again_) ode.lastEnd = -1;
+  }
+  template <class Ode, class Linear, class S>
+  void serveOne(Linear const& linear, S const& scope) {
+    if (std::find(served_.begin(), served_.end(), &linear) != served_.end())
+      throw Error(text(scope.path(), ": ", component_name<Ode>()),
+                  text("the ",
+                       component_name<Linear>(),
+                       " above is that of another ODE solver already, and has one matrix; give each an "
+                       "assembled linear solver of its own, or both a CGLinearSolver without matrix"));
+    served_.push_back(&linear);
+  }
+};
+
+// Outside the class, so that a program may have them instantiated in one place: runtime/precompiled.hpp.
+
+template <class RootScope>
+void Initialisation<RootScope>::run() {
+  root_.check();
+  root_.raise();
+  checkFields();
+  initStates();
+  initComponents();
+  Collision<RootScope>{root_}.init(bool(again_));
+  if constexpr (holds<typename RootScope::NodeType, role::Carving>())
+    if (again_.touched.empty()) Carving<RootScope>{root_}.check();
+  initSolvers();
+  root_.raise();
+  LooseInteractions<RootScope>{root_}.init();
+  root_.settled();
+}
+
+template <class RootScope>
+void Initialisation<RootScope>::checkFields() {
+  if constexpr (requires { root_.checkFields(again_); })
+    root_.checkFields(again_);
+  else
+    traverse(root_, on<AnyRole>([this](auto& c, auto const& s) {
+               s.ifNew(c, again_, [&] { check_fields(c, s.path()); });
+             }));
+  root_.raise();
+}
+
+template <class RootScope>
+void Initialisation<RootScope>::initStates() {
+  traverse(root_, on<role::Topology>([this](auto& c, auto const& s) {
+             if constexpr (requires { c.generate(s.path()); })
+               s.ifNew(c, again_, [&] { c.generate(s.path()); });
+           }));
+  initStatesBelow(root_);
+}
+
+// Whoever reads through a topology comes after its check: mappings of children, and what acts on the states.
+template <class RootScope>
+template <class S>
+void Initialisation<RootScope>::initStatesBelow(S const& scope) {
+  auto states = on<role::Mapping, role::State, role::VisualModel>([&](auto& c) {
+    scope.ifNew(c, again_, [&] { initState(c, scope); });
+    scope.raise();  // what follows a wrong state has nothing to stand on
+  });
+  scope.forEachComponent(states);
+  auto topologies = on<role::Topology>([&](auto& c) {
+    scope.ifNew(c, again_, [&] { scope.withContext([&](auto const& context) { c.init(context); }); });
+  });
+  scope.forEachComponent(topologies);
+  scope.raise();
+  scope.template forEachChild<role::Topology, role::Mapping, role::State, role::VisualModel>(
+      [&](auto const& child) { initStatesBelow(child); });
+}
+
+template <class RootScope>
+void Initialisation<RootScope>::initComponents() {
+  traverse(root_,
+           on<AnyRole>([this](auto& c, auto const& s) { s.ifNew(c, again_, [&] { initComponent(c, s); }); }));
+  root_.raise();
+}
+
+template <class RootScope>
+template <class S>
+void Initialisation<RootScope>::initSolversBelow(S const& scope) {
+  bool solved = false;
+  auto visit = on<role::OdeSolver>([&](auto& ode) {
+    solved = true;
+    scope.located(ode, [&] { initSolver(ode, scope); });
+  });
+  if (scope.integrates()) scope.forEachComponent(visit);
+  if constexpr (!S::template always<role::OdeSolver>)
+    if (!solved)
+      scope.template forEachChild<role::OdeSolver>([&](auto const& child) { initSolversBelow(child); });
+}
+
+}  // namespace sinew

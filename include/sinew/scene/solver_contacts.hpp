@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/collision/collision_surface.hpp>
+#include <sinew/core/assembly.hpp>
+#include <sinew/core/vec_id.hpp>
+#include <sinew/scene/scope.hpp>
+
+#include <type_traits>
+
+namespace sinew {
+
+/// The contacts of one ODE solver, whose scope is `root`, as forces on the states below it.
+template <class Root>
+struct SolverContacts {
+  Root const& root;
+
+  /// f(contact manager, number of this solver), if there are collision models below it.
+  template <class F>
+  void with(F&& f) const {
+    root.withContacts([&](auto& manager) {
+      [[maybe_unused]] const auto span = root.span(Phase::contacts);
+      int solver = -1;
+      traverse(root,
+               on<role::CollisionModel>([&](auto& model, auto const&) { solver = model.surface.solver; }));
+      if (solver >= 0 && manager.acts()) f(manager, solver);
+    });
+  }
+
+  /// f += forces at (x, v)
+  void addForces(DerivId f, CoordId x, DerivId v) const {
+    with([&](auto& manager, int solver) {
+      forEachModel([&]<class D>(auto& model, auto& s, std::type_identity<D>) {
+        see_touched<D>(model.surface, s[x], s[v]);
+      });
+      manager.addForces([=](auto const& contact) { return contact.solver == solver; });
+      scatter(f);
+    });
+  }
+  /// r += (b B + k K) dx
+  void addDForces(DerivId r, DerivId dx, MechanicalParams const& p) const {
+    with([&](auto& manager, int solver) {
+      forEachModel([&]<class D>(auto& model, auto& s, std::type_identity<D>) {
+        see_touched<D>(model.surface, s[dx]);
+      });
+      manager.addDForces(p.k, p.b, [=](auto const& contact) { return contact.solver == solver; });
+      scatter(r);
+    });
+  }
+  /// matrix += b B + k K, or its pattern
+  template <AssemblyPhase Phase, class Matrix>
+  void assemble(Matrix& matrix, MechanicalParams const& p) const {
+    if constexpr (Phase != AssemblyPhase::bind)
+      with([&](auto& manager, int solver) {
+        manager.assembly.entries.clear();
+        traverse(root, on<role::CollisionModel>([&](auto& model, auto const& scope) {
+                   using D = typename std::decay_t<decltype(model)>::DataTypes;
+                   if (model.simulated)
+                     scope.template withDofs<D>([&](auto const& dofs) {
+                       manager.assembly.template addVertices<D>(model.surface, dofs);
+                     });
+                 }));
+        manager.template assemble<Phase>(
+            matrix, p.k, p.b, [=](auto const& contact) { return contact.solver == solver; });
+      });
+  }
+
+ private:
+  template <class F>
+  void forEachModel(F&& f) const {
+    traverse(root, on<role::CollisionModel>([&](auto& model, auto const& scope) {
+               using D = typename std::decay_t<decltype(model)>::DataTypes;
+               f(model, scope.template state<D>(), std::type_identity<D>{});
+             }));
+  }
+  void scatter(DerivId f) const {
+    forEachModel([&]<class D>(auto& model, auto& s, std::type_identity<D>) {
+      if (model.simulated) add_forces<D>(s[f], model.surface);
+    });
+  }
+};
+
+}  // namespace sinew

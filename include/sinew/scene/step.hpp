@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/scene/carving.hpp>
+#include <sinew/scene/collision.hpp>
+#include <sinew/scene/loose_interactions.hpp>
+#include <sinew/scene/mechanical_operations.hpp>
+
+#include <string>
+#include <vector>
+
+namespace sinew {
+
+/// The stages of one step of a scene, in the order in which Simulation::animate takes them.
+template <class RootScope>
+struct Step {
+  RootScope const& root;
+  long number;      // of the step, from 1
+  double time, dt;  // at its start, and its length [s]
+
+  /// What acts before a step: all may look at the scene, then they may move it.
+  void begin() const {
+    [[maybe_unused]] const auto span = root.span(Phase::beforeStep);
+    const StepAhead ahead{number, time, time + dt, dt, false};
+    forEachAhead(root, ahead, [](auto& c, auto& state, StepAhead const& step) {
+      if constexpr (requires { c.beforeStep(step, state); }) c.beforeStep(step, state);
+    });
+    bool moved = false;
+    forEachAhead(root, ahead, [&](auto& c, auto& state, StepAhead const& step) {
+      if constexpr (requires { c.beginStep(step, state); }) moved = c.beginStep(step, state) || moved;
+    });
+    if (moved) MechanicalOperations(root, time, dt).propagate(vec_id::position, vec_id::velocity);
+  }
+
+  /// Finds the contacts of the step; a matrix in which other points are joined is formed anew.
+  void detectContacts() const;
+
+  /// Removes what tools touch, by remove(path, elements); says whether something went.
+  template <class Remove>
+  bool carve(Remove&& remove) const {
+    [[maybe_unused]] const auto span = root.span(Phase::carving);
+    const std::vector<Carved> all = Carving<RootScope>{root}.touched();
+    long removed = 0;
+    for (Carved const& c : all) {
+      if (c.count == 0) continue;
+      try {
+        remove(c.path, c.elements);
+      } catch (Error const& error) {
+        throw Error(text("carving at step ", number - 1, " (time ", time, " s)"),
+                    text(c.count, " elements of '", c.path, "' cannot be removed: ", error.what()));
+      }
+      removed += long(c.count);
+    }
+    if (removed > 0)
+      traverse(root, on<role::Carving>([&](auto& carving, auto const&) {
+                 if (carving.active) carving.removed += removed;
+               }));
+    return removed > 0;
+  }
+
+  /// The external forces of interactions between solvers.
+  void computeLoose() const { LooseInteractions<RootScope>{root}.compute({.time = time, .dt = dt}); }
+
+  /// Each ODE solver integrates its subtree and propagates.
+  void integrate(bool keepsForces) const { integrate(root, keepsForces); }
+
+  /// Checks states, and calls what watches them. The time is that of the end of the step.
+  void end() const {
+    [[maybe_unused]] const auto span = root.span(Phase::endStep);
+    const StepInfo info{number, time + dt, dt};
+    traverse(root, on<role::State, role::StepCallback>([&](auto& c, auto const& s) { end(c, s, info); }));
+  }
+
+ private:
+  // f(component, state, step) for what acts before a step
+  template <class S, class F>
+  static void forEachAhead(S const& scope, StepAhead ahead, F&& f) {
+    if (scope.template has<role::OdeSolver>()) ahead.solved = true;
+    auto visit = on<BeforeStep>(
+        [&](auto& c) { f(c, scope.template state<typename std::decay_t<decltype(c)>::DataTypes>(), ahead); });
+    scope.forEachComponent(visit);
+    scope.template forEachChild<BeforeStep>([&](auto const& child) { forEachAhead(child, ahead, f); });
+  }
+
+  // where a node has no solver, its children are looked at
+  template <class S>
+  void integrate(S const& scope, bool keepsForces) const {
+    bool solved = false;
+    auto visit = on<role::OdeSolver>([&](auto& ode) {
+      solve(ode, scope, keepsForces);
+      solved = true;
+    });
+    if (scope.integrates()) scope.forEachComponent(visit);
+    if constexpr (!S::template always<role::OdeSolver>)
+      if (!solved)
+        scope.template forEachChild<role::OdeSolver>(
+            [&](auto const& child) { integrate(child, keepsForces); });
+  }
+  template <class Ode, class S>
+  void solve(Ode& ode, S const& scope, bool keepsForces) const {
+    MechanicalOperations<S> operations(scope, time, dt);
+    if constexpr (!stands_beside<Ode>) operations.acted.begin(keepsForces);
+    ode.solve(operations, dt);
+    operations.projectPositionAndVelocity(time + dt, vec_id::position, vec_id::velocity);
+    operations.propagate(vec_id::position, vec_id::velocity);
+    if constexpr (!stands_beside<Ode>)
+      if (!operations.acted.end(vec_id::force))
+        throw Error(
+            scope.path(),
+            text(component_name<Ode>(),
+                 ": forces cannot be kept, since this solver does not say which acted over its step; let it "
+                 "call operations.acted.add(), or leave out Simulation::keepForces"));
+  }
+
+  template <class C, class S>
+  static void end(C& c, S const& scope, StepInfo const& info) {
+    if constexpr (HasRole<C, role::State>) {
+      if (!scope.mapped()) checkFinite(c, scope, info);
+    } else if constexpr (WatchesState<C>) {
+      using D = typename C::DataTypes;
+      auto& state = scope.template state<D>();
+      c.endStep(info, state, [&] {
+        double energy = 0;
+        scope.stateScope().withMass([&](auto& mass) {
+          if constexpr (std::is_same_v<typename std::decay_t<decltype(mass)>::DataTypes, D>)
+            energy = mass.kineticEnergy(state.position, state.velocity);
+        });
+        return energy;
+      });
+    } else if constexpr (std::is_invocable_v<decltype(c.call)&, StepInfo const&, decltype(scope.node)>) {
+      c.call(info, scope.node);
+    } else {
+      c.call(info);
+    }
+  }
+  template <class C, class S>
+  static void checkFinite(C const& state, S const& scope, StepInfo const& info) {
+    const int x = VectorOperations<typename C::DataTypes>::findNotFinite(state.position);
+    if (x < 0) return;
+    throw Error(text("step ", info.step, " (time ", info.time, " s), ", scope.path()),
+                text(component_name<C>(),
+                     ": the position of point ",
+                     x,
+                     " is not a finite number: the simulation diverged; take a smaller dt, an implicit "
+                     "solver, more damping "
+                     "or a softer material"));
+  }
+};
+
+// Outside the class, so that a program may have it instantiated in one place: runtime/precompiled.hpp.
+template <class RootScope>
+void Step<RootScope>::detectContacts() const {
+  [[maybe_unused]] const auto span = root.span(Phase::collision);
+  Collision<RootScope>{root}.detect(dt, [&](auto const& solved, bool) {
+    auto visit = on<role::OdeSolver>([&](auto& ode) {
+      MechanicalOperations<std::decay_t<decltype(solved)>> operations(solved, time, dt);
+      operations.template withLinearSolverOf<std::decay_t<decltype(ode)>>([&](auto& linear) {
+        if constexpr (needs_pattern<std::decay_t<decltype(linear)>>) linear.init(operations);
+      });
+    });
+    solved.forEachComponent(visit);
+  });
+}
+
+}  // namespace sinew
