@@ -36,6 +36,24 @@ constexpr auto all_component_operations(TypeList<Cs...>) {
   return std::array<ComponentOperations, sizeof...(Cs)>{component_operations<Cs>()...};
 }
 
+/// What the classes of a list have to have, and one of them lacks.
+enum class Lack { nothing, role, className, fields };
+template <class C>
+constexpr Lack lack_of() {
+  if constexpr (!HasKnownRole<C>)
+    return Lack::role;
+  else if constexpr (!HasClassName<C>)
+    return Lack::className;
+  else
+    return ListsOwnFields<C> ? Lack::nothing : Lack::fields;
+}
+template <class... Cs>
+constexpr Lack first_lack(TypeList<Cs...>) {
+  for (const Lack lack : {lack_of<Cs>()..., Lack::nothing})
+    if (lack != Lack::nothing) return lack;
+  return Lack::nothing;
+}
+
 // the class at a place of a list, by the base that has its number
 template <std::size_t I, class C>
 struct Placed {};

@@ -40,6 +40,12 @@ class Simulation {
   /// Advances the scene by dt seconds. Throws Error where dt is not a positive number, and where a state is
   /// no longer finite after the step.
   void animate(double dt);
+  template <bool Asked = false>
+  void animate() {
+    static_assert(Asked,
+                  "Sinew: animate(dt) takes the time step in seconds; write sim.animate(0.01), or what your "
+                  "scene needs.");
+  }
 
   /// Back to the scene as it was after init, at time 0, so that the next steps have the bits of the first
   /// ones: positions and velocities (those that states were given for a reset), springs that were cut, what
@@ -80,6 +86,12 @@ class Simulation {
       if constexpr (Found::isVisual && proved) updateVisual();
       return detail::node_at<Path>(root_);
     }
+  }
+  template <bool Asked = false>
+  Root& at(std::string_view) {
+    static_assert(Asked,
+                  "Sinew: the path of a node is a part of the call's type; write sim.at<\"liver\">().");
+    return root_;
   }
   Root& root() { return root_; }
 
@@ -462,7 +474,7 @@ class Simulation {
       });
     } else {
       const StepInfo info{step_, time_, dt};
-      if constexpr (std::is_invocable_v<decltype(c.call)&, StepInfo const&, decltype(scope.node)>)
+      if constexpr (requires { c.call(info, scope.node); })
         c.call(info, scope.node);
       else
         c.call(info);
@@ -482,6 +494,17 @@ class Simulation {
                      "solver, more damping "
                      "or a softer material"));
   }
+};
+
+/// A component is no scene.
+template <Component C>
+class Simulation<C> {
+ public:
+  static_assert(!Component<C>,
+                "Sinew: a Simulation is of a node; write Simulation sim{node<\"root\">(...)}.");
+  explicit Simulation(C) {}
+  void init() {}
+  void animate(double) {}
 };
 
 // Outside the class, so that a program may have them instantiated in one place: runtime/precompiled.hpp.
