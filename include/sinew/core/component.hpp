@@ -84,7 +84,8 @@ inline constexpr bool needs_masses = requires {
 /// Whether a component does all that its role and its hooks promise.
 template <class C>
 concept ActsAsSaid = is_called(named::beginStep<C> || named::beforeStep<C>, ActsBeforeStep<C>) &&
-    is_called(named::reset<C>, Resettable<C>);
+                     (!ActsBeforeStep<C> || may_have<C>(named::beginStep<C> || named::beforeStep<C>)) &&
+                     is_called(named::reset<C>, Resettable<C>);
 template <class C>
 inline constexpr bool keeps_promise =
     spelled_right<C>&& ActsAsSaid<C>&& Promise<typename C::Role>::template kept<C>;
@@ -97,7 +98,7 @@ struct Uncalled {
       "Sinew: a component has a beginStep or beforeStep that nothing calls; add 'static constexpr bool "
       "actsBeforeStep = true;' and the DataTypes of the state on which it acts.");
   static_assert(
-      !ActsBeforeStep<C> || named::beginStep<C> || named::beforeStep<C>,
+      !ActsBeforeStep<C> || may_have<C>(named::beginStep<C> || named::beforeStep<C>),
       "Sinew: a component says actsBeforeStep and has neither 'bool beginStep(StepAhead const& step, "
       "State& state)' nor 'void beforeStep(StepAhead const& step, State const& state)'.");
   static_assert(

@@ -63,9 +63,8 @@ struct NoPromise {
 template <class R>
 struct Promise : NoPromise {};
 
-/// A hook is called if it has the right signature, and then only: `named`, the component has one of this
-/// name.
-constexpr bool is_called(bool named, bool rightly) { return named == rightly; }
+/// A hook that a component has (`named`) is called where it has the right signature.
+constexpr bool is_called(bool named, bool rightly) { return !named || rightly; }
 
 // parts of the concepts of several roles
 

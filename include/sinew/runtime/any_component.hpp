@@ -14,28 +14,6 @@ namespace sinew {
 
 namespace detail {
 
-/// What can be done with a component of whatever class in a registry, by its place in it.
-struct ComponentOperations {
-  void* (*make)();
-  void* (*copy)(void const*);
-  void (*destroy)(void*);
-  std::string (*name)();
-  void (*checkFields)(void const*, std::string_view where);
-};
-template <class C>
-constexpr ComponentOperations component_operations() {
-  return {[]() -> void* { return new C{}; },
-          [](void const* c) -> void* { return new C(*static_cast<C const*>(c)); },
-          [](void* c) { delete static_cast<C*>(c); },
-          [] { return component_name<C>(); },
-          [](void const* c, std::string_view where) { check_fields(*static_cast<C const*>(c), where); }};
-}
-template <class... Cs>
-constexpr auto all_component_operations(TypeList<Cs...>) {
-  // the type in words: the compiler would deduce it by a fold, which clang nests 256 deep at most
-  return std::array<ComponentOperations, sizeof...(Cs)>{component_operations<Cs>()...};
-}
-
 /// What the classes of a list have to have, and one of them lacks.
 enum class Lack { nothing, role, className, fields };
 template <class C>
@@ -47,6 +25,31 @@ constexpr Lack lack_of() {
   else
     return ListsOwnFields<C> ? Lack::nothing : Lack::fields;
 }
+/// What can be done with a component of whatever class in a registry, by its place in it.
+struct ComponentOperations {
+  void* (*make)();
+  void* (*copy)(void const*);
+  void (*destroy)(void*);
+  std::string (*name)();
+  void (*checkFields)(void const*, std::string_view where);
+};
+template <class C>
+constexpr ComponentOperations component_operations() {
+  if constexpr (lack_of<C>() != Lack::nothing)
+    return {};  // RuntimeNode says so
+  else
+    return {[]() -> void* { return new C{}; },
+            [](void const* c) -> void* { return new C(*static_cast<C const*>(c)); },
+            [](void* c) { delete static_cast<C*>(c); },
+            [] { return component_name<C>(); },
+            [](void const* c, std::string_view where) { check_fields(*static_cast<C const*>(c), where); }};
+}
+template <class... Cs>
+constexpr auto all_component_operations(TypeList<Cs...>) {
+  // the type in words: the compiler would deduce it by a fold, which clang nests 256 deep at most
+  return std::array<ComponentOperations, sizeof...(Cs)>{component_operations<Cs>()...};
+}
+
 template <class... Cs>
 constexpr Lack first_lack(TypeList<Cs...>) {
   for (const Lack lack : {lack_of<Cs>()..., Lack::nothing})

@@ -333,9 +333,8 @@ constexpr auto scene() {
 template <class N>
 inline constexpr bool all_kept = true;
 template <class Name, class... Cs, class... Ns>
-inline constexpr bool all_kept<Node<Name, hana::tuple<Cs...>, hana::tuple<Ns...>>> = (keeps_promise<Cs> &&
-                                                                                      ... &&
-                                                                                      (all_kept<Ns> && ...));
+inline constexpr bool all_kept<Node<Name, hana::tuple<Cs...>, hana::tuple<Ns...>>> =
+    (true && ... && keeps_promise<Cs>)&&(true && ... && all_kept<Ns>);
 /// The first component of some nodes that does not.
 template <class... Parts>
 struct FirstBroken;
@@ -348,9 +347,15 @@ template <class Name, class... Cs, class... Ns, class... Rest>
 struct FirstBroken<Node<Name, hana::tuple<Cs...>, hana::tuple<Ns...>>, Rest...>
     : FirstBroken<Cs..., Ns..., Rest...> {};
 
+/// What is no node, and so no scene.
+template <class N>
+struct NoScene;
+
 template <class S>
 constexpr auto proof() {
-  if constexpr (all_kept<typename S::NodeType>)
+  if constexpr (!is_node<typename S::NodeType>)
+    return std::type_identity<NoScene<typename S::NodeType>>{};
+  else if constexpr (all_kept<typename S::NodeType>)
     return scene<S>();
   else
     return broken_promise<typename FirstBroken<typename S::NodeType>::type>();

@@ -16,4 +16,9 @@ struct Wrong {
 #include <sinew/scene/rules.def>
 };
 
+template <class N>
+struct NoScene {
+  static_assert(is_node<N>, "Sinew: a Simulation is of a node; write Simulation sim{node<\"root\">(...)}.");
+};
+
 }  // namespace sinew::checks

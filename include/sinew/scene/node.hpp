@@ -126,20 +126,38 @@ struct NodeParts<hana::tuple<Cs...>, hana::tuple<Ns...>> {
 
   template <class R>
   auto& first() {
+    static_assert(count<R> != 0, "Sinew: this node has no component of the role asked for.");
     return firstOf<R>(*this);
   }
   template <class R>
   auto const& first() const {
+    static_assert(count<R> != 0, "Sinew: this node has no component of the role asked for.");
     return firstOf<R>(*this);
   }
 
   /// The state, visual model, or component of class C of this node.
-  auto& state() { return first<role::State>(); }
-  auto const& state() const { return first<role::State>(); }
-  auto& visual() { return first<role::VisualModel>(); }
-  auto const& visual() const { return first<role::VisualModel>(); }
+  auto& state() {
+    static_assert(count<role::State> != 0,
+                  "Sinew: this node has no state; ask the node of its MechanicalObject.");
+    return firstOf<role::State>(*this);
+  }
+  auto const& state() const {
+    static_assert(count<role::State> != 0,
+                  "Sinew: this node has no state; ask the node of its MechanicalObject.");
+    return firstOf<role::State>(*this);
+  }
+  auto& visual() {
+    static_assert(count<role::VisualModel> != 0,
+                  "Sinew: this node has no VisualModel; ask the node that has it.");
+    return firstOf<role::VisualModel>(*this);
+  }
+  auto const& visual() const {
+    static_assert(count<role::VisualModel> != 0,
+                  "Sinew: this node has no VisualModel; ask the node that has it.");
+    return firstOf<role::VisualModel>(*this);
+  }
   template <class C>
-  C& get() {
+  auto& get() {
     constexpr int i = [] {
       int j = 0, found = -1;
       ((std::is_same_v<Cs, C> && found < 0 ? void(found = j) : void(), ++j), ...);
@@ -157,9 +175,6 @@ struct NodeParts<hana::tuple<Cs...>, hana::tuple<Ns...>> {
  private:
   template <class R, class Self>
   static auto& firstOf(Self& self) {
-    static_assert(indexOf<R> >= 0,
-                  "Sinew: this node has no component of the role asked for, such as a state; look at the "
-                  "node<>() that made it.");
     if constexpr (indexOf<R> >= 0)
       return hana::at_c<std::size_t(indexOf<R>)>(self.components);
     else

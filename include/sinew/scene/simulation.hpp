@@ -496,17 +496,6 @@ class Simulation {
   }
 };
 
-/// A component is no scene.
-template <Component C>
-class Simulation<C> {
- public:
-  static_assert(!Component<C>,
-                "Sinew: a Simulation is of a node; write Simulation sim{node<\"root\">(...)}.");
-  explicit Simulation(C) {}
-  void init() {}
-  void animate(double) {}
-};
-
 // Outside the class, so that a program may have them instantiated in one place: runtime/precompiled.hpp.
 
 template <class Root>

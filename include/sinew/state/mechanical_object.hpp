@@ -255,7 +255,7 @@ struct MechanicalObject {
 template <class D>
 requires(!IsDataTypes<D>) struct MechanicalObject<D> {
   static_assert(
-      IsDataTypes<D>,
+      !std::is_same_v<D, D>,
       "Sinew: a MechanicalObject is over DataTypes; write MechanicalObject<Vec3d>{...}, or others of "
       "core/data_types.hpp.");
   template <class... Values>

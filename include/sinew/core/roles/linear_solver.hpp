@@ -40,8 +40,8 @@ concept HasInitOfSystem = requires(C c, AnyOperations operations) {
 };
 
 template <class C>
-concept LinearSolver =
-    HasRole<C, role::LinearSolver> && SaysAuxiliary<C> && HasInitOfSystem<C> && named::solve<C>;
+concept LinearSolver = HasRole<C, role::LinearSolver> && SaysAuxiliary<C> && HasInitOfSystem<C> &&
+    may_have<C>(named::solve<C>);
 
 // Hook:
 

@@ -20,7 +20,7 @@ struct BesideAllNames : C, AllNames {};
 }  // namespace detail
 
 /// Whether a component has a member of this name, be it a value, a function, or a template with whatever
-/// arguments: named::addForce<C>. Of a final class nothing is known.
+/// arguments: named::addForce<C>. Of a final class nothing is known, and it is false.
 namespace named {
 #define SINEW_SHORT_NAME(name)                                    \
   template <class C>                                              \
@@ -34,6 +34,11 @@ namespace named {
 #define SINEW_OTHER_NAME(other, name) SINEW_SHORT_NAME(other)
 #include <sinew/core/roles/names.def>
 }  // namespace named
+/// The same, where a name has to be there: given the benefit of the doubt.
+template <class C>
+constexpr bool may_have(bool named) {
+  return named || std::is_final_v<C>;
+}
 
 /// Whether a component has no name in another spelling alone.
 template <class C>

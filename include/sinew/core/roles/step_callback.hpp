@@ -27,7 +27,8 @@ concept WatchesState = HasRole<C, role::StepCallback> && requires {
 /// It watches a state, or has call(StepInfo const&), or call(StepInfo const&, node).
 template <class C>
 concept StepCalled = HasRole<C, role::StepCallback> &&
-    (WatchesState<C> ? HasInit<C>&& named::endStep<C> : named::call<C>);
+    ((WatchesState<C> && HasInit<C> && may_have<C>(named::endStep<C>)) ||
+     (!WatchesState<C> && may_have<C>(named::call<C>)));
 
 template <>
 struct Promise<role::StepCallback> : NoPromise {
@@ -36,13 +37,13 @@ struct Promise<role::StepCallback> : NoPromise {
   template <class C>
   struct Broken {
     static_assert(
-        WatchesState<C> || named::call<C>,
+        WatchesState<C> || may_have<C>(named::call<C>),
         "Sinew: a step callback has no 'void call(StepInfo const& step)' and no DataTypes of a state "
         "that it watches; add one.");
     static_assert(!WatchesState<C> || HasInit<C>,
                   "Sinew: a step callback with DataTypes has no 'void init(InitContext<DataTypes> const& "
                   "context)'.");
-    static_assert(!WatchesState<C> || named::endStep<C>,
+    static_assert(!WatchesState<C> || may_have<C>(named::endStep<C>),
                   "Sinew: a step callback with DataTypes has no 'template <class State, class Energy> void "
                   "endStep(StepInfo const& step, State const& state, Energy&& kineticEnergy)'.");
   };
