@@ -31,8 +31,8 @@ set(quick_baked tetrahedra)
 set(quick_ccd collision/hull_pairs)
 set(quick_examples liver one_tetrahedron string_on_rigid)
 # the mistakes that beginners make
-set(quick_mistakes collision_without_pipeline force_of_other_types force_without_state implicit_without_linear mapping_without_parent
-    mass_without_state not_a_component tetrahedra_without_topology two_states unknown_path)
+set(quick_mistakes collision_without_pipeline force_misspelt force_no_add_force force_not_assembled force_of_other_types
+    force_without_state implicit_without_linear mapping_without_parent mass_without_state no_class_name node_by_string not_a_component tetrahedra_without_topology two_states unknown_path)
 
 # the files of a program that are in quick, and the others; without those, where they are not asked for
 function(sinew_suite name)

@@ -14,6 +14,17 @@ namespace sinew {
 
 namespace detail {
 
+/// What the classes of a list have to have, and one of them lacks.
+enum class Lack { nothing, role, className, fields };
+template <class C>
+constexpr Lack lack_of() {
+  if constexpr (!HasKnownRole<C>)
+    return Lack::role;
+  else if constexpr (!HasClassName<C>)
+    return Lack::className;
+  else
+    return ListsOwnFields<C> ? Lack::nothing : Lack::fields;
+}
 /// What can be done with a component of whatever class in a registry, by its place in it.
 struct ComponentOperations {
   void* (*make)();
@@ -24,16 +35,26 @@ struct ComponentOperations {
 };
 template <class C>
 constexpr ComponentOperations component_operations() {
-  return {[]() -> void* { return new C{}; },
-          [](void const* c) -> void* { return new C(*static_cast<C const*>(c)); },
-          [](void* c) { delete static_cast<C*>(c); },
-          [] { return component_name<C>(); },
-          [](void const* c, std::string_view where) { check_fields(*static_cast<C const*>(c), where); }};
+  if constexpr (lack_of<C>() != Lack::nothing)
+    return {};  // RuntimeNode says so
+  else
+    return {[]() -> void* { return new C{}; },
+            [](void const* c) -> void* { return new C(*static_cast<C const*>(c)); },
+            [](void* c) { delete static_cast<C*>(c); },
+            [] { return component_name<C>(); },
+            [](void const* c, std::string_view where) { check_fields(*static_cast<C const*>(c), where); }};
 }
 template <class... Cs>
 constexpr auto all_component_operations(TypeList<Cs...>) {
   // the type in words: the compiler would deduce it by a fold, which clang nests 256 deep at most
   return std::array<ComponentOperations, sizeof...(Cs)>{component_operations<Cs>()...};
+}
+
+template <class... Cs>
+constexpr Lack first_lack(TypeList<Cs...>) {
+  for (const Lack lack : {lack_of<Cs>()..., Lack::nothing})
+    if (lack != Lack::nothing) return lack;
+  return Lack::nothing;
 }
 
 // the class at a place of a list, by the base that has its number

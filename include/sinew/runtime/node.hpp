@@ -52,6 +52,20 @@ struct RuntimeEntry {
 /// Simulation runs it as it runs typed nodes.
 template <class R>
 class RuntimeNode {
+  static constexpr detail::Lack lack = detail::first_lack(typename detail::Flat<R>::type{});
+  static_assert(
+      lack != detail::Lack::role,
+      "Sinew: a class of a registry has no Role; write 'using Role = role::ForceField;', or another "
+      "role of core/roles.");
+  static_assert(lack != detail::Lack::className,
+                "Sinew: a class of a registry has no className, by which scene files know it; write 'static "
+                "constexpr std::string_view className = \"MyForce\";'.");
+  static_assert(
+      lack != detail::Lack::fields,
+      "Sinew: a class of a registry has no fields() of its own; write 'static constexpr auto fields() "
+      "{ return field_list(field(\"stiffness\", &MyForce::stiffness, \"N/m\", \"of a spring\")); "
+      "}'.");
+
  public:
   using Entry = RuntimeEntry<R>;
   std::string name;

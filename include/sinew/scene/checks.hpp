@@ -14,9 +14,6 @@ using rules::Rule;
 /// A rule that component C (void: the node itself) of a node breaks (scene/mistakes.hpp).
 template <Rule, class C, FixedString Node>
 struct Wrong;
-/// A component that does not fulfil the concept of its role.
-template <class C, FixedString Node>
-struct Unfulfilled;
 /// What stands where those would, in a scene without a mistake.
 struct Right {};
 
@@ -108,6 +105,17 @@ constexpr auto find_solver() {
 }
 template <class S>
 using Solver = typename decltype(find_solver<S>())::type;
+
+/// The nearest linear solver from S upwards keeps a matrix.
+template <class S>
+constexpr bool needs_pattern_above() {
+  if constexpr (std::is_same_v<S, NoScope>)
+    return false;
+  else if constexpr (S::NodeType::template count < role::LinearSolver >> 0)
+    return needs_pattern<FirstOf<typename S::NodeType, role::LinearSolver>>;
+  else
+    return needs_pattern_above<typename S::Above>();
+}
 
 /// The scope at a path from S that may begin with ".."; NoScope where there is none.
 template <class S, FixedString Path>
@@ -228,34 +236,6 @@ struct Facts {
   }
 };
 
-/// Whether a component fulfils the concept of its role.
-template <class C>
-constexpr bool fulfilled() {
-  using R = typename C::Role;
-  if constexpr (std::is_same_v<R, role::State>)
-    return State<C>;
-  else if constexpr (std::is_same_v<R, role::ForceField>)
-    return ForceField<C>;
-  else if constexpr (std::is_same_v<R, role::Mass>)
-    return Mass<C>;
-  else if constexpr (std::is_same_v<R, role::ProjectiveConstraint> && JoinsTwo<C>)
-    return InteractionConstraint<C>;
-  else if constexpr (std::is_same_v<R, role::ProjectiveConstraint>)
-    return ProjectiveConstraint<C>;
-  else if constexpr (std::is_same_v<R, role::InteractionForceField>)
-    return InteractionForceField<C>;
-  else if constexpr (HasParents<C>)
-    return MultiMapping<C>;
-  else if constexpr (std::is_same_v<R, role::Mapping>)
-    return Mapping<C>;
-  else if constexpr (std::is_same_v<R, role::CollisionModel>)
-    return CollisionModel<C>;
-  else if constexpr (std::is_same_v<R, role::OdeSolver>)
-    return OdeSolver<C>;
-  else
-    return true;
-}
-
 template <class R>
 inline constexpr bool right = std::is_same_v<R, std::type_identity<Right>>;
 
@@ -266,12 +246,31 @@ constexpr auto verdict() {
   else
     return std::type_identity<Wrong<R, C, S::NodeType::name>>{};
 }
+/// Whether the ODE solver that moves S has a linear solver that assembles a matrix.
+template <class S>
+constexpr bool assembles() {
+  if constexpr (std::is_same_v<Solver<S>, NoScope>) {
+    return false;
+  } else {
+    using Ode = FirstOf<typename Solver<S>::NodeType, role::OdeSolver>;
+    if constexpr (Ode::implicit || SolvesMass<Ode>)
+      return needs_pattern_above<Solver<S>>();
+    else
+      return false;
+  }
+}
+
 template <class C, class S>
 constexpr auto component() {
-  if constexpr (!fulfilled<C>())
-    return std::type_identity<Unfulfilled<C, S::NodeType::name>>{};
+  using Promised = Promise<typename C::Role>;
+  constexpr Rule rule = rules::broken<rules::kind_of<C>()>(Facts<C, S>{}).rule;
+  if constexpr (rule != Rule::none)
+    return verdict<rule, C, S>();
+  else if constexpr (assembles<S>() && !(HasRole<C, role::Mapping> && S::isVisual) &&
+                     !Promised::template assembled<C>)
+    return std::type_identity<typename Promised::template NotAssembled<C>>{};
   else
-    return verdict<rules::broken<rules::kind_of<C>()>(Facts<C, S>{}).rule, C, S>();
+    return std::type_identity<Right>{};
 }
 
 /// What a node has too many of.
@@ -330,8 +329,40 @@ constexpr auto scene() {
   }
 }
 
-/// Right, or what is wrong in a scene.
+/// Whether all components of a node and below keep their promises; of runtime nodes, their registry says so.
+template <class N>
+inline constexpr bool all_kept = true;
+template <class Name, class... Cs, class... Ns>
+inline constexpr bool all_kept<Node<Name, hana::tuple<Cs...>, hana::tuple<Ns...>>> =
+    (true && ... && keeps_promise<Cs>)&&(true && ... && all_kept<Ns>);
+/// The first component of some nodes that does not.
+template <class... Parts>
+struct FirstBroken;
+template <class First, class... Rest>
+struct FirstBroken<First, Rest...> : FirstBroken<Rest...> {};
+template <Component C, class... Rest>
+requires(!keeps_promise<C>) struct FirstBroken<C, Rest...> : std::type_identity<C> {
+};
+template <class Name, class... Cs, class... Ns, class... Rest>
+struct FirstBroken<Node<Name, hana::tuple<Cs...>, hana::tuple<Ns...>>, Rest...>
+    : FirstBroken<Cs..., Ns..., Rest...> {};
+
+/// What is no node, and so no scene.
+template <class N>
+struct NoScene;
+
 template <class S>
-using Verdict = typename decltype(scene<S>())::type;
+constexpr auto proof() {
+  if constexpr (!is_node<typename S::NodeType>)
+    return std::type_identity<NoScene<typename S::NodeType>>{};
+  else if constexpr (all_kept<typename S::NodeType>)
+    return scene<S>();
+  else
+    return broken_promise<typename FirstBroken<typename S::NodeType>::type>();
+}
+
+/// Right, or what is wrong in a scene: first with a component, then with where it stands.
+template <class S>
+using Verdict = typename decltype(proof<S>())::type;
 
 }  // namespace sinew::checks

@@ -16,23 +16,9 @@ struct Wrong {
 #include <sinew/scene/rules.def>
 };
 
-// asserted as concepts, of which the compiler says what is missing
-#define SINEW_PROMISE(Role, Concept, ...)                                                          \
-  template <class C, FixedString Node>                                                             \
-  requires HasRole<C, role::Role> __VA_ARGS__ struct Unfulfilled<C, Node> {                        \
-    static_assert(Concept<C>, "Sinew: a component with role::" #Role                               \
-                              " does not fulfil the concept " #Concept " of core/component.hpp."); \
-  };
-SINEW_PROMISE(State, State)
-SINEW_PROMISE(ForceField, ForceField)
-SINEW_PROMISE(Mass, Mass)
-SINEW_PROMISE(ProjectiveConstraint, ProjectiveConstraint, &&(!JoinsTwo<C>))
-SINEW_PROMISE(ProjectiveConstraint, InteractionConstraint, &&JoinsTwo<C>)
-SINEW_PROMISE(InteractionForceField, InteractionForceField)
-SINEW_PROMISE(Mapping, Mapping, &&(!HasParents<C>))
-SINEW_PROMISE(Mapping, MultiMapping, &&HasParents<C>)
-SINEW_PROMISE(CollisionModel, CollisionModel)
-SINEW_PROMISE(OdeSolver, OdeSolver)
-#undef SINEW_PROMISE
+template <class N>
+struct NoScene {
+  static_assert(is_node<N>, "Sinew: a Simulation is of a node; write Simulation sim{node<\"root\">(...)}.");
+};
 
 }  // namespace sinew::checks

@@ -16,14 +16,6 @@ namespace sinew {
 
 namespace hana = boost::hana;
 
-/// A component: a default-constructible class with a role, a name and fields.
-template <class C>
-concept Component = requires {
-  typename C::Role;
-  { C::className } -> std::convertible_to<std::string_view>;
-  C::fields();
-};
-
 /// A function of components, called for those that have one of the roles only.
 template <class F, class... Roles>
 struct RoleVisitor {
@@ -113,8 +105,12 @@ struct NodeParts<hana::tuple<Cs...>, hana::tuple<Ns...>> {
   /// The child of a name.
   template <FixedString Child>
   auto& child() {
-    static_assert(childIndex(Child.view()) >= 0, "Sinew: this node has no child of that name.");
-    return hana::at_c<std::size_t(childIndex(Child.view()))>(children);
+    constexpr int i = childIndex(Child.view());
+    static_assert(i >= 0, "Sinew: this node has no child of that name.");
+    if constexpr (i >= 0)
+      return hana::at_c<std::size_t(i)>(children);
+    else
+      return *this;
   }
   static constexpr bool childNamesDiffer() {
     int i = 0;
@@ -130,20 +126,38 @@ struct NodeParts<hana::tuple<Cs...>, hana::tuple<Ns...>> {
 
   template <class R>
   auto& first() {
-    return hana::at_c<std::size_t(indexOf<R>)>(components);
+    static_assert(count<R> != 0, "Sinew: this node has no component of the role asked for.");
+    return firstOf<R>(*this);
   }
   template <class R>
   auto const& first() const {
-    return hana::at_c<std::size_t(indexOf<R>)>(components);
+    static_assert(count<R> != 0, "Sinew: this node has no component of the role asked for.");
+    return firstOf<R>(*this);
   }
 
   /// The state, visual model, or component of class C of this node.
-  auto& state() { return first<role::State>(); }
-  auto const& state() const { return first<role::State>(); }
-  auto& visual() { return first<role::VisualModel>(); }
-  auto const& visual() const { return first<role::VisualModel>(); }
+  auto& state() {
+    static_assert(count<role::State> != 0,
+                  "Sinew: this node has no state; ask the node of its MechanicalObject.");
+    return firstOf<role::State>(*this);
+  }
+  auto const& state() const {
+    static_assert(count<role::State> != 0,
+                  "Sinew: this node has no state; ask the node of its MechanicalObject.");
+    return firstOf<role::State>(*this);
+  }
+  auto& visual() {
+    static_assert(count<role::VisualModel> != 0,
+                  "Sinew: this node has no VisualModel; ask the node that has it.");
+    return firstOf<role::VisualModel>(*this);
+  }
+  auto const& visual() const {
+    static_assert(count<role::VisualModel> != 0,
+                  "Sinew: this node has no VisualModel; ask the node that has it.");
+    return firstOf<role::VisualModel>(*this);
+  }
   template <class C>
-  C& get() {
+  auto& get() {
     constexpr int i = [] {
       int j = 0, found = -1;
       ((std::is_same_v<Cs, C> && found < 0 ? void(found = j) : void(), ++j), ...);
@@ -152,10 +166,20 @@ struct NodeParts<hana::tuple<Cs...>, hana::tuple<Ns...>> {
     static_assert(i >= 0,
                   "Sinew: this node has no component of the class asked for; compare it with the node<>() "
                   "that made the scene.");
-    return hana::at_c<std::size_t(i)>(components);
+    if constexpr (i >= 0)
+      return hana::at_c<std::size_t(i)>(components);
+    else
+      return *this;
   }
 
  private:
+  template <class R, class Self>
+  static auto& firstOf(Self& self) {
+    if constexpr (indexOf<R> >= 0)
+      return hana::at_c<std::size_t(indexOf<R>)>(self.components);
+    else
+      return self;
+  }
   template <class... Roles>
   static constexpr auto which = detail::places_of<has_any_role<Cs, Roles...>...>();
 };
@@ -189,10 +213,24 @@ template <class Name, class... Parts, std::size_t... C, std::size_t... N>
 /// Composes a node from components and child nodes, in any order; each keeps its order among its own kind.
 template <FixedString Name, class... Parts>
 auto node(Parts... parts) {
-  static_assert(
-      ((Component<Parts> || is_node<Parts>)&&...),
-      "Sinew: node<\"name\">(...) takes components and child nodes. One argument is neither: a component has "
-      "a Role, a className and fields().");
+  static_assert(((is_node<Parts> || std::is_class_v<Parts>)&&...),
+                "Sinew: node<\"name\">(...) takes components and child nodes. One argument is neither.");
+  static_assert(((is_node<Parts> || !std::is_class_v<Parts> || NamesRole<Parts>)&&...),
+                "Sinew: a component has no Role; write 'using Role = role::ForceField;', or another role of "
+                "core/roles.");
+  static_assert(((is_node<Parts> || !NamesRole<Parts> || HasKnownRole<Parts>)&&...),
+                "Sinew: the Role of a component is none of those that there are; write 'using Role = "
+                "role::ForceField;', or another role of core/roles.");
+  static_assert(((is_node<Parts> || !NamesRole<Parts> || HasClassName<Parts>)&&...),
+                "Sinew: a component has no className; write 'static constexpr std::string_view className = "
+                "\"MyForce\";'.");
+  static_assert(((is_node<Parts> || !NamesRole<Parts> || HasFields<Parts>)&&...),
+                "Sinew: a component has no fields(); write 'static constexpr auto fields() { return "
+                "field_list(field(\"stiffness\", &MyForce::stiffness, \"N/m\", \"of a spring\")); }'.");
+  static_assert(((is_node<Parts> || !HasFields<Parts> || HasConstantFields<Parts>)&&...),
+                "Sinew: fields() of a component is no constant; write 'static constexpr auto fields()'.");
+  static_assert(((is_node<Parts> || !HasConstantFields<Parts> || ListsOwnFields<Parts>)&&...),
+                "Sinew: fields() of a component lists a member of another class; list its own.");
   static_assert(Name.view().find('/') == std::string_view::npos && !Name.view().empty(),
                 "Sinew: the name of a node is not empty and has no '/', which separates names in a path.");
   if constexpr (!((Component<Parts> || is_node<Parts>)&&...)) {
@@ -202,6 +240,14 @@ auto node(Parts... parts) {
                                         detail::places_of<!is_node<Parts>...>(),
                                         detail::places_of<is_node<Parts>...>());
   }
+}
+/// What a name in the wrong place comes to.
+template <std::size_t N, class... Parts>
+auto node(char const (&)[N], Parts...) {
+  static_assert(N == 0,
+                "Sinew: the name of a node is a part of its type; write node<\"root\">(...) instead of "
+                "node(\"root\", ...).");
+  return Node<Named<"root">, hana::tuple<>, hana::tuple<>>{};
 }
 
 }  // namespace sinew

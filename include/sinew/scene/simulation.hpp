@@ -43,6 +43,12 @@ class Simulation {
   /// Advances the scene by dt seconds. Throws Error where dt is not a positive number, and where a state is
   /// no longer finite after the step.
   void animate(double dt);
+  template <bool Asked = false>
+  void animate() {
+    static_assert(Asked,
+                  "Sinew: animate(dt) takes the time step in seconds; write sim.animate(0.01), or what your "
+                  "scene needs.");
+  }
 
   /// Back to the scene as it was after init, at time 0, so that the next steps have the bits of the first
   /// ones: positions and velocities (those that states were given for a reset), springs that were cut, what
@@ -83,6 +89,12 @@ class Simulation {
       if constexpr (Found::isVisual && proved) updateVisual();
       return detail::node_at<Path>(root_);
     }
+  }
+  template <bool Asked = false>
+  Root& at(std::string_view) {
+    static_assert(Asked,
+                  "Sinew: the path of a node is a part of the call's type; write sim.at<\"liver\">().");
+    return root_;
   }
   Root& root() { return root_; }
 

@@ -127,7 +127,7 @@ struct Step {
         });
         return energy;
       });
-    } else if constexpr (std::is_invocable_v<decltype(c.call)&, StepInfo const&, decltype(scope.node)>) {
+    } else if constexpr (requires { c.call(info, scope.node); }) {
       c.call(info, scope.node);
     } else {
       c.call(info);

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/data_types.hpp>
+#include <sinew/core/mesh.hpp>
+#include <sinew/core/part.hpp>
+
+#include <array>
+#include <span>
+#include <string>
+
+namespace sinew {
+
+/// Elements over the points of one node, as components see them at init. Empty where there is no topology. A
+/// topology that has to be made first offers generate(where), which init calls before all else. One whose
+/// elements may be removed while the scene runs offers edit(), its ElementLists.
+struct TopologyView {
+  std::span<Eigen::Vector3d const> positions{};  // for a state that is given none
+  std::span<Edge const> edges{};
+  std::span<Triangle const> triangles{};
+  std::span<Quad const> quads{};
+  std::span<Tetrahedron const> tetrahedra{};
+  std::span<Hexahedron const> hexahedra{};
+  std::array<int, 3> grid{0, 0, 0};  // points of a regular grid along x, y, z; zeros where there is none
+  // of a grid of cells whose points are those of the state: where they lie before the state is moved
+  std::span<Eigen::Vector3d const> places{};
+  // of a grid of cells over a surface: the part of each hexahedron that counts as filled; empty where all are
+  std::span<double const> fill{};
+};
+
+/// What a component of a node is given at init: where it stands (for messages), the rest positions of the
+/// node's state, and the nearest topology.
+template <class D>
+struct InitContext {
+  std::string where;
+  typename D::VecCoord const& rest;
+  TopologyView topology;
+  /// Of the points [kg], for a component that asks for them by `needsMasses`; empty where there is no mass.
+  std::span<double const> masses{};
+};
+
+/// Arguments of the mechanical operations. The product with a vector is (m M + b B + k K) dx, where
+/// K = df/dx and B = df/dv, so an implicit step has negative b and k.
+struct MechanicalParams {
+  double time = 0, dt = 0;
+  Eigen::Vector3d gravity{0, 0, 0};
+  double m = 0, b = 0, k = 0;
+  Part part{};  // for a component that takes_parts
+  // not 0: forces are for a step v += turning M^-1 f, x += turning v, and gyroscopic ones those at its end
+  double turning = 0;
+};
+
+/// What an assembled or matrix-free system is made of: m M + b B + k K.
+struct MatrixFactors {
+  double m = 0, b = 0, k = 0;
+};
+
+/// The step that has just ended.
+struct StepInfo {
+  long step;
+  double time, dt;
+};
+
+/// The step that is about to be made.
+struct StepAhead {
+  long step;              // its number, from 1
+  double begin, end, dt;  // [s]
+  bool solved;            // an ODE solver moves the state
+};
+
+/// What stands for those of all scenes where a concept asks for a function template over them.
+struct AnyOperations {};
+struct AnySink {};
+
+}  // namespace sinew

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/role.hpp>
+#include <sinew/core/roles/force_field.hpp>
+
+#include <utility>
+#include <vector>
+
+namespace sinew {
+
+// Makes the state, or the visual model, of its node follow the state above. The shortest:
+//
+//   /// Its points are twice as far away.   J = 2 I
+//   struct Doubled {
+//     using Role = role::Mapping;
+//     using In = Vec3d;
+//     using Out = Vec3d;
+//     static constexpr std::string_view className = "Doubled";
+//     static constexpr auto fields() { return field_list(); }
+//
+//     void init(InitContext<Vec3d> const& parent, InitContext<Vec3d> const&, Vec3d::VecCoord& positions) {
+//       positions.resize(parent.rest.size());
+//     }
+//     void apply(Vec3d::VecCoord& out, Vec3d::VecCoord const& in) const {
+//       for (std::size_t i = 0; i < in.size(); ++i) out[i] = 2 * in[i];
+//     }
+//     void applyJ(Vec3d::VecDeriv& out, Vec3d::VecDeriv const& in) const { apply(out, in); }
+//     void applyJT(Vec3d::VecDeriv& in, Vec3d::VecDeriv const& out) const {
+//       for (std::size_t i = 0; i < in.size(); ++i) in[i] += 2 * out[i];
+//     }
+//   };
+
+template <class C>
+concept HasInAndOut = requires {
+  typename C::In::VecCoord;
+  typename C::In::VecDeriv;
+  typename C::Out::VecCoord;
+  typename C::Out::VecDeriv;
+};
+/// Out = what follows In at the last apply; `part` is a mapping, or what maps one parent of several.
+template <class Part, class C>
+concept Applies = requires(Part part, typename C::In::VecCoord const in, typename C::Out::VecCoord out) {
+  part.apply(out, in);
+};
+template <class Part, class C>
+concept AppliesJ = requires(Part part, typename C::In::VecDeriv const in, typename C::Out::VecDeriv out) {
+  part.applyJ(out, in);
+};
+/// in += J' out.
+template <class Part, class C>
+concept AppliesJT = requires(Part part, typename C::In::VecDeriv in, typename C::Out::VecDeriv const out) {
+  part.applyJT(in, out);
+};
+/// May fill an empty child.
+template <class C>
+concept HasInitOfChild = HasInAndOut<C> &&
+    requires(C c, InitContext<typename C::In> const parent, InitContext<typename C::Out> const child,
+             typename C::Out::VecCoord positions) {
+  c.init(parent, child, positions);
+};
+
+template <class C>
+concept Mapping = HasRole<C, role::Mapping> && HasInAndOut<C> && HasInitOfChild<C> && Applies<C, C> &&
+    AppliesJ<C, C> && AppliesJT<C, C>;
+
+/// A mapping with several parents, named by paths. It has a part for each, a mapping from that parent alone
+/// to those points of the child that follow it.
+template <class C>
+concept HasParents = HasRole<C, role::Mapping> && requires {
+  typename C::Parents;
+};
+/// As many parts as parents.
+template <class C>
+concept HasInitOfParents = HasInAndOut<C> &&
+    requires(C c, std::vector<InitContext<typename C::In>> const parents,
+             InitContext<typename C::Out> const child, typename C::Out::VecCoord positions) {
+  c.init(parents, child, positions);
+};
+template <class C>
+concept HasParts = requires(C c) {
+  c.parts[0];
+};
+template <class C>
+using PartOf = std::decay_t<decltype(std::declval<C&>().parts[0])>;
+template <class C>
+concept MultiMapping = HasParents<C> && HasInAndOut<C> && HasInitOfParents<C> && HasParts<C> &&
+    Applies<PartOf<C>, C> && AppliesJ<PartOf<C>, C> && AppliesJT<PartOf<C>, C>;
+
+// Hooks, what a mapping may have beside these:
+
+/// A mapping that is not linear may say what that adds to the stiffness of its parent,
+/// K_g = (dJ'/dx) f, at the force f on its child that updateK was given last. It also adds K_g to a matrix
+/// over the parent's degrees of freedom (AddsToMatrix). K_g is symmetric.
+template <class C>
+concept HasGeometricStiffness = HasInAndOut<C> &&
+    requires(C m, typename C::In::VecDeriv vi, typename C::Out::VecDeriv const vo) {
+  m.updateK(vo);
+  m.addKx(vi, vi, 1.0);  // df += k K_g dx
+};
+/// A mapping for which the elements of the topology in its node are over the points of its parent. Its points
+/// are elements of that topology, or of the parent's where the node has none: pointsThatStay(before, change)
+/// says which stay when elements are removed.
+template <class C>
+inline constexpr bool over_parent = requires {
+  C::overParent;
+};
+/// f(point of the parent, block of J) for each block in the rows of a point: what solvers need that assemble
+/// a matrix.
+template <class Part>
+concept HasJacobianBlocks = requires(Part const part, void (*f)(int, AnySink)) {
+  part.forEachJacobianBlock(0, f);
+};
+
+namespace detail {
+template <class C>
+constexpr bool maps_in_matrix() {
+  if constexpr (HasGeometricStiffness<C> && !AddsToMatrix<C>)
+    return false;
+  else if constexpr (HasParents<C>)
+    return HasJacobianBlocks<PartOf<C>>;
+  else
+    return HasJacobianBlocks<C>;
+}
+template <class C>
+constexpr auto part_of() {
+  if constexpr (HasParents<C> && HasParts<C>)
+    return std::type_identity<PartOf<C>>{};
+  else
+    return std::type_identity<C>{};
+}
+template <class C>
+inline constexpr bool says_stiffness = named::updateK<C> || named::addKx<C>;
+}  // namespace detail
+
+template <>
+struct Promise<role::Mapping> : NoPromise {
+  template <class C>
+  static constexpr bool kept = (Mapping<C> || MultiMapping<C>)&&is_called(detail::says_stiffness<C>,
+                                                                          HasGeometricStiffness<C>);
+  template <class C>
+  static constexpr bool assembled = detail::maps_in_matrix<C>();
+
+  template <class C>
+  struct Broken {
+    using Part = typename decltype(detail::part_of<C>())::type;
+    static constexpr bool maps = HasInAndOut<C> && (!HasParents<C> || HasParts<C>);
+    static_assert(
+        HasInAndOut<C>,
+        "Sinew: a mapping has no In and Out; write 'using In = Vec3d; using Out = Vec3f;', the DataTypes "
+        "of its parent and of its child.");
+    static_assert(!HasInAndOut<C> || HasParents<C> || HasInitOfChild<C>,
+                  "Sinew: a mapping has no 'void init(InitContext<In> const& parent, InitContext<Out> const& "
+                  "child, Out::VecCoord& positions)', which sizes the positions of its child.");
+    static_assert(
+        !HasInAndOut<C> || !HasParents<C> || HasInitOfParents<C>,
+        "Sinew: a mapping with several parents has no 'void init(std::vector<InitContext<In>> const& "
+        "parents, InitContext<Out> const& child, Out::VecCoord& positions)'.");
+    static_assert(!HasParents<C> || HasParts<C>,
+                  "Sinew: a mapping with several parents has no 'parts', a list of mappings, one for each.");
+    static_assert(
+        !maps || Applies<Part, C>,
+        "Sinew: a mapping has no 'void apply(Out::VecCoord& out, In::VecCoord const& in)', which makes "
+        "the positions of its child.");
+    static_assert(!maps || AppliesJ<Part, C>,
+                  "Sinew: a mapping has no 'void applyJ(Out::VecDeriv& out, In::VecDeriv const& in) const', "
+                  "which makes out = J in, the velocities of its child.");
+    static_assert(!maps || AppliesJT<Part, C>,
+                  "Sinew: a mapping has no 'void applyJT(In::VecDeriv& in, Out::VecDeriv const& out) const', "
+                  "which adds J' out, the forces on its child, to in.");
+    static_assert(
+        is_called(detail::says_stiffness<C>, HasGeometricStiffness<C>),
+        "Sinew: a mapping has an updateK or addKx that nothing calls; write both 'void "
+        "updateK(Out::VecDeriv const& f)' and 'void addKx(In::VecDeriv& df, In::VecDeriv const& dx, "
+        "double k) const'.");
+  };
+  template <class C>
+  struct NotAssembled {
+    static_assert(
+        !HasGeometricStiffness<C> || AddsToMatrix<C>,
+        "Sinew: a mapping with updateK is under a linear solver that assembles a matrix, and has no "
+        "'template <class Sink> void addToMatrix(MechanicalParams const& p, Sink const& sink) const', "
+        "which adds p.k K_g by sink.add(i, j, block); add it, or take CGLinearSolver<> without a matrix.");
+    static_assert(
+        HasJacobianBlocks<typename decltype(detail::part_of<C>())::type>,
+        "Sinew: a mapping is under a linear solver that assembles a matrix, and has no 'template <class "
+        "F> void forEachJacobianBlock(int point, F&& f) const', which calls f(point of the parent, block "
+        "of J); add it, or take CGLinearSolver<> without a matrix.");
+  };
+};
+
+}  // namespace sinew

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/role.hpp>
+#include <sinew/core/vec_id.hpp>
+
+namespace sinew {
+
+// Integrates its node and all below it in time, by MechanicalOperations. The shortest:
+//
+//   /// v += dt M^-1 f,  x += dt v
+//   struct SymplecticEuler {
+//     using Role = role::OdeSolver;
+//     static constexpr std::string_view className = "SymplecticEuler";
+//     static constexpr bool implicit = false;
+//     static constexpr Auxiliary auxiliary{};
+//     static constexpr auto fields() { return field_list(); }
+//
+//     template <class Operations>
+//     void solve(Operations& o, double dt) const {
+//       o.computeForce(vec_id::force, vec_id::position, vec_id::velocity);
+//       o.accFromF(vec_id::dx, vec_id::force, vec_id::position);
+//       o.peq(vec_id::velocity, vec_id::dx, dt);
+//       o.peq(vec_id::position, vec_id::velocity, dt);
+//     }
+//   };
+
+/// Whether it solves linear systems, and so needs a linear solver.
+template <class C>
+concept SaysImplicit = requires {
+  requires std::convertible_to<decltype(C::implicit), bool>;
+};
+/// How many auxiliary vectors it takes from the pool at the same time.
+template <class C>
+concept SaysAuxiliary = requires {
+  requires std::convertible_to<decltype(C::auxiliary), Auxiliary>;
+};
+template <class C>
+concept Integrates = requires(C c, AnyOperations operations) {
+  c.solve(operations, 0.0);
+};
+
+/// `convergenceOrder`, that of the error in time with its settings as they are by default, is proved in
+/// tests/validation; 0 for one that does not integrate.
+template <class C>
+concept OdeSolver = HasRole<C, role::OdeSolver> && SaysImplicit<C> && SaysAuxiliary<C> && Integrates<C>;
+
+// Hooks, what an ODE solver may have beside these:
+
+/// It does not integrate but changes the state after the solver that stands before it in its node.
+template <class C>
+inline constexpr bool stands_beside = requires {
+  requires C::beside;
+};
+/// An explicit one that takes a linear solver where masses are not diagonal: `solvesMass`.
+template <class C>
+concept SolvesMass = requires {
+  C::solvesMass;
+};
+
+template <>
+struct Promise<role::OdeSolver> : NoPromise {
+  template <class C>
+  static constexpr bool kept = OdeSolver<C>;
+  template <class C>
+  struct Broken {
+    static_assert(
+        SaysImplicit<C>,
+        "Sinew: an ODE solver does not say whether it solves linear systems; write 'static constexpr "
+        "bool implicit = false;', or true.");
+    static_assert(
+        SaysAuxiliary<C>,
+        "Sinew: an ODE solver does not say how many auxiliary vectors it takes; write 'static constexpr "
+        "Auxiliary auxiliary{.coords = 0, .derivs = 1};'.");
+    static_assert(
+        Integrates<C>,
+        "Sinew: an ODE solver has no 'template <class Operations> void solve(Operations& operations, "
+        "double dt)', which makes a step.");
+  };
+};
+
+}  // namespace sinew

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSL-1.0
+// expect: Sinew: a constraint is under a linear solver that assembles a matrix, and has no
+#include <sinew/mass/uniform_mass.hpp>
+#include <sinew/scene/simulation.hpp>
+#include <sinew/solver/cg_linear_solver.hpp>
+#include <sinew/solver/euler_implicit.hpp>
+#include <sinew/state/mechanical_object.hpp>
+
+using namespace sinew;
+
+struct Hold {
+  using Role = role::ProjectiveConstraint;
+  using DataTypes = Vec3d;
+  using V = Vec3d::VecDeriv;
+  static constexpr std::string_view className = "Hold";
+  static constexpr auto fields() { return field_list(); }
+  void init(InitContext<Vec3d> const&) {}
+  void projectResponse(V&) const {}
+};
+
+int main() {
+  Simulation sim{node<"root">(EulerImplicitSolver{},
+                              CGLinearSolver<CompressedRowSparseMatrixMat3x3d>{},
+                              MechanicalObject<Vec3d>{},
+                              UniformMass<Vec3d>{},
+                              Hold{})};
+  sim.init();
+  sim.animate(0.1);
+}

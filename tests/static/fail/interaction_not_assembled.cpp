@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSL-1.0
+// expect: Sinew: an interaction is under a linear solver that assembles a matrix
+#include <sinew/mass/uniform_mass.hpp>
+#include <sinew/scene/simulation.hpp>
+#include <sinew/solver/cg_linear_solver.hpp>
+#include <sinew/solver/euler_implicit.hpp>
+#include <sinew/state/mechanical_object.hpp>
+
+using namespace sinew;
+
+template <class Between>
+struct Tie {
+  using Role = role::InteractionForceField;
+  using DataTypes = Vec3d;
+  using Ends = Between;
+  using V = Vec3d::VecDeriv;
+  using X = Vec3d::VecCoord;
+  static constexpr std::string_view className = "Tie";
+  static constexpr auto fields() { return field_list(); }
+  void init(InitContext<Vec3d> const&, InitContext<Vec3d> const&) {}
+  void addForce(MechanicalParams const&, V&, V&, X const&, X const&, V const&, V const&) {}
+  void addDForce(MechanicalParams const&, V&, V&, V const&, V const&) const {}
+  double potentialEnergy(X const&, X const&) const { return 0; }
+};
+
+int main() {
+  Simulation sim{node<"root">(EulerImplicitSolver{},
+                              CGLinearSolver<CompressedRowSparseMatrixMat3x3d>{},
+                              node<"a">(MechanicalObject<Vec3d>{}, UniformMass<Vec3d>{}),
+                              node<"b">(MechanicalObject<Vec3d>{}, UniformMass<Vec3d>{}),
+                              Tie<Between<"a", "b">>{})};
+  sim.init();
+  sim.animate(0.1);
+}

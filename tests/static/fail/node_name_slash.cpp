@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSL-1.0
+// expect: Sinew: the name of a node is not empty and has no
+#include <sinew/mass/uniform_mass.hpp>
+#include <sinew/scene/simulation.hpp>
+#include <sinew/solver/euler_explicit.hpp>
+#include <sinew/state/mechanical_object.hpp>
+
+using namespace sinew;
+
+int main() {
+  Simulation sim{node<"a/b">(EulerExplicitSolver{}, MechanicalObject<Vec3d>{}, UniformMass<Vec3d>{})};
+  sim.init();
+}

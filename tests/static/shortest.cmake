@@ -1,0 +1,16 @@
+# cmake -DCOMMAND=compiler;arguments -DROLES=folder -DSOURCE=shortest.cpp -DWORK=folder -P: the shortest component of each role, as
+# the comment of its header has it, compiles and does what its role promises.
+file(GLOB headers ${ROLES}/*.hpp)
+set(all "")
+foreach(header ${headers})
+  file(READ ${header} text)
+  if(text MATCHES "The shortest:\n//\n((//[^\n]*\n)+)")
+    string(REGEX REPLACE "\n// ? ? ?" "\n" code "\n${CMAKE_MATCH_1}")
+    string(APPEND all "${code}\n")
+  endif()
+endforeach()
+file(WRITE ${WORK}/shortest.hpp "${all}")
+execute_process(COMMAND ${COMMAND} -I${WORK} -fsyntax-only ${SOURCE} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+if(NOT result EQUAL 0)
+  message(FATAL_ERROR "the shortest components of core/roles do not compile:\n${output}")
+endif()
