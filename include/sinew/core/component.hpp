@@ -179,13 +179,25 @@ concept Mass = HasRole<C, role::Mass> &&
   { m.kineticEnergy(x, f) } -> std::convertible_to<double>;
 };
 
+/// A force that is its fields, a list of elements and their law: `driver`, an ElementDriver made by init.
+/// law() is the law with its settings, where it has any; law<L>() where it may be asked for lanes or one
+/// element at a time. What forces do is in core/element_force.hpp; the functions that other forces have are
+/// left to it.
+template <class C>
+concept ElementForce = requires {
+  typename C::Driver::Law;
+  requires std::same_as<decltype(C::driver), typename C::Driver>;
+};
+
 template <class C, class D = typename C::DataTypes>
 concept ForceField = HasRole<C, role::ForceField> &&
     requires(C ff, InitContext<D> c, MechanicalParams p, typename D::VecDeriv f, typename D::VecCoord x) {
   ff.init(c);
-  ff.addForce(p, f, x, f);
-  ff.addDForce(p, f, f);  // df += (k K + b B) dx at the last addForce
-  { ff.potentialEnergy(x) } -> std::convertible_to<double>;
+  requires ElementForce<C> || requires {
+    ff.addForce(p, f, x, f);
+    ff.addDForce(p, f, f);  // df += (k K + b B) dx at the last addForce
+    { ff.potentialEnergy(x) } -> std::convertible_to<double>;
+  };
 };
 
 template <class C, class D = typename C::DataTypes>
@@ -193,9 +205,11 @@ concept InteractionForceField = HasRole<C, role::InteractionForceField> &&
     requires(C ff, InitContext<D> c, MechanicalParams p, typename D::VecDeriv f, typename D::VecCoord x) {
   typename C::Ends;
   ff.init(c, c);
-  ff.addForce(p, f, f, x, x, f, f);
-  ff.addDForce(p, f, f, f, f);
-  { ff.potentialEnergy(x, x) } -> std::convertible_to<double>;
+  requires ElementForce<C> || requires {
+    ff.addForce(p, f, f, x, x, f, f);
+    ff.addDForce(p, f, f, f, f);
+    { ff.potentialEnergy(x, x) } -> std::convertible_to<double>;
+  };
 };
 
 template <class C, class D = typename C::DataTypes>

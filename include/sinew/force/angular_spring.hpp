@@ -85,8 +85,6 @@ struct AngularSpringForceField {
   using Role = role::ForceField;
   using DataTypes = D;
   using Real = typename D::Real;
-  using VecCoord = typename D::VecCoord;
-  using VecDeriv = typename D::VecDeriv;
   static constexpr std::string_view className = "AngularSpringForceField";
 
   std::vector<int> indices{};
@@ -134,7 +132,6 @@ struct AngularSpringForceField {
   }
 
   using Driver = ElementDriver<AngularSpring, D>;
-  using Law = typename Driver::Law;
   Driver driver{};
 
   void init(InitContext<D> const& context) {
@@ -169,18 +166,6 @@ struct AngularSpringForceField {
     if (bodies.empty() && !none)
       throw Error(where, "there is no spring; give two indices or more, of which all but the first are held");
     driver.init(bodies, rest);
-  }
-
-  void addForce(MechanicalParams const&, VecDeriv& f, VecCoord const& x, VecDeriv const& v) {
-    driver.addForce(Law{}, f, x, v);
-  }
-  void addDForce(MechanicalParams const& p, VecDeriv& df, VecDeriv const& dx) const {
-    driver.addDForce(Law{}, df, dx, Real(p.k), Real(p.b));
-  }
-  double potentialEnergy(VecCoord const& x) const { return driver.energy(Law{}, x); }
-  template <class Sink>
-  void addToMatrix(MechanicalParams const& p, Sink const& sink) {
-    driver.addToMatrix(Law{}, sink, Real(p.k), Real(p.b));
   }
 };
 

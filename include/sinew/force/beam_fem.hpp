@@ -152,8 +152,6 @@ struct BeamFEMForceField {
   using Role = role::ForceField;
   using DataTypes = D;
   using Real = typename D::Real;
-  using VecCoord = typename D::VecCoord;
-  using VecDeriv = typename D::VecDeriv;
   static constexpr std::string_view className = "BeamFEMForceField";
 
   double poissonRatio = 0.49, youngModulus = 5000;
@@ -216,7 +214,6 @@ struct BeamFEMForceField {
   }
 
   using Driver = ElementDriver<BeamFEM, D>;
-  using Law = typename Driver::Law;
   Driver driver{};
 
   void init(InitContext<D> const& context) {
@@ -257,18 +254,6 @@ struct BeamFEMForceField {
       rest.push_back(BeamFEM<D>::restOf(x, section, youngModulus, poissonRatio, shearStressComputation));
     }
     driver.init(beams, rest);
-  }
-
-  void addForce(MechanicalParams const&, VecDeriv& f, VecCoord const& x, VecDeriv const& v) {
-    driver.addForce(Law{}, f, x, v);
-  }
-  void addDForce(MechanicalParams const& p, VecDeriv& df, VecDeriv const& dx) const {
-    driver.addDForce(Law{}, df, dx, Real(p.k), Real(p.b));
-  }
-  double potentialEnergy(VecCoord const& x) const { return driver.energy(Law{}, x); }
-  template <class Sink>
-  void addToMatrix(MechanicalParams const& p, Sink const& sink) {
-    driver.addToMatrix(Law{}, sink, Real(p.k), Real(p.b));
   }
 };
 

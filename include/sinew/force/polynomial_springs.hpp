@@ -5,7 +5,6 @@
 #include <sinew/core/element_driver.hpp>
 #include <sinew/core/ends.hpp>
 #include <sinew/core/follow.hpp>
-#include <sinew/core/point_loop.hpp>
 
 #include <limits>
 #include <vector>
@@ -100,8 +99,6 @@ struct PolynomialSpringsForceField {
   using Role = std::conditional_t<between, role::InteractionForceField, role::ForceField>;
   using DataTypes = D;
   using Real = typename D::Real;
-  using VecCoord = typename D::VecCoord;
-  using VecDeriv = typename D::VecDeriv;
   static constexpr std::string_view className = "PolynomialSpringsForceField";
 
   std::vector<int> firstObjectPoints{}, secondObjectPoints{};
@@ -145,7 +142,6 @@ struct PolynomialSpringsForceField {
   }
 
   using Driver = ElementDriver<PolynomialSpring, D>;
-  using Law = typename Driver::Law;
   Driver driver{};
 
   /// The settings of the law, for lanes or one element at a time.
@@ -244,36 +240,6 @@ struct PolynomialSpringsForceField {
       rest.push_back(spring);
     }
     driver.init(points, rest);
-  }
-
-  void addForce(MechanicalParams const&, VecDeriv& f, VecCoord const& x, VecDeriv const& v) {
-    driver.addForce(law<Law>(), f, x, v);
-  }
-  void addDForce(MechanicalParams const& p, VecDeriv& df, VecDeriv const& dx) const {
-    driver.addDForce(law<Law>(), df, dx, Real(p.k), Real(p.b));
-  }
-  double potentialEnergy(VecCoord const& x) const { return driver.energy(law<Law>(), x); }
-
-  void addForce(MechanicalParams const&, VecDeriv& f0, VecDeriv& f1, VecCoord const& x0, VecCoord const& x1,
-                VecDeriv const& v0, VecDeriv const& v1) {
-    driver.addForce(
-        law<Law>(), {entries(f0), entries(f1)}, {entries(x0), entries(x1)}, {entries(v0), entries(v1)});
-  }
-  void addDForce(MechanicalParams const& p, VecDeriv& df0, VecDeriv& df1, VecDeriv const& dx0,
-                 VecDeriv const& dx1) const {
-    driver.addDForce(
-        law<Law>(), {entries(df0), entries(df1)}, {entries(dx0), entries(dx1)}, Real(p.k), Real(p.b));
-  }
-  double potentialEnergy(VecCoord const& x0, VecCoord const& x1) const {
-    return driver.energy(law<Law>(), typename Driver::Coords{entries(x0), entries(x1)});
-  }
-
-  template <class Sink>
-  void addToMatrix(MechanicalParams const& p, Sink const& sink) {
-    if constexpr (between)
-      driver.template addToMatrix<0, 1>(law<Law>(), sink, Real(p.k), Real(p.b));
-    else
-      driver.addToMatrix(law<Law>(), sink, Real(p.k), Real(p.b));
   }
 };
 

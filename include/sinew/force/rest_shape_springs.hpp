@@ -111,7 +111,6 @@ struct RestShapeSpringsForceField {
   using DataTypes = D;
   using Real = typename D::Real;
   using VecCoord = typename D::VecCoord;
-  using VecDeriv = typename D::VecDeriv;
   static constexpr std::string_view className = "RestShapeSpringsForceField";
   static constexpr std::string_view aliases = "FixedWeakConstraint";
 
@@ -175,7 +174,6 @@ struct RestShapeSpringsForceField {
   }
 
   using Driver = ElementDriver<RestShapeSpring, D>;
-  using Law = typename Driver::Law;
   Driver driver{};
 
   template <class L>
@@ -251,18 +249,6 @@ struct RestShapeSpringsForceField {
       rest.back().angularStiffness = D::rigid ? value("angularStiffness", angularStiffness, i) : Real(0);
     }
     driver.init(indices, rest);
-  }
-
-  void addForce(MechanicalParams const&, VecDeriv& f, VecCoord const& x, VecDeriv const& v) {
-    driver.addForce(law<Law>(), f, x, v);
-  }
-  void addDForce(MechanicalParams const& p, VecDeriv& df, VecDeriv const& dx) const {
-    driver.addDForce(law<Law>(), df, dx, Real(p.k), Real(p.b));
-  }
-  double potentialEnergy(VecCoord const& x) const { return driver.energy(law<Law>(), x); }
-  template <class Sink>
-  void addToMatrix(MechanicalParams const& p, Sink const& sink) {
-    driver.addToMatrix(law<Law>(), sink, Real(p.k), Real(p.b));
   }
 };
 

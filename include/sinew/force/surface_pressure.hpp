@@ -92,7 +92,6 @@ struct SurfacePressureForceField {
   using Real = typename D::Real;
   using Coord = typename D::Coord;
   using VecCoord = typename D::VecCoord;
-  using VecDeriv = typename D::VecDeriv;
   static constexpr std::string_view className = "SurfacePressureForceField";
 
   double pressure = 0;
@@ -154,7 +153,6 @@ struct SurfacePressureForceField {
   }
 
   using Driver = ElementDriver<TrianglePressure, D>;
-  using Law = typename Driver::Law;
   Driver driver{};
   bool closed = false;  // the surface has no border
 
@@ -186,18 +184,6 @@ struct SurfacePressureForceField {
                                                   context.rest[std::size_t(e[2])])});
     driver.init(loaded, rest);
     closed = is_closed(loaded);
-  }
-
-  void addForce(MechanicalParams const&, VecDeriv& f, VecCoord const& x, VecDeriv const& v) {
-    driver.addForce(law<Law>(), f, x, v);
-  }
-  void addDForce(MechanicalParams const& p, VecDeriv& df, VecDeriv const& dx) const {
-    driver.addDForce(law<Law>(), df, dx, Real(p.k), Real(p.b));
-  }
-  double potentialEnergy(VecCoord const& x) const { return driver.energy(law<Law>(), x); }
-  template <class Sink>
-  void addToMatrix(MechanicalParams const& p, Sink const& sink) {
-    driver.addToMatrix(law<Law>(), sink, Real(p.k), Real(p.b));
   }
 
  private:

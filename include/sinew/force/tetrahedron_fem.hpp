@@ -241,8 +241,6 @@ struct TetrahedronFEMForceField {
   static constexpr bool takesParts = true;
   using DataTypes = D;
   using Real = typename D::Real;
-  using VecCoord = typename D::VecCoord;
-  using VecDeriv = typename D::VecDeriv;
   static constexpr std::string_view className = "TetrahedronFEMForceField";
   static constexpr std::string_view aliases = "TetrahedralCorotationalFEMForceField";
   static constexpr bool needsTetrahedra = true;
@@ -309,18 +307,6 @@ struct TetrahedronFEMForceField {
       rest.push_back(TetrahedronFEM<D>::restOf(x, Real(mu), Real(lambda), method));
     }
     driver.init({tetrahedra.begin(), tetrahedra.end()}, rest);
-  }
-
-  void addForce(MechanicalParams const& p, VecDeriv& f, VecCoord const& x, VecDeriv const& v) {
-    driver.addForce(law(), f, x, v, p.part);
-  }
-  void addDForce(MechanicalParams const& p, VecDeriv& df, VecDeriv const& dx) const {
-    driver.addDForce(law(), df, dx, Real(p.k), Real(p.b), p.part);
-  }
-  double potentialEnergy(VecCoord const& x) const { return driver.energy(law(), x); }
-  template <class Sink>
-  void addToMatrix(MechanicalParams const& p, Sink const& sink) {
-    driver.addToMatrix(law(), sink, Real(p.k), Real(p.b), p.part);
   }
 };
 

@@ -342,7 +342,7 @@ class Simulation {
              }));
     const MechanicalParams p{.time = time_, .dt = dt};
     forEachLoose(scope, [&](auto& c, auto& a, auto& b) {
-      c.addForce(p, a.externalForce, b.externalForce, a.position, b.position, a.velocity, b.velocity);
+      add_force(c, p, a.externalForce, b.externalForce, a.position, b.position, a.velocity, b.velocity);
     });
     if constexpr (collides) addLooseContacts(scope);
   }
