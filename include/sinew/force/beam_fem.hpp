@@ -3,7 +3,9 @@
 
 #include <sinew/core/component.hpp>
 #include <sinew/core/element_driver.hpp>
+#include <sinew/core/lists.hpp>
 #include <sinew/force/corotation.hpp>
+#include <sinew/force/elasticity.hpp>
 #include <sinew/topology/beam_section.hpp>
 
 #include <vector>
@@ -63,7 +65,7 @@ struct BeamFEM {
   static Rest restOf(Coord const (&x)[2], BeamSection const& section, double E, double nu, bool shear) {
     Rest rest;
     const Eigen::Vector3d chord = (x[1].center - x[0].center).template cast<double>();
-    const double L = chord.norm(), G = E / (2 * (1 + nu));
+    const double L = chord.norm(), G = shear_modulus(E, nu);
     Eigen::Quaterniond node[2];
     for (int i = 0; i < 2; ++i) node[i] = x[i].orientation.template cast<double>();
     const Eigen::Quaterniond axes = beam_axes(chord, node[0], node[1]);
@@ -228,17 +230,9 @@ struct BeamFEMForceField {
     detail::check_indices(where, "edge", edges, context.rest.size());
     std::vector<Edge> beams(edges.begin(), edges.end());
     if (!listSegment.empty() || none) {
+      check_numbers(where, "listSegment", listSegment, edges.size(), "edges", "the topology");
       beams.clear();
-      for (const int i : listSegment) {
-        if (std::size_t(i) >= edges.size())
-          throw Error(where,
-                      text("listSegment has ",
-                           i,
-                           ", but the topology has ",
-                           edges.size(),
-                           " edges, numbered from 0; correct the index"));
-        beams.push_back(edges[std::size_t(i)]);
-      }
+      for (const int i : listSegment) beams.push_back(edges[std::size_t(i)]);
     }
     std::vector<typename Driver::Rest> rest;
     for (std::size_t e = 0; e < beams.size(); ++e) {

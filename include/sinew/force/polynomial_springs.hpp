@@ -5,6 +5,7 @@
 #include <sinew/core/element_driver.hpp>
 #include <sinew/core/ends.hpp>
 #include <sinew/core/follow.hpp>
+#include <sinew/core/lists.hpp>
 
 #include <limits>
 #include <vector>
@@ -183,12 +184,7 @@ struct PolynomialSpringsForceField {
           " firstObjectPoints and ",
           secondObjectPoints.size(),
           " secondObjectPoints; give both ends of each spring");
-    check(polynomialDegree.size() == 1 || polynomialDegree.size() == n,
-          "polynomialDegree has ",
-          polynomialDegree.size(),
-          " values for ",
-          n,
-          " springs; give one, or one for each");
+    check_one_or_each(where, "polynomialDegree", polynomialDegree.size(), n, "springs", "one");
     std::size_t coefficients = 0;
     for (const int d : polynomialDegree) coefficients += std::size_t(d);
     check(polynomialStiffness.size() == coefficients,
@@ -197,12 +193,7 @@ struct PolynomialSpringsForceField {
           " coefficients, but polynomialDegree says ",
           coefficients,
           "; give one for each power of each spring");
-    check(computeZeroLength || zeroLength.size() == 1 || zeroLength.size() == n,
-          "zeroLength has ",
-          zeroLength.size(),
-          " values for ",
-          n,
-          " springs; give one, or one for each");
+    if (!computeZeroLength) check_one_or_each(where, "zeroLength", zeroLength.size(), n, "springs", "one");
 
     std::vector<typename Driver::Indices> points;
     std::vector<typename Driver::Rest> rest;
@@ -228,13 +219,13 @@ struct PolynomialSpringsForceField {
       check(between || i != j, "spring ", s, " joins point ", i, " to itself; give two points");
       typename Driver::Rest spring{};
       spring.length = computeZeroLength ? (b.rest[std::size_t(j)] - a.rest[std::size_t(i)]).norm()
-                                        : Real(zeroLength[zeroLength.size() == 1 ? 0 : s]);
+                                        : Real(one_or_each(zeroLength, s));
       check(spring.length > 0,
             "spring ",
             s,
             " has no length at rest, of which a strain could be; move its points, or give zeroLength");
       if (polynomialDegree.size() == 1) next = 0;
-      for (int k = 0; k < polynomialDegree[polynomialDegree.size() == 1 ? 0 : s]; ++k)
+      for (int k = 0; k < one_or_each(polynomialDegree, s); ++k)
         spring.coefficient[k] = Real(polynomialStiffness[next++]);
       points.push_back({i, j});
       rest.push_back(spring);

@@ -4,6 +4,7 @@
 #include <sinew/core/component.hpp>
 #include <sinew/core/element_driver.hpp>
 #include <sinew/core/ends.hpp>
+#include <sinew/core/lists.hpp>
 #include <sinew/force/spring_law.hpp>
 
 #include <optional>
@@ -130,11 +131,9 @@ struct StiffSpringForceField {
   template <class T>
   static T of(std::string const& where, std::string_view name, std::vector<T> const& list, std::size_t spring,
               std::size_t n, T fallback) {
-    if (list.size() > 1 && list.size() != n)
-      throw Error(
-          where,
-          text(name, " has ", list.size(), " values for ", n, " springs; give one for all, or one for each"));
-    return list.empty() ? fallback : list[list.size() == 1 ? 0 : spring];
+    if (list.empty()) return fallback;
+    check_one_or_each(where, name, list.size(), n, "springs", "one for all");
+    return one_or_each(list, spring);
   }
 
   // `springs`, and behind them those that the lists make

@@ -3,6 +3,7 @@
 
 #include <sinew/core/component.hpp>
 #include <sinew/core/element_driver.hpp>
+#include <sinew/core/lists.hpp>
 
 #include <algorithm>
 #include <array>
@@ -196,17 +197,8 @@ struct SurfacePressureForceField {
         return (!min || (x.array() >= min->array()).all()) && (!max || (x.array() <= max->array()).all());
       });
     };
-    for (const int e : indices) {
-      if (std::size_t(e) >= elements.size())
-        throw Error(where,
-                    text(name,
-                         " has ",
-                         e,
-                         ", but the topology has ",
-                         elements.size(),
-                         " such elements, numbered from 0; correct the index"));
-      take(elements[std::size_t(e)]);
-    }
+    check_numbers(where, name, indices, elements.size(), "such elements", "the topology");
+    for (const int e : indices) take(elements[std::size_t(e)]);
     if (indices.empty() && !none)
       for (auto const& element : elements)
         if (inBox(element)) take(element);
