@@ -6,6 +6,7 @@
 #include <sinew/core/euler.hpp>
 #include <sinew/core/follow.hpp>
 #include <sinew/core/memory_limit.hpp>
+#include <sinew/core/lists.hpp>
 #include <sinew/core/mesh.hpp>
 #include <sinew/core/renumbering.hpp>
 #include <sinew/core/workers.hpp>

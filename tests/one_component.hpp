@@ -6,7 +6,7 @@
 #include "catch.hpp"
 #include "error_of.hpp"
 
-#include <sinew/core/component.hpp>
+#include <sinew/core/element_force.hpp>
 
 #include <limits>
 #include <string>
@@ -34,7 +34,7 @@ typename C::DataTypes::VecDeriv force(C& c, typename C::DataTypes::VecCoord cons
   v.resize(x.size(), Deriv::Zero());
   MechanicalParams p;
   p.time = time;
-  c.addForce(p, f, x, v);
+  add_force(c, p, f, x, v);
   return f;
 }
 
@@ -45,7 +45,7 @@ typename C::DataTypes::VecDeriv product(C const& c, typename C::DataTypes::VecDe
   typename C::DataTypes::VecDeriv df(dx.size(), C::DataTypes::Deriv::Zero());
   MechanicalParams p;
   p.k = k, p.b = b;
-  c.addDForce(p, df, dx);
+  add_dforce(c, p, df, dx);
   return df;
 }
 

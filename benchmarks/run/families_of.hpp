@@ -3,6 +3,7 @@
 
 #include "families.hpp"
 
+#include <sinew/core/element_force.hpp>
 #include <sinew/force/bending_springs.hpp>
 #include <sinew/force/fast_triangular_bending_springs.hpp>
 #include <sinew/force/hexahedron_fem.hpp>
@@ -80,8 +81,9 @@ void add_force(std::vector<Work>& list, std::string family, Force component, Top
   std::size_t count = 0;
   for (auto const& pack : force->driver.packs) count += std::size_t(pack.active);
   const MechanicalParams p{.dt = 0.01, .b = -0.01, .k = -0.0001};
-  list.push_back({family, "addForce", count, [=] { force->addForce(p, body->f, body->x, body->v); }});
-  list.push_back({family, "addDForce", count, [=] { force->addDForce(p, body->f, body->v); }});
+  list.push_back(
+      {family, "addForce", count, [=] { sinew::add_force(*force, p, body->f, body->x, body->v); }});
+  list.push_back({family, "addDForce", count, [=] { sinew::add_dforce(*force, p, body->f, body->v); }});
 }
 
 /// Element laws, which run in lanes.

@@ -112,10 +112,10 @@ int main(int argc, char** argv) try {
   for (int i = 0; i < 4; ++i) multiply();  // from the fourth on large matrices take slices
   loops.push_back({"matrix-vector", 18 * blocks, double(m.productBytes()) + 3 * vector, multiply});
   loops.push_back({"force", law.force * tetrahedra, packs + tangents + 3 * vector, [&] {
-                     force.addForce(p, state.force, state.position, state.velocity);
+                     add_force(force, p, state.force, state.position, state.velocity);
                    }});
   loops.push_back({"matrix-free-product", law.dforce * tetrahedra, packs + 3 * vector, [&] {
-                     force.addDForce(p, state.force, state.velocity);
+                     add_dforce(force, p, state.force, state.velocity);
                    }});
   loops.push_back({"assembly", law.blocks * tetrahedra, packs + slots + 2 * values, [&] {
                      operations.assemble(system.matrix, {.m = 1, .k = -0.0024});

@@ -71,15 +71,15 @@ struct CuttableSpringForceField {
   }
 
   void addForce(sinew::MechanicalParams const& p, VecDeriv& f, VecCoord const& x, VecDeriv const& v) {
-    uncut.addForce(p, f, x, v);
+    sinew::add_force(uncut, p, f, x, v);
   }
   void addDForce(sinew::MechanicalParams const& p, VecDeriv& df, VecDeriv const& dx) const {
-    uncut.addDForce(p, df, dx);
+    sinew::add_dforce(uncut, p, df, dx);
   }
-  double potentialEnergy(VecCoord const& x) const { return uncut.potentialEnergy(x); }
+  double potentialEnergy(VecCoord const& x) const { return sinew::potential_energy(uncut, x); }
   template <class Sink>
   void addToMatrix(sinew::MechanicalParams const& p, Sink const& sink) {
-    uncut.addToMatrix(p, sink);
+    sinew::add_to_matrix(uncut, p, sink);
   }
 };
 

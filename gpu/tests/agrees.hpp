@@ -65,7 +65,7 @@ double relative_force(int v, std::vector<typename H::Coord> const& at, Motion<H>
     const typename D::VecCoord x(positions);
     const typename D::VecDeriv still(x.size(), Deriv::Zero());
     typename D::VecDeriv f(x.size(), Deriv::Zero());
-    force.addForce({}, f, x, still);
+    add_force(force, {}, f, x, still);
     double most = 0;
     for (std::size_t i = 0; i < f.size(); ++i)
       if (of(int(i))) most = std::max(most, double(f[i].norm()));

@@ -5,7 +5,7 @@
 // in files of their own, without Thrust, once for all backends.
 
 #include <sinew/core/assembly.hpp>
-#include <sinew/core/component.hpp>
+#include <sinew/core/element_force.hpp>
 #include <sinew/linalg/block_matrix.hpp>
 #include <sinew/topology/adjacency.hpp>
 #include <sinew/topology/regular_grid.hpp>
@@ -123,20 +123,20 @@ Answer<HostOf<D>> answer_of(Force& force, Motion<HostOf<D>> const& motion, bool 
   const typename D::VecDeriv v(motion.v), dx(motion.dx);
   typename D::VecDeriv f(motion.dx), first(motion.v), second(motion.v);
   MechanicalParams p;
-  force.addForce(p, f, x, v);
+  add_force(force, p, f, x, v);
   p.k = 0.7, p.b = 0.3;
-  force.addDForce(p, first, dx);
-  force.addDForce(p, second, dx);
+  add_dforce(force, p, first, dx);
+  add_dforce(force, p, second, dx);
   answer.f = on_the_host(f);
   answer.first = on_the_host(first);
   answer.second = on_the_host(second);
-  answer.energy = force.potentialEnergy(x);
+  answer.energy = potential_energy(force, x);
 
   CompressedRowSparseMatrix<typename D::Real, D::size> matrix;
   using Dofs = DirectDofs<D::size>;
   const Dofs dofs{0};
   auto add = [&]<AssemblyPhase phase>() {
-    force.addToMatrix(p, MatrixSink<phase, decltype(matrix), Dofs>{matrix, dofs, dofs});
+    add_to_matrix(force, p, MatrixSink<phase, decltype(matrix), Dofs>{matrix, dofs, dofs});
   };
   matrix.startPattern(int(motion.x.size()) * D::size);
   add.template operator()<AssemblyPhase::pattern>();

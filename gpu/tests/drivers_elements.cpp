@@ -43,12 +43,12 @@ TEST_CASE("a copy of a force field on the device has the same tangent") {
   CudaVec3d::VecDeriv f = zero, one = zero, other = zero;
   MechanicalParams p;
   p.k = 1;
-  force.addForce(p, f, x, dx);
+  add_force(force, p, f, x, dx);
   for (int i = 0; i < 3; ++i) {
     one = other = zero;
-    force.addDForce(p, one, dx);
+    add_dforce(force, p, one, dx);
     auto const copy = force;
-    copy.addDForce(p, other, dx);
+    add_dforce(copy, p, other, dx);
     CHECK(relative_difference(other.host(), one.host()) < rounding<double>);
   }
 }

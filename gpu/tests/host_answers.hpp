@@ -35,34 +35,19 @@ ElementDriver<LawOf, D, 1> unpacked(ElementDriver<LawOf, D, W> const& packed) {
 
 template <class C>
 struct OneByOne {
-  using Real = typename C::DataTypes::Real;
+  using DataTypes = typename C::DataTypes;
   using Driver = decltype(unpacked(std::declval<C&>().driver));
   using Law = typename Driver::Law;
   Driver driver;
-  Law law{};
+  Law settings{};
 
   explicit OneByOne(C const& c) : driver(unpacked(c.driver)) {
     if constexpr (requires { c.template law<Law>(); })
-      law = c.template law<Law>();
+      settings = c.template law<Law>();
     else if constexpr (requires { Law{c.method}; })
-      law = Law{c.method};
+      settings = Law{c.method};
   }
-  template <class F, class X, class V>
-  void addForce(MechanicalParams const&, F& f, X const& x, V const& v) {
-    driver.addForce(law, f, x, v);
-  }
-  template <class V>
-  void addDForce(MechanicalParams const& p, V& df, V const& dx) const {
-    driver.addDForce(law, df, dx, Real(p.k), Real(p.b));
-  }
-  template <class X>
-  double potentialEnergy(X const& x) const {
-    return driver.energy(law, x);
-  }
-  template <class Sink>
-  void addToMatrix(MechanicalParams const& p, Sink const& sink) {
-    driver.addToMatrix(law, sink, Real(p.k), Real(p.b));
-  }
+  Law law() const { return settings; }
 };
 
 template <class Sample, class H>

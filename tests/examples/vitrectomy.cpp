@@ -87,20 +87,20 @@ TEST_CASE("vitrectomy: as the cut closes the circle, the retina comes back to it
     return i >= std::size_t(eye.sectors) && i < std::size_t(eye.retinaPoints - eye.sectors);
   };
   Vec3d::VecDeriv f = zero;
-  retina.addForce({}, f, eye.position, zero);  // the tangent there
+  add_force(retina, {}, f, eye.position, zero);  // the tangent there
   const auto m = Eigen::Index(eye.retinaPoints - 2 * eye.sectors);
   Eigen::MatrixXd stiffness(3 * m, 3 * m);
   for (Eigen::Index c = 0; c < 3 * m; ++c) {
     Vec3d::VecDeriv dx = zero, df = zero;
     dx[std::size_t(eye.sectors + c / 3)][c % 3] = 1;
-    retina.addDForce({.k = -1}, df, dx);
+    add_dforce(retina, {.k = -1}, df, dx);
     for (Eigen::Index i = 0; i < m; ++i) stiffness.block<3, 1>(3 * i, c) = df[std::size_t(eye.sectors + i)];
   }
   const double softest =
       Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(stiffness, Eigen::EigenvaluesOnly).eigenvalues()[0];
   REQUIRE(softest > 0.01);  // [N/m]
   f = zero;
-  retina.addForce({}, f, x, zero);
+  add_force(retina, {}, f, x, zero);
   double force = 0;
   for (std::size_t i = 0; i < n; ++i)
     if (free(i)) force += f[i].squaredNorm();

@@ -64,13 +64,13 @@ TEST_CASE("springs across the edges of triangles have the energy of a hinge") {
   for (const double angle : {0.0, 0.1, 1.0, 2.5, pi}) {
     const double shorter = 2 * h * (1 - std::cos(angle / 2));
     const auto x = hinge(l, h, angle);
-    CHECK(bending.potentialEnergy(x) == Approx(k / 2 * shorter * shorter).margin(1e-14));
+    CHECK(potential_energy(bending, x) == Approx(k / 2 * shorter * shorter).margin(1e-14));
     // the points are pushed apart along the line between them; at pi they are in one place, without direction
     if (angle < 3) CHECK((force(bending, x)[2] - Vector3d(0, k * shorter, 0)).norm() < 1e-12);
   }
   // relaxed where it rests, folded or not
   auto folded = ready(TriangularBendingSprings<Vec3d>{}, hinge(l, h, 1), {.triangles = pair});
-  CHECK(folded.potentialEnergy(hinge(l, h, 1)) == 0);
+  CHECK(potential_energy(folded, hinge(l, h, 1)) == 0);
   CHECK(folded.stiffness == 1e5);
   CHECK(folded.damping == 1);
 }
@@ -112,9 +112,9 @@ TEST_CASE("a sheet of quads that is rolled up has the energy of its springs") {
   const double shorter = 2 - 2 * r * std::sin(angle), each = k / 2 * shorter * shorter;
   // a spring at each point of the n - 1 columns inside, or one for each side of each square there
   auto once = ready(QuadBendingSprings<Vec3d>{.stiffness = k}, flat, {.quads = quads});
-  CHECK(once.potentialEnergy(rolled) == Approx((n - 1) * (m + 1) * each));
+  CHECK(potential_energy(once, rolled) == Approx((n - 1) * (m + 1) * each));
   auto forEach = ready(QuadularBendingSprings<Vec3d>{.stiffness = k}, flat, {.quads = quads});
-  CHECK(forEach.potentialEnergy(rolled) == Approx((n - 1) * 2 * m * each));
+  CHECK(potential_energy(forEach, rolled) == Approx((n - 1) * 2 * m * each));
 }
 
 TEST_CASE("linear bending has the energy of the folded edge") {
@@ -124,7 +124,7 @@ TEST_CASE("linear bending has the energy of the folded edge") {
     for (const double angle : {0.0, 0.1, 1.0, 2.5}) {
       const auto x = hinge(l, h, angle, shift);
       const double s = std::sin(angle / 2);
-      CHECK(bending.potentialEnergy(x) == Approx(2 * mu * l / (3 * h) * s * s).margin(1e-14));
+      CHECK(potential_energy(bending, x) == Approx(2 * mu * l / (3 * h) * s * s).margin(1e-14));
       // equal forces on the far points, against the fold; those on the edge as their weights say
       const auto f = force(bending, x);
       CHECK((f[2] - f[3]).norm() < 1e-12);
@@ -168,7 +168,7 @@ TEST_CASE("a rolled sheet of equilateral triangles has a third of the bending st
   // each of the edges inside across x stands for the area l h; the others stay flat. The curvature is 1/r up
   // to a^2 / 8
   const double area = (rows - 1) * columns * l * h;
-  CHECK(sheet.potentialEnergy(rolled) == Approx(mu / 3 / 2 / (r * r) * area).epsilon(a * a));
+  CHECK(potential_energy(sheet, rolled) == Approx(mu / 3 / 2 / (r * r) * area).epsilon(a * a));
 }
 
 TEST_CASE("surfaces that do not bend are refused") {

@@ -124,7 +124,7 @@ TEST_CASE("TetrahedronFEMForceField over hexahedra is that over six tetrahedra i
     TetrahedronFEMForceField<Vec3d> fem{.youngModulus = {1000}, .poissonRatio = 0.3};
     fem.init(InitContext<Vec3d>{"/root", grid.position, topology});
     std::vector<Eigen::Vector3d> f(x.size(), Eigen::Vector3d::Zero());
-    fem.addForce({}, f, x, f);
+    add_force(fem, {}, f, x, f);
     return f;
   };
   const auto f = forces(grid.view());
@@ -156,7 +156,7 @@ TEST_CASE("a grid of hexahedra stretched evenly has the stiffness of its materia
   std::vector<Eigen::Vector3d> x = grid.position, f(x.size(), Eigen::Vector3d::Zero());
   for (auto& p : x)
     p = p.cwiseProduct(Eigen::Vector3d(1 - poisson * strain, 1 - poisson * strain, 1 + strain));
-  fem.addForce({}, f, x, f);
+  add_force(fem, {}, f, x, f);
   Eigen::Vector3d pull(0, 0, 0);
   for (std::size_t i = 0; i < x.size(); ++i)
     if (grid.position[i][2] == 0.8)

@@ -57,7 +57,7 @@ TEST_CASE("a stiffness is a force per relative extension, shared by all springs 
   CHECK((f[0] - Eigen::Vector3d(6, 0, 0)).norm() < 1e-15);
   CHECK((f[1] + Eigen::Vector3d(6, 0, 0)).norm() < 1e-15);
   CHECK(f[2].norm() == 0);
-  CHECK(springs.potentialEnergy(x) == Approx(0.5 * 6 * 1));
+  CHECK(potential_energy(springs, x) == Approx(0.5 * 6 * 1));
   // extending at 1 m/s, a rate of 1/2 per second
   const auto damped = force(springs, corners, {{0, 0, 0}, {1, 0, 0}});
   CHECK((damped[0] - Eigen::Vector3d(3, 0, 0)).norm() < 1e-15);
@@ -101,10 +101,10 @@ TEST_CASE("strings pull and never push") {
   for (auto const& f : force(strings, x, {{0, 0, 0}, {1, 0, 0}})) CHECK(f.norm() == 0);
   for (auto const& f : one::product(strings, {{1, 0, 0}, {0, 1, 0}, {0, 0, 0}, {0, 0, 0}}, 1, 1))
     CHECK(f.norm() == 0);
-  CHECK(strings.potentialEnergy(x) == 0);
+  CHECK(potential_energy(strings, x) == 0);
   x[1] = {3, 0, 0};
   CHECK((force(strings, x)[0] - Eigen::Vector3d(6, 0, 0)).norm() < 1e-15);
-  CHECK(strings.potentialEnergy(x) == Approx(3));
+  CHECK(potential_energy(strings, x) == Approx(3));
 }
 
 TEST_CASE("a regular grid has springs along lines and diagonals") {

@@ -43,7 +43,7 @@ Matrix3d of_strain(Matrix3d const& e) {
 Matrix3d stress(Body& body, Matrix3d const& f, double time, double dt,
                 Matrix3d const& rate = Matrix3d::Zero()) {
   Vec3d::VecDeriv force(4, Vector3d::Zero()), v = deformed(rate);
-  body.addForce({.time = time, .dt = dt}, force, deformed(f), v);
+  add_force(body, {.time = time, .dt = dt}, force, deformed(f), v);
   Matrix3d p;
   for (int k = 0; k < 3; ++k) p.col(k) = -force[std::size_t(k) + 1] / volume;
   return f.inverse() * p;

@@ -86,12 +86,12 @@ struct SubjectOf : FieldSubject<D> {
     if constexpr (requires { c.implicit; }) this->implicitDamping = c.implicit;
   }
   void addForce(MechanicalParams const& p, VecDeriv& f, VecCoord const& x, VecDeriv const& v) override {
-    c.addForce(p, f, x, v);
+    add_force(c, p, f, x, v);
   }
   void addDForce(MechanicalParams const& p, VecDeriv& df, VecDeriv const& dx) override {
-    c.addDForce(p, df, dx);
+    add_dforce(c, p, df, dx);
   }
-  double energy(VecCoord const& x) override { return c.potentialEnergy(x); }
+  double energy(VecCoord const& x) override { return potential_energy(c, x); }
   void assemble(MechanicalParams const& p, std::size_t points,
                 typename Subject<D>::Scalars& matrix) override {
     assembleInto(p, points, matrix);
@@ -113,11 +113,11 @@ struct SubjectOf : FieldSubject<D> {
     using Dofs = DirectDofs<D::size>;
     const Dofs dofs{0};
     matrix.startPattern(int(points) * D::size);
-    c.addToMatrix(p, MatrixSink<AssemblyPhase::pattern, Matrix, Dofs>{matrix, dofs, dofs});
+    add_to_matrix(c, p, MatrixSink<AssemblyPhase::pattern, Matrix, Dofs>{matrix, dofs, dofs});
     matrix.finishPattern();
-    c.addToMatrix(p, MatrixSink<AssemblyPhase::bind, Matrix, Dofs>{matrix, dofs, dofs});
+    add_to_matrix(c, p, MatrixSink<AssemblyPhase::bind, Matrix, Dofs>{matrix, dofs, dofs});
     matrix.setZero();
-    c.addToMatrix(p, MatrixSink<AssemblyPhase::add, Matrix, Dofs>{matrix, dofs, dofs});
+    add_to_matrix(c, p, MatrixSink<AssemblyPhase::add, Matrix, Dofs>{matrix, dofs, dofs});
   }
 
   struct OneLane : Subject<D> {

@@ -34,7 +34,7 @@ struct Cube {
     Vec3d::VecCoord x = mesh.positions;
     for (auto& p : x) p[0] += g * p[1];
     Vec3d::VecDeriv f(x.size(), Vector3d::Zero()), rest(x.size(), Vector3d::Zero());
-    body.addForce({.time = time, .dt = dt}, f, x, rest);
+    add_force(body, {.time = time, .dt = dt}, f, x, rest);
     double sum = 0;
     for (std::size_t i = 0; i < f.size(); ++i) sum -= f[i][0] * mesh.positions[i][1];
     return sum;

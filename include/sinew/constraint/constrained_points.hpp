@@ -3,6 +3,7 @@
 
 #include <sinew/core/compiled.hpp>
 #include <sinew/core/component.hpp>
+#include <sinew/core/lists.hpp>
 #include <sinew/core/point_loop.hpp>
 
 #include <vector>
@@ -20,14 +21,7 @@ std::string place_of(InitContext<typename C::DataTypes> const& context) {
 /// Throws Error unless all indices are points of the state.
 template <class C>
 void check_points(InitContext<typename C::DataTypes> const& context, std::vector<int> const& indices) {
-  for (const int i : indices)
-    if (i < 0 || std::size_t(i) >= context.rest.size())
-      throw Error(place_of<C>(context),
-                  text("indices has ",
-                       i,
-                       ", but the state has ",
-                       context.rest.size(),
-                       " points, numbered from 0; correct the index"));
+  check_points(place_of<C>(context), "indices", indices, context.rest.size());
 }
 
 /// The points that a constraint holds: those of a list, or all; as a loop over them reads them.

@@ -4,6 +4,7 @@
 #include <sinew/core/component.hpp>
 #include <sinew/core/element_driver.hpp>
 #include <sinew/core/follow.hpp>
+#include <sinew/core/lists.hpp>
 
 #include <cmath>
 #include <vector>
@@ -85,8 +86,6 @@ struct AngularSpringForceField {
   using Role = role::ForceField;
   using DataTypes = D;
   using Real = typename D::Real;
-  using VecCoord = typename D::VecCoord;
-  using VecDeriv = typename D::VecDeriv;
   static constexpr std::string_view className = "AngularSpringForceField";
 
   std::vector<int> indices{};
@@ -134,53 +133,27 @@ struct AngularSpringForceField {
   }
 
   using Driver = ElementDriver<AngularSpring, D>;
-  using Law = typename Driver::Law;
   Driver driver{};
 
   void init(InitContext<D> const& context) {
     const std::string where = text(context.where, ": ", component_name<AngularSpringForceField>());
-    if (angularStiffness.size() != 1 && angularStiffness.size() != indices.size())
-      throw Error(where,
-                  text("angularStiffness has ",
-                       angularStiffness.size(),
-                       " values for ",
-                       indices.size(),
-                       " indices; give one value, or one for each"));
+    check_one_or_each(where, "angularStiffness", angularStiffness.size(), indices.size(), "indices");
+    check_numbers(where, "indices", indices, context.rest.size(), "bodies", "the state");
     std::vector<typename Driver::Indices> bodies;
     std::vector<typename Driver::Rest> rest;
-    for (std::size_t k = 0; k < indices.size(); ++k) {
+    for (std::size_t k = 1; k < indices.size(); ++k) {
       const int i = indices[k];
-      if (std::size_t(i) >= context.rest.size())
-        throw Error(where,
-                    text("indices has ",
-                         i,
-                         ", but the state has ",
-                         context.rest.size(),
-                         " bodies, numbered from 0; correct the index"));
-      if (k == 0) continue;
       if (i == 0)
         throw Error(where,
                     "indices has 0 behind its first entry, but no body stands before body 0; remove it");
       Quat<Real> const& before = context.rest[std::size_t(i - 1)].orientation;
       bodies.push_back({i - 1, i});
       rest.push_back({(before.conjugate() * context.rest[std::size_t(i)].orientation).normalized(),
-                      Real(angularStiffness[angularStiffness.size() == 1 ? 0 : k])});
+                      Real(one_or_each(angularStiffness, k))});
     }
     if (bodies.empty() && !none)
       throw Error(where, "there is no spring; give two indices or more, of which all but the first are held");
     driver.init(bodies, rest);
-  }
-
-  void addForce(MechanicalParams const&, VecDeriv& f, VecCoord const& x, VecDeriv const& v) {
-    driver.addForce(Law{}, f, x, v);
-  }
-  void addDForce(MechanicalParams const& p, VecDeriv& df, VecDeriv const& dx) const {
-    driver.addDForce(Law{}, df, dx, Real(p.k), Real(p.b));
-  }
-  double potentialEnergy(VecCoord const& x) const { return driver.energy(Law{}, x); }
-  template <class Sink>
-  void addToMatrix(MechanicalParams const& p, Sink const& sink) {
-    driver.addToMatrix(Law{}, sink, Real(p.k), Real(p.b));
   }
 };
 

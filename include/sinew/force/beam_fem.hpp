@@ -3,7 +3,9 @@
 
 #include <sinew/core/component.hpp>
 #include <sinew/core/element_driver.hpp>
+#include <sinew/core/lists.hpp>
 #include <sinew/force/corotation.hpp>
+#include <sinew/force/elasticity.hpp>
 #include <sinew/topology/beam_section.hpp>
 
 #include <vector>
@@ -63,7 +65,7 @@ struct BeamFEM {
   static Rest restOf(Coord const (&x)[2], BeamSection const& section, double E, double nu, bool shear) {
     Rest rest;
     const Eigen::Vector3d chord = (x[1].center - x[0].center).template cast<double>();
-    const double L = chord.norm(), G = E / (2 * (1 + nu));
+    const double L = chord.norm(), G = shear_modulus(E, nu);
     Eigen::Quaterniond node[2];
     for (int i = 0; i < 2; ++i) node[i] = x[i].orientation.template cast<double>();
     const Eigen::Quaterniond axes = beam_axes(chord, node[0], node[1]);
@@ -152,8 +154,6 @@ struct BeamFEMForceField {
   using Role = role::ForceField;
   using DataTypes = D;
   using Real = typename D::Real;
-  using VecCoord = typename D::VecCoord;
-  using VecDeriv = typename D::VecDeriv;
   static constexpr std::string_view className = "BeamFEMForceField";
 
   double poissonRatio = 0.49, youngModulus = 5000;
@@ -216,7 +216,6 @@ struct BeamFEMForceField {
   }
 
   using Driver = ElementDriver<BeamFEM, D>;
-  using Law = typename Driver::Law;
   Driver driver{};
 
   void init(InitContext<D> const& context) {
@@ -231,17 +230,9 @@ struct BeamFEMForceField {
     detail::check_indices(where, "edge", edges, context.rest.size());
     std::vector<Edge> beams(edges.begin(), edges.end());
     if (!listSegment.empty() || none) {
+      check_numbers(where, "listSegment", listSegment, edges.size(), "edges", "the topology");
       beams.clear();
-      for (const int i : listSegment) {
-        if (std::size_t(i) >= edges.size())
-          throw Error(where,
-                      text("listSegment has ",
-                           i,
-                           ", but the topology has ",
-                           edges.size(),
-                           " edges, numbered from 0; correct the index"));
-        beams.push_back(edges[std::size_t(i)]);
-      }
+      for (const int i : listSegment) beams.push_back(edges[std::size_t(i)]);
     }
     std::vector<typename Driver::Rest> rest;
     for (std::size_t e = 0; e < beams.size(); ++e) {
@@ -257,18 +248,6 @@ struct BeamFEMForceField {
       rest.push_back(BeamFEM<D>::restOf(x, section, youngModulus, poissonRatio, shearStressComputation));
     }
     driver.init(beams, rest);
-  }
-
-  void addForce(MechanicalParams const&, VecDeriv& f, VecCoord const& x, VecDeriv const& v) {
-    driver.addForce(Law{}, f, x, v);
-  }
-  void addDForce(MechanicalParams const& p, VecDeriv& df, VecDeriv const& dx) const {
-    driver.addDForce(Law{}, df, dx, Real(p.k), Real(p.b));
-  }
-  double potentialEnergy(VecCoord const& x) const { return driver.energy(Law{}, x); }
-  template <class Sink>
-  void addToMatrix(MechanicalParams const& p, Sink const& sink) {
-    driver.addToMatrix(Law{}, sink, Real(p.k), Real(p.b));
   }
 };
 

@@ -51,8 +51,6 @@ struct BendingSprings {
   static constexpr bool takesParts = true;
   using DataTypes = D;
   using Real = typename D::Real;
-  using VecCoord = typename D::VecCoord;
-  using VecDeriv = typename D::VecDeriv;
   static constexpr std::string_view className = Kind::className;
 
   double stiffness = Kind::stiffness, damping = Kind::damping;
@@ -69,10 +67,7 @@ struct BendingSprings {
   }
 
   using Driver = ElementDriver<SpringLaw, D>;
-  using Law = typename Driver::Law;
   Driver driver{};
-
-  Law law() const { return Law{}; }
 
   void init(InitContext<D> const& context) {
     const std::string where = text(context.where, ": ", component_name<BendingSprings>());
@@ -100,18 +95,6 @@ struct BendingSprings {
                        Kind::triangles ? "triangles" : "quads",
                        " share an edge; give the node a topology with some that do"));
     driver.init(ends, rest);
-  }
-
-  void addForce(MechanicalParams const& p, VecDeriv& f, VecCoord const& x, VecDeriv const& v) {
-    driver.addForce(law(), f, x, v, p.part);
-  }
-  void addDForce(MechanicalParams const& p, VecDeriv& df, VecDeriv const& dx) const {
-    driver.addDForce(law(), df, dx, Real(p.k), Real(p.b), p.part);
-  }
-  double potentialEnergy(VecCoord const& x) const { return driver.energy(law(), x); }
-  template <class Sink>
-  void addToMatrix(MechanicalParams const& p, Sink const& sink) {
-    driver.addToMatrix(law(), sink, Real(p.k), Real(p.b), p.part);
   }
 
  private:

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/core/component.hpp>
+#include <sinew/core/lists.hpp>
 
 #include <optional>
 #include <vector>
@@ -66,14 +67,7 @@ struct ConstantForceField {
                        " entries for ",
                        size,
                        " indices; give one force, or one for each index"));
-    for (const int i : indices)
-      if (std::size_t(i) >= context.rest.size())
-        throw Error(where,
-                    text("indices has ",
-                         i,
-                         ", but the state has ",
-                         context.rest.size(),
-                         " points, numbered from 0; correct the index"));
+    check_points(where, "indices", indices, context.rest.size());
     rest = context.rest;
   }
 

@@ -4,6 +4,7 @@
 #include <sinew/core/compiled.hpp>
 #include <sinew/core/component.hpp>
 #include <sinew/core/follow.hpp>
+#include <sinew/core/lists.hpp>
 
 #include <vector>
 
@@ -140,17 +141,8 @@ struct ElementPressure {
                     "p_intensity is across the edges; give binormal, with which it is at a right angle");
     }
     std::vector<bool> bears(elements.size(), false);
-    for (const int e : pressedElements) {
-      if (std::size_t(e) >= elements.size())
-        throw Error(where,
-                    text(Kind::list,
-                         " has ",
-                         e,
-                         ", but the topology has ",
-                         elements.size(),
-                         " such elements, numbered from 0; correct the index"));
-      bears[std::size_t(e)] = true;
-    }
+    check_numbers(where, Kind::list, pressedElements, elements.size(), "such elements", "the topology");
+    for (const int e : pressedElements) bears[std::size_t(e)] = true;
     std::vector<double> share(context.rest.size(), 0.0);
     across.clear();
     auto load = [&](auto const& element) {

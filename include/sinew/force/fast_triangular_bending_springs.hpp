@@ -70,8 +70,6 @@ struct FastTriangularBendingSprings {
   static constexpr bool takesParts = true;
   using DataTypes = D;
   using Real = typename D::Real;
-  using VecCoord = typename D::VecCoord;
-  using VecDeriv = typename D::VecDeriv;
   static constexpr std::string_view className = "FastTriangularBendingSprings";
 
   double bendingStiffness = 1, minDistValidity = 1e-6;
@@ -92,7 +90,6 @@ struct FastTriangularBendingSprings {
   }
 
   using Driver = ElementDriver<LinearBending, D>;
-  using Law = typename Driver::Law;
   Driver driver{};
 
   void init(InitContext<D> const& context) {
@@ -127,18 +124,6 @@ struct FastTriangularBendingSprings {
                   "no two triangles share an edge; give the node a topology with some that do, and that are "
                   "larger than minDistValidity");
     driver.init(points, rest);
-  }
-
-  void addForce(MechanicalParams const& p, VecDeriv& f, VecCoord const& x, VecDeriv const& v) {
-    driver.addForce(Law{}, f, x, v, p.part);
-  }
-  void addDForce(MechanicalParams const& p, VecDeriv& df, VecDeriv const& dx) const {
-    driver.addDForce(Law{}, df, dx, Real(p.k), Real(p.b), p.part);
-  }
-  double potentialEnergy(VecCoord const& x) const { return driver.energy(Law{}, x); }
-  template <class Sink>
-  void addToMatrix(MechanicalParams const& p, Sink const& sink) {
-    driver.addToMatrix(Law{}, sink, Real(p.k), Real(p.b), p.part);
   }
 };
 

@@ -3,6 +3,8 @@
 
 #include <sinew/core/component.hpp>
 #include <sinew/core/element_driver.hpp>
+#include <sinew/core/lists.hpp>
+#include <sinew/force/elasticity.hpp>
 #include <sinew/force/rotations.hpp>
 
 #include <Eigen/LU>
@@ -270,8 +272,6 @@ struct HexahedronFEMForceField {
   static constexpr bool takesParts = true;
   using DataTypes = D;
   using Real = typename D::Real;
-  using VecCoord = typename D::VecCoord;
-  using VecDeriv = typename D::VecDeriv;
   static constexpr std::string_view className = "HexahedronFEMForceField",
                                     aliases = "HexahedralFEMForceField";
 
@@ -319,23 +319,15 @@ struct HexahedronFEMForceField {
     if (hexahedra.empty())
       throw Error(where, "the topology has no hexahedron; give the node a topology with hexahedra");
     detail::check_indices(where, "hexahedron", hexahedra, context.rest.size());
-    if (youngModulus.size() != 1 && youngModulus.size() != hexahedra.size())
-      throw Error(where,
-                  text("youngModulus has ",
-                       youngModulus.size(),
-                       " values for ",
-                       hexahedra.size(),
-                       " hexahedra; give one value, or one for each"));
+    check_one_or_each(where, "youngModulus", youngModulus.size(), hexahedra.size(), "hexahedra");
     std::vector<typename Driver::Rest> rest;
     rest.reserve(hexahedra.size());
     for (std::size_t e = 0; e < hexahedra.size(); ++e) {
       typename D::Coord x[8];
       for (std::size_t k = 0; k < 8; ++k) x[k] = context.rest[std::size_t(hexahedra[e][k])];
-      const double E = (youngModulus.size() == 1 ? youngModulus[0] : youngModulus[e]) *
-                       (fill.size() == hexahedra.size() ? fill[e] : 1.0);
-      const double lambda = E * poissonRatio / ((1 + poissonRatio) * (1 - 2 * poissonRatio)),
-                   mu = E / (2 * (1 + poissonRatio));
-      rest.push_back(HexahedronFEM<D>::restOf(x, Real(mu), Real(lambda), method));
+      const double E = one_or_each(youngModulus, e) * (fill.size() == hexahedra.size() ? fill[e] : 1.0);
+      const LameModuli moduli = lame_moduli(E, poissonRatio);
+      rest.push_back(HexahedronFEM<D>::restOf(x, Real(moduli.mu), Real(moduli.lambda), method));
       const Real longest = (x[6] - x[0]).norm();
       for (const Real w : rest.back().weight)
         if (!(w > Real(1e-12) * longest * longest * longest))
@@ -347,18 +339,6 @@ struct HexahedronFEMForceField {
                    "then those opposite of them, each face turning as seen from inside"));
     }
     driver.init({hexahedra.begin(), hexahedra.end()}, rest);
-  }
-
-  void addForce(MechanicalParams const& p, VecDeriv& f, VecCoord const& x, VecDeriv const& v) {
-    driver.addForce(law(), f, x, v, p.part);
-  }
-  void addDForce(MechanicalParams const& p, VecDeriv& df, VecDeriv const& dx) const {
-    driver.addDForce(law(), df, dx, Real(p.k), Real(p.b), p.part);
-  }
-  double potentialEnergy(VecCoord const& x) const { return driver.energy(law(), x); }
-  template <class Sink>
-  void addToMatrix(MechanicalParams const& p, Sink const& sink) {
-    driver.addToMatrix(law(), sink, Real(p.k), Real(p.b), p.part);
   }
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/core/component.hpp>
+#include <sinew/core/lists.hpp>
 
 #include <algorithm>
 #include <vector>
@@ -63,14 +64,7 @@ struct LinearForceField {
                          " s, not after times[",
                          k - 1,
                          "]; put them in rising order"));
-    for (const int i : points)
-      if (std::size_t(i) >= context.rest.size())
-        throw Error(where,
-                    text("points has ",
-                         i,
-                         ", but the state has ",
-                         context.rest.size(),
-                         " points, numbered from 0; correct the index"));
+    check_points(where, "points", points, context.rest.size());
     rest = context.rest;
     current = at(0);
   }

@@ -19,8 +19,6 @@ struct MeshSpringForceField {
   static constexpr bool takesParts = true;
   using DataTypes = D;
   using Real = typename D::Real;
-  using VecCoord = typename D::VecCoord;
-  using VecDeriv = typename D::VecDeriv;
   static constexpr std::string_view className = "MeshSpringForceField";
 
   double stiffness = 0, damping = 0;
@@ -57,11 +55,8 @@ struct MeshSpringForceField {
   }
 
   using Driver = typename SpringNetwork<D>::Driver;
-  using Law = typename Driver::Law;
   Driver driver{};
   bool none = false;  // no spring
-
-  Law law() const { return Law{}; }
 
   void init(InitContext<D> const& context) {
     const std::string where = text(context.where, ": ", component_name<MeshSpringForceField>());
@@ -106,18 +101,6 @@ struct MeshSpringForceField {
     return none ? "there is no spring, so that points move freely; give the node a topology with edges or "
                   "higher elements, and set a stiffness or damping of their kind"
                 : "";
-  }
-
-  void addForce(MechanicalParams const& p, VecDeriv& f, VecCoord const& x, VecDeriv const& v) {
-    driver.addForce(law(), f, x, v, p.part);
-  }
-  void addDForce(MechanicalParams const& p, VecDeriv& df, VecDeriv const& dx) const {
-    driver.addDForce(law(), df, dx, Real(p.k), Real(p.b), p.part);
-  }
-  double potentialEnergy(VecCoord const& x) const { return driver.energy(law(), x); }
-  template <class Sink>
-  void addToMatrix(MechanicalParams const& p, Sink const& sink) {
-    driver.addToMatrix(law(), sink, Real(p.k), Real(p.b), p.part);
   }
 };
 

@@ -118,8 +118,6 @@ struct PlaneForceField {
   using Role = role::ForceField;
   using DataTypes = D;
   using Real = typename D::Real;
-  using VecCoord = typename D::VecCoord;
-  using VecDeriv = typename D::VecDeriv;
   using Normal = Vec<double, D::spatial>;
   static constexpr std::string_view className = "PlaneForceField";
 
@@ -141,7 +139,6 @@ struct PlaneForceField {
   static constexpr ForceProperties properties() { return {.internal = false, .objective = false}; }
 
   using Driver = ElementDriver<PlanePenalty, D>;
-  using Law = typename Driver::Law;
   Driver driver{};
 
   void init(InitContext<D> const& context) {
@@ -165,18 +162,6 @@ struct PlaneForceField {
     law.limited = maxForce > 0;
     law.bilateral = bilateral;
     return law;
-  }
-
-  void addForce(MechanicalParams const&, VecDeriv& f, VecCoord const& x, VecDeriv const& v) {
-    driver.addForce(law<Law>(), f, x, v);
-  }
-  void addDForce(MechanicalParams const& p, VecDeriv& df, VecDeriv const& dx) const {
-    driver.addDForce(law<Law>(), df, dx, Real(p.k), Real(p.b));
-  }
-  double potentialEnergy(VecCoord const& x) const { return driver.energy(law<Law>(), x); }
-  template <class Sink>
-  void addToMatrix(MechanicalParams const& p, Sink const& sink) {
-    driver.addToMatrix(law<Law>(), sink, Real(p.k), Real(p.b));
   }
 };
 

@@ -5,7 +5,7 @@
 #include <sinew/core/element_driver.hpp>
 #include <sinew/core/ends.hpp>
 #include <sinew/core/follow.hpp>
-#include <sinew/core/point_loop.hpp>
+#include <sinew/core/lists.hpp>
 
 #include <limits>
 #include <vector>
@@ -100,8 +100,6 @@ struct PolynomialSpringsForceField {
   using Role = std::conditional_t<between, role::InteractionForceField, role::ForceField>;
   using DataTypes = D;
   using Real = typename D::Real;
-  using VecCoord = typename D::VecCoord;
-  using VecDeriv = typename D::VecDeriv;
   static constexpr std::string_view className = "PolynomialSpringsForceField";
 
   std::vector<int> firstObjectPoints{}, secondObjectPoints{};
@@ -145,7 +143,6 @@ struct PolynomialSpringsForceField {
   }
 
   using Driver = ElementDriver<PolynomialSpring, D>;
-  using Law = typename Driver::Law;
   Driver driver{};
 
   /// The settings of the law, for lanes or one element at a time.
@@ -187,12 +184,7 @@ struct PolynomialSpringsForceField {
           " firstObjectPoints and ",
           secondObjectPoints.size(),
           " secondObjectPoints; give both ends of each spring");
-    check(polynomialDegree.size() == 1 || polynomialDegree.size() == n,
-          "polynomialDegree has ",
-          polynomialDegree.size(),
-          " values for ",
-          n,
-          " springs; give one, or one for each");
+    check_one_or_each(where, "polynomialDegree", polynomialDegree.size(), n, "springs", "one");
     std::size_t coefficients = 0;
     for (const int d : polynomialDegree) coefficients += std::size_t(d);
     check(polynomialStiffness.size() == coefficients,
@@ -201,12 +193,7 @@ struct PolynomialSpringsForceField {
           " coefficients, but polynomialDegree says ",
           coefficients,
           "; give one for each power of each spring");
-    check(computeZeroLength || zeroLength.size() == 1 || zeroLength.size() == n,
-          "zeroLength has ",
-          zeroLength.size(),
-          " values for ",
-          n,
-          " springs; give one, or one for each");
+    if (!computeZeroLength) check_one_or_each(where, "zeroLength", zeroLength.size(), n, "springs", "one");
 
     std::vector<typename Driver::Indices> points;
     std::vector<typename Driver::Rest> rest;
@@ -232,48 +219,18 @@ struct PolynomialSpringsForceField {
       check(between || i != j, "spring ", s, " joins point ", i, " to itself; give two points");
       typename Driver::Rest spring{};
       spring.length = computeZeroLength ? (b.rest[std::size_t(j)] - a.rest[std::size_t(i)]).norm()
-                                        : Real(zeroLength[zeroLength.size() == 1 ? 0 : s]);
+                                        : Real(one_or_each(zeroLength, s));
       check(spring.length > 0,
             "spring ",
             s,
             " has no length at rest, of which a strain could be; move its points, or give zeroLength");
       if (polynomialDegree.size() == 1) next = 0;
-      for (int k = 0; k < polynomialDegree[polynomialDegree.size() == 1 ? 0 : s]; ++k)
+      for (int k = 0; k < one_or_each(polynomialDegree, s); ++k)
         spring.coefficient[k] = Real(polynomialStiffness[next++]);
       points.push_back({i, j});
       rest.push_back(spring);
     }
     driver.init(points, rest);
-  }
-
-  void addForce(MechanicalParams const&, VecDeriv& f, VecCoord const& x, VecDeriv const& v) {
-    driver.addForce(law<Law>(), f, x, v);
-  }
-  void addDForce(MechanicalParams const& p, VecDeriv& df, VecDeriv const& dx) const {
-    driver.addDForce(law<Law>(), df, dx, Real(p.k), Real(p.b));
-  }
-  double potentialEnergy(VecCoord const& x) const { return driver.energy(law<Law>(), x); }
-
-  void addForce(MechanicalParams const&, VecDeriv& f0, VecDeriv& f1, VecCoord const& x0, VecCoord const& x1,
-                VecDeriv const& v0, VecDeriv const& v1) {
-    driver.addForce(
-        law<Law>(), {entries(f0), entries(f1)}, {entries(x0), entries(x1)}, {entries(v0), entries(v1)});
-  }
-  void addDForce(MechanicalParams const& p, VecDeriv& df0, VecDeriv& df1, VecDeriv const& dx0,
-                 VecDeriv const& dx1) const {
-    driver.addDForce(
-        law<Law>(), {entries(df0), entries(df1)}, {entries(dx0), entries(dx1)}, Real(p.k), Real(p.b));
-  }
-  double potentialEnergy(VecCoord const& x0, VecCoord const& x1) const {
-    return driver.energy(law<Law>(), typename Driver::Coords{entries(x0), entries(x1)});
-  }
-
-  template <class Sink>
-  void addToMatrix(MechanicalParams const& p, Sink const& sink) {
-    if constexpr (between)
-      driver.template addToMatrix<0, 1>(law<Law>(), sink, Real(p.k), Real(p.b));
-    else
-      driver.addToMatrix(law<Law>(), sink, Real(p.k), Real(p.b));
   }
 };
 

@@ -17,8 +17,6 @@ struct RegularGridSpringForceField {
   static constexpr bool takesParts = true;
   using DataTypes = D;
   using Real = typename D::Real;
-  using VecCoord = typename D::VecCoord;
-  using VecDeriv = typename D::VecDeriv;
   static constexpr std::string_view className = "RegularGridSpringForceField";
 
   double stiffness = 100, damping = 5;
@@ -48,10 +46,7 @@ struct RegularGridSpringForceField {
   }
 
   using Driver = typename SpringNetwork<D>::Driver;
-  using Law = typename Driver::Law;
   Driver driver{};
-
-  Law law() const { return Law{}; }
 
   void init(InitContext<D> const& context) {
     const std::string where = text(context.where, ": ", component_name<RegularGridSpringForceField>());
@@ -82,18 +77,6 @@ struct RegularGridSpringForceField {
           "there is no spring; give the node a regular grid of at least two points, or hexahedra, and "
           "set a stiffness or damping");
     springs.init(driver, elongationOnly);
-  }
-
-  void addForce(MechanicalParams const& p, VecDeriv& f, VecCoord const& x, VecDeriv const& v) {
-    driver.addForce(law(), f, x, v, p.part);
-  }
-  void addDForce(MechanicalParams const& p, VecDeriv& df, VecDeriv const& dx) const {
-    driver.addDForce(law(), df, dx, Real(p.k), Real(p.b), p.part);
-  }
-  double potentialEnergy(VecCoord const& x) const { return driver.energy(law(), x); }
-  template <class Sink>
-  void addToMatrix(MechanicalParams const& p, Sink const& sink) {
-    driver.addToMatrix(law(), sink, Real(p.k), Real(p.b), p.part);
   }
 
  private:

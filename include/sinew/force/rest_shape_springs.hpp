@@ -3,6 +3,7 @@
 
 #include <sinew/core/component.hpp>
 #include <sinew/core/element_driver.hpp>
+#include <sinew/core/lists.hpp>
 
 #include <algorithm>
 #include <array>
@@ -111,7 +112,6 @@ struct RestShapeSpringsForceField {
   using DataTypes = D;
   using Real = typename D::Real;
   using VecCoord = typename D::VecCoord;
-  using VecDeriv = typename D::VecDeriv;
   static constexpr std::string_view className = "RestShapeSpringsForceField";
   static constexpr std::string_view aliases = "FixedWeakConstraint";
 
@@ -175,14 +175,13 @@ struct RestShapeSpringsForceField {
   }
 
   using Driver = ElementDriver<RestShapeSpring, D>;
-  using Law = typename Driver::Law;
   Driver driver{};
 
   template <class L>
   L law() const {
     L law{};
     for (std::size_t c = 0; c < law.active.size() && !activeDirections.empty(); ++c)
-      law.active[c] = typename L::Real(activeDirections[activeDirections.size() == 1 ? 0 : c] ? 1 : 0);
+      law.active[c] = typename L::Real(one_or_each(activeDirections, c) ? 1 : 0);
     return law;
   }
 
@@ -214,55 +213,28 @@ struct RestShapeSpringsForceField {
                        " points; give one for each"));
     if (elsewhere && !listed)  // places stay with their points when some of these go
       for (std::size_t i = 0; i < n; ++i) externalPoints.push_back(int(i));
-    auto value = [&](std::string_view name, std::vector<double> const& list, std::size_t i) {
-      if (list.size() != 1 && list.size() != n)
-        throw Error(
-            where,
-            text(name, " has ", list.size(), " values for ", n, " points; give one value, or one for each"));
-      return Real(list.size() == 1 ? list[0] : list[i]);
-    };
+    check_points(where, "points", points, context.rest.size());
+    if (elsewhere && !none)
+      check_numbers(where, "external_points", externalPoints, places.size(), "places", "external_rest_shape");
+    if (n > 0) {
+      check_one_or_each(where, "stiffness", stiffness.size(), n, "points");
+      if (D::rigid) check_one_or_each(where, "angularStiffness", angularStiffness.size(), n, "points");
+    }
     std::vector<typename Driver::Indices> indices;
     std::vector<typename Driver::Rest> rest;
     for (std::size_t i = 0; i < n; ++i) {
       const int p = points.empty() ? int(i) : points[i];
-      if (std::size_t(p) >= context.rest.size())
-        throw Error(where,
-                    text("points has ",
-                         p,
-                         ", but the state has ",
-                         context.rest.size(),
-                         " points, numbered from 0; correct the index"));
       indices.push_back({p});
       rest.emplace_back();
-      const std::size_t at = std::size_t(elsewhere ? externalPoints[i] : p);
-      if (at >= places.size())
-        throw Error(where,
-                    text("external_points has ",
-                         at,
-                         ", but external_rest_shape has ",
-                         places.size(),
-                         " places, numbered from 0; correct the index"));
-      auto const& place = places[at];
+      auto const& place = places[std::size_t(elsewhere ? externalPoints[i] : p)];
       if constexpr (D::rigid)
         rest.back().place = place;
       else
         for (int c = 0; c < D::size; ++c) rest.back().place[std::size_t(c)] = place[c];
-      rest.back().stiffness = value("stiffness", stiffness, i);
-      rest.back().angularStiffness = D::rigid ? value("angularStiffness", angularStiffness, i) : Real(0);
+      rest.back().stiffness = Real(one_or_each(stiffness, i));
+      rest.back().angularStiffness = D::rigid ? Real(one_or_each(angularStiffness, i)) : Real(0);
     }
     driver.init(indices, rest);
-  }
-
-  void addForce(MechanicalParams const&, VecDeriv& f, VecCoord const& x, VecDeriv const& v) {
-    driver.addForce(law<Law>(), f, x, v);
-  }
-  void addDForce(MechanicalParams const& p, VecDeriv& df, VecDeriv const& dx) const {
-    driver.addDForce(law<Law>(), df, dx, Real(p.k), Real(p.b));
-  }
-  double potentialEnergy(VecCoord const& x) const { return driver.energy(law<Law>(), x); }
-  template <class Sink>
-  void addToMatrix(MechanicalParams const& p, Sink const& sink) {
-    driver.addToMatrix(law<Law>(), sink, Real(p.k), Real(p.b));
   }
 };
 

@@ -107,8 +107,6 @@ struct SphereForceField {
   using Role = role::ForceField;
   using DataTypes = D;
   using Real = typename D::Real;
-  using VecCoord = typename D::VecCoord;
-  using VecDeriv = typename D::VecDeriv;
   using Center = Vec<double, D::spatial>;
   static constexpr std::string_view className = "SphereForceField";
 
@@ -129,7 +127,6 @@ struct SphereForceField {
   static constexpr ForceProperties properties() { return {.internal = false, .objective = false}; }
 
   using Driver = ElementDriver<SpherePenalty, D>;
-  using Law = typename Driver::Law;
   Driver driver{};
 
   void init(InitContext<D> const& context) {
@@ -147,18 +144,6 @@ struct SphereForceField {
     law.radius = R(radius);
     law.bilateral = bilateral;
     return law;
-  }
-
-  void addForce(MechanicalParams const&, VecDeriv& f, VecCoord const& x, VecDeriv const& v) {
-    driver.addForce(law<Law>(), f, x, v);
-  }
-  void addDForce(MechanicalParams const& p, VecDeriv& df, VecDeriv const& dx) const {
-    driver.addDForce(law<Law>(), df, dx, Real(p.k), Real(p.b));
-  }
-  double potentialEnergy(VecCoord const& x) const { return driver.energy(law<Law>(), x); }
-  template <class Sink>
-  void addToMatrix(MechanicalParams const& p, Sink const& sink) {
-    driver.addToMatrix(law<Law>(), sink, Real(p.k), Real(p.b));
   }
 };
 

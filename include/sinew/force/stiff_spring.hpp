@@ -4,7 +4,7 @@
 #include <sinew/core/component.hpp>
 #include <sinew/core/element_driver.hpp>
 #include <sinew/core/ends.hpp>
-#include <sinew/core/point_loop.hpp>
+#include <sinew/core/lists.hpp>
 #include <sinew/force/spring_law.hpp>
 
 #include <optional>
@@ -48,8 +48,6 @@ struct StiffSpringForceField {
   static constexpr bool takesParts = !between;
   using DataTypes = D;
   using Real = typename D::Real;
-  using VecCoord = typename D::VecCoord;
-  using VecDeriv = typename D::VecDeriv;
   static constexpr std::string_view className = "StiffSpringForceField";
   static constexpr std::string_view aliases = "SpringForceField";
 
@@ -89,10 +87,7 @@ struct StiffSpringForceField {
   }
 
   using Driver = ElementDriver<SpringLaw, D>;
-  using Law = typename Driver::Law;
   Driver driver{};
-
-  Law law() const { return Law{}; }
 
   void init(InitContext<D> const& context) { init(context, context); }
   void init(InitContext<D> const& a, InitContext<D> const& b) {
@@ -131,45 +126,14 @@ struct StiffSpringForceField {
     driver.init(points, rest);
   }
 
-  void addForce(MechanicalParams const& p, VecDeriv& f, VecCoord const& x, VecDeriv const& v) {
-    driver.addForce(law(), f, x, v, p.part);
-  }
-  void addDForce(MechanicalParams const& p, VecDeriv& df, VecDeriv const& dx) const {
-    driver.addDForce(law(), df, dx, Real(p.k), Real(p.b), p.part);
-  }
-  double potentialEnergy(VecCoord const& x) const { return driver.energy(law(), x); }
-
-  void addForce(MechanicalParams const&, VecDeriv& f0, VecDeriv& f1, VecCoord const& x0, VecCoord const& x1,
-                VecDeriv const& v0, VecDeriv const& v1) {
-    driver.addForce(
-        law(), {entries(f0), entries(f1)}, {entries(x0), entries(x1)}, {entries(v0), entries(v1)});
-  }
-  void addDForce(MechanicalParams const& p, VecDeriv& df0, VecDeriv& df1, VecDeriv const& dx0,
-                 VecDeriv const& dx1) const {
-    driver.addDForce(law(), {entries(df0), entries(df1)}, {entries(dx0), entries(dx1)}, Real(p.k), Real(p.b));
-  }
-  double potentialEnergy(VecCoord const& x0, VecCoord const& x1) const {
-    return driver.energy(law(), typename Driver::Coords{entries(x0), entries(x1)});
-  }
-
-  template <class Sink>
-  void addToMatrix(MechanicalParams const& p, Sink const& sink) {
-    if constexpr (between)
-      driver.template addToMatrix<0, 1>(law(), sink, Real(p.k), Real(p.b));
-    else
-      driver.addToMatrix(law(), sink, Real(p.k), Real(p.b), p.part);
-  }
-
  private:
   // what a list says of one of n springs
   template <class T>
   static T of(std::string const& where, std::string_view name, std::vector<T> const& list, std::size_t spring,
               std::size_t n, T fallback) {
-    if (list.size() > 1 && list.size() != n)
-      throw Error(
-          where,
-          text(name, " has ", list.size(), " values for ", n, " springs; give one for all, or one for each"));
-    return list.empty() ? fallback : list[list.size() == 1 ? 0 : spring];
+    if (list.empty()) return fallback;
+    check_one_or_each(where, name, list.size(), n, "springs", "one for all");
+    return one_or_each(list, spring);
   }
 
   // `springs`, and behind them those that the lists make

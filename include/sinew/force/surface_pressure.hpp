@@ -3,6 +3,7 @@
 
 #include <sinew/core/component.hpp>
 #include <sinew/core/element_driver.hpp>
+#include <sinew/core/lists.hpp>
 
 #include <algorithm>
 #include <array>
@@ -92,7 +93,6 @@ struct SurfacePressureForceField {
   using Real = typename D::Real;
   using Coord = typename D::Coord;
   using VecCoord = typename D::VecCoord;
-  using VecDeriv = typename D::VecDeriv;
   static constexpr std::string_view className = "SurfacePressureForceField";
 
   double pressure = 0;
@@ -154,7 +154,6 @@ struct SurfacePressureForceField {
   }
 
   using Driver = ElementDriver<TrianglePressure, D>;
-  using Law = typename Driver::Law;
   Driver driver{};
   bool closed = false;  // the surface has no border
 
@@ -188,18 +187,6 @@ struct SurfacePressureForceField {
     closed = is_closed(loaded);
   }
 
-  void addForce(MechanicalParams const&, VecDeriv& f, VecCoord const& x, VecDeriv const& v) {
-    driver.addForce(law<Law>(), f, x, v);
-  }
-  void addDForce(MechanicalParams const& p, VecDeriv& df, VecDeriv const& dx) const {
-    driver.addDForce(law<Law>(), df, dx, Real(p.k), Real(p.b));
-  }
-  double potentialEnergy(VecCoord const& x) const { return driver.energy(law<Law>(), x); }
-  template <class Sink>
-  void addToMatrix(MechanicalParams const& p, Sink const& sink) {
-    driver.addToMatrix(law<Law>(), sink, Real(p.k), Real(p.b));
-  }
-
  private:
   template <class Elements, class F>
   void choose(std::string const& where, std::string_view name, std::vector<int> const& indices,
@@ -210,17 +197,8 @@ struct SurfacePressureForceField {
         return (!min || (x.array() >= min->array()).all()) && (!max || (x.array() <= max->array()).all());
       });
     };
-    for (const int e : indices) {
-      if (std::size_t(e) >= elements.size())
-        throw Error(where,
-                    text(name,
-                         " has ",
-                         e,
-                         ", but the topology has ",
-                         elements.size(),
-                         " such elements, numbered from 0; correct the index"));
-      take(elements[std::size_t(e)]);
-    }
+    check_numbers(where, name, indices, elements.size(), "such elements", "the topology");
+    for (const int e : indices) take(elements[std::size_t(e)]);
     if (indices.empty() && !none)
       for (auto const& element : elements)
         if (inBox(element)) take(element);

@@ -3,6 +3,9 @@
 
 #include <sinew/core/component.hpp>
 #include <sinew/core/element_driver.hpp>
+#include <sinew/core/lists.hpp>
+#include <sinew/force/elasticity.hpp>
+#include <sinew/force/rotations.hpp>
 #include <sinew/force/tetrahedron_rest.hpp>
 
 #include <array>
@@ -95,10 +98,10 @@ struct TetrahedronFEM {
     const Mat3 inverse = edges.inverse();
     Rest rest;
     rest.frame = Mat3::Identity();
-    if (method == RotationMethod::large) rest.frame = gramSchmidt(edges);
+    if (method == RotationMethod::large) rest.frame = frame_of(Vec3(edges.col(0)), Vec3(edges.col(1)));
     if (method == RotationMethod::polar) {
       const Real hand = edges.determinant() < 0 ? -1 : 1;
-      rest.frame = hand * nearest(hand * edges);
+      rest.frame = hand * nearest_rotation(Mat3(hand * edges));
     }
     rest.gradient = rest.frame.transpose() * inverse.transpose();
     const Real volume = abs(edges.determinant()) / 6;
@@ -149,88 +152,27 @@ struct TetrahedronFEM {
   SINEW_INLINE Mat3 rotation(Rest const& rest, Coord const (&x)[4]) const {
     if (method == RotationMethod::small) return rest.frame;
     const Vec3 a = x[1] - x[0], b = x[2] - x[0], c = x[3] - x[0];
-    if (method == RotationMethod::large || method == RotationMethod::gradient)
-      // columns of F times the rest frame
-      return gramSchmidt(gradientOf(a, b, c, rest.gradient));
+    if (method == RotationMethod::large || method == RotationMethod::gradient) {
+      const Mat3 f = gradientOf(a, b, c, rest.gradient);  // columns of F times the rest frame
+      return frame_of(Vec3(f.col(0)), Vec3(f.col(1)));
+    }
     const bool ofEdges = method == RotationMethod::polar;
     Mat3 m;
     Real hand(1);
     if (ofEdges) {
       // of an element that is left-handed at rest, whose frame is a reflection
       hand = select(
-          dot(cross(rest.frame.col(0), rest.frame.col(1)), rest.frame.col(2)) < Real(0), Real(-1), hand);
+          dot3(cross3(Vec3(rest.frame.col(0)), Vec3(rest.frame.col(1))), Vec3(rest.frame.col(2))) < Real(0),
+          Real(-1),
+          hand);
       m.col(0) = a * hand, m.col(1) = b * hand, m.col(2) = c * hand;
     } else {
       m = gradientOf(a, b, c, rest.gradient);
     }
-    m = nearest(m);
+    m = nearest_rotation(m);
     if (ofEdges)
       for (int i = 0; i < 9; ++i) m(i) = m(i) * hand;
     return m;
-  }
-
-  SINEW_INLINE static Vec3 cross(Vec3 const& a, Vec3 const& b) {
-    return Vec3(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]);
-  }
-  SINEW_INLINE static Real dot(Vec3 const& a, Vec3 const& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-  }
-
-  // right-handed frame: first axis along column 0, third normal to columns 0 and 1
-  SINEW_INLINE static Mat3 gramSchmidt(Mat3 const& f) {
-    using std::sqrt;
-    const Vec3 x = f.col(0), z = cross(x, f.col(1));
-    const Real tiny(std::numeric_limits<lane_scalar<Real>>::min());
-    const Real ix = Real(1) / sqrt(dot(x, x) + tiny), iz = Real(1) / sqrt(dot(z, z) + tiny);
-    Mat3 r;
-    const Vec3 ux = x * ix, uz = z * iz;
-    r.col(0) = ux;
-    r.col(1) = cross(uz, ux);
-    r.col(2) = uz;
-    return r;
-  }
-
-  /// argmax over rotations of tr(R' F): Newton steps w = (tr(M) I - M)^-1 a, M = sym(F R'), a = sum r_i x
-  /// f_i, from the Gram-Schmidt frame; where M is far from definite, the safe step a / |tr M| of Mueller et
-  /// al. 2016.
-  SINEW_HD static Mat3 nearest(Mat3 const& f) {
-    using std::abs, sinew::abs;
-    Mat3 r = gramSchmidt(f);
-    const Real scale = f.squaredNorm() + Real(std::numeric_limits<lane_scalar<Real>>::min());
-    const lane_scalar<Real> epsilon = 16 * std::numeric_limits<lane_scalar<Real>>::epsilon();
-    for (int iteration = 0; iteration < 40; ++iteration) {
-      const Vec3 a = cross(r.col(0), f.col(0)) + cross(r.col(1), f.col(1)) + cross(r.col(2), f.col(2));
-      Mat3 m;
-      for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j) m(i, j) = f(i, 0) * r(j, 0) + f(i, 1) * r(j, 1) + f(i, 2) * r(j, 2);
-      const Real trace = m(0, 0) + m(1, 1) + m(2, 2);
-      const Real xx = trace - m(0, 0), yy = trace - m(1, 1), zz = trace - m(2, 2);
-      const Real xy = Real(-0.5) * (m(0, 1) + m(1, 0)), xz = Real(-0.5) * (m(0, 2) + m(2, 0)),
-                 yz = Real(-0.5) * (m(1, 2) + m(2, 1));
-      const Vec3 c0(yy * zz - yz * yz, xz * yz - xy * zz, xy * yz - xz * yy);
-      const Vec3 c1(c0[1], xx * zz - xz * xz, xy * xz - xx * yz);
-      const Vec3 c2(c0[2], c1[2], xx * yy - xy * xy);
-      const Real det = xx * c0[0] + xy * c0[1] + xz * c0[2];
-      const auto definite =
-          both(det > Real(1e-3) * abs(trace * trace * trace), both(trace > Real(0), c2[2] > Real(0)));
-      const Real inverse = Real(1) / select(definite, det, Real(1));
-      const Real safe =
-          Real(1) / (abs(trace) + Real(1e-9) * scale + Real(std::numeric_limits<lane_scalar<Real>>::min()));
-      Vec3 w;
-      w[0] = select(definite, dot(c0, a) * inverse, a[0] * safe);
-      w[1] = select(definite, dot(c1, a) * inverse, a[1] * safe);
-      w[2] = select(definite, dot(c2, a) * inverse, a[2] * safe);
-      // Cayley turn by w: exact rotation, angle |w| to second order
-      const Vec3 q = Real(0.5) * w;
-      const Real n = Real(2) / (Real(1) + dot(q, q));
-      for (int c = 0; c < 3; ++c) {
-        const Vec3 v = r.col(c), t = cross(q, v) + v;
-        const Vec3 turn = cross(q, t);
-        for (int i = 0; i < 3; ++i) r(i, c) = v[i] + n * turn[i];
-      }
-      if (!any(dot(w, w) > Real(epsilon * epsilon))) break;
-    }
-    return r;
   }
 };
 
@@ -241,8 +183,6 @@ struct TetrahedronFEMForceField {
   static constexpr bool takesParts = true;
   using DataTypes = D;
   using Real = typename D::Real;
-  using VecCoord = typename D::VecCoord;
-  using VecDeriv = typename D::VecDeriv;
   static constexpr std::string_view className = "TetrahedronFEMForceField";
   static constexpr std::string_view aliases = "TetrahedralCorotationalFEMForceField";
   static constexpr bool needsTetrahedra = true;
@@ -291,36 +231,16 @@ struct TetrahedronFEMForceField {
     const std::string where = text(context.where, ": ", component_name<TetrahedronFEMForceField>());
     // the edges of `polar` are those from the first point
     const auto tetrahedra = tetrahedra_of(where, context, method == RotationMethod::polar ? 2 : 0);
-    if (youngModulus.size() != 1 && youngModulus.size() != tetrahedra.size())
-      throw Error(where,
-                  text("youngModulus has ",
-                       youngModulus.size(),
-                       " values for ",
-                       tetrahedra.size(),
-                       " tetrahedra; give one value, or one for each"));
+    check_one_or_each(where, "youngModulus", youngModulus.size(), tetrahedra.size(), "tetrahedra");
     std::vector<typename Driver::Rest> rest;
     rest.reserve(tetrahedra.size());
     for (std::size_t e = 0; e < tetrahedra.size(); ++e) {
       typename D::Coord x[4];
       for (std::size_t k = 0; k < 4; ++k) x[k] = context.rest[std::size_t(tetrahedra[e][k])];
-      const double E = youngModulus.size() == 1 ? youngModulus[0] : youngModulus[e];
-      const double lambda = E * poissonRatio / ((1 + poissonRatio) * (1 - 2 * poissonRatio)),
-                   mu = E / (2 * (1 + poissonRatio));
-      rest.push_back(TetrahedronFEM<D>::restOf(x, Real(mu), Real(lambda), method));
+      const LameModuli moduli = lame_moduli(one_or_each(youngModulus, e), poissonRatio);
+      rest.push_back(TetrahedronFEM<D>::restOf(x, Real(moduli.mu), Real(moduli.lambda), method));
     }
     driver.init({tetrahedra.begin(), tetrahedra.end()}, rest);
-  }
-
-  void addForce(MechanicalParams const& p, VecDeriv& f, VecCoord const& x, VecDeriv const& v) {
-    driver.addForce(law(), f, x, v, p.part);
-  }
-  void addDForce(MechanicalParams const& p, VecDeriv& df, VecDeriv const& dx) const {
-    driver.addDForce(law(), df, dx, Real(p.k), Real(p.b), p.part);
-  }
-  double potentialEnergy(VecCoord const& x) const { return driver.energy(law(), x); }
-  template <class Sink>
-  void addToMatrix(MechanicalParams const& p, Sink const& sink) {
-    driver.addToMatrix(law(), sink, Real(p.k), Real(p.b), p.part);
   }
 };
 

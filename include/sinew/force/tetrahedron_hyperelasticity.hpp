@@ -209,8 +209,6 @@ struct TetrahedronHyperelasticityFEMForceField {
   static constexpr bool takesParts = true;
   using DataTypes = D;
   using Real = typename D::Real;
-  using VecCoord = typename D::VecCoord;
-  using VecDeriv = typename D::VecDeriv;
   static constexpr std::string_view className = "TetrahedronHyperelasticityFEMForceField";
   static constexpr std::string_view aliases = "StandardTetrahedralFEMForceField";
   static constexpr bool needsTetrahedra = true;
@@ -264,17 +262,6 @@ struct TetrahedronHyperelasticityFEMForceField {
     law.material.least = Real(continuedBelow);
     std::copy(parameterSet.begin(), parameterSet.end(), law.material.p.begin());
     return law;
-  }
-  void addForce(MechanicalParams const& p, VecDeriv& f, VecCoord const& x, VecDeriv const& v) {
-    driver.addForce(law(), f, x, v, p.part);
-  }
-  void addDForce(MechanicalParams const& p, VecDeriv& df, VecDeriv const& dx) const {
-    driver.addDForce(law(), df, dx, Real(p.k), Real(p.b), p.part);
-  }
-  double potentialEnergy(VecCoord const& x) const { return driver.energy(law(), x); }
-  template <class Sink>
-  void addToMatrix(MechanicalParams const& p, Sink const& sink) {
-    driver.addToMatrix(law(), sink, Real(p.k), Real(p.b), p.part);
   }
 };
 

@@ -269,15 +269,6 @@ struct TetrahedronViscoelasticityFEMForceField {
     driver.addForce(law(), f, x, v);
     if (now == currentTime) forEachMemory([](auto const& lane, double& kept) { kept = double(lane); });
   }
-  void addDForce(MechanicalParams const& p, VecDeriv& df, VecDeriv const& dx) const {
-    driver.addDForce(law(), df, dx, Real(p.k), Real(p.b));
-  }
-  /// Of what does not relax: V (G0 E:E + lambda/2 tr(E)^2).
-  double potentialEnergy(VecCoord const& x) const { return driver.energy(law(), x); }
-  template <class Sink>
-  void addToMatrix(MechanicalParams const& p, Sink const& sink) {
-    driver.addToMatrix(law(), sink, Real(p.k), Real(p.b));
-  }
 
  private:
   using Memory = typename TetrahedronViscoelasticity<D>::Memory;

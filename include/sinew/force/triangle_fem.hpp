@@ -3,6 +3,8 @@
 
 #include <sinew/core/component.hpp>
 #include <sinew/core/element_driver.hpp>
+#include <sinew/core/lists.hpp>
+#include <sinew/force/elasticity.hpp>
 #include <sinew/force/rotations.hpp>
 
 #include <array>
@@ -168,8 +170,6 @@ struct TriangleFEMForceField {
   static constexpr bool takesParts = true;
   using DataTypes = D;
   using Real = typename D::Real;
-  using VecCoord = typename D::VecCoord;
-  using VecDeriv = typename D::VecDeriv;
   static constexpr std::string_view className = "TriangleFEMForceField";
   static constexpr std::string_view aliases = "TriangularFEMForceField TriangularFEMForceFieldOptim";
 
@@ -221,16 +221,8 @@ struct TriangleFEMForceField {
     if (triangles.empty())
       throw Error(where, "the topology has no triangle; give the node a topology with triangles or quads");
     detail::check_indices(where, "triangle", triangles, context.rest.size());
-    for (auto const& [name, values] :
-         {std::pair("youngModulus", &youngModulus), std::pair("poissonRatio", &poissonRatio)})
-      if (values->size() != 1 && values->size() != triangles.size())
-        throw Error(where,
-                    text(name,
-                         " has ",
-                         values->size(),
-                         " values for ",
-                         triangles.size(),
-                         " triangles; give one value, or one for each"));
+    check_one_or_each(where, "youngModulus", youngModulus.size(), triangles.size(), "triangles");
+    check_one_or_each(where, "poissonRatio", poissonRatio.size(), triangles.size(), "triangles");
     if (planeStrain)
       for (const double nu : poissonRatio)
         if (!(nu < 0.5))
@@ -240,27 +232,14 @@ struct TriangleFEMForceField {
     for (std::size_t e = 0; e < triangles.size(); ++e) {
       typename D::Coord x[3];
       for (std::size_t k = 0; k < 3; ++k) x[k] = context.rest[std::size_t(triangles[e][k])];
-      const double E = youngModulus[youngModulus.size() == 1 ? 0 : e],
-                   nu = poissonRatio[poissonRatio.size() == 1 ? 0 : e];
-      const double lambda = E * nu / (planeStrain ? (1 + nu) * (1 - 2 * nu) : 1 - nu * nu);
-      rest.push_back(TriangleFEM<D>::restOf(x, Real(thickness), Real(E / (2 * (1 + nu))), Real(lambda)));
+      const double E = one_or_each(youngModulus, e), nu = one_or_each(poissonRatio, e);
+      const LameModuli moduli = planeStrain ? lame_moduli(E, nu) : plane_stress_moduli(E, nu);
+      rest.push_back(TriangleFEM<D>::restOf(x, Real(thickness), Real(moduli.mu), Real(moduli.lambda)));
       const Real longest = std::max({(x[1] - x[0]).norm(), (x[2] - x[0]).norm(), (x[2] - x[1]).norm()});
       if (!((x[1] - x[0]).cross(x[2] - x[0]).norm() > Real(1e-6) * longest * longest))
         throw Error(where, text("triangle ", e, " has no area; move or merge its points"));
     }
     driver.init(triangles, rest);
-  }
-
-  void addForce(MechanicalParams const& p, VecDeriv& f, VecCoord const& x, VecDeriv const& v) {
-    driver.addForce(law(), f, x, v, p.part);
-  }
-  void addDForce(MechanicalParams const& p, VecDeriv& df, VecDeriv const& dx) const {
-    driver.addDForce(law(), df, dx, Real(p.k), Real(p.b), p.part);
-  }
-  double potentialEnergy(VecCoord const& x) const { return driver.energy(law(), x); }
-  template <class Sink>
-  void addToMatrix(MechanicalParams const& p, Sink const& sink) {
-    driver.addToMatrix(law(), sink, Real(p.k), Real(p.b), p.part);
   }
 };
 

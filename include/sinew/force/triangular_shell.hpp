@@ -212,8 +212,6 @@ struct TriangularShellForceField {
   static constexpr bool takesParts = true;
   using DataTypes = D;
   using Real = typename D::Real;
-  using VecCoord = typename D::VecCoord;
-  using VecDeriv = typename D::VecDeriv;
   static constexpr std::string_view className = "TriangularShellForceField";
 
   double poissonRatio = 0.45, youngModulus = 3000, thickness = 0.1;
@@ -236,7 +234,6 @@ struct TriangularShellForceField {
   static constexpr ForceProperties properties() { return {.exactTangent = false}; }
 
   using Driver = ElementDriver<TriangularShell, D>;
-  using Law = typename Driver::Law;
   Driver driver{};
 
   void init(InitContext<D> const& context) {
@@ -263,18 +260,6 @@ struct TriangularShellForceField {
       rest.push_back(TriangularShell<D>::restOf(x, youngModulus, poissonRatio, thickness, bending));
     }
     driver.init(triangles, rest);
-  }
-
-  void addForce(MechanicalParams const& p, VecDeriv& f, VecCoord const& x, VecDeriv const& v) {
-    driver.addForce(Law{}, f, x, v, p.part);
-  }
-  void addDForce(MechanicalParams const& p, VecDeriv& df, VecDeriv const& dx) const {
-    driver.addDForce(Law{}, df, dx, Real(p.k), Real(p.b), p.part);
-  }
-  double potentialEnergy(VecCoord const& x) const { return driver.energy(Law{}, x); }
-  template <class Sink>
-  void addToMatrix(MechanicalParams const& p, Sink const& sink) {
-    driver.addToMatrix(Law{}, sink, Real(p.k), Real(p.b), p.part);
   }
 };
 

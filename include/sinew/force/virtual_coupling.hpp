@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/core/component.hpp>
+#include <sinew/core/lists.hpp>
 
 #include <cmath>
 #include <vector>
@@ -76,26 +77,15 @@ struct VirtualCoupling {
   void init(InitContext<D> const& context) {
     const std::string where = text(context.where, ": ", component_name<VirtualCoupling>());
     const std::size_t n = points.size();
-    for (const int p : points)
-      if (std::size_t(p) >= context.rest.size())
-        throw Error(where,
-                    text("points has ",
-                         p,
-                         ", but the state has ",
-                         context.rest.size(),
-                         " points, numbered from 0; correct the index"));
-    auto sized = [&](std::string_view name, std::size_t given) {
-      if (given > 1 && given != n)
-        throw Error(where,
-                    text(name, " has ", given, " values for ", n, " points; give one, or one for each"));
-    };
-    sized("target", target.size());
-    sized("targetVelocity", targetVelocity.size());
+    check_points(where, "points", points, context.rest.size());
+    if (!target.empty()) check_one_or_each(where, "target", target.size(), n, "points", "one");
+    if (!targetVelocity.empty())
+      check_one_or_each(where, "targetVelocity", targetVelocity.size(), n, "points", "one");
     place.clear(), speed.clear();
     target.reserve(1), targetVelocity.reserve(1);  // for setTarget
     for (std::size_t i = 0; i < n; ++i) {
-      place.push_back(target.empty() ? context.rest[std::size_t(points[i])] : one(target, i));
-      speed.push_back(targetVelocity.empty() ? Deriv(Deriv::Zero()) : one(targetVelocity, i));
+      place.push_back(target.empty() ? context.rest[std::size_t(points[i])] : one_or_each(target, i));
+      speed.push_back(targetVelocity.empty() ? Deriv(Deriv::Zero()) : one_or_each(targetVelocity, i));
       if constexpr (turns) {
         if (!(place[i].orientation.norm() > Real(0.5)))
           throw Error(where, text("target [", i, "] has no unit quaternion for orientation; correct it"));
@@ -147,7 +137,6 @@ struct VirtualCoupling {
   }
 
  private:
-  static auto const& one(auto const& list, std::size_t i) { return list[list.size() == 1 ? 0 : i]; }
   static Deriv scaled(Deriv d, double along, double about) {
     for (int c = 0; c < D::size; ++c) d[c] *= Real(D::rigid && c >= D::spatial ? about : along);
     return d;

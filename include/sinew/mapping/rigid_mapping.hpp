@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/core/component.hpp>
+#include <sinew/core/lists.hpp>
 #include <sinew/mapping/geometric_stiffness.hpp>
 #include <sinew/mapping/rigid_loops.hpp>
 
@@ -64,14 +65,8 @@ struct RigidMapping {
                        " entries for ",
                        positions.size(),
                        " points; give one, or one for each point"));
-    for (const int i : rigidIndices)
-      if (std::size_t(i) >= parent.rest.size())
-        throw Error(where,
-                    text("rigidIndexPerPoint has ",
-                         i,
-                         ", but the parent has ",
-                         parent.rest.size(),
-                         " rigid bodies, numbered from 0; correct the index"));
+    check_numbers(
+        where, "rigidIndexPerPoint", rigidIndices, parent.rest.size(), "rigid bodies", "the parent");
     local = positions;
     if (globalToLocalCoords)
       for (std::size_t i = 0; i < local.size(); ++i) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/core/component.hpp>
+#include <sinew/core/lists.hpp>
 #include <sinew/mapping/point_weights.hpp>
 
 #include <vector>
@@ -37,14 +38,7 @@ struct SubsetMapping {
     const std::string where = text(child.where, ": ", component_name<SubsetMapping>());
     if (indices.empty())
       for (auto const& x : positions) indices.push_back(pointAt(where, parent.rest, x));
-    for (const int i : indices)
-      if (std::size_t(i) >= parent.rest.size())
-        throw Error(where,
-                    text("indices has ",
-                         i,
-                         ", but the parent has ",
-                         parent.rest.size(),
-                         " points, numbered from 0; correct the index"));
+    check_numbers(where, "indices", indices, parent.rest.size(), "points", "the parent");
     if (positions.empty()) positions.resize(indices.size());
     if (positions.size() != indices.size())
       throw Error(where,

@@ -3,6 +3,7 @@
 
 #include <sinew/core/assembly.hpp>
 #include <sinew/core/follow.hpp>
+#include <sinew/core/lists.hpp>
 #include <sinew/linalg/block_matrix.hpp>
 #include <sinew/mass/lumped_mass.hpp>
 #include <sinew/topology/element_checks.hpp>
@@ -104,18 +105,13 @@ struct MeshMatrixMass {
           where,
           "massDensity has several values, but those of one kind of elements only have mass; give one "
           "density");
-    if (massDensity.size() > 1 && massDensity.size() != count)
-      throw Error(where,
-                  text("massDensity has ",
-                       massDensity.size(),
-                       " values for ",
-                       count,
-                       " elements; give one for all, or one for each"));
+    if (!massDensity.empty())
+      check_one_or_each(where, "massDensity", massDensity.size(), count, "elements", "one for all");
 
     std::vector<double> rows(n, 0.0), values(consistent.columns.size(), 0.0);
     double total = 0;
     forEachElement(context, [&](auto const& e, std::size_t number, auto const& mass) {
-      const double density = massDensity.empty() ? 1 : massDensity[massDensity.size() > 1 ? number : 0];
+      const double density = massDensity.empty() ? 1 : one_or_each(massDensity, number);
       for (std::size_t i = 0; i < e.size(); ++i)
         for (std::size_t j = 0; j < e.size(); ++j) {
           const double m = density * mass(Eigen::Index(i), Eigen::Index(j));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/collision/collision_surface.hpp>
+#include <sinew/core/element_force.hpp>
 #include <sinew/scene/collision.hpp>
 #include <sinew/scene/scope.hpp>
 #include <sinew/state/vector_operations.hpp>
@@ -36,7 +37,7 @@ struct LooseInteractions {
                                                                                       s.externalForce);
              }));
     forEach(root, [&](auto& c, auto& a, auto& b) {
-      c.addForce(p, a.externalForce, b.externalForce, a.position, b.position, a.velocity, b.velocity);
+      add_force(c, p, a.externalForce, b.externalForce, a.position, b.position, a.velocity, b.velocity);
     });
     if constexpr (collides<RootScope>) addContacts();
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/core/assembly.hpp>
+#include <sinew/core/element_force.hpp>
 #include <sinew/scene/acted_forces.hpp>
 #include <sinew/scene/scope.hpp>
 #include <sinew/scene/solver_contacts.hpp>
@@ -364,12 +365,12 @@ void MechanicalOperations<Root>::computeForce(DerivId f, CoordId x, DerivId v, d
       root, on<role::ForceField, role::Mass, role::InteractionForceField>([&](auto& c, auto const& scope) {
         using C = std::decay_t<decltype(c)>;
         if constexpr (HasRole<C, role::InteractionForceField>) {
-          forEnds(c, scope, [&](auto& a, auto& b) { c.addForce(p, a[f], b[f], a[x], b[x], a[v], b[v]); });
+          forEnds(c, scope, [&](auto& a, auto& b) { add_force(c, p, a[f], b[f], a[x], b[x], a[v], b[v]); });
         } else {
           auto& s = stateOf(c, scope);
           MechanicalParams params = p;
           if constexpr (HasRole<C, role::Mass>) params.gravity = scope.gravity();
-          inParts(c, params, [&](MechanicalParams const& part) { c.addForce(part, s[f], s[x], s[v]); });
+          inParts(c, params, [&](MechanicalParams const& part) { add_force(c, part, s[f], s[x], s[v]); });
         }
       }));
   contacts().addForces(f, x, v);
@@ -424,10 +425,10 @@ void MechanicalOperations<Root>::addMBKdx(DerivId r, DerivId dx, MatrixFactors f
                if (p.m != 0) c.addMDx(s[r], s[vec_id::position], s[dx], p.m);
              } else if (p.k != 0 || p.b != 0) {
                if constexpr (HasRole<C, role::InteractionForceField>) {
-                 forEnds(c, scope, [&](auto& a, auto& b) { c.addDForce(p, a[r], b[r], a[dx], b[dx]); });
+                 forEnds(c, scope, [&](auto& a, auto& b) { add_dforce(c, p, a[r], b[r], a[dx], b[dx]); });
                } else {
                  auto& s = stateOf(c, scope);
-                 inParts(c, p, [&](MechanicalParams const& part) { c.addDForce(part, s[r], s[dx]); });
+                 inParts(c, p, [&](MechanicalParams const& part) { add_dforce(c, part, s[r], s[dx]); });
                }
              }
            }));
@@ -453,10 +454,10 @@ double MechanicalOperations<Root>::potentialEnergy() {
   double sum = 0;
   traverse(root, on<role::ForceField, role::InteractionForceField>([&](auto& c, auto const& scope) {
              if constexpr (HasRole<std::decay_t<decltype(c)>, role::ForceField>)
-               sum += c.potentialEnergy(stateOf(c, scope)[vec_id::position]);
+               sum += potential_energy(c, stateOf(c, scope)[vec_id::position]);
              else
                forEnds(c, scope, [&](auto& a, auto& b) {
-                 sum += c.potentialEnergy(a[vec_id::position], b[vec_id::position]);
+                 sum += potential_energy(c, a[vec_id::position], b[vec_id::position]);
                });
            }));
   return sum;
@@ -502,7 +503,7 @@ void MechanicalOperations<Root>::assemblePhase(Matrix& matrix, MatrixFactors fac
           scope.withEnds(c, [&](auto const& a, auto const& b) {
             a.template withDofs<D>([&](auto const& first) {
               b.template withDofs<D>([&](auto const& second) {
-                with_sink<Phase>(matrix, first, second, [&](auto const& sink) { c.addToMatrix(p, sink); });
+                with_sink<Phase>(matrix, first, second, [&](auto const& sink) { add_to_matrix(c, p, sink); });
               });
             });
           });
@@ -512,9 +513,9 @@ void MechanicalOperations<Root>::assemblePhase(Matrix& matrix, MatrixFactors fac
               if constexpr (HasRole<C, role::Mass>)
                 c.addToMatrix(p, stateOf(c, scope)[vec_id::position], sink);
               else if constexpr (Phase == AssemblyPhase::add)
-                inParts(c, p, [&](MechanicalParams const& part) { c.addToMatrix(part, sink); });
+                inParts(c, p, [&](MechanicalParams const& part) { add_to_matrix(c, part, sink); });
               else
-                c.addToMatrix(p, sink);
+                add_to_matrix(c, p, sink);
             });
           });
       }));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <sinew/core/component.hpp>
+#include <sinew/core/element_force.hpp>
 #include <sinew/core/phase.hpp>
 #include <sinew/gpu/solver_room.hpp>
 #include <sinew/gpu/vector_operations.hpp>
@@ -19,18 +19,6 @@ template <class C>
 concept HasDeviceElements = requires(C c) {
   c.driver.view();
 };
-
-/// The law of a force field's elements, as its fields are now.
-template <class Field>
-auto law_of(Field const& field) {
-  using Law = typename decltype(Field::driver)::Law;
-  if constexpr (requires { field.law(); })
-    return field.law();
-  else if constexpr (requires { field.template law<Law>(); })
-    return field.template law<Law>();
-  else
-    return Law{};
-}
 
 // f(component) for the force fields with elements on the device, or the masses, that act on a state itself,
 // in their order
@@ -110,7 +98,7 @@ void assemble_on_device(Operations& operations, MatrixFactors factors, MultiVec&
       }
       std::size_t source = 0;
       detail::for_each_acting_on<role::ForceField>(operations, state, [&](auto& c) {
-        rows.add(source++, detail::law_of(c), c.driver.view(), Real(factors.k), Real(factors.b));
+        rows.add(source++, law_of(c), c.driver.view(), Real(factors.k), Real(factors.b));
       });
       if (source == 0) rows.clear();
       detail::for_each_mass_column(operations, state, factors.m, unit, column, [&](int c) {

@@ -94,7 +94,7 @@ void make_block_jacobi(Operations& operations, MatrixFactors factors, bool diago
       for_each_index(points, typename Blocks::Clear{blocks});
       for_each_index(points, typename Blocks::Clear{left});
       detail::for_each_acting_on<role::ForceField>(operations, state, [&](auto& c) {
-        c.driver.addDiagonal(detail::law_of(c), room, points, Real(factors.k), Real(factors.b));
+        c.driver.addDiagonal(law_of(c), room, points, Real(factors.k), Real(factors.b));
       });
       detail::for_each_mass_column(operations, state, factors.m, unit, column, [&](int c) {
         operations.projectResponse(unit.id);

@@ -35,22 +35,32 @@ namespace sinew {
 //     }
 //   };
 
+/// A force that is its fields, a list of elements and their law: `driver`, an ElementDriver made by init.
+/// law() is the law with its settings, where it has any; law<L>() where it may be asked for lanes or one
+/// element at a time. What forces do is in core/element_force.hpp; the functions that other forces have are
+/// left to it.
+template <class C>
+concept ElementForce = requires {
+  typename C::Driver::Law;
+  requires std::same_as<decltype(C::driver), typename C::Driver>;
+};
+
 /// f += the forces at (x, v).
 template <class C>
-concept HasAddForce = HasDataTypes<C> &&
+concept HasAddForce = ElementForce<C> || HasDataTypes<C> &&
     requires(C c, MechanicalParams const p, typename C::DataTypes::VecDeriv f,
              typename C::DataTypes::VecCoord const x, typename C::DataTypes::VecDeriv const v) {
   c.addForce(p, f, x, v);
 };
 /// df += (k K + b B) dx at the last addForce.
 template <class C>
-concept HasAddDForce = HasDataTypes<C> &&
+concept HasAddDForce = ElementForce<C> || HasDataTypes<C> &&
     requires(C c, MechanicalParams const p, typename C::DataTypes::VecDeriv df,
              typename C::DataTypes::VecDeriv const dx) {
   c.addDForce(p, df, dx);
 };
 template <class C>
-concept HasPotentialEnergy = HasDataTypes<C> && requires(C c, typename C::DataTypes::VecCoord const x) {
+concept HasPotentialEnergy = ElementForce<C> || HasDataTypes<C> && requires(C c, typename C::DataTypes::VecCoord const x) {
   { c.potentialEnergy(x) } -> std::convertible_to<double>;
 };
 
@@ -65,7 +75,7 @@ concept ForceField = HasRole<C, role::ForceField> && HasInit<C> && PlainForce<C>
 /// K = k df/dx + b df/dv at the last addForce, added block by block as sink.add(i, j, block): what solvers
 /// need that assemble a matrix.
 template <class C>
-concept AddsToMatrix = requires(C c, MechanicalParams const p, AnySink const sink) {
+concept AddsToMatrix = ElementForce<C> || requires(C c, MechanicalParams const p, AnySink const sink) {
   c.addToMatrix(p, sink);
 };
 

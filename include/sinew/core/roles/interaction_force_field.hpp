@@ -40,19 +40,19 @@ concept HasEnds = requires {
 };
 /// The same as those of a force field, each with the vectors of both states.
 template <class C>
-concept HasAddForceOfTwo = HasDataTypes<C> &&
+concept HasAddForceOfTwo = ElementForce<C> || HasDataTypes<C> &&
     requires(C c, MechanicalParams const p, typename C::DataTypes::VecDeriv f,
              typename C::DataTypes::VecCoord const x, typename C::DataTypes::VecDeriv const v) {
   c.addForce(p, f, f, x, x, v, v);
 };
 template <class C>
-concept HasAddDForceOfTwo = HasDataTypes<C> &&
+concept HasAddDForceOfTwo = ElementForce<C> || HasDataTypes<C> &&
     requires(C c, MechanicalParams const p, typename C::DataTypes::VecDeriv df,
              typename C::DataTypes::VecDeriv const dx) {
   c.addDForce(p, df, df, dx, dx);
 };
 template <class C>
-concept HasPotentialEnergyOfTwo = HasDataTypes<C> && requires(C c, typename C::DataTypes::VecCoord const x) {
+concept HasPotentialEnergyOfTwo = ElementForce<C> || HasDataTypes<C> && requires(C c, typename C::DataTypes::VecCoord const x) {
   { c.potentialEnergy(x, x) } -> std::convertible_to<double>;
 };
 

@@ -40,7 +40,7 @@ struct FusedField {
   DeviceArray<Deriv> part{};
 
   void init(Field const& field, FusedPlan const& plan, int copies) {
-    law = detail::law_of(field);
+    law = law_of(field);
     elements = field.driver.elements;
     nodes = int(field.driver.nodes);
     index = field.driver.index;
