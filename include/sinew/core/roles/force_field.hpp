@@ -47,20 +47,17 @@ concept ElementForce = requires {
 
 /// f += the forces at (x, v).
 template <class C>
-concept HasAddForce = ElementForce<C> || HasDataTypes<C> &&
-    requires(C c, MechanicalParams const p, typename C::DataTypes::VecDeriv f,
-             typename C::DataTypes::VecCoord const x, typename C::DataTypes::VecDeriv const v) {
-  c.addForce(p, f, x, v);
-};
+concept HasAddForce =
+    ElementForce<C> || requires(C c, MechanicalParams const p, typename C::DataTypes::VecDeriv f,
+                                typename C::DataTypes::VecCoord const x,
+                                typename C::DataTypes::VecDeriv const v) { c.addForce(p, f, x, v); };
 /// df += (k K + b B) dx at the last addForce.
 template <class C>
-concept HasAddDForce = ElementForce<C> || HasDataTypes<C> &&
-    requires(C c, MechanicalParams const p, typename C::DataTypes::VecDeriv df,
-             typename C::DataTypes::VecDeriv const dx) {
-  c.addDForce(p, df, dx);
-};
+concept HasAddDForce =
+    ElementForce<C> || requires(C c, MechanicalParams const p, typename C::DataTypes::VecDeriv df,
+                                typename C::DataTypes::VecDeriv const dx) { c.addDForce(p, df, dx); };
 template <class C>
-concept HasPotentialEnergy = ElementForce<C> || HasDataTypes<C> && requires(C c, typename C::DataTypes::VecCoord const x) {
+concept HasPotentialEnergy = ElementForce<C> || requires(C c, typename C::DataTypes::VecCoord const x) {
   { c.potentialEnergy(x) } -> std::convertible_to<double>;
 };
 
@@ -81,9 +78,7 @@ concept AddsToMatrix = ElementForce<C> || requires(C c, MechanicalParams const p
 
 /// A force that does not depend on positions and velocities: no matrix has anything of it.
 template <class C>
-concept Load = requires {
-  requires C::isLoad;
-};
+concept Load = requires { requires C::isLoad; };
 
 /// What a force field claims of itself (as `properties()`), and the law suite proves. The defaults are those
 /// of an elastic force between points of one body; a field that says nothing claims them all.

@@ -35,30 +35,25 @@ namespace sinew {
 //   };
 
 template <class C>
-concept HasEnds = requires {
-  typename C::Ends;
-};
+concept HasEnds = requires { typename C::Ends; };
 /// The same as those of a force field, each with the vectors of both states.
 template <class C>
-concept HasAddForceOfTwo = ElementForce<C> || HasDataTypes<C> &&
-    requires(C c, MechanicalParams const p, typename C::DataTypes::VecDeriv f,
-             typename C::DataTypes::VecCoord const x, typename C::DataTypes::VecDeriv const v) {
-  c.addForce(p, f, f, x, x, v, v);
-};
+concept HasAddForceOfTwo =
+    ElementForce<C> || requires(C c, MechanicalParams const p, typename C::DataTypes::VecDeriv f,
+                                typename C::DataTypes::VecCoord const x,
+                                typename C::DataTypes::VecDeriv const v) { c.addForce(p, f, f, x, x, v, v); };
 template <class C>
-concept HasAddDForceOfTwo = ElementForce<C> || HasDataTypes<C> &&
-    requires(C c, MechanicalParams const p, typename C::DataTypes::VecDeriv df,
-             typename C::DataTypes::VecDeriv const dx) {
-  c.addDForce(p, df, df, dx, dx);
-};
+concept HasAddDForceOfTwo =
+    ElementForce<C> || requires(C c, MechanicalParams const p, typename C::DataTypes::VecDeriv df,
+                                typename C::DataTypes::VecDeriv const dx) { c.addDForce(p, df, df, dx, dx); };
 template <class C>
-concept HasPotentialEnergyOfTwo = ElementForce<C> || HasDataTypes<C> && requires(C c, typename C::DataTypes::VecCoord const x) {
+concept HasPotentialEnergyOfTwo = ElementForce<C> || requires(C c, typename C::DataTypes::VecCoord const x) {
   { c.potentialEnergy(x, x) } -> std::convertible_to<double>;
 };
 
 template <class C>
 concept InteractionForceField = HasRole<C, role::InteractionForceField> && HasEnds<C> && HasInitOfTwo<C> &&
-    HasAddForceOfTwo<C> && HasAddDForceOfTwo<C> && HasPotentialEnergyOfTwo<C>;
+                                HasAddForceOfTwo<C> && HasAddDForceOfTwo<C> && HasPotentialEnergyOfTwo<C>;
 
 // Hook: AddsToMatrix, as force fields have it, with sink.add<Side, Side>(i, j, block).
 
