@@ -21,12 +21,12 @@ struct RigidLoops {
   }
   int const* indices(std::vector<int> const& given) const { return given.data(); }
 
-  /// in[b] += the sum of load(r[i], f[i]) over the points of b.
+  /// load(in[b], r[i], f[i]), which adds to it, for each point i of each body b.
   template <class F, class R, class Load>
   void addLoads(typename In::VecDeriv& in, F const& f, R const& r, std::vector<int> const& indices,
                 Load const& load) const {
     const bool one = indices.size() == 1;
-    for (std::size_t i = 0; i < r.size(); ++i) in[std::size_t(indices[one ? 0 : i])] += load(r[i], f[i]);
+    for (std::size_t i = 0; i < r.size(); ++i) load(in[std::size_t(indices[one ? 0 : i])], r[i], f[i]);
   }
 };
 

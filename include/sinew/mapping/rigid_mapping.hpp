@@ -137,10 +137,11 @@ struct RigidMapping {
   void applyJT(typename In::VecDeriv& in, typename Out::VecDeriv const& out) const {
     loops.addLoads(in, out, rotated, rigidIndices, Load{});
   }
-  // of a force on a point at r
+  // what a force on a point at r adds to its body
   struct Load {
-    SINEW_HD typename In::Deriv operator()(Vec<Real, N> const& r, typename Out::Deriv const& f) const {
-      return (jacobian(r).transpose() * f).template cast<typename In::Real>();
+    SINEW_HD void operator()(typename In::Deriv& to, Vec<Real, N> const& r,
+                             typename Out::Deriv const& f) const {
+      to += (jacobian(r).transpose() * f).template cast<typename In::Real>();
     }
   };
   template <class F>

@@ -70,7 +70,7 @@ requires(OnDevice<In> || OnDevice<Out>) struct RigidLoops<In, Out> {
       return given.data();
   }
 
-  /// in[b] += the sum of load(r[i], f[i]) over the points of b.
+  /// load(in[b], r[i], f[i]), which adds to it, for each point i of each body b.
   template <class F, class R, class Load>
   void addLoads(typename In::VecDeriv& in, F const& f, R const& r, std::vector<int> const& given,
                 Load const& load) const {
@@ -79,7 +79,7 @@ requires(OnDevice<In> || OnDevice<Out>) struct RigidLoops<In, Out> {
       Deriv* const own = gpu::overwritten_on_host(sums);
       for (std::size_t b = 0; b < sums.size(); ++b) own[b].setZero();
       const bool one = given.size() == 1;
-      for (std::size_t i = 0; i < r.size(); ++i) own[std::size_t(given[one ? 0 : i])] += load(r[i], f[i]);
+      for (std::size_t i = 0; i < r.size(); ++i) load(own[std::size_t(given[one ? 0 : i])], r[i], f[i]);
       if (!std::all_of(own, own + sums.size(), [](Deriv const& sum) { return sum.isZero(0); }))
         each_point<In>(in.size(), gpu::Plus<Deriv>{entries(in), entries(std::as_const(sums))});
     } else {
@@ -109,7 +109,7 @@ requires(OnDevice<In> || OnDevice<Out>) struct RigidLoops<In, Out> {
     Deriv* to;
     SINEW_HD void operator()(int p) const {
       Deriv sum = Deriv::Zero();
-      for (int e = first[p]; e < first[p + 1]; ++e) sum += load(r[point[e]], f[point[e]]);
+      for (int e = first[p]; e < first[p + 1]; ++e) load(sum, r[point[e]], f[point[e]]);
       to[p] = sum;
     }
   };
