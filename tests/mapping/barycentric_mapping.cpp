@@ -130,7 +130,7 @@ TEST_CASE("hexahedra carry points inside and outside, and move them affinely alo
 TEMPLATE_TEST_CASE("points in a row in one element are carried as each by itself", "", Vec3d, Vec3f) {
   using Real = typename TestType::Real;
   const auto g = grid({4, 3, 3});
-  const std::size_t w = CarriedRuns<Vec3d, TestType>::least;
+  const std::size_t w = CarriedPoints<Vec3d, TestType>::least;
   Random random;
   auto check = [&](TopologyView const& topology, auto const& elements) {
     // runs as long as lanes, shorter and longer; each begins in another element than the last has ended

@@ -18,14 +18,9 @@ template <class T>
 T const* entries(std::vector<T> const& v) {
   return v.data();
 }
-/// The same for a loop that writes all entries: what they were need not be there. The second is for loops on
-/// the host, wherever the vector's DataTypes have theirs.
+/// The same for a loop that writes all entries: what they were need not be there.
 template <class T>
 T* overwritten(std::vector<T>& v) {
-  return v.data();
-}
-template <class T>
-T* overwritten_on_host(std::vector<T>& v) {
   return v.data();
 }
 
@@ -38,11 +33,5 @@ void each_point(std::size_t count, Body const& body) {
   else
     for (std::size_t i = 0; i < count; ++i) body(int(i));
 }
-
-/// DataTypes whose vectors live on a device.
-template <class D>
-concept OnDevice = requires {
-  typename D::Host;
-};
 
 }  // namespace sinew

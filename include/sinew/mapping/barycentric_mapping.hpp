@@ -2,12 +2,12 @@
 #pragma once
 
 #include <sinew/core/component.hpp>
-#include <sinew/mapping/carried_runs.hpp>
-#include <sinew/mapping/point_weights.hpp>
+#include <sinew/mapping/carried_points.hpp>
 #include <sinew/topology/element_checks.hpp>
 #include <sinew/topology/point_location.hpp>
 
 #include <array>
+#include <limits>
 #include <vector>
 
 namespace sinew {
@@ -33,13 +33,9 @@ struct BarycentricMapping {
 
   static constexpr auto fields() { return field_list(); }
 
-  struct Carrier {
-    std::array<Index, 4> points;
-    std::array<Weight, 4> weights;
-  };
-  std::vector<Carrier> carriers{};  // one a point; those with fewer than four points end in weights of zero
-  std::vector<Carrier> others{};    // the other four points of hexahedra; empty where there is none
-  CarriedRuns<In, Out> together{};  // those that have an element in common
+  // of each point; the other four points of hexahedra, empty where there is none
+  std::vector<Carrier<Weight>> carriers{}, others{};
+  CarriedPoints<In, Out> together{};
 
   void init(InitContext<In> const& parent, InitContext<Out> const& child, typename Out::VecCoord& positions) {
     const std::string where = text(child.where, ": ", component_name<BarycentricMapping>());
@@ -73,13 +69,6 @@ struct BarycentricMapping {
           text("the topology of ", parent.where, " has no elements; give the parent a topology with some"));
     }
 
-    if constexpr (!onHost)
-      weights.init(parent.rest.size(), choices.size(), [&](auto&& add) {
-        for (std::size_t i = 0; i < choices.size(); ++i)
-          for (std::size_t k = 0; k < 8; ++k)
-            if (choices[i].weights[k] != 0)
-              add(i, std::size_t(choices[i].points[k]), Weight(choices[i].weights[k]));
-      });
     carriers.assign(choices.size(), {});
     others.assign(topology.hexahedra.empty() ? 0 : choices.size(), {});
     for (std::size_t i = 0; i < choices.size(); ++i) {
@@ -90,58 +79,34 @@ struct BarycentricMapping {
                 "the elements of ", parent.where, " are all flat and carry no point; move its points apart"));
       for (std::size_t k = 0; k < 8; ++k)
         if (k < 4 || !others.empty()) {
-          Carrier& carrier = (k < 4 ? carriers : others)[i];
+          auto& carrier = (k < 4 ? carriers : others)[i];
           carrier.points[k % 4] = choices[i].points[k];
           carrier.weights[k % 4] = Weight(choices[i].weights[k]);
         }
     }
-    auto part = [this](int k) -> auto const& { return k < 4 ? carriers : others; };
-    together.init(
-        carriers.size(),
-        others.empty() ? 4 : 8,
-        [&](std::size_t i, int k) { return part(k)[i].points[std::size_t(k % 4)]; },
-        [&](std::size_t i, int k) { return part(k)[i].weights[std::size_t(k % 4)]; });
+    together.init(parent.rest.size(), carriers, others);
   }
 
-  void apply(typename Out::VecCoord& out, typename In::VecCoord const& in) const { interpolate(out, in); }
-  void applyJ(typename Out::VecDeriv& out, typename In::VecDeriv const& in) const { interpolate(out, in); }
+  void apply(typename Out::VecCoord& out, typename In::VecCoord const& in) const {
+    together.apply(out, in, carriers, others);
+  }
+  void ask(typename Out::VecCoord const& out, typename In::VecCoord const& in) const {
+    together.ask(out, in);
+  }
+  void applyJ(typename Out::VecDeriv& out, typename In::VecDeriv const& in) const {
+    together.apply(out, in, carriers, others);
+  }
   void applyJT(typename In::VecDeriv& in, typename Out::VecDeriv const& out) const {
-    forEachRun(
-        together.leastTransposed,
-        [&](auto const& run) { together.applyTransposed(run, in, out); },
-        [&](std::size_t i) {
-          auto add = [&](Carrier const& c) {
-            for (std::size_t k = 0; k < 4; ++k)
-              in[std::size_t(c.points[k])] += c.weights[k] * out[i].template cast<Weight>();
-          };
-          add(carriers[i]);
-          if (!others.empty()) add(others[i]);
-        });
+    together.applyJT(in, out, carriers, others);
   }
   template <class F>
   void forEachJacobianBlock(int point, F&& f) const {
     for (auto const* list : {&carriers, &others})
       for (std::size_t k = 0; k < 4 && !list->empty(); ++k) {
-        Carrier const& carrier = (*list)[std::size_t(point)];
+        auto const& carrier = (*list)[std::size_t(point)];
         if (carrier.weights[k] != 0)
           f(carrier.points[k], Mat<Real, 3>(Mat<Real, 3>::Identity() * Real(carrier.weights[k])));
       }
-  }
-
-  // with an end on a device
-  static constexpr bool onHost = MappedLoops<In, Out>::onHost;
-  PointWeights<In, Out> weights{};
-  void apply(typename Out::VecCoord& out, typename In::VecCoord const& in) const requires(!onHost) {
-    weights.apply(out, in);
-  }
-  void ask(typename Out::VecCoord const& out, typename In::VecCoord const& in) const requires(!onHost) {
-    weights.ask(out, in);
-  }
-  void applyJ(typename Out::VecDeriv& out, typename In::VecDeriv const& in) const requires(!onHost) {
-    weights.apply(out, in);
-  }
-  void applyJT(typename In::VecDeriv& in, typename Out::VecDeriv const& out) const requires(!onHost) {
-    weights.applyJT(in, out);
   }
 
  private:
@@ -164,38 +129,6 @@ struct BarycentricMapping {
       }
     }
   };
-
-  void interpolate(typename Out::VecDeriv& out, typename In::VecDeriv const& in) const {
-    Weight const* const x = in.data()->data();
-    forEachRun(
-        together.least,
-        [&](auto const& run) { together.apply(run, out, in); },
-        [&](std::size_t i) {
-          auto sum = [x](Carrier const& c, int k) {
-            return c.weights[0] * x[3 * c.points[0] + k] + c.weights[1] * x[3 * c.points[1] + k] +
-                   c.weights[2] * x[3 * c.points[2] + k] + c.weights[3] * x[3 * c.points[3] + k];
-          };
-          Weight place[3];
-          for (int k = 0; k < 3; ++k) place[k] = sum(carriers[i], k);
-          if (!others.empty())
-            for (int k = 0; k < 3; ++k) place[k] += sum(others[i], k);
-          for (int k = 0; k < 3; ++k) out[i][k] = Real(place[k]);
-        });
-  }
-
-  // the runs of so many points, and the points between them
-  template <class OfRun, class OfPoint>
-  SINEW_INLINE void forEachRun(std::size_t least, OfRun&& ofRun, OfPoint&& ofPoint) const {
-    std::size_t i = 0;
-    for (auto run = together.runs.begin();; ++run) {
-      while (run != together.runs.end() && run->end - run->first < least) ++run;
-      const bool last = run == together.runs.end();
-      for (const std::size_t end = last ? carriers.size() : run->first; i < end; ++i) ofPoint(i);
-      if (last) return;
-      ofRun(*run);
-      i = run->end;
-    }
-  }
 };
 
 }  // namespace sinew

@@ -23,8 +23,7 @@ struct IdentityMapping {
 
   static constexpr auto fields() { return field_list(); }
 
-  using Loops = MappedLoops<In, Out>;
-  Loops loops{};  // on a device
+  MappedLoops<In, Out> loops{};
 
   void init(InitContext<In> const& parent, InitContext<Out> const& child, typename Out::VecCoord& positions) {
     if (positions.empty()) positions.resize(parent.rest.size());
@@ -35,30 +34,20 @@ struct IdentityMapping {
                        " points and its parent ",
                        parent.rest.size(),
                        "; give the child as many, or none"));
-    if constexpr (!Loops::onHost) loops.init(parent.rest.size(), positions.size());
+    loops.init(parent.rest.size(), positions.size());
   }
 
   void apply(typename Out::VecCoord& out, typename In::VecCoord const& in) const {
-    if constexpr (Loops::onHost)
-      for (std::size_t i = 0; i < in.size(); ++i) Copy::position(out[i], in[i]);
-    else
-      loops.down(out, in, [](LoopSide) { return typename Copy::Positions{}; });
+    loops.apply(out, in, typename Copy::Position{});
   }
-  void ask(typename Out::VecCoord const& out, typename In::VecCoord const& in) const
-      requires(!Loops::onHost) {
-    loops.ask(out, in, [](LoopSide) { return typename Copy::Positions{}; });
+  void ask(typename Out::VecCoord const& out, typename In::VecCoord const& in) const {
+    loops.ask(out, in, typename Copy::Position{});
   }
   void applyJ(typename Out::VecDeriv& out, typename In::VecDeriv const& in) const {
-    if constexpr (Loops::onHost)
-      for (std::size_t i = 0; i < in.size(); ++i) Copy::velocity(out[i], in[i]);
-    else
-      loops.down(out, in, [](LoopSide) { return typename Copy::Velocities{}; });
+    loops.apply(out, in, typename Copy::Velocity{});
   }
   void applyJT(typename In::VecDeriv& in, typename Out::VecDeriv const& out) const {
-    if constexpr (Loops::onHost)
-      for (std::size_t i = 0; i < in.size(); ++i) Copy::force(in[i], out[i]);
-    else
-      loops.up(in, out, [](LoopSide) { return typename Copy::Forces{}; });
+    loops.applyJT(in, out, typename Copy::Force{});
   }
   template <class F>
   void forEachJacobianBlock(int point, F&& f) const {

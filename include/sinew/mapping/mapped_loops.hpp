@@ -2,170 +2,49 @@
 #pragma once
 
 #include <sinew/core/data_types.hpp>
-#include <sinew/core/point_loop.hpp>
 
-#include <algorithm>
-#include <type_traits>
+#include <vector>
 
 namespace sinew {
 
-namespace detail {
-
-// what one turn of a loop does
-template <class Body, class To, class From>
-struct Make {
-  Body body;
-  To* to;
-  From const* from;
-  SINEW_HD void operator()(int i) const { to[i] = body(from, i); }
-};
-template <class Body, class To, class From>
-Make(Body, To*, From const*) -> Make<Body, To, From>;
-template <class Body, class To, class From>
-struct Add {
-  Body body;
-  To* to;
-  From const* from;
-  SINEW_HD void operator()(int i) const { to[i] = body(from, i, to[i]); }
-};
-template <class Body, class To, class From>
-Add(Body, To*, From const*) -> Add<Body, To, From>;
-template <class Body, class To, class From>
-struct Sum {
-  Body body;
-  To* to;
-  From const* from;
-  SINEW_HD void operator()(int i) const { to[i] = body(from, i, To(To::Zero())); }
-};
-template <class Body, class To, class From>
-Sum(Body, To*, From const*) -> Sum<Body, To, From>;
-template <class T>
-struct Plus {
-  T* to;
-  T const* from;
-  SINEW_HD void operator()(int i) const { to[i] += from[i]; }
-};
-
-}  // namespace detail
-
-/// Where the loops of a mapping have to look for its tables.
-enum class LoopSide { host, device };
-
-/// The loops of a mapping with both states on a device, or one there and one on the host. Of the latter, the
-/// vector of fewer bytes crosses, and the loops run on the other side: a device makes the points of a surface
-/// and sends those, where the surface has fewer than the body; else it sends the body's.
-///
-/// `bodies(side)` gives what makes one entry, an object with SINEW_HD operators and addresses of that side:
-///   out[i] = body(in, i)   of down      in[i] = body(out, i, in[i])   of up, with all that the child adds to
-///   i
+/// The loops of a mapping whose child has the points of its parent, which says what becomes of one of them:
+/// point(to, from), an object whose operator is SINEW_HD. Here both states are in the memory of the host;
+/// DataTypes whose vectors are elsewhere bring their own loops, of which ask() begins what apply(), called
+/// next with the same arguments, brings from there.
 template <class In, class Out>
 struct MappedLoops {
-  static constexpr bool onHost = false, across = OnDevice<In> != OnDevice<Out>;
-  using Device = std::conditional_t<OnDevice<In>, In, Out>;
-  using Host = std::conditional_t<OnDevice<In>, Out, In>;
-  template <class T>
-  using Array = typename Device::template Array<T>;
+  void init(std::size_t /*parents*/, std::size_t /*children*/) {}
 
-  bool atDevice = OnDevice<In> && OnDevice<Out>;
-
-  // what the host has, or is to get, of both kinds of vectors; and the sum of what it adds to a device
-  mutable Array<typename Host::Coord> coords{};
-  mutable Array<typename Host::Deriv> derivs{};
-  mutable Array<typename In::Deriv> sums{};
-  mutable bool asked = false;  // whether the device makes what is to go down
-
-  void init(std::size_t parents, std::size_t children) {
-    const std::size_t above = parents * sizeof(typename In::Deriv),
-                      below = children * sizeof(typename Out::Deriv);
-    atDevice = !across || (OnDevice<In> ? below < above : above < below);
+  template <class To, class From, class Point>
+  void ask(To const&, From const&, Point const&) const {}
+  template <class To, class From, class Point>
+  void apply(To& out, From const& in, Point const& point) const {
+    for (std::size_t i = 0; i < in.size(); ++i) point(out[i], in[i]);
   }
-
-  /// Begins what down(), called next with the same arguments, brings from a device to the host: the work and
-  /// its copy are queued there, and not waited for.
-  template <class To, class From, class Bodies>
-  void ask(To const& out, From const& in, Bodies const& bodies) const {
-    if constexpr (across && OnDevice<In>) {
-      if (atDevice) {
-        auto& room = like(out);
-        room.resize(out.size());
-        each_point<Device>(out.size(),
-                           detail::Make{bodies(LoopSide::device), overwritten(room), entries(in)});
-        bring_to_host(room);
-        asked = true;
-      } else {
-        bring_to_host(in);
-      }
-    }
-  }
-
-  template <class To, class From, class Bodies>
-  void down(To& out, From const& in, Bodies const& bodies) const {
-    if constexpr (!across) {
-      each_point<Device>(out.size(), detail::Make{bodies(LoopSide::device), overwritten(out), entries(in)});
-    } else if (!atDevice) {
-      onThisHost(out.size(), detail::Make{bodies(LoopSide::host), overwritten_on_host(out), in.data()});
-    } else if constexpr (OnDevice<In>) {
-      if (!asked) ask(out, in, bodies);
-      asked = false;
-      std::copy_n(std::as_const(like(out)).data(), out.size(), out.data());
-    } else {
-      auto& room = like(in);
-      room.assign(in.begin(), in.end());
-      each_point<Device>(
-          out.size(), detail::Make{bodies(LoopSide::device), overwritten(out), entries(std::as_const(room))});
-    }
-  }
-
-  template <class To, class From, class Bodies>
-  void up(To& in, From const& out, Bodies const& bodies) const {
-    if constexpr (!across) {
-      each_point<Device>(in.size(), detail::Add{bodies(LoopSide::device), entries(in), entries(out)});
-    } else if constexpr (OnDevice<In>) {
-      // forces that the host has not made have no way to go
-      if (std::all_of(out.begin(), out.end(), [](auto const& f) { return f.isZero(0); })) return;
-      if (atDevice) {
-        derivs.assign(out.begin(), out.end());
-        each_point<Device>(
-            in.size(), detail::Add{bodies(LoopSide::device), entries(in), entries(std::as_const(derivs))});
-      } else {
-        sums.resize(in.size());
-        onThisHost(in.size(), detail::Sum{bodies(LoopSide::host), overwritten_on_host(sums), out.data()});
-        addSums(in);
-      }
-    } else if (atDevice) {
-      sums.resize(in.size());
-      each_point<Device>(in.size(), detail::Sum{bodies(LoopSide::device), overwritten(sums), entries(out)});
-      for (std::size_t i = 0; i < in.size(); ++i) in[i] += std::as_const(sums).data()[i];
-    } else {
-      onThisHost(in.size(), detail::Add{bodies(LoopSide::host), in.data(), out.data()});
-    }
-  }
-  /// in += `sums`, which the host has filled.
-  template <class To>
-  void addSums(To& in) const {
-    each_point<Device>(in.size(),
-                       detail::Plus<typename In::Deriv>{entries(in), entries(std::as_const(sums))});
-  }
-
- private:
-  template <class Loop>
-  static void onThisHost(std::size_t count, Loop const& loop) {
-    for (std::size_t i = 0; i < count; ++i) loop(int(i));
-  }
-  // room for a copy of a vector of the host
-  template <class V>
-  auto& like(V const&) const {
-    if constexpr (std::is_same_v<typename V::value_type, typename Host::Deriv>)
-      return derivs;
-    else
-      return coords;
+  /// `point` adds to what the parent has.
+  template <class To, class From, class Point>
+  void applyJT(To& in, From const& out, Point const& point) const {
+    for (std::size_t i = 0; i < in.size(); ++i) point(in[i], out[i]);
   }
 };
 
-/// None, for mappings of the host, which have loops of their own.
+/// The same where point i of the child is point indices[i] of the parent.
 template <class In, class Out>
-requires(!OnDevice<In> && !OnDevice<Out>) struct MappedLoops<In, Out> {
-  static constexpr bool onHost = true;
+struct SubsetLoops {
+  void init(std::size_t /*parents*/, std::vector<int> const& /*indices*/) {}
+
+  template <class To, class From>
+  void ask(To const&, From const&) const {}
+  template <class To, class From>
+  void apply(To& out, From const& in, std::vector<int> const& indices) const {
+    for (std::size_t i = 0; i < indices.size(); ++i)
+      out[i] = in[std::size_t(indices[i])].template cast<typename Out::Real>();
+  }
+  template <class To, class From>
+  void applyJT(To& in, From const& out, std::vector<int> const& indices) const {
+    for (std::size_t i = 0; i < indices.size(); ++i)
+      in[std::size_t(indices[i])] += out[i].template cast<typename In::Real>();
+  }
 };
 
 }  // namespace sinew

@@ -35,27 +35,21 @@ struct PointCopy {
     to.template head<Out::size>() += from.template cast<typename In::Real>();
   }
 
-  // the same as loops of MappedLoops take it
+  // the same for the loops over all points
 
-  struct Positions {
-    SINEW_HD typename Out::Coord operator()(typename In::Coord const* from, int i) const {
-      typename Out::Coord to;
-      position(to, from[i]);
-      return to;
+  struct Position {
+    SINEW_HD void operator()(typename Out::Coord& to, typename In::Coord const& from) const {
+      position(to, from);
     }
   };
-  struct Velocities {
-    SINEW_HD typename Out::Deriv operator()(typename In::Deriv const* from, int i) const {
-      typename Out::Deriv to;
-      velocity(to, from[i]);
-      return to;
+  struct Velocity {
+    SINEW_HD void operator()(typename Out::Deriv& to, typename In::Deriv const& from) const {
+      velocity(to, from);
     }
   };
-  struct Forces {
-    SINEW_HD typename In::Deriv operator()(typename Out::Deriv const* from, int i,
-                                           typename In::Deriv sum) const {
-      force(sum, from[i]);
-      return sum;
+  struct Force {
+    SINEW_HD void operator()(typename In::Deriv& to, typename Out::Deriv const& from) const {
+      force(to, from);
     }
   };
 };

@@ -1,138 +1,33 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <sinew/mapping/mapped_loops.hpp>
+#include <sinew/core/platform.hpp>
 
+#include <cstddef>
 #include <vector>
 
 namespace sinew {
 
-/// What a mapping from rigid bodies to their points needs where an end is on a device. Its loops run where
-/// the points are, since bodies are fewer, and the bodies' vectors cross: positions down, and sums of loads
-/// up. On a device these are sums of pieces of at most 64 points, then of the pieces, in the order of the
-/// points.
+/// What loops over the points of rigid bodies need of these: the bodies' vectors and the body of each point
+/// (or of all) where the points are, and sums of loads. Here both are in the memory of the host; DataTypes
+/// whose vectors are elsewhere bring their own.
 template <class In, class Out>
 struct RigidLoops {
-  using Coord = typename In::Coord;
-  using Deriv = typename In::Deriv;
-  static constexpr bool onHost = !OnDevice<In> && !OnDevice<Out>;
-  using Device = std::conditional_t<OnDevice<In>, In, Out>;
-  template <class T>
-  using Array = typename Device::template Array<T>;
-  static constexpr std::size_t piece = 64;
+  void init(std::size_t /*bodies*/, std::size_t /*points*/, std::vector<int> const& /*indices*/) {}
 
-  Array<int> body{};                                     // of each point
-  Array<int> firstPiece{}, firstPoint{}, point{};        // of a body; of a piece
-  mutable Array<Coord> coords{};                         // of bodies on the host
-  mutable Array<Deriv> derivs{}, loadOfPiece{}, sums{};  // ...; and on bodies of the other side
-
-  /// `indices` is the body of each point, or that of all.
-  void init(std::size_t bodies, std::size_t points, std::vector<int> const& indices) {
-    body = indices;
-    sums.assign(bodies, Deriv(Deriv::Zero()));
-    if constexpr (OnDevice<Out>) {
-      std::vector<std::vector<int>> of(bodies);
-      for (std::size_t i = 0; i < points; ++i)
-        of[std::size_t(indices[indices.size() == 1 ? 0 : i])].push_back(int(i));
-      std::vector<int> pieces{0}, begins{0}, all;
-      for (auto const& list : of) {
-        for (std::size_t i = 0; i < list.size(); ++i) {
-          all.push_back(list[i]);
-          if ((i + 1) % piece == 0 || i + 1 == list.size()) begins.push_back(int(all.size()));
-        }
-        pieces.push_back(int(begins.size()) - 1);
-      }
-      loadOfPiece.assign(begins.size() - 1, Deriv(Deriv::Zero()));
-      firstPiece = std::move(pieces);
-      firstPoint = std::move(begins);
-      point = std::move(all);
-    }
-  }
-
-  /// A vector of the bodies as loops over the points find it.
   template <class V>
-  auto const* seen(V const& in) const {
-    if constexpr (!OnDevice<Out>) {
-      return in.data();
-    } else if constexpr (OnDevice<In>) {
-      return entries(in);
-    } else if constexpr (std::is_same_v<typename V::value_type, Coord>) {
-      coords.assign(in.begin(), in.end());
-      return entries(std::as_const(coords));
-    } else {
-      derivs.assign(in.begin(), in.end());
-      return entries(std::as_const(derivs));
-    }
+  auto const* bodies(V const& in) const {
+    return in.data();
   }
-  int const* indices(std::vector<int> const& given) const {
-    if constexpr (OnDevice<Out>)
-      return entries(body);
-    else
-      return given.data();
-  }
+  int const* indices(std::vector<int> const& given) const { return given.data(); }
 
-  /// in[b] += the sum of load(r[i], f[i]) over the points of b, made on the device.
-  template <class Load, class R, class F>
-  void addOnDevice(typename In::VecDeriv& in, F const& f, R const& r, Load const& load) const {
-    using Arm = typename R::value_type;
-    using Force = typename F::value_type;
-    each_point<Out>(
-        loadOfPiece.size(),
-        SumPiece<Load, Arm, Force>{
-            load, entries(firstPoint), entries(point), entries(r), entries(f), overwritten(loadOfPiece)});
-    auto add = [&](Deriv* to) {
-      each_point<Out>(in.size(),
-                      SumBody{entries(firstPiece), entries(std::as_const(loadOfPiece)), to, OnDevice<In>});
-    };
-    if constexpr (OnDevice<In>) {
-      add(entries(in));
-    } else {
-      add(overwritten(sums));
-      for (std::size_t b = 0; b < in.size(); ++b) in[b] += std::as_const(sums).data()[b];
-    }
+  /// load(in[b], r[i], f[i]), which adds to it, for each point i of each body b.
+  template <class F, class R, class Load>
+  void addLoads(typename In::VecDeriv& in, F const& f, R const& r, std::vector<int> const& indices,
+                Load const& load) const {
+    const bool one = indices.size() == 1;
+    for (std::size_t i = 0; i < r.size(); ++i) load(in[std::size_t(indices[one ? 0 : i])], r[i], f[i]);
   }
-  /// add(to) adds to each entry of `to` on the host: to `in`, or to sums that cross.
-  template <class Add>
-  void addOnHost(typename In::VecDeriv& in, Add const& add) const {
-    if constexpr (OnDevice<In>) {
-      Deriv* const own = overwritten_on_host(sums);
-      for (std::size_t b = 0; b < sums.size(); ++b) own[b].setZero();
-      add(own);
-      bool none = true;
-      for (std::size_t b = 0; b < sums.size(); ++b) none = none && own[b].isZero(0);
-      if (!none) each_point<In>(in.size(), detail::Plus<Deriv>{entries(in), entries(std::as_const(sums))});
-    } else {
-      add(in.data());
-    }
-  }
-
-  // what loops do
-
-  template <class Load, class Arm, class Force>
-  struct SumPiece {
-    Load load;
-    int const *first, *point;
-    Arm const* r;
-    Force const* f;
-    Deriv* to;
-    SINEW_HD void operator()(int p) const {
-      Deriv sum = Deriv::Zero();
-      for (int e = first[p]; e < first[p + 1]; ++e) sum += load(r[point[e]], f[point[e]]);
-      to[p] = sum;
-    }
-  };
-  struct SumBody {
-    int const* first;
-    Deriv const* part;
-    Deriv* to;
-    bool more;  // to what is there
-    SINEW_HD void operator()(int b) const {
-      Deriv sum = Deriv::Zero();
-      if (more) sum = to[b];
-      for (int p = first[b]; p < first[b + 1]; ++p) sum += part[p];
-      to[b] = sum;
-    }
-  };
 };
 
 }  // namespace sinew

@@ -3,6 +3,7 @@
 
 #include <sinew/core/component.hpp>
 #include <sinew/core/lists.hpp>
+#include <sinew/core/point_loop.hpp>
 #include <sinew/mapping/geometric_stiffness.hpp>
 #include <sinew/mapping/rigid_loops.hpp>
 
@@ -54,7 +55,7 @@ struct RigidMapping {
   typename Out::VecCoord local{};                            // p, and o
   typename Out::template Array<Vec<Real, N>> rotated{};      // r at the last apply
   std::vector<Mat<typename In::Real, angular>> stiffness{};  // K_g of each body at the last updateK
-  RigidLoops<In, Out> loops{};                               // for a device
+  RigidLoops<In, Out> loops{};
 
   void init(InitContext<In> const& parent, InitContext<Out> const& child, typename Out::VecCoord& positions) {
     const std::string where = text(child.where, ": ", component_name<RigidMapping>());
@@ -81,12 +82,12 @@ struct RigidMapping {
       }
     rotated.resize(local.size());
     stiffness.assign(parent.rest.size(), Mat<typename In::Real, angular>::Zero());
-    if constexpr (!RigidLoops<In, Out>::onHost) loops.init(parent.rest.size(), local.size(), rigidIndices);
+    loops.init(parent.rest.size(), local.size(), rigidIndices);
   }
 
   void apply(typename Out::VecCoord& out, typename In::VecCoord const& in) {
     each_point<Out>(local.size(),
-                    Place{loops.seen(in),
+                    Place{loops.bodies(in),
                           loops.indices(rigidIndices),
                           rigidIndices.size() == 1,
                           entries(std::as_const(local)),
@@ -112,7 +113,7 @@ struct RigidMapping {
   };
   void applyJ(typename Out::VecDeriv& out, typename In::VecDeriv const& in) const {
     each_point<Out>(local.size(),
-                    Move{loops.seen(in),
+                    Move{loops.bodies(in),
                          loops.indices(rigidIndices),
                          rigidIndices.size() == 1,
                          entries(rotated),
@@ -129,19 +130,13 @@ struct RigidMapping {
     }
   };
   void applyJT(typename In::VecDeriv& in, typename Out::VecDeriv const& out) const {
-    if constexpr (OnDevice<Out>) {
-      loops.addOnDevice(in, out, rotated, Load{});
-    } else {
-      loops.addOnHost(in, [&](typename In::Deriv* to) {
-        for (std::size_t i = 0; i < local.size(); ++i)
-          to[body_of(i)] += (jacobian(rotated[i]).transpose() * out[i]).template cast<typename In::Real>();
-      });
-    }
+    loops.addLoads(in, out, rotated, rigidIndices, Load{});
   }
-  // of a force on a point at r
+  // what a force on a point at r adds to its body
   struct Load {
-    SINEW_HD typename In::Deriv operator()(Vec<Real, N> const& r, typename Out::Deriv const& f) const {
-      return (jacobian(r).transpose() * f).template cast<typename In::Real>();
+    SINEW_HD void operator()(typename In::Deriv& to, Vec<Real, N> const& r,
+                             typename Out::Deriv const& f) const {
+      to += (jacobian(r).transpose() * f).template cast<typename In::Real>();
     }
   };
   template <class F>

@@ -3,7 +3,7 @@
 
 #include <sinew/core/component.hpp>
 #include <sinew/core/lists.hpp>
-#include <sinew/mapping/point_weights.hpp>
+#include <sinew/mapping/mapped_loops.hpp>
 
 #include <vector>
 
@@ -32,7 +32,7 @@ struct SubsetMapping {
                           .numbersOf(Of::parentPoints));
   }
 
-  PointWeights<In, Out> weights{};  // for a device
+  SubsetLoops<In, Out> loops{};
 
   void init(InitContext<In> const& parent, InitContext<Out> const& child, typename Out::VecCoord& positions) {
     const std::string where = text(child.where, ": ", component_name<SubsetMapping>());
@@ -47,24 +47,18 @@ struct SubsetMapping {
                        " points for ",
                        indices.size(),
                        " indices; give the child as many, or none"));
-    if constexpr (!MappedLoops<In, Out>::onHost)
-      weights.init(parent.rest.size(), indices.size(), [&](auto&& add) {
-        for (std::size_t i = 0; i < indices.size(); ++i) add(i, std::size_t(indices[i]), 1);
-      });
+    loops.init(parent.rest.size(), indices);
   }
 
-  void apply(typename Out::VecCoord& out, typename In::VecCoord const& in) const { gather(out, in); }
-  void ask(typename Out::VecCoord const& out, typename In::VecCoord const& in) const
-      requires(!MappedLoops<In, Out>::onHost) {
-    weights.ask(out, in);
+  void apply(typename Out::VecCoord& out, typename In::VecCoord const& in) const {
+    loops.apply(out, in, indices);
   }
-  void applyJ(typename Out::VecDeriv& out, typename In::VecDeriv const& in) const { gather(out, in); }
+  void ask(typename Out::VecCoord const& out, typename In::VecCoord const& in) const { loops.ask(out, in); }
+  void applyJ(typename Out::VecDeriv& out, typename In::VecDeriv const& in) const {
+    loops.apply(out, in, indices);
+  }
   void applyJT(typename In::VecDeriv& in, typename Out::VecDeriv const& out) const {
-    if constexpr (!MappedLoops<In, Out>::onHost)
-      weights.applyJT(in, out);
-    else
-      for (std::size_t i = 0; i < indices.size(); ++i)
-        in[std::size_t(indices[i])] += out[i].template cast<typename In::Real>();
+    loops.applyJT(in, out, indices);
   }
   template <class F>
   void forEachJacobianBlock(int point, F&& f) const {
@@ -85,13 +79,6 @@ struct SubsetMapping {
                 text("the parent has no point within 1e-5 m of ",
                      words,
                      "; give indices, or the child places of points of its parent"));
-  }
-  void gather(typename Out::VecDeriv& out, typename In::VecDeriv const& in) const {
-    if constexpr (!MappedLoops<In, Out>::onHost)
-      weights.apply(out, in);
-    else
-      for (std::size_t i = 0; i < indices.size(); ++i)
-        out[i] = in[std::size_t(indices[i])].template cast<typename Out::Real>();
   }
 };
 

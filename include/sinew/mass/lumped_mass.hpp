@@ -6,6 +6,7 @@
 
 #include <Eigen/LU>
 #include <cmath>
+#include <type_traits>
 #include <vector>
 
 namespace sinew {
@@ -22,6 +23,8 @@ struct LumpedMass {
   using VecDeriv = typename D::VecDeriv;
   using MassType = typename D::MassType;
   static constexpr int linear = D::spatial, angular = D::rigid ? D::size - D::spatial : 0;
+  // whether loops find the scalars of all points one behind the other
+  static constexpr bool flat = !D::rigid && std::is_same_v<VecDeriv, std::vector<Deriv>>;
 
   typename D::template Array<MassType> mass{}, inverse{};
 
@@ -66,7 +69,7 @@ struct LumpedMass {
   /// f += m g, and the gyroscopic torque -w x (I w) of bodies that turn.
   void addForce(MechanicalParams const& p, VecDeriv& f, VecCoord const& x, VecDeriv const& v) const {
     const Vec<Real, linear> g = p.gravity.head<linear>().template cast<Real>();
-    if constexpr (D::rigid || OnDevice<D>)
+    if constexpr (!flat)
       each_point<D>(
           f.size(),
           Weigh{g, entries(f), entries(mass), entries(x), entries(v), mass.size() > 1, Real(p.turning)});
@@ -77,7 +80,7 @@ struct LumpedMass {
 
   /// f += factor M dx
   void addMDx(VecDeriv& f, VecCoord const& x, VecDeriv const& dx, Real factor) const {
-    if constexpr (D::rigid || OnDevice<D>)
+    if constexpr (!flat)
       forEachPoint(f, mass, x, dx, Add{factor});
     else
       forEachScalar(
@@ -85,7 +88,7 @@ struct LumpedMass {
   }
   /// a = M^-1 f
   void accFromF(VecDeriv& a, VecCoord const& x, VecDeriv const& f) const {
-    if constexpr (D::rigid || OnDevice<D>)
+    if constexpr (!flat)
       forEachPoint(a, inverse, x, f, Set{});
     else
       forEachScalar(

@@ -65,7 +65,7 @@ struct CGLinearSolver {
   template <class Operations>
   void init(Operations& operations) {
     reserve_residuals(residuals, iterations);
-    if (solves_on_device(operations, !matrixFree, true)) {
+    if (states_solve(operations, !matrixFree, true)) {
       if (warmStart) throw Error(className, "warmStart is not there on a device; leave it out");
       return;
     }
@@ -79,7 +79,7 @@ struct CGLinearSolver {
   template <class Operations>
   void solve(Operations& operations, MatrixFactors factors, MultiVecDeriv<Operations>& x,
              MultiVecDeriv<Operations>& b) {
-    if (solves_on_device(operations, !matrixFree)) return solve_on_device(*this, operations, factors, x, b);
+    if (states_solve(operations, !matrixFree)) return let_states_solve(*this, operations, factors, x, b);
     if constexpr (matrixFree) {
       MultiVecDeriv r(operations), p(operations), q(operations);
       r.eq(b);

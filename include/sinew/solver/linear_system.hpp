@@ -2,7 +2,6 @@
 #pragma once
 
 #include <sinew/core/component.hpp>
-#include <sinew/core/point_loop.hpp>
 #include <sinew/linalg/block_matrix.hpp>
 #include <sinew/solver/multi_vec.hpp>
 #include <sinew/state/vector_operations.hpp>
@@ -22,14 +21,21 @@ struct GraphScattered {
   static constexpr std::string_view name = "GraphScattered";
 };
 
-/// Whether a solver can work where all its states are on a device; what they kept for one is forgotten with
-/// `afresh`. `assembled`: the solver forms a matrix.
+/// DataTypes that solve systems over their vectors by themselves (VectorOperations::solve), where the host
+/// would have to bring these vectors to its memory.
+template <class D>
+concept SolvesSystems = requires {
+  requires VectorOperations<D>::solvesSystems;
+};
+
+/// Whether all states of a solver are over such; what they kept for one is forgotten with `afresh`.
+/// `assembled`: the solver forms a matrix.
 template <class Operations>
-bool solves_on_device(Operations& operations, bool assembled, bool afresh = false) {
+bool states_solve(Operations& operations, bool assembled, bool afresh = false) {
   bool first = true, can = false;
   operations.forEachIndependent([&](auto& state) {
     using D = typename std::decay_t<decltype(state)>::DataTypes;
-    if constexpr (OnDevice<D>) {
+    if constexpr (SolvesSystems<D>) {
       if (afresh) state.solverRoom = {};
       can = first ? !assembled || VectorOperations<D>::assembles(operations) : can;
     } else {
@@ -39,16 +45,15 @@ bool solves_on_device(Operations& operations, bool assembled, bool afresh = fals
   });
   return can;
 }
-/// Solves there, by what the first state's DataTypes bring for it (VectorOperations::solve), with room for
-/// three vectors.
+/// Solves by what the first state's DataTypes bring for it, with room for three vectors.
 template <class Solver, class Operations>
-void solve_on_device(Solver& solver, Operations& operations, MatrixFactors factors,
-                     MultiVecDeriv<Operations>& x, MultiVecDeriv<Operations>& b) {
+void let_states_solve(Solver& solver, Operations& operations, MatrixFactors factors,
+                      MultiVecDeriv<Operations>& x, MultiVecDeriv<Operations>& b) {
   operations.reserve({.derivs = operations.derivsTaken + 3});
   bool first = true;
   operations.forEachIndependent([&](auto& state) {
     using D = typename std::decay_t<decltype(state)>::DataTypes;
-    if constexpr (OnDevice<D>)
+    if constexpr (SolvesSystems<D>)
       if (std::exchange(first, false))
         VectorOperations<D>::solve(solver, operations, factors, x, b, state.solverRoom.numbers);
   });

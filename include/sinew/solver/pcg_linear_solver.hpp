@@ -77,7 +77,7 @@ struct ShewchukPCGLinearSolver {
   void init(Operations& operations) {
     reserve_residuals(residuals, iterations);
     age = -1;
-    if (staysOnDevice(operations, true)) return;
+    if (statesSolve(operations, true)) return;
     operations.initMatrix(matrix);
     preconditioner.init(matrix, method(), matrix.dofs());
     preconditioner.omega = omega;
@@ -96,9 +96,9 @@ struct ShewchukPCGLinearSolver {
              MultiVecDeriv<Operations>& rhs) {
     const bool update = method() != PreconditionerMethod::none &&
                         (age < 0 || (buildPrecond && updateStep > 0 && age + 1 >= updateStep));
-    if (staysOnDevice(operations)) {
+    if (statesSolve(operations)) {
       age = update ? 0 : age + 1;
-      return solve_on_device(*this, operations, factors, solution, rhs);
+      return let_states_solve(*this, operations, factors, solution, rhs);
     }
     if (update || !matrixFree) operations.assemble(matrix, factors);
     if (update) {
@@ -148,8 +148,8 @@ struct ShewchukPCGLinearSolver {
 
  private:
   template <class Operations>
-  bool staysOnDevice(Operations& operations, bool afresh = false) const {
-    return method() <= PreconditionerMethod::blockJacobi && solves_on_device(operations, !matrixFree, afresh);
+  bool statesSolve(Operations& operations, bool afresh = false) const {
+    return method() <= PreconditionerMethod::blockJacobi && states_solve(operations, !matrixFree, afresh);
   }
   // z = P^-1 r, or R P^-1 R' r
   void apply(Vector const& from, Vector& to) {

@@ -22,6 +22,12 @@ struct CudaTypes : H {
   }
 };
 
+/// DataTypes whose vectors live on a device.
+template <class D>
+concept OnDevice = requires {
+  typename D::Host;
+};
+
 using CudaVec3f = CudaTypes<Vec3f>;
 using CudaVec3d = CudaTypes<Vec3d>;
 using CudaRigid3f = CudaTypes<Rigid3f>;

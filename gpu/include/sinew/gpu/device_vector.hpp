@@ -211,10 +211,6 @@ T* overwritten(DeviceVector<T>& v) {
   return v.overwrite();
 }
 template <class T>
-T* overwritten_on_host(DeviceVector<T>& v) {
-  return v.overwriteOnHost();
-}
-template <class T>
 void bring_to_host(DeviceVector<T> const& v) {
   v.bringToHost();
 }

@@ -39,6 +39,7 @@ template <class H>
 struct VectorOperations<CudaTypes<H>> {
   using D = CudaTypes<H>;
   using Real = typename D::Real;
+  static constexpr bool solvesSystems = true;
   using Coord = typename D::Coord;
   using Deriv = typename D::Deriv;
   using VecCoord = typename D::VecCoord;

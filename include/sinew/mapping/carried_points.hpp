@@ -13,14 +13,28 @@
 
 namespace sinew {
 
-/// The child's points that one element of the parent carries, one behind the other in their numbers, as many
-/// as fill lanes:
-///   x = x_0 + sum_k w_k (x_k - x_0)
+/// A point as a weighted sum of four others; where they are fewer, the last weights are zero.
+template <class Weight>
+struct Carrier {
+  std::array<Index, 4> points;
+  std::array<Weight, 4> weights;
+};
+
+/// The loops of a mapping whose points are carried by elements of the parent: carriers[i] has the first four
+/// points of the element of point i, and others[i], where there are hexahedra, the other four.
+///   x = sum_k w_k X_k      F_k += w_k f
+/// Here both states are in the memory of the host; DataTypes whose vectors are elsewhere bring their own
+/// loops, of which ask() begins what apply(), called next with the same arguments, brings from there.
+///
+/// Points that one element carries, one behind the other in their numbers, as many as fill lanes, are a run:
+///   x = X_0 + sum_k w_k (X_k - X_0)
 /// with the corners of the element in registers. Weights are kept by corners, in the child's precision; that
 /// of the first corner is what others leave of 1.
 template <class In, class Out>
-struct CarriedRuns {
+struct CarriedPoints {
   using Real = typename Out::Real;
+  using Weight = typename In::Real;
+  using Carriers = std::vector<Carrier<Weight>>;
   static constexpr int W = native_width<Real>;
   static constexpr std::size_t least = W, leastTransposed = 2 * W;  // points of which a run is faster
   static constexpr bool possible = W >= 4;
@@ -34,29 +48,84 @@ struct CarriedRuns {
   std::vector<Run> runs{};
   std::vector<Real> weights{};
 
-  /// corner(point, k) and weight(point, k) of k < count.
-  template <class Corner, class Weight>
-  void init(std::size_t points, int count, Corner&& corner, Weight&& weight) {
+  void init(std::size_t /*parents*/, Carriers const& carriers, Carriers const& others) {
     runs.clear(), weights.clear();
-    if constexpr (possible)
-      for (std::size_t first = 0, end; first < points; first = end) {
+    if constexpr (possible) {
+      const int count = others.empty() ? 4 : 8;
+      auto part = [&](std::size_t i, int k) -> auto const& { return (k < 4 ? carriers : others)[i]; };
+      auto corner = [&](std::size_t i, int k) { return part(i, k).points[std::size_t(k % 4)]; };
+      for (std::size_t first = 0, end; first < carriers.size(); first = end) {
         auto same = [&](std::size_t i) {
           for (int k = 0; k < count; ++k)
             if (corner(i, k) != corner(first, k)) return false;
           return true;
         };
-        for (end = first + 1; end < points && same(end);) ++end;
+        for (end = first + 1; end < carriers.size() && same(end);) ++end;
         if (end - first < least) continue;
         Run run{{}, count, first, end, weights.size()};
         for (int k = 0; k < count; ++k) run.corners[std::size_t(k)] = corner(first, k);
         for (int k = 1; k < count; ++k)
-          for (std::size_t i = first; i < end; ++i) weights.push_back(Real(weight(i, k)));
+          for (std::size_t i = first; i < end; ++i)
+            weights.push_back(Real(part(i, k).weights[std::size_t(k % 4)]));
         runs.push_back(run);
       }
+    }
   }
 
-  [[gnu::noinline]] void apply(Run const& run, typename Out::VecDeriv& out,
-                               typename In::VecDeriv const& in) const {
+  void ask(typename Out::VecDeriv const&, typename In::VecDeriv const&) const {}
+  void apply(typename Out::VecDeriv& out, typename In::VecDeriv const& in, Carriers const& carriers,
+             Carriers const& others) const {
+    Weight const* const x = in.data()->data();
+    forEachRun(
+        carriers.size(),
+        least,
+        [&](Run const& run) { interpolate(run, out, in); },
+        [&](std::size_t i) {
+          auto sum = [x](Carrier<Weight> const& c, int k) {
+            return c.weights[0] * x[3 * c.points[0] + k] + c.weights[1] * x[3 * c.points[1] + k] +
+                   c.weights[2] * x[3 * c.points[2] + k] + c.weights[3] * x[3 * c.points[3] + k];
+          };
+          Weight place[3];
+          for (int k = 0; k < 3; ++k) place[k] = sum(carriers[i], k);
+          if (!others.empty())
+            for (int k = 0; k < 3; ++k) place[k] += sum(others[i], k);
+          for (int k = 0; k < 3; ++k) out[i][k] = Real(place[k]);
+        });
+  }
+  void applyJT(typename In::VecDeriv& in, typename Out::VecDeriv const& out, Carriers const& carriers,
+               Carriers const& others) const {
+    forEachRun(
+        carriers.size(),
+        leastTransposed,
+        [&](Run const& run) { collect(run, in, out); },
+        [&](std::size_t i) {
+          auto add = [&](Carrier<Weight> const& c) {
+            for (std::size_t k = 0; k < 4; ++k)
+              in[std::size_t(c.points[k])] += c.weights[k] * out[i].template cast<Weight>();
+          };
+          add(carriers[i]);
+          if (!others.empty()) add(others[i]);
+        });
+  }
+
+ private:
+  // the runs of at least so many points, and the points between them
+  template <class OfRun, class OfPoint>
+  SINEW_INLINE void forEachRun(std::size_t points, std::size_t atLeast, OfRun&& ofRun,
+                               OfPoint&& ofPoint) const {
+    std::size_t i = 0;
+    for (auto run = runs.begin();; ++run) {
+      while (run != runs.end() && run->end - run->first < atLeast) ++run;
+      const bool last = run == runs.end();
+      for (const std::size_t end = last ? points : run->first; i < end; ++i) ofPoint(i);
+      if (last) return;
+      ofRun(*run);
+      i = run->end;
+    }
+  }
+
+  [[gnu::noinline]] void interpolate(Run const& run, typename Out::VecDeriv& out,
+                                     typename In::VecDeriv const& in) const {
     if constexpr (possible) {
       if (run.count == 4)
         interpolate<4>(run, out, in);
@@ -64,9 +133,8 @@ struct CarriedRuns {
         interpolate<8>(run, out, in);
     }
   }
-
-  [[gnu::noinline]] void applyTransposed(Run const& run, typename In::VecDeriv& in,
-                                         typename Out::VecDeriv const& out) const {
+  [[gnu::noinline]] void collect(Run const& run, typename In::VecDeriv& in,
+                                 typename Out::VecDeriv const& out) const {
     if constexpr (possible) {
       if (run.count == 4)
         collect<4>(run, in, out);
@@ -75,7 +143,6 @@ struct CarriedRuns {
     }
   }
 
- private:
   template <int N>
   void interpolate(Run const& run, typename Out::VecDeriv& out, typename In::VecDeriv const& in) const {
     using L = lanes<Real>;

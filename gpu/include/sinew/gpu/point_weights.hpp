@@ -2,21 +2,23 @@
 #pragma once
 
 #include <sinew/core/error.hpp>
-#include <sinew/mapping/mapped_loops.hpp>
+#include <sinew/gpu/mapped_loops.hpp>
+#include <sinew/mapping/carried_points.hpp>
 
 #include <limits>
 #include <vector>
 
 namespace sinew {
 
+namespace gpu {
+
 /// A mapping in which each point of the child is a weighted sum of points of the parent,
 ///   x_i = sum_k w_ik X_k      F_k += sum_i w_ik f_i
-/// as compressed rows both ways, children rising: the order of no sum depends on threads. For mappings with
-/// an end on a device.
+/// as compressed rows both ways, children rising: the order of no sum depends on threads.
 template <class In, class Out>
 struct PointWeights {
   using Weight = typename In::Real;
-  using Loops = MappedLoops<In, Out>;
+  using Loops = PointLoops<In, Out>;
   template <class T>
   using Array = typename Loops::template Array<T>;
   struct Rows {
@@ -76,23 +78,23 @@ struct PointWeights {
     Weight const* weight;  // null: all are 1
   };
   struct Interpolate : View {
-    SINEW_HD typename Out::Deriv operator()(typename In::Deriv const* from, int i) const {
+    SINEW_HD void operator()(typename Out::Deriv& to, typename In::Deriv const* from, int i) const {
       typename In::Deriv sum = In::Deriv::Zero();
       for (int e = this->first[i]; e < this->first[i + 1]; ++e) {
         typename In::Deriv const& x = from[this->point[e]];
         sum += this->weight ? typename In::Deriv(this->weight[e] * x) : x;
       }
-      return sum.template cast<typename Out::Real>();
+      to = sum.template cast<typename Out::Real>();
     }
   };
   struct Gather : View {
-    SINEW_HD typename In::Deriv operator()(typename Out::Deriv const* from, int k,
-                                           typename In::Deriv sum) const {
+    SINEW_HD void operator()(typename In::Deriv& to, typename Out::Deriv const* from, int k) const {
+      typename In::Deriv sum = to;
       for (int e = this->first[k]; e < this->first[k + 1]; ++e) {
         const typename In::Deriv f = from[this->point[e]].template cast<Weight>();
         sum += this->weight ? typename In::Deriv(this->weight[e] * f) : f;
       }
-      return sum;
+      to = sum;
     }
   };
 
@@ -107,9 +109,49 @@ struct PointWeights {
     return view;
   }
 };
-/// None, for mappings of the host, which have their own loops.
+
+}  // namespace gpu
+
 template <class In, class Out>
-requires(MappedLoops<In, Out>::onHost) struct PointWeights<In, Out> {
+requires(OnDevice<In> || OnDevice<Out>) struct SubsetLoops<In, Out> {
+  gpu::PointWeights<In, Out> weights{};
+
+  void init(std::size_t parents, std::vector<int> const& indices) {
+    weights.init(parents, indices.size(), [&](auto&& add) {
+      for (std::size_t i = 0; i < indices.size(); ++i) add(i, std::size_t(indices[i]), 1);
+    });
+  }
+  void ask(typename Out::VecDeriv const& out, typename In::VecDeriv const& in) const { weights.ask(out, in); }
+  void apply(typename Out::VecDeriv& out, typename In::VecDeriv const& in, std::vector<int> const&) const {
+    weights.apply(out, in);
+  }
+  void applyJT(typename In::VecDeriv& in, typename Out::VecDeriv const& out, std::vector<int> const&) const {
+    weights.applyJT(in, out);
+  }
+};
+
+template <class In, class Out>
+requires(OnDevice<In> || OnDevice<Out>) struct CarriedPoints<In, Out> {
+  using Carriers = std::vector<Carrier<typename In::Real>>;
+  gpu::PointWeights<In, Out> weights{};
+
+  void init(std::size_t parents, Carriers const& carriers, Carriers const& others) {
+    weights.init(parents, carriers.size(), [&](auto&& add) {
+      for (std::size_t i = 0; i < carriers.size(); ++i)
+        for (auto const* list : {&carriers, &others})
+          for (std::size_t k = 0; k < 4 && !list->empty(); ++k)
+            if ((*list)[i].weights[k] != 0) add(i, std::size_t((*list)[i].points[k]), (*list)[i].weights[k]);
+    });
+  }
+  void ask(typename Out::VecDeriv const& out, typename In::VecDeriv const& in) const { weights.ask(out, in); }
+  void apply(typename Out::VecDeriv& out, typename In::VecDeriv const& in, Carriers const&,
+             Carriers const&) const {
+    weights.apply(out, in);
+  }
+  void applyJT(typename In::VecDeriv& in, typename Out::VecDeriv const& out, Carriers const&,
+               Carriers const&) const {
+    weights.applyJT(in, out);
+  }
 };
 
 }  // namespace sinew
