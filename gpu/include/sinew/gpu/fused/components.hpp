@@ -2,7 +2,7 @@
 #pragma once
 
 #include <sinew/core/component.hpp>
-#include <sinew/force/gravity.hpp>
+#include <sinew/context/gravity.hpp>
 #include <sinew/solver/cg_linear_solver.hpp>
 #include <sinew/solver/euler_implicit.hpp>
 
