@@ -3,17 +3,16 @@
 
 // What has functions in base.cpp.
 #include <sinew/core/error.hpp>
-#include <sinew/core/euler.hpp>
 #include <sinew/core/follow.hpp>
-#include <sinew/core/memory_limit.hpp>
 #include <sinew/core/lists.hpp>
+#include <sinew/core/memory_limit.hpp>
 #include <sinew/core/mesh.hpp>
+#include <sinew/core/placement.hpp>
 #include <sinew/core/renumbering.hpp>
 #include <sinew/core/workers.hpp>
 #include <sinew/io/base64.hpp>
 #include <sinew/io/cells.hpp>
 #include <sinew/io/output_file.hpp>
-#include <sinew/io/streamed_file.hpp>
 #include <sinew/io/pvd_series.hpp>
 #include <sinew/io/read_gmsh.hpp>
 #include <sinew/io/read_obj.hpp>
@@ -21,6 +20,7 @@
 #include <sinew/io/read_sph.hpp>
 #include <sinew/io/read_stl.hpp>
 #include <sinew/io/read_vtk.hpp>
+#include <sinew/io/streamed_file.hpp>
 #include <sinew/io/text_mesh_file.hpp>
 #include <sinew/io/text_reader.hpp>
 #include <sinew/io/write_obj.hpp>

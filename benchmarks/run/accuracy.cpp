@@ -55,12 +55,12 @@ int main(int argc, char** argv) try {
   }
   const Mesh mesh = io::read_mesh(argv[1]);
   const double young = whole_number(argv[2]);
-  const int rounds = whole_number(argv[3]), most = 20000;
+  const int rounds = whole_number(argv[3]), maximum = 20000;
   using P = PreconditionerMethod;
   auto preconditioned = [&](char const* name, P method, int updateStep = 1) {
     return choice(name,
                   body<Vec3d>(mesh,
-                              ShewchukPCGLinearSolver<Matrix>{.iterations = most,
+                              ShewchukPCGLinearSolver<Matrix>{.iterations = maximum,
                                                               .tolerance = tolerance,
                                                               .updateStep = updateStep,
                                                               .precondition = method,
@@ -69,7 +69,7 @@ int main(int argc, char** argv) try {
   };
   std::vector<Choice> choices;
   choices.push_back(choice(
-      "cg", body<Vec3d>(mesh, CGLinearSolver<Matrix>{.iterations = most, .tolerance = tolerance}, young)));
+      "cg", body<Vec3d>(mesh, CGLinearSolver<Matrix>{.iterations = maximum, .tolerance = tolerance}, young)));
   choices.push_back(preconditioned("jacobi", P::jacobi));
   choices.push_back(preconditioned("block-jacobi", P::blockJacobi));
   choices.push_back(preconditioned("ssor", P::ssor));

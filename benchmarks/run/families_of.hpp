@@ -177,7 +177,7 @@ void add_linear(std::vector<Work>& list, std::shared_ptr<Body<D>> body) {
   auto s = std::make_shared<System>();
   const std::size_t n = body->rest.size();
   s->matrix.startPattern(int(3 * n));
-  for (auto const& [i, j] : body->edges) s->matrix.announce(3 * i, 3 * j, 3, 3);
+  for (auto const& [i, j] : body->edges) s->matrix.preallocate(3 * i, 3 * j, 3, 3);
   s->matrix.finishPattern();
   // definite, since its diagonal dominates
   std::fill(s->matrix.values.begin(), s->matrix.values.end(), Real(0.01));

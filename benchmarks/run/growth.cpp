@@ -40,7 +40,7 @@ int main(int argc, char** argv) try {
   const double before = of_process("VmRSS");
   auto sim = body<Vec3d>(block(cells), all_iterations<CompressedRowSparseMatrixMat3x3d>());
   sim.init();
-  const double after = of_process("VmRSS") - before, most = of_process("VmHWM") - before;
+  const double after = of_process("VmRSS") - before, maximum = of_process("VmHWM") - before;
 
   auto& solver = sim.root().first<role::LinearSolver>();
   auto const& driver = sim.root().first<role::ForceField>().driver;
@@ -49,7 +49,7 @@ int main(int argc, char** argv) try {
   auto bytes = [](auto const& list) { return double(list.size() * sizeof list[0]); };
   const double arrays =
       double(solver.system.matrix.bytes()) + bytes(driver.packs) + bytes(driver.slots) + 14 * 24 * points;
-  const double least = 76 * (points + edges) + (16 + 72 + 16) * tetrahedra + (8 * 24 + 8) * points;
+  const double minimum = 76 * (points + edges) + (16 + 72 + 16) * tetrahedra + (8 * 24 + 8) * points;
 
   // an iteration is the difference of many and few
   constexpr int many = 25, few = 5;
@@ -69,9 +69,9 @@ int main(int argc, char** argv) try {
               median(long_steps),
               median(iterations),
               after,
-              most,
+              maximum,
               arrays,
-              least);
+              minimum);
   return 0;
 } catch (Error const& error) {
   std::fprintf(stderr, "growth: %s\n", error.what());

@@ -21,14 +21,14 @@ namespace {
 // kept from the optimiser
 volatile double sink = 0;
 
-double triad(std::size_t bytes, double least) {
+double triad(std::size_t bytes, double minimum) {
   const std::size_t n = std::max<std::size_t>(bytes / (3 * sizeof(double)), 64);
   std::vector<double> a(n, 1.0), b(n, 2.0), c(n, 3.0);
   double* const pa = a.data();
   double const *const pb = b.data(), *const pc = c.data();
   long passes = 0;
   double time = 0;
-  while (time < least) {
+  while (time < minimum) {
     const long some = std::max<long>(1, long(4'000'000 / n));
     time += processor_seconds([&] {
       for (long k = 0; k < some; ++k) {

@@ -155,8 +155,8 @@ struct HandVitrectomy {
     while (key + 2 < times.size() && times[key + 1] < t) ++key;
     const double part = std::clamp((t - times[key]) / (times[key + 1] - times[key]), 0.0, 1.0);
     const Point place = places[key] + part * (places[key + 1] - places[key]);
-    const Eigen::Quaterniond turn = turns[key].slerp(part, turns[key + 1]);
-    for (std::size_t i = 0; i < blade.size(); ++i) bladeNow[i] = place + turn * blade[i];
+    const Eigen::Quaterniond rotation = turns[key].slerp(part, turns[key + 1]);
+    for (std::size_t i = 0; i < blade.size(); ++i) bladeNow[i] = place + rotation * blade[i];
   }
 
   // median splits, once; the boxes follow

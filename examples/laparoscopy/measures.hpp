@@ -24,7 +24,7 @@ struct LaparoscopyMeasures {
   double lowest = 1;          // volume of a tetrahedron or cell, over that at rest
   std::size_t contacts = 0;   // most at a time
   int within = 0;             // places of ribs and tool seen inside organs
-  int most = 0, longest = 0;  // inverted elements at a time, and looks in a row at which one was inverted
+  int maximum = 0, longest = 0;  // inverted elements at a time, and looks in a row at which one was inverted
   std::vector<int> inRow[2]{};
 
   /// After a step; `closely` also measures what takes long.
@@ -108,7 +108,7 @@ struct LaparoscopyMeasures {
             }
             return e[0].cross(e[1]).dot(e[2]);
           });
-    most = std::max(most, now);
+    maximum = std::max(maximum, now);
   }
 };
 

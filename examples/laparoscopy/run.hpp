@@ -91,7 +91,7 @@ void run(LaparoscopyBodies const& bodies, LaparoscopyOptions const& options) {
       measures.smallest,
       measures.largest,
       measures.lowest,
-      measures.most,
+      measures.maximum,
       measures.longest * 10 * options.dt,
       measures.within);
   if (!options.picture.empty()) write_picture(bodies, panels, options.picture);

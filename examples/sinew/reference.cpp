@@ -63,7 +63,7 @@ RoleWords words_of(sinew::RoleKind role) {
        {"Broad phases", "Find the collision models that are near each other."},
        {"Narrow phases", "Find the primitives of two collision models that are near each other."},
        {"Intersection methods", "Say where two primitives meet."},
-       {"Contact managers", "Keep the contacts from step to step, and have them answered."},
+       {"Contact managers", "Keep the contacts from step to step, and apply the responses to them."},
        {"Collision models", "Primitives over the points of the state of the node."},
        {"Carving", "Takes away what tools touch."},
        {"Execution", "By which threads of the processor the solvers of the node and its children work."}});

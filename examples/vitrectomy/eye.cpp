@@ -149,7 +149,7 @@ RetinaState examine(Eye const& eye, std::vector<Point> const& now, std::vector<S
   for (int i = 0; i < eye.retinaPoints; ++i) {
     const double d = (now[std::size_t(i)] - eye.position[std::size_t(i)]).norm();
     s.rms += d * d;
-    s.most = std::max(s.most, d);
+    s.maximum = std::max(s.maximum, d);
   }
   s.rms = std::sqrt(s.rms / eye.retinaPoints);
   return s;

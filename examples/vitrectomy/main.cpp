@@ -30,7 +30,7 @@ void report(char const* when, examples::Eye const& eye, Sim& sim) {
               1e3 * s.tension,
               1e9 * s.energy,
               1e6 * s.rms,
-              1e6 * s.most);
+              1e6 * s.maximum);
 }
 
 /// The springs that are left, as lines.

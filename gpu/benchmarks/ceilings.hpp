@@ -120,17 +120,17 @@ double peak() {
 
 template <class Team>
 __device__ void exchange_rounds(Team const& team, int rounds, double* to) {
-  __shared__ __align__(16) double room[gpu::room_for_sums];
+  __shared__ __align__(16) double buffer[gpu::sum_buffer_size];
   const float one[2] = {1.0f, 2.0f};
   double found = 0;
   team.sync();
   for (int i = 0; i < rounds; ++i) {
     team.announce();
-    team.give(one, room);
+    team.give(one, buffer);
     team.awaitRows();
-    team.fetchSums(room);
+    team.fetchSums(buffer);
     double total[2];
-    team.takeSums(room, total);
+    team.takeSums(buffer, total);
     found += total[0];
   }
   if (team.rank == 0 && team.thread == 0) to[0] = found;
@@ -182,7 +182,7 @@ inline double exchange_seconds(int blocks, bool cluster) {
       gpu::check(cudaLaunchKernelEx(&config, cluster_rounds, rounds, to.data()), what);
     else
       gpu::check(cudaLaunchKernelEx(&config, grid_rounds, rounds, to.data(), memory), what);
-    memory.turn = 1 - memory.turn;
+    memory.parity = 1 - memory.parity;
   };
   all();
   const double seconds = event_seconds(all) / rounds;

@@ -363,11 +363,11 @@ void batch(Mesh const& mesh, Options const& o) {
   }
 }
 
-int number(std::string const& word, int least) {
+int number(std::string const& word, int minimum) {
   char* end = nullptr;
   const long value = std::strtol(word.c_str(), &end, 10);
-  if (word.empty() || *end || value < least || value > 1000000000)
-    throw Error("arguments", text("'", word, "' is not a whole number of at least ", least));
+  if (word.empty() || *end || value < minimum || value > 1000000000)
+    throw Error("arguments", text("'", word, "' is not a whole number of at least ", minimum));
   return int(value);
 }
 // of a file, or a cube of so many cells; its points 3, 39 and 64 are held

@@ -38,19 +38,19 @@ void with_other_threads(F&& f) {
 /// rounding of a sum, and have the same bits again, with any number of threads.
 template <class Sample, class H>
 void agrees(double factor = 1) {
-  const double most = factor * rounding<typename H::Real>;
+  const double maximum = factor * rounding<typename H::Real>;
   for (int v = 0; v < Sample::variants; ++v) {
     INFO("variant " << v);
     const Answer<H> device = on_device<Sample, H>(v, false);
     const HostAnswers<H> host = on_host<Sample, H>(v, false);
-    CHECK(relative_difference(device, host.lanes) < most);
-    CHECK(relative_difference(device, host.scalar) < most);
+    CHECK(relative_difference(device, host.lanes) < maximum);
+    CHECK(relative_difference(device, host.scalar) < maximum);
     CHECK(device.energy > 0);
     with_other_threads([&] { CHECK((on_device<Sample, H>(v, false) == device)); });
   }
   const HostAnswers<H> host = on_host<Sample, H>(0, true);
   CHECK(host.lanes.removed > 0);
-  CHECK(relative_difference(on_device<Sample, H>(0, true), host.lanes) < most);
+  CHECK(relative_difference(on_device<Sample, H>(0, true), host.lanes) < maximum);
 }
 
 /// Largest force of a sample on the device at some positions, on the points that `counts` says, over that in
@@ -66,10 +66,10 @@ double relative_force(int v, std::vector<typename H::Coord> const& at, Motion<H>
     const typename D::VecDeriv still(x.size(), Deriv::Zero());
     typename D::VecDeriv f(x.size(), Deriv::Zero());
     add_force(force, {}, f, x, still);
-    double most = 0;
+    double maximum = 0;
     for (std::size_t i = 0; i < f.size(); ++i)
-      if (of(int(i))) most = std::max(most, double(f[i].norm()));
-    return most;
+      if (of(int(i))) maximum = std::max(maximum, double(f[i].norm()));
+    return maximum;
   };
   return largest(at, counts) / largest(motion.x, [](int) { return true; });
 }
@@ -79,15 +79,15 @@ template <class Sample, class H>
 void moves_freely(int v) {
   INFO("variant " << v);
   const auto motion = motion_of<Sample, H>();
-  const Eigen::Quaterniond turn = Eigen::Quaterniond(0.4, -0.3, 0.6, 0.5).normalized();
+  const Eigen::Quaterniond rotation = Eigen::Quaterniond(0.4, -0.3, 0.6, 0.5).normalized();
   std::vector<typename H::Coord> x;
   for (auto const& rest : motion.rest) {
-    const Eigen::Vector3d p = turn * rest.template cast<double>() + Eigen::Vector3d(3, -2, 1);
+    const Eigen::Vector3d p = rotation * rest.template cast<double>() + Eigen::Vector3d(3, -2, 1);
     x.push_back(p.template cast<typename H::Real>());
   }
   // positions of 4 m rounded, in elements of 0.5 m that are strained by 0.2 in the motion
-  const double most = 100 * rounding<typename H::Real>;
-  CHECK(relative_force<Sample, H>(v, x, motion, [](int) { return true; }) < most);
+  const double maximum = 100 * rounding<typename H::Real>;
+  CHECK(relative_force<Sample, H>(v, x, motion, [](int) { return true; }) < maximum);
 }
 
 /// The patch test: in an affine deformation all elements have the same stress, and inner points no force.
@@ -106,8 +106,8 @@ void passes_patch_test(int v) {
     const Eigen::Vector3d p = a * rest.template cast<double>();
     x.push_back(p.template cast<typename H::Real>());
   }
-  const double most = 100 * rounding<typename H::Real>;
-  CHECK(relative_force<Sample, H>(v, x, motion, [&](int i) { return !outer[std::size_t(i)]; }) < most);
+  const double maximum = 100 * rounding<typename H::Real>;
+  CHECK(relative_force<Sample, H>(v, x, motion, [&](int i) { return !outer[std::size_t(i)]; }) < maximum);
   CHECK(relative_force<Sample, H>(v, x, motion, [&](int i) { return outer[std::size_t(i)]; }) > 0.01);
 }
 

@@ -65,14 +65,14 @@ auto fem(Solvers... solvers) {
 }
 
 template <class D>
-void keeps_momentum(double most) {
+void keeps_momentum(double maximum) {
   // symplectic Euler keeps both, of forces that turn nothing
   auto free = fem<D>(EulerExplicitSolver{});
   Momentum before = momentum(free);
   for (int i = 0; i < 300; ++i) free.animate(0.002);
   Momentum after = momentum(free);
-  CHECK((after.linear - before.linear).norm() < most * before.scale);
-  CHECK((after.angular - before.angular).norm() < most * before.scale);
+  CHECK((after.linear - before.linear).norm() < maximum * before.scale);
+  CHECK((after.angular - before.angular).norm() < maximum * before.scale);
   CHECK(free.potentialEnergy() > 0.1);
 
   // implicit Euler keeps the linear one, however far its solver went
@@ -80,8 +80,8 @@ void keeps_momentum(double most) {
   before = momentum(implicit);
   for (int i = 0; i < 300; ++i) implicit.animate(0.01);
   after = momentum(implicit);
-  CHECK((after.linear - before.linear).norm() < most * before.scale);
-  CHECK((after.angular - before.angular).norm() > most * before.scale);
+  CHECK((after.linear - before.linear).norm() < maximum * before.scale);
+  CHECK((after.angular - before.angular).norm() > maximum * before.scale);
 }
 
 }  // namespace
@@ -103,14 +103,14 @@ TEST_CASE("springs without damping on the device keep their energy as symplectic
                                   RegularGridSpringForceField<D>{.stiffness = 300, .damping = 0}))};
     sim.init();
     const double start = sim.kineticEnergy() + sim.potentialEnergy();
-    double most = 0, potential = 0;
+    double maximum = 0, potential = 0;
     for (int step = 0; step * dt < 2; ++step) {
       sim.animate(dt);
       potential = std::max(potential, sim.potentialEnergy());
-      most = std::max(most, std::abs(sim.kineticEnergy() + sim.potentialEnergy() - start) / start);
+      maximum = std::max(maximum, std::abs(sim.kineticEnergy() + sim.potentialEnergy() - start) / start);
     }
     CHECK(potential > 0.1 * start);
-    return most;
+    return maximum;
   };
   const double coarse = sway(0.002), fine = sway(0.001);
   CHECK(coarse < 0.05);

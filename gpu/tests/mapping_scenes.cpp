@@ -40,9 +40,9 @@ std::size_t crossed() { return gpu::transfers().toDevice + gpu::transfers().toHo
 template <class A, class B>
 double largest_difference(A const& a, B const& b) {
   REQUIRE(a.size() == b.size());
-  double most = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, double((a[i] - b[i]).norm()));
-  return most;
+  double maximum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) maximum = std::max(maximum, double((a[i] - b[i]).norm()));
+  return maximum;
 }
 
 // a bar of 63 points held at one end, with a skin of its 50 border points pushed out a little

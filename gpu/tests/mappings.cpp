@@ -58,15 +58,15 @@ std::vector<typename D::Deriv> derivs(std::size_t n, Numbers& next) {
 template <class A, class B>
 double largest_difference(A const& a, B const& b) {
   REQUIRE(a.size() == b.size());
-  double most = 0;
+  double maximum = 0;
   for (std::size_t i = 0; i < a.size(); ++i)
     if constexpr (requires { a[i].center; })
-      most = std::max({most,
-                       double((a[i].center - b[i].center).norm()),
-                       double((a[i].orientation.coeffs() - b[i].orientation.coeffs()).norm())});
+      maximum = std::max({maximum,
+                          double((a[i].center - b[i].center).norm()),
+                          double((a[i].orientation.coeffs() - b[i].orientation.coeffs()).norm())});
     else
-      most = std::max(most, double((a[i] - b[i]).norm()));
-  return most;
+      maximum = std::max(maximum, double((a[i] - b[i]).norm()));
+  return maximum;
 }
 
 // bytes that cross between host and device are counted in entries

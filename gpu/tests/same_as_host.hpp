@@ -9,10 +9,10 @@
 namespace gpu_test {
 
 /// A scene over CudaTypes<H> goes as over H: the largest difference of positions over the largest of them
-/// stays below `most`. It does so with the same bits again; and where Scene::onDevice, after its first three
-/// steps nothing crosses between host and device.
+/// stays below `maximum`. It does so with the same bits again; and where Scene::onDevice, after its first
+/// three steps nothing crosses between host and device.
 template <class Scene, class H>
-void same_as_host(double most) {
+void same_as_host(double maximum) {
   auto crossed = [](bool zero) {
     const auto t = gpu::transfers();
     if (zero) gpu::transfers() = {};
@@ -32,10 +32,10 @@ void same_as_host(double most) {
     size = std::max(size, std::abs(host.position[i]));
   }
   INFO("difference " << difference / size << ", moved " << host.moved << " of " << size);
-  CHECK(difference <= most * size);
+  CHECK(difference <= maximum * size);
   CHECK(host.moved > 0.01 * size);  // there was something to do
   // a quadratic form of strains that are a hundredth of the size
-  CHECK(device.energy == Approx(host.energy).epsilon(1e4 * most));
+  CHECK(device.energy == Approx(host.energy).epsilon(1e4 * maximum));
 
   const Course again = run<Scene, CudaTypes<H>>([] {});
   CHECK((again == device));

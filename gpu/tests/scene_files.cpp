@@ -100,11 +100,11 @@ TEST_CASE("a scene file over CudaVec3f gives the bits of the typed scene, and Ve
   run(device, 47), run(host, 47);
   CHECK(bar(sim).position == device.at<"bar">().state().position);
   CHECK(bar(sim).velocity == device.at<"bar">().state().velocity);
-  double most = 0;
+  double maximum = 0;
   for (std::size_t i = 0; i < 63; ++i)
-    most = std::max(most, double((bar(sim).position[i] - host.at<"bar">().state().position[i]).norm()));
-  CHECK(most < 1e-3);  // of a bar of 3; floats have 7 digits, of which conjugate gradients lose some
-  CHECK(most > 0);
+    maximum = std::max(maximum, double((bar(sim).position[i] - host.at<"bar">().state().position[i]).norm()));
+  CHECK(maximum < 1e-3);  // of a bar of 3; floats have 7 digits, of which conjugate gradients lose some
+  CHECK(maximum > 0);
   sim.updateVisual(), host.updateVisual();
   auto const& skin = sim.root().find_node("bar/skin")->get<VisualModel>()->position;
   for (std::size_t i = 0; i < 2; ++i)

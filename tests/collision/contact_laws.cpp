@@ -101,8 +101,8 @@ TEST_CASE("friction does work against the motion only, however a contact is move
     work += (0.5 * (before + force(law, c, u, {0, 0, 0}))).dot(d);
   }
   // what the spring holds at the end has been taken from the motion and may come back: k s^2 / 2
-  const double most = 0.4 * 200 * 0.05 / 200;
-  CHECK(work < 0.5 * 200 * most * most);
+  const double maximum = 0.4 * 200 * 0.05 / 200;
+  CHECK(work < 0.5 * 200 * maximum * maximum);
   CHECK(work < -1);
 }
 

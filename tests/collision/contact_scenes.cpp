@@ -147,13 +147,13 @@ TEST_CASE("two balls that collide keep their momentum, and so does a third that 
     return Eigen::Vector3d(2 * a.velocity[0] + 3 * (b.velocity[0] + b.velocity[1]));
   };
   const Eigen::Vector3d before = momentum();
-  std::size_t most = 0;
+  std::size_t maximum = 0;
   for (int i = 0; i < 400; ++i) {
     sim.animate(0.005);
-    most = std::max(most, sim.root().get<Contacts>().contacts.size());
+    maximum = std::max(maximum, sim.root().get<Contacts>().contacts.size());
     REQUIRE((momentum() - before).norm() < 1e-12 * 400);
   }
-  CHECK(most == 2);
+  CHECK(maximum == 2);
   CHECK(sim.at<"balls/b">().state().velocity[1][0] > 0.5);  // the third one moves
 }
 

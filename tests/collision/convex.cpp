@@ -39,7 +39,7 @@ ConvexHull box(V const& half) {
   return ConvexHull(p);
 }
 
-double most(std::vector<V> const& p, V const& d) {
+double maximum(std::vector<V> const& p, V const& d) {
   double h = -std::numeric_limits<double>::infinity();
   for (V const& x : p) h = std::max(h, x.dot(d));
   return h;
@@ -51,7 +51,7 @@ double brute_depth(std::vector<V> const& a, std::vector<V> const& b) {
   std::vector<V> w;
   for (V const& x : a)
     for (V const& y : b) w.push_back(x - y);
-  double least = std::numeric_limits<double>::infinity();
+  double minimum = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < w.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       for (std::size_t k = 0; k < j; ++k) {
@@ -66,10 +66,10 @@ double brute_depth(std::vector<V> const& a, std::vector<V> const& b) {
           above = above && beyond < 1e-12;
           below = below && beyond > -1e-12;
         }
-        if (above) least = std::min(least, h);
-        if (below) least = std::min(least, -h);
+        if (above) minimum = std::min(minimum, h);
+        if (below) minimum = std::min(minimum, -h);
       }
-  return least;
+  return minimum;
 }
 
 /// The distance of two hulls, as least over all pairs of triangles of three points of each.
@@ -81,13 +81,13 @@ double brute_distance(std::vector<V> const& a, std::vector<V> const& b) {
         for (std::size_t k = 0; k < j; ++k) t.push_back({p[i], p[j], p[k]});
     return t;
   };
-  long double least = std::numeric_limits<long double>::infinity();
+  long double minimum = std::numeric_limits<long double>::infinity();
   for (auto const& s : triangles(a))
     for (auto const& t : triangles(b))
-      least = std::min(least,
-                       simplex_pairs::brute_squared_distance(simplex_pairs::to<long double>(s, a[0]),
-                                                             simplex_pairs::to<long double>(t, a[0])));
-  return double(std::sqrt(least));
+      minimum = std::min(minimum,
+                         simplex_pairs::brute_squared_distance(simplex_pairs::to<long double>(s, a[0]),
+                                                               simplex_pairs::to<long double>(t, a[0])));
+  return double(std::sqrt(minimum));
 }
 
 /// What holds of each contact: points and direction fit together, and the direction shows no more depth or
@@ -95,8 +95,8 @@ double brute_distance(std::vector<V> const& a, std::vector<V> const& b) {
 void check_whole(ConvexContact const& c, std::vector<V> const& a, std::vector<V> const& b, double tolerance) {
   CHECK(std::abs(c.direction.norm() - 1) < 1e-15 * 4);
   CHECK((c.pointA + c.distance * c.direction - c.pointB).norm() < tolerance);
-  CHECK(std::abs(most(a, c.direction) - c.pointA.dot(c.direction)) < tolerance);
-  CHECK(std::abs(-most(b, -c.direction) - c.pointB.dot(c.direction)) < tolerance);
+  CHECK(std::abs(maximum(a, c.direction) - c.pointA.dot(c.direction)) < tolerance);
+  CHECK(std::abs(-maximum(b, -c.direction) - c.pointB.dot(c.direction)) < tolerance);
 }
 
 std::string message(std::vector<V> points) {
@@ -118,17 +118,17 @@ TEST_CASE("boxes along the axes: distance, depth and direction in closed form", 
     const V halfB(random.uniform(0.1, 2), random.uniform(0.1, 2), random.uniform(0.1, 2));
     const V offset = 3 * random.vector();
     // both turned alike and far away
-    const Quat<double> turn = i % 2 ? random.rotation() : Quat<double>(1, 0, 0, 0);
+    const Quat<double> rotate = i % 2 ? random.rotation() : Quat<double>(1, 0, 0, 0);
     const V at = i % 2 ? V(1000 * random.vector()) : V(0, 0, 0);
     const ConvexHull a = box(halfA), b = box(halfB);
-    const auto c = convex_contact(PosedHull{a, {at, turn}}, PosedHull{b, {at + turn * offset, turn}});
+    const auto c = convex_contact(PosedHull{a, {at, rotate}}, PosedHull{b, {at + rotate * offset, rotate}});
     const V gap = offset.cwiseAbs() - halfA - halfB;
     const double tolerance = i % 2 ? 1e-12 : 1e-14;
     if (gap.maxCoeff() > 0) {
       ++apart;
       REQUIRE(c.distance == Approx(gap.cwiseMax(0.0).norm()).margin(tolerance));
       const V n = (offset.cwiseSign().cwiseProduct(gap.cwiseMax(0.0))).normalized();
-      if (gap.cwiseMax(0.0).norm() > 1e-2) REQUIRE((c.direction - turn * n).norm() < 100 * tolerance);
+      if (gap.cwiseMax(0.0).norm() > 1e-2) REQUIRE((c.direction - rotate * n).norm() < 100 * tolerance);
     } else {
       ++inside;
       REQUIRE(c.distance == Approx(gap.maxCoeff()).margin(tolerance));
@@ -139,7 +139,7 @@ TEST_CASE("boxes along the axes: distance, depth and direction in closed form", 
       if (sorted[2] - sorted[1] > 1e-6) {
         V n(0, 0, 0);
         n[axis] = offset[axis] < 0 ? -1 : 1;
-        REQUIRE((c.direction - turn * n).norm() < 100 * tolerance);
+        REQUIRE((c.direction - rotate * n).norm() < 100 * tolerance);
       }
     }
   }
@@ -170,8 +170,8 @@ TEST_CASE("balls of many points", "[ccd]") {
   const int n = 1000;
   std::vector<V> p;
   for (int i = 0; i < n; ++i) {
-    const double z = 1 - (2 * i + 1.0) / n, turn = i * 2.399963229728653, r = std::sqrt(1 - z * z);
-    p.push_back(V(r * std::cos(turn), r * std::sin(turn), z));
+    const double z = 1 - (2 * i + 1.0) / n, rotate = i * 2.399963229728653, r = std::sqrt(1 - z * z);
+    p.push_back(V(r * std::cos(rotate), r * std::sin(rotate), z));
   }
   const ConvexHull ball(p);
   const double sag = 0.5 * 2.8 * 2.8 / n;
@@ -277,7 +277,7 @@ TEST_CASE("random hulls that overlap: the depth is that of the nearest face of t
     if (!(truth < 1e9)) continue;  // all in a plane
     ++inside;
     // moved by it they are apart
-    CHECK(most(a, c.direction) + most(b, -c.direction) <= -c.distance + 1e-14);
+    CHECK(maximum(a, c.direction) + maximum(b, -c.direction) <= -c.distance + 1e-14);
     check_whole(c, a, b, 1e-12);
     CHECK(-c.distance >= truth - 1e-12);
     if (-c.distance > truth + 1e-12)
@@ -308,8 +308,8 @@ TEST_CASE("hulls against points, segments and triangles", "[ccd]") {
     using namespace simplex_pairs;
     const bool flat = kind == touching || kind == nearlyTouching || kind == nearlyParallel ||
                       kind == needles || kind == scaleRatio;
-    double& most = flat ? worstFlat : worst;
-    most = std::max(most, std::abs(distance - truth) / std::max(size, 1e-30));
+    double& maximum = flat ? worstFlat : worst;
+    maximum = std::max(maximum, std::abs(distance - truth) / std::max(size, 1e-30));
   }
   CHECK(worst < 8 * 0x1p-52);
   // needles that touch: as documented

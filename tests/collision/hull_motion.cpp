@@ -22,7 +22,7 @@ struct Few : Registry<DefaultPipeline, BruteForceBroadPhase, BVHNarrowPhase, Min
 
 /// A box that flies at `speed` along -z towards a plate 2 cm thick, 1 m below.
 template <class Intersection>
-auto bullet(Intersection method, double speed, HullTurn const& turn, double dt = 0.01) {
+auto bullet(Intersection method, double speed, HullRotation const& rotation, double dt = 0.01) {
   auto sim = contact_scene(method,
                            0,
                            node<"plate">(MechanicalObject<Rigid3d>{.position = {rigid_at({0, 0, 0})}},
@@ -30,7 +30,7 @@ auto bullet(Intersection method, double speed, HullTurn const& turn, double dt =
                                                                        .simulated = false,
                                                                        .contactStiffness = 1000,
                                                                        .points = box_corners({5, 5, 0.01})}),
-                           box_node<"box">({rigid_at({0.3, 0.1, 1}, turn)}, {0.1, 0.15, 0.2}, 1, 100));
+                           box_node<"box">({rigid_at({0.3, 0.1, 1}, rotation)}, {0.1, 0.15, 0.2}, 1, 100));
   sim.init();
   sim.template at<"box">().state().velocity[0] << 0, 0, -speed, 0, 0, 0;
   double lowest = 1;
@@ -46,7 +46,7 @@ constexpr MinProximityIntersection coarse{.alarmDistance = 0.02, .contactDistanc
 }  // namespace
 
 TEST_CASE("a fast hull does not pass through a thin plate under ContinuousIntersection") {
-  const HullTurn flat{0.4, {0, 0, 1}}, askew{0.4, {1, 2, 3}};
+  const HullRotation flat{0.4, {0, 0, 1}}, askew{0.4, {1, 2, 3}};
   // at 0.7 to 10 m in a step
   for (const double speed : {70.0, 170.0, 1000.0}) {
     INFO(speed);

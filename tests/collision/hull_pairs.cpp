@@ -117,9 +117,9 @@ TEST_CASE("two hulls meet by their faces, edges or corners") {
         place);
   };
   auto deepest = [](std::vector<Contact> const& contacts) {
-    double least = 1e9;
-    for (Contact const& c : contacts) least = std::min(least, c.distance);
-    return least;
+    double minimum = 1e9;
+    for (Contact const& c : contacts) minimum = std::min(minimum, c.distance);
+    return minimum;
   };
   const double quarter = std::acos(0.0) / 2;
   for (const double gap : {0.01, -0.02}) {

@@ -116,20 +116,20 @@ TEST_CASE("a stiff stack that starts deep in itself and the floor gains no energ
         sim.animate(dt);
         const double start = mechanical(), hops = kinetic(2 * g * dt);
         CHECK(start < kinetic(depth / dt));
-        double last = start, most = -1, late = -1, speed = 0;
+        double last = start, maximum = -1, late = -1, speed = 0;
         for (int i = 1; i < 800; ++i) {
           sim.animate(dt);
           const double now = mechanical();
           // a body may fall g dt^2 deep in a step, and is brought out in the next
           CHECK(now < last + hops);
-          most = std::max(most, now);
+          maximum = std::max(maximum, now);
           last = now;
           if (i < 600) continue;
           late = std::max(late, now);
           for (std::size_t b = 0; b < 3; ++b)
             speed = std::max(speed, state.velocity[b].norm() / double(b + 1));
         }
-        CHECK(most < std::max(start, hops));
+        CHECK(maximum < std::max(start, hops));
         CHECK(late < 1e-9);
         CHECK(speed < 1e-9);
         CHECK((state.position[2].center - Eigen::Vector3d(0.3, 0.2, 2.65)).norm() < 6 * 2 * g * dt * dt);

@@ -10,14 +10,14 @@
 
 namespace sinew {
 
-struct HullTurn {
+struct HullRotation {
   double angle = 0;
   Eigen::Vector3d axis{0, 0, 1};
 };
-inline RigidCoord3<double> rigid_at(Eigen::Vector3d const& center, HullTurn turn = {}) {
+inline RigidCoord3<double> rigid_at(Eigen::Vector3d const& center, HullRotation rotation = {}) {
   RigidCoord3<double> x;
   x.center = center;
-  x.orientation = Eigen::Quaterniond(Eigen::AngleAxisd(turn.angle, turn.axis.normalized()));
+  x.orientation = Eigen::Quaterniond(Eigen::AngleAxisd(rotation.angle, rotation.axis.normalized()));
   return x;
 }
 inline std::vector<Eigen::Vector3d> box_corners(Eigen::Vector3d const& half) {

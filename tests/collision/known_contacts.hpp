@@ -74,12 +74,12 @@ Counts count_contacts(int pairs) {
     sideways *= double(thickness) * maker.uniform(0, 0.999999) / sideways.norm();
     const double time = maker.uniform(0.01, 0.99);
     const double speed = std::pow(10.0, maker.uniform(-3, 6)),
-                 turn = i % 2 ? std::pow(10.0, maker.uniform(-3, 0.5)) : 0;
+                 rotation = i % 2 ? std::pow(10.0, maker.uniform(-3, 0.5)) : 0;
     const V velocity = speed * maker.vector();
     Motion<Real, NA, NB> m;
     auto move = [&](auto const& p, V const& shift, V const& v, auto& p0, auto& p1) {
       for (std::size_t k = 0; k < p.size(); ++k) {
-        const V x = p[k].template cast<double>() + shift, u = v + turn * maker.vector();
+        const V x = p[k].template cast<double>() + shift, u = v + rotation * maker.vector();
         p0[k] = (x - time * u).template cast<Real>();
         p1[k] = (x + (1 - time) * u).template cast<Real>();
       }

@@ -118,20 +118,20 @@ TEST_CASE("a ray passes a segment and a point within a tolerance") {
     const Ray ray{random.point(2), random.direction()};
     const std::array<Point, 2> p{random.point(2), random.point(2)};
     // the distance between the two by a search on both
-    double least = 1e300;
+    double minimum = 1e300;
     for (int k = 0; k <= 2000; ++k) {
       const Point q = p[0] + k / 2000.0 * (p[1] - p[0]);
-      least = std::min(least, (q - ray.at(std::max(0.0, (q - ray.origin).dot(ray.direction)))).norm());
+      minimum = std::min(minimum, (q - ray.at(std::max(0.0, (q - ray.origin).dot(ray.direction)))).norm());
     }
     const double tolerance = random(0.05, 1);
     // the search misses the least by at most half of one of its steps
-    if (std::abs(least - tolerance) < 2e-3) continue;
+    if (std::abs(minimum - tolerance) < 2e-3) continue;
     const RayHit hit = ray_segment(ray, p, tolerance);
-    REQUIRE(bool(hit) == (least < tolerance));
+    REQUIRE(bool(hit) == (minimum < tolerance));
     if (!hit) continue;
     ++hits;
     const Point q = hit.weights[0] * p[0] + hit.weights[1] * p[1];
-    REQUIRE((q - ray.at(hit.distance)).norm() <= least + 1e-9);
+    REQUIRE((q - ray.at(hit.distance)).norm() <= minimum + 1e-9);
   }
   CHECK(hits > 500);
   const Ray ray{{0, 0, 0}, {1, 0, 0}};

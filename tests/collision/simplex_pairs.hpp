@@ -58,9 +58,9 @@ struct PairMaker {
     double sum = 0;
     const std::size_t keep = 1 + engine() % N;
     for (std::size_t i = 0; i < keep; ++i) sum += w[i] = uniform(0.05, 1);
-    const std::size_t turn = engine() % N;
+    const std::size_t rotation = engine() % N;
     V x = V::Zero();
-    for (std::size_t i = 0; i < N; ++i) x += (w[(i + turn) % N] / sum) * p[i];
+    for (std::size_t i = 0; i < N; ++i) x += (w[(i + rotation) % N] / sum) * p[i];
     return x;
   }
   template <std::size_t N>
@@ -171,7 +171,7 @@ std::array<V3<S>, N> to(Simplex<Real, N> const& p, Vec<Real, 3> const& origin) {
 /// sets.
 template <class S, std::size_t NA, std::size_t NB>
 S brute_squared_distance(std::array<V3<S>, NA> const& a, std::array<V3<S>, NB> const& b) {
-  S least = -1;
+  S minimum = -1;
   for (unsigned setA = 1; setA < (1u << NA); ++setA)
     for (unsigned setB = 1; setB < (1u << NB); ++setB) {
       V3<S> column[4]{};
@@ -215,9 +215,9 @@ S brute_squared_distance(std::array<V3<S>, NA> const& a, std::array<V3<S>, NB> c
       V3<S> d = start;
       for (int k = 0; k < count; ++k) d = d + column[k] * y[k];
       const S square = d.dot(d);
-      if (least < 0 || square < least) least = square;
+      if (minimum < 0 || square < minimum) minimum = square;
     }
-  return least;
+  return minimum;
 }
 
 /// How far a and b are apart along d: a lower bound of their distance, whatever d is.

@@ -86,16 +86,16 @@ Long first_contact(Simplex<double, NA> const& a0, Simplex<double, NA> const& a1,
     auto area = [&](int i, int j, int k) { return cross(p[j] - p[i], p[k] - p[i]); };
     const L3 n = NA == 1 ? area(1, 2, 3) : cross(p[1] - p[0], p[3] - p[2]);
     const Long whole = n.dot(n);
-    Long least = 0;
+    Long minimum = 0;
     if (NA == 1) {
-      least = std::min({area(0, 1, 2).dot(n), area(0, 2, 3).dot(n), area(0, 3, 1).dot(n)}) / whole;
+      minimum = std::min({area(0, 1, 2).dot(n), area(0, 2, 3).dot(n), area(0, 3, 1).dot(n)}) / whole;
     } else {
       const Long s = cross(p[2] - p[0], p[3] - p[2]).dot(n) / whole,
                  r = cross(p[2] - p[0], p[1] - p[0]).dot(n) / whole;
-      least = std::min({s, 1 - s, r, 1 - r});
+      minimum = std::min({s, 1 - s, r, 1 - r});
     }
-    if (std::abs(least) < 1e-6L) return -1;
-    if (least > 0) return t;
+    if (std::abs(minimum) < 1e-6L) return -1;
+    if (minimum > 0) return t;
   }
   return 2;
 }

@@ -127,10 +127,10 @@ namespace {
 
 using Fixed = FixedRotationConstraint<Rigid3d>;
 
-Rigid3d::VecCoord turned(AngleAxisd const& turn) {
+Rigid3d::VecCoord turned(AngleAxisd const& rotation) {
   Rigid3d::VecCoord x(1);
   x[0].center = {1, 2, 3};
-  x[0].orientation = turn;
+  x[0].orientation = rotation;
   return x;
 }
 Quaterniond from(Rigid3d::VecCoord const& rest, Rigid3d::VecCoord const& x) {
@@ -141,10 +141,10 @@ Quaterniond from(Rigid3d::VecCoord const& rest, Rigid3d::VecCoord const& x) {
 
 TEST_CASE("rigid bodies do not turn about fixed axes") {
   const auto rest = turned(AngleAxisd(0.3, Vector3d(1, 1, 1).normalized()));
-  const Quaterniond turn(AngleAxisd(1.1, Vector3d(1, -2, 2).normalized()));
+  const Quaterniond rotation(AngleAxisd(1.1, Vector3d(1, -2, 2).normalized()));
   auto placed = [&](Fixed& c) {
     auto x = rest;
-    x[0].orientation = turn * rest[0].orientation;
+    x[0].orientation = rotation * rest[0].orientation;
     c.projectPosition(0, x);
     CHECK(near(x[0].center, {1, 2, 3}));
     return x;
@@ -159,7 +159,7 @@ TEST_CASE("rigid bodies do not turn about fixed axes") {
   const Vector3d w(0.5, -1, 2);
 
   auto none = ready(Fixed{}, rest);
-  CHECK(from(rest, placed(none)).isApprox(turn, 1e-14));
+  CHECK(from(rest, placed(none)).isApprox(rotation, 1e-14));
   CHECK(free(none, w) == w);
 
   auto all = ready(Fixed{.fixedXRotation = true, .fixedYRotation = true, .fixedZRotation = true}, rest);
@@ -170,7 +170,7 @@ TEST_CASE("rigid bodies do not turn about fixed axes") {
   auto hinge = ready(Fixed{.fixedXRotation = true, .fixedZRotation = true}, rest);
   const Quaterniond left = from(rest, placed(hinge));
   CHECK(std::abs(left.x()) + std::abs(left.z()) < 1e-15);
-  CHECK(left.y() / left.w() == Approx(turn.y() / turn.w()));
+  CHECK(left.y() / left.w() == Approx(rotation.y() / rotation.w()));
   CHECK(near(free(hinge, w), {0, -1, 0}));
 
   // not about y: the twist about it is taken away, and the rest of the turn stays
@@ -178,7 +178,7 @@ TEST_CASE("rigid bodies do not turn about fixed axes") {
   const auto x = placed(noTwist);
   const Quaterniond swing = from(rest, x);
   CHECK(std::abs(swing.y()) < 1e-15);
-  CHECK(near(Vector3d(swing * Vector3d::UnitY()), Vector3d(turn * Vector3d::UnitY())));
+  CHECK(near(Vector3d(swing * Vector3d::UnitY()), Vector3d(rotation * Vector3d::UnitY())));
   // and it stays so to first order under the angular velocities that are left
   const Vector3d kept = free(noTwist, w);
   CHECK(kept.norm() > 0.1);

@@ -15,10 +15,10 @@ namespace {
 
 constexpr double T = 1e-3;
 
-Rigid3d::Coord at(double x, double turn = 0) {
+Rigid3d::Coord at(double x, double rotation = 0) {
   Rigid3d::Coord pose;
   Rigid3d::Deriv d;
-  d << x, 0, 0, 0, 0, turn;
+  d << x, 0, 0, 0, 0, rotation;
   Rigid3d::increment(pose, d);
   return pose;
 }
@@ -208,9 +208,9 @@ TEST_CASE("within the passive limit no hand draws energy from the device; beyond
       dx.push_back(memory * dx.back() + 1e-4 * normal(engine) - 1e-3 * x);
       x += dx.back();
     }
-    double most = -1;
-    for (const double sum : given(c, 2, dx)) most = std::max(most, sum);
-    CHECK(most < 0);
+    double maximum = -1;
+    for (const double sum : given(c, 2, dx)) maximum = std::max(maximum, sum);
+    CHECK(maximum < 0);
   }
 }
 

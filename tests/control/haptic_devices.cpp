@@ -14,10 +14,10 @@ using Eigen::Vector3d;
 
 namespace {
 
-Rigid3d::Coord at(Vector3d const& x, Vector3d const& turn = Vector3d::Zero()) {
+Rigid3d::Coord at(Vector3d const& x, Vector3d const& rotation = Vector3d::Zero()) {
   Rigid3d::Coord pose;
   Rigid3d::Deriv d;
-  d << x, turn;
+  d << x, rotation;
   Rigid3d::increment(pose, d);
   return pose;
 }
@@ -35,17 +35,17 @@ static_assert(HapticDevice<HandDevice<Rigid3d::Coord (*)(double)>>);
 static_assert(!HapticDevice<Wrench>);
 
 TEST_CASE("a trajectory is replayed: straight lines, constant turns, buttons, from the start again") {
-  const Vector3d turn(0, 0, 1.2);
+  const Vector3d rotation(0, 0, 1.2);
   const std::vector<TrajectoryDevice::Sample> samples{
-      {1, {at({0, 0, 0}), 0}}, {2, {at({1, 2, 3}, turn), 3}}, {4, {at({1, 2, 5}, turn), 0}}};
+      {1, {at({0, 0, 0}), 0}}, {2, {at({1, 2, 3}, rotation), 3}}, {4, {at({1, 2, 5}, rotation), 0}}};
   TrajectoryDevice once(samples);
   CHECK(distance(once.read(0).pose, at({0, 0, 0})) == 0);
-  CHECK(distance(once.read(1.25).pose, at({0.25, 0.5, 0.75}, 0.25 * turn)) < 1e-15);
+  CHECK(distance(once.read(1.25).pose, at({0.25, 0.5, 0.75}, 0.25 * rotation)) < 1e-15);
   CHECK(once.read(1.99).buttons == 0);
   CHECK(once.read(2).buttons == 3);
   CHECK(distance(once.read(2).pose, samples[1].state.pose) < 1e-15);
-  CHECK(distance(once.read(3).pose, at({1, 2, 4}, turn)) < 1e-15);
-  CHECK(distance(once.read(9).pose, at({1, 2, 5}, turn)) == 0);
+  CHECK(distance(once.read(3).pose, at({1, 2, 4}, rotation)) < 1e-15);
+  CHECK(distance(once.read(9).pose, at({1, 2, 5}, rotation)) == 0);
   TrajectoryDevice again(samples, true);
   CHECK(distance(again.read(4.25).pose, once.read(1.25).pose) < 1e-14);
   CHECK(distance(again.read(303).pose, once.read(3).pose) < 1e-12);

@@ -111,7 +111,7 @@ TEST_CASE("a loop reads, couples and writes at its rate, and ends with a force o
     loop.start();
     CHECK(loop.running());
     CHECK(loop.target().pose.center == Vector3d(0.002, 0, 0));
-    one::says([&] { loop.start(); }, {"HapticLoop", "runs already"});
+    one::says([&] { loop.start(); }, {"HapticLoop", "is running already"});
     one::says([&] { (void)loop.statistics(); }, {"after stop()"});
     long steps = 0;
     double time = 0;
@@ -214,12 +214,12 @@ TEST_CASE("while the simulation hangs, the force goes to zero") {
   settings.staleTime = 0.02, settings.rampTime = 0.02;
   HapticLoop loop(device, settings);
   loop.start();
-  double most = 0;
+  double maximum = 0;
   loop.run(0.2, 0.005, [&](ToolTarget const&) {
-    most = std::max(most, device.force.load());
+    maximum = std::max(maximum, device.force.load());
     return ToolState{};
   });
-  CHECK(most > 0);
+  CHECK(maximum > 0);
   // silent for up to 10 s
   for (int i = 0; i < 2000 && device.force != 0; ++i) sleep(0.005);
   CHECK(device.force == 0);

@@ -74,14 +74,14 @@ std::array<double, 2> energies(double stiffness, double dt, double wall) {
   hand.mass = c.deviceMass, hand.inertia = c.deviceInertia;
   hand.stiffness = hand.damping = hand.angularStiffness = hand.angularDamping = 0;
   hand.velocity = six(0.01, 0.1);
-  std::array<double, 2> most{0, 0};
+  std::array<double, 2> maximum{0, 0};
   run(hand, c, wall, dt, 60, [&](double time, Wrench const&) {
     // beside the motion of the device as a whole, which a free tool goes along with
     const double energy = hand.energy();
-    if (time < 1) most[0] = std::max(most[0], energy);
-    if (time > 59) most[1] = std::max(most[1], energy);
+    if (time < 1) maximum[0] = std::max(maximum[0], energy);
+    if (time > 59) maximum[1] = std::max(maximum[1], energy);
   });
-  return most;
+  return maximum;
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ template <class D>
 typename D::Deriv difference(Trajectory<D> const& t, double time, double h = 1e-5) {
   return D::difference(at(t, time - h), at(t, time + h)) / (2 * h);
 }
-Quat<double> turn(double angle, Vector3d const& axis) {
+Quat<double> rotation(double angle, Vector3d const& axis) {
   return Quat<double>(Eigen::AngleAxisd(angle, axis.normalized()));
 }
 
@@ -41,10 +41,10 @@ Trajectory<Vec3d> path(Interpolation interpolation, bool loop = false) {
 Trajectory<Rigid3d> tumbling(Interpolation interpolation) {
   Trajectory<Rigid3d> t{1,
                         {0, 0.5, 2, 3},
-                        {{{0, 0, 0}, turn(0, {1, 0, 0})},
-                         {{1, 0, 0}, turn(1, {1, 2, 0})},
-                         {{1, 2, 0}, turn(2, {0, 1, 3})},
-                         {{0, 2, 1}, turn(1.5, {1, 0, 3})}},
+                        {{{0, 0, 0}, rotation(0, {1, 0, 0})},
+                         {{1, 0, 0}, rotation(1, {1, 2, 0})},
+                         {{1, 2, 0}, rotation(2, {0, 1, 3})},
+                         {{0, 2, 1}, rotation(1.5, {1, 0, 3})}},
                         {},
                         interpolation};
   t.prepare();
@@ -118,14 +118,15 @@ TEST_CASE("a loop starts again, with the time between first and last key as peri
 TEST_CASE("orientations turn about one axis, on the shorter way, with constant angular velocity") {
   // from 0 to 1.2 rad about one axis, with a quaternion of the other sign at the end
   const Vector3d axis = Vector3d(1, 2, -1).normalized();
-  Quat<double> end = turn(1.2, axis);
+  Quat<double> end = rotation(1.2, axis);
   end.coeffs() = -end.coeffs();
-  Trajectory<Rigid3d> t{1, {0, 2}, {{{0, 0, 0}, turn(0, axis)}, {{2, 0, 0}, end}}};
+  Trajectory<Rigid3d> t{1, {0, 2}, {{{0, 0, 0}, rotation(0, axis)}, {{2, 0, 0}, end}}};
   t.prepare();
   for (const double u : {0.1, 0.5, 0.9}) {
     const auto x = at(t, 2 * u);
-    CHECK(x.orientation.angularDistance(turn(1.2 * u, axis)) < 1e-7);  // acos near 1 loses half of the digits
-    CHECK((x.orientation * Vector3d(1, 0, 0) - turn(1.2 * u, axis) * Vector3d(1, 0, 0)).norm() < 1e-15);
+    CHECK(x.orientation.angularDistance(rotation(1.2 * u, axis)) <
+          1e-7);  // acos near 1 loses half of the digits
+    CHECK((x.orientation * Vector3d(1, 0, 0) - rotation(1.2 * u, axis) * Vector3d(1, 0, 0)).norm() < 1e-15);
     const auto v = rate(t, 2 * u);
     CHECK((v.head<3>() - Vector3d(1, 0, 0)).norm() < 1e-15);
     CHECK((v.tail<3>() - 0.6 * axis).norm() < 1e-15);
@@ -177,7 +178,7 @@ TEST_CASE("a cubic trajectory through a parabola is the parabola") {
 TEST_CASE("cubic interpolation of orientations converges with the third order") {
   // a body that spins about a moving axis; keys twice as dense leave an error 8 times smaller (Catmull-Rom
   // tangents are of second order, so the positions are of third, away from the ends)
-  auto exact = [](double t) { return turn(std::sin(t), {0, 0, 1}) * turn(2 * t, {1, 0, 0}); };
+  auto exact = [](double t) { return rotation(std::sin(t), {0, 0, 1}) * rotation(2 * t, {1, 0, 0}); };
   auto error = [&](int keys) {
     Trajectory<Rigid3d> t;
     t.points = 1, t.interpolation = Interpolation::cubic;
@@ -186,10 +187,10 @@ TEST_CASE("cubic interpolation of orientations converges with the third order") 
       t.positions.push_back({{0, 0, 0}, exact(t.times.back())});
     }
     t.prepare();
-    double most = 0;
+    double maximum = 0;
     for (double time = 0.5; time < 1.5; time += 0.013)
-      most = std::max(most, Rigid3d::difference(at(t, time), {{0, 0, 0}, exact(time)}).norm());
-    return most;
+      maximum = std::max(maximum, Rigid3d::difference(at(t, time), {{0, 0, 0}, exact(time)}).norm());
+    return maximum;
   };
   const double order = std::log2(error(16) / error(32));
   INFO(error(16) << " " << error(32));

@@ -63,13 +63,13 @@ struct Result {
 /// Largest difference of two lists of scalars, beside their largest.
 template <class Real>
 double difference(Real const* a, Real const* b, std::size_t n) {
-  double most = 0, largest = 0;
+  double maximum = 0, largest = 0;
   for (std::size_t i = 0; i < n; ++i) {
-    most = std::max(most, std::abs(double(a[i]) - double(b[i])));
+    maximum = std::max(maximum, std::abs(double(a[i]) - double(b[i])));
     largest = std::max(largest, std::abs(double(b[i])));
   }
   REQUIRE(largest > 0);
-  return most / largest;
+  return maximum / largest;
 }
 
 /// Random springs between 40 points: most with damping, a third of them strings, one without length, one

@@ -55,7 +55,7 @@ template <class D>
 struct ThreadForceField {
   using Role = role::ForceField;
   using DataTypes = D;
-  static constexpr bool takesParts = true;
+  static constexpr bool sharesWork = true;
   static constexpr std::string_view className = "ThreadForceField";
 
   std::vector<double> stiffness{1};

@@ -74,14 +74,14 @@ TEST_CASE("hexahedra of a grid, mirrored in turn or not, become tetrahedra that 
       Hexa2TetraTopologicalMapping tetra{
           .position = mesh.positions, .elements = mesh.hexahedra, .swapping = swapping, .grid = {across, ny, nz}};
       tetra.update("t");
-      double least = 1;
+      double minimum = 1;
       for (Tetrahedron const& t : tetra.converted) {
         auto edge = [&](std::size_t k) -> Eigen::Vector3d {
           return mesh.positions[std::size_t(t[k])] - mesh.positions[std::size_t(t[0])];
         };
-        least = std::min(least, edge(1).cross(edge(2)).dot(edge(3)) / 6);
+        minimum = std::min(minimum, edge(1).cross(edge(2)).dot(edge(3)) / 6);
       }
-      CHECK(least == Approx(1.0 / 6));
+      CHECK(minimum == Approx(1.0 / 6));
       // inner faces have two tetrahedra: what is left is the surface
       const auto surface = boundary_triangles(tetra.converted);
       CHECK(surface.size() == 4 * std::size_t((across - 1) * (ny - 1) + (ny - 1) * (nz - 1) + (nz - 1) * (across - 1)));

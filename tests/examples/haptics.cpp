@@ -67,7 +67,7 @@ TEST_CASE("haptics: what the hand feels is what the block pushes back with, once
 TEST_CASE("haptics: the force of a palpation has no jumps that a hand would feel") {
   HandDevice hand{examples::Palpation{}};
   Vector3d last = Vector3d::Zero();
-  double jump = 0, most = 0, torque = 0;
+  double jump = 0, maximum = 0, torque = 0;
   double deepest = 0;
   long touches = 0, lifts = 0;
   bool touched = false;
@@ -78,7 +78,7 @@ TEST_CASE("haptics: the force of a palpation has no jumps that a hand would feel
     for (Contact const& c : sim.root().template get<DefaultContactManager>().contacts)
       deepest = std::min(deepest, c.distance);
     jump = std::max(jump, (w.force - last).norm());
-    most = std::max(most, w.force.norm());
+    maximum = std::max(maximum, w.force.norm());
     torque = std::max(torque, w.torque.norm());
     last = w.force;
   });
@@ -87,13 +87,13 @@ TEST_CASE("haptics: the force of a palpation has no jumps that a hand would feel
   CHECK(lifts >= 7);
   // 1 N on a contact of 1000 N/m, which acts from 1 mm on
   CHECK(deepest > -0.001);
-  CHECK(most > 0.3);
-  CHECK(most < 2);
+  CHECK(maximum > 0.3);
+  CHECK(maximum < 2);
   CHECK(torque > 0);
   CHECK(torque < 0.2);
   // a step of the simulation brings a new state of the tool; steps of the force that it makes are small
   // beside the force: half of what a moving hand tells apart, 7 to 10 %
-  CHECK(jump < 0.05 * most);
+  CHECK(jump < 0.05 * maximum);
 }
 
 }  // namespace test_haptics

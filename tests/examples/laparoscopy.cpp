@@ -61,7 +61,7 @@ TEMPLATE_TEST_CASE("laparoscopy: a script of 20 s passes, and all stays where it
   CHECK(m.contacts > 2);
   CHECK(m.farthest < 0);
   CHECK(m.within == 0);
-  CHECK(m.most == 0);
+  CHECK(m.maximum == 0);
   CHECK(m.lowest > 0.2);
   CHECK(m.smallest > 0.9);
   CHECK(m.largest < 1.1);

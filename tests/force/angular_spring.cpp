@@ -24,12 +24,12 @@ using std::numbers::pi;
 namespace {
 
 using Springs = AngularSpringForceField<Rigid3d>;
-using Turn = Eigen::Vector3d;
+using Rotation = Eigen::Vector3d;
 
-Rigid3d::Coord body(Vector3d const& center, AngleAxisd const& turn = AngleAxisd(0, Vector3d::UnitX())) {
+Rigid3d::Coord body(Vector3d const& center, AngleAxisd const& rotation = AngleAxisd(0, Vector3d::UnitX())) {
   Rigid3d::Coord x;
   x.center = center;
-  x.orientation = turn;
+  x.orientation = rotation;
   return x;
 }
 const Rigid3d::VecCoord chain{
@@ -40,12 +40,12 @@ const Rigid3d::VecCoord chain{
 TEST_CASE("an angular spring resists the turn from one body to the next") {
   auto springs = ready(Springs{.indices = {0, 1}, .angularStiffness = {7}}, chain);
   CHECK(potential_energy(springs, chain) < 1e-30);  // relaxed at rest
-  const AngleAxisd turn(0.9, Vector3d(1, 2, -2).normalized());
+  const AngleAxisd rotation(0.9, Vector3d(1, 2, -2).normalized());
   auto x = chain;
-  x[1].orientation = turn * x[1].orientation;
+  x[1].orientation = rotation * x[1].orientation;
   CHECK(potential_energy(springs, x) == Approx(0.5 * 7 * 0.81));
   const auto f = force(springs, x);
-  CHECK((f[1].tail<3>() + 7 * 0.9 * turn.axis()).norm() < 1e-12);
+  CHECK((f[1].tail<3>() + 7 * 0.9 * rotation.axis()).norm() < 1e-12);
   CHECK((f[0] + f[1]).norm() == 0);
   CHECK(f[2].norm() == 0);
   CHECK(f[1].head<3>().norm() == 0);

@@ -159,14 +159,14 @@ TEST_CASE("a large rotation costs no energy, and turns the forces of a strain") 
       auto fem = ready(Hexahedra{.youngModulus = {3000}, .poissonRatio = 0.3, .method = method},
                        mesh.positions,
                        {.hexahedra = mesh.hexahedra});
-      const Matrix3d turn = Eigen::AngleAxisd(angle, Vector3d(1, 2, -2) / 3).matrix();
+      const Matrix3d rotation = Eigen::AngleAxisd(angle, Vector3d(1, 2, -2) / 3).matrix();
       Vec3d::VecCoord turned = mesh.positions, both = strained;
-      for (auto& x : turned) x = turn * x + Vector3d(1, 2, 3);
-      for (auto& x : both) x = turn * x + Vector3d(1, 2, 3);
+      for (auto& x : turned) x = rotation * x + Vector3d(1, 2, 3);
+      for (auto& x : both) x = rotation * x + Vector3d(1, 2, 3);
       CHECK(potential_energy(fem, turned) < 1e-24 * 3000);  // (rounding of the strain)^2 times the modulus
       CHECK(potential_energy(fem, both) == Approx(potential_energy(fem, strained)).epsilon(1e-12));
       const auto f = force(fem, strained), g = force(fem, both);
-      for (std::size_t i = 0; i < f.size(); ++i) CHECK((g[i] - turn * f[i]).norm() < 1e-11 * 3000);
+      for (std::size_t i = 0; i < f.size(); ++i) CHECK((g[i] - rotation * f[i]).norm() < 1e-11 * 3000);
     }
 }
 

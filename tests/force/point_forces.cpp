@@ -119,19 +119,19 @@ TEST_CASE("rest shape springs turn rigid bodies back") {
   Rigid3d::VecCoord rest(1), x(1);
   rest[0].orientation = Eigen::AngleAxisd(0.7, Vector3d(1, 2, 2) / 3);
   x[0] = rest[0];
-  const Vector3d turn = 2.5 * Vector3d(2, -1, 2) / 3;
+  const Vector3d rotation = 2.5 * Vector3d(2, -1, 2) / 3;
   Rigid3d::Deriv d;
-  d << Vector3d(1, 0, 0), turn;
+  d << Vector3d(1, 0, 0), rotation;
   Rigid3d::increment(x[0], d);
   auto springs = ready(Springs{.stiffness = {3}, .angularStiffness = {5}}, rest);
   const auto f = force(springs, x);
   CHECK((f[0].head<3>() - Vector3d(-3, 0, 0)).norm() < 1e-14);
-  CHECK((f[0].tail<3>() + 5 * turn).norm() < 1e-13);
+  CHECK((f[0].tail<3>() + 5 * rotation).norm() < 1e-13);
   CHECK(potential_energy(springs, x) == Approx(1.5 + 2.5 * 2.5 * 2.5));
   // the derivative along the axis of the turn is the full stiffness; across it, |t|/2 cot(|t|/2) of it
   Rigid3d::VecDeriv w(1, Rigid3d::Deriv::Zero());
-  w[0].tail<3>() = turn.normalized();
-  CHECK((product(springs, w, 1, 0)[0].tail<3>() + 5 * turn.normalized()).norm() < 1e-13);
+  w[0].tail<3>() = rotation.normalized();
+  CHECK((product(springs, w, 1, 0)[0].tail<3>() + 5 * rotation.normalized()).norm() < 1e-13);
   const Vector3d across = Vector3d(1, 2, 0).normalized();
   w[0].tail<3>() = across;
   CHECK((product(springs, w, 1, 0)[0].tail<3>() + 5 * 1.25 / std::tan(1.25) * across).norm() < 1e-13);

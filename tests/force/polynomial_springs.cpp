@@ -84,13 +84,13 @@ TEST_CASE("two bodies on a spring swing against each other and keep their energy
   sim.init();
   sim.at<"a">().state().velocity[0] = {-1, 0.3, 0};
   const double energy = sim.kineticEnergy();
-  double most = 0;
+  double maximum = 0;
   for (int i = 0; i < 500; ++i) {
     sim.animate(0.005);
-    most = std::max(most, sim.potentialEnergy());
+    maximum = std::max(maximum, sim.potentialEnergy());
     CHECK(sim.kineticEnergy() + sim.potentialEnergy() == Approx(energy).epsilon(1e-8));
   }
-  CHECK(most > 0.3 * energy);
+  CHECK(maximum > 0.3 * energy);
   // the centre of mass goes on
   const Vector3d middle = (sim.at<"a">().state().position[0] + 3 * sim.at<"b">().state().position[0]) / 4;
   CHECK((middle - Vector3d(0.75 - 2.5 / 4, 0.3 * 2.5 / 4, 0)).norm() < 1e-12);

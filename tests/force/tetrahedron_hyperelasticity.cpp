@@ -48,12 +48,12 @@ Vec3d::VecCoord deformed(Matrix3d const& f) {
   for (auto const& p : corners) x.push_back(f * p);
   return x;
 }
-Matrix3d turn(double angle, Vector3d const& axis) {
+Matrix3d rotation(double angle, Vector3d const& axis) {
   return Eigen::AngleAxisd(angle, axis.normalized()).matrix();
 }
 /// U diag(s) V' with rotations that are no multiples of anything.
 Matrix3d of_stretches(double a, double b, double c) {
-  return turn(1.1, {1, 2, -2}) * Vector3d(a, b, c).asDiagonal() * turn(-0.7, {3, 1, 1});
+  return rotation(1.1, {1, 2, -2}) * Vector3d(a, b, c).asDiagonal() * rotation(-0.7, {3, 1, 1});
 }
 
 /// d2W/dF2 times the volume 1/6: its rows and columns are those of the points 1 to 3, since F has the edges.

@@ -70,10 +70,10 @@ TEST_CASE("the stress of Kelvin and Voigt is that of a spring and a damper side 
   const Matrix3d wanted = 35 * e.trace() * Matrix3d::Identity() + 2 * 20 * (e + 0.3 * de);
   CHECK((stress(body, f, 0, 0.1, rate) - wanted).norm() < 1e-13 * wanted.norm());
   // a turn of the whole, at any speed, is no strain
-  const Matrix3d turn = Eigen::AngleAxisd(0.7, Vector3d(1, 2, 2) / 3).matrix();
+  const Matrix3d rotation = Eigen::AngleAxisd(0.7, Vector3d(1, 2, 2) / 3).matrix();
   Matrix3d spin;
   spin << 0, -3, 2, 3, 0, -1, -2, 1, 0;
-  CHECK((stress(body, turn * f, 0, 0.1, spin * turn * f) - stress(body, f, 0, 0.1)).norm() <
+  CHECK((stress(body, rotation * f, 0, 0.1, spin * rotation * f) - stress(body, f, 0, 0.1)).norm() <
         1e-13 * wanted.norm());
 }
 

@@ -22,10 +22,10 @@ using Shell = TriangularShellForceField<Rigid3d>;
 using VecCoord = Rigid3d::VecCoord;
 using VecDeriv = Rigid3d::VecDeriv;
 
-Rigid3d::Coord frame(Vector3d const& center, Quaterniond const& turn = Quaterniond::Identity()) {
+Rigid3d::Coord frame(Vector3d const& center, Quaterniond const& rotation = Quaterniond::Identity()) {
   Rigid3d::Coord x;
   x.center = center;
-  x.orientation = turn;
+  x.orientation = rotation;
   return x;
 }
 TopologyView over(std::vector<Triangle> const& triangles) {

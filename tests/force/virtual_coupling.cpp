@@ -79,9 +79,9 @@ TEST_CASE("a virtual coupling turns a tool by k t and c w") {
   Rigid3d::Coord target, x;
   target.orientation = Eigen::AngleAxisd(0.7, Vector3d(1, 2, 2) / 3);
   x = target;
-  const Vector3d turn = 2.5 * Vector3d(2, -1, 2) / 3;
+  const Vector3d rotation = 2.5 * Vector3d(2, -1, 2) / 3;
   Rigid3d::Deriv d, w;
-  d << 0.1, 0, 0, turn;
+  d << 0.1, 0, 0, rotation;
   w << 0, 0, 0, 1, 2, 3;
   Rigid3d::increment(x, d);
   auto c = ready(VirtualCoupling<Rigid3d>{.stiffness = 100,
@@ -91,7 +91,7 @@ TEST_CASE("a virtual coupling turns a tool by k t and c w") {
                                           .target = {target}},
                  {{}});
   Rigid3d::Deriv expected;
-  expected << -10, 0, 0, -0.4 * turn - 0.01 * Vector3d(1, 2, 3);
+  expected << -10, 0, 0, -0.4 * rotation - 0.01 * Vector3d(1, 2, 3);
   CHECK((force(c, {x}, {w})[0] - expected).norm() < 1e-13);
   CHECK(potential_energy(c, {x}) == Approx(50 * 0.01 + 0.2 * 6.25));
 }

@@ -11,7 +11,7 @@
 
 #include <cstdlib>
 
-extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t most);
+extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t maximum);
 
 namespace {
 
@@ -204,12 +204,12 @@ extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
   std::exit(1);
 }
 
-extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t most,
+extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t maximum,
                                                unsigned seed) {
   Random random{(std::uint64_t(seed) << 1 | 1) * 0x9e3779b97f4a7c15u};
   std::string bytes;
   if (size == 0 || random.below(2) == 0) {
-    size = LLVMFuzzerMutate(data, size, most);
+    size = LLVMFuzzerMutate(data, size, maximum);
     bytes.assign(reinterpret_cast<char const*>(data), size);
   } else {
     bytes.assign(reinterpret_cast<char const*>(data), size);
@@ -217,7 +217,7 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
       mutate_words(bytes, random);
   }
   if (random.below(4) != 0) mend(bytes);
-  size = std::min(bytes.size(), most);
+  size = std::min(bytes.size(), maximum);
   std::copy_n(bytes.data(), size, reinterpret_cast<char*>(data));
   return size;
 }

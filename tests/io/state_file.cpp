@@ -143,7 +143,7 @@ TEST_CASE("what is wrong with a text of states is said with its line") {
        "tool.state:4",
        "the time 0 s is not after that of the frame before, 0 s");
   says(replaced(sample, "T= 1", "T= 0.25"), "tool.state:7", "the time 0.25 s is not after");
-  says(replaced(sample, "T= 1", "T= 1 2"), "tool.state:7", "more stands behind the time");
+  says(replaced(sample, "T= 1", "T= 1 2"), "tool.state:7", "there is more after the time");
   says(replaced(sample, "0.5\n  V", "\n  V"),
        "tool.state:5",
        "X= has 5 numbers, but the state, of 2 points over Vec3d, has 6");

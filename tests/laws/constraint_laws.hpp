@@ -24,9 +24,9 @@ struct Subject {
 
   virtual ~Subject() = default;
   virtual void projectResponse(VecDeriv& dx) const = 0;
-  virtual void announce(Matrix<1>& matrix) = 0;
-  virtual void announceBlocksOfThree(Matrix<3>& matrix) = 0;
-  virtual void announceBlocks(Matrix<D::size>& matrix) = 0;
+  virtual void preallocate(Matrix<1>& matrix) = 0;
+  virtual void preallocateBlocksOfThree(Matrix<3>& matrix) = 0;
+  virtual void preallocateBlocks(Matrix<D::size>& matrix) = 0;
   virtual void projectMatrix(Matrix<1>& matrix) = 0;
   virtual void projectBlocksOfThree(Matrix<3>& matrix) = 0;
   virtual void projectBlocks(Matrix<D::size>& matrix) = 0;
@@ -69,11 +69,13 @@ struct SubjectOf : Subject<D> {
   void projectResponse(VecDeriv& dx) const override {
     dx = apply(dx, [&](auto&... d) { c.projectResponse(d...); });
   }
-  void announce(CompressedRowSparseMatrix<typename D::Real, 1>& matrix) override { room(matrix); }
-  void announceBlocksOfThree(CompressedRowSparseMatrix<typename D::Real, 3>& matrix) override {
+  void preallocate(CompressedRowSparseMatrix<typename D::Real, 1>& matrix) override { room(matrix); }
+  void preallocateBlocksOfThree(CompressedRowSparseMatrix<typename D::Real, 3>& matrix) override {
     room(matrix);
   }
-  void announceBlocks(CompressedRowSparseMatrix<typename D::Real, D::size>& matrix) override { room(matrix); }
+  void preallocateBlocks(CompressedRowSparseMatrix<typename D::Real, D::size>& matrix) override {
+    room(matrix);
+  }
   void projectMatrix(CompressedRowSparseMatrix<typename D::Real, 1>& matrix) override { project(matrix); }
   void projectBlocksOfThree(CompressedRowSparseMatrix<typename D::Real, 3>& matrix) override {
     project(matrix);
@@ -99,7 +101,7 @@ struct SubjectOf : Subject<D> {
   template <class Matrix>
   void room(Matrix& matrix) {
     const MatrixSink<AssemblyPhase::pattern, Matrix, Dofs> sink{matrix, first, second};
-    if constexpr (requires { c.announce(sink); }) c.announce(sink);
+    if constexpr (requires { c.preallocate(sink); }) c.preallocate(sink);
   }
   template <class Matrix>
   void project(Matrix& matrix) {
@@ -147,11 +149,11 @@ struct ConstraintSuite {
     if (c.prescribes) prescribed(c);
     projector(c);
     projectedMatrix<1>(
-        c, [&](auto& a) { c.announce(a); }, [&](auto& a) { c.projectMatrix(a); });
+        c, [&](auto& a) { c.preallocate(a); }, [&](auto& a) { c.projectMatrix(a); });
     projectedMatrix<3>(
-        c, [&](auto& a) { c.announceBlocksOfThree(a); }, [&](auto& a) { c.projectBlocksOfThree(a); });
+        c, [&](auto& a) { c.preallocateBlocksOfThree(a); }, [&](auto& a) { c.projectBlocksOfThree(a); });
     projectedMatrix<D::size>(
-        c, [&](auto& a) { c.announceBlocks(a); }, [&](auto& a) { c.projectBlocks(a); });
+        c, [&](auto& a) { c.preallocateBlocks(a); }, [&](auto& a) { c.projectBlocks(a); });
   }
 
   static double distance(VecDeriv const& a, VecDeriv const& b) {
@@ -178,15 +180,15 @@ struct ConstraintSuite {
 
   // the assembled P A P + I - P against products one after the other
   template <int B, class Room, class F>
-  void projectedMatrix(Subject<D> const& c, Room&& announce, F&& project) {
+  void projectedMatrix(Subject<D> const& c, Room&& preallocate, F&& project) {
     constexpr int size = D::size;
     using Matrix = CompressedRowSparseMatrix<Real, B>;
     Matrix a;
     a.startPattern(int(n) * size);
     for (auto const& t : elements)
       for (const int i : t)
-        for (const int j : t) a.announce(i * size, j * size, size, size);
-    announce(a);
+        for (const int j : t) a.preallocate(i * size, j * size, size, size);
+    preallocate(a);
     a.finishPattern();
     for (auto const& t : elements)
       for (const int i : t)

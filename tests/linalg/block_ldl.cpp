@@ -31,7 +31,7 @@ Matrix grid(int side, int pointSize, double shift, Eigen::MatrixXd& dense) {
       }
   for (int i = 0; i < dofs; ++i) dense(i, i) = shift + std::cos(2.0 * i);
   a.startPattern(dofs);
-  for (auto [i, j] : links) a.announce(i * pointSize, j * pointSize, pointSize, pointSize);
+  for (auto [i, j] : links) a.preallocate(i * pointSize, j * pointSize, pointSize, pointSize);
   a.finishPattern();
   a.setZero();
   using One = Eigen::Matrix<double, 1, 1>;
@@ -106,7 +106,7 @@ TEST_CASE("a star is eliminated from its points, without fill") {
   const int n = 50;
   CompressedRowSparseMatrix<double, 1> a;
   a.startPattern(n);
-  for (int i = 1; i < n; ++i) a.announce(0, i, 1, 1);
+  for (int i = 1; i < n; ++i) a.preallocate(0, i, 1, 1);
   a.finishPattern();
   BlockLdl<CompressedRowSparseMatrix<double, 1>> factor;
   factor.init(a, n);
@@ -121,8 +121,8 @@ TEST_CASE("a vanishing pivot is found, and named by its dof") {
   auto chain =
       [&](bool held) {  // three points on springs that do nothing along z, and nothing holds the chain
         a.startPattern(9);
-        a.announce(0, 3, 3, 3);
-        a.announce(3, 6, 3, 3);
+        a.preallocate(0, 3, 3, 3);
+        a.preallocate(3, 6, 3, 3);
         a.finishPattern();
         a.setZero();
         for (int i = 0; i < 2; ++i) {

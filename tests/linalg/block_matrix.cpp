@@ -22,8 +22,8 @@ void check_matrix(double rounding) {
   links.push_back({9, 2});
   a.startPattern(dofs);
   for (auto [i, j] : links) {
-    a.announce(3 * i, 3 * j, 3, 3);
-    a.announce(3 * i, 3 * i, 3, 3);
+    a.preallocate(3 * i, 3 * j, 3, 3);
+    a.preallocate(3 * i, 3 * i, 3, 3);
   }
   a.finishPattern();
   auto fill = [&] {
@@ -75,7 +75,7 @@ void check_grid(std::array<int, 3> n, double rounding) {
       for (const int step : {1, n[0], n[0] + 1, n[0] * n[1], n[0] * (n[1] + 1) - 1})
         if (i + step < points) f(i, i + step);
   };
-  forEachPair([&](int i, int j) { a.announce(3 * i, 3 * j, 3, 3); });
+  forEachPair([&](int i, int j) { a.preallocate(3 * i, 3 * j, 3, 3); });
   a.finishPattern();
   Vector x(3 * points + 1), first(3 * points), y(3 * points);
   for (int i = 0; i <= 3 * points; ++i) x[i] = Real(std::cos(7.0 * i));
@@ -118,7 +118,7 @@ TEST_CASE("a small matrix of doubles has no copy of itself in slices, one of flo
   auto bytes = [](auto a, std::size_t slicedFrom) {
     a.slicedFrom = slicedFrom;
     a.startPattern(300);
-    for (int i = 0; i < 99; ++i) a.announce(3 * i, 3 * i + 3, 3, 3);
+    for (int i = 0; i < 99; ++i) a.preallocate(3 * i, 3 * i + 3, 3, 3);
     a.finishPattern();
     return a.bytes();
   };
@@ -140,7 +140,7 @@ TEST_CASE("block matrices multiply as the dense one") {
 TEST_CASE("a block outside the pattern has no slot") {
   CompressedRowSparseMatrix<double, 3> a;
   a.startPattern(9);
-  a.announce(0, 6, 3, 3);
+  a.preallocate(0, 6, 3, 3);
   a.finishPattern();
   CHECK(a.slot(0, 2) >= 0);
   CHECK(a.slot(2, 0) >= 0);

@@ -27,8 +27,8 @@ Matrix chain(int n, double shift, bool ring, Eigen::MatrixXd& dense) {
       for (int c = 0; c < 9; ++c) k(c) = std::sin(2.0 * i + 3 * c);
       for (int r = 0; r < 3; ++r) d(r, r) = shift * (1 + r + i % 3);
       if (phase == 0) {
-        a.announce(3 * i, 3 * i, 3, 3);
-        if (j > 0 || ring) a.announce(3 * i, 3 * j, 3, 3);
+        a.preallocate(3 * i, 3 * i, 3, 3);
+        if (j > 0 || ring) a.preallocate(3 * i, 3 * j, 3, 3);
         continue;
       }
       a.add(3 * i, 3 * i, d);

@@ -42,9 +42,9 @@ RegularGridTopology grid(std::array<int, 3> n) {
   g.generate("");
   return g;
 }
-Points shaken(Points x, double most) {
+Points shaken(Points x, double maximum) {
   Random random;
-  for (auto& p : x) p += random.point(-most, most);
+  for (auto& p : x) p += random.point(-maximum, maximum);
   return x;
 }
 
@@ -83,18 +83,18 @@ void check_virtual_work(Barycentric const& mapping, std::size_t parents, std::si
 
 TEST_CASE("what is in a grid whose state is moved is put into place with it") {
   const auto g = grid({4, 3, 5});
-  const Eigen::Matrix3d turn =
+  const Eigen::Matrix3d rotation =
       Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
   const Eigen::Vector3d shift(30, -20, 10);
   Points parent = g.position, child;
-  for (auto& x : parent) x = turn * x + shift;
+  for (auto& x : parent) x = rotation * x + shift;
   Random random;
   for (int i = 0; i < 50; ++i) child.push_back(random.point(0.1, 1.9));
   const Points given = child;
   mapped(parent, g.view(), child);
   double worst = 0;
   for (std::size_t i = 0; i < given.size(); ++i)
-    worst = std::max(worst, (child[i] - turn * given[i] - shift).norm());
+    worst = std::max(worst, (child[i] - rotation * given[i] - shift).norm());
   CHECK(worst < 1e-13);
 }
 
@@ -130,7 +130,7 @@ TEST_CASE("hexahedra carry points inside and outside, and move them affinely alo
 TEMPLATE_TEST_CASE("points in a row in one element are carried as each by itself", "", Vec3d, Vec3f) {
   using Real = typename TestType::Real;
   const auto g = grid({4, 3, 3});
-  const std::size_t w = CarriedPoints<Vec3d, TestType>::least;
+  const std::size_t w = CarriedPoints<Vec3d, TestType>::minimum;
   Random random;
   auto check = [&](TopologyView const& topology, auto const& elements) {
     // runs as long as lanes, shorter and longer; each begins in another element than the last has ended

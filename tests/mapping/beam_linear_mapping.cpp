@@ -20,10 +20,10 @@ using Mapping = BeamLinearMapping<Rigid3d, Vec3d>;
 using Frames = Rigid3d::VecCoord;
 using Points = Vec3d::VecCoord;
 
-Rigid3d::Coord frame(Vector3d const& center, Quaterniond const& turn = Quaterniond::Identity()) {
+Rigid3d::Coord frame(Vector3d const& center, Quaterniond const& rotation = Quaterniond::Identity()) {
   Rigid3d::Coord x;
   x.center = center;
-  x.orientation = turn;
+  x.orientation = rotation;
   return x;
 }
 Mapping ready(Mapping mapping, Frames const& parent, Points& child, std::vector<Edge> const& edges = {}) {
@@ -49,13 +49,14 @@ TEST_CASE("a skin stands at rest where it was given, whatever the frames, and mo
     auto mapping = ready({}, parent, out, edges);
     mapping.apply(out, parent);
     for (std::size_t i = 0; i < out.size(); ++i) CHECK((out[i] - given[i]).norm() < 1e-14);
-    const Quaterniond turn = Quaterniond(0.2, -0.5, 0.6, 0.7).normalized();
+    const Quaterniond rotation = Quaterniond(0.2, -0.5, 0.6, 0.7).normalized();
     Frames moved = parent;
-    for (auto& f : moved) f = frame(turn * f.center + Vector3d(1, 2, 3), Quaterniond(turn * f.orientation));
+    for (auto& f : moved)
+      f = frame(rotation * f.center + Vector3d(1, 2, 3), Quaterniond(rotation * f.orientation));
     moved[1].orientation.coeffs() *= -1;  // the same orientation
     mapping.apply(out, moved);
     for (std::size_t i = 0; i < out.size(); ++i)
-      CHECK((out[i] - turn * given[i] - Vector3d(1, 2, 3)).norm() < 1e-14);
+      CHECK((out[i] - rotation * given[i] - Vector3d(1, 2, 3)).norm() < 1e-14);
   }
 }
 

@@ -15,9 +15,10 @@ using SkinFrames = Rigid3d::VecCoord;
 using Points = Vec3d::VecCoord;
 using Skin = SkinningMapping<Rigid3d, Vec3d>;
 
-Rigid3d::Coord frame(Eigen::Vector3d const& center, Eigen::Vector3d const& turn = Eigen::Vector3d::Zero()) {
+Rigid3d::Coord frame(Eigen::Vector3d const& center,
+                     Eigen::Vector3d const& rotation = Eigen::Vector3d::Zero()) {
   Rigid3d::Coord c;
-  Rigid3d::increment(c, (Rigid3d::Deriv() << center, turn).finished());
+  Rigid3d::increment(c, (Rigid3d::Deriv() << center, rotation).finished());
   return c;
 }
 Skin ready(Skin skin, SkinFrames const& frames, Points points) {
@@ -44,15 +45,15 @@ TEST_CASE("frames at rest leave the skin as it is, and carry it along as one bod
     const Points still = applied(mapping, bones);
     for (std::size_t i = 0; i < skin.size(); ++i) CHECK((still[i] - skin[i]).norm() < 1e-15);
     // one motion of all frames
-    const Eigen::Quaterniond turn(Eigen::AngleAxisd(2.5, Eigen::Vector3d(1, 2, -1).normalized()));
+    const Eigen::Quaterniond rotation(Eigen::AngleAxisd(2.5, Eigen::Vector3d(1, 2, -1).normalized()));
     const Eigen::Vector3d shift(3, -1, 2);
     SkinFrames moved = bones;
     for (auto& f : moved) {
-      f.center = turn * f.center + shift;
-      f.orientation = turn * f.orientation;
+      f.center = rotation * f.center + shift;
+      f.orientation = rotation * f.orientation;
     }
     const Points x = applied(mapping, moved);
-    for (std::size_t i = 0; i < skin.size(); ++i) CHECK((x[i] - (turn * skin[i] + shift)).norm() < 1e-14);
+    for (std::size_t i = 0; i < skin.size(); ++i) CHECK((x[i] - (rotation * skin[i] + shift)).norm() < 1e-14);
   }
 }
 

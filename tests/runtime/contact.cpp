@@ -68,15 +68,15 @@ void compare(std::string const& content, LinearSolver linear) {
   auto fixed = typed(linear);
   sim.init();
   fixed.init();
-  std::size_t most = 0;
+  std::size_t maximum = 0;
   for (int i = 0; i < 300; ++i) {
     sim.animate(0.01);
     fixed.animate(0.01);
-    most = std::max(most, fixed.root().template get<DefaultContactManager>().contacts.size());
+    maximum = std::max(maximum, fixed.root().template get<DefaultContactManager>().contacts.size());
     auto& state = *sim.root().find_node("balls")->template get<MechanicalObject<Vec3d>>();
     REQUIRE(state.position == fixed.template at<"balls">().state().position);
   }
-  CHECK(most == 2);
+  CHECK(maximum == 2);
 }
 
 TEST_CASE("contacts in a scene file and in a typed scene: the same bits") {

@@ -159,7 +159,7 @@ TEST_CASE("preconditioners are settings of the solver that links to them") {
   is("f", blockJacobi, true, 1);
   CHECK(scene.warnings.size() == 5);  // of the four that turn, too
   CHECK(has(scene.warnings, "<SSORPreconditioner>: no solver links to it"));
-  CHECK(has(scene.warnings, "<WarpPreconditioner>: it turns with the neighbourhood"));
+  CHECK(has(scene.warnings, "<WarpPreconditioner>: it rotates with the neighbourhood"));
   CHECK(wrong(R"(<PCGLinearSolver preconditioner="@nowhere"/>)")
             .find("there is no preconditioner '@nowhere'") != std::string::npos);
   CHECK(wrong(R"(<PCGLinearSolver preconditioner="@w"/><WarpPreconditioner name="w" linearSolver="@w"/>)")

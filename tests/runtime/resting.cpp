@@ -107,7 +107,7 @@ TEST_CASE("a surface whose outside is on the wrong side is said at init") {
   CHECK(warnings("0 2 1  0 1 3  0 3 2  1 2 3", corners, still).empty());
   auto inside = warnings("0 1 2  0 3 1  0 2 3  1 3 2", corners, still);
   REQUIRE(inside.size() == 1);
-  CHECK_THAT(inside[0], Catch::Contains("inside outside"));
+  CHECK_THAT(inside[0], Catch::Contains("face inwards"));
 }
 
 }  // namespace test_resting

@@ -148,7 +148,7 @@ double balance(std::string const& content, std::vector<Body> bodies, Rule rule, 
     Vector3d change{0, 0, 0}, force{0, 0, 0};
   };
   std::map<std::string, Last> last;  // of the step before
-  double most = 0;
+  double maximum = 0;
   for (auto& body : bodies) look(sim, body);
   for (int i = 0; i < steps; ++i) {
     for (auto& body : bodies) {
@@ -165,10 +165,10 @@ double balance(std::string const& content, std::vector<Body> bodies, Rule rule, 
       CAPTURE(i, body.path, change.transpose(), expected.transpose());
       // what held and pushed at the start of the first step is not known
       if (!first || rule.last == 0) REQUIRE((change - expected).norm() < slack + unsolved(sim));
-      most = std::max(most, (body.force - weight).norm());
+      maximum = std::max(maximum, (body.force - weight).norm());
     }
   }
-  return most;
+  return maximum;
 }
 
 }  // namespace
@@ -181,7 +181,7 @@ TEST_CASE("contact forces, weight and reactions change the momenta, whatever the
     for (auto const& method : methods()) {
       CAPTURE(response, method.ode);
       const double h = method.explicitly ? 0.0005 : 0.004;
-      const double most = balance(
+      const double maximum = balance(
           scene(text(
               pipeline(response), floorNode, "<Node name=\"bodies\">", method.ode, block, ball, "</Node>")),
           {{"/bodies/block", blockMass}, {"/bodies/ball", ballMass}},
@@ -189,7 +189,7 @@ TEST_CASE("contact forces, weight and reactions change the momenta, whatever the
           h,
           method.explicitly ? 600 : 100,
           1e-9);
-      CHECK(most > 10 * ballMass);  // they met, and by more than their weight
+      CHECK(maximum > 10 * ballMass);  // they met, and by more than their weight
     }
 }
 
@@ -197,21 +197,21 @@ TEST_CASE("so they do between bodies of different solvers") {
   for (auto const& [first, second] : {std::pair(0, 6), std::pair(6, 4), std::pair(11, 6)}) {
     const auto all = methods();
     CAPTURE(all[std::size_t(first)].ode, all[std::size_t(second)].ode);
-    const double most = balance(scene(text(pipeline("PenalityContactForceField"),
-                                           floorNode,
-                                           "<Node name=\"a\">",
-                                           all[std::size_t(first)].ode,
-                                           block,
-                                           "</Node><Node name=\"b\">",
-                                           all[std::size_t(second)].ode,
-                                           ball,
-                                           "</Node>")),
-                                {{"/a/block", blockMass}, {"/b/ball", ballMass}},
-                                {},
-                                0.0005,
-                                600,
-                                1e-9);
-    CHECK(most > 10 * ballMass);
+    const double maximum = balance(scene(text(pipeline("PenalityContactForceField"),
+                                              floorNode,
+                                              "<Node name=\"a\">",
+                                              all[std::size_t(first)].ode,
+                                              block,
+                                              "</Node><Node name=\"b\">",
+                                              all[std::size_t(second)].ode,
+                                              ball,
+                                              "</Node>")),
+                                   {{"/a/block", blockMass}, {"/b/ball", ballMass}},
+                                   {},
+                                   0.0005,
+                                   600,
+                                   1e-9);
+    CHECK(maximum > 10 * ballMass);
   }
 }
 

@@ -58,16 +58,16 @@ TEST_CASE("what a worker throws reaches the caller, and the threads go on", "[th
   Workers workers(4);
   for (int round = 0; round < 3; ++round) {
     // of several, the one of the first part
-    CHECK_THROWS_WITH(workers.run([](Part part) {
+    CHECK_THROWS_WITH(workers.run([](WorkShare part) {
       if (part.index >= 2) throw Error("part", text(part.index));
     }),
                       Catch::Matchers::Contains("2") && !Catch::Matchers::Contains("3"));
-    CHECK_THROWS_AS(workers.run([](Part part) {
+    CHECK_THROWS_AS(workers.run([](WorkShare part) {
       if (part.index == 0) throw Error("part", "0");
     }),
                     Error);
     std::atomic<int> sum{0};
-    workers.run([&](Part part) { sum += part.index + 1; });
+    workers.run([&](WorkShare part) { sum += part.index + 1; });
     CHECK(sum == 10);
   }
 }
@@ -77,7 +77,7 @@ TEST_CASE("parts cover a whole once", "[threads]") {
     for (const int count : {1, 2, 3, 8, 64}) {
       std::size_t next = 0;
       for (int k = 0; k < count; ++k) {
-        const Part part{k, count};
+        const WorkShare part{k, count};
         CHECK(part.begin(n) == next);
         next = part.end(n);
       }

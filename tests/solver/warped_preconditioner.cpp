@@ -24,12 +24,14 @@ int after_turn(ShewchukPCGLinearSolver<Matrix> solver, double degrees, Eigen::Ve
   auto sim = fem_bar::simulation(solver, 8, false);
   fem_bar::velocities(sim, 2);
   auto& state = sim.root().state();
-  const Eigen::AngleAxisd turn(degrees * 3.14159265358979 / 180, Eigen::Vector3d(1, -2, 0.5).normalized());
-  for (auto& x : state.position) x = turn * x;
+  const Eigen::AngleAxisd rotation(degrees * 3.14159265358979 / 180,
+                                   Eigen::Vector3d(1, -2, 0.5).normalized());
+  for (auto& x : state.position) x = rotation * x;
   // waves of several lengths run through it
   for (std::size_t i = 0; i < state.size(); ++i)
     state.velocity[i] =
-        turn * Eigen::Vector3d(std::sin(3. * double(i)), std::cos(2. * double(i)), std::sin(0.1 * double(i)));
+        rotation *
+        Eigen::Vector3d(std::sin(3. * double(i)), std::cos(2. * double(i)), std::sin(0.1 * double(i)));
   sim.animate(0.02);
   if (result) *result = vec::flat(state.velocity);
   return int(sim.root().template get<ShewchukPCGLinearSolver<Matrix>>().residuals.size()) - 1;
@@ -123,7 +125,7 @@ TEST_CASE("coordinates that are held stay held, though the rotation of their poi
 }
 
 TEST_CASE("rotations of points come from their neighbours, of bodies from their orientation") {
-  const Eigen::AngleAxisd turn(1.2, Eigen::Vector3d(2, 1, -1).normalized());
+  const Eigen::AngleAxisd rotation(1.2, Eigen::Vector3d(2, 1, -1).normalized());
   // a square of springs, flat; a wire, whose twist is not seen; a rigid body
   Simulation sim{node<"root">(
       EulerImplicitSolver{},
@@ -141,13 +143,14 @@ TEST_CASE("rotations of points come from their neighbours, of bodies from their 
       node<"body">(MechanicalObject<Rigid3d>{.position = {{}}}, UniformMass<Rigid3d>{.vertexMass = {{}}}))};
   sim.init();
   sim.animate(0.01);
-  for (auto& x : sim.at<"square">().state().position) x = turn * x;
+  for (auto& x : sim.at<"square">().state().position) x = rotation * x;
   for (auto& x : sim.at<"wire">().state().position) x = Eigen::Rotation2Dd(0.7) * x;
-  sim.at<"body">().state().position[0].orientation = turn;
+  sim.at<"body">().state().position[0].orientation = rotation;
   sim.animate(0.01);
-  auto const& turns = sim.root().get<ShewchukPCGLinearSolver<CompressedRowSparseMatrixd>>().rotations.turn;
+  auto const& turns =
+      sim.root().get<ShewchukPCGLinearSolver<CompressedRowSparseMatrixd>>().rotations.rotation;
   REQUIRE(turns.size() == 8);
-  const Eigen::Matrix3d inSpace = turn.toRotationMatrix(),
+  const Eigen::Matrix3d inSpace = rotation.toRotationMatrix(),
                         inPlane = Eigen::AngleAxisd(0.7, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   for (std::size_t i = 0; i < 8; ++i)
     CHECK((turns[i] - (i >= 4 && i < 7 ? inPlane : inSpace)).norm() < (i < 7 ? 1e-5 : 1e-14));

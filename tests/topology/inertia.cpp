@@ -56,14 +56,15 @@ Mesh torus(double R, double r, int n, int m) {
 
 TEST_CASE("a box has its volume, centre and inertia, wherever it is and however it is turned") {
   const Vector3d size(2, 3, 5);
-  const Eigen::Quaterniond turn(Eigen::AngleAxisd(0.7, Vector3d(1, 2, 2).normalized()));
+  const Eigen::Quaterniond rotation(Eigen::AngleAxisd(0.7, Vector3d(1, 2, 2).normalized()));
   for (Vector3d const& center : {Vector3d(0, 0, 0), Vector3d(-4, 7, 1), Vector3d(1e3, 1e3, -1e3)}) {
-    const auto body = of(moved(box(size), [&](Vector3d const& x) -> Vector3d { return center + turn * x; }));
+    const auto body =
+        of(moved(box(size), [&](Vector3d const& x) -> Vector3d { return center + rotation * x; }));
     // rounding of coordinates: 1e-16 of the distance from the origin
     const double tolerance = 1e-14 * (1 + center.norm());
     CHECK(body.volume == Approx(30).epsilon(tolerance));
     CHECK((body.center - center).norm() < 10 * tolerance);
-    const Matrix3d r = turn.toRotationMatrix();
+    const Matrix3d r = rotation.toRotationMatrix();
     CHECK(error(body.inertia, r * inertia_of_box(size) * r.transpose()) < tolerance);
   }
 }
@@ -142,7 +143,7 @@ TEST_CASE("surfaces without an inside are refused") {
   says(open, "at the edge from point 1 to 3");
   Mesh turned = mesh;
   std::swap(turned.quads[0][1], turned.quads[0][3]);
-  says(turned, "not turned alike");
+  says(turned, "not oriented alike");
   Mesh missing = mesh;
   missing.quads[2][1] = 8;
   says(missing, "quad 2 refers to point 8");

@@ -15,11 +15,11 @@ using namespace sinew;
 namespace {
 
 /// A box of 12 triangles that look outwards.
-Mesh block(Eigen::Vector3d const& center, Eigen::Matrix3d const& turn, Eigen::Vector3d const& half) {
+Mesh block(Eigen::Vector3d const& center, Eigen::Matrix3d const& rotation, Eigen::Vector3d const& half) {
   Mesh mesh;
   for (auto const& c : hexahedronCorners)
     mesh.positions.push_back(
-        center + turn * half.cwiseProduct(Eigen::Vector3d(2 * c[0] - 1, 2 * c[1] - 1, 2 * c[2] - 1)));
+        center + rotation * half.cwiseProduct(Eigen::Vector3d(2 * c[0] - 1, 2 * c[1] - 1, 2 * c[2] - 1)));
   for (auto const& f : hexahedronFaces) {
     mesh.triangles.push_back({Index(f[0]), Index(f[1]), Index(f[2])});
     mesh.triangles.push_back({Index(f[0]), Index(f[2]), Index(f[3])});
@@ -46,15 +46,15 @@ std::string refusal(SparseGridTopology const& grid) {
 
 /// Whether two boxes share a point, one of them turned: fifteen axes (Gottschalk, Lin, Manocha 1996).
 bool boxes_meet(Eigen::Vector3d const& a, Eigen::Vector3d const& halfA, Eigen::Vector3d const& b,
-                Eigen::Matrix3d const& turn, Eigen::Vector3d const& halfB) {
+                Eigen::Matrix3d const& rotation, Eigen::Vector3d const& halfB) {
   std::vector<Eigen::Vector3d> axes;
   for (int i = 0; i < 3; ++i) {
-    axes.push_back(Eigen::Vector3d::Unit(i)), axes.push_back(turn.col(i));
-    for (int j = 0; j < 3; ++j) axes.push_back(Eigen::Vector3d::Unit(i).cross(turn.col(j)));
+    axes.push_back(Eigen::Vector3d::Unit(i)), axes.push_back(rotation.col(i));
+    for (int j = 0; j < 3; ++j) axes.push_back(Eigen::Vector3d::Unit(i).cross(rotation.col(j)));
   }
   for (auto const& axis : axes)
     if (std::abs(axis.dot(a - b)) >
-        axis.cwiseAbs().dot(halfA) + (turn.transpose() * axis).cwiseAbs().dot(halfB) + 1e-12)
+        axis.cwiseAbs().dot(halfA) + (rotation.transpose() * axis).cwiseAbs().dot(halfB) + 1e-12)
       return false;
   return true;
 }
@@ -75,13 +75,13 @@ TEST_CASE("SparseGridTopology keeps just the cells that a turned block meets") {
     return low + (high - low) * (double(random() >> 5) / double(1u << 27));
   };
   for (int round = 0; round < 10; ++round) {
-    const Eigen::Matrix3d turn =
+    const Eigen::Matrix3d rotation =
         Eigen::Quaterniond(number(-1, 1), number(-1, 1), number(-1, 1), number(-1, 1))
             .normalized()
             .toRotationMatrix();
     const Eigen::Vector3d center(number(-5, 5), number(-5, 5), number(-5, 5)),
         half(number(0.3, 2), number(0.3, 2), number(0.3, 2));
-    const Mesh mesh = block(center, turn, half);
+    const Mesh mesh = block(center, rotation, half);
     const Eigen::Vector3d lo = center - Eigen::Vector3d::Constant(4),
                           hi = center + Eigen::Vector3d(4, 5, 4.5);
     const auto grid = made(
@@ -90,7 +90,7 @@ TEST_CASE("SparseGridTopology keeps just the cells that a turned block meets") {
     std::vector<Eigen::Vector3d> expected;
     for (auto const& h : whole.hexahedra) {
       const Eigen::Vector3d a = whole.positions[std::size_t(h[0])], b = whole.positions[std::size_t(h[6])];
-      if (boxes_meet((a + b) / 2, (b - a) / 2, center, turn, half)) expected.push_back(a);
+      if (boxes_meet((a + b) / 2, (b - a) / 2, center, rotation, half)) expected.push_back(a);
     }
     REQUIRE(grid.hexahedra.size() == expected.size());
     std::vector<Eigen::Vector3d> found;
@@ -128,7 +128,7 @@ TEST_CASE("SparseGridTopology keeps just the cells that a turned block meets") {
     inner = made(inner);
     CHECK(volume(inner) < 8 * half.prod());
     for (auto const& p : inner.points)
-      CHECK(((turn.transpose() * (p - center)).cwiseAbs().array() < half.array()).all());
+      CHECK(((rotation.transpose() * (p - center)).cwiseAbs().array() < half.array()).all());
   }
 }
 

@@ -20,7 +20,7 @@ Eigen::Vector3d at(Mesh const& mesh, Index i) { return mesh.positions[std::size_
 
 /// Smallest and total volume of the hexahedra, with two Gauss points a direction, exact for trilinear cells.
 std::pair<double, double> volumes(Mesh const& mesh) {
-  double least = 1e9, sum = 0;
+  double minimum = 1e9, sum = 0;
   for (auto const& h : mesh.hexahedra) {
     double volume = 0;
     for (int g = 0; g < 8; ++g) {
@@ -31,10 +31,10 @@ std::pair<double, double> volumes(Mesh const& mesh) {
       for (int k = 0; k < 8; ++k) j += at(mesh, h[std::size_t(k)]) * shape.derivatives.row(k);
       volume += j.determinant() / 8;
     }
-    least = std::min(least, volume);
+    minimum = std::min(minimum, volume);
     sum += volume;
   }
-  return {least, sum};
+  return {minimum, sum};
 }
 
 void bend(Mesh& mesh) {
@@ -125,11 +125,11 @@ TEST_CASE("hexahedra in eight: a grid is the grid twice as fine, a bent one keep
 
   Mesh bent = grid;
   bend(bent);
-  const auto [least, volume] = volumes(bent);
+  const auto [minimum, volume] = volumes(bent);
   const auto [finest, total] = volumes(subdivide(bent, 2));
   CHECK(total == Approx(volume).epsilon(1e-13));
   CHECK(finest > 0);
-  CHECK(finest < least / 8);
+  CHECK(finest < minimum / 8);
 }
 
 TEST_CASE("surfaces and lines share their points with each other and with volumes") {

@@ -20,10 +20,11 @@ using Coord = Rigid3d::Coord;
 using Deriv = Rigid3d::Deriv;
 using Eigen::Vector3d;
 
-inline Coord frame(Vector3d const& center, Eigen::Quaterniond const& turn = Eigen::Quaterniond::Identity()) {
+inline Coord frame(Vector3d const& center,
+                   Eigen::Quaterniond const& rotation = Eigen::Quaterniond::Identity()) {
   Coord x;
   x.center = center;
-  x.orientation = turn;
+  x.orientation = rotation;
   return x;
 }
 /// n + 1 frames along x, of a beam of n elements, and its edges.

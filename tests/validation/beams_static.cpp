@@ -44,12 +44,12 @@ TEST_CASE("a cantilever under small loads at its tip has the closed forms of Tim
       CHECK(tip(wrench(P * Y)).center[1] == Approx(P / (3 * E * s.aboutZ) + yield).epsilon(1e-5));
       CHECK(tip(wrench(P * Z)).center[2] == Approx(P / (3 * E * s.aboutY) + yield).epsilon(1e-5));
       CHECK(tip(wrench(1e3 * P * X)).center[0] - 1 == Approx(1e3 * P / (E * s.area)).epsilon(1e-5));
-      auto turn = [&](Vector3d const& torque) {
+      auto rotation = [&](Vector3d const& torque) {
         return Vector3d(2 * tip(wrench(Vector3d::Zero(), torque)).orientation.vec());
       };
-      CHECK(turn(P * X)[0] == Approx(P / (G * s.torsion)).epsilon(1e-5));
-      CHECK(turn(P * Y)[1] == Approx(P / (E * s.aboutY)).epsilon(1e-5));
-      CHECK(turn(P * Z)[2] == Approx(P / (E * s.aboutZ)).epsilon(1e-5));
+      CHECK(rotation(P * X)[0] == Approx(P / (G * s.torsion)).epsilon(1e-5));
+      CHECK(rotation(P * Y)[1] == Approx(P / (E * s.aboutY)).epsilon(1e-5));
+      CHECK(rotation(P * Z)[2] == Approx(P / (E * s.aboutZ)).epsilon(1e-5));
       CHECK(tip(wrench(Vector3d::Zero(), P * Z)).center[1] == Approx(P / (2 * E * s.aboutZ)).epsilon(1e-5));
     }
 }

@@ -63,11 +63,11 @@ std::vector<double> frequencies(int n, std::vector<int> const& held, Seen const&
 }
 
 const std::vector<int> clamped{0, 1, 2, 3, 4, 5};
-/// The frequencies from number `first` on against the exact ones: with 32 elements within `most`, and with
+/// The frequencies from number `first` on against the exact ones: with 32 elements within `maximum`, and with
 /// half as many 2^order times as far. Held are the dofs `start` of the first frame and `end` of the last.
 template <class Seen>
 void check(std::vector<int> const& start, std::vector<int> const& end, Seen const& seen, std::size_t first,
-           std::vector<double> const& exact, double most, double order) {
+           std::vector<double> const& exact, double maximum, double order) {
   auto found = [&](int n) {
     std::vector<int> held = start;
     for (const int c : end) held.push_back(6 * n + c);
@@ -77,7 +77,7 @@ void check(std::vector<int> const& start, std::vector<int> const& end, Seen cons
   for (std::size_t i = 0; i < exact.size(); ++i) {
     const double e = coarse[first + i] / exact[i] - 1, f = fine[first + i] / exact[i] - 1;
     INFO("frequency " << i << " errors " << e << " " << f << " ratio " << e / f);
-    CHECK(std::abs(f) < most);
+    CHECK(std::abs(f) < maximum);
     CHECK(e / f == Approx(std::pow(2, order)).epsilon(0.1));
   }
 }
@@ -97,11 +97,11 @@ TEST_CASE("a beam swings at the frequencies of the closed forms") {
                        std::vector<double>
                            k,
                        double rotary,
-                       double most,
+                       double maximum,
                        double order) {
       for (double& b : k) b = b * b * std::sqrt(E * I / (line + rotary * density * I * b * b));
       const auto seen = [y](int c) { return y ? c == 1 || c == 5 : c == 2 || c == 4; };
-      check(start, end, seen, first, k, most, order);
+      check(start, end, seen, first, k, maximum, order);
     };
     bending(clamped, {}, 0, {1.87510407, 4.69409113, 7.85475744}, 0, 3e-3, 2);
     bending({0, 1, 2, 3}, {1, 2}, 0, {pi, 2 * pi, 3 * pi}, 1, 1e-5, 4);
@@ -182,20 +182,20 @@ TEST_CASE("a free beam in flight keeps its momenta and its energy") {
   const double elastic = sim.potentialEnergy(), all = elastic + sim.kineticEnergy();
   CHECK(elastic > 0.01 * all);
   CHECK(before[0] == Approx(density * pi * radius * radius));  // the mass of the beam at 1 m/s
-  double least = elastic, most = elastic;
+  double minimum = elastic, maximum = elastic;
   for (int i = 0; i < 4000; ++i) {
     sim.animate(5e-4);
-    least = std::min(least, sim.potentialEnergy()), most = std::max(most, sim.potentialEnergy());
+    minimum = std::min(minimum, sim.potentialEnergy()), maximum = std::max(maximum, sim.potentialEnergy());
   }
   const double lost = (sim.potentialEnergy() + sim.kineticEnergy()) / all - 1;
   const Deriv change = momenta() - before;
-  INFO("elastic energy " << least << " to " << most << " of " << all << ", lost " << lost << ", momenta "
+  INFO("elastic energy " << minimum << " to " << maximum << " of " << all << ", lost " << lost << ", momenta "
                          << change.transpose() / before.norm());
   // RK4 keeps linear momentum to rounding, the rest to its order
   CHECK(change.head<3>().norm() < 1e-11 * before.norm());
   CHECK(change.tail<3>().norm() < 1e-6 * before.norm());
   CHECK(std::abs(lost) < 1e-5);
-  CHECK(most > 1.1 * least);
+  CHECK(maximum > 1.1 * minimum);
 }
 
 }  // namespace test_beams_vibration

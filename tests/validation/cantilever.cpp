@@ -87,11 +87,11 @@ TEST_CASE("hexahedra lock in bending by the shear that they cannot do without", 
                   mesh, [](Vector3d const& p) { return p[0] < 1e-9 && p[1] < 0 && std::abs(p[2]) > 0.4; }),
               .fixedDirections = {0, 1, 1}});
       const auto top = points_where(mesh, [&](Vector3d const& p) { return p[0] > 7.99 && p[1] > 0.49; });
-      const double turn = mean_way(sim, mesh, top, 0) / (bar.width / 2),
+      const double rotation = mean_way(sim, mesh, top, 0) / (bar.width / 2),
                    theory = moment * bar.length / (bar.E * bar.inertia());
       const double closed = 1 / (1 + 0.5 * a * a);
-      CHECK(turn / theory == Approx(closed).epsilon(1e-8));
-      if (across == 1) curve.row(a, turn / theory, closed);
+      CHECK(rotation / theory == Approx(closed).epsilon(1e-8));
+      if (across == 1) curve.row(a, rotation / theory, closed);
     }
 }
 

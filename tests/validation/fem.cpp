@@ -196,9 +196,9 @@ TEST_CASE("a large rotation costs no elastic energy") {
         body(mesh, {.youngModulus = {3000}, .poissonRatio = 0.3, .method = method}, EulerImplicitSolver{});
     sim.init();
     for (const double angle : {0.5, 1.6, 3.1}) {
-      const Eigen::AngleAxisd turn(angle, Eigen::Vector3d(1, 2, -2) / 3);
+      const Eigen::AngleAxisd rotation(angle, Eigen::Vector3d(1, 2, -2) / 3);
       for (std::size_t i = 0; i < mesh.positions.size(); ++i)
-        sim.root().state().position[i] = turn * mesh.positions[i];
+        sim.root().state().position[i] = rotation * mesh.positions[i];
       CHECK(sim.potentialEnergy() < 1e-24 * 3000);  // (rounding of the strain)^2 times the modulus
     }
   }
@@ -254,11 +254,11 @@ TEST_CASE("polar takes the rotation of the edges of a tetrahedron, against that 
     for (std::size_t i = 0; i < 4; ++i)
       for (int c = 0; c < 3; ++c) X[i][c] += 0.35 * std::sin(1.3 * sample + 5.0 * double(i) + 11 * c);
     if (sample % 2 == 1) std::swap(X[1], X[2]);
-    const Eigen::AngleAxisd turn(0.4 * sample, Eigen::Vector3d(1, 2, -2) / 3);
+    const Eigen::AngleAxisd rotation(0.4 * sample, Eigen::Vector3d(1, 2, -2) / 3);
     for (std::size_t i = 0; i < 4; ++i)
-      x.push_back(turn * (X[i] + 0.1 * Eigen::Vector3d(std::sin(3.0 * double(i) + sample),
-                                                       std::cos(5.0 * double(i) + sample),
-                                                       std::sin(7.0 * double(i)))));
+      x.push_back(rotation * (X[i] + 0.1 * Eigen::Vector3d(std::sin(3.0 * double(i) + sample),
+                                                           std::cos(5.0 * double(i) + sample),
+                                                           std::sin(7.0 * double(i)))));
     const double now = EdgePolar::edges(x, element[0]).determinant(),
                  rest = EdgePolar::edges(X, element[0]).determinant();
     REQUIRE((rest < 0) == (sample % 2 == 1));

@@ -63,7 +63,7 @@ Eigen::Vector2d pull_at(Eigen::Vector2d const& x) { return -x / std::pow(x.norm(
 
 /// Energy, angular momentum, and the angle of the long axis: the direction of Laplace's vector.
 struct Orbit {
-  double energy, momentum, turn;
+  double energy, momentum, rotation;
 };
 
 template <class Solver>
@@ -133,8 +133,8 @@ TEST_CASE("planets keep energy and angular momentum for 1,000 years under symple
     }
     Planet other(solver, 100);
     other.run(1000);
-    const double turn = other.orbit().turn * 180 / std::numbers::pi / 10;
-    table.row(name, years, first, last, momentum, years < 100 ? "none" : text(turn));
+    const double rotation = other.orbit().rotation * 180 / std::numbers::pi / 10;
+    table.row(name, years, first, last, momentum, years < 100 ? "none" : text(rotation));
     return std::array{first, last, momentum};
   };
   // A symplectic method keeps an energy near the true one: what it errs swings with the year and does not
@@ -165,14 +165,14 @@ TEST_CASE("the error of a planet's energy has the order of the symplectic solver
 
 TEST_CASE("ellipses of symplectic solvers turn slowly, with the square of the step") {
   // a known property: the shape of the orbit is kept, its long axis and the place on it are not
-  auto turn = [](auto solver, int stepsAYear) {
+  auto rotation = [](auto solver, int stepsAYear) {
     Planet planet(solver, stepsAYear);
     planet.run(10 * stepsAYear);
-    return std::abs(planet.orbit().turn);
+    return std::abs(planet.orbit().rotation);
   };
-  CHECK(std::log2(turn(CentralDifferenceSolver{}, 200) / turn(CentralDifferenceSolver{}, 400)) ==
+  CHECK(std::log2(rotation(CentralDifferenceSolver{}, 200) / rotation(CentralDifferenceSolver{}, 400)) ==
         Approx(2).margin(0.1));
-  CHECK(std::log2(turn(midpoint, 200) / turn(midpoint, 400)) == Approx(2).margin(0.1));
+  CHECK(std::log2(rotation(midpoint, 200) / rotation(midpoint, 400)) == Approx(2).margin(0.1));
 }
 
 TEST_CASE("orbits to look at, for the page", "[page]") {

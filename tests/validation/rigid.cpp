@@ -69,18 +69,18 @@ TEMPLATE_TEST_CASE("a body that tumbles gains no energy from steps that turn it 
   };
   for (const double h : {0.1, 0.5, 2.5}) {
     auto [sim, dt] = make(h);
-    double energy = sim.kineticEnergy(), most = 0;
+    double energy = sim.kineticEnergy(), maximum = 0;
     const double start = energy;
     bool turnedOver = false;
     for (int i = 0; i < 10000; ++i) {
       sim.animate(dt);
-      most = std::max(most, sim.kineticEnergy() / energy - 1);
+      maximum = std::max(maximum, sim.kineticEnergy() / energy - 1);
       energy = sim.kineticEnergy();
       auto const& s = sim.template at<"">().state();
       turnedOver |=
           (s.position[0].orientation.conjugate() * Eigen::Vector3d(s.velocity[0].template tail<3>()))[1] < -1;
     }
-    CHECK(most < 1e-12);
+    CHECK(maximum < 1e-12);
     CHECK(energy > 0);
     CHECK(energy < start);
     CHECK((turnedOver || h > 0.1));

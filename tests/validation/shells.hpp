@@ -35,10 +35,10 @@ struct Sheet {
   Rigid3d::VecCoord x;
   std::vector<Triangle> triangles;
 
-  int add(Vector3d const& center, Eigen::Quaterniond const& turn = Eigen::Quaterniond::Identity()) {
+  int add(Vector3d const& center, Eigen::Quaterniond const& rotation = Eigen::Quaterniond::Identity()) {
     x.emplace_back();
     x.back().center = center;
-    x.back().orientation = turn;
+    x.back().orientation = rotation;
     return int(x.size()) - 1;
   }
   /// The frames that a condition on their centres chooses.

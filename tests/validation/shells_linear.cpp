@@ -73,16 +73,16 @@ double middle(Sheet const& sheet, Held const& held) {
   REQUIRE(at.size() == 1);
   return found.x[std::size_t(at[0])].center[2] * stiffness / load;
 }
-/// Errors with n and 2 n cells a side: of order 2, and at most `most` with 2 n.
+/// Errors with n and 2 n cells a side: of order 2, and at most `maximum` with 2 n.
 template <class Deflection>
 void converges(Record& curve, std::string_view name, Deflection const& deflection, double exact, int n,
-               double most) {
+               double maximum) {
   const double coarse = deflection(n) / exact - 1, fine = deflection(2 * n) / exact - 1;
   curve.row(name, 1.0 / n, std::abs(coarse));
   curve.row(name, 0.5 / n, std::abs(fine));
   if (Record::wanted()) curve.row(name, 0.25 / n, std::abs(deflection(4 * n) / exact - 1));
   INFO("errors " << coarse << " " << fine);
-  CHECK(std::abs(fine) < most);
+  CHECK(std::abs(fine) < maximum);
   CHECK(coarse / fine == Approx(4).epsilon(0.2));
 }
 

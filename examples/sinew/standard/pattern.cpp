@@ -8,7 +8,7 @@ template detail::BlockTarget detail::block_target(CompressedRowSparseMatrixd&);
 template detail::ProjectionTarget detail::projection_target<CompressedRowSparseMatrixMat3x3d>();
 template detail::ProjectionTarget detail::projection_target<CompressedRowSparseMatrixMat3x3f>();
 template detail::ProjectionTarget detail::projection_target<CompressedRowSparseMatrixd>();
-template void MechanicalOperations<RuntimeScope<Standard>>::announce(AnyMatrix&);
+template void MechanicalOperations<RuntimeScope<Standard>>::preallocate(AnyMatrix&);
 template void MechanicalOperations<RuntimeScope<Standard>>::assemblePhase<AssemblyPhase::bind>(AnyMatrix&,
                                                                                                MatrixFactors);
 }  // namespace sinew

@@ -141,7 +141,7 @@ class BasicBoundingTree {
   template <class F>
   Nearest nearest(Box const& box, Real reach, F&& distance) const {
     Nearest best;
-    // the distances of the user and of the boxes are rounded, each in its way
+    // the distances of the user and of the boxes are rounded differently
     constexpr Real slack = 1 - 16 * std::numeric_limits<Real>::epsilon();
     auto entry = [&](Packed const& packed) { return packed.box().distance(box) * slack; };
     nearest_first(entry, reach, [&](int i, Real end) {
@@ -233,9 +233,9 @@ class BasicBoundingTree {
                                                       Packed const& box, int node, Real margin,
                                                       F&& report) const {
     leaves_near(node, box, margin, [&](Link const& mine, Packed const& around) {
-      const Packed room = around;
+      const Packed leafBox = around;
       for (int a = leaf.first; a < leaf.last; ++a) {
-        if (!from.slots[std::size_t(a)].overlaps(room, margin)) continue;
+        if (!from.slots[std::size_t(a)].overlaps(leafBox, margin)) continue;
         const Packed query = from.slots[std::size_t(a)];
         for (int b = mine.first; b < mine.last; ++b)
           if (slots[std::size_t(b)].overlaps(query, margin))

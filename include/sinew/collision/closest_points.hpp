@@ -42,7 +42,7 @@ ClosestPoints<Real> closest_points(std::array<Vec<Real, 3>, NA> const& a,
           search.weightsB,
           detail::weighted_point<Real, NA>(a, search.weightsA),
           detail::weighted_point<Real, NB>(b, search.weightsB),
-          search.least};
+          search.minimum};
 }
 
 namespace detail {
@@ -79,7 +79,7 @@ Vec<Real, 3> feature_normal(Simplex<Real, NA> const& a, Simplex<Real, NB> const&
 }  // namespace detail
 
 /// Unit vector from a to b at their closest points: the difference of these where the distance exceeds
-/// contact_tolerance. Where they touch or cross, what fits the features that meet, turned such that the
+/// contact_tolerance. Where they touch or cross, what fits the features that meet, oriented such that the
 /// middle of b lies ahead of that of a: inside of a face, its normal; two edges, their cross product; else
 /// the line between the middles, less its part along an edge that is touched. Where that is empty too: the
 /// normal of a triangle, a perpendicular of an edge, the z axis. Never NaN for finite points.
@@ -97,9 +97,9 @@ Vec<Real, 3> contact_direction(std::array<Vec<Real, 3>, NA> const& a, std::array
   for (V const& x : a) middle -= (x - a[0]) / (size * Real(NA));
   for (V const& x : b) middle += (x - a[0]) / (size * Real(NB));
   V found(0, 0, 0);
-  auto take = [&](V const& direction, Real least) {
+  auto take = [&](V const& direction, Real minimum) {
     const Real length = direction.norm();
-    if (!(length > least)) return false;
+    if (!(length > minimum)) return false;
     found = direction / length;
     if (found.dot(middle) < 0) found = -found;
     return true;

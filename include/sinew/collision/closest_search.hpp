@@ -11,12 +11,12 @@ struct ClosestSearch {
   Simplex<Real, NA> const& a;
   Simplex<Real, NB> const& b;
   Vec<Real, 3> weightsA = unit_weight<Real>(0), weightsB = weightsA, difference{};
-  Real least = std::numeric_limits<Real>::infinity();
+  Real minimum = std::numeric_limits<Real>::infinity();
 
   Real offer(Vec<Real, 3> const& wa, Vec<Real, 3> const& wb) {
     const Vec<Real, 3> d = weighted_difference<Real, NA, NB>(a, b, wa, wb);
     const Real square = d.squaredNorm();
-    if (square < least) weightsA = wa, weightsB = wb, difference = d, least = square;
+    if (square < minimum) weightsA = wa, weightsB = wb, difference = d, minimum = square;
     return square;
   }
 
@@ -26,7 +26,7 @@ struct ClosestSearch {
     Real low = std::numeric_limits<Real>::infinity();
     for (auto const& x : a)
       for (auto const& y : b) low = std::min(low, (y - x).dot(difference));
-    return low >= least - 2 * std::numeric_limits<Real>::epsilon() * size * std::sqrt(least);
+    return low >= minimum - 2 * std::numeric_limits<Real>::epsilon() * size * std::sqrt(minimum);
   }
 
   /// Points inside both edges: A(s), B(t) with A(s) - B(t) along n = u x v. Cross products, and t again from
@@ -74,7 +74,7 @@ struct ClosestSearch {
       t = clamp_unit(t - (p - q).dot(triangle.normal) / slope);
     }
     // a needle crossed at a small angle: between its edges, which the other edge passes on two sides
-    if (least > eps * eps * squares && least < Real(1e6) * eps * eps * squares)
+    if (minimum > eps * eps * squares && minimum < Real(1e6) * eps * eps * squares)
       offerBetween<EdgeOfA>(edge, triangle);
   }
 
@@ -118,9 +118,9 @@ struct ClosestSearch {
       if (leaves && found(size)) return;
       for (auto const& u : frameA.edges)
         for (auto const& v : frameB.edges) {
-          const Real before = least;
+          const Real before = minimum;
           offerInside(u, v);
-          if (leaves && least < before && found(size)) return;
+          if (leaves && minimum < before && found(size)) return;
         }
     }
     if constexpr (NA > 1 && NB == 3)

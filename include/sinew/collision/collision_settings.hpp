@@ -46,7 +46,7 @@ constexpr auto collision_model_fields(More... more) {
       field("contactResponse",
             &M::contactResponse,
             "",
-            "class that answers contacts of this model; that of the contact manager when not given"),
+            "class of the response to contacts of this model; that of the contact manager when not given"),
       more...);
 }
 

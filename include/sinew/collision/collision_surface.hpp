@@ -46,7 +46,7 @@ struct CollisionSurface {
 
   // vertices, now
   std::vector<Eigen::Vector3d> position{}, velocity{}, force{}, dx{};
-  std::vector<Eigen::Vector3d> spin{}, torque{}, turn{};  // of rigids: angular velocity, ..., angular dx
+  std::vector<Eigen::Vector3d> spin{}, torque{}, angularDx{};  // of rigids: angular velocity, ..., angular dx
   std::vector<Eigen::Quaterniond> orientation{};          // of rigids
   std::vector<int> touched{};                             // vertices with contacts
   std::vector<char> isTouched{};
@@ -93,7 +93,7 @@ struct CollisionSurface {
 
   void resize(std::size_t vertices);
 
-  void forgetTouched() {
+  void clearTouched() {
     for (const int i : touched) isTouched[std::size_t(i)] = 0;
     touched.clear();
   }
@@ -110,9 +110,10 @@ struct CollisionSurface {
   AxisBox hullBox(std::size_t v, double dt) const;
 };
 
-/// Positions and velocities of a vertex of a surface from those of a point of its state.
+/// Sets position and velocity of a vertex of a surface from those of a point of its state.
 template <class D>
-void see(CollisionSurface& s, std::size_t i, typename D::Coord const& x, typename D::Deriv const& v) {
+void update_vertices(CollisionSurface& s, std::size_t i, typename D::Coord const& x,
+                     typename D::Deriv const& v) {
   auto set = [&](auto& to, auto const& value) {
     if (s.enclosed && to != value) s.enclosed.reset();
     to = value;
@@ -125,27 +126,28 @@ void see(CollisionSurface& s, std::size_t i, typename D::Coord const& x, typenam
   }
 }
 template <class D>
-void see(CollisionSurface& s, typename D::VecCoord const& x, typename D::VecDeriv const& v) {
-  for (std::size_t i = 0; i < x.size(); ++i) see<D>(s, i, x[i], v[i]);
+void update_vertices(CollisionSurface& s, typename D::VecCoord const& x, typename D::VecDeriv const& v) {
+  for (std::size_t i = 0; i < x.size(); ++i) update_vertices<D>(s, i, x[i], v[i]);
 }
-/// The same where there are contacts; and forces are zero there.
+/// The same for the vertices in contact; the forces on them become zero.
 template <class D>
-void see_touched(CollisionSurface& s, typename D::VecCoord const& x, typename D::VecDeriv const& v) {
+void update_touched_vertices(CollisionSurface& s, typename D::VecCoord const& x,
+                             typename D::VecDeriv const& v) {
   for (const int t : s.touched) {
     const auto i = std::size_t(t);
-    see<D>(s, i, x[i], v[i]);
+    update_vertices<D>(s, i, x[i], v[i]);
     s.force[i].setZero();
     if constexpr (D::rigid) s.torque[i].setZero();
   }
 }
 template <class D>
-void see_touched(CollisionSurface& s, typename D::VecDeriv const& dx) {
+void update_touched_vertices(CollisionSurface& s, typename D::VecDeriv const& dx) {
   for (const int t : s.touched) {
     const auto i = std::size_t(t);
     s.dx[i] = dx[i].template head<3>().template cast<double>();
     s.force[i].setZero();
     if constexpr (D::rigid) {
-      s.turn[i] = dx[i].template tail<3>().template cast<double>();
+      s.angularDx[i] = dx[i].template tail<3>().template cast<double>();
       s.torque[i].setZero();
     }
   }
@@ -183,7 +185,9 @@ SINEW_ONCE bool CollisionSurface::isAccompaniedBy(CollisionSurface const& other)
 SINEW_ONCE bool CollisionSurface::isLocalMinimum(int element, std::array<int, 3> const& vertices,
                                                  Eigen::Vector3d const& d) const {
   if (corners() < 2 || vertices[2] >= 0) return true;
-  auto towards = [&](Eigen::Vector3d const& way) { return d.dot(way) > 1e-9 * d.norm() * way.norm(); };
+  auto towards = [&](Eigen::Vector3d const& direction) {
+    return d.dot(direction) > 1e-9 * d.norm() * direction.norm();
+  };
   if (vertices[1] < 0) {
     const auto v = std::size_t(vertices[0]);
     for (int k = firstAround[v]; k < firstAround[v + 1]; ++k)
@@ -193,8 +197,8 @@ SINEW_ONCE bool CollisionSurface::isLocalMinimum(int element, std::array<int, 3>
   // into the triangle that an edge has with a corner
   auto intoTriangle = [&](int p, int q, int corner) {
     const Eigen::Vector3d edge = position[std::size_t(q)] - position[std::size_t(p)];
-    const Eigen::Vector3d way = position[std::size_t(corner)] - position[std::size_t(p)];
-    return towards(way - (way.dot(edge) / std::max(edge.squaredNorm(), 1e-300)) * edge);
+    const Eigen::Vector3d direction = position[std::size_t(corner)] - position[std::size_t(p)];
+    return towards(direction - (direction.dot(edge) / std::max(edge.squaredNorm(), 1e-300)) * edge);
   };
   auto const& e = elements[std::size_t(element)];
   if (shape == Shape::line) {
@@ -213,8 +217,7 @@ SINEW_ONCE bool CollisionSurface::isLocalMinimum(int element, std::array<int, 3>
 
 SINEW_ONCE std::string CollisionSurface::wrongWinding(Eigen::Vector3d const& along) const {
   if (shape != Shape::triangle || settings.bothSide || elements.empty()) return {};
-  constexpr std::string_view advice =
-      "; turn them round by swapping two corners each, or say bothSide=\"true\"";
+  constexpr std::string_view advice = "; reverse them by swapping two corners each, or say bothSide=\"true\"";
   std::vector<std::array<int, 3>> edges;  // lower, higher vertex, whether they are passed in that order
   Eigen::Vector3d area(0, 0, 0);
   double volume = 0, size = 0;
@@ -244,7 +247,7 @@ SINEW_ONCE std::string CollisionSurface::wrongWinding(Eigen::Vector3d const& alo
                 " edges about which of their sides is outside, and what touches the wrong side is pulled in",
                 advice);
   if (closed && volume < -1e-9 * size * std::sqrt(size))
-    return text("the triangles have their inside outside (their volume is ", volume, " m^3)", advice);
+    return text("the triangles face inwards (their volume is ", volume, " m^3)", advice);
   if (!closed && solver < 0 && area.dot(along) > 0.5 * size * along.norm() && size > 0)
     return text("the outside of the triangles is below them, so that what lies on them is drawn through",
                 advice);
@@ -310,7 +313,7 @@ SINEW_ONCE void CollisionSurface::resize(std::size_t vertices) {
   const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
   for (auto* v : {&position, &velocity, &force, &dx}) v->assign(vertices, zero);
   if (rigid)
-    for (auto* v : {&spin, &torque, &turn}) v->assign(vertices, zero);
+    for (auto* v : {&spin, &torque, &angularDx}) v->assign(vertices, zero);
   if (rigid) orientation.assign(vertices, Eigen::Quaterniond::Identity());
   touched.clear();
   touched.reserve(vertices);
@@ -339,15 +342,15 @@ SINEW_ONCE void CollisionSurface::enclose(double margin, double dt) {
 }
 
 SINEW_ONCE AxisBox CollisionSurface::hullBox(std::size_t v, double dt) const {
-  const Eigen::Matrix3d turned = orientation[v].toRotationMatrix();
+  const Eigen::Matrix3d rotation = orientation[v].toRotationMatrix();
   AxisBox b;
-  for (auto const& p : hull->points()) b.include(position[v] + turned * p);
+  for (auto const& p : hull->points()) b.include(position[v] + rotation * p);
   if (!(dt > 0)) return b;
-  AxisBox way = b;
-  way.include(b.min + (solver < 0 ? -dt : dt) * velocity[v]);
-  way.include(b.max + (solver < 0 ? -dt : dt) * velocity[v]);
-  // a point at r turns by |w| r dt at most
-  return way.grown(dt * spin[v].norm() * hull->reach());
+  AxisBox swept = b;
+  swept.include(b.min + (solver < 0 ? -dt : dt) * velocity[v]);
+  swept.include(b.max + (solver < 0 ? -dt : dt) * velocity[v]);
+  // a point at r moves by at most |w| r dt as the body rotates
+  return swept.grown(dt * spin[v].norm() * hull->reach());
 }
 
 }  // namespace sinew

@@ -84,8 +84,8 @@ struct Contact {
 
   // since detection
   Eigen::Vector3d start{0, 0, 0};  // u at detection
-  // from the response, at the last evaluation: the way it slides; force on b, and -dF/du, -dF/du', both
-  // symmetric
+  // from the response, at the last evaluation: the unit vector in which it slides; force on b, and -dF/du,
+  // -dF/du', both symmetric
   Eigen::Vector3d sliding{0, 0, 0};
   Eigen::Vector3d evaluated{0, 0, 0};
   Eigen::Matrix3d stiffnessMatrix = Eigen::Matrix3d::Zero(), dampingMatrix = Eigen::Matrix3d::Zero();
@@ -106,7 +106,7 @@ struct Contact {
                       field("frictionState", &C::frictionState, "", "what friction remembers"),
                       field("pushed", &C::pushed, "", "it pushed in the last step"),
                       field("start", &C::start, "m", "displacement at detection"),
-                      field("sliding", &C::sliding, "", "the way it slides"));
+                      field("sliding", &C::sliding, "", "direction in which it slides"));
   }
 
   ContactKey key() const {
@@ -127,7 +127,7 @@ inline Eigen::Vector3d position_of(ContactSide const& side, CollisionSurface con
 inline Eigen::Vector3d lever_of(ContactSide const& side, CollisionSurface const& s) {
   return s.orientation[std::size_t(side.vertices[0])] * side.lever;
 }
-/// A rate of a side from those of the vertices: velocity and spin, or dx and turn.
+/// A rate of a side from those of the vertices: velocity and angular velocity, or dx and its angular part.
 inline Eigen::Vector3d rate_of(ContactSide const& side, CollisionSurface const& s,
                                std::vector<Eigen::Vector3d> const& linear,
                                std::vector<Eigen::Vector3d> const& angular) {
@@ -144,7 +144,7 @@ inline void add_force(ContactSide const& side, CollisionSurface& s, Eigen::Vecto
   if (s.rigid) s.torque[std::size_t(side.vertices[0])] += lever_of(side, s).cross(f);
 }
 
-/// What answers a contact by a force: evaluate(contact, u, u') sets evaluated, stiffnessMatrix and
+/// A response to contacts by a force: evaluate(contact, u, u') sets evaluated, stiffnessMatrix and
 /// dampingMatrix for the relative displacement u and velocity u'; settle(contact, u) what it remembers for
 /// the next step.
 template <class R>
@@ -153,7 +153,7 @@ concept ContactLaw = requires(R const r, Contact c, Eigen::Vector3d u) {
   r.evaluate(c, u, u);
   r.settle(c, u);
 };
-/// What answers a contact by changing a component C that stands on a touched state, in its own way:
+/// A response to contacts that changes a component C of a touched state:
 /// touch(component, points) with the touched points of that state.
 template <class R, class C>
 concept TouchResponse = requires(R const r, C c, std::span<int const> points) {

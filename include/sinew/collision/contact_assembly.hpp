@@ -40,7 +40,7 @@ struct ContactAssembly {
     const Eigen::Matrix3d kb = -(k * c.stiffnessMatrix + b * c.dampingMatrix);
     for (Block const& x : blocks_)
       for (Block const& y : blocks_) {
-        if constexpr (Phase == AssemblyPhase::pattern) matrix.announce(x.dof, y.dof, x.columns, y.columns);
+        if constexpr (Phase == AssemblyPhase::pattern) matrix.preallocate(x.dof, y.dof, x.columns, y.columns);
         if constexpr (Phase == AssemblyPhase::add) {
           const Eigen::Matrix<double, 6, 6> all = x.rows.transpose() * kb * y.rows;
           matrix.add(

@@ -19,8 +19,8 @@
 
 namespace sinew {
 
-/// Keeps the contacts from step to step and has them answered: by the response of a model that names one,
-/// else by its own. A contact is known again by the vertices that meet; what its response remembers goes with
+/// Keeps the contacts from step to step and applies the responses to them: that of a model that names one,
+/// else its own. A contact is known again by the vertices that meet; what its response remembers goes with
 /// it. Contacts stand in the order of their keys, whatever the order in which they were found.
 ///
 /// `Responses`: laws of force (ContactLaw), and what changes components that are touched (TouchResponse).
@@ -42,7 +42,7 @@ struct ContactManager {
   static constexpr auto fields() {
     using M = ContactManager;
     return field_list(
-        field("response", &M::response, "", "class that answers contacts of models which name none"),
+        field("response", &M::response, "", "class of the response to contacts of models that name none"),
         field("capacity",
               &M::capacity,
               "",
@@ -72,7 +72,7 @@ struct ContactManager {
   std::vector<Attachment> attachments{};         // places that are held from outside
   std::vector<Contact> keptContacts{};           // those that follow a change of the scene, until init
   std::vector<Attachment> keptAttachments{};
-  bool coupleAnew = false;  // whatever the contacts are
+  bool couplesAgain = false;  // whatever the contacts are
   int lastAttachment = 0;
 
   void init(std::string const& where, std::vector<CollisionSurface*> const& all, bool again = false) {
@@ -86,7 +86,7 @@ struct ContactManager {
                            surfaces.begin()));
     if (again) contacts = std::exchange(keptContacts, {});
     attachments = std::exchange(keptAttachments, {});
-    coupleAnew = acts();
+    couplesAgain = acts();
     found.clear();
     contacts.reserve(std::size_t(capacity));
     found.reserve(std::size_t(capacity));
@@ -99,7 +99,7 @@ struct ContactManager {
     auto known = [&](std::string_view place, std::string_view name) {
       if (All::find(name) < 0)
         throw Error(place,
-                    text("contacts are to be answered by '",
+                    text("contacts ask for the response '",
                          name,
                          "', which this contact manager does not have; take one of: ",
                          All::names()));
@@ -126,9 +126,9 @@ struct ContactManager {
   }
 
   bool acts() const { return !contacts.empty() || !attachments.empty(); }
-  /// As if nothing had ever touched.
+  /// Forgets all contacts.
   void reset() {
-    coupleAnew = coupleAnew || acts();
+    couplesAgain = couplesAgain || acts();
     contacts.clear();
     listed = false;
     attachments.clear();
@@ -137,17 +137,17 @@ struct ContactManager {
   /// Holds a place from now on: the attachment with a number, which nothing else has.
   void attach(Attachment const& a) {
     attachments.push_back(a);
-    coupleAnew = true;
+    couplesAgain = true;
   }
   Attachment* attachment(int id) {
     for (Attachment& a : attachments)
       if (a.id == id) return &a;
     return nullptr;
   }
-  /// Lets go; says whether it was held.
+  /// Releases an attachment; returns whether there was one.
   bool release(int id) {
     const bool held = std::erase_if(attachments, [id](Attachment const& a) { return a.id == id; }) > 0;
-    coupleAnew = coupleAnew || held;
+    couplesAgain = couplesAgain || held;
     return held;
   }
 
@@ -173,8 +173,7 @@ struct ContactManager {
       if (stays(a.contact)) keptAttachments.push_back(a);
   }
 
-  /// What the responses remember of the step that has ended, the surfaces being where it, and what has moved
-  /// since, has brought them.
+  /// Updates what the responses remember of the step that has ended; the surfaces are at its end.
   void settle(std::vector<CollisionSurface*> const& all) {
     surfaces.assign(all.begin(), all.end());
     for (Contact& c : contacts)
@@ -205,7 +204,7 @@ struct ContactManager {
     foundVertices.list(found, bodies);
     foundVertices.dropSamePlaces(found, bodies);
     foundVertices.dropBehindOthers(found, bodies);
-    couplingChanged = std::exchange(coupleAnew, false) || found.size() != contacts.size();
+    couplingChanged = std::exchange(couplesAgain, false) || found.size() != contacts.size();
     if (!listed) ofVertices.list(contacts, bodies);
     auto old = contacts.begin();
     for (Contact& c : found) {
@@ -225,7 +224,7 @@ struct ContactManager {
     ofVertices.swap(foundVertices);
     listed = true;
     All::setStep(responses, dt);
-    for (auto* s : surfaces) s->forgetTouched();
+    for (auto* s : surfaces) s->clearTouched();
     auto touch = [&](ContactSide const& side) {
       for (int k = 0; k < side.corners(); ++k)
         surfaces[std::size_t(side.surface)]->touch(side.vertices[std::size_t(k)]);
@@ -325,13 +324,14 @@ struct ContactManager {
     auto const& second = *surfaces[std::size_t(c.b.surface)];
     Eigen::Vector3d du(0, 0, 0);
     if (second.solver == c.solver && second.settings.simulated)
-      du += rate_of(c.b, second, second.dx, second.turn);
-    if (first.solver == c.solver && first.settings.simulated) du -= rate_of(c.a, first, first.dx, first.turn);
+      du += rate_of(c.b, second, second.dx, second.angularDx);
+    if (first.solver == c.solver && first.settings.simulated)
+      du -= rate_of(c.a, first, first.dx, first.angularDx);
     return -(k * (c.stiffnessMatrix * du) + b * (c.dampingMatrix * du));
   }
   Eigen::Vector3d change(Attachment const& a, double k, double b) const {
     auto const& s = *surfaces[std::size_t(a.contact.b.surface)];
-    const Eigen::Vector3d du = rate_of(a.contact.b, s, s.dx, s.turn);
+    const Eigen::Vector3d du = rate_of(a.contact.b, s, s.dx, s.angularDx);
     return -(k * a.stiffness + b * a.damping) * du;
   }
   template <std::size_t R, class F>

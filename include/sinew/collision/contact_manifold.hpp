@@ -28,8 +28,8 @@ struct SupportPolygon {
 
   /// `side`: 1 where n leads out of the body, else -1.
   SupportPolygon(ConvexView const& body, V const& s, V const& t, V const& n, double side) {
-    const V outwards = side * (body.turn.transpose() * n), sx = body.turn.transpose() * s,
-            tx = body.turn.transpose() * t;
+    const V outwards = side * (body.rotation.transpose() * n), sx = body.rotation.transpose() * s,
+            tx = body.rotation.transpose() * t;
     const P shift(s.dot(body.shift), t.dot(body.shift));
     std::size_t first = 0;
     for (std::size_t i = 1; i < body.count; ++i)
@@ -40,15 +40,15 @@ struct SupportPolygon {
     deepestHeight = heightOf(first);
     std::array<P, directions> around;
     for (int k = 0; k < directions; ++k) around[std::size_t(k)] = direction(k, directions);
-    std::array<double, directions> most;
-    most.fill(-std::numeric_limits<double>::infinity());
+    std::array<double, directions> maximum;
+    maximum.fill(-std::numeric_limits<double>::infinity());
     std::array<int, directions> best{};
     for (std::size_t i = 0; i < body.count; ++i) {
       const P x(sx.dot(body.points[i]), tx.dot(body.points[i]));
       const double up = body.points[i].dot(outwards) / 0.2027;  // tan 0.2
       for (int k = 0; k < directions; ++k)
-        if (const double reach = x.dot(around[std::size_t(k)]) + up; reach > most[std::size_t(k)])
-          most[std::size_t(k)] = reach, best[std::size_t(k)] = int(i);
+        if (const double reach = x.dot(around[std::size_t(k)]) + up; reach > maximum[std::size_t(k)])
+          maximum[std::size_t(k)] = reach, best[std::size_t(k)] = int(i);
     }
     for (const int i : best) {
       const auto c = std::size_t(count);
@@ -95,7 +95,7 @@ struct SupportPolygon {
   }
 
   static double cross(P const& u, P const& v) { return u[0] * v[1] - u[1] * v[0]; }
-  /// One of `of` directions around; turned a little, so that no edge of a usual body is across it.
+  /// One of `of` directions around; rotated a little, so that no edge of a usual body is across it.
   static P direction(int k, int of) {
     const double angle = 0.1234567 + 2 * 3.14159265358979323846 * k / of;
     return {std::cos(angle), std::sin(angle)};
@@ -138,7 +138,7 @@ struct ManifoldPoint {
 /// that are outermost in 8 directions. Points nearer than `tolerance` are one.
 struct Manifold {
   using P = Eigen::Vector2d;
-  static constexpr int most = 8;
+  static constexpr int maximum = 8;
   std::array<ManifoldPoint, 4 * SupportPolygon::directions> points;
   int count = 0;
 
@@ -154,9 +154,10 @@ struct Manifold {
       for (int j = 0; j < b.edges(); ++j) {
         if (a.inner[std::size_t(i)] || b.inner[std::size_t(j)]) continue;
         const P u = a[a.next(i)] - a[i], v = b[b.next(j)] - b[j], d = b[j] - a[i];
-        const double turn = SupportPolygon::cross(u, v);
-        if (std::abs(turn) <= 1e-9 * u.norm() * v.norm()) continue;
-        const double s = SupportPolygon::cross(d, v) / turn, r = SupportPolygon::cross(d, u) / turn;
+        const double determinant = SupportPolygon::cross(u, v);
+        if (std::abs(determinant) <= 1e-9 * u.norm() * v.norm()) continue;
+        const double s = SupportPolygon::cross(d, v) / determinant,
+                     r = SupportPolygon::cross(d, u) / determinant;
         if (s < 0 || s > 1 || r < 0 || r > 1) continue;
         auto mix = [](auto const& body, int k, double w) {
           return (1 - w) * body.height[std::size_t(k)] + w * body.height[std::size_t(body.next(k))];
@@ -177,10 +178,10 @@ struct Manifold {
     }
   }
   void reduce() {
-    if (count <= most) return;
-    std::array<int, most> kept{};
-    for (int k = 0; k < most; ++k) {
-      const P d = SupportPolygon::direction(k, most);
+    if (count <= maximum) return;
+    std::array<int, maximum> kept{};
+    for (int k = 0; k < maximum; ++k) {
+      const P d = SupportPolygon::direction(k, maximum);
       for (int i = 1; i < count; ++i)
         if (points[std::size_t(i)].at.dot(d) > points[std::size_t(kept[std::size_t(k)])].at.dot(d))
           kept[std::size_t(k)] = i;

@@ -29,33 +29,33 @@ struct ConvexContact {
 
 namespace detail {
 
-/// Points, turned and shifted, and a ball of radius `margin` around each.
+/// Points, rotated and translated, and a ball of radius `margin` around each.
 struct ConvexView {
   using V = Vec<double, 3>;
   V const* points;
   std::size_t count;
-  Mat<double, 3> turn;
+  Mat<double, 3> rotation;
   V shift, middle;
   double radius, margin;
 
   V support(V const& d) const {
-    const V inBody = turn.transpose() * d;
+    const V inBody = rotation.transpose() * d;
     std::size_t best = 0;
-    double most = points[0].dot(inBody);
+    double maximum = points[0].dot(inBody);
     for (std::size_t i = 1; i < count; ++i)
-      if (const double h = points[i].dot(inBody); h > most) best = i, most = h;
-    return turn * points[best] + shift;
+      if (const double h = points[i].dot(inBody); h > maximum) best = i, maximum = h;
+    return rotation * points[best] + shift;
   }
 };
 
 inline ConvexView convex_view(PosedHull const& h, Vec<double, 3> const& origin) {
-  const Mat<double, 3> turn = h.pose.orientation.toRotationMatrix();
+  const Mat<double, 3> rotation = h.pose.orientation.toRotationMatrix();
   const Vec<double, 3> shift = h.pose.center - origin;
   return {h.hull.points().data(),
           h.hull.points().size(),
-          turn,
+          rotation,
           shift,
-          turn * h.hull.middle() + shift,
+          rotation * h.hull.middle() + shift,
           h.hull.radius(),
           0};
 }
@@ -145,11 +145,11 @@ class Gjk {
       bool inside = whole != 0;
       for (const double part : parts) inside = inside && part * whole > 0;
       if (inside) return true;
-      double least = std::numeric_limits<double>::infinity();
+      double minimum = std::numeric_limits<double>::infinity();
       constexpr std::array<std::array<std::size_t, 3>, 4> faces{{{0, 1, 3}, {0, 2, 3}, {1, 2, 3}, {0, 1, 2}}};
       for (auto const& face : faces)
-        if (const auto [w, square] = of(face); square < least) {
-          least = square;
+        if (const auto [w, square] = of(face); square < minimum) {
+          minimum = square;
           take(w);
           std::copy(face.begin(), face.end(), corner.begin());
         }

@@ -22,11 +22,11 @@ namespace sinew {
 /// Under a continuous method, hulls that are not yet near advance by conservative advancement (Mirtich 1996):
 /// with the distance d along n, and no point of either approaching faster than w = n.(v_a - v_b) + |w_a| r_a
 /// + |w_b| r_b, they cannot meet before d / w; the contact is where they will first meet during the step.
-/// What no solver moves comes from where it was a step before. A body that would hit askew and turn over the
-/// place that is stopped, and so pass by, is stopped as a whole: where the centres approach by more than a
-/// fifth of the radius in a step, and would come nearer than at the impact, the contact keeps them from that
-/// without a torque. In such a step angular momentum is not kept; the next ones, in which it is slow, turn
-/// it.
+/// What no solver moves comes from where it was a step before. A body that would hit askew and rotate over
+/// the place that is stopped, and so pass by, is stopped as a whole: where the centres approach by more than
+/// a fifth of the radius in a step, and would come nearer than at the impact, the contact keeps them from
+/// that without a torque. In such a step angular momentum is not kept; the next ones, in which it is slow,
+/// rotate it.
 template <Shape A, Shape B>
 struct HullContacts {
   using V = Eigen::Vector3d;
@@ -88,10 +88,10 @@ struct HullContacts {
 
     // across n, along axes of the hull, so that it shows the same corners when it moves
     Eigen::Index axis = 0;
-    const Eigen::Matrix3d turn = A == Shape::hull ? viewA.turn : viewB.turn;
+    const Eigen::Matrix3d rotation = A == Shape::hull ? viewA.rotation : viewB.rotation;
     for (Eigen::Index k = 1; k < 3; ++k)
-      if (std::abs(turn.col(k).dot(n)) < std::abs(turn.col(axis).dot(n))) axis = k;
-    const V s = n.cross(V(turn.col(axis))).normalized(), t = n.cross(s);
+      if (std::abs(rotation.col(k).dot(n)) < std::abs(rotation.col(axis).dot(n))) axis = k;
+    const V s = n.cross(V(rotation.col(axis))).normalized(), t = n.cross(s);
 
     detail::Manifold manifold;
     auto single = [&] {
@@ -120,13 +120,13 @@ struct HullContacts {
       manifold.reduce();
       if (!ofFace) {
         // nothing is nearer than the nearest, which is one of them
-        double least = std::numeric_limits<double>::infinity();
+        double minimum = std::numeric_limits<double>::infinity();
         for (int i = 0; i < manifold.count; ++i) {
           auto& p = manifold.points[std::size_t(i)];
           p.heightB = std::max(p.heightB, p.heightA + c.distance);
-          least = std::min(least, p.heightB - p.heightA);
+          minimum = std::min(minimum, p.heightB - p.heightA);
         }
-        if (!(least <= c.distance + 1e-3 * size)) single();
+        if (!(minimum <= c.distance + 1e-3 * size)) single();
       }
     }
 

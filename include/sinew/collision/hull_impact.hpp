@@ -47,21 +47,21 @@ double time_of_hull_impact(PrimitivePair<A, B> const& pair, double limit) {
   return time;
 }
 
-/// The contact of the centres: `c` with all levers along the normal, and room for what the hulls turn by in
-/// the rest of the step. None where the centres do not come so near, or are slow.
+/// The contact of the centres: `c` with all levers along the normal, and a margin for the rotation of the
+/// hulls in the rest of the step. None where the centres do not come so near, or are slow.
 template <Shape A, Shape B>
 std::optional<Contact> contact_of_centres(PrimitivePair<A, B> const& pair, MovedPair<A, B> const& at,
                                           ConvexContact const& c, double time, double limit) {
   using V = Eigen::Vector3d;
   const V n = c.direction;
-  double radius = std::numeric_limits<double>::infinity(), turns = 0;
-  auto regard = [&](auto const& p) {
+  double radius = std::numeric_limits<double>::infinity(), angularReach = 0;
+  auto consider = [&](auto const& p) {
     if (p.surface.solver < 0 || !(p.size() > 0)) return;
     const double reach = p.surface.hull->reach();
     radius = std::min(radius, p.size());
-    turns += std::min(1.0, p.surface.spin[p.vertex(0)].norm() * (pair.dt - time)) * reach;
+    angularReach += std::min(1.0, p.surface.spin[p.vertex(0)].norm() * (pair.dt - time)) * reach;
   };
-  regard(at.a), regard(at.b);
+  consider(at.a), consider(at.b);
   const double approach = at.a.centreAlong(n) - at.b.centreAlong(n);
   if (!(approach * pair.dt > 0.2 * radius)) return std::nullopt;
   Contact contact;
@@ -81,7 +81,7 @@ std::optional<Contact> contact_of_centres(PrimitivePair<A, B> const& pair, Moved
   contact.limit = limit;
   const double gap =
       n.dot(position_of(contact.b, pair.b) - position_of(contact.a, pair.a)) - contact.thickness;
-  const double room = std::clamp(gap - limit, 0.0, turns);
+  const double room = std::clamp(gap - limit, 0.0, angularReach);
   contact.thickness += room;
   contact.distance = gap - room;
   if (!(contact.distance - approach * pair.dt < limit)) return std::nullopt;

@@ -26,9 +26,9 @@ struct MovedPrimitive {
       corners[c] = s.position[vertex(c)] + time * s.velocity[vertex(c)];
     if constexpr (isHull) {
       orientation = s.orientation[vertex(0)];
-      const V turn = time * s.spin[vertex(0)];
-      if (const double angle = turn.norm(); angle > 0)
-        orientation = Eigen::Quaterniond(Eigen::AngleAxisd(angle, V(turn / angle))) * orientation;
+      const V rotation = time * s.spin[vertex(0)];
+      if (const double angle = rotation.norm(); angle > 0)
+        orientation = Eigen::Quaterniond(Eigen::AngleAxisd(angle, V(rotation / angle))) * orientation;
     }
   }
   std::size_t vertex(std::size_t c) const { return std::size_t(surface.elements[std::size_t(element)][c]); }
@@ -40,16 +40,16 @@ struct MovedPrimitive {
       return convex_view(corners, origin);
   }
   double centreAlong(V const& n) const {
-    double most = -std::numeric_limits<double>::infinity();
+    double maximum = -std::numeric_limits<double>::infinity();
     for (std::size_t c = 0; c < corners.size(); ++c)
-      most = std::max(most, n.dot(surface.velocity[vertex(c)]));
-    return most;
+      maximum = std::max(maximum, n.dot(surface.velocity[vertex(c)]));
+    return maximum;
   }
   /// No point goes faster along n [m/s].
   double fastestAlong(V const& n) const {
-    double most = centreAlong(n);
-    if constexpr (isHull) most += surface.spin[vertex(0)].norm() * surface.hull->reach();
-    return most;
+    double maximum = centreAlong(n);
+    if constexpr (isHull) maximum += surface.spin[vertex(0)].norm() * surface.hull->reach();
+    return maximum;
   }
 };
 
@@ -78,7 +78,7 @@ Eigen::Vector3d weights_at(std::array<Eigen::Vector3d, N> const& p, Eigen::Vecto
 /// `towards` points to.
 struct TriangleAround {
   Eigen::Vector3d normal{0, 0, 0};  // towards the one that it meets, of length 1; 0 where it has no area
-  double side = 1;                  // that is, this times the normal of the corners in turn
+  double side = 1;                  // that is, this times the normal of the corners in their order
   std::array<bool, 3> inner{false, false, false};
 
   TriangleAround(CollisionSurface const& s, int element, std::array<Eigen::Vector3d, 3> const& p,
@@ -94,9 +94,9 @@ struct TriangleAround {
       const auto e = s.elements[std::size_t(element)];
       const Eigen::Vector3d start = s.position[std::size_t(e[c])],
                             along = s.position[std::size_t(e[(c + 1) % 3])] - start;
-      Eigen::Vector3d way = s.position[std::size_t(other)] - start;
-      way -= way.dot(along) / std::max(along.squaredNorm(), 1e-300) * along;
-      inner[c] = way.dot(normal) >= -0.02 * way.norm();
+      Eigen::Vector3d direction = s.position[std::size_t(other)] - start;
+      direction -= direction.dot(along) / std::max(along.squaredNorm(), 1e-300) * along;
+      inner[c] = direction.dot(normal) >= -0.02 * direction.norm();
     }
   }
   /// Whether a place with these weights is inside the surface, not at a border or a ridge.

@@ -36,17 +36,17 @@ struct alignas(8 * sizeof(Real)) PackedBox {
 #if defined(__CUDACC__)  // whose front end has no such types
 #elif defined(__AVX__)
     if constexpr (sizeof(Real) == 8) {
-      const __m256d least = _mm256_set1_pd(-margin);
+      const __m256d minimum = _mm256_set1_pd(-margin);
       const __m256d a = _mm256_add_pd(_mm256_load_pd(low), _mm256_load_pd(other.high));
       const __m256d b = _mm256_add_pd(_mm256_load_pd(high), _mm256_load_pd(other.low));
-      return _mm256_movemask_pd(_mm256_and_pd(_mm256_cmp_pd(a, least, _CMP_GE_OQ),
-                                              _mm256_cmp_pd(b, least, _CMP_GE_OQ))) == 15;
+      return _mm256_movemask_pd(_mm256_and_pd(_mm256_cmp_pd(a, minimum, _CMP_GE_OQ),
+                                              _mm256_cmp_pd(b, minimum, _CMP_GE_OQ))) == 15;
     }
 #elif defined(__SSE2__)
     if constexpr (sizeof(Real) == 8) {
-      const __m128d least = _mm_set1_pd(-margin);
+      const __m128d minimum = _mm_set1_pd(-margin);
       auto reach = [&](Real const* a, Real const* b) {
-        return _mm_cmpge_pd(_mm_add_pd(_mm_load_pd(a), _mm_load_pd(b)), least);
+        return _mm_cmpge_pd(_mm_add_pd(_mm_load_pd(a), _mm_load_pd(b)), minimum);
       };
       return _mm_movemask_pd(
                  _mm_and_pd(_mm_and_pd(reach(low, other.high), reach(low + 2, other.high + 2)),

@@ -16,12 +16,12 @@ namespace sinew {
 ///
 /// One linear step has to know beforehand whether the contact sticks or slides. It goes on as at the end of
 /// the step before: what stuck within the cone sticks, by a spring that is as implicit as the normal one;
-/// what left the cone slides, against mu N of the end of the step before, until it has turned back within a
+/// what left the cone slides, against mu N of the end of the step before, until it has reversed within a
 /// step. What pushes for the first time, or in an impact, slides against mu N in the direction of the
 /// velocity at the end of the step: found deep, N is 1 + k dt^2/m times what it will be, and would throw it
 /// back otherwise. Asked of the velocity at the start of the step instead, a spring with k dt^2 > m would
-/// slide and stick in turn for ever; and the N of where that velocity would lead is, in an impact, 1 + k
-/// dt^2/m times what it will be.
+/// alternate between sliding and sticking for ever; and the N of where that velocity would lead is, in an
+/// impact, 1 + k dt^2/m times what it will be.
 struct PenalityContactForceField {
   static constexpr std::string_view className = "PenalityContactForceField";
   static constexpr std::string_view aliases = "PenalityContact PenaltyContact FrictionContact default";
@@ -46,19 +46,19 @@ struct PenalityContactForceField {
 
 namespace sinew::detail {
 
-/// What friction holds against: the tangential displacement `way` since the contact sticks; where that asks
-/// for more than the cone of Coulomb allows, as much as it allows.
+/// The tangential displacement since the contact sticks, and the part of it, `slip`, whose spring force stays
+/// in the cone of Coulomb.
 struct Friction {
-  Eigen::Vector3d way, slip;
-  double most;  // |slip| at the edge of the cone
+  Eigen::Vector3d tangential, slip;
+  double bound;  // |slip| at the edge of the cone
   bool slides;
 
   Friction(Contact const& c, Eigen::Vector3d const& displacement, double normalForce)
-      : way(displacement - c.normal.dot(displacement) * c.normal),
-        slip(way),
-        most(c.friction * normalForce / c.stiffness),
-        slides(way.norm() > most) {
-    if (slides) slip *= most / way.norm();
+      : tangential(displacement - c.normal.dot(displacement) * c.normal),
+        slip(tangential),
+        bound(c.friction * normalForce / c.stiffness),
+        slides(tangential.norm() > bound) {
+    if (slides) slip *= bound / tangential.norm();
   }
 };
 
@@ -84,28 +84,28 @@ SINEW_ONCE void PenalityContactForceField::evaluate(Contact& c, Eigen::Vector3d 
   c.stiffnessMatrix = c.stiffness * nn;
   c.dampingMatrix = c.damping * nn;
   if (!(c.friction > 0)) return;
-  const Eigen::Vector3d way = c.frictionState.slip + (u - c.start),
-                        next = c.implicit ? Eigen::Vector3d(way + dt * rate) : way;
+  const Eigen::Vector3d tangential = c.frictionState.slip + (u - c.start),
+                        next = c.implicit ? Eigen::Vector3d(tangential + dt * rate) : tangential;
   const detail::Friction friction(c, next, elasticPush(c, u));
   const bool stuck = c.implicit && c.frictionState.mode == FrictionState::Mode::sticks;
   if (stuck || !friction.slides) {
-    c.evaluated -= c.stiffness * (way - c.normal.dot(way) * c.normal);
+    c.evaluated -= c.stiffness * (tangential - c.normal.dot(tangential) * c.normal);
     c.stiffnessMatrix += c.stiffness * along;
     return;
   }
-  c.sliding = friction.way.normalized();
+  c.sliding = friction.tangential.normalized();
   const Eigen::Vector3d along1 = along * rate;
-  const double most = c.stiffness * friction.most, speed = along1.norm();
-  if (c.implicit && !c.frictionState.isSteady() && most > 0 && speed > 0) {
-    // mu N / |v| v, in which only v is of the end of the step: what an impact brings to rest does not turn
-    c.evaluated -= most / speed * along1;
-    c.dampingMatrix += most / speed * along;
+  const double bound = c.stiffness * friction.bound, speed = along1.norm();
+  if (c.implicit && !c.frictionState.isSteady() && bound > 0 && speed > 0) {
+    // mu N / |v| v, in which only v is of the end of the step: what an impact brings to rest does not reverse
+    c.evaluated -= bound / speed * along1;
+    c.dampingMatrix += bound / speed * along;
     return;
   }
-  // the force keeps its size and turns with the direction t: -dF/du = k m/|s| (I - nn' - tt'), but for a
+  // the force keeps its size and rotates with the direction t: -dF/du = k m/|s| (I - nn' - tt'), but for a
   // part that goes with the normal force and is not symmetric
-  c.evaluated -= most * c.sliding;
-  c.stiffnessMatrix += (most / friction.way.norm()) * (along - c.sliding * c.sliding.transpose());
+  c.evaluated -= bound * c.sliding;
+  c.stiffnessMatrix += (bound / friction.tangential.norm()) * (along - c.sliding * c.sliding.transpose());
 }
 
 SINEW_ONCE void PenalityContactForceField::settle(Contact& c, Eigen::Vector3d const& u) const {
@@ -115,9 +115,9 @@ SINEW_ONCE void PenalityContactForceField::settle(Contact& c, Eigen::Vector3d co
   const double push = elasticPush(c, u);
   FrictionState& state = c.frictionState;
   const detail::Friction friction(c, state.slip + moved, push);
-  const bool slid = !c.sliding.isZero(0), turnedBack = moved.dot(c.sliding) <= 0;
+  const bool slid = !c.sliding.isZero(0), reversed = moved.dot(c.sliding) <= 0;
   state.slip = friction.slip;
-  const bool slides = slid ? !turnedBack : friction.slides;
+  const bool slides = slid ? !reversed : friction.slides;
   state.mode = !(push > 0) ? FrictionState::Mode::apart
                : slides    ? FrictionState::Mode::slides
                            : FrictionState::Mode::sticks;

@@ -15,8 +15,8 @@ namespace sinew {
 template <Shape S>
 using ShapeCorners = std::array<Eigen::Vector3d, std::size_t(corners_of(S))>;
 
-/// Two primitives of two surfaces, seen by an intersection method: their corners, and the way these go during
-/// the step. Spheres are points here; radiusOf() of their surfaces is around them.
+/// Two primitives of two surfaces, seen by an intersection method: their corners, and the motion of these
+/// during the step. Spheres are points here; radiusOf() of their surfaces is around them.
 template <Shape A, Shape B>
 struct PrimitivePair {
   CollisionSurface const &a, &b;

@@ -76,13 +76,13 @@ SINEW_ONCE RayHit ray_segment(Ray const& ray, std::array<Eigen::Vector3d, 2> con
   const double ee = e.squaredNorm(), ed = e.dot(ray.direction), ew = e.dot(w), dw = ray.direction.dot(w);
   const double across = ee - ed * ed;  // ee sin^2 of the angle between
   RayHit best;
-  double least = std::numeric_limits<double>::infinity();
+  double minimum = std::numeric_limits<double>::infinity();
   auto consider = [&](double s) {
     s = std::clamp(s, 0.0, 1.0);
     const double t = std::max(0.0, dw + s * ed);
     const double distance = (w + s * e - t * ray.direction).norm();
-    if (!(distance <= tolerance) || distance > least || (distance == least && t >= best.distance)) return;
-    least = distance;
+    if (!(distance <= tolerance) || distance > minimum || (distance == minimum && t >= best.distance)) return;
+    minimum = distance;
     best = {t, {1 - s, s, 0}};
   };
   consider(0);

@@ -118,12 +118,12 @@ struct SimplexFrame {
         }
       }
       std::size_t best = 0;
-      Real bestS = 0, least = std::numeric_limits<Real>::infinity();
+      Real bestS = 0, minimum = std::numeric_limits<Real>::infinity();
       for (std::size_t k = 0; k < 3; ++k) {
         const Vec<Real, 3> fromStart = k == 0 ? r : k == 1 ? r - edges[0].along : r - second;
         const Real s = edges[k].nearest(fromStart);
         const Real square = (fromStart - s * edges[k].along).squaredNorm();
-        if (square < least) best = k, bestS = s, least = square;
+        if (square < minimum) best = k, bestS = s, minimum = square;
       }
       return edges[best].weights(bestS);
     }

@@ -14,8 +14,8 @@ using PrimitiveCorners = std::array<int, 3>;  // of a primitive, -1 behind the l
 
 std::vector<PrimitiveCorners> points_of(TopologyView const&, std::size_t points);
 
-/// The surface of the volume elements of a topology, turned outwards, whatever of it is listed, so that it is
-/// that of what is left when some are removed; then the triangles and quads that are no part of it. Quads
+/// The surface of the volume elements of a topology, oriented outwards, whatever of it is listed, so that it
+/// is that of what is left when some are removed; then the triangles and quads that are no part of it. Quads
 /// are cut in two. Where positions are given, elements of negative volume have their outside outside, too.
 std::vector<PrimitiveCorners> triangles_of(TopologyView const& t,
                                            std::span<Eigen::Vector3d const> positions = {});

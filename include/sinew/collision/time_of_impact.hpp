@@ -54,9 +54,9 @@ struct MovingPair {
     Real time = std::numeric_limits<Real>::infinity();
     for (std::size_t i = 0; i < NA; ++i)
       for (std::size_t j = 0; j < NB; ++j) {
-        const Real room = (b[j] - a[i]).dot(n) - gap, rate = (motionA[i] - motionB[j]).dot(n);
-        if (!(room > 0)) return 0;
-        if (rate > 0) time = std::min(time, room / rate);
+        const Real slack = (b[j] - a[i]).dot(n) - gap, rate = (motionA[i] - motionB[j]).dot(n);
+        if (!(slack > 0)) return 0;
+        if (rate > 0) time = std::min(time, slack / rate);
       }
     return time;
   }
@@ -79,9 +79,9 @@ struct MovingPair {
 ///   sigma = max(relativeGap min(d0 - thickness, max(thickness, extent)), 32 eps size),
 /// d0 the distance at time 0, extent the largest coordinate of an edge then (two points without thickness:
 /// d0), size the largest coordinate of a distance or a motion. So an approach that comes as near as this is
-/// reported, though it may turn back or pass by. Rounding moves the distance by an eighth of sigma at most.
+/// reported, though it may reverse or pass by. Rounding moves the distance by an eighth of sigma at most.
 /// After maxIterations steps the time reached is the answer, which is earlier; two steps are usual, more than
-/// 100 rare (turning needles). 0 where d0 exceeds the thickness by less than 32 eps size, or not at all,
+/// 100 rare (rotating needles). 0 where d0 exceeds the thickness by less than 32 eps size, or not at all,
 /// whatever the motion.
 template <class Real, std::size_t NA, std::size_t NB>
 std::optional<Real> time_of_impact(std::array<Vec<Real, 3>, NA> const& a0,
@@ -90,16 +90,16 @@ std::optional<Real> time_of_impact(std::array<Vec<Real, 3>, NA> const& a0,
                                    std::array<Vec<Real, 3>, NB> const& b1, Real thickness = 0,
                                    Real relativeGap = Real(1e-3), int maxIterations = 1000) {
   detail::MovingPair<Real, NA, NB> pair(a0, a1, b0, b1);
-  const Real least = 32 * std::numeric_limits<Real>::epsilon() * pair.size;
-  Real t = 0, sigma = least;
+  const Real resolution = 32 * std::numeric_limits<Real>::epsilon() * pair.size;
+  Real t = 0, sigma = resolution;
   for (int i = 0; i < maxIterations; ++i) {
     pair.moveTo(t);
     const auto closest = closest_points(pair.a, pair.b);
     const Real distance = std::sqrt(closest.squaredDistance);
     if (i == 0) {
-      if (!(distance > thickness + least)) return Real(0);
+      if (!(distance > thickness + resolution)) return Real(0);
       const Real start = distance - thickness, scale = std::max(thickness, pair.extent);
-      sigma = std::max(least, relativeGap * (scale > 0 ? std::min(start, scale) : start));
+      sigma = std::max(resolution, relativeGap * (scale > 0 ? std::min(start, scale) : start));
     }
     if (distance <= thickness + sigma) return t;
     const Real gap = thickness + sigma / 2;

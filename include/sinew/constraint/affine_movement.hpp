@@ -60,9 +60,9 @@ struct AffineMovementConstraint {
       typename D::Coord end = start.back();
       if constexpr (D::rigid && n == 3) {
         const Eigen::Vector4d q = unit<Movement>(context, "quaternion", quaternion);
-        const Quat<double> turn(q[3], q[0], q[1], q[2]);
-        a = turn.toRotationMatrix();
-        end.orientation = turn.template cast<Real>() * end.orientation;
+        const Quat<double> rotate(q[3], q[0], q[1], q[2]);
+        a = rotate.toRotationMatrix();
+        end.orientation = rotate.template cast<Real>() * end.orientation;
       } else if constexpr (D::rigid) {
         end.orientation += Real(std::atan2(a(1, 0), a(0, 0)));
       }

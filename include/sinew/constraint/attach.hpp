@@ -40,24 +40,25 @@ struct AttachProjectiveConstraint {
 
   static constexpr auto fields() {
     using F = AttachProjectiveConstraint;
-    return field_list(
-        field("indices1", &F::indices1, "", "points of the first body", range::nonNegative)
-            .numbersOf(Of::points),
-        field("indices2",
-              &F::indices2,
-              "",
-              "points of the second that are attached to them",
-              range::nonNegative)
-            .numbersOf(Of::secondPoints),
-        field("twoWay", &F::twoWay, "", "the first body feels the second"),
-        field(
-            "freeRotations", &F::freeRotations, "", "rigid bodies turn freely about where they are attached"),
-        field("constraintFactor",
-              &F::constraintFactor,
-              "",
-              "whether each pair is attached, 1 or 0; all are where none is given",
-              range::closed(0, 1))
-            .oneEach(Of::entries));
+    return field_list(field("indices1", &F::indices1, "", "points of the first body", range::nonNegative)
+                          .numbersOf(Of::points),
+                      field("indices2",
+                            &F::indices2,
+                            "",
+                            "points of the second that are attached to them",
+                            range::nonNegative)
+                          .numbersOf(Of::secondPoints),
+                      field("twoWay", &F::twoWay, "", "the first body feels the second"),
+                      field("freeRotations",
+                            &F::freeRotations,
+                            "",
+                            "rigid bodies rotate freely about where they are attached"),
+                      field("constraintFactor",
+                            &F::constraintFactor,
+                            "",
+                            "whether each pair is attached, 1 or 0; all are where none is given",
+                            range::closed(0, 1))
+                          .oneEach(Of::entries));
   }
 
   struct Member {
@@ -107,14 +108,14 @@ struct AttachProjectiveConstraint {
     }
     members.clear();
     groups.assign(1, 0);
-    std::size_t most = 0;
+    std::size_t maximum = 0;
     for (auto& group : found) {
       weigh(group, a, b);
       members.insert(members.end(), group.begin(), group.end());
       groups.push_back(members.size());
-      most = std::max(most, group.size());
+      maximum = std::max(maximum, group.size());
     }
-    dofs.assign(most, 0);
+    dofs.assign(maximum, 0);
   }
 
   template <class... V>
@@ -147,9 +148,10 @@ struct AttachProjectiveConstraint {
     const std::array<VecCoord*, sizeof...(X)> states{&x...};
     forEachGroup([&](std::span<Member const> group) {
       auto mean = of(states, group[0]);
-      typename D::Deriv way = D::Deriv::Zero();
-      for (Member const& m : group) way += m.weight * D::difference(of(states, group[0]), of(states, m));
-      D::increment(mean, way);
+      typename D::Deriv displacement = D::Deriv::Zero();
+      for (Member const& m : group)
+        displacement += m.weight * D::difference(of(states, group[0]), of(states, m));
+      D::increment(mean, displacement);
       for (Member const& m : group)
         if (freeRotations)
           D::setCenter(of(states, m), D::center(mean));
@@ -158,12 +160,12 @@ struct AttachProjectiveConstraint {
     });
   }
 
-  /// Room in the matrix for what joined points share.
+  /// Adds the blocks between joined points to the pattern of the matrix.
   template <class Sink>
-  void announce(Sink const& sink) {
+  void preallocate(Sink const& sink) {
     if (twoWay)
       forEachGroup(
-          [&](std::span<Member const> group) { sink.announceMean(dofsOf(sink, group), coordinates()); });
+          [&](std::span<Member const> group) { sink.preallocateMean(dofsOf(sink, group), coordinates()); });
   }
   template <class Sink>
   void projectMatrix(Sink const& sink) {

@@ -94,7 +94,7 @@ void set_center(typename D::Coord& x, Vec<typename D::Real, D::spatial> const& c
     x.template head<D::spatial>() = center;
 }
 
-/// Puts the centres of points to one place, or gives them one velocity, without turning.
+/// Puts the centres of points to one place, or gives them one velocity, without rotation.
 template <class D>
 void place_points(typename D::VecCoord& x, std::vector<int> const& indices,
                   Vec<double, D::spatial> const& place) {

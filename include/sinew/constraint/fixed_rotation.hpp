@@ -7,11 +7,11 @@
 
 namespace sinew {
 
-/// Rigid bodies do not turn about some of the world's axes. With q the turn from rest, as a quaternion in
-/// world axes:
+/// Rigid bodies do not rotate about some of the world's axes. With q the rotation from rest, as a quaternion
+/// in world axes:
 ///   three axes  q = 1
-///   two axes    q is a turn about the third
-///   one axis n  q has no twist about it, q.n = 0 (it is a turn about some axis across n); the angular
+///   two axes    q is a rotation about the third
+///   one axis n  q has no twist about it, q.n = 0 (it is a rotation about some axis across n); the angular
 ///   velocity
 ///               then has no part along q_w n + q x n, as d/dt (q.n) = w.(q_w n + q x n)/2 says
 /// (SOFA removes the twists about the axes one after the other, which for two axes and more depends on the
@@ -34,9 +34,9 @@ struct FixedRotationConstraint {
   static constexpr auto fields() {
     using F = FixedRotationConstraint;
     return field_list(
-        field("FixedXRotation", &F::fixedXRotation, "", "no turning about the x axis of the world"),
-        field("FixedYRotation", &F::fixedYRotation, "", "no turning about the y axis of the world"),
-        field("FixedZRotation", &F::fixedZRotation, "", "no turning about the z axis of the world"));
+        field("FixedXRotation", &F::fixedXRotation, "", "no rotation about the x axis of the world"),
+        field("FixedYRotation", &F::fixedYRotation, "", "no rotation about the y axis of the world"),
+        field("FixedZRotation", &F::fixedZRotation, "", "no rotation about the z axis of the world"));
   }
 
   std::vector<Quat<Real>> rest{};
@@ -50,8 +50,8 @@ struct FixedRotationConstraint {
 
   void projectResponse(VecDeriv& dx) const {
     for (std::size_t i = 0; i < free.size(); ++i) {
-      auto turn = dx[i].template tail<3>();
-      turn = (free[i] * turn).eval();
+      auto angular = dx[i].template tail<3>();
+      angular = (free[i] * angular).eval();
     }
   }
   template <class Sink>
@@ -94,7 +94,7 @@ struct FixedRotationConstraint {
     const bool one = count() == 1;
     return fixedXRotation == one ? Vec3::UnitX() : fixedYRotation == one ? Vec3::UnitY() : Vec3::UnitZ();
   }
-  /// The turn about n in q; none where q is half a turn about an axis across n, and any would do.
+  /// The rotation about n in q; the identity where q is half a turn about an axis across n, and any would do.
   static Quat<Real> twist(Quat<Real> const& q, Vec3 const& n) {
     Quat<Real> t(q.w(), 0, 0, 0);
     t.vec() = n * n.dot(q.vec());

@@ -12,7 +12,7 @@ namespace sinew {
 /// (Hermite's polynomials) the path is x = X0 H0(s) + dX0 H1(s) + X1 H2(s) + dX1 H3(s), and s itself goes
 /// from 0 to 1 as s = SX0 H1(u) + H2(u) + SX1 H3(u), with the second numbers of SX0 and SX1: slopes of 1 at
 /// both ends make s = u, slopes of 0 start and end at rest. Rigid bodies move with their centre and do not
-/// turn.
+/// rotate.
 template <class D>
 struct HermiteSplineConstraint {
   using Role = role::ProjectiveConstraint;

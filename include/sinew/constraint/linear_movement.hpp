@@ -2,7 +2,7 @@
 #pragma once
 
 #include <sinew/constraint/constrained_points.hpp>
-#include <sinew/core/euler.hpp>
+#include <sinew/core/placement.hpp>
 
 #include <numbers>
 #include <vector>
@@ -11,8 +11,8 @@ namespace sinew {
 
 /// Points move as given at key times, linearly between them: by a movement from their rest positions, or
 /// through absolute positions. Outside of the key times they are free. The last three numbers of a movement
-/// of a rigid body in space are angles [rad] about x, then y, then z; between two orientations it turns about
-/// one axis.
+/// of a rigid body in space are angles [rad] about x, then y, then z; between two orientations it rotates
+/// about one axis.
 template <class D>
 struct LinearMovementConstraint {
   using Role = role::ProjectiveConstraint;
@@ -24,7 +24,7 @@ struct LinearMovementConstraint {
   using VecDeriv = typename D::VecDeriv;
   static constexpr std::string_view className = "LinearMovementConstraint";
   static constexpr std::string_view aliases = "LinearMovementProjectiveConstraint";
-  static constexpr bool turns = D::rigid && D::spatial == 3;
+  static constexpr bool rotates = D::rigid && D::spatial == 3;
 
   std::vector<int> indices{0};
   std::vector<double> keyTimes{0};
@@ -52,7 +52,7 @@ struct LinearMovementConstraint {
     check_key_times<LinearMovementConstraint>(context, keyTimes, movements.size(), "movements");
     start.clear();
     for (const int i : indices) start.push_back(relativeMovements ? context.rest[std::size_t(i)] : D::zero());
-    if constexpr (turns) {
+    if constexpr (rotates) {
       orientations.assign(movements.size(), D::zero());
       for (std::size_t k = 0; k < movements.size(); ++k)
         orientations[k].orientation =
@@ -81,7 +81,7 @@ struct LinearMovementConstraint {
     for (std::size_t k = 0; k < indices.size(); ++k) {
       Coord& place = x[std::size_t(indices[k])];
       place = start[k];
-      if constexpr (turns) {
+      if constexpr (rotates) {
         place.center += m.template head<3>();
         place.orientation = place.orientation * orientations[key.first].orientation.slerp(
                                                     Real(key.part), orientations[key.first + 1].orientation);
@@ -97,10 +97,10 @@ struct LinearMovementConstraint {
     const KeyInterval key = key_interval(keyTimes, time);
     Deriv rate = (movements[key.first + 1] - movements[key.first]) / Real(key.length);
     for (std::size_t k = 0; k < indices.size(); ++k) {
-      if constexpr (turns) {
-        const Deriv turn =
+      if constexpr (rotates) {
+        const Deriv angularRate =
             D::difference(orientations[key.first], orientations[key.first + 1]) / Real(key.length);
-        rate.template tail<3>() = start[k].orientation * turn.template tail<3>();
+        rate.template tail<3>() = start[k].orientation * angularRate.template tail<3>();
       }
       v[std::size_t(indices[k])] = rate;
     }

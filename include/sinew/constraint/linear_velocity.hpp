@@ -81,11 +81,11 @@ struct LinearVelocityConstraint {
   void projectPosition(double time, VecCoord& x) {
     active = moves(time);
     if (!given(time)) return;
-    const Deriv way = integral(time);
+    const Deriv displacement = integral(time);
     for (std::size_t k = 0; k < indices.size(); ++k) {
       Coord& place = x[std::size_t(indices[k])];
       Coord moved = start[k];
-      D::increment(moved, way);
+      D::increment(moved, displacement);
       if constexpr (D::rigid) {
         for (int c = 0; c < D::spatial; ++c)
           if (mask[std::size_t(c)]) place.center[c] = moved.center[c];

@@ -10,7 +10,7 @@ namespace sinew {
 /// Points fly between two times along the parabola through P1, P2 and P3, with constant velocity along P1P3,
 /// and are free before and after. With r from 0 to 1 in time, a = P1P2.P1P3 / |P1P3|^2 and h = P1P2 - a P1P3:
 ///   x = P1 + r P1P3 + h r (1 - r) / (a (1 - a))
-/// Rigid bodies move with their centre and do not turn.
+/// Rigid bodies move with their centre and do not rotate.
 template <class D>
 struct ParabolicConstraint {
   using Role = role::ProjectiveConstraint;

@@ -8,7 +8,7 @@
 
 namespace sinew {
 
-/// Points stay in one place, wherever they start. Rigid bodies turn about it freely.
+/// Points stay in one place, wherever they start. Rigid bodies rotate about it freely.
 template <class D>
 struct ProjectToPointConstraint {
   using Role = role::ProjectiveConstraint;

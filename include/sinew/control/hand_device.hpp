@@ -11,8 +11,8 @@ namespace sinew {
 /// hand's grip, a spring and damper, draws to where the person wants it to be, and which feels the force F of
 /// the loop, constant from one write to the next read.
 ///   m x'' = F - b x' - k (x - x_t) - c (x' - x_t')                                              [N]
-/// The motion between two reads is exact for a target that moves straight on; turns likewise, exact about one
-/// axis. A stiffness and damping of 0 is a device that nobody holds. target(time) is a Rigid3d::Coord.
+/// The motion between two reads is exact for a target that moves straight on; rotations likewise, exact about
+/// one axis. A stiffness and damping of 0 is a device without a hand. target(time) is a Rigid3d::Coord.
 template <class Target>
 struct HandDevice {
   static constexpr std::string_view className = "HandDevice";

@@ -36,7 +36,8 @@ struct ToolTarget {
 /// One tick of a haptic loop, without threads and clocks. A virtual coupling (Colgate, Stanley and Brown
 /// 1995, Issues in the haptic display of tool use; Adams and Hannaford 1999), a spring and damper between
 /// device and simulated tool,
-///   F = K (x_tool - x) + B (v_tool - v),  torque = K_a t + B_a (w_tool - w),  t the turn from device to tool
+///   F = K (x_tool - x) + B (v_tool - v),  torque = K_a t + B_a (w_tool - w),  t the rotation from device to
+///   tool
 /// where v is the difference of the last two poses over the time between, and the tool is where its last
 /// state and velocity say. Force and torque are clamped. They rise from zero, and fall to zero when the
 /// simulation has said nothing new for `staleTime`; a pose or tool that is not finite counts as none.
@@ -133,7 +134,7 @@ struct HapticController {
 
   // from tick to tick
   ToolTarget reading{};  // the last good pose of the device
-  bool seen = false;     // that of this tick is good
+  bool hasReading = false;  // that of this tick is good
   ToolState tool{};
   bool hasTool = false;
   double arrival = 0;  // when the loop had the last state of the tool
@@ -143,7 +144,7 @@ struct HapticController {
   /// Before the first tick.
   void restart() {
     reading = {}, tool = {};
-    seen = hasTool = false;
+    hasReading = hasTool = false;
     arrival = gain = 0;
     badPoses = badTools = staleTicks = 0;
   }
@@ -152,13 +153,13 @@ struct HapticController {
   void observe(double time, DeviceState const& device) {
     const double norm = device.pose.orientation.norm();
     if (!Rigid3d::finite(device.pose) || !(norm > 0.5 && norm < 2)) {
-      seen = false;
+      hasReading = false;
       ++badPoses;
       return;
     }
     const Rigid3d::Coord pose{orientationBase * (scale * device.pose.center) + positionBase,
                               orientationBase * device.pose.orientation.normalized()};
-    if (seen) {
+    if (hasReading) {
       // a tick that comes soon after a late one does not magnify the steps of the device's encoders
       const double dt = std::max(time - reading.time, period());
       const Rigid3d::Deriv v = Rigid3d::difference(reading.pose, pose) / dt;
@@ -169,7 +170,7 @@ struct HapticController {
     reading.pose = pose;
     reading.buttons = device.buttons;
     reading.time = time;
-    seen = true;
+    hasReading = true;
   }
 
   /// A new state of the tool, at a time [s].
@@ -189,7 +190,7 @@ struct HapticController {
     staleTicks += stale;
     const double change = rampTime > 0 ? std::min(1.0, period() / rampTime) : 1.0;
     gain = std::clamp(gain + (stale || !activate ? -change : change), 0.0, 1.0);
-    if (!seen) gain = 0;  // where the device is not known, there is no safe force
+    if (!hasReading) gain = 0;  // where the device is not known, there is no safe force
     if (gain == 0) return {};
     Rigid3d::Coord place = tool.pose;
     Rigid3d::increment(place,
@@ -205,9 +206,9 @@ struct HapticController {
  private:
   // of the scene, as the hand feels it
   double felt(double value) const { return forceCoef * scale * value; }
-  static Eigen::Vector3d clamped(Eigen::Vector3d const& v, double most) {
+  static Eigen::Vector3d clamped(Eigen::Vector3d const& v, double maximum) {
     const double norm = v.norm();
-    return norm > most ? Eigen::Vector3d(v * (most / norm)) : v;
+    return norm > maximum ? Eigen::Vector3d(v * (maximum / norm)) : v;
   }
 };
 

@@ -59,7 +59,7 @@ class HapticLoop {
   ~HapticLoop() { end(); }
 
   void start() {
-    if (thread_.joinable()) throw Error("HapticLoop", "the loop runs already; stop() it first");
+    if (thread_.joinable()) throw Error("HapticLoop", "the loop is running already; call stop() first");
     controller_.restart();
     tools_.update();  // what is left of the last run
     steps_ = {};
@@ -67,7 +67,7 @@ class HapticLoop {
     // one pose is there before the simulation asks
     epoch_ = Clock::now();
     controller_.observe(0, device_.read(0));
-    if (!controller_.seen)
+    if (!controller_.hasReading)
       throw Error("HapticLoop", "the first pose of the device is not finite; check the device");
     targets_.write(controller_.reading);
     targets_.update();
@@ -195,7 +195,7 @@ class HapticLoop {
       const Clock::time_point woken = Clock::now();
       const double now = std::chrono::duration<double>(woken - epoch_).count();
       controller_.observe(now, device_.read(now));
-      if (controller_.seen) targets_.write(controller_.reading);
+      if (controller_.hasReading) targets_.write(controller_.reading);
       if (tools_.update()) controller_.accept(now, tools_.read());
       const Wrench wrench = controller_.wrench(now);
       device_.write(wrench);

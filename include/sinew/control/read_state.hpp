@@ -3,7 +3,7 @@
 
 #include <sinew/control/trajectory.hpp>
 #include <sinew/core/component.hpp>
-#include <sinew/core/euler.hpp>
+#include <sinew/core/placement.hpp>
 #include <sinew/io/state_file.hpp>
 
 #include <vector>
@@ -53,7 +53,7 @@ struct ReadState {
         field("shift", &F::shift, "s", "time of the trajectory at time 0 of the scene"),
         field("loop", &F::loop, "", "starts again after the last time"),
         field("scalePos", &F::scalePos, "", "stretches the trajectory"),
-        field("rotation", &F::rotation, "degree", "turns the trajectory, about x, then y, then z"),
+        field("rotation", &F::rotation, "degree", "rotates the trajectory, about x, then y, then z"),
         field("translation", &F::translation, "m", "moves the trajectory"),
         field("keyTimes", &F::keyTimes, "s", "times of the keys, where there is no file, in rising order"),
         field("keyPositions", &F::keyPositions, "m", "positions of all points at each key time"),
@@ -192,18 +192,18 @@ struct ReadState {
     const Eigen::Vector3d none(0, 0, 0);
     if (scalePos == 1 && rotation == none && translation == none) return;
     if constexpr (D::spatial == 3) {
-      const Eigen::Quaternion<Real> turn = rotation_of_degrees(rotation).template cast<Real>();
+      const Eigen::Quaternion<Real> rotate = rotation_of_degrees(rotation).template cast<Real>();
       const Vec<Real, 3> move = translation.template cast<Real>();
       for (auto& x : trajectory.positions) {
-        const Vec<Real, 3> p = turn * Vec<Real, 3>(D::center(x) * Real(scalePos));
+        const Vec<Real, 3> p = rotate * Vec<Real, 3>(D::center(x) * Real(scalePos));
         D::setCenter(x, p + move);
-        if constexpr (D::rigid) x.orientation = turn * x.orientation;
+        if constexpr (D::rigid) x.orientation = rotate * x.orientation;
       }
       for (auto& v : trajectory.velocities) {
-        const Vec<Real, 3> linear = turn * Vec<Real, 3>(v.template head<3>() * Real(scalePos));
+        const Vec<Real, 3> linear = rotate * Vec<Real, 3>(v.template head<3>() * Real(scalePos));
         v.template head<3>() = linear;
         if constexpr (D::rigid) {
-          const Vec<Real, 3> angular = turn * Vec<Real, 3>(v.template tail<3>());
+          const Vec<Real, 3> angular = rotate * Vec<Real, 3>(v.template tail<3>());
           v.template tail<3>() = angular;
         }
       }

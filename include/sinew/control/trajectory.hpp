@@ -12,9 +12,10 @@
 
 namespace sinew {
 
-/// How a state moves between two keys. linear: on a straight way, and turning about one axis on the shorter
-/// way (slerp), with constant velocity. cubic: without jumps of the velocity, by cubic Hermite polynomials;
-/// orientations by the cumulative cubic of Kim, Kim and Shin (1995). none: it stays at a key until the next.
+/// How a state moves between two keys. linear: along a straight line, and rotating about one axis along the
+/// shorter arc (slerp), with constant velocity. cubic: without jumps of the velocity, by cubic Hermite
+/// polynomials; orientations by the cumulative cubic of Kim, Kim and Shin (1995). none: it stays at a key
+/// until the next.
 enum class Interpolation { linear, cubic, none };
 inline constexpr std::array<std::string_view, 3> enum_names(Interpolation) {
   return {"linear", "cubic", "none"};
@@ -84,7 +85,7 @@ struct Trajectory {
  private:
   struct At {
     std::size_t key;      // the one before
-    double part;          // of the way to the next, from 0 to 1
+    double part;          // fraction of the interval to the next, from 0 to 1
     bool rests = false;   // outside of the times
     bool starts = false;  // at the first, from before it
   };
@@ -125,7 +126,7 @@ struct Trajectory {
     }
     const Cubic c = cubic(k, i);
     const auto b = basis(u);
-    for (std::size_t n = 0; n < 3; ++n) D::increment(x, c.ways[n] * b[n]);
+    for (std::size_t n = 0; n < 3; ++n) D::increment(x, c.increments[n] * b[n]);
     return x;
   }
   Deriv velocity(At const& at, std::size_t i) const {
@@ -144,32 +145,33 @@ struct Trajectory {
     if (interpolation == Interpolation::linear) return slope(k, i);
     const Cubic c = cubic(k, i);
     const auto b = basis(u), rate = basisRate(u);
-    Deriv v = c.ways[0] * rate[0];
+    Deriv v = c.increments[0] * rate[0];
     for (std::size_t n = 1; n < 3; ++n) {
       if constexpr (D::rigid && D::spatial == 3) {
-        Coord turn = D::zero();
-        D::increment(turn, c.ways[n] * b[n]);
-        v.template tail<3>() = turn.orientation * Vec<Real, 3>(v.template tail<3>());
+        Coord rotation = D::zero();
+        D::increment(rotation, c.increments[n] * b[n]);
+        v.template tail<3>() = rotation.orientation * Vec<Real, 3>(v.template tail<3>());
       }
-      v += c.ways[n] * rate[n];
+      v += c.increments[n] * rate[n];
     }
     return v / length(k);
   }
 
-  // The way from a key to the next in three: x = x0 (+) b1 w1 (+) b2 w2 (+) b3 w3, where (+) is
-  // D::increment, with b = (1 - (1-u)^3, 3 u^2 - 2 u^3, u^3), and velocities w1 and w3 times 3/h at the ends.
+  // The displacement from a key to the next in three increments: x = x0 (+) b1 w1 (+) b2 w2 (+) b3 w3, where
+  // (+) is D::increment, with b = (1 - (1-u)^3, 3 u^2 - 2 u^3, u^3), and velocities w1 and w3 times 3/h at
+  // the ends.
   struct Cubic {
-    std::array<Deriv, 3> ways;
+    std::array<Deriv, 3> increments;
   };
   Cubic cubic(std::size_t k, std::size_t i) const {
     const Real third = length(k) / 3;
     Cubic c;
-    c.ways[0] = tangents[k * points + i] * third;
-    c.ways[2] = tangents[(k + 1) * points + i] * third;
+    c.increments[0] = tangents[k * points + i] * third;
+    c.increments[2] = tangents[(k + 1) * points + i] * third;
     Coord from = key(k, i), to = key(k + 1, i);
-    D::increment(from, c.ways[0]);
-    D::increment(to, c.ways[2] * Real(-1));
-    c.ways[1] = D::difference(from, to);
+    D::increment(from, c.increments[0]);
+    D::increment(to, c.increments[2] * Real(-1));
+    c.increments[1] = D::difference(from, to);
     return c;
   }
   static std::array<Real, 3> basis(Real u) {

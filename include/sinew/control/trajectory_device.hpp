@@ -10,9 +10,9 @@
 
 namespace sinew {
 
-/// A simulated device that replays a recorded trajectory: straight lines and constant turns between samples,
-/// the buttons of the sample before. Outside the times it stands at the first or last sample, or starts
-/// again with `repeat`.
+/// A simulated device that replays a recorded trajectory: straight lines and constant rotations between
+/// samples, the buttons of the sample before. Outside the times it stands at the first or last sample, or
+/// starts again with `repeat`.
 class TrajectoryDevice {
  public:
   struct Sample {

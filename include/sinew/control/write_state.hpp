@@ -63,7 +63,7 @@ struct WriteState {
         field("keperiod",
               &F::keperiod,
               "s",
-              "time between two looks at the kinetic energy",
+              "time between two checks of the kinetic energy",
               range::nonNegative),
         field("format", &F::format, "", "format of the file"));
   }
@@ -76,8 +76,8 @@ struct WriteState {
     using F = WriteState;
     return field_list(field("recorded", &F::recorded, "", "frames that were written", range::nonNegative),
                       field("stopped", &F::stopped, "", "whether the record has ended"),
-                      field("lastEnergy", &F::lastEnergy, "J", "kinetic energy at the last look"),
-                      field("nextLook", &F::nextLook, "s", "time of the next look; -1: not known yet"));
+                      field("lastEnergy", &F::lastEnergy, "J", "kinetic energy at the last check"),
+                      field("nextLook", &F::nextLook, "s", "time of the next check; -1: not known yet"));
   }
 
   // after init

@@ -69,8 +69,8 @@ struct MultiMappedDofs {
   void expandParts(int point, F& f, std::index_sequence<K...>) const {
     (expandPart(mapping.parts[K], std::get<K>(parents), point, f), ...);
   }
-  template <class Part, class P, class F>
-  static void expandPart(Part const& part, P const& parent, int point, F& f) {
+  template <class PartMapping, class P, class F>
+  static void expandPart(PartMapping const& part, P const& parent, int point, F& f) {
     part.forEachJacobianBlock(point, [&](int above, auto const& j) {
       parent.expand(above, [&](int dof, auto const& jAbove) { f(dof, (j * jAbove)); });
     });
@@ -141,8 +141,8 @@ struct MatrixSink {
     if constexpr (Phase == AssemblyPhase::add) matrix.projectToMean(dofs, coordinates);
   }
   template <class Dofs>
-  void announceMean(Dofs const& dofs, int coordinates) const {
-    if constexpr (Phase == AssemblyPhase::pattern) matrix.announceMean(dofs, coordinates);
+  void preallocateMean(Dofs const& dofs, int coordinates) const {
+    if constexpr (Phase == AssemblyPhase::pattern) matrix.preallocateMean(dofs, coordinates);
   }
   template <int Side>
   auto const& side() const {
@@ -167,7 +167,7 @@ struct MatrixSink {
   template <class K>
   void put(int row, int column, K const& k) const {
     if constexpr (Phase == AssemblyPhase::pattern)
-      matrix.announce(row, column, K::RowsAtCompileTime, K::ColsAtCompileTime);
+      matrix.preallocate(row, column, K::RowsAtCompileTime, K::ColsAtCompileTime);
     else if constexpr (Phase == AssemblyPhase::add)
       matrix.add(row, column, k);
   }

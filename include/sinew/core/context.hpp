@@ -3,7 +3,7 @@
 
 #include <sinew/core/data_types.hpp>
 #include <sinew/core/mesh.hpp>
-#include <sinew/core/part.hpp>
+#include <sinew/core/work_share.hpp>
 
 #include <array>
 #include <span>
@@ -45,9 +45,10 @@ struct MechanicalParams {
   double time = 0, dt = 0;
   Eigen::Vector3d gravity{0, 0, 0};
   double m = 0, b = 0, k = 0;
-  Part part{};  // for a component that takes_parts
-  // not 0: forces are for a step v += turning M^-1 f, x += turning v, and gyroscopic ones those at its end
-  double turning = 0;
+  WorkShare part{};  // for a component that shares_work
+  // not 0: forces are for a step v += h M^-1 f, x += h v of this length h, and gyroscopic ones those at its
+  // end
+  double gyroscopicStep = 0;
 };
 
 /// What an assembled or matrix-free system is made of: m M + b B + k K.

@@ -102,19 +102,19 @@ struct RigidTypes<3, R> {
     const Vec<R, 3> w = dx.template tail<3>();
     const R angle2 = w.squaredNorm(), half = sqrt(angle2) / 2;
     const R s = half < R(1e-4) ? R(0.5) * (1 - half * half / 6) : R(0.5) * sin(half) / half;
-    Quat<R> turn;
-    turn.w() = cos(half);
-    turn.vec() = s * w;
-    x.orientation = (turn * x.orientation).normalized();
+    Quat<R> rotation;
+    rotation.w() = cos(half);
+    rotation.vec() = s * w;
+    x.orientation = (rotation * x.orientation).normalized();
   }
   SINEW_HD static Deriv difference(Coord const& from, Coord const& to) {
     Deriv d;
     d.template head<3>() = to.center - from.center;
-    Quat<R> turn = to.orientation * from.orientation.conjugate();
-    if (turn.w() < 0) turn.coeffs() = -turn.coeffs();
-    const R sine = turn.vec().norm();
-    const R scale = sine < R(1e-6) ? R(2) : 2 * std::atan2(sine, turn.w()) / sine;
-    d.template tail<3>() = scale * turn.vec();
+    Quat<R> rotation = to.orientation * from.orientation.conjugate();
+    if (rotation.w() < 0) rotation.coeffs() = -rotation.coeffs();
+    const R sine = rotation.vec().norm();
+    const R scale = sine < R(1e-6) ? R(2) : 2 * std::atan2(sine, rotation.w()) / sine;
+    d.template tail<3>() = scale * rotation.vec();
     return d;
   }
   /// dexp^-1 of the rotation group to third order, what a fourth-order method needs (Munthe-Kaas 1999).

@@ -63,11 +63,11 @@ struct ElementDriver {
   /// Prepares for so many parts at once, with at least so many elements each; where there are too few, there
   /// are fewer parts. Elements that are taken one by one are not split: there the compiler may make one
   /// operation of the last product and the sum, which has other bits.
-  void split(int threads, std::size_t least = 256) {
-    const int most = int(std::min(std::size_t(threads), size() / least));
+  void split(int threads, std::size_t minimum = 256) {
+    const int maximum = int(std::min(std::size_t(threads), size() / minimum));
     forget();
-    if (W == 1 || most < 2 || threads < 2) return;
-    parts = most;
+    if (W == 1 || maximum < 2 || threads < 2) return;
+    parts = maximum;
     keptForces.plan(parts, packs.size(), arity * W, [&](std::size_t p, auto&& f) {
       for (auto const& ends : packs[p].index)
         for (int l = 0; l < W; ++l) f(l < packs[p].active ? ends[l] : -1);
@@ -114,20 +114,21 @@ struct ElementDriver {
     return ends;
   }
   template <class VecDeriv, class VecCoord>
-  void addForce(Law const& law, VecDeriv& f, VecCoord const& x, VecDeriv const& v, Part part = {}) {
+  void addForce(Law const& law, VecDeriv& f, VecCoord const& x, VecDeriv const& v, WorkShare part = {}) {
     addForce(law, oneBody(f.data()), oneBody(x.data()), oneBody(v.data()), part);
   }
   template <class VecDeriv>
-  void addDForce(Law const& law, VecDeriv& df, VecDeriv const& dx, Real k, Real b, Part part = {}) const {
+  void addDForce(Law const& law, VecDeriv& df, VecDeriv const& dx, Real k, Real b,
+                 WorkShare part = {}) const {
     addDForce(law, oneBody(df.data()), oneBody(dx.data()), k, b, part);
   }
   double energy(Law const& law, std::vector<Coord> const& x) const { return energy(law, oneBody(x.data())); }
 
-  /// Elements of one body may be taken in parts at once, as split() has prepared it, and then those parts
-  /// once more as late ones. All parts, and the whole, run the same compiled loop: of two copies of a law the
-  /// compiler may join other products and sums to one operation, and their last bits differ.
+  /// Elements of one body may be taken in shares at the same time, as split() has prepared it, and then those
+  /// shares once more as deferred ones. All shares, and the whole, run the same compiled loop: of two copies
+  /// of a law the compiler may join other products and sums to one operation, and their last bits differ.
   [[gnu::flatten]] void addForce(Law const& law, Derivs f, Coords x, ConstDerivs v,
-                                 [[maybe_unused]] Part part = {}) {
+                                 [[maybe_unused]] WorkShare part = {}) {
     if constexpr (W > 1) return forceInParts(law, f, x, v, part);
     for (Pack& pack : packs) {
       OfPoints<typename DL::Coord> xs;
@@ -140,7 +141,7 @@ struct ElementDriver {
   }
 
   [[gnu::flatten]] void addDForce(Law const& law, Derivs df, ConstDerivs dx, Real k, Real b,
-                                  [[maybe_unused]] Part part = {}) const {
+                                  [[maybe_unused]] WorkShare part = {}) const {
     if constexpr (W > 1) return dforceInParts(law, df, dx, k, b, part);
     for (Pack const& pack : packs) {
       OfPoints<typename DL::Deriv> dxs, dfs;
@@ -164,7 +165,7 @@ struct ElementDriver {
   /// Adds k K + b B to the matrix behind the sink. SideOf[i]: on which end of an interaction point i of an
   /// element is.
   template <int... SideOf, class Sink>
-  void addToMatrix(Law const& law, Sink const& sink, Real k, Real b, Part part = {}) {
+  void addToMatrix(Law const& law, Sink const& sink, Real k, Real b, WorkShare part = {}) {
     using Matrix = typename Sink::MatrixType;
     constexpr bool within = ((SideOf == 0) && ...);
     if constexpr (Sink::direct && within && Matrix::blockSize == D::size &&
@@ -178,7 +179,7 @@ struct ElementDriver {
           addOneByOne(law, sink.matrix, k, b);
       }
     } else if constexpr (Sink::phase != AssemblyPhase::bind) {
-      if (part.index > 0 || part.late) return;
+      if (part.index > 0 || part.deferred) return;
       if constexpr (within)
         for (Pack const& pack : packs)
           for (int i = 0; i < arity; ++i)
@@ -200,7 +201,7 @@ struct ElementDriver {
   }
 
   [[gnu::noinline, gnu::flatten]] void forceInParts(Law const& law, Derivs f, Coords x, ConstDerivs v,
-                                                    Part part) {
+                                                    WorkShare part) {
     forEachPack(
         *this, part, f, [&](Pack & pack, OfPoints<typename DL::Deriv> & fs) __attribute__((always_inline)) {
           OfPoints<typename DL::Coord> xs;
@@ -212,7 +213,7 @@ struct ElementDriver {
   }
 
   [[gnu::noinline, gnu::flatten]] void dforceInParts(Law const& law, Derivs df, ConstDerivs dx, Real k,
-                                                     Real b, Part part) const {
+                                                     Real b, WorkShare part) const {
     forEachPack(
         *this,
         part,
@@ -224,15 +225,15 @@ struct ElementDriver {
         });
   }
 
-  // law(pack, what its points receive) for the packs of a part, and adds that
+  // Calls law(pack, forces) for the packs of a share, and adds the forces
   template <class Self, class OfPack>
-  SINEW_INLINE static void forEachPack(Self& self, Part part, Derivs const& to, OfPack&& law) {
+  SINEW_INLINE static void forEachPack(Self& self, WorkShare part, Derivs const& to, OfPack&& law) {
     if (part.count > 1) part.count = self.parts;
     if (part.index >= part.count) return;
     const bool whole = part.count == 1;
-    if (part.late) {
+    if (part.deferred) {
       constexpr int n = Pack::template realsOf<Deriv>;
-      self.keptForces.addLate(part, [&](int place, Real const* kept) {
+      self.keptForces.addDeferred(part, [&](int place, Real const* kept) {
         for (int c = 0; c < n; ++c) reinterpret_cast<Real*>(to[0] + place)[c] += kept[c];
       });
       return;
@@ -242,27 +243,27 @@ struct ElementDriver {
       auto& pack = self.packs[p];
       OfPoints<typename DL::Deriv> fs;
       law(pack, fs);
-      int const* const rooms = whole ? nullptr : self.keptForces.roomsOf(p);
-      if (rooms) [[unlikely]] {
+      int const* const entries = whole ? nullptr : self.keptForces.entriesOf(p);
+      if (entries) [[unlikely]] {
         // a copy, so that what others receive may stay in registers
         OfPoints<typename DL::Deriv> kept;
         for (int k = 0; k < arity; ++k) kept[k] = fs[k];
-        self.keep(pack, rooms, kept, to[0]);
+        self.keep(pack, entries, kept, to[0]);
       } else {
         pack.scatter(fs, to);
       }
     }
   }
-  // of what points receive, what belongs to a part before is kept
-  [[gnu::noinline]] void keep(Pack const& pack, int const* rooms, OfPoints<typename DL::Deriv> const& from,
+  // stores the forces on points that an earlier share touches
+  [[gnu::noinline]] void keep(Pack const& pack, int const* entries, OfPoints<typename DL::Deriv> const& from,
                               Deriv* to) const {
     constexpr int n = Pack::template realsOf<Deriv>;
     for (int k = 0; k < arity; ++k)
       for (int l = 0; l < pack.active; ++l) {
-        const int room = rooms[k * W + l];
+        const int entry = entries[k * W + l];
         L const* const values = reinterpret_cast<L const*>(&from[k]);
-        if (room >= 0)
-          for (int c = 0; c < n; ++c) keptForces.room(room)[c] = lane(values[c], l);
+        if (entry >= 0)
+          for (int c = 0; c < n; ++c) keptForces.entry(entry)[c] = lane(values[c], l);
         else
           for (int c = 0; c < n; ++c) reinterpret_cast<Real*>(to + pack.index[k][l])[c] += lane(values[c], l);
       }
@@ -289,12 +290,12 @@ struct ElementDriver {
 
   template <class Matrix>
   [[gnu::noinline, gnu::flatten]] void blocksInParts(Law const& law, Matrix& matrix, Real k, Real b,
-                                                     Part part) {
+                                                     WorkShare part) {
     constexpr int n = D::size;
     if (part.count > 1) part.count = parts;
     if (part.index >= part.count) return;
-    if (part.late) {
-      keptBlocks.addLate(
+    if (part.deferred) {
+      keptBlocks.addDeferred(
           part, [&](int slot, Real const* kept) { detail::add_to<n * n>(matrix.block(slot), kept); });
       return;
     }
@@ -302,7 +303,7 @@ struct ElementDriver {
     auto* const values = matrix.block(0);
     for (std::size_t p = part.begin(packs.size()); p < end; ++p) {
       Pack const& pack = packs[p];
-      int const* const rooms = part.count > 1 ? keptBlocks.roomsOf(p) : nullptr;
+      int const* const entries = part.count > 1 ? keptBlocks.entriesOf(p) : nullptr;
       detail::for_each_pair<arity>([&]<int I, int J>() {
         constexpr int pair = detail::pair_number<arity>(I, J);
         const Mat<L, n> block = law.block(pack.rest, pack.tangent, I, J, L(k), L(b));
@@ -312,13 +313,13 @@ struct ElementDriver {
         auto add = [&](int l) __attribute__((always_inline)) {
           detail::add_to<n * n>(values + std::ptrdiff_t(slot[l]) * (n * n), ofLane[l]);
         };
-        if (!rooms) [[likely]] {
+        if (!entries) [[likely]] {
           for (int l = 0; l < pack.active; ++l) add(l);
           return;
         }
         for (int l = 0; l < std::min(W, pack.active); ++l)
-          if (rooms[pair * W + l] >= 0)
-            std::memcpy(keptBlocks.room(rooms[pair * W + l]), ofLane[l], n * n * sizeof(Real));
+          if (entries[pair * W + l] >= 0)
+            std::memcpy(keptBlocks.entry(entries[pair * W + l]), ofLane[l], n * n * sizeof(Real));
           else
             add(l);
       });

@@ -63,9 +63,9 @@ std::optional<std::size_t> misspelt_by(std::string_view word, std::string_view n
 template <class Names>
 std::string nearest_name(std::string_view word, Names const& known) {
   std::string best;
-  std::optional<std::size_t> least;
+  std::optional<std::size_t> minimum;
   for (std::string_view name : known)
-    if (const auto d = misspelt_by(word, name); d && (!least || *d < *least)) least = d, best = name;
+    if (const auto d = misspelt_by(word, name); d && (!minimum || *d < *minimum)) minimum = d, best = name;
   return best;
 }
 

@@ -62,7 +62,7 @@ enum class Of {
   entries    // of the lists of points beside it
 };
 
-/// What is said of a field, whatever its type is.
+/// The properties of a field that do not depend on its type.
 struct FieldWords {
   std::string_view name, unit, documentation;
   Range range;

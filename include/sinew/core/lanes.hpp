@@ -166,7 +166,7 @@ template <class V, int... I>
 SINEW_INLINE V shuffle(V a, V b, std::integer_sequence<int, I...>) {
   return __builtin_shufflevector(a, b, I...);
 }
-// indices that take runs of `Run` lanes from a and b in turn, from lane `From` on
+// indices that take runs of `Run` lanes from a and b alternately, from lane `From` on
 template <int W, int Run, int From, int... I>
 constexpr auto interleave(std::integer_sequence<int, I...>) {
   return std::integer_sequence<int, ((I / Run % 2) * W + From + I / (2 * Run) * Run + I % Run)...>{};

@@ -8,12 +8,12 @@
 #include <sinew/see_the_error_above>
 #endif
 #if !defined(__cpp_exceptions)
-#error "Sinew: exceptions are needed, since errors in a scene are thrown. Leave -fno-exceptions away."
+#error "Sinew: exceptions are needed, since errors in a scene are thrown. Remove -fno-exceptions."
 #include <sinew/see_the_error_above>
 #endif
 #if defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__
 #error \
-    "Sinew: -ffast-math removes the checks for values that are not finite. Leave it away, speed does not need it; or add -fno-finite-math-only behind it, which keeps the checks."
+    "Sinew: -ffast-math removes the checks for values that are not finite. Remove it, since speed does not need it; or add -fno-finite-math-only behind it, which keeps the checks."
 #include <sinew/see_the_error_above>
 #endif
 

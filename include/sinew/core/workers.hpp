@@ -2,7 +2,7 @@
 #pragma once
 
 #include <sinew/core/compiled.hpp>
-#include <sinew/core/part.hpp>
+#include <sinew/core/work_share.hpp>
 
 #include <atomic>
 #include <exception>
@@ -25,15 +25,15 @@ class Workers {
 
   int count() const { return int(threads_.size()) + 1; }
 
-  /// f(part) for the parts of a whole, each in one thread. When all have ended, what the first of
-  /// them has thrown is thrown.
+  /// f(share) for the shares of the work, each in one thread. When all have ended, what the first of them has
+  /// thrown is thrown.
   template <class F>
   void run(F&& f) {
-    call_ = [](void* context, Part part) { (*static_cast<std::remove_reference_t<F>*>(context))(part); };
+    call_ = [](void* context, WorkShare part) { (*static_cast<std::remove_reference_t<F>*>(context))(part); };
     context_ = const_cast<void*>(static_cast<void const*>(std::addressof(f)));
     busy_.store(int(threads_.size()), std::memory_order_relaxed);
     begin();
-    doPart(0);
+    doShare(0);
     for (int i = count() - 1; i > 0; --i) take(i, round_.load(std::memory_order_relaxed));
     await(busy_, [](int busy) { return busy == 0; });
     if (failed_.load(std::memory_order_relaxed)) [[unlikely]]
@@ -57,7 +57,7 @@ class Workers {
   std::vector<Taken> taken_;
   std::vector<double> sums_{};
   int spins_;
-  void (*call_)(void*, Part) = nullptr;
+  void (*call_)(void*, WorkShare) = nullptr;
   void* context_ = nullptr;
   std::atomic<bool> ending_{false};
   alignas(64) std::atomic<int> round_{0};
@@ -68,9 +68,9 @@ class Workers {
     round_.fetch_add(1, std::memory_order_release);
     round_.notify_all();
   }
-  void doPart(int index) {
+  void doShare(int index) {
     try {
-      call_(context_, Part{index, count()});
+      call_(context_, WorkShare{index, count()});
     } catch (...) {
       errors_[std::size_t(index)] = std::current_exception();
       failed_.store(true, std::memory_order_relaxed);
@@ -117,7 +117,7 @@ struct SomeWorkers {
     if (workers)
       workers->run(f);
     else
-      f(Part{});
+      f(WorkShare{});
   }
   void reserveSums(std::size_t n) const {
     if (workers) workers->reserveSums(n);
@@ -152,7 +152,7 @@ SINEW_ONCE void Workers::take(int index, int round) {
   int before = round - 1;
   if (!taken_[std::size_t(index)].round.compare_exchange_strong(before, round, std::memory_order_acq_rel))
     return;
-  doPart(index);
+  doShare(index);
   if (busy_.fetch_sub(1, std::memory_order_acq_rel) == 1) busy_.notify_one();
 }
 

@@ -5,7 +5,7 @@
 
 namespace sinew {
 
-/// The points and elements in boxes, their faces included: along the axes, or turned.
+/// The points and elements in boxes, their faces included: along the axes, or oriented.
 template <class D>
 struct BoxROI {
   using Role = role::Engine;
@@ -54,8 +54,8 @@ struct BoxROI {
     if (box.empty() && orientedBox.empty()) throw Error(at, "there is no box; give box or orientedBox");
     if (!orientedBox.empty() && D::spatial != 3)
       throw Error(at, "orientedBox is for points in space; give box");
-    std::vector<OrientedBox> turned;
-    for (auto const& b : orientedBox) turned.emplace_back(at, b);
+    std::vector<OrientedBox> oriented;
+    for (auto const& b : orientedBox) oriented.emplace_back(at, b);
     select_in_roi(*this, at, [&](Vec<double, D::spatial> const& p) {
       for (auto const& b : box) {
         const Vec<double, D::spatial> a = b.template head<D::spatial>(),
@@ -64,7 +64,7 @@ struct BoxROI {
           return true;
       }
       if constexpr (D::spatial == 3)
-        for (auto const& b : turned)
+        for (auto const& b : oriented)
           if (b.contains(p)) return true;
       return false;
     });

@@ -25,11 +25,13 @@ struct GridMeshCreator {
         field("trianglePattern",
               &E::trianglePattern,
               "",
-              "0: quads; 1: triangles with diagonals in turn; 2: all along x = y; 3: all across it",
+              "0: quads; 1: triangles with alternating diagonals; 2: all along x = y; 3: all across it",
               range::closed(0, 3)),
         field("translation", &E::translation, "m", "moves the sheet, last of all"),
-        field(
-            "rotation", &E::rotation, "degrees", "turns the sheet about the axes x, y and z, in this order"),
+        field("rotation",
+              &E::rotation,
+              "degrees",
+              "rotates the sheet about the axes x, y and z, in this order"),
         field("scale3d", &E::scale3d, "", "sizes along the axes x, y and z, applied first").also("scale"));
   }
 
@@ -53,7 +55,7 @@ struct GridMeshCreator {
 }  // namespace sinew
 
 #if SINEW_DEFINES
-#include <sinew/core/euler.hpp>
+#include <sinew/core/placement.hpp>
 #include <sinew/topology/adjacency.hpp>
 
 namespace sinew {

@@ -3,7 +3,7 @@
 
 #include <sinew/core/compiled.hpp>
 #include <sinew/core/component.hpp>
-#include <sinew/core/euler.hpp>
+#include <sinew/core/placement.hpp>
 #include <sinew/io/read_gmsh.hpp>
 #include <sinew/io/read_obj.hpp>
 #include <sinew/io/read_stl.hpp>
@@ -38,7 +38,7 @@ void add_sides(std::vector<Side>& list, std::vector<Element> const& elements,
 /// quads around; zero where there is none.
 std::vector<Eigen::Vector3d> point_normals(Mesh const& mesh);
 
-/// Turns all elements so that a mirrored mesh keeps its fronts outside.
+/// Reverses all elements so that a mirrored mesh keeps its fronts outside.
 void turn_elements(Mesh& mesh);
 
 }  // namespace detail
@@ -61,10 +61,12 @@ struct MeshLoader {
     return field_list(
         field("filename", &L::filename, "", "the file to read"),
         field("translation", &L::translation, "m", "moves the mesh, last of all"),
-        field("rotation", &L::rotation, "degrees", "turns the mesh about the axes x, y and z, in this order"),
+        field(
+            "rotation", &L::rotation, "degrees", "rotates the mesh about the axes x, y and z, in this order"),
         field("scale3d", &L::scale3d, "", "sizes along the axes x, y and z, applied first"),
         field("scale", &L::scale, "", "size, beside scale3d"),
-        field("flipNormals", &L::flipNormals, "", "whether triangles and quads are turned over"),
+        field(
+            "flipNormals", &L::flipNormals, "", "whether the orientation of triangles and quads is reversed"),
         field("triangulate", &L::triangulate, "", "whether each quad becomes two triangles"),
         field("createSubelements",
               &L::createSubelements,
@@ -91,7 +93,7 @@ struct MeshLoader {
         field("normals", &L::normals, "", "unit normals of the surface at the points; zero off it"),
         field("edges", &L::edges, "", "two points each").also("lines"),
         field("triangles", &L::triangles, "", "three points each"),
-        field("quads", &L::quads, "", "four points each, in turn"),
+        field("quads", &L::quads, "", "four points each, in the order around the quad"),
         field("tetrahedra", &L::tetrahedra, "", "four points each").also("tetras"),
         field("hexahedra", &L::hexahedra, "", "eight points each, in VTK's order").also("hexas"));
   }

@@ -29,7 +29,7 @@ struct MeshSubdivision {
         field("position", &E::position, "m", "points").also("points"),
         field("edges", &E::edges, "", "two points each", r).also("lines"),
         field("triangles", &E::triangles, "", "three points each", r),
-        field("quads", &E::quads, "", "four points each, in turn", r),
+        field("quads", &E::quads, "", "four points each, in the order around the quad", r),
         field("tetrahedra", &E::tetrahedra, "", "four points each", r).also("tetras"),
         field("hexahedra", &E::hexahedra, "", "eight points each, in VTK's order", r).also("hexas"),
         field("levels", &E::levels, "", "how often they are subdivided", r));

@@ -25,7 +25,7 @@ struct SphereLoader {
         field("rotation",
               &L::rotation,
               "degrees",
-              "turns the centres about the axes x, y and z, in this order"),
+              "rotates the centres about the axes x, y and z, in this order"),
         field("translation", &L::translation, "m", "moves the centres, last of all"));
   }
 
@@ -46,7 +46,7 @@ struct SphereLoader {
 }  // namespace sinew
 
 #if SINEW_DEFINES
-#include <sinew/core/euler.hpp>
+#include <sinew/core/placement.hpp>
 #include <sinew/io/read_sph.hpp>
 
 namespace sinew {

@@ -44,9 +44,10 @@ std::vector<Side> border(std::vector<Element> const& elements,
 struct Hexa2Tetra {
   using Elements = std::vector<Hexahedron>;
   using Converted = std::vector<Tetrahedron>;
-  static constexpr std::string_view className = "Hexa2TetraTopologicalMapping", from = "hexahedra",
-                                    to = "tetrahedra", purpose = "six tetrahedra for each hexahedron",
-                                    cuts = "whether the cells of a grid are mirrored in turn along each axis";
+  static constexpr std::string_view
+      className = "Hexa2TetraTopologicalMapping",
+      from = "hexahedra", to = "tetrahedra", purpose = "six tetrahedra for each hexahedron",
+      cuts = "whether the cells of a grid are mirrored alternately along each axis";
   static constexpr bool swapsByDefault = false;
   static Converted convert(Elements const& hexahedra, GridCells const& cut) {
     return hexahedra_to_tetrahedra(hexahedra, cut, 2);
@@ -114,10 +115,11 @@ struct TopologicalMapping {
   static constexpr auto fields() {
     using T = TopologicalMapping;
     auto with = [](auto... more) {
-      return field_list(field("position", &T::position, "m", "points").also("points"),
-                        field(Conversion::from, &T::elements, "", "elements over them", range::nonNegative),
-                        field("flipNormals", &T::flipNormals, "", "whether faces and edges are turned over"),
-                        more...);
+      return field_list(
+          field("position", &T::position, "m", "points").also("points"),
+          field(Conversion::from, &T::elements, "", "elements over them", range::nonNegative),
+          field("flipNormals", &T::flipNormals, "", "whether the orientation of faces and edges is reversed"),
+          more...);
     };
     if constexpr (hasCuts)
       return with(

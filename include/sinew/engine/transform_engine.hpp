@@ -2,7 +2,7 @@
 #pragma once
 
 #include <sinew/core/component.hpp>
-#include <sinew/core/euler.hpp>
+#include <sinew/core/placement.hpp>
 
 #include <string>
 
@@ -29,8 +29,9 @@ struct TransformEngine {
     return field_list(
         field("input_position", &T::inputPosition, "m", "where the points are"),
         field("translation", &T::translation, "m", "moves the points"),
-        field("rotation", &T::rotation, "degrees", "turns them about the axes x, y and z, in this order"),
-        field("quaternion", &T::quaternion, "", "turns them after that: x y z w of a quaternion of length 1"),
+        field("rotation", &T::rotation, "degrees", "rotates them about the axes x, y and z, in this order"),
+        field(
+            "quaternion", &T::quaternion, "", "rotates them after that: x y z w of a quaternion of length 1"),
         field("scale", &T::scale, "", "sizes along the axes x, y and z"),
         field("inverse", &T::inverse, "", "whether the inverse of all that is applied"));
   }
@@ -50,13 +51,13 @@ struct TransformEngine {
       throw Error(at, "quaternion is zero; give one of length 1, such as 0 0 0 1");
     if (inverse && (scale[0] == 0 || scale[1] == 0 || scale[2] == 0))
       throw Error(at, "a size of scale is 0, which cannot be undone; give another one");
-    Eigen::Quaterniond turn(quaternion.normalized());
-    turn = turn * rotation_of_degrees(rotation);
-    Placement placed = placement(translation, turn, scale);
+    Eigen::Quaterniond rotate(quaternion.normalized());
+    rotate = rotate * rotation_of_degrees(rotation);
+    Placement placed = placement(translation, rotate, scale);
     if (inverse) {
       placed.linear = placed.linear.inverse().eval();
       placed.translation = placed.linear * -translation;
-      turn = turn.conjugate();
+      rotate = rotate.conjugate();
     }
 
     using Real = typename D::Real;
@@ -64,7 +65,7 @@ struct TransformEngine {
     for (auto& x : outputPosition)
       if constexpr (D::rigid) {
         x.center = (placed * x.center.template cast<double>()).template cast<Real>();
-        x.orientation = (turn.cast<Real>() * x.orientation).normalized();
+        x.orientation = (rotate.cast<Real>() * x.orientation).normalized();
       } else {
         x = (placed * x.template cast<double>()).template cast<Real>();
       }

@@ -14,9 +14,10 @@ namespace sinew {
 /// Spring between the orientations q0 and q1 of two rigid bodies.
 ///   E = k/2 |t|^2,   t = rotation vector of q1 r^-1 q0^-1                                       [J]
 ///   torque1 = -torque0 = -k t                                                                  [N m]
-/// r is the turn from the first body to the second without torque, in axes of the first. With
-/// S = (1 - s |t|^2) I + s t t', s = (1 - |t|/2 cot(|t|/2)) / |t|^2 and A = -[t]x/2, turns w of the bodies
-/// change t by (S + A) w1 - (S - A) w0; the tangent is the symmetric part of what follows for the torques.
+/// r is the rotation from the first body to the second without torque, in axes of the first. With
+/// S = (1 - s |t|^2) I + s t t', s = (1 - |t|/2 cot(|t|/2)) / |t|^2 and A = -[t]x/2, rotations w of the
+/// bodies change t by (S + A) w1 - (S - A) w0; the tangent is the symmetric part of what follows for the
+/// torques.
 template <class D>
 struct AngularSpring {
   using Real = typename D::Real;
@@ -26,7 +27,7 @@ struct AngularSpring {
   static constexpr bool usesVelocity = false;
 
   struct Rest {
-    Quat<Real> turn;  // r
+    Quat<Real> rotation;  // r
     Real stiffness;
   };
   struct Tangent {
@@ -34,12 +35,12 @@ struct AngularSpring {
   };
 
   SINEW_HD Real energy(Rest const& rest, Coord const (&x)[2]) const {
-    return Real(0.5) * rest.stiffness * turned(rest, x).squaredNorm();
+    return Real(0.5) * rest.stiffness * rotationVector(rest, x).squaredNorm();
   }
 
   SINEW_HD void force(Rest const& rest, Coord const (&x)[2], Deriv const (&)[2], Deriv (&f)[2],
                       Tangent& tangent) const {
-    const Vec<Real, 3> t = turned(rest, x);
+    const Vec<Real, 3> t = rotationVector(rest, x);
     for (int i = 0; i < 2; ++i) f[i].template head<3>().setZero();
     f[0].template tail<3>() = rest.stiffness * t;
     f[1].template tail<3>() = -f[0].template tail<3>();
@@ -61,24 +62,24 @@ struct AngularSpring {
   SINEW_HD Mat<Real, 6> block(Rest const& rest, Tangent const& tangent, int i, int j, Real k,
                               Real /*b*/) const {
     Mat<Real, 6> block = Mat<Real, 6>::Zero();
-    auto turn = block.template bottomRightCorner<3, 3>();
-    turn = (i == j ? -k : k) * rest.stiffness * tangent.symmetric;
-    if (i != j) turn += (i < j ? k : -k) * rest.stiffness * tangent.skew;
+    auto rotation = block.template bottomRightCorner<3, 3>();
+    rotation = (i == j ? -k : k) * rest.stiffness * tangent.symmetric;
+    if (i != j) rotation += (i < j ? k : -k) * rest.stiffness * tangent.skew;
     return block;
   }
 
  private:
-  SINEW_HD static Vec<Real, 3> turned(Rest const& rest, Coord const (&x)[2]) {
+  SINEW_HD static Vec<Real, 3> rotationVector(Rest const& rest, Coord const (&x)[2]) {
     Coord from;
-    from.orientation = x[0].orientation * rest.turn;
+    from.orientation = x[0].orientation * rest.rotation;
     from.center = x[1].center;
     return D::difference(from, x[1]).template tail<3>();
   }
 };
 
-/// Springs against turning between rigid bodies that follow one another: each body of `indices` but the first
-/// is joined to the body before it in the state. They are relaxed at rest. (In SOFA they are where two bodies
-/// have the same orientation, and only the second one feels the torque.)
+/// Springs against rotation between rigid bodies that follow one another: each body of `indices` but the
+/// first is joined to the body before it in the state. They are relaxed at rest. (In SOFA they are where two
+/// bodies have the same orientation, and only the second one feels the torque.)
 template <class D>
 struct AngularSpringForceField {
   static_assert(D::rigid && D::spatial == 3,

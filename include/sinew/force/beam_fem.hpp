@@ -13,8 +13,8 @@
 namespace sinew {
 
 /// Beam of two frames, corotational (Crisfield 1990). The axes of the element are the mean of those of its
-/// ends, turned the shortest way until the first lies along the chord, of length l. Against them the ends are
-/// turned by the rotation vectors a, b (both are zero at rest, where l = L), and
+/// ends, rotated along the shortest arc until the first lies along the chord, of length l. Against them the
+/// ends are rotated by the rotation vectors a, b (both are zero at rest, where l = L), and
 ///   E = EA/2L (l - L)^2 + GJ/2L (b_x - a_x)^2 + B_y(a_y, b_y) + B_z(a_z, b_z)                    [J]
 ///   B(a, b) = EI / (2L (1 + p)) ((4 + p)(a^2 + b^2) + 2 (2 - p) a b),   p = 12 EI / (k G A L^2)
 /// as in Timoshenko's beam (Przemieniecki 1968); p is 0 in that of Euler and Bernoulli. Forces are the exact
@@ -87,19 +87,19 @@ struct BeamFEM {
   template <class S>
   struct Local {
     S length;
-    Turn<S> axes;
-    LocalTurn<S> end[2];
+    UnitQuaternion<S> axes;
+    LocalRotation<S> end[2];
     Vec<S, 3> moment[2];
 
     SINEW_HD Local(Rest const& rest, Frames<S, 2> const& frames) {
       using std::sqrt, sinew::sqrt;
       const S tiny(std::numeric_limits<lane_scalar<Real>>::min());
-      Turn<S> node[2];
-      for (int i = 0; i < 2; ++i) node[i] = frames.turn[i] * turn_of<S>(rest.toAxes[i]);
+      UnitQuaternion<S> node[2];
+      for (int i = 0; i < 2; ++i) node[i] = frames.orientation[i] * unit_quaternion<S>(rest.toAxes[i]);
       // of the quaternions q and -q, which are one rotation, that on the side of the other end
       const S together = node[0].w * node[1].w + dot3(node[0].v, node[1].v);
       const S side = select(value_of(together) < Real(0), S(-1), S(1));
-      Turn<S> mean{node[0].w + side * node[1].w, node[0].v + side * node[1].v};
+      UnitQuaternion<S> mean{node[0].w + side * node[1].w, node[0].v + side * node[1].v};
       const S inverse = S(1) / sqrt(mean.w * mean.w + dot3(mean.v, mean.v) + tiny);
       mean.w = mean.w * inverse;
       mean.v = inverse * mean.v;
@@ -107,9 +107,9 @@ struct BeamFEM {
       length = sqrt(dot3(frames.place[1], frames.place[1]) + tiny);
       const Vec<S, 3> e = (S(1) / length) * mean.inverse()(frames.place[1]);
       const S n = S(1) + e[0], half = S(1) / sqrt(n + n + tiny);
-      axes = mean * Turn<S>{n * half, Vec<S, 3>(S(0), -e[2] * half, e[1] * half)};
+      axes = mean * UnitQuaternion<S>{n * half, Vec<S, 3>(S(0), -e[2] * half, e[1] * half)};
 
-      for (int i = 0; i < 2; ++i) end[i] = LocalTurn<S>(axes.inverse() * node[i]);
+      for (int i = 0; i < 2; ++i) end[i] = LocalRotation<S>(axes.inverse() * node[i]);
       const S twist = S(rest.torsion) * (end[1].vector[0] - end[0].vector[0]);
       moment[0][0] = -twist, moment[1][0] = twist;
       for (int i = 0; i < 2; ++i)
@@ -120,7 +120,7 @@ struct BeamFEM {
   };
 
   // Minus the slope of E. By their construction the axes have v_0x + v_1x = 0 for the vector parts v of the
-  // quaternions of the ends against them, which gives how they turn about the chord:
+  // quaternions of the ends against them, which gives how they rotate about the chord:
   //   w_x = (sum a_i.w_i - A_y w_y - A_z w_z) / A_x,   a_i = (q_w, v_z, -v_y),   A = a_0 + a_1,
   // while w_y, w_z are those of the chord.
   template <class S>
@@ -129,7 +129,7 @@ struct BeamFEM {
     Vec<S, 3> torque[2], a[2];
     for (int i = 0; i < 2; ++i) {
       torque[i] = local.end[i].torque(local.moment[i]);
-      Turn<S> const& q = local.end[i].turn;
+      UnitQuaternion<S> const& q = local.end[i].orientation;
       a[i] = Vec<S, 3>(q.w, q.v[2], -q.v[1]);
     }
     const Vec<S, 3> sum = torque[0] + torque[1], A = a[0] + a[1];

@@ -48,7 +48,7 @@ struct Quad {
 template <class D, class Kind>
 struct BendingSprings {
   using Role = role::ForceField;
-  static constexpr bool takesParts = true;
+  static constexpr bool sharesWork = true;
   using DataTypes = D;
   using Real = typename D::Real;
   static constexpr std::string_view className = Kind::className;

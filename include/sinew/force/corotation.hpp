@@ -14,14 +14,14 @@ namespace sinew {
 
 /// Rotation by a unit quaternion w + v.
 template <class S>
-struct Turn {
+struct UnitQuaternion {
   S w;
   Vec<S, 3> v;
 
-  SINEW_INLINE friend Turn operator*(Turn const& a, Turn const& b) {
+  SINEW_INLINE friend UnitQuaternion operator*(UnitQuaternion const& a, UnitQuaternion const& b) {
     return {a.w * b.w - dot3(a.v, b.v), Vec<S, 3>(a.w * b.v + b.w * a.v + cross3(a.v, b.v))};
   }
-  SINEW_INLINE Turn inverse() const { return {w, Vec<S, 3>(-v)}; }
+  SINEW_INLINE UnitQuaternion inverse() const { return {w, Vec<S, 3>(-v)}; }
   SINEW_INLINE Vec<S, 3> operator()(Vec<S, 3> const& a) const {
     const Vec<S, 3> c = S(2) * cross3(v, a);
     return a + w * c + cross3(v, c);
@@ -29,7 +29,7 @@ struct Turn {
 };
 
 template <class S, class Real>
-SINEW_INLINE Turn<S> turn_of(Real const (&q)[4]) {
+SINEW_INLINE UnitQuaternion<S> unit_quaternion(Real const (&q)[4]) {
   return {S(q[0]), Vec<S, 3>(S(q[1]), S(q[2]), S(q[3]))};
 }
 template <class Real>
@@ -63,31 +63,31 @@ SINEW_INLINE Dual<T, N> arc_ratio(Dual<T, N> const& s2, Dual<T, N> const& w) {
   return r;
 }
 
-/// The rotation vector t of a turn between an element and its node, in the axes of the element, and how it
-/// changes with the spin of the node against them: dt = H w, H = I - [t]x/2 + s [t]x^2,
+/// The rotation vector t of the rotation between an element and its node, in the axes of the element, and how
+/// it changes with the spin of the node against them: dt = H w, H = I - [t]x/2 + s [t]x^2,
 /// s = (1 - |t|/2 cot(|t|/2)) / |t|^2.
 template <class S>
-struct LocalTurn {
-  Turn<S> turn;
+struct LocalRotation {
+  UnitQuaternion<S> orientation;
   Vec<S, 3> vector;
   S s;
 
-  LocalTurn() = default;
-  /// Of turns by less than 180 degrees.
-  SINEW_HD explicit LocalTurn(Turn<S> const& of) : turn(of) {
+  LocalRotation() = default;
+  /// Of rotations by less than 180 degrees.
+  SINEW_HD explicit LocalRotation(UnitQuaternion<S> const& of) : orientation(of) {
     using T = std::decay_t<decltype(value_of(of.w))>;
     const auto flip = value_of(of.w) < T(0);
-    turn.w = select(flip, S(-turn.w), turn.w);
-    for (int c = 0; c < 3; ++c) turn.v[c] = select(flip, S(-turn.v[c]), turn.v[c]);
-    const S sine2 = dot3(turn.v, turn.v), ratio = arc_ratio(sine2, turn.w);
-    vector = ratio * turn.v;
+    orientation.w = select(flip, S(-orientation.w), orientation.w);
+    for (int c = 0; c < 3; ++c) orientation.v[c] = select(flip, S(-orientation.v[c]), orientation.v[c]);
+    const S sine2 = dot3(orientation.v, orientation.v), ratio = arc_ratio(sine2, orientation.w);
+    vector = ratio * orientation.v;
     const S square = ratio * ratio * sine2;
     const auto small = value_of(sine2) < T(0.01);
     const S near =
         S(1.0 / 12) +
         square * (S(1.0 / 720) +
                   square * (S(1.0 / 30240) + square * (S(1.0 / 1209600) + square * S(1.0 / 47900160))));
-    s = select(small, near, (S(1) - S(0.5) * ratio * turn.w) / select(small, S(1), square));
+    s = select(small, near, (S(1) - S(0.5) * ratio * orientation.w) / select(small, S(1), square));
   }
   /// H' m: the torque of which m is the part in the directions of the rotation vector.
   SINEW_INLINE Vec<S, 3> torque(Vec<S, 3> const& m) const {
@@ -99,20 +99,21 @@ struct LocalTurn {
 /// N frames as an element sees them: orientations, and places from that of the first.
 template <class S, int N>
 struct Frames {
-  Turn<S> turn[std::size_t(N)];
+  UnitQuaternion<S> orientation[std::size_t(N)];
   Vec<S, 3> place[std::size_t(N)];
 };
 
 /// What the tangent of an element of N frames is found from.
 template <class Real, int N>
 struct FrameState {
-  Real turn[std::size_t(N)][4], place[std::size_t(N)][3];
+  Real orientation[std::size_t(N)][4], place[std::size_t(N)][3];
 
   template <class Coord>
   SINEW_INLINE void take(Coord const (&x)[std::size_t(N)]) {
     for (int i = 0; i < N; ++i) {
       auto const& q = x[i].orientation;
-      turn[i][0] = q.w(), turn[i][1] = q.x(), turn[i][2] = q.y(), turn[i][3] = q.z();
+      orientation[i][0] = q.w(), orientation[i][1] = q.x(), orientation[i][2] = q.y(),
+      orientation[i][3] = q.z();
       for (int c = 0; c < 3; ++c) place[i][c] = x[i].center[c] - x[0].center[c];
     }
   }
@@ -120,7 +121,7 @@ struct FrameState {
   SINEW_INLINE Frames<S, N> frames() const {
     Frames<S, N> f;
     for (int i = 0; i < N; ++i) {
-      f.turn[i] = turn_of<S>(turn[i]);
+      f.orientation[i] = unit_quaternion<S>(orientation[i]);
       f.place[i] = Vec<S, 3>(S(place[i][0]), S(place[i][1]), S(place[i][2]));
     }
     return f;
@@ -136,7 +137,7 @@ struct FrameForces {
 /// Slope number `slope` of frame i when it moves by dx: q' = w q / 2. Places count from the first.
 template <class T, int M, int N, class Deriv>
 SINEW_INLINE void seed(Frames<Dual<T, M>, N>& frames, int i, Deriv const& dx, int slope) {
-  auto& [w, v] = frames.turn[i];
+  auto& [w, v] = frames.orientation[i];
   const T h(0.5), qw = w.value, x = v[0].value, y = v[1].value, z = v[2].value;
   w.slope[slope] = -h * (dx[3] * x + dx[4] * y + dx[5] * z);
   v[0].slope[slope] = h * (dx[3] * qw + dx[4] * z - dx[5] * y);
@@ -148,8 +149,8 @@ SINEW_INLINE void seed(Frames<Dual<T, M>, N>& frames, int i, Deriv const& dx, in
   }
 }
 
-// The derivative of torques t = -dE/dw after turns by w is not symmetric: it exceeds its symmetric part by
-// -t x w / 2, as turns do not commute. What forces that derive from an energy need is that part.
+// The derivative of torques t = -dE/dw after rotations by w is not symmetric: it exceeds its symmetric part
+// by -t x w / 2, as rotations do not commute. What forces that derive from an energy need is that part.
 
 /// df = k K dx of an element whose forces<S>(frames) are exact for dual numbers too.
 template <int N, class Real, class Deriv, class Forces>

@@ -94,7 +94,10 @@ struct ElementPressure {
   }
 
   ForceProperties properties() const {
-    return {.internal = false, .objective = false, .conservative = !turns(), .exactTangent = !turns()};
+    return {.internal = false,
+            .objective = false,
+            .conservative = !followsEdges(),
+            .exactTangent = !followsEdges()};
   }
 
   bool none = false;  // all of them have been removed, or a link has chosen none
@@ -115,7 +118,7 @@ struct ElementPressure {
     Edge points;
     Real load;  // at each of them [N]
   };
-  std::vector<Across> across{};  // where the load turns with the edges
+  std::vector<Across> across{};  // where the load follows the edges
 
   /// Edges by their points go with these.
   void follow(Followed const& change) requires ofEdges {
@@ -152,7 +155,7 @@ struct ElementPressure {
       const double each = size(element, at) / double(element.size());
       for (const Index i : element) share[std::size_t(i)] += each;
       if constexpr (ofEdges)
-        if (turns()) across.push_back({element, Real(intensity * each)});
+        if (followsEdges()) across.push_back({element, Real(intensity * each)});
     };
     for (std::size_t e = 0; e < elements.size(); ++e) {
       auto at = [&](std::size_t k) -> Eigen::Vector3d {
@@ -167,11 +170,11 @@ struct ElementPressure {
       for (Edge const& e : edges) load(e);
     loads.clear();
     for (std::size_t i = 0; i < share.size(); ++i)
-      if (share[i] > 0 && !turns()) loads.push_back({int(i), Deriv(pressure * Real(share[i]))});
+      if (share[i] > 0 && !followsEdges()) loads.push_back({int(i), Deriv(pressure * Real(share[i]))});
     rest = context.rest;
   }
 
-  /// What init leaves to be said; empty for nothing.
+  /// The warning of init; empty for none.
   std::string warning() const {
     if (none || !loads.empty() || !across.empty()) return {};
     return text("presses nothing: no element has a number in ",
@@ -203,7 +206,7 @@ struct ElementPressure {
   }
 
  private:
-  bool turns() const { return ofEdges && pressure.isZero(0) && intensity != 0; }
+  bool followsEdges() const { return ofEdges && pressure.isZero(0) && intensity != 0; }
 
   // length of an edge; area of a triangle, and of the two in a quad
   template <class Element, class At>

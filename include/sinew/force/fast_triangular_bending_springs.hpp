@@ -67,7 +67,7 @@ struct LinearBending {
 template <class D>
 struct FastTriangularBendingSprings {
   using Role = role::ForceField;
-  static constexpr bool takesParts = true;
+  static constexpr bool sharesWork = true;
   using DataTypes = D;
   using Real = typename D::Real;
   static constexpr std::string_view className = "FastTriangularBendingSprings";

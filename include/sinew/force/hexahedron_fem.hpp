@@ -59,7 +59,7 @@ struct HexahedronFEM {
 
   SINEW_HD Real energy(Rest const& rest, Coord const (&x)[8]) const {
     Vec3 y[8], column[3][4];
-    turnBack(rotation(rest, x), x, y);
+    rotateBack(rotation(rest, x), x, y);
     columns(y, column);
     Real sum(0);
     for (int g = 0; g < 8; ++g) {
@@ -85,7 +85,7 @@ struct HexahedronFEM {
 
   /// -k R sum_g w (lambda h_i h_j' + mu h_j h_i' + mu h_i.h_j I) R',  h_i = grad N_i
   SINEW_HD Mat3 block(Rest const& rest, Tangent const& tangent, int i, int j, Real k, Real /*b*/) const {
-    Mat3 m, turned, block;  // m = sum_g w h_i h_j'
+    Mat3 m, rotated, block;  // m = sum_g w h_i h_j'
     for (int c = 0; c < 9; ++c) m(c) = Real(0);
     for (int g = 0; g < 8; ++g) {
       const Vec3 hi = gradient(rest, g, i) * rest.weight[g], hj = gradient(rest, g, j);
@@ -101,10 +101,10 @@ struct HexahedronFEM {
       }
     Mat3 const& q = tangent.rotation;
     for (int c = 0; c < 3; ++c)
-      for (int r = 0; r < 3; ++r) turned(r, c) = s(r, 0) * q(c, 0) + s(r, 1) * q(c, 1) + s(r, 2) * q(c, 2);
+      for (int r = 0; r < 3; ++r) rotated(r, c) = s(r, 0) * q(c, 0) + s(r, 1) * q(c, 1) + s(r, 2) * q(c, 2);
     for (int c = 0; c < 3; ++c)
       for (int r = 0; r < 3; ++r)
-        block(r, c) = q(r, 0) * turned(0, c) + q(r, 1) * turned(1, c) + q(r, 2) * turned(2, c);
+        block(r, c) = q(r, 0) * rotated(0, c) + q(r, 1) * rotated(1, c) + q(r, 2) * rotated(2, c);
     return block;
   }
 
@@ -115,7 +115,7 @@ struct HexahedronFEM {
     if (method == HexahedronMethod::large) frame = frame_of(Vec3(a.col(0)), Vec3(a.col(1)));
     if (method == HexahedronMethod::polar) frame = nearest_rotation(a);
     Vec3 y[8], column[3][4];
-    turnBack(frame, x, y);
+    rotateBack(frame, x, y);
     columns(y, column);
     Rest rest;
     for (int g = 0; g < 8; ++g) {
@@ -171,7 +171,7 @@ struct HexahedronFEM {
     return a;
   }
   // y = R'(x - x_0)
-  SINEW_INLINE static void turnBack(Mat3 const& r, Coord const (&x)[8], Vec3 (&y)[8]) {
+  SINEW_INLINE static void rotateBack(Mat3 const& r, Coord const (&x)[8], Vec3 (&y)[8]) {
     for (int i = 0; i < 8; ++i) {
       const Vec3 d = x[i] - x[0];
       for (int c = 0; c < 3; ++c) y[i][c] = r(0, c) * d[0] + r(1, c) * d[1] + r(2, c) * d[2];
@@ -196,7 +196,7 @@ struct HexahedronFEM {
   SINEW_HD static void internalForce(Rest const& rest, Mat3 const& r, Coord const (&x)[8], Real one,
                                      Real factor, Deriv (&f)[8]) {
     Vec3 y[8], column[3][4], pull[3][4];
-    turnBack(r, x, y);
+    rotateBack(r, x, y);
     columns(y, column);
     for (int k = 0; k < 3; ++k)
       for (int uv = 0; uv < 4; ++uv)
@@ -269,7 +269,7 @@ struct HexahedronFEM {
 template <class D>
 struct HexahedronFEMForceField {
   using Role = role::ForceField;
-  static constexpr bool takesParts = true;
+  static constexpr bool sharesWork = true;
   using DataTypes = D;
   using Real = typename D::Real;
   static constexpr std::string_view className = "HexahedronFEMForceField",
@@ -336,7 +336,7 @@ struct HexahedronFEMForceField {
               text("hexahedron ",
                    e,
                    " is flat, inside out or twisted; its corners are the four of one face in a circle, "
-                   "then those opposite of them, each face turning as seen from inside"));
+                   "then those opposite of them, each face counter-clockwise as seen from inside"));
     }
     driver.init({hexahedra.begin(), hexahedra.end()}, rest);
   }

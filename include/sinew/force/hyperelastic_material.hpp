@@ -96,20 +96,22 @@ struct Jet {
   SINEW_INLINE Jet taylor(Real by) const { return {f + by * (d + Real(0.5) * by * dd), d + by * dd, dd}; }
   /// The same with a curvature that fades as (1 - by/width)^-3: a straight line far from here, where by < 0.
   SINEW_INLINE Jet fading(Real by, Real width) const {
-    const Real t = Real(1) / (Real(1) - by / width), turn = Real(0.5) * dd * width;
-    return {f + by * (d - turn) + turn * width * (t - Real(1)), d + turn * (t * t - Real(1)), dd * t * t * t};
+    const Real t = Real(1) / (Real(1) - by / width), curvature = Real(0.5) * dd * width;
+    return {f + by * (d - curvature) + curvature * width * (t - Real(1)),
+            d + curvature * (t * t - Real(1)),
+            dd * t * t * t};
   }
   SINEW_INLINE Jet square() const { return {f * f, Real(2) * f * d, Real(2) * (d * d + f * dd)}; }
 };
 
-/// Functions of a ratio, continued below `least`.
+/// Functions of a ratio, continued below `threshold`.
 template <class Real>
 struct Continued {
   Real width, ratio, by, log, inverse;
 
-  SINEW_INLINE Continued(Real value, Real least)
-      : width(least),
-        ratio(select(value < least, least, value)),
+  SINEW_INLINE Continued(Real value, Real threshold)
+      : width(threshold),
+        ratio(select(value < threshold, threshold, value)),
         by(value - ratio),
         log(log_of(ratio)),
         inverse(Real(1) / ratio) {}
@@ -145,7 +147,7 @@ struct InvariantResponse {
 
 }  // namespace detail
 
-/// A material of the first kind: a function at(p, I1, I2, J, least) of its parameters p.
+/// A material of the first kind: a function at(p, I1, I2, J, threshold) of its parameters p.
 struct StVenantKirchhoff {
   template <class Real, class P>
   SINEW_INLINE static detail::InvariantResponse<Real> at(P const& p, Real i1, Real i2, Real, Real) {
@@ -162,12 +164,12 @@ struct StVenantKirchhoff {
 
 struct NeoHookean {
   template <class Real, class P>
-  SINEW_INLINE static detail::InvariantResponse<Real> at(P const& p, Real i1, Real, Real j, Real least) {
+  SINEW_INLINE static detail::InvariantResponse<Real> at(P const& p, Real i1, Real, Real j, Real threshold) {
     const Real mu(p[0]), lambda(p[1]);
     detail::InvariantResponse<Real> r;
     r.w = Real(0.5) * mu * (i1 - Real(3));
     r.w1 = Real(0.5) * mu;
-    r.add(detail::Continued<Real>(j, least).barrier(mu, lambda));
+    r.add(detail::Continued<Real>(j, threshold).barrier(mu, lambda));
     return r;
   }
 };
@@ -187,9 +189,10 @@ struct StableNeoHookean {
 
 struct MooneyRivlin {
   template <class Real, class P>
-  SINEW_INLINE static detail::InvariantResponse<Real> at(P const& p, Real i1, Real i2, Real j, Real least) {
+  SINEW_INLINE static detail::InvariantResponse<Real> at(P const& p, Real i1, Real i2, Real j,
+                                                         Real threshold) {
     const Real c1(p[0]), c2(p[1]);
-    const detail::Continued<Real> volume(j, least);
+    const detail::Continued<Real> volume(j, threshold);
     const auto q = volume.power(lane_scalar<Real>(-2) / 3), qq = q.square();
     detail::InvariantResponse<Real> r;
     r.add({c1 * (q.f * i1 - Real(3)), c1, Real(0)}, q, i1);
@@ -207,8 +210,8 @@ struct ArrudaBoyce {
     return {1.0 / 2, 1.0 / (20 * 8), 11.0 / (1050 * 64), 19.0 / (7000 * 512), 519.0 / (673750.0 * 4096)};
   }
   template <class Real, class P>
-  SINEW_INLINE static detail::InvariantResponse<Real> at(P const& p, Real i1, Real, Real j, Real least) {
-    const detail::Continued<Real> volume(j, least);
+  SINEW_INLINE static detail::InvariantResponse<Real> at(P const& p, Real i1, Real, Real j, Real threshold) {
+    const detail::Continued<Real> volume(j, threshold);
     const auto q = volume.power(lane_scalar<Real>(-2) / 3);
     const Real b1 = q.f * i1;
     constexpr std::array<double, 5> c = series();
@@ -231,7 +234,7 @@ struct ArrudaBoyce {
 };
 
 /// W as a function of the singular values s_a: its gradient and its second derivatives, and the eigenvalues
-/// of its second derivative by F in the axes b and c other than a, of their shear and of their turn:
+/// of its second derivative by F in the axes b and c other than a, of their shear and of their rotation:
 ///   shear_a = (W_b - W_c)/(s_b - s_c),   spin_a = (W_b + W_c)/(s_b + s_c)
 template <class Real>
 struct PrincipalResponse {
@@ -272,14 +275,14 @@ SINEW_HD PrincipalResponse<Real> principal(detail::InvariantResponse<Real> const
 namespace detail {
 
 /// sum_a h(y_a^2) with h(c) = c^half, half > 0, of three numbers y, and its derivatives by them; h continued
-/// below `least` by its Taylor polynomial of degree 2, so that it is smooth at 0. shear and spin are those of
-/// PrincipalResponse.
+/// below `threshold` by its Taylor polynomial of degree 2, so that it is smooth at 0. shear and spin are
+/// those of PrincipalResponse.
 template <class Real>
 struct PowerSum {
   Real sum{0}, slope[3], second[3], shear[3], spin[3];
 
-  SINEW_HD PowerSum(Real const (&y)[3], Real least, lane_scalar<Real> half) {
-    const Continued<Real> c[3]{{y[0] * y[0], least}, {y[1] * y[1], least}, {y[2] * y[2], least}};
+  SINEW_HD PowerSum(Real const (&y)[3], Real threshold, lane_scalar<Real> half) {
+    const Continued<Real> c[3]{{y[0] * y[0], threshold}, {y[1] * y[1], threshold}, {y[2] * y[2], threshold}};
     Jet<Real> start[3], h[3];  // where the continuation starts, and here
     for (int a = 0; a < 3; ++a) {
       const Real f = exp_of(Real(Real(half) * c[a].log)), d = Real(half) * f * c[a].inverse;
@@ -300,8 +303,8 @@ struct PowerSum {
 
  private:
   /// (h'(b) - h'(c))/(b - c). For near b and c it is h''-like times sinh(n x)/sinh(x), with x = ln(b/c)/2 and
-  /// n = half - 1, by its series, so that nothing cancels; x is that of the arguments held at `least`, and
-  /// the continued part of h' is a straight line.
+  /// n = half - 1, by its series, so that nothing cancels; x is that of the arguments held at `threshold`,
+  /// and the continued part of h' is a straight line.
   SINEW_INLINE static Real slopeRate(Continued<Real> const& b, Continued<Real> const& c, Jet<Real> const& hb,
                                      Jet<Real> const& hc, lane_scalar<Real> half) {
     using std::abs, std::sqrt, sinew::abs, sinew::sqrt;
@@ -317,10 +320,10 @@ struct PowerSum {
     const Real held = select(near,
                              Real(sign * mean * series(nx) / series(x)),
                              Real((hb.d - hc.d) / select(near, Real(1), difference)));
-    // of the way from c to b, the part that is not on the straight line, whose slope is h'' at its start
-    const Real way = difference + b.by - c.by;
-    const auto apart = abs(way) > Real(0);
-    const Real part = select(apart, Real(difference / select(apart, way, Real(1))), Real(1));
+    // of the interval from c to b, the part that is not on the straight line, whose slope is h'' at its start
+    const Real span = difference + b.by - c.by;
+    const auto apart = abs(span) > Real(0);
+    const Real part = select(apart, Real(difference / select(apart, span, Real(1))), Real(1));
     const Real line = select(b.by < Real(0), hb.dd, hc.dd);
     return select(part < Real(1), Real(line + (held - line) * part), held);
   }
@@ -328,18 +331,18 @@ struct PowerSum {
 
 }  // namespace detail
 
-/// A material of the second kind: at(p, terms, s, least) of its singular values.
+/// A material of the second kind: at(p, terms, s, threshold) of its singular values.
 struct Ogden {
   /// Positive powers of s_a. What a negative one makes of J^(-1/3) s_a is J^(2 alpha/3) (s_b s_c)^(-alpha)
   /// with the singular values s_b s_c of the cofactor matrix: it is continued through s_a = 0 in this form,
   /// in which nothing but J becomes singular.
   template <class Real, class P>
-  SINEW_HD static PrincipalResponse<Real> at(P const& p, int terms, Vec<Real, 3> const& s, Real least) {
+  SINEW_HD static PrincipalResponse<Real> at(P const& p, int terms, Vec<Real, 3> const& s, Real threshold) {
     using Scalar = lane_scalar<Real>;
     using detail::Jet;
     PrincipalResponse<Real> out;
-    const detail::Continued<Real> volume(s[0] * s[1] * s[2], least);
-    const Real low = least * least * least * least;
+    const detail::Continued<Real> volume(s[0] * s[1] * s[2], threshold);
+    const Real low = threshold * threshold * threshold * threshold;
     Jet<Real> u = volume.barrier(Real(0), Real(p[std::size_t(2 * terms)]));  // all that depends on J
     const Real stretches[3]{s[0], s[1], s[2]}, j[3]{s[1] * s[2], s[2] * s[0], s[0] * s[1]};
     for (int a = 0; a < 3; ++a) {
@@ -402,13 +405,13 @@ struct Hyperelastic {
   HyperelasticMaterial material = HyperelasticMaterial::ArrudaBoyce;
   std::array<Scalar, 7> p{};
   int terms = 1;  // of Ogden
-  Scalar least = Scalar(0.3);
+  Scalar threshold = Scalar(0.3);
 
   SINEW_HD bool byStretches() const { return material == HyperelasticMaterial::Ogden; }
 
   /// Not for those by stretches.
   SINEW_HD detail::InvariantResponse<Real> byInvariants(Real i1, Real i2, Real j) const {
-    const Real low(least);
+    const Real low(threshold);
     switch (material) {
       case HyperelasticMaterial::StVenantKirchhoff:
         return StVenantKirchhoff::at(p, i1, i2, j, low);
@@ -423,7 +426,7 @@ struct Hyperelastic {
     }
   }
   SINEW_HD PrincipalResponse<Real> at(Vec<Real, 3> const& s) const {
-    if (byStretches()) return Ogden::at(p, terms, s, Real(least));
+    if (byStretches()) return Ogden::at(p, terms, s, Real(threshold));
     const Real a = s[0] * s[0], b = s[1] * s[1], c = s[2] * s[2], i1 = a + b + c;
     return principal(byInvariants(i1, a * b + b * c + c * a, s[0] * s[1] * s[2]), s, i1);
   }

@@ -16,7 +16,7 @@ namespace sinew {
 template <class D>
 struct MeshSpringForceField {
   using Role = role::ForceField;
-  static constexpr bool takesParts = true;
+  static constexpr bool sharesWork = true;
   using DataTypes = D;
   using Real = typename D::Real;
   static constexpr std::string_view className = "MeshSpringForceField";
@@ -96,7 +96,7 @@ struct MeshSpringForceField {
     none = springs.empty();
     springs.init(driver, noCompression);
   }
-  /// What is to be noted after init.
+  /// The warning of init; empty for none.
   std::string_view warning() const {
     return none ? "there is no spring, so that points move freely; give the node a topology with edges or "
                   "higher elements, and set a stiffness or damping of their kind"

@@ -14,7 +14,7 @@ namespace sinew {
 template <class D>
 struct RegularGridSpringForceField {
   using Role = role::ForceField;
-  static constexpr bool takesParts = true;
+  static constexpr bool sharesWork = true;
   using DataTypes = D;
   using Real = typename D::Real;
   static constexpr std::string_view className = "RegularGridSpringForceField";

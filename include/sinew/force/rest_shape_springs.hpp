@@ -15,7 +15,7 @@ namespace sinew {
 /// Spring from a point to a fixed place; of a rigid body, also from its orientation to a fixed one.
 ///   E = k/2 |d|^2 + k_a/2 |t|^2                                                               [J]
 ///   f = -k d,  torque = -k_a t,   d = x - x_rest,  t = rotation vector of q q_rest^-1         [N], [N m]
-/// In space the derivative of t by a turn of the body is J = I + [t]x/2 + s [t]x [t]x with
+/// In space the derivative of t by a rotation of the body is J = I + [t]x/2 + s [t]x [t]x with
 /// s = (1 - |t|/2 cot(|t|/2)) / |t|^2; its symmetric part is the tangent. Directions that are not active have
 /// neither force nor torque; where torques about some axes only are left, they have no energy.
 template <class D>
@@ -25,7 +25,7 @@ struct RestShapeSpring {
   using Deriv = typename D::Deriv;
   static constexpr int arity = 1;
   static constexpr bool usesVelocity = false, oneByOne = true;
-  static constexpr bool turns = D::rigid && D::spatial == 3;
+  static constexpr bool rotates = D::rigid && D::spatial == 3;
 
   std::array<Real, D::size> active = all();  // 1, or 0 where springs do not act in a direction
 
@@ -34,10 +34,10 @@ struct RestShapeSpring {
     Real stiffness, angularStiffness;
   };
   struct Nothing {};
-  struct Turned {
+  struct RotationTangent {
     Mat<Real, 3> derivative;  // symmetric part of J
   };
-  using Tangent = std::conditional_t<turns, Turned, Nothing>;
+  using Tangent = std::conditional_t<rotates, RotationTangent, Nothing>;
 
   SINEW_HD Real energy(Rest const& rest, Coord const (&x)[1]) const {
     const Deriv d = displacement(rest, x[0]);
@@ -48,7 +48,7 @@ struct RestShapeSpring {
                       Tangent& tangent) const {
     const Deriv d = displacement(rest, x[0]);
     f[0] = -scaled(rest, d);
-    if constexpr (turns) {
+    if constexpr (rotates) {
       const Vec<Real, 3> t = d.template tail<3>();
       const Real square = t.squaredNorm(), half = std::sqrt(square) / 2;
       const Real s = half < Real(1e-3) ? Real(1) / 12 + square / 720 : (1 - half / std::tan(half)) / square;
@@ -59,7 +59,7 @@ struct RestShapeSpring {
   SINEW_HD void dforce(Rest const& rest, Tangent const& tangent, Deriv const (&dx)[1], Deriv (&df)[1], Real k,
                        Real /*b*/) const {
     Deriv d = dx[0] * (-k);
-    if constexpr (turns) {
+    if constexpr (rotates) {
       for (int c = 3; c < 6; ++c) d[c] = d[c] * active[std::size_t(c)];
       d.template tail<3>() = (tangent.derivative * d.template tail<3>()).eval();
     }
@@ -74,7 +74,7 @@ struct RestShapeSpring {
     Mat<Real, D::size> block;
     for (int c = 0; c < D::size; ++c)
       for (int r = 0; r < D::size; ++r) block(r, c) = r == c ? diagonal[r] : Real(0);
-    if constexpr (turns)
+    if constexpr (rotates)
       for (int c = 3; c < 6; ++c)
         for (int r = 3; r < 6; ++r)
           block(r, c) = -k * rest.angularStiffness * tangent.derivative(r - 3, c - 3) *
@@ -163,8 +163,8 @@ struct RestShapeSpringsForceField {
         std::find(activeDirections.begin(), activeDirections.end(), false) != activeDirections.end();
     return {.internal = false,
             .objective = false,
-            .conservative = !(RestShapeSpring<D>::turns && some),
-            .exactTangent = !RestShapeSpring<D>::turns};
+            .conservative = !(RestShapeSpring<D>::rotates && some),
+            .exactTangent = !RestShapeSpring<D>::rotates};
   }
 
   bool none = false;  // all of them have been removed
@@ -190,7 +190,7 @@ struct RestShapeSpringsForceField {
     const std::size_t n = none ? 0 : points.empty() ? context.rest.size() : points.size();
     // SOFA has a flag for each number of a position, of which a quaternion has four
     const std::size_t directions = std::size_t(D::size),
-                      numbers = directions + (RestShapeSpring<D>::turns ? 1 : 0);
+                      numbers = directions + (RestShapeSpring<D>::rotates ? 1 : 0);
     if (activeDirections.size() > 1 && activeDirections.size() != directions &&
         activeDirections.size() != numbers)
       throw Error(where,

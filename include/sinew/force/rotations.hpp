@@ -68,12 +68,12 @@ SINEW_HD Mat<Real, 3> nearest_rotation(Mat<Real, 3> const& f) {
     w[0] = select(definite, dot3(c0, a) * inverse, a[0] * safe);
     w[1] = select(definite, dot3(c1, a) * inverse, a[1] * safe);
     w[2] = select(definite, dot3(c2, a) * inverse, a[2] * safe);
-    // Cayley's turn by w: an exact rotation, its angle |w| to second order
+    // Cayley's rotation by w: an exact rotation, its angle |w| to second order
     const Vec3 q = Real(0.5) * w;
     const Real n = Real(2) / (Real(1) + dot3(q, q));
     for (int c = 0; c < 3; ++c) {
-      const Vec3 v = r.col(c), t = cross3(q, v) + v, turn = cross3(q, t);
-      for (int i = 0; i < 3; ++i) r(i, c) = v[i] + n * turn[i];
+      const Vec3 v = r.col(c), t = cross3(q, v) + v, change = cross3(q, t);
+      for (int i = 0; i < 3; ++i) r(i, c) = v[i] + n * change[i];
     }
     if (!any(dot3(w, w) > Real(epsilon * epsilon))) break;
   }

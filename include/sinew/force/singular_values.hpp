@@ -40,7 +40,7 @@ SINEW_HD void symmetric_eigen(Mat<Real, 3> a, Vec<Real, 3>& values, Mat<Real, 3>
     const Real off = abs(a(0, 1)) + abs(a(0, 2)) + abs(a(1, 2));
     const Real all = abs(a(0, 0)) + abs(a(1, 1)) + abs(a(2, 2));
     if (!any(off > Real(std::numeric_limits<Scalar>::epsilon() / 8) * all + tiny)) break;
-    for (int r = 2; r >= 0; --r) {  // turns p and q; r is the third
+    for (int r = 2; r >= 0; --r) {  // rotates p and q; r is the third
       const int p = r == 0 ? 1 : 0, q = r == 2 ? 1 : 2;
       const Real apq = a(p, q), d = a(q, q) - a(p, p), root = sqrt(d * d + Real(4) * apq * apq) + tiny;
       const Real t = Real(2) * apq / (d + select(d < Real(0), Real(-root), root));

@@ -43,9 +43,9 @@ struct SpringLaw {
     const Deriv d = x[1] - x[0];
     const Real length = sqrt(d.squaredNorm()), natural = unstretched(rest);
     // of a string its length; of others next to nothing
-    const Real least = (natural - rest.length) * Real(0.5) + natural * Real(1e-9) +
-                       Real(std::numeric_limits<lane_scalar<Real>>::min());
-    const Real inverse = select(length > least, Real(1) / length, Real(0));
+    const Real threshold = (natural - rest.length) * Real(0.5) + natural * Real(1e-9) +
+                           Real(std::numeric_limits<lane_scalar<Real>>::min());
+    const Real inverse = select(length > threshold, Real(1) / length, Real(0));
     tangent.direction = d * inverse;
     const Real force =
         rest.stiffness * (length - natural) + rest.damping * (v[1] - v[0]).dot(tangent.direction);

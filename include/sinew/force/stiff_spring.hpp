@@ -45,7 +45,7 @@ struct StiffSpringForceField {
   using WithEnds = StiffSpringForceField<D, Other>;
   static constexpr bool between = !std::is_same_v<E, Within>;
   using Role = std::conditional_t<between, role::InteractionForceField, role::ForceField>;
-  static constexpr bool takesParts = !between;
+  static constexpr bool sharesWork = !between;
   using DataTypes = D;
   using Real = typename D::Real;
   static constexpr std::string_view className = "StiffSpringForceField";

@@ -117,7 +117,8 @@ struct SurfacePressureForceField {
               "Pa/s",
               "how fast it does; 0: from 0 to pressure in a second",
               range::nonNegative),
-        field("pressureLowerBound", &F::pressureLowerBound, "Pa", "where pulses turn, besides at pressure"));
+        field(
+            "pressureLowerBound", &F::pressureLowerBound, "Pa", "where pulses reverse, besides at pressure"));
   }
 
   ForceProperties properties() const {

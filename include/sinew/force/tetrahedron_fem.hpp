@@ -180,7 +180,7 @@ struct TetrahedronFEM {
 template <class D>
 struct TetrahedronFEMForceField {
   using Role = role::ForceField;
-  static constexpr bool takesParts = true;
+  static constexpr bool sharesWork = true;
   using DataTypes = D;
   using Real = typename D::Real;
   static constexpr std::string_view className = "TetrahedronFEMForceField";

@@ -18,9 +18,9 @@ namespace sinew {
 ///   E = V W(F) [J],   f_k = -V P g_k [N],   P = dW/dF,   df_i/dx_j = -V (d2W/dF2 : . g_j) g_i
 /// Two ways lead to P and to the second derivative. By invariants, where P = 2 W1 F + 2 W2 (I1 F - F F'F) +
 /// WJ cof F; and by the singular values F = U diag(s) V', in whose axes the second derivative falls into one
-/// block of 3 x 3 for stretches and six numbers for turns (Smith, de Goes, Kim 2019). The latter is taken for
-/// materials that are given by stretches, and to make the tangent positive semi-definite: what is negative of
-/// the eigenvalues becomes 0 (Teran et al. 2005).
+/// block of 3 x 3 for stretches and six numbers for rotations (Smith, de Goes, Kim 2019). The latter is taken
+/// for materials that are given by stretches, and to make the tangent positive semi-definite: what is
+/// negative of the eigenvalues becomes 0 (Teran et al. 2005).
 template <class D>
 struct TetrahedronHyperelasticity {
   using Real = typename D::Real;
@@ -76,10 +76,10 @@ struct TetrahedronHyperelasticity {
     block.setZero();
     for (int p = i == 0 ? 1 : i; p <= (i == 0 ? 3 : i); ++p)
       for (int q = j == 0 ? 1 : j; q <= (j == 0 ? 3 : j); ++q) {
-        const bool turned = p > q;
+        const bool swapped = p > q;
         Real const* const one =
-            tangent.k[turned ? pairNumber(q - 1, p - 1) : pairNumber(p - 1, q - 1)].data();
-        const int down = turned ? 3 : 1, across = turned ? 1 : 3;
+            tangent.k[swapped ? pairNumber(q - 1, p - 1) : pairNumber(p - 1, q - 1)].data();
+        const int down = swapped ? 3 : 1, across = swapped ? 1 : 3;
         for (int c = 0; c < 3; ++c)
           for (int r = 0; r < 3; ++r) block(r, c) += one[down * r + across * c];
       }
@@ -158,8 +158,8 @@ struct TetrahedronHyperelasticity {
     for (int k = 0; k < 3; ++k) {
       for (int a = 0; a < 3; ++a) g[k][a] = dot3(Vec3(svd.v.col(a)), Vec3(rest.gradient.col(k)));
       const Vec3 pull(w.slope[0] * g[k][0], w.slope[1] * g[k][1], w.slope[2] * g[k][2]);
-      const Vec3 turned = times(svd.u, pull);
-      for (int i = 0; i < 3; ++i) force[k + 1][i] = -rest.volume * turned[i];
+      const Vec3 column = times(svd.u, pull);
+      for (int i = 0; i < 3; ++i) force[k + 1][i] = -rest.volume * column[i];
     }
     Mat3 even, odd;  // of axes a and b: half the sum of shear and spin, half their difference
     for (int c = 0; c < 3; ++c) {
@@ -206,7 +206,7 @@ struct TetrahedronHyperelasticity {
 template <class D>
 struct TetrahedronHyperelasticityFEMForceField {
   using Role = role::ForceField;
-  static constexpr bool takesParts = true;
+  static constexpr bool sharesWork = true;
   using DataTypes = D;
   using Real = typename D::Real;
   static constexpr std::string_view className = "TetrahedronHyperelasticityFEMForceField";
@@ -259,7 +259,7 @@ struct TetrahedronHyperelasticityFEMForceField {
     law.definite = matrixRegularization;
     law.material.material = materialName;
     law.material.terms = int(parameterSet.size() - 1) / 2;
-    law.material.least = Real(continuedBelow);
+    law.material.threshold = Real(continuedBelow);
     std::copy(parameterSet.begin(), parameterSet.end(), law.material.p.begin());
     return law;
   }

@@ -39,14 +39,14 @@ SINEW_INLINE Vec<Real, 3> times(Mat<Real, 3> const& a, Vec<Real, 3> const& b) {
 }
 
 /// The tetrahedra of the topology, or six in each of its hexahedra where it has none, cut as in SOFA with the
-/// cells of a grid mirrored in turn, unless that turns some inside out. Those of mirrored cells have their
-/// points `turned` and turned + 1 exchanged: with 0, the line from a tetrahedron's first point to the second,
-/// and the plane with the third, by which corotation goes, are those of SOFA; with 2 its first point. Throws
-/// Error where there are none, at one that refers to a missing point, and at a hexahedron that is flat or
-/// inside out.
+/// cells of a grid mirrored alternately, unless that turns some inside out. Those of mirrored cells have
+/// their points `exchanged` and `exchanged` + 1 swapped: with 0, the line from a tetrahedron's first point to
+/// the second, and the plane with the third, by which corotation goes, are those of SOFA; with 2 its first
+/// point. Throws Error where there are none, at one that refers to a missing point, and at a hexahedron that
+/// is flat or inside out.
 template <class D>
 std::vector<Tetrahedron> tetrahedra_of(std::string const& where, InitContext<D> const& context,
-                                       std::size_t turned = 0) {
+                                       std::size_t exchanged = 0) {
   auto const& given = context.topology.tetrahedra;
   std::vector<Tetrahedron> tetrahedra(given.begin(), given.end());
   if (!tetrahedra.empty()) {
@@ -56,7 +56,7 @@ std::vector<Tetrahedron> tetrahedra_of(std::string const& where, InitContext<D> 
   auto const& hexahedra = context.topology.hexahedra;
   detail::check_indices(where, "hexahedron", hexahedra, context.rest.size());
   tetrahedra =
-      hexahedra_to_tetrahedra(hexahedra, {.points = context.topology.grid, .swapping = true}, turned);
+      hexahedra_to_tetrahedra(hexahedra, {.points = context.topology.grid, .swapping = true}, exchanged);
   auto insideOut = [&](Tetrahedron const& t) {
     auto from0 = [&](std::size_t k) -> Eigen::Vector3d {
       return (context.rest[std::size_t(t[k])] - context.rest[std::size_t(t[0])]).template cast<double>();

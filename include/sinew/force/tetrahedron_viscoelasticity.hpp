@@ -116,10 +116,11 @@ struct TetrahedronViscoelasticity {
     Memory const& from = inside ? t.current : t.previous;
     Real stress[maxTerms][6];
     for (int n = 0; n < 6; ++n) {
-      const Real deviator = n < 3 ? Real(e(entry[n]) - mean) : e(entry[n]), way = deviator - from.strain[n];
+      const Real deviator = n < 3 ? Real(e(entry[n]) - mean) : e(entry[n]),
+                 increment = deviator - from.strain[n];
       Real sum(0);
       for (int i = 0; i < terms; ++i) {
-        stress[i][n] = decay[i] * from.stress[i][n] + gain[i] * way;
+        stress[i][n] = decay[i] * from.stress[i][n] + gain[i] * increment;
         sum += stress[i][n];
         if (!inside) t.current.stress[i][n] = stress[i][n];
       }
@@ -166,7 +167,7 @@ struct TetrahedronViscoelasticity {
 /// another force field over the same tetrahedra, Maxwell's materials with lambda = 0 are terms that relax for
 /// any elasticity.
 ///
-/// What the past leaves, Q_n and E_n, is that of the last step. The field learns of steps by the times that
+/// The history, Q_n and E_n, is that of the last step. The field learns of steps by the times that
 /// it is asked for: a step ends when a force is wanted a whole step, MechanicalParams::dt, after its start or
 /// later. So it follows solvers that move through each step, and those that try one again. Before the first
 /// time there was rest: a body that starts strained has been strained just then.
@@ -195,7 +196,7 @@ struct TetrahedronViscoelasticityFEMForceField {
               "lambda of SLSMaxwellSecondOrder; G0 [G1 tau1 [G2 tau2 [G3 tau3]]] lambda of Prony"));
   }
 
-  /// Terms that relax dissipate; what is said of a damper at rest is that of its spring.
+  /// Terms that relax dissipate; the claims about a damper at rest are those of its spring.
   ForceProperties properties() const { return {.conservative = moduli.terms == 0}; }
 
   using Driver = ElementDriver<TetrahedronViscoelasticity, D>;
@@ -216,7 +217,7 @@ struct TetrahedronViscoelasticityFEMForceField {
                       field("memory", &F::memory, "", "strains and stresses of both, of all elements"));
   }
 
-  /// Tetrahedra that stay keep their past.
+  /// Tetrahedra that stay keep their history.
   void follow(Followed const& change) {
     const Renumbering elements = change.topology.ofDimension(3, memory.size() / memorySize);
     std::vector<bool> stays;

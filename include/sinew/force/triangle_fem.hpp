@@ -16,7 +16,7 @@ namespace sinew {
 /// How the frame of a corotational triangle is found.
 ///   large  first axis along the edge 01, third normal to the triangle, as SOFA's "large"
 ///   small  that at rest: linear elasticity in the plane of the triangle at rest
-///   polar  that of `large`, turned in the plane to where the deformation is symmetric
+///   polar  that of `large`, rotated in the plane to where the deformation is symmetric
 enum class TriangleMethod { large, small, polar };
 inline constexpr std::array<std::string_view, 3> enum_names(TriangleMethod) {
   return {"large", "small", "polar"};
@@ -167,7 +167,7 @@ struct TriangleFEM {
 template <class D>
 struct TriangleFEMForceField {
   using Role = role::ForceField;
-  static constexpr bool takesParts = true;
+  static constexpr bool sharesWork = true;
   using DataTypes = D;
   using Real = typename D::Real;
   static constexpr std::string_view className = "TriangleFEMForceField";

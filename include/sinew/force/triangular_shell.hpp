@@ -13,7 +13,7 @@
 namespace sinew {
 
 /// Flat triangular shell of three frames, corotational (Felippa & Haugen 2005). The axes e_1, e_2, e_3 of the
-/// element have e_3 normal to the triangle as it is, and are turned in its plane to where its deformation is
+/// element have e_3 normal to the triangle as it is, and are rotated in its plane to where its deformation is
 /// symmetric. In them the corners have the places x_k and the rotation vectors t_k (X_k and 0 at rest), and
 ///   E = 1/2 m' K_m m + 1/2 b' K_b b,   m = (x_k - X_k, t_kz)_k,   b = (t_kx, t_ky)_k             [J]
 /// with the membrane and the plate of shell_stiffness.hpp. Forces are the exact slope of E, the tangent is
@@ -66,9 +66,9 @@ struct TriangularShell {
     const Eigen::Vector3d a = (x[1].center - x[0].center).template cast<double>(),
                           b = (x[2].center - x[0].center).template cast<double>();
     const Eigen::Matrix3d axes = frame_of(a, b);
-    const Eigen::Quaterniond turn(axes);
+    const Eigen::Quaterniond orientation(axes);
     for (int i = 0; i < 3; ++i)
-      store(x[i].orientation.template cast<double>().conjugate() * turn, rest.toAxes[i]);
+      store(x[i].orientation.template cast<double>().conjugate() * orientation, rest.toAxes[i]);
     const PlaneTriangle<double> corners{Eigen::Vector2d(0, 0),
                                         Eigen::Vector2d(a.norm(), 0),
                                         Eigen::Vector2d(axes.col(0).dot(b), axes.col(1).dot(b))};
@@ -108,7 +108,7 @@ struct TriangularShell {
     Vec<S, 3> axes[3];
     S place[3][2];  // x_k
     S trace;        // of the deformation gradient
-    LocalTurn<S> end[3];
+    LocalRotation<S> end[3];
     S stretch[9], pull[9];  // m, K_m m
     S bend[6], moment[6];   // b, K_b b
 
@@ -135,7 +135,7 @@ struct TriangularShell {
 
       const Real at[3][2]{{Real(0), Real(0)}, {rest.corner[0], Real(0)}, {rest.corner[1], rest.corner[2]}};
       for (int k = 0; k < 3; ++k) {
-        end[k] = turned(frames.turn[k] * turn_of<S>(rest.toAxes[k]));
+        end[k] = localRotation(frames.orientation[k] * unit_quaternion<S>(rest.toAxes[k]));
         for (int r = 0; r < 2; ++r) {
           place[k][r] = dot3(axes[r], frames.place[k]);
           stretch[3 * k + r] = place[k][r] - S(at[k][r]);
@@ -148,8 +148,8 @@ struct TriangularShell {
     }
 
    private:
-    // the turn of a node against the axes, by less than 180 degrees
-    SINEW_HD LocalTurn<S> turned(Turn<S> const& node) const {
+    // the rotation of a node against the axes, by less than 180 degrees
+    SINEW_HD LocalRotation<S> localRotation(UnitQuaternion<S> const& node) const {
       using std::sqrt, sinew::sqrt;
       Vec<S, 3> column[3];  // R = axes' node, of which quaternions have tr R = 4 w^2 - 1, R - R' = 4 w [v]x
       for (int c = 0; c < 3; ++c) {
@@ -161,17 +161,17 @@ struct TriangularShell {
       const S tiny(lane_scalar<Real>(1e-12));
       const S twice = sqrt(S(1) + column[0][0] + column[1][1] + column[2][2] + tiny);
       const S part = S(0.5) / twice;
-      return LocalTurn<S>({S(0.5) * twice,
-                           Vec<S, 3>(part * (column[1][2] - column[2][1]),
-                                     part * (column[2][0] - column[0][2]),
-                                     part * (column[0][1] - column[1][0]))});
+      return LocalRotation<S>({S(0.5) * twice,
+                               Vec<S, 3>(part * (column[1][2] - column[2][1]),
+                                         part * (column[2][0] - column[0][2]),
+                                         part * (column[0][1] - column[1][0]))});
     }
   };
 
-  // Minus the slope of E. The axes turn by w = (sum h_ky dz_k, -sum h_kx dz_k, sum (g_kx dy_k - g_ky dx_k) /
-  // tr F) when the corners move by (dx, dy, dz)_k in them; g are the gradients of the shape functions at
+  // Minus the slope of E. The axes rotate by w = (sum h_ky dz_k, -sum h_kx dz_k, sum (g_kx dy_k - g_ky dx_k)
+  // / tr F) when the corners move by (dx, dy, dz)_k in them; g are the gradients of the shape functions at
   // rest, h those as they are now. The moment of all that pulls at the nodes is undone by forces that make
-  // that turn.
+  // that rotation.
   template <class S>
   SINEW_HD static FrameForces<S, 3> forces(Rest const& rest, Frames<S, 3> const& frames) {
     const Local<S> local(rest, frames);
@@ -209,7 +209,7 @@ struct TriangularShellForceField {
   static_assert(D::rigid && D::spatial == 3,
                 "Sinew: TriangularShellForceField is for frames in space (Rigid3d).");
   using Role = role::ForceField;
-  static constexpr bool takesParts = true;
+  static constexpr bool sharesWork = true;
   using DataTypes = D;
   using Real = typename D::Real;
   static constexpr std::string_view className = "TriangularShellForceField";

@@ -14,9 +14,9 @@ namespace sinew {
 ///   E = k/2 |d|^2 + k_a/2 |t|^2                                                                [J]
 ///   f = -k d - c (v - v_t),  torque = -k_a t - c_a (w - w_t),  d = x - x_t                     [N], [N m]
 /// with t the rotation vector of q q_t^-1. An implicit step has all of it in its matrix, so that any
-/// stiffness and damping are stable in the simulation; of a turn in space the tangent is the symmetric part.
-/// setTarget() sets the target from outside, between steps: that of the end of the step, for a tool that lags
-/// least. Without a target the tool is drawn to its rest position.
+/// stiffness and damping are stable in the simulation; of a rotation in space the tangent is the symmetric
+/// part. setTarget() sets the target from outside, between steps: that of the end of the step, for a tool
+/// that lags least. Without a target the tool is drawn to its rest position.
 template <class D>
 struct VirtualCoupling {
   using Role = role::ForceField;
@@ -27,7 +27,7 @@ struct VirtualCoupling {
   using VecCoord = typename D::VecCoord;
   using VecDeriv = typename D::VecDeriv;
   static constexpr std::string_view className = "VirtualCoupling";
-  static constexpr bool turns = D::rigid && D::spatial == 3;
+  static constexpr bool rotates = D::rigid && D::spatial == 3;
 
   std::vector<int> points{0};
   double stiffness = 500, damping = 2, angularStiffness = 0.5, angularDamping = 0.005;
@@ -67,12 +67,12 @@ struct VirtualCoupling {
   }
 
   static constexpr ForceProperties properties() {
-    return {.internal = false, .objective = false, .exactTangent = !turns};
+    return {.internal = false, .objective = false, .exactTangent = !rotates};
   }
 
   VecCoord place{};  // of each point
   VecDeriv speed{};
-  std::vector<Mat<Real, 3>> turnTangent{};  // symmetric part of dt/dq at the last force, where it turns
+  std::vector<Mat<Real, 3>> rotationTangent{};  // symmetric part of dt/dq at the last force, where it rotates
 
   void init(InitContext<D> const& context) {
     const std::string where = text(context.where, ": ", component_name<VirtualCoupling>());
@@ -86,13 +86,13 @@ struct VirtualCoupling {
     for (std::size_t i = 0; i < n; ++i) {
       place.push_back(target.empty() ? context.rest[std::size_t(points[i])] : one_or_each(target, i));
       speed.push_back(targetVelocity.empty() ? Deriv(Deriv::Zero()) : one_or_each(targetVelocity, i));
-      if constexpr (turns) {
+      if constexpr (rotates) {
         if (!(place[i].orientation.norm() > Real(0.5)))
           throw Error(where, text("target [", i, "] has no unit quaternion for orientation; correct it"));
         place[i].orientation.normalize();
       }
     }
-    turnTangent.assign(turns ? n : 0, Mat<Real, 3>::Identity());
+    rotationTangent.assign(rotates ? n : 0, Mat<Real, 3>::Identity());
   }
 
   /// Where the device is, after init, for all points. Throws Error where that is not finite, and leaves the
@@ -112,7 +112,7 @@ struct VirtualCoupling {
       const std::size_t p = std::size_t(points[i]);
       const Deriv d = D::difference(place[i], x[p]);
       f[p] -= scaled(d, stiffness, angularStiffness) + scaled(v[p] - speed[i], damping, angularDamping);
-      if constexpr (turns) turnTangent[i] = tangent(Vec<Real, 3>(d.template tail<3>()));
+      if constexpr (rotates) rotationTangent[i] = tangent(Vec<Real, 3>(d.template tail<3>()));
     }
   }
   void addDForce(MechanicalParams const& p, VecDeriv& df, VecDeriv const& dx) const {
@@ -156,10 +156,10 @@ struct VirtualCoupling {
     const Deriv diagonal = scaled(Deriv::Constant(Real(-p.b)), damping, angularDamping) +
                            scaled(Deriv::Constant(Real(-p.k)), stiffness, angularStiffness);
     for (int c = 0; c < D::size; ++c) m(c, c) = diagonal[c];
-    if constexpr (turns)
+    if constexpr (rotates)
       for (int r = 0; r < 3; ++r)
         for (int c = 0; c < 3; ++c)
-          m(3 + r, 3 + c) = Real(-p.k * angularStiffness) * turnTangent[i](r, c) -
+          m(3 + r, 3 + c) = Real(-p.k * angularStiffness) * rotationTangent[i](r, c) -
                             (r == c ? Real(p.b * angularDamping) : Real(0));
     return m;
   }

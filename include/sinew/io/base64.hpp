@@ -40,9 +40,9 @@ struct Base64Decoded {
   std::size_t badAt = std::string_view::npos;  // where the text is not base64, or ends too early
 };
 
-/// The first `most` bytes, or all, of a base64 text. White space is skipped, and several padded texts may
+/// The first `maximum` bytes, or all, of a base64 text. White space is skipped, and several padded texts may
 /// follow each other.
-Base64Decoded decode_base64(std::string_view text, std::size_t most = std::size_t(-1));
+Base64Decoded decode_base64(std::string_view text, std::size_t maximum = std::size_t(-1));
 
 }  // namespace sinew::io
 
@@ -68,7 +68,7 @@ SINEW_ONCE void Base64Encoder::finish() {
   out_.append(std::size_t(4 - full), '=');
 }
 
-SINEW_ONCE Base64Decoded decode_base64(std::string_view text, std::size_t most) {
+SINEW_ONCE Base64Decoded decode_base64(std::string_view text, std::size_t maximum) {
   static constexpr auto values = [] {
     std::array<std::int8_t, 256> v{};
     v.fill(-1);
@@ -76,10 +76,10 @@ SINEW_ONCE Base64Decoded decode_base64(std::string_view text, std::size_t most) 
     return v;
   }();
   Base64Decoded out;
-  out.bytes.reserve(std::min(most, text.size() / 4 * 3));
+  out.bytes.reserve(std::min(maximum, text.size() / 4 * 3));
   std::uint32_t bits = 0;
   int characters = 0, padding = 0;
-  for (std::size_t i = 0; i < text.size() && out.bytes.size() < most; ++i) {
+  for (std::size_t i = 0; i < text.size() && out.bytes.size() < maximum; ++i) {
     const char c = text[i];
     if (c == ' ' || (c >= '\t' && c <= '\r')) continue;
     const int value = values[static_cast<unsigned char>(c)];
@@ -90,7 +90,7 @@ SINEW_ONCE Base64Decoded decode_base64(std::string_view text, std::size_t most) 
     padding += c == '=';
     bits = bits << 6 | std::uint32_t(c == '=' ? 0 : value);
     if (++characters < 4) continue;
-    for (int k = 0; k < 3 - padding && out.bytes.size() < most; ++k)
+    for (int k = 0; k < 3 - padding && out.bytes.size() < maximum; ++k)
       out.bytes += char(bits >> (16 - 8 * k) & 255);
     bits = 0, characters = 0, padding = 0;
   }

@@ -61,7 +61,7 @@ SINEW_ONCE void add_polyline(Mesh& mesh, std::span<Index const> p) {
 
 SINEW_ONCE std::string add_vtk_cell(Mesh& mesh, std::int64_t type, std::span<Index const> p) {
   struct Size {
-    std::size_t least, most;
+    std::size_t minimum, maximum;
   };
   constexpr std::size_t any = std::size_t(-1);
   constexpr Size sizes[] = {{0, any},
@@ -84,14 +84,14 @@ SINEW_ONCE std::string add_vtk_cell(Mesh& mesh, std::int64_t type, std::span<Ind
                 type,
                 ", which is not read; convert the mesh to linear triangles, quads, tetrahedra or hexahedra");
   const Size size = sizes[type];
-  if (p.size() < size.least || p.size() > size.most)
+  if (p.size() < size.minimum || p.size() > size.maximum)
     return text("has ",
                 p.size(),
                 " points, but VTK's cell type ",
                 type,
                 " has ",
-                size.least,
-                size.most == any ? " or more" : "",
+                size.minimum,
+                size.maximum == any ? " or more" : "",
                 "; correct the cell");
   switch (type) {
     case vtk_cell::line:
@@ -103,7 +103,7 @@ SINEW_ONCE std::string add_vtk_cell(Mesh& mesh, std::int64_t type, std::span<Ind
     case vtk_cell::quad:
       add_polygon(mesh, p);
       break;
-    case vtk_cell::triangleStrip:  // every second triangle is turned
+    case vtk_cell::triangleStrip:  // every second triangle is reversed
       for (std::size_t i = 2; i < p.size(); ++i)
         mesh.triangles.push_back({p[i - 2], p[i - 1 + i % 2], p[i - i % 2]});
       break;

@@ -270,7 +270,7 @@ class VtkParser {
       const std::size_t tuples = in_.count("the number of tuples", 1);
       const std::string type = next();
       if (tuples > 0 && components > std::numeric_limits<std::size_t>::max() / tuples)
-        throw in_.error("the numbers of components and tuples cannot be meant; correct them");
+        throw in_.error("the numbers of components and tuples are impossible; correct them");
       if (binary_) {
         skipBinary(components * tuples, type);
         continue;

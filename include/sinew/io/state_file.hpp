@@ -42,7 +42,7 @@ namespace sinew::io {
 
 /// What a state has for each frame.
 struct StateLayout {
-  enum Part { restPosition, position, velocity, force };
+  enum Quantity { restPosition, position, velocity, force };
   static constexpr std::array<std::string_view, 4> words{"X0=", "X=", "V=", "F="};
 
   std::string dataTypes{};                       // "Vec3d"
@@ -165,33 +165,33 @@ class FramesOfBytes {
       : path_(path), content_(content), layout_(std::move(layout)), allow_(allowTruncated) {}
 
   StateFrames<Real> read() {
-    const std::uint64_t said = header();
+    const std::uint64_t declared = header();
     const std::size_t size = frame_size<Real>(layout_), bytes = content_.size() - headerSize;
     const std::size_t whole = bytes / size;
-    if (said == unfinished && !allow_)
+    if (declared == unfinished && !allow_)
       fail(text("was never finished: the program that wrote it ended before it did; it has ",
                 whole,
                 " whole frames",
                 cutAdvice));
-    if (said != unfinished && said > whole && !allow_)
+    if (declared != unfinished && declared > whole && !allow_)
       fail(text("is cut off in frame ",
                 whole,
                 ", at byte ",
                 content_.size(),
                 ": it should have ",
-                said,
+                declared,
                 " frames of ",
                 size,
                 " bytes",
                 cutAdvice));
-    if (said <= whole && bytes != said * size)
+    if (declared <= whole && bytes != declared * size)
       fail(text("goes on after its ",
-                said,
+                declared,
                 " frames, at byte ",
-                headerSize + said * size,
+                headerSize + declared * size,
                 "; remove what follows"));
     StateFrames<Real> frames;
-    for (std::size_t k = 0; k < std::min<std::uint64_t>(said, whole); ++k) frame(frames, k, size);
+    for (std::size_t k = 0; k < std::min<std::uint64_t>(declared, whole); ++k) frame(frames, k, size);
     frames.end = headerSize + frames.times.size() * size;
     return frames;
   }
@@ -347,7 +347,7 @@ class FramesOfText {
     if (!parse_number(in.wordOnLine(), time)) throw in.expected("the time of a frame");
     check_time(frames_, time, text(path_, ':', in.line()));
     frames_.times.push_back(time);
-    if (!in.wordOnLine().empty()) throw in.error("more stands behind the time; remove it");
+    if (!in.wordOnLine().empty()) throw in.error("there is more after the time; remove it");
     while (in.more()) {
       const std::string_view word = in.word();
       if (word.starts_with('#')) {

@@ -25,7 +25,7 @@ class StateWriter {
     struct stat info;
     if (path_.empty()) throw Error("", "filename is empty; name the file to write");
     if (path_.ends_with(".gz"))
-      throw Error(path_, "files are not compressed here; take off .gz, or choose format=\"binary\"");
+      throw Error(path_, "files are not compressed here; remove .gz, or choose format=\"binary\"");
     const bool exists = ::stat(path_.c_str(), &info) == 0;
     if (exists && S_ISDIR(info.st_mode)) throw Error(path_, "is a folder; name a file in it");
     device_ = exists && !S_ISREG(info.st_mode);
@@ -36,7 +36,7 @@ class StateWriter {
                       ? text("cannot be written: there is no folder ", folder, "; create it first")
                       : text("cannot be written: ", reason(errno), "; choose another folder"));
     name_.reserve(path_.size() + 16);
-    buffer_.reserve(flushAt + mostBytes());
+    buffer_.reserve(flushAt + maxBytes());
   }
   StateWriter(StateWriter const&) = delete;
   StateWriter& operator=(StateWriter const&) = delete;
@@ -56,7 +56,7 @@ class StateWriter {
     if (fd_ < 0)
       start(number);
     else if (stamp != stamp_ || number != frames_)
-      goBack(number, stamp);
+      truncateTo(number, stamp);
     const std::size_t begin = buffer_.size();
     if (binary_) {
       state_file::put(buffer_, time);
@@ -119,7 +119,7 @@ class StateWriter {
 
   static std::string reason(int cause) { return static_cast<char const*>(std::strerror(cause)); }
   // numbers of at most 24 characters after a blank; times, names and checksums
-  std::size_t mostBytes() const { return 25 * layout_.numbers() + 128; }
+  std::size_t maxBytes() const { return 25 * layout_.numbers() + 128; }
 
   void start(std::size_t number) {
     std::string before;
@@ -155,12 +155,12 @@ class StateWriter {
     const std::string content = read_file(file);
     const bool isBinary = content.starts_with(state_file::magic);
     if (isBinary != binary_)
-      throw Error(file, text("cannot be gone on with: it is of the other format; write to another file"));
+      throw Error(file, text("cannot be continued: it is of the other format; write to another file"));
     StateLayout layout = layout_;
     const StateFrames<Real> found = parse_state_file<Real>(file, content, layout, file == name_);
     if (found.times.size() < number)
       throw Error(file,
-                  text("cannot be gone on with: ",
+                  text("cannot be continued: ",
                        number,
                        " frames were recorded before, and it has ",
                        found.times.size(),
@@ -168,7 +168,7 @@ class StateWriter {
     const std::size_t end = number < found.begins.size() ? found.begins[number] : found.end;
     return content.substr(found.begins[0], end - found.begins[0]);
   }
-  void goBack(std::size_t number, long stamp) {
+  void truncateTo(std::size_t number, long stamp) {
     if (device_ || number > frames_ || (number > cut_ && stamp <= cutStamp_))
       throw Error(path_,
                   "another copy of this scene records to the same file; give each copy a file of its own");

@@ -23,7 +23,7 @@ struct ConstraintBlock {
     friction,  // a normal and two tangents: d_n >= 0, f_n >= 0, d_n f_n = 0, |f_t| <= mu f_n; where d_t is
                // not 0, f_t = -mu f_n d_t / |d_t| (Signorini, Coulomb)
   };
-  static constexpr int most = 6;  // rows
+  static constexpr int maxRows = 6;
 
   Kind kind = Kind::equality;
   int first = 0, rows = 1;
@@ -87,7 +87,7 @@ inline void ConstraintProblem::check(std::string_view where) const {
     throw Error(where, "the compliance, a violation or a multiplier of constraints is not a finite number");
   int next = 0;
   for (ConstraintBlock const& b : blocks) {
-    if (b.first != next || b.rows < 1 || b.rows > ConstraintBlock::most || b.rows > int(n) - next)
+    if (b.first != next || b.rows < 1 || b.rows > ConstraintBlock::maxRows || b.rows > int(n) - next)
       throw Error(where,
                   text("a block of constraints has rows ",
                        b.first,
@@ -98,7 +98,7 @@ inline void ConstraintProblem::check(std::string_view where) const {
                        " is the next of ",
                        n,
                        "; blocks have 1 to ",
-                       ConstraintBlock::most,
+                       ConstraintBlock::maxRows,
                        " rows and follow each other without a gap"));
     if (b.kind == ConstraintBlock::Kind::friction &&
         (b.rows != 3 || !(b.friction >= 0) || !std::isfinite(b.friction)))

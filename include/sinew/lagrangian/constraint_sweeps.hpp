@@ -44,9 +44,9 @@ class ConstraintSweeps {
                      std::string_view where);
 
  private:
-  using Small =
-      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, ConstraintBlock::most, ConstraintBlock::most>;
-  using Few = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, ConstraintBlock::most, 1>;
+  using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, ConstraintBlock::maxRows,
+                              ConstraintBlock::maxRows>;
+  using Few = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, ConstraintBlock::maxRows, 1>;
 
   std::vector<Small> inverses_{};  // of W_bb, for equalities
   Eigen::VectorXd last_{}, change_{}, direction_{}, violation_{};

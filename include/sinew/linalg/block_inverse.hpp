@@ -17,11 +17,11 @@ SINEW_HD bool invert_definite(Block d, Block& to) {
   constexpr int n = Block::RowsAtCompileTime;
   Real largest = 0;
   for (int c = 0; c < n; ++c) largest = d(c, c) > largest ? d(c, c) : largest;
-  const Real least = largest * 32 * std::numeric_limits<Real>::epsilon();
+  const Real threshold = largest * 32 * std::numeric_limits<Real>::epsilon();
   to.setIdentity();
   for (int c = 0; c < n; ++c) {
     const Real pivot = d(c, c);
-    if (!(pivot > least && pivot <= std::numeric_limits<Real>::max())) return false;
+    if (!(pivot > threshold && pivot <= std::numeric_limits<Real>::max())) return false;
     d.row(c) /= pivot;
     to.row(c) /= pivot;
     for (int r = 0; r < n; ++r)

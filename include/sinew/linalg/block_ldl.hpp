@@ -69,9 +69,9 @@ struct BlockLdl {
     for (int k = 0; k < n; ++k) {
       // the column above the diagonal, and the rows of L that it reaches, in the order of elimination
       int top = n;
-      forEachBlock(a, k, [&](int i, int slot, bool turned) {
+      forEachBlock(a, k, [&](int i, int slot, bool transposed) {
         const Eigen::Map<typename Matrix::Block const> stored(a.block(slot));
-        if (turned)
+        if (transposed)
           work[std::size_t(i)] = stored.template cast<double>();
         else
           work[std::size_t(i)] = stored.transpose().template cast<double>();
@@ -163,12 +163,12 @@ struct BlockLdl {
       });
     }
   }
-  // f(new row, slot, turned) for the blocks of column k on and above the diagonal; turned: as it stands in
-  // the slot, else transposed
+  // f(new row, slot, transposed) for the blocks of column k on and above the diagonal; with `transposed` the
+  // slot has the block itself, else its transpose
   template <class F>
   void forEachBlock(Matrix const& a, int k, F&& f) const {
-    a.forEachInRow(oldIndex[std::size_t(k)], [&](int column, int slot, bool turned) {
-      if (const int i = newIndex[std::size_t(column)]; i <= k) f(i, slot, turned);
+    a.forEachInRow(oldIndex[std::size_t(k)], [&](int column, int slot, bool transposed) {
+      if (const int i = newIndex[std::size_t(column)]; i <= k) f(i, slot, transposed);
     });
   }
   // to = pivot^-1 by its own L D L'; returns the row of a pivot that vanishes, or -1

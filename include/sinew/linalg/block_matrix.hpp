@@ -3,7 +3,7 @@
 
 #include <sinew/core/data_types.hpp>
 #include <sinew/core/error.hpp>
-#include <sinew/core/part.hpp>
+#include <sinew/core/work_share.hpp>
 #include <sinew/linalg/sliced_rows.hpp>
 
 #include <algorithm>
@@ -62,8 +62,8 @@ struct CompressedRowSparseMatrix {
     for (std::size_t i = 0; i < pattern.size(); ++i) pattern[i].push_back(int(i));
   }
 
-  /// Announces a block of h x w scalars at (dof row, dof column), and its mirror image.
-  void announce(int row, int column, int h, int w) {
+  /// Adds a block of h x w scalars at (dof row, dof column), and its mirror image, to the pattern.
+  void preallocate(int row, int column, int h, int w) {
     for (int i = row / B; i <= (row + h - 1) / B; ++i)
       for (int j = column / B; j <= (column + w - 1) / B; ++j) {
         insert(pattern[std::size_t(i)], j);
@@ -71,10 +71,10 @@ struct CompressedRowSparseMatrix {
       }
   }
 
-  /// Announces what projectToMean with the same arguments fills. Comes behind all other announcements but
-  /// those of its kind.
+  /// Adds to the pattern what projectToMean with the same arguments fills. To be called after all other
+  /// additions but those of its kind.
   template <class Dofs>
-  void announceMean(Dofs const& starts, int coordinates) {
+  void preallocateMean(Dofs const& starts, int coordinates) {
     std::vector<int> own, all;
     for (const int dof : starts)
       for (int i = dof / B; i <= (dof + coordinates - 1) / B; ++i) own.push_back(i);
@@ -121,10 +121,10 @@ struct CompressedRowSparseMatrix {
 
   /// Prepares products by so many threads, with at least so many rows each. Where the rows are too few, there
   /// are fewer chunks, or none.
-  void split(int threads, int least = 128) {
-    const int n = B == 3 ? std::min(threads, rows() / least) : 1;
+  void split(int threads, int minimum = 128) {
+    const int n = B == 3 ? std::min(threads, rows() / minimum) : 1;
     chunks.clear();
-    std::size_t room = 0;
+    std::size_t endCount = 0;
     for (int k = 0, from = 0; n > 1 && k < n; ++k) {
       const std::size_t blocks = columns.size() * std::size_t(k + 1) / std::size_t(n);
       int to = int(std::lower_bound(rowStart.begin(), rowStart.end(), int(blocks)) - rowStart.begin());
@@ -132,23 +132,23 @@ struct CompressedRowSparseMatrix {
       int last = to;
       for (int i = from; i < to; ++i)
         last = std::max(last, columns[std::size_t(rowStart[std::size_t(i) + 1]) - 1] + 1);
-      chunks.push_back({from, to, last, room});
-      room += std::size_t(last - from);
+      chunks.push_back({from, to, last, endCount});
+      endCount += std::size_t(last - from);
       from = to;
     }
-    ends.resize(std::max(room, B == 3 ? std::size_t(rows()) : 0));
+    ends.resize(std::max(endCount, B == 3 ? std::size_t(rows()) : 0));
     if constexpr (sliceable) sliced.split(std::max(n, 1));
   }
 
   void setZero() { setZero(OneThread{}); }
   template <class Run>
   void setZero(Run const& workers) {
-    auto zero = [&](Part part) {
+    auto zero = [&](WorkShare part) {
       const std::size_t begin = part.begin(values.size());
       std::memset(values.data() + begin, 0, (part.end(values.size()) - begin) * sizeof(Real));
     };
     if (chunks.empty())
-      zero(Part{});
+      zero(WorkShare{});
     else
       workers.run(zero);
     changed();
@@ -162,7 +162,8 @@ struct CompressedRowSparseMatrix {
     const auto found = std::lower_bound(first, last, column);
     return found != last && *found == column ? int(found - columns.begin()) : -1;
   }
-  /// f(column, slot, turned) for each block of a row, from left to right; turned: the slot has its transpose.
+  /// f(column, slot, transposed) for each block of a row, from left to right; transposed: the slot has its
+  /// transpose.
   template <class F>
   void forEachInRow(int row, F&& f) const {
     const std::size_t i = std::size_t(row);
@@ -193,7 +194,7 @@ struct CompressedRowSparseMatrix {
         const int s = slot(r / B, c / B);
         if (s < 0)
           throw Error("CompressedRowSparseMatrix",
-                      text("nothing was announced at row ", r, ", column ", c, " of the pattern"));
+                      text("there is no block at row ", r, ", column ", c, " of the pattern"));
         block(s)[(r % B) * B + c % B] += Real(k(i, j));
       }
   }
@@ -201,11 +202,11 @@ struct CompressedRowSparseMatrix {
   /// Row and column `dof` become those of the identity; to be called when all has been added.
   void fix(int dof) {
     const int r = dof / B, s = dof % B;
-    forEachInRow(r, [&](int column, int slot, bool turned) {
+    forEachInRow(r, [&](int column, int slot, bool transposed) {
       Real* const entries = block(slot);
       for (int j = 0; j < B; ++j) {
-        if (turned || column == r) entries[j * B + s] = 0;
-        if (!turned) entries[s * B + j] = 0;
+        if (transposed || column == r) entries[j * B + s] = 0;
+        if (!transposed) entries[s * B + j] = 0;
       }
     });
     block(rowStart[std::size_t(r)])[s * (B + 1)] = 1;
@@ -294,7 +295,7 @@ struct CompressedRowSparseMatrix {
       bool done = false;
       if constexpr (!std::is_same_v<Run, OneThread>)
         if (!chunks.empty()) {
-          workers.run([&](Part part) {
+          workers.run([&](WorkShare part) {
             for (std::size_t k = part.begin(chunks.size()); k < part.end(chunks.size()); ++k)
               multiplyChunk(chunks[k], x, y);
           });
@@ -346,11 +347,10 @@ struct CompressedRowSparseMatrix {
       *entry = value;
     else if (value != Real(0))
       throw Error("CompressedRowSparseMatrix",
-                  text("nothing was announced at row ", row, ", column ", column, " of the pattern"));
+                  text("there is no block at row ", row, ", column ", column, " of the pattern"));
   }
 
-  // the rows are short, and the same block is announced by every element around an edge: compact before
-  // growing
+  // the rows are short, and the same block is added by every element around an edge: compact before growing
   static void insert(std::vector<int>& row, int column) {
     if (row.size() == row.capacity() && row.size() >= 32) compact(row);
     row.push_back(column);
@@ -380,11 +380,12 @@ struct CompressedRowSparseMatrix {
     return dot;
   }
 
-  // Each block is read once, for its own row and, turned, for the row of its column: y_i += A x_j and y_j +=
-  // A' x_i. Its rows are loaded as four scalars; the fourth products, of what stands behind, gather in lanes
-  // that are never read. Two blocks at a time keep six independent sums in flight. Row i is complete when its
-  // turn has come: those above have left their parts in its End. A chunk of rows does by itself what chunks
-  // above would add to it, before all else and in the same order, and what it adds to those below is lost.
+  // Each block is read once, for its own row and, transposed, for the row of its column: y_i += A x_j and y_j
+  // += A' x_i. Its rows are loaded as four scalars; the fourth products, of what stands behind, gather in
+  // lanes that are never read. Two blocks at a time keep six independent sums in flight. Row i is complete
+  // when its turn has come: those above have left their parts in its End. A chunk of rows does by itself what
+  // chunks above would add to it, before all else and in the same order, and what it adds to those below is
+  // lost.
   void multiplyChunk(Chunk const& chunk, Real const* x, Real* y) {
     typedef double Doubles __attribute__((vector_size(4 * sizeof(double))));
     auto load = [](Four& to, Real const* from) { std::memcpy(&to, from, sizeof to); };

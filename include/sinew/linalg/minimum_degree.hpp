@@ -61,9 +61,9 @@ SINEW_ONCE std::vector<int> minimum_degree_order(std::span<int const> rowStart,
 
   std::vector<int> order;
   order.reserve(Size(n));
-  for (int least = 0; int(order.size()) < n;) {
-    while (head[Size(least)] < 0) ++least;
-    const int pivot = head[Size(least)];
+  for (int minimum = 0; int(order.size()) < n;) {
+    while (head[Size(minimum)] < 0) ++minimum;
+    const int pivot = head[Size(minimum)];
     remove(pivot);
     order.push_back(pivot);
 
@@ -109,7 +109,7 @@ SINEW_ONCE std::vector<int> minimum_degree_order(std::span<int const> rowStart,
       parts.push_back(pivot);
       degree[Size(i)] = std::min({bound, degree[Size(i)] + others, left});
       insert(i);
-      least = std::min(least, degree[Size(i)]);
+      minimum = std::min(minimum, degree[Size(i)]);
     }
   }
   return order;

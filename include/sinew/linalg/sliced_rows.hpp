@@ -2,7 +2,7 @@
 #pragma once
 
 #include <sinew/core/lanes.hpp>
-#include <sinew/core/part.hpp>
+#include <sinew/core/work_share.hpp>
 
 #include <algorithm>
 #include <array>
@@ -54,7 +54,7 @@ struct SlicedRows {
   void init(std::vector<int> const& rowStart, std::vector<int> const& columns, int zero) {
     *this = {};
     rows = int(rowStart.size()) - 1;
-    const std::size_t most = columns.size() + columns.size() / 5;  // of lanes, with those that are empty
+    const std::size_t maximum = columns.size() + columns.size() / 5;  // of lanes, with those that are empty
     sliceStart.push_back(0);
     for (int first = 0; first < rows; first += W) {
       std::map<int, Source> slice;
@@ -64,7 +64,7 @@ struct SlicedRows {
           if (added) std::fill(at->second.of, at->second.of + W, 3 * zero);
           at->second.of[i - first] = 3 * k;
         }
-      if ((distances.size() + slice.size()) * std::size_t(W) > most + std::size_t(W) * W) {
+      if ((distances.size() + slice.size()) * std::size_t(W) > maximum + std::size_t(W) * W) {
         *this = {};
         return;
       }
@@ -81,7 +81,7 @@ struct SlicedRows {
   /// Prepares products by so many threads.
   void split(int threads) {
     chunks.clear();
-    std::size_t room = 0;
+    std::size_t endCount = 0;
     for (std::size_t k = 0, from = 0; from < slices(); ++k) {
       Chunk chunk{.from = from, .to = slices(), .above = from};
       if (int(k) + 1 < threads) {
@@ -100,18 +100,18 @@ struct SlicedRows {
         }
       chunk.origin = std::max(0, int(from) * W - W);
       chunk.stride = std::size_t(last - chunk.origin + W);
-      chunk.ends = room;
-      room += 3 * chunk.stride;
+      chunk.ends = endCount;
+      endCount += 3 * chunk.stride;
       chunks.push_back(chunk);
       from = chunk.to;
     }
-    y.assign(room, Real(0));
+    y.assign(endCount, Real(0));
   }
 
   /// The blocks anew, from those of the matrix, row-major one behind the other.
   template <class Run>
   void pack(Run const& workers, Real const* values) {
-    workers.run([&](Part part) {
+    workers.run([&](WorkShare part) {
       for (std::size_t s = part.begin(sources.size()); s < part.end(sources.size()); ++s)
         for (std::size_t r = 0; r < 3; ++r) gather3(values + 3 * r, sources[s].of, &blocks[s][3 * r]);
     });
@@ -121,10 +121,10 @@ struct SlicedRows {
   /// are.
   template <class Run>
   double multiply(Run const& workers, Real const* in, Real* out) {
-    workers.run([&](Part part) {
+    workers.run([&](WorkShare part) {
       for (std::size_t k = part.begin(slices()); k < part.end(slices()); ++k) begin(in, int(k) * W);
     });
-    workers.run([&](Part part) {
+    workers.run([&](WorkShare part) {
       for (std::size_t k = part.begin(chunks.size()); k < part.end(chunks.size()); ++k)
         multiplyChunk(chunks[k], out);
     });

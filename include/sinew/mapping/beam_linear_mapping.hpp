@@ -14,11 +14,11 @@ namespace sinew {
 
 /// Points carried by beams between frames: the edges of the parent's topology, or where it has none, frames
 /// that follow one another. Each point belongs to the beam nearest to it at rest, at a place t of its length
-/// L, 0 to 1. With c_k, T_k the centres of the two frames and the axes of the beam that turn with them,
+/// L, 0 to 1. With c_k, T_k the centres of the two frames and the axes of the beam that rotate with them,
 ///   x = (1 - f) c_0 + f c_1 + L ((t - 2t^2 + t^3) T_0 e_x + (t^3 - t^2) T_1 e_x) + R s,   f = 3t^2 - 2t^3
-/// The middle line is Hermite's cubic, as bent beams have it; the section, with s in it, turns by R, the mean
-/// of T_0 and T_1 as quaternions with weights 1 - t and t. (In SOFA points are the mean of those that the two
-/// frames would carry, with weights 1 - f and f: halfway its line bends out twice as far.)
+/// The middle line is Hermite's cubic, as bent beams have it; the section, with s in it, rotates by R, the
+/// mean of T_0 and T_1 as quaternions with weights 1 - t and t. (In SOFA points are the mean of those that
+/// the two frames would carry, with weights 1 - f and f: halfway its line bends out twice as far.)
 template <class I, class O>
 struct BeamLinearMapping {
   using Role = role::Mapping;
@@ -56,7 +56,8 @@ struct BeamLinearMapping {
     Vec3 offset;                       // s
   };
   std::vector<Carrier> carriers{};
-  std::vector<std::array<Mat<Real, 3>, 2>> turning{};  // dx by the turns of the two frames, at the last apply
+  std::vector<std::array<Mat<Real, 3>, 2>>
+      rotationJacobians{};  // derivatives of x by the rotations of the two frames, at the last apply
 
   void init(InitContext<In> const& parent, InitContext<Out> const& child, typename Out::VecCoord& positions) {
     const std::string where = text(child.where, ": ", component_name<BeamLinearMapping>());
@@ -88,16 +89,17 @@ struct BeamLinearMapping {
       if (localCoord)
         c.offset = c.length * Vec3(Real(along) - c.place, Real(p[1]), Real(p[2]));
       else
-        c.offset = turnOf(c, parent.rest).conjugate() * (p.template cast<Real>() - lineOf(c, parent.rest));
+        c.offset =
+            rotationOf(c, parent.rest).conjugate() * (p.template cast<Real>() - lineOf(c, parent.rest));
     }
-    turning.resize(carriers.size());
+    rotationJacobians.resize(carriers.size());
   }
 
   void apply(typename Out::VecCoord& out, typename In::VecCoord const& in) {
     for (std::size_t i = 0; i < carriers.size(); ++i) {
       Carrier const& c = carriers[i];
       Quat<Real> sum;
-      const Quat<Real> mean = turnOf(c, in, &sum);
+      const Quat<Real> mean = rotationOf(c, in, &sum);
       const Vec3 arm = mean * c.offset;
       out[i] = (lineOf(c, in) + arm).template cast<typename Out::Real>();
       for (std::size_t k = 0; k < 2; ++k) {
@@ -106,7 +108,7 @@ struct BeamLinearMapping {
         const Quat<Real> part = sideOf(c, in, k) * sum.inverse();
         const Real weight = k == 0 ? 1 - c.place : c.place;
         const Mat<Real, 3> spin = weight * (part.w() * Mat<Real, 3>::Identity() - cross(part.vec()));
-        turning[i][k] = -cross(tangentOf(c, in, k)) - cross(arm) * spin;
+        rotationJacobians[i][k] = -cross(tangentOf(c, in, k)) - cross(arm) * spin;
       }
     }
   }
@@ -115,7 +117,8 @@ struct BeamLinearMapping {
       Vec3 v = Vec3::Zero();
       for (std::size_t k = 0; k < 2; ++k) {
         auto const& frame = in[std::size_t(carriers[i].frames[k])];
-        v += weightOf(carriers[i], k) * frame.template head<3>() + turning[i][k] * frame.template tail<3>();
+        v += weightOf(carriers[i], k) * frame.template head<3>() +
+             rotationJacobians[i][k] * frame.template tail<3>();
       }
       out[i] = v.template cast<typename Out::Real>();
     }
@@ -126,7 +129,7 @@ struct BeamLinearMapping {
       for (std::size_t k = 0; k < 2; ++k) {
         auto& frame = in[std::size_t(carriers[i].frames[k])];
         frame.template head<3>() += weightOf(carriers[i], k) * f;
-        frame.template tail<3>() += turning[i][k].transpose() * f;
+        frame.template tail<3>() += rotationJacobians[i][k].transpose() * f;
       }
     }
   }
@@ -135,7 +138,7 @@ struct BeamLinearMapping {
     Carrier const& c = carriers[std::size_t(point)];
     for (std::size_t k = 0; k < 2; ++k) {
       Mat<Real, 3, 6> j;
-      j << weightOf(c, k) * Mat<Real, 3>::Identity(), turning[std::size_t(point)][k];
+      j << weightOf(c, k) * Mat<Real, 3>::Identity(), rotationJacobians[std::size_t(point)][k];
       f(c.frames[k], Mat<typename Out::Real, 3, 6>(j.template cast<typename Out::Real>()));
     }
   }
@@ -164,7 +167,7 @@ struct BeamLinearMapping {
     if (k == 1 && q.dot(sideOf(c, x, 0)) < 0) q.coeffs() = -q.coeffs();
     return q;
   }
-  static Quat<Real> turnOf(Carrier const& c, typename In::VecCoord const& x, Quat<Real>* sum = nullptr) {
+  static Quat<Real> rotationOf(Carrier const& c, typename In::VecCoord const& x, Quat<Real>* sum = nullptr) {
     Quat<Real> mean;
     mean.coeffs() = (1 - c.place) * sideOf(c, x, 0).coeffs() + c.place * sideOf(c, x, 1).coeffs();
     if (sum) *sum = mean;

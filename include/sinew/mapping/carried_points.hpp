@@ -36,7 +36,7 @@ struct CarriedPoints {
   using Weight = typename In::Real;
   using Carriers = std::vector<Carrier<Weight>>;
   static constexpr int W = native_width<Real>;
-  static constexpr std::size_t least = W, leastTransposed = 2 * W;  // points of which a run is faster
+  static constexpr std::size_t minimum = W, minimumTransposed = 2 * W;  // points of which a run is faster
   static constexpr bool possible = W >= 4;
 
   struct Run {
@@ -61,7 +61,7 @@ struct CarriedPoints {
           return true;
         };
         for (end = first + 1; end < carriers.size() && same(end);) ++end;
-        if (end - first < least) continue;
+        if (end - first < minimum) continue;
         Run run{{}, count, first, end, weights.size()};
         for (int k = 0; k < count; ++k) run.corners[std::size_t(k)] = corner(first, k);
         for (int k = 1; k < count; ++k)
@@ -78,7 +78,7 @@ struct CarriedPoints {
     Weight const* const x = in.data()->data();
     forEachRun(
         carriers.size(),
-        least,
+        minimum,
         [&](Run const& run) { interpolate(run, out, in); },
         [&](std::size_t i) {
           auto sum = [x](Carrier<Weight> const& c, int k) {
@@ -96,7 +96,7 @@ struct CarriedPoints {
                Carriers const& others) const {
     forEachRun(
         carriers.size(),
-        leastTransposed,
+        minimumTransposed,
         [&](Run const& run) { collect(run, in, out); },
         [&](std::size_t i) {
           auto add = [&](Carrier<Weight> const& c) {

@@ -40,7 +40,10 @@ struct DistanceMapping {
               "length of each edge at rest; where none is given, that of the rest positions",
               range::nonNegative)
             .oneEach(Of::points),
-        field("geometricStiffness", &M::geometricStiffness, "", "what turning edges add to the stiffness"));
+        field("geometricStiffness",
+              &M::geometricStiffness,
+              "",
+              "geometric stiffness: what rotating edges add to the stiffness"));
   }
 
   struct Link {

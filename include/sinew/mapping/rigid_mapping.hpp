@@ -15,7 +15,8 @@ namespace sinew {
 ///   x = c + r,  r = R p      v = c' + w x r      f_c += f,  torque += r x f
 /// and, for frames, orientations q o, angular velocities w, and torques that are added. The positions given
 /// to the child are the p (and o) in body axes, or those in the world with `globalToLocalCoords`. In the
-/// plane w x r = w (-r_y, r_x). As bodies turn, the arms of forces do, which `geometricStiffness` adds:
+/// plane w x r = w (-r_y, r_x). As bodies rotate, so do the lever arms of forces, which `geometricStiffness`
+/// adds:
 ///   K_g = 1/2 ([f]x [r]x + [r]x [f]x) on angular coordinates, in the plane -f.r
 /// What the symmetric part leaves out is 1/2 [f x r]x, and vanishes together with the torque on a body.
 template <class I, class O>
@@ -48,7 +49,7 @@ struct RigidMapping {
                       field("geometricStiffness",
                             &RigidMapping::geometricStiffness,
                             "",
-                            "what turning arms add to the stiffness"));
+                            "geometric stiffness: what rotating lever arms add to the stiffness"));
   }
   static constexpr int angular = In::size - N;
 

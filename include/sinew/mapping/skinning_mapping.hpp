@@ -259,16 +259,16 @@ struct SkinningMapping {
 
   struct Motion {
     Four q;               // rotation from rest, its sign that of the blend
-    Vec<Real, 3> turned;  // the centre at rest, turned
+    Vec<Real, 3> rotated;  // the centre at rest, rotated
     Four shift;           // t
   };
   Motion motion(Influence const& one, typename In::VecCoord const& in, Four const& pivot) const {
     auto const& frame = in[std::size_t(one.frame)];
     auto const& rest = restFrames[std::size_t(one.frame)];
-    const Quat<Real> turn = frame.orientation * rest.orientation.conjugate();
-    Motion m{turn.coeffs(), turn * rest.center, {}};
+    const Quat<Real> rotation = frame.orientation * rest.orientation.conjugate();
+    Motion m{rotation.coeffs(), rotation * rest.center, {}};
     if (m.q.dot(pivot) < 0) m.q = -m.q;
-    m.shift = pure(frame.center - m.turned);
+    m.shift = pure(frame.center - m.rotated);
     return m;
   }
 
@@ -294,9 +294,9 @@ struct SkinningMapping {
     for (std::size_t k = starts[point]; k < starts[point + 1]; ++k) {
       Influence& one = influences[k];
       const Motion m = motion(one, in, pivot);
-      // dq = w q / 2, dt = v - w x turned, d(t q / 2) = dt q / 2 + t dq / 2
+      // dq = w q / 2, dt = v - w x rotated, d(t q / 2) = dt q / 2 + t dq / 2
       const Mat<Real, 4, 3> half = right(m.q).template leftCols<3>() / 2;
-      const Mat<Real, 4, 3> dual = half * cross(m.turned) + left(m.shift) * half / 2;
+      const Mat<Real, 4, 3> dual = half * cross(m.rotated) + left(m.shift) * half / 2;
       one.jacobian.template leftCols<3>() = one.weight * (byDual * half);
       one.jacobian.template rightCols<3>() = one.weight * (byReal * half + byDual * dual);
     }

@@ -37,7 +37,7 @@ struct SubsetMultiMapping {
   }
 
   /// What concerns one of the parents.
-  struct Part {
+  struct PointsOfParent {
     std::vector<int> points{};  // of this parent, for each point of the child; -1: it is of another
 
     void apply(typename Out::VecCoord& out, typename In::VecCoord const& in) const {
@@ -68,7 +68,7 @@ struct SubsetMultiMapping {
         if (points[i] >= 0) f(i, std::size_t(points[i]));
     }
   };
-  std::vector<Part> parts{};  // one a parent
+  std::vector<PointsOfParent> parts{};  // one a parent
 
   /// Points go with those of the parents.
   void follow(Renumbering const& child, std::vector<Renumbering const*> const& above) {

@@ -13,9 +13,9 @@ namespace sinew {
 /// Each point of the child is the volume of a tetrahedron of the parent, negative where it is inside out:
 ///   V = e1 . (e2 x e3) / 6,  ek = xk - x0       dV/dxk = ak  with  6 a1 = e2 x e3, ..., a0 = -a1 - a2 - a3
 ///   K_g = f d2V/dx2                              with f the force on V
-/// where 6 d2V/dx1 dx2 v = -e3 x v and so on in turn, and blocks on the diagonal are zero. The tetrahedra are
-/// those of the topology in the node of the mapping, or else of the parent's. `stabilized` has K_g, as SOFA,
-/// for tetrahedra that are pulled together (f < 0) only; d2V/dx2 has both signs anyway.
+/// where 6 d2V/dx1 dx2 v = -e3 x v and so on cyclically, and blocks on the diagonal are zero. The tetrahedra
+/// are those of the topology in the node of the mapping, or else of the parent's. `stabilized` has K_g, as
+/// SOFA, for tetrahedra that are pulled together (f < 0) only; d2V/dx2 has both signs anyway.
 template <class I, class O>
 struct VolumeMapping {
   using Role = role::Mapping;
@@ -33,7 +33,7 @@ struct VolumeMapping {
     return field_list(field("geometricStiffness",
                             &VolumeMapping::geometricStiffness,
                             "",
-                            "what turning faces add to the stiffness"));
+                            "geometric stiffness: what rotating faces add to the stiffness"));
   }
 
   struct Cell {
@@ -116,10 +116,10 @@ struct VolumeMapping {
     if (geometricStiffness == GeometricStiffness::none) return;
     for (Cell const& c : cells) {
       // how the areas change
-      const auto turn = [&](std::size_t i) -> Vec<Real, 3> {
+      const auto edgeChange = [&](std::size_t i) -> Vec<Real, 3> {
         return dx[std::size_t(c.points[i])] - dx[std::size_t(c.points[0])];
       };
-      const Vec<Real, 3> d1 = turn(1), d2 = turn(2), d3 = turn(3);
+      const Vec<Real, 3> d1 = edgeChange(1), d2 = edgeChange(2), d3 = edgeChange(3);
       const Real factor = Real(k) * c.force / 6;
       const Vec<Real, 3> f1 = factor * (d2.cross(c.edge[3]) + c.edge[2].cross(d3)),
                          f2 = factor * (d3.cross(c.edge[1]) + c.edge[3].cross(d1)),
@@ -133,7 +133,7 @@ struct VolumeMapping {
   template <class Sink>
   void addToMatrix(MechanicalParams const& p, Sink const& sink) const {
     if (geometricStiffness == GeometricStiffness::none) return;
-    // the edge that, turned into a matrix [e]x / 6, is block (i, j): from the one to the other of the two
+    // the edge that, made into a matrix [e]x / 6, is block (i, j): from the one to the other of the two
     // points that are left, in the order that makes (i, j, from, to) an odd permutation
     static constexpr int left[6][4] = {
         {0, 1, 3, 2}, {0, 2, 1, 3}, {0, 3, 2, 1}, {1, 2, 3, 0}, {1, 3, 0, 2}, {2, 3, 1, 0}};

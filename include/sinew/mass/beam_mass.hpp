@@ -72,9 +72,9 @@ struct BeamMass {
       const Eigen::Vector3d inertia(section.aboutY + section.aboutZ, section.aboutY, section.aboutZ);
       for (std::size_t k = 0; k < 2; ++k) {
         Share& share = shares[std::size_t(e[k])];
-        const Eigen::Matrix3d turn = (node[k].conjugate() * axes).toRotationMatrix();
+        const Eigen::Matrix3d rotation = (node[k].conjugate() * axes).toRotationMatrix();
         share.mass += half * section.area;
-        share.inertia += half * turn * inertia.asDiagonal() * turn.transpose();
+        share.inertia += half * rotation * inertia.asDiagonal() * rotation.transpose();
       }
     }
     std::vector<typename D::MassType> masses;

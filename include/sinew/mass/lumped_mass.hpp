@@ -12,7 +12,7 @@
 namespace sinew {
 
 /// Masses lumped at the points, one for all or one for each: the loops behind UniformMass and DiagonalMass.
-/// The mass of a point is a scalar, that of a rigid body also has an inertia I in body axes; R turns it to
+/// The mass of a point is a scalar, that of a rigid body also has an inertia I in body axes; R rotates it to
 /// the world.
 template <class D>
 struct LumpedMass {
@@ -66,13 +66,14 @@ struct LumpedMass {
   MassType const& at(std::size_t i) const { return mass.size() == 1 ? mass[0] : mass[i]; }
   MassType const& inverseAt(std::size_t i) const { return inverse.size() == 1 ? inverse[0] : inverse[i]; }
 
-  /// f += m g, and the gyroscopic torque -w x (I w) of bodies that turn.
+  /// f += m g, and the gyroscopic torque -w x (I w) of bodies that rotate.
   void addForce(MechanicalParams const& p, VecDeriv& f, VecCoord const& x, VecDeriv const& v) const {
     const Vec<Real, linear> g = p.gravity.head<linear>().template cast<Real>();
     if constexpr (!flat)
       each_point<D>(
           f.size(),
-          Weigh{g, entries(f), entries(mass), entries(x), entries(v), mass.size() > 1, Real(p.turning)});
+          Weigh{
+              g, entries(f), entries(mass), entries(x), entries(v), mass.size() > 1, Real(p.gyroscopicStep)});
     else
       for (std::size_t i = 0; i < f.size(); ++i)
         for (int c = 0; c < linear; ++c) f[i][c] += at(i) * g[c];
@@ -133,13 +134,13 @@ struct LumpedMass {
     Coord const* x;
     Deriv const* v;
     bool each;     // has a mass of its own
-    Real turning;  // see MechanicalParams
+    Real gyroscopicStep;  // see MechanicalParams
     SINEW_HD void operator()(int i) const {
       MassType const& own = mass[each ? i : 0];
       for (int c = 0; c < linear; ++c) f[i][c] += scalar(own) * g[c];
       if constexpr (angular == 3) {
         const Vec<Real, 3> w = v[i].template tail<3>();
-        f[i].template tail<3>() += gyroscopic(worldInertia(own, x[i]), w, turning);
+        f[i].template tail<3>() += gyroscopic(worldInertia(own, x[i]), w, gyroscopicStep);
       }
     }
   };
@@ -169,7 +170,7 @@ struct LumpedMass {
     SINEW_HD void operator()(int i) const { change(to[i], multiply(mass[each ? i : 0], x[i], from[i])); }
   };
   // -w x (I w); of a step h that at its end: I (u - w)/h, where I (u - w) + h u x (I u) = 0. Then u.I u <=
-  // w.I w, and a body that turns by h u still has the energy of u (Catto, Numerical Methods, GDC 2015, with
+  // w.I w, and a body that rotates by h u still has the energy of u (Catto, Numerical Methods, GDC 2015, with
   // one iteration of Newton's method). Where these do not converge, beyond a radian a step, u is made no
   // faster than w.
   SINEW_HD static Vec<Real, 3> gyroscopic(Mat<Real, 3> const& inertia, Vec<Real, 3> const& w, Real h) {

@@ -91,7 +91,7 @@ struct MeshMatrixMass {
     consistent.startPattern(int(n));
     const std::size_t count = forEachElement(context, [&](auto const& e, std::size_t, auto const&) {
       for (const Index i : e)
-        for (const Index j : e) consistent.announce(i, j, 1, 1);
+        for (const Index j : e) consistent.preallocate(i, j, 1, 1);
     });
     consistent.finishPattern();
     if (count == 0)

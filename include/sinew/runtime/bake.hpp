@@ -170,7 +170,7 @@ class Baker {
 
   std::string write() {
     checkName();
-    // what does not start is no scene; it is said in the words that a run would use
+    // a scene that cannot be initialised is not baked; the error is the one that a run would give
     Simulation<Node>{scene_.root}.init();
     // a component may be linked to before it is known that it has to be a variable
     for (std::size_t known = variables_.size() + 1; known != variables_.size();) {
@@ -250,7 +250,7 @@ class Baker {
     return ends;
   }
   // "../left"
-  static std::string wayFrom(Node const& node, Node const& to) {
+  static std::string relativePath(Node const& node, Node const& to) {
     std::string up;
     for (Node const* at = &node; at; at = at->parent()) {
       for (Node const* below = &to; below; below = below->parent())
@@ -267,7 +267,7 @@ class Baker {
     entry.component.template visit<role::Mapping>([&](auto const& mapping) {
       if constexpr (requires { mapping.parents.paths; })
         for (auto const& path : mapping.parents.paths)
-          all += text(all.empty() ? "" : ", ", cpp_literal(wayFrom(node, *node.resolve(path))));
+          all += text(all.empty() ? "" : ", ", cpp_literal(relativePath(node, *node.resolve(path))));
     });
     return all;
   }
@@ -436,7 +436,7 @@ class Baker {
       constexpr std::string_view linked = "LinkedParents>";
       if (!name.ends_with(linked))
         throw Error(node.path(),
-                    text(name, " names its parents in a way that a typed scene has not; remove it"));
+                    text(name, " names its parents in a way that a typed scene cannot express; remove it"));
       name.resize(name.size() - linked.size());
       return text(name, "Parents<", parentsOf(node, entry), ">>");
     }
@@ -444,7 +444,8 @@ class Baker {
     if (!ends[0]) return name;
     constexpr std::string_view linked = ", Linked>";
     if (!name.ends_with(linked))
-      throw Error(node.path(), text(name, " joins two nodes in a way that a typed scene has not; remove it"));
+      throw Error(node.path(),
+                  text(name, " joins two nodes in a way that a typed scene cannot express; remove it"));
     name.resize(name.size() - linked.size());
     return text(name,
                 ", Between<",

@@ -77,15 +77,15 @@ std::string cpp_value(T const& value) {
                          value.center;
                          value.orientation;
                        }) {
-    std::string turn;
+    std::string orientation;
     if constexpr (requires { value.orientation.coeffs(); }) {
       auto const& q = value.orientation;
-      turn = text(
+      orientation = text(
           '{', cpp_value(q.w()), ", ", cpp_value(q.x()), ", ", cpp_value(q.y()), ", ", cpp_value(q.z()), '}');
     } else {
-      turn = cpp_value(value.orientation);
+      orientation = cpp_value(value.orientation);
     }
-    return text("{.center = ", cpp_value(value.center), ", .orientation = ", turn, '}');
+    return text("{.center = ", cpp_value(value.center), ", .orientation = ", orientation, '}');
   } else if constexpr (detail::is_eigen<T>) {
     if constexpr (T::ColsAtCompileTime == 1 && T::SizeAtCompileTime > 1) {
       std::string all;

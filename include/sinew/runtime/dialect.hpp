@@ -206,7 +206,8 @@ inline constexpr std::array anotherMethod = std::to_array<AnotherMethod>(
       "all pairs of elements within the distance are contacts, as with MinProximityIntersection; SOFA leaves "
       "out those that are no local minima of the distance"},
      {"FrictionContact",
-      "penalties hold bodies apart and Coulomb's law rubs, as with PenalityContactForceField; SOFA solves "
+      "bodies are kept apart by penalty forces with Coulomb friction, as with PenalityContactForceField; "
+      "SOFA solves "
       "for multipliers"},
      {"AsyncSparseLDLSolver",
       "the matrix of each step is factorised before it is solved, as with SparseLDLSolver; SOFA goes on with "
@@ -218,11 +219,11 @@ inline constexpr std::array anotherMethod = std::to_array<AnotherMethod>(
      {"SparseLUSolver",
       "the matrix is factorised as L D L', as with SparseLDLSolver, and has to be symmetric"},
      {"WarpPreconditioner",
-      "it turns with the neighbourhood of each point, where SOFA's turns with the rotations of a force "
+      "it rotates with the neighbourhood of each point, where SOFA's rotates with the rotations of a force "
       "field; the system is solved to the same tolerance"},
      {"PrecomputedWarpPreconditioner",
-      "the factorisation of the first step turns with the neighbourhood of each point, where SOFA's inverse "
-      "turns with the rotations of a force field; the system is solved to the same tolerance"}});
+      "the factorisation of the first step rotates with the neighbourhood of each point, where SOFA's "
+      "inverse rotates with the rotations of a force field; the system is solved to the same tolerance"}});
 constexpr AnotherMethod const* another_method(std::string_view tag) {
   for (auto const& other : anotherMethod)
     if (other.name == tag) return &other;
@@ -247,7 +248,7 @@ inline constexpr std::array newtonDefaults =
 /// links to them is told.
 struct Preconditions {
   std::string_view name, precondition, updateStep;
-  bool warp;  // it turns with the body, and wraps another
+  bool warp;  // it rotates with the body, and wraps another
 };
 inline constexpr std::array preconditioners =
     std::to_array<Preconditions>({{"JacobiPreconditioner", "jacobi", "", false},

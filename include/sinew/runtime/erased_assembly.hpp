@@ -58,7 +58,7 @@ void with_jacobian(int columns, double const* entries, F&& f) {
 // where a block goes, whatever the matrix
 struct BlockTarget {
   void* matrix;
-  void (*announce)(void*, int row, int column, int h, int w);
+  void (*preallocate)(void*, int row, int column, int h, int w);
   void (*addDouble)(void*, int row, int column, int h, int w, double const*);
   void (*addFloat)(void*, int row, int column, int h, int w, float const*);
 };
@@ -69,7 +69,7 @@ BlockTarget block_target(Matrix& matrix) {
   };
   return {&matrix,
           [](void* m, int row, int column, int h, int w) {
-            static_cast<Matrix*>(m)->announce(row, column, h, w);
+            static_cast<Matrix*>(m)->preallocate(row, column, h, w);
           },
           add,
           add};
@@ -79,7 +79,7 @@ BlockTarget block_target(Matrix& matrix) {
 struct ProjectionTarget {
   void (*fix)(void*, int dof);
   void (*project)(void*, int dof, int n, double const* p);  // n: 1, 2, 3 or 6
-  void (*announceMean)(void*, std::span<int const> dofs, int coordinates);
+  void (*preallocateMean)(void*, std::span<int const> dofs, int coordinates);
   void (*projectToMean)(void*, std::span<int const> dofs, int coordinates);
 };
 template <class Matrix>
@@ -91,10 +91,11 @@ ProjectionTarget projection_target() {
     : n == 3 ? fixed.template operator()<3>()
              : fixed.template operator()<6>();
   };
-  return {[](void* m, int dof) { static_cast<Matrix*>(m)->fix(dof); },
-          project,
-          [](void* m, std::span<int const> dofs, int n) { static_cast<Matrix*>(m)->announceMean(dofs, n); },
-          [](void* m, std::span<int const> dofs, int n) { static_cast<Matrix*>(m)->projectToMean(dofs, n); }};
+  return {
+      [](void* m, int dof) { static_cast<Matrix*>(m)->fix(dof); },
+      project,
+      [](void* m, std::span<int const> dofs, int n) { static_cast<Matrix*>(m)->preallocateMean(dofs, n); },
+      [](void* m, std::span<int const> dofs, int n) { static_cast<Matrix*>(m)->projectToMean(dofs, n); }};
 }
 
 // row.. += Ji' K Jj
@@ -110,7 +111,8 @@ void place_block(BlockTarget const& target, int row, int column, int columnsI, d
     }
   };
   if constexpr (Phase == AssemblyPhase::pattern) {
-    target.announce(target.matrix, row, column, columnsI == 0 ? N : columnsI, columnsJ == 0 ? N : columnsJ);
+    target.preallocate(
+        target.matrix, row, column, columnsI == 0 ? N : columnsI, columnsJ == 0 ? N : columnsJ);
   } else {
     with_jacobian<Real, N>(columnsI, ji, [&](auto const& left) {
       with_jacobian<Real, N>(columnsJ, jj, [&](auto const& right) {
@@ -264,7 +266,9 @@ class AnyMatrix {
       return blocksOfFloat_;
   }
 
-  void announce(int row, int column, int h, int w) { target_.announce(target_.matrix, row, column, h, w); }
+  void preallocate(int row, int column, int h, int w) {
+    target_.preallocate(target_.matrix, row, column, h, w);
+  }
   template <class K>
   void add(int row, int column, K const& k) {
     target_.addDouble(target_.matrix, row, column, int(k.rows()), int(k.cols()), k.data());
@@ -276,8 +280,8 @@ class AnyMatrix {
     const Mat<double, n> projector = p.template cast<double>();
     projection_.project(target_.matrix, dof, n, projector.data());
   }
-  void announceMean(std::span<int const> dofs, int coordinates) {
-    projection_.announceMean(target_.matrix, dofs, coordinates);
+  void preallocateMean(std::span<int const> dofs, int coordinates) {
+    projection_.preallocateMean(target_.matrix, dofs, coordinates);
   }
   void projectToMean(std::span<int const> dofs, int coordinates) {
     projection_.projectToMean(target_.matrix, dofs, coordinates);

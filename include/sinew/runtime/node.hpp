@@ -218,7 +218,7 @@ class RuntimeNode {
 
   void adopt() {
     for (auto& child : children_) child->parent_ = this;
-    forgetEnds();
+    clearEnds();
     refresh();
   }
   // names all components for a profile, and counts them
@@ -229,9 +229,9 @@ class RuntimeNode {
     for (auto& child : children_) count += child->nameFor(timer);
     return count;
   }
-  void forgetEnds() {
+  void clearEnds() {
     for (auto& entry : entries_) entry.ends.clear();
-    for (auto& child : children_) child->forgetEnds();
+    for (auto& child : children_) child->clearEnds();
   }
   void refresh() {
     auto first = [&]<class Role>() -> Entry* {

@@ -53,7 +53,7 @@ extern template void MechanicalOperations<RuntimeScope<Standard>>::projectPositi
 extern template void MechanicalOperations<RuntimeScope<Standard>>::addMBKdx(DerivId, DerivId, MatrixFactors);
 extern template double MechanicalOperations<RuntimeScope<Standard>>::kineticEnergy();
 extern template double MechanicalOperations<RuntimeScope<Standard>>::potentialEnergy();
-extern template void MechanicalOperations<RuntimeScope<Standard>>::announce(AnyMatrix&);
+extern template void MechanicalOperations<RuntimeScope<Standard>>::preallocate(AnyMatrix&);
 extern template void MechanicalOperations<RuntimeScope<Standard>>::assemblePhase<AssemblyPhase::bind>(
     AnyMatrix&, MatrixFactors);
 extern template void MechanicalOperations<RuntimeScope<Standard>>::fill(AnyMatrix&, MatrixFactors);

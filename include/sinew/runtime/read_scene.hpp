@@ -62,14 +62,14 @@ class SceneReader {
       try {
         read_value(a->value, to);
       } catch (Error const& error) {
-        messages_.complain(place.element->place(*a), text("<Node>: ", name, ": ", error.what()));
+        messages_.addError(place.element->place(*a), text("<Node>: ", name, ": ", error.what()));
       }
     };
     number("dt", scene.dt);
     number("time", scene.time);
     number("step", scene.step);
     if (!(scene.dt > 0) || !std::isfinite(scene.dt))
-      messages_.complain(place.element->place(),
+      messages_.addError(place.element->place(),
                          text("<Node>: dt is ", scene.dt, " s, but must be a finite number greater than 0"));
   }
 
@@ -101,7 +101,7 @@ class SceneReader {
       try {
         if (gravity) read_value(gravity->value, value.gravity);
       } catch (Error const& error) {
-        messages_.complain(place.element->place(*gravity), text("<Node>: gravity: ", error.what()));
+        messages_.addError(place.element->place(*gravity), text("<Node>: gravity: ", error.what()));
       }
       if (!place.ofRole(RoleKind::context)) {
         node.add(value);
@@ -113,7 +113,7 @@ class SceneReader {
     for (auto const& a : place.element->attributes)
       if (!dialect::has(known, a.name) && !dialect::has(dialect::nodeAttributesWithoutMeaning, a.name) &&
           !a.name.starts_with("show"))
-        messages_.complain(place.element->place(a),
+        messages_.addError(place.element->place(a),
                            text("<Node> has no attribute '", a.name, "'", suggestion(a.name, known)));
     for (SceneItem* item : itemsOf(place))
       if (item->address && !item->failed) {

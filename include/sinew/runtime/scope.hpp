@@ -197,7 +197,7 @@ struct RuntimeScope {
   void ifNew(C const& c, InitAgain const& again, F&& f) const {
     initialise(&c, again, FunctionRef(f));
   }
-  /// Goes on after an error, so that all can be said at once; raise() throws them.
+  /// Collects an error, so that all are reported together; raise() throws them.
   template <class F>
   void collect(F&& f) const {
     collectErrors(FunctionRef(f));
@@ -217,7 +217,7 @@ struct RuntimeScope {
     }
     forEachChild([&](RuntimeScope const& child) { child.checkFields(again); });
   }
-  /// Notes what goes on, but not as it may have been meant.
+  /// Adds a warning: the simulation goes on, but perhaps not as it was meant.
   void warn(RuntimeEntry<R> const& entry, std::string_view message) const {
     const std::string where = text(path(), ": ", entry.component.name(), ": ", message);
     node.top().warnings.push_back(entry.origin.empty() ? where : text(entry.origin, ": ", where));

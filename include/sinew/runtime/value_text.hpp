@@ -82,7 +82,7 @@ inline std::string_view need_word(Words& words, std::string_view what) {
 
 /// "3", "1-5" or "1-9-2": a whole number, or those from the first to the second in steps of the third.
 inline void read_range(std::string_view word, std::vector<int>& to) {
-  constexpr std::size_t most = std::size_t(1) << 26;
+  constexpr std::size_t maximum = std::size_t(1) << 26;
   const std::size_t dash = word.find('-', 1);
   const int first = read_number<int>(word.substr(0, dash));
   int last = first, step = 1;
@@ -95,9 +95,9 @@ inline void read_range(std::string_view word, std::vector<int>& to) {
       throw Error("", text("the range ", shown(word), " leads nowhere; write first-last or first-last-step"));
   }
   const double count = (double(last) - first) / step + 1;
-  if (double(to.size()) + count > double(most))
-    throw Error("",
-                text("the range ", shown(word), " makes a list of more than ", most, " numbers; shorten it"));
+  if (double(to.size()) + count > double(maximum))
+    throw Error(
+        "", text("the range ", shown(word), " makes a list of more than ", maximum, " numbers; shorten it"));
   for (long i = 0, n = long(count); i < n; ++i) to.push_back(int(first + i * step));
 }
 

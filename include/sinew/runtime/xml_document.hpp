@@ -106,9 +106,9 @@ inline std::size_t find_not_utf8(std::string_view bytes) {
 /// depth, number of elements, size, includes of includes. Throws Error with file, line and column.
 class XmlReader {
  public:
-  static constexpr std::size_t mostBytes = std::size_t(1) << 28, mostElements = 1000000,
-                               mostAttributes = 1000, mostWarnings = 100;
-  static constexpr int mostDepth = 200, mostIncludes = 16;
+  static constexpr std::size_t maxBytes = std::size_t(1) << 28, maxElements = 1000000, maxAttributes = 1000,
+                               maxWarnings = 100;
+  static constexpr int maxDepth = 200, maxIncludes = 16;
 
   /// Where files are looked for that do not stand beside the scene.
   explicit XmlReader(std::vector<std::string> dataPaths = {}) : dataPaths_(std::move(dataPaths)) {}
@@ -119,12 +119,12 @@ class XmlReader {
   std::vector<std::string> warnings{};
 
   XmlElement parse(std::string const& path, std::string content) {
-    if (content.size() > mostBytes)
+    if (content.size() > maxBytes)
       throw Error(path,
                   text("has ",
                        content.size(),
                        " bytes; a scene file may have ",
-                       mostBytes,
+                       maxBytes,
                        "; keep meshes in files of their own"));
     auto file = std::make_shared<XmlFile const>(path, detail::folder_of(path), std::move(content));
     if (const std::size_t bad = detail::find_not_utf8(file->content); bad != std::string::npos)
@@ -204,10 +204,10 @@ class XmlReader {
     to.tag = node.name();
     to.file = file;
     to.offset = std::size_t(node.name() - buffer) - 1;
-    if (depth > mostDepth)
-      throw Error(to.place(), text("is nested more than ", mostDepth, " deep; flatten the scene"));
-    if (++elements_ > mostElements)
-      throw Error(to.place(), text("is one element too many; a scene may have ", mostElements));
+    if (depth > maxDepth)
+      throw Error(to.place(), text("is nested more than ", maxDepth, " deep; flatten the scene"));
+    if (++elements_ > maxElements)
+      throw Error(to.place(), text("is one element too many; a scene may have ", maxElements));
     for (auto const& a : node.attributes())
       addAttribute(to, {a.name(), a.value(), std::size_t(a.name() - buffer)}, *file);
     for (auto const& child : node.children()) {
@@ -237,13 +237,13 @@ class XmlReader {
     addAttribute(to, {name, value.value(), std::size_t(value.name() - buffer)}, *file);
   }
   void warn(std::string warning) {
-    if (warnings.size() < mostWarnings) warnings.push_back(std::move(warning));
+    if (warnings.size() < maxWarnings) warnings.push_back(std::move(warning));
   }
   // given twice, the last counts, as in SOFA
   void addAttribute(XmlElement& to, XmlAttribute added, XmlFile const& file) {
-    if (to.attributes.size() == mostAttributes)
+    if (to.attributes.size() == maxAttributes)
       throw Error(file.place(added.offset),
-                  text("is one attribute too many; an element may have ", mostAttributes));
+                  text("is one attribute too many; an element may have ", maxAttributes));
     if (to.attribute(added.name))
       warn(text(file.place(added.offset),
                 ": <",
@@ -276,8 +276,8 @@ class XmlReader {
       path = find(href, here.file->folder);
       if (std::find(including_.begin(), including_.end(), path) != including_.end())
         throw Error("", text(detail::shown(href), " includes itself; break the circle"));
-      if (int(including_.size()) > mostIncludes)
-        throw Error("", text("is an include more than ", mostIncludes, " deep; flatten the files"));
+      if (int(including_.size()) > maxIncludes)
+        throw Error("", text("is an include more than ", maxIncludes, " deep; flatten the files"));
     } catch (Error const& error) {
       throw Error(here.place(), text('<', here.tag, ">: ", error.what()));
     }
@@ -285,8 +285,8 @@ class XmlReader {
     including_.push_back(path);
     with(root);
     including_.pop_back();
-    if (depth_of(root) + depth > mostDepth)
-      throw Error(here.place(), text("nests the scene more than ", mostDepth, " deep; flatten it"));
+    if (depth_of(root) + depth > maxDepth)
+      throw Error(here.place(), text("nests the scene more than ", maxDepth, " deep; flatten it"));
     bool group = root.tag == "Group", merge = false;
     auto named = [&] {
       auto const* name = root.attribute("name");
@@ -357,9 +357,9 @@ class XmlReader {
     }
   }
   static int depth_of(XmlElement const& element) {
-    int most = 0;
-    for (auto const& child : element.children) most = std::max(most, depth_of(child));
-    return most + 1;
+    int maximum = 0;
+    for (auto const& child : element.children) maximum = std::max(maximum, depth_of(child));
+    return maximum + 1;
   }
 };
 

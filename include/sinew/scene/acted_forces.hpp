@@ -9,8 +9,8 @@
 namespace sinew {
 
 /// Which forces acted over a step of an ODE solver, as impulse over dt: a solver says it while it steps
-/// (`operations.acted`), contacts always keep theirs (Contact::force), and states do where somebody asked
-/// (Simulation::keepForces): `applied`, and then `reaction`, what constraints did,
+/// (`operations.acted`), contacts always keep theirs (Contact::force), and states do with
+/// Simulation::keepForces: `applied`, and then `reaction`, what constraints did,
 ///   reaction = (1 - P) (M g - applied),   g = (v1 - v0) / dt,
 /// with P for the motions that constraints allow, so that a point that is free has none. A solver whose
 /// forces are in balance with another rate at the end of its step gives that as g.
@@ -38,7 +38,7 @@ class ActedForces {
 
   /// Whether the states keep theirs.
   bool kept() const { return kept_; }
-  /// Whether anybody wants to know.
+  /// Whether forces are asked for.
   bool asked() {
     bool any = kept_;
     withContacts([&](auto&, auto&&) { any = true; });
@@ -47,13 +47,13 @@ class ActedForces {
 
   /// Nothing has acted so far: an iteration begins anew.
   void clear() {
-    said_ = false;
+    reported_ = false;
     if (kept_) operations_.clear(vec_id::applied);
     eachContact([](auto& c) { c.force.setZero(); });
   }
   /// The forces f of the last evaluation, as computeForce has left them, act over `part` of the step.
   void add(DerivId f, double part = 1) {
-    said_ = true;
+    reported_ = true;
     if (kept_) operations_.peq(vec_id::applied, f, part);
     eachContact([part](auto& c) { c.force += part * c.evaluated; });
   }
@@ -65,7 +65,7 @@ class ActedForces {
       if (!kept_ && !follows) operations_.propagate(dx);
       traverse(operations_.root, on<role::CollisionModel>([&](auto& model, auto const& scope) {
                  using D = typename std::decay_t<decltype(model)>::DataTypes;
-                 see_touched<D>(model.surface, scope.template state<D>()[dx]);
+                 update_touched_vertices<D>(model.surface, scope.template state<D>()[dx]);
                }));
       manager.addActed(factors.k, factors.b, mine);
     });
@@ -94,22 +94,22 @@ class ActedForces {
   /// After the step, when all is where constraints want it. False where forces were to be kept and the solver
   /// did not say which acted.
   bool end(DerivId lastForce) {
-    if (!said_) {
+    if (!reported_) {
       if (kept_) return false;
       add(lastForce);
     }
     if (!kept_) return true;
     auto& o = operations_;
-    constexpr DerivId g = vec_id::marked, r = vec_id::reaction, way = vec_id::startVelocity;
-    o.teq(way, -before_);
-    o.peq(way, vec_id::velocity, now_);
+    constexpr DerivId g = vec_id::marked, r = vec_id::reaction, change = vec_id::startVelocity;
+    o.teq(change, -before_);
+    o.peq(change, vec_id::velocity, now_);
     if (hasRate_) {
-      o.eq(r, way);
+      o.eq(r, change);
       o.projectResponse(r);
-      o.peq(g, way, 1);
+      o.peq(g, change, 1);
       o.peq(g, r, -1);
     } else {
-      o.eq(g, way);
+      o.eq(g, change);
     }
     o.eq(r, vec_id::applied, -1);
     o.addMBKdx(r, g, {.m = 1});
@@ -121,7 +121,7 @@ class ActedForces {
 
  private:
   Operations& operations_;
-  bool kept_ = false, said_ = false, hasRate_ = false;
+  bool kept_ = false, reported_ = false, hasRate_ = false;
   double now_ = 0, before_ = 0;
 
   // f(contact manager, which of its contacts this solver sees)

@@ -180,7 +180,7 @@ struct Carving {
         break;
       }
     --entry->count;
-    carving.message = text("the last element of ", body.path, " stays: a body cannot be without");
+    carving.message = text("the last element of ", body.path, " stays: a body must keep one element");
   }
   template <std::size_t N>
   static bool isOver(std::array<Index, N> const& element, std::vector<Corners> const& triangles) {

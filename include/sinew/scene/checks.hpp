@@ -57,9 +57,8 @@ constexpr bool has_tetrahedra() {
   } else {
     using N = typename S::NodeType;
     constexpr bool topology = N::template count < role::Topology >> 0;
-    if constexpr (topology) return requires {
-        FirstOf<N, role::Topology>::hasTetrahedra;
-      };
+    if constexpr (topology)
+      return requires { FirstOf<N, role::Topology>::mayHaveTetrahedra; };
     else if constexpr (S::ownsState)
       return false;
     else

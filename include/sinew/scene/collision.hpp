@@ -139,7 +139,7 @@ struct Collision {
     traverse(scope, on<role::CollisionModel>([&](auto& model, auto const& s) {
                using D = typename std::decay_t<decltype(model)>::DataTypes;
                auto const& state = s.template state<D>();
-               see<D>(model.surface, state.position, state.velocity);
+               update_vertices<D>(model.surface, state.position, state.velocity);
                model.surface.state = &state;
                if (model.surface.solver >= 0) model.surface.gravity = s.gravity();
                model.surface.number = int(pipeline.surfaces.size());

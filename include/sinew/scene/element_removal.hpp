@@ -242,12 +242,12 @@ class ElementRemoval {
       if (ofState(&c).changes()) c.follow(ofState(&c));
       if constexpr (HasRole<C, role::VisualModel>)
         if (border != borders_.end())
-          border_.layBare(border->second, change().points, &c.mesh.triangles, &c.mesh.quads);
+          border_.exposeFaces(border->second, change().points, &c.mesh.triangles, &c.mesh.quads);
     } else if constexpr (HasRole<C, role::Topology>) {
       if constexpr (editable_topology<C>) {
         if (ofTopology(&c).changes()) follow(c.edit(), ofTopology(&c));
         if (const auto border = borders_.find(&c); border != borders_.end())
-          border_.layBare(border->second, change().points, c.edit().triangles, c.edit().quads);
+          border_.exposeFaces(border->second, change().points, c.edit().triangles, c.edit().quads);
       }
     } else if constexpr (HasRole<C, role::CollisionModel>) {
       follow_fields(c,

@@ -88,7 +88,7 @@ Wrench reaction_force(State const& state, std::span<int const> points = {},
       state, points, about, [&](std::size_t i) { return detail::wrench_of<D>(state.reaction[i]); });
 }
 /// All that acted on them, reactions included; forces between the points have no part in the sum. On a rigid
-/// body that turns the torque has the gyroscopic one in it.
+/// body that rotates the torque includes the gyroscopic one.
 template <class State>
 Wrench net_force(State const& state, std::span<int const> points = {},
                  Eigen::Vector3d const& about = Eigen::Vector3d::Zero()) {

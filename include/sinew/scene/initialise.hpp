@@ -108,16 +108,16 @@ class Initialisation {
     }
     if constexpr (requires { c.warning(); }) warn(c, scope);
   }
-  // What goes on, but not as it may have been meant. In a typed scene nobody hears of it, and where elements
-  // have gone it is no mistake.
+  // Warnings: the simulation goes on, but perhaps not as it was meant. In a typed scene it is not reported,
+  // and where elements have gone it is no mistake.
   template <class C, class S>
   void warn(C const& c, S const& scope) const {
-    const std::string said(c.warning());
-    if (said.empty()) return;
+    const std::string warning(c.warning());
+    if (warning.empty()) return;
     if constexpr (requires { scope.warn(&c, std::string_view()); })
-      scope.warn(&c, said);
+      scope.warn(&c, warning);
     else if (!again_)
-      throw Error(text(scope.path(), ": ", component_name<C>()), said);
+      throw Error(text(scope.path(), ": ", component_name<C>()), warning);
   }
 
   // f(what a component of class C is given at init of the state of a scope)
@@ -211,7 +211,8 @@ void Initialisation<RootScope>::initStates() {
   initStatesBelow(root_);
 }
 
-// Whoever reads through a topology comes after its check: mappings of children, and what acts on the states.
+// What reads a topology is initialised after the check of that topology: mappings of children, and what acts
+// on the states.
 template <class RootScope>
 template <class S>
 void Initialisation<RootScope>::initStatesBelow(S const& scope) {

@@ -81,7 +81,7 @@ struct LooseInteractions {
     };
     traverse(root, on<role::ContactManager>([&](auto& manager, auto const&) {
                withModels([]<class D>(auto& model, auto& state, std::type_identity<D>) {
-                 see_touched<D>(model.surface, state.position, state.velocity);
+                 update_touched_vertices<D>(model.surface, state.position, state.velocity);
                });
                auto loose = [](auto const& contact) { return contact.loose; };
                manager.addForces(loose);

@@ -29,8 +29,8 @@ struct MechanicalOperations {
 
   CoordId takeCoord() { return {CoordId::reserved + coordsTaken++}; }
   DerivId takeDeriv() { return {DerivId::reserved + derivsTaken++}; }
-  void giveBackCoord() { --coordsTaken; }
-  void giveBackDeriv() { --derivsTaken; }
+  void releaseCoord() { --coordsTaken; }
+  void releaseDeriv() { --derivsTaken; }
   void reserve(Auxiliary needed) {
     std::size_t scalars = 0;
     forEachState([&](auto& state) {
@@ -44,7 +44,7 @@ struct MechanicalOperations {
   void split() {
     if constexpr (Root::threaded)
       traverse(root, on<role::ForceField>([&](auto& c, auto const&) {
-                 if constexpr (takes_parts<std::decay_t<decltype(c)>>) c.driver.split(workers().count());
+                 if constexpr (shares_work<std::decay_t<decltype(c)>>) c.driver.split(workers().count());
                }));
   }
   /// f(linear solver) of the systems that an ODE solver has solved, if there are some.
@@ -87,8 +87,8 @@ struct MechanicalOperations {
     return sum;
   }
   /// r = a + f r
-  void turn(DerivId r, DerivId a, double f) {
-    forEachIndependent([&](auto& s) { Vectors<decltype(s)>::turn(workers(), s[r], s[a], real(s, f)); });
+  void xpay(DerivId r, DerivId a, double f) {
+    forEachIndependent([&](auto& s) { Vectors<decltype(s)>::xpay(workers(), s[r], s[a], real(s, f)); });
   }
   /// x += f p, r -= f q; returns r.r.
   double advance(DerivId x, DerivId p, DerivId r, DerivId q, double f) {
@@ -111,8 +111,8 @@ struct MechanicalOperations {
   void propagate(DerivId v);
 
   /// f = all forces at (x, v), with those on mapped states brought to the independent ones, and the external
-  /// forces as they are. `turning`: see MechanicalParams.
-  void computeForce(DerivId f, CoordId x, DerivId v, double turning = 0);
+  /// forces as they are. `gyroscopicStep`: see MechanicalParams.
+  void computeForce(DerivId f, CoordId x, DerivId v, double gyroscopicStep = 0);
 
   /// Whether masses give M^-1 f by themselves: each is diagonal, and none is that of a mapped state.
   bool massIsDiagonal() {
@@ -163,7 +163,7 @@ struct MechanicalOperations {
     });
     matrix.startPattern(dofs);
     auto&& assembled = root.assembled(matrix);
-    announce(assembled);
+    preallocate(assembled);
     matrix.finishPattern();
     if constexpr (Root::threaded && requires { matrix.split(1); }) {
       matrix.split(workers().count());
@@ -181,7 +181,7 @@ struct MechanicalOperations {
       matrix.setZero();
     auto&& assembled = root.assembled(matrix);
     fill(assembled, factors);
-    // what fills up the last block of a state is nobody's
+    // the padding of the last block of a state belongs to no degree of freedom
     forEachIndependent([&](auto& s) {
       const int end = s.dofOffset + int(s.size()) * DataTypesOf<decltype(s)>::size;
       for (int dof = end; dof % Matrix::blockSize != 0; ++dof) matrix.fix(dof);
@@ -219,17 +219,18 @@ struct MechanicalOperations {
  private:
   friend ActedForces<MechanicalOperations>;
 
-  // f(params) for a component as a whole, or for each part of it, and again for what these add to each other
+  // f(params) for a component as a whole, or for each share of it, and again for the deferred sums of all
+  // shares
   template <class C, class F>
   void inParts([[maybe_unused]] C const& c, MechanicalParams const& p, F&& f) {
-    if constexpr (Root::threaded && takes_parts<C>)
+    if constexpr (Root::threaded && shares_work<C>)
       if (c.driver.parts > 1) {
         const auto threads = workers();
-        for (const bool late : {false, true})
-          threads.run([&](Part part) {
+        for (const bool deferred : {false, true})
+          threads.run([&](WorkShare part) {
             MechanicalParams own = p;
             own.part = part;
-            own.part.late = late;
+            own.part.deferred = deferred;
             f(own);
           });
         return;
@@ -315,7 +316,7 @@ struct MechanicalOperations {
       c.projectResponse(a...);
   }
   template <class Matrix>
-  void announce(Matrix& matrix);
+  void preallocate(Matrix& matrix);
   template <class Matrix>
   void fill(Matrix& matrix, MatrixFactors factors);
   template <AssemblyPhase Phase, class Matrix, class C, class S>
@@ -352,9 +353,9 @@ void MechanicalOperations<Root>::propagate(DerivId v) {
 }
 
 template <class Root>
-void MechanicalOperations<Root>::computeForce(DerivId f, CoordId x, DerivId v, double turning) {
+void MechanicalOperations<Root>::computeForce(DerivId f, CoordId x, DerivId v, double gyroscopicStep) {
   [[maybe_unused]] const auto span = root.span(Phase::force);
-  const MechanicalParams p{.time = time, .dt = dt, .turning = turning};
+  const MechanicalParams p{.time = time, .dt = dt, .gyroscopicStep = gyroscopicStep};
   forEachState([&](auto& s) {
     if (s[vec_id::externalForce].empty())
       Vectors<decltype(s)>::clear(OneThread{}, s[f]);
@@ -465,11 +466,11 @@ double MechanicalOperations<Root>::potentialEnergy() {
 
 template <class Root>
 template <class Matrix>
-void MechanicalOperations<Root>::announce(Matrix& matrix) {
+void MechanicalOperations<Root>::preallocate(Matrix& matrix) {
   assemblePhase<AssemblyPhase::pattern>(matrix, {});
   traverse(root, on<role::ProjectiveConstraint>([&](auto& c, auto const& scope) {
              const auto sink = constraintSink<AssemblyPhase::pattern>(matrix, c, scope);
-             if constexpr (requires { c.announce(sink); }) c.announce(sink);
+             if constexpr (requires { c.preallocate(sink); }) c.preallocate(sink);
            }));
 }
 

@@ -5,7 +5,7 @@
 
 namespace sinew::checks {
 
-/// Says one rule that is broken: the first in the scene, by component C (void: by the node) of this node. The
+/// Reports one broken rule: the first in the scene, by component C (void: by the node) of this node. The
 /// constructor of Simulation takes it as its last argument, so that the compiler comes here straight from the
 /// user's line.
 template <Rule R, class C, FixedString Node>

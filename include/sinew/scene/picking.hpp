@@ -55,7 +55,7 @@ struct Picking {
                CollisionSurface& s = model.surface;
                const int mine = number++;
                if (!s.settings.active || s.size() == 0) return;
-               see<D>(s, state.position, state.velocity);
+               update_vertices<D>(s, state.position, state.velocity);
                const auto found = nearestOf(ray, s, nearest ? nearest->distance : maxDistance, tolerance);
                if (!found.second || (nearest && found.second.distance >= nearest->distance)) return;
                nearest = Pick{.path = s.path, .model = mine};
@@ -94,7 +94,7 @@ struct Picking {
                if (!isSimulated(s))
                  wrong("no force moves this model: it is below no ODE solver, or simulated is false");
                auto const& state = scope.template state<D>();
-               see<D>(s, state.position, state.velocity);
+               update_vertices<D>(s, state.position, state.velocity);
                a.contact.b = pick.place;
                a.contact.b.surface = numberBelowManager(s);
                a.target = pick.point;
@@ -183,7 +183,7 @@ struct Picking {
     pick.simulated = isSimulated(s);
     pick.distance = hit.distance;
     pick.point = ray.at(hit.distance);
-    // of what has no surface, the place itself
+    // of a model without a surface, the place itself
     const Eigen::Vector3d place = position_of(side, s);
     if (s.shape == Shape::line || s.shape == Shape::point) pick.point = place;
     if (s.rigid) side.lever = s.orientation[std::size_t(side.vertices[0])].conjugate() * (pick.point - place);

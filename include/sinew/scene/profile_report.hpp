@@ -23,8 +23,8 @@ struct ProfileLine {
 std::vector<ProfileLine> profile_lines(Profile const& profile);
 
 /// A table of a profile: phases and components, nested, with calls, time, time in a step, share of the steps,
-/// and the share that is not in the lines below. Lines with a smaller share than `least` are left out.
-std::string profile_table(Profile const& profile, double least = 0.001);
+/// and the share that is not in the lines below. Lines with a smaller share than `minimum` are left out.
+std::string profile_table(Profile const& profile, double minimum = 0.001);
 
 /// The events of a profile as a trace that chrome://tracing and ui.perfetto.dev open: the Trace Event Format,
 /// complete events ("X") in the order of their beginnings, microseconds since the first.
@@ -84,13 +84,13 @@ SINEW_ONCE std::vector<ProfileLine> profile_lines(Profile const& profile) {
   return lines;
 }
 
-SINEW_ONCE std::string profile_table(Profile const& profile, double least) {
+SINEW_ONCE std::string profile_table(Profile const& profile, double minimum) {
   const auto lines = profile_lines(profile);
   const double whole = std::max(1e-9, profile.seconds(Phase::step)),
                steps = double(std::max(1L, profile.calls(Phase::step)));
   std::size_t nameWidth = 18, classWidth = 5, hidden = 0;
   auto shown = [&](ProfileLine const& line) {
-    return line.depth == 0 || line.seconds == 0 || line.seconds >= least * whole;
+    return line.depth == 0 || line.seconds == 0 || line.seconds >= minimum * whole;
   };
   auto indented = [](ProfileLine const& line) {
     return std::string(2 * std::size_t(line.depth), ' ') + line.name;
@@ -129,7 +129,7 @@ SINEW_ONCE std::string profile_table(Profile const& profile, double least) {
     add(indented(line), line.className, numbers);
   }
   if (hidden > 0)
-    table += text(hidden, hidden == 1 ? " line" : " lines", " of less than ", 100 * least, " %\n");
+    table += text(hidden, hidden == 1 ? " line" : " lines", " of less than ", 100 * minimum, " %\n");
   if (profile.leftOut() > 0)
     table += text(profile.leftOut(),
                   " calls had no room for a line of their own and are part of those around them\n");

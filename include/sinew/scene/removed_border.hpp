@@ -12,7 +12,7 @@
 
 namespace sinew {
 
-/// Which lists of faces are the whole border of a volume: 1 turned outwards, -1 inwards, 0 they are not.
+/// Which lists of faces are the whole border of a volume: 1 oriented outwards, -1 inwards, 0 they are not.
 struct BorderLists {
   int triangles = 0, quads = 0;
   bool any() const { return triangles != 0 || quads != 0; }
@@ -34,8 +34,8 @@ class RemovedBorder {
   /// Takes what goes out of lists.
   void takeAway(BorderLists const& is, std::vector<Triangle>& triangles, std::vector<Quad>& quads) const;
   /// Puts what is laid bare behind lists that have followed already, in the numbers of the points now.
-  void layBare(BorderLists const& is, Renumbering const& points, std::vector<Triangle>* triangles,
-               std::vector<Quad>* quads) const;
+  void exposeFaces(BorderLists const& is, Renumbering const& points, std::vector<Triangle>* triangles,
+                   std::vector<Quad>* quads) const;
 
  private:
   template <std::size_t N>
@@ -78,9 +78,9 @@ class RemovedBorder {
       for (std::size_t f = 0; f < faces.size(); ++f)
         if (!stays(faces[f])) stay[f] = false;
     }
-    void layBare(int turned, Renumbering const& points, std::vector<Face>& faces) const {
+    void exposeFaces(int orientation, Renumbering const& points, std::vector<Face>& faces) const {
       for (Face f : bare) {
-        if (turned < 0) std::reverse(f.begin(), f.end());
+        if (orientation < 0) std::reverse(f.begin(), f.end());
         for (Index& i : f) points.renumber(i);
         faces.push_back(f);
       }
@@ -124,10 +124,10 @@ SINEW_ONCE void RemovedBorder::takeAway(BorderLists const& is, std::vector<Trian
   if (is.quads) std::erase_if(quads, [this](auto const& f) { return !quads_.stays(f); });
 }
 
-SINEW_ONCE void RemovedBorder::layBare(BorderLists const& is, Renumbering const& points,
-                                       std::vector<Triangle>* triangles, std::vector<Quad>* quads) const {
-  if (is.triangles) triangles_.layBare(is.triangles, points, *triangles);
-  if (is.quads) quads_.layBare(is.quads, points, *quads);
+SINEW_ONCE void RemovedBorder::exposeFaces(BorderLists const& is, Renumbering const& points,
+                                           std::vector<Triangle>* triangles, std::vector<Quad>* quads) const {
+  if (is.triangles) triangles_.exposeFaces(is.triangles, points, *triangles);
+  if (is.quads) quads_.exposeFaces(is.quads, points, *quads);
 }
 
 }  // namespace sinew

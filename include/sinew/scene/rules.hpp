@@ -8,7 +8,7 @@
 
 namespace sinew::rules {
 
-/// What a scene has to fulfil (scene/rules.def). Typed scenes that break a rule do not compile
+/// The rules that a scene has to fulfil (scene/rules.def). Typed scenes that break a rule do not compile
 /// (scene/mistakes.hpp); at run time a rule that is broken is an Error, or a warning (only_warns) where the
 /// component has no effect, as in SOFA.
 enum class Rule {
@@ -77,7 +77,7 @@ constexpr Rule follows_named(Place const& parent, bool mechanical) {
   return mechanical && !parent.sameSolver ? Rule::parentsAcrossSolvers : Rule::none;
 }
 
-/// What a component is, as far as rules ask.
+/// The properties of a component that rules ask for.
 struct Kind {
   bool joins = false;    // two states
   bool acts = false;     // on the state of its node

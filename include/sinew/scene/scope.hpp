@@ -268,12 +268,12 @@ struct Scope {
   void ifNew(C const& c, InitAgain const& again, F&& f) const {
     if (!again || again.touches(&c)) f();
   }
-  /// Adds the place of a component to what goes wrong; the path has been said here.
+  /// Adds the place of a component to its errors; the path is reported here.
   template <class C, class F>
   void located(C const&, F&& f) const {
     f();
   }
-  /// Throws what init of runtime nodes has found wrong so far, all at once.
+  /// Throws all errors that init of runtime nodes has found so far.
   void raise() const {
     forEachChild<NoRole>([](auto const& child) { child.raise(); });
   }

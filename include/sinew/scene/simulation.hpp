@@ -148,7 +148,7 @@ class Simulation {
             Eigen::Vector3d const& velocity = Eigen::Vector3d::Zero()) {
     return picking([&](auto const& p) { return p.pull(attachment, target, velocity); });
   }
-  /// Lets go. False where there was no such attachment.
+  /// Releases an attachment. False where there was none with this number.
   bool release(int attachment) {
     return picking([&](auto const& p) { return p.release(attachment); });
   }

@@ -31,7 +31,7 @@ struct SolverContacts {
   void addForces(DerivId f, CoordId x, DerivId v) const {
     with([&](auto& manager, int solver) {
       forEachModel([&]<class D>(auto& model, auto& s, std::type_identity<D>) {
-        see_touched<D>(model.surface, s[x], s[v]);
+        update_touched_vertices<D>(model.surface, s[x], s[v]);
       });
       manager.addForces([=](auto const& contact) { return contact.solver == solver; });
       scatter(f);
@@ -41,7 +41,7 @@ struct SolverContacts {
   void addDForces(DerivId r, DerivId dx, MechanicalParams const& p) const {
     with([&](auto& manager, int solver) {
       forEachModel([&]<class D>(auto& model, auto& s, std::type_identity<D>) {
-        see_touched<D>(model.surface, s[dx]);
+        update_touched_vertices<D>(model.surface, s[dx]);
       });
       manager.addDForces(p.k, p.b, [=](auto const& contact) { return contact.solver == solver; });
       scatter(r);

@@ -71,7 +71,7 @@ struct BDFOdeSolver {
     MultiVecDeriv dxOld(operations), dvOld(operations), dxOlder(operations), dvOlder(operations);
     MultiVecCoord pos(operations, vec_id::position), start(operations);
     MultiVecDeriv vel(operations, vec_id::velocity), b(operations, vec_id::force), dv(operations, vec_id::dx);
-    MultiVecDeriv startV(operations), move(operations), change(operations), way(operations);
+    MultiVecDeriv startV(operations), move(operations), change(operations), increment(operations);
     const double rK = rayleighStiffness, rM = rayleighMass, time = operations.time;
     // after a reset, or a jump in time, the steps before are not those that are remembered
     if (lastEnd != time) lastDt = 0;
@@ -135,11 +135,13 @@ struct BDFOdeSolver {
       operations.addMBKdx(b.id, change.id, {.m = 1});
       operations.projectResponse(b.id);
     };
-    sinew::newton(
-        *this,
-        operations,
-        {.factors = {.m = 1 + bh * rM, .b = -bh, .k = -bh * (bh + rK)}, .dx = dv, .b = b, .way = way},
-        NewtonCallbacks{evaluate, [&](double s) { vel.peq(dv, s); }});
+    sinew::newton(*this,
+                  operations,
+                  {.factors = {.m = 1 + bh * rM, .b = -bh, .k = -bh * (bh + rK)},
+                   .dx = dv,
+                   .b = b,
+                   .increment = increment},
+                  NewtonCallbacks{evaluate, [&](double s) { vel.peq(dv, s); }});
     if (!newton_goes_on(*this)) operations.acted.add(dv.id, {.b = part, .k = part * bh});
     damp();
     if (operations.acted.kept() && !trapezoid) {

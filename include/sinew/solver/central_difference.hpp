@@ -38,13 +38,13 @@ struct CentralDifferenceSolver {
     operations.acted.add(force.id);
     operations.accFromF(acc.id, force.id, pos.id);
     const double half = 0.5 * h * rayleighMass;
-    auto drag = [&] {
+    auto addDamping = [&] {
       if (half != 0) operations.acted.add(vel.id, {.m = -rayleighMass / 2});
     };
-    drag();
+    addDamping();
     if (half != 0) vel.teq((1 - half) / (1 + half));
     vel.peq(acc, h / (1 + half));
-    drag();
+    addDamping();
     pos.peq(vel, h);
   }
 };

@@ -104,7 +104,7 @@ struct CGLinearSolver {
             return p.dot(q);
           },
           [&](double alpha) { return operations.advance(x.id, p.id, r.id, q.id, alpha); },
-          [&](double beta) { operations.turn(p.id, r.id, beta); });
+          [&](double beta) { operations.xpay(p.id, r.id, beta); });
     } else {
       auto& s = system;
       using Real = typename Matrix::Real;
@@ -127,16 +127,16 @@ struct CGLinearSolver {
           whole,
           [&] { return s.matrix.multiply(workers, s.p.data(), s.q.data()); },
           [&](double alpha) { return vec::advance(workers, s.x, s.p, s.r, s.q, Real(alpha)); },
-          [&](double beta) { vec::turn(workers, s.p, s.r, Real(beta)); });
+          [&](double beta) { vec::xpay(workers, s.p, s.r, Real(beta)); });
       operations.scatter(x.id, s.x);
     }
   }
 
  private:
   // rho = r.r, whole = b.b;  multiply: q = A p, returns p.q;  advance: x += alpha p, r -= alpha q, returns
-  // r.r; turn: p = r + beta p
-  template <class Multiply, class Advance, class Turn>
-  void iterate(double rho, double whole, Multiply&& multiply, Advance&& advance, Turn&& turn) {
+  // r.r; xpay: p = r + beta p
+  template <class Multiply, class Advance, class Xpay>
+  void iterate(double rho, double whole, Multiply&& multiply, Advance&& advance, Xpay&& xpay) {
     residuals.clear();
     keep_residual(residuals, rho == whole ? 1 : std::sqrt(rho / whole));
     if (!std::isfinite(rho) || !std::isfinite(whole)) advance(notSolved);
@@ -145,7 +145,7 @@ struct CGLinearSolver {
       const double curvature = multiply();
       if (std::abs(curvature) <= threshold) return;
       const double next = advance(std::isfinite(curvature) ? rho / curvature : notSolved);
-      turn(next / rho);
+      xpay(next / rho);
       rho = next;
       keep_residual(residuals, std::sqrt(rho / whole));
     }

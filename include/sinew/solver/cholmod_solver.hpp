@@ -157,8 +157,8 @@ struct CholmodSolver {
   }
 
  private:
-  // f(column, row, value) on and below the diagonal, column by column: rows of the upper half, turned; end()
-  // after each
+  // f(column, row, value) on and below the diagonal, column by column: rows of the upper half, transposed;
+  // end() after each
   template <class F, class End>
   void forEachScalar(F&& f, End&& end) const {
     constexpr int B = Matrix::blockSize;

@@ -63,18 +63,18 @@ struct EulerImplicitSolver {
     MultiVecCoord pos(operations, vec_id::position), start(operations);
     MultiVecDeriv vel(operations, vec_id::velocity), force(operations, vec_id::force),
         dv(operations, vec_id::dx);
-    MultiVecDeriv b(operations), startV(operations), way(operations);
+    MultiVecDeriv b(operations), startV(operations), increment(operations);
     const double t = trapezoidalScheme ? 0.5 : 1, rK = rayleighStiffness, rM = rayleighMass,
                  time = operations.time;
     const bool again = newton_goes_on(*this);
     if (again) start = pos, startV = vel;
-    // from the start of the step with vt for a time; `way` is dv, or vt where the order is the first
+    // from the start of the step with vt for a time; `increment` is dv, or vt where the order is the first
     auto go = [&](double far) {
       if (again) pos = start, vel = startV;
       if (firstOrder)
-        vel = way;
+        vel = increment;
       else
-        vel.peq(way, t);
+        vel.peq(increment, t);
       pos.peq(vel, far);
     };
     auto evaluate = [&] {
@@ -91,27 +91,27 @@ struct EulerImplicitSolver {
         operations.addMBKdx(b.id, vel.id, {.m = -rM, .k = first ? t * h + rK : rK});
         b.teq(h);
       }
-      if (!first) operations.addMBKdx(b.id, way.id, {.m = -1});
+      if (!first) operations.addMBKdx(b.id, increment.id, {.m = -1});
       operations.projectResponse(b.id);
     };
     MatrixFactors factors{.m = 1 + t * h * rM, .b = -t * h, .k = -t * h * (t * h + rK)};
     if (firstOrder) factors = {.m = 1, .k = -t * h};
     sinew::newton(*this,
                   operations,
-                  {.factors = factors, .dx = dv, .b = b, .way = way},
+                  {.factors = factors, .dx = dv, .b = b, .increment = increment},
                   NewtonCallbacks{evaluate, [](double) {}});
     // what acted is f at (xt, vt), of which the first iteration alone knows the linear part
     operations.acted.add(force.id);
     if (firstOrder) {
-      if (!again) operations.acted.add(way.id, {.k = t * h});
-      operations.acted.balance(way.id, 1, 0);
+      if (!again) operations.acted.add(increment.id, {.k = t * h});
+      operations.acted.balance(increment.id, 1, 0);
     } else {
       operations.acted.add(vel.id, {.m = -rM, .k = again ? rK : t * h + rK}, true);
-      if (!again) operations.acted.add(way.id, {.m = -t * rM, .b = t, .k = t * (t * h + rK)});
+      if (!again) operations.acted.add(increment.id, {.m = -t * rM, .b = t, .k = t * (t * h + rK)});
     }
     operations.time = time;
     go(h);
-    if (!firstOrder && t != 1) vel.peq(way, 1 - t);
+    if (!firstOrder && t != 1) vel.peq(increment, 1 - t);
     if (vdamping != 0) vel.teq(std::exp(-h * vdamping));
   }
 };

@@ -28,15 +28,15 @@ concept SolvesSystems = requires {
   requires VectorOperations<D>::solvesSystems;
 };
 
-/// Whether all states of a solver are over such; what they kept for one is forgotten with `afresh`.
+/// Whether all states of a solver are over such; with `restart` their workspace is cleared.
 /// `assembled`: the solver forms a matrix.
 template <class Operations>
-bool states_solve(Operations& operations, bool assembled, bool afresh = false) {
+bool states_solve(Operations& operations, bool assembled, bool restart = false) {
   bool first = true, can = false;
   operations.forEachIndependent([&](auto& state) {
     using D = typename std::decay_t<decltype(state)>::DataTypes;
     if constexpr (SolvesSystems<D>) {
-      if (afresh) state.solverRoom = {};
+      if (restart) state.solverWorkspace = {};
       can = first ? !assembled || VectorOperations<D>::assembles(operations) : can;
     } else {
       can = false;
@@ -55,7 +55,7 @@ void let_states_solve(Solver& solver, Operations& operations, MatrixFactors fact
     using D = typename std::decay_t<decltype(state)>::DataTypes;
     if constexpr (SolvesSystems<D>)
       if (std::exchange(first, false))
-        VectorOperations<D>::solve(solver, operations, factors, x, b, state.solverRoom.numbers);
+        VectorOperations<D>::solve(solver, operations, factors, x, b, state.solverWorkspace.numbers);
   });
 }
 

@@ -19,7 +19,7 @@ struct MultiVecDeriv {
   MultiVecDeriv(Operations& o, DerivId reserved) : operations(o), id(reserved), taken(false) {}
   MultiVecDeriv(MultiVecDeriv const&) = delete;
   ~MultiVecDeriv() {
-    if (taken) operations.giveBackDeriv();
+    if (taken) operations.releaseDeriv();
   }
 
   MultiVecDeriv& operator=(MultiVecDeriv const& a) { return eq(a), *this; }
@@ -45,7 +45,7 @@ struct MultiVecCoord {
   MultiVecCoord(Operations& o, CoordId reserved) : operations(o), id(reserved), taken(false) {}
   MultiVecCoord(MultiVecCoord const&) = delete;
   ~MultiVecCoord() {
-    if (taken) operations.giveBackCoord();
+    if (taken) operations.releaseCoord();
   }
 
   MultiVecCoord& operator=(MultiVecCoord const& a) { return operations.eq(id, a.id), *this; }

@@ -9,7 +9,7 @@
 namespace sinew {
 
 /// Newmark's method (1959), linearised once a step, with Rayleigh damping; order 2 for gamma = 1/2, else 1,
-/// and 1 for rigid bodies that turn, whose gyroscopic forces have no part in the tangent. With a the
+/// and 1 for rigid bodies that rotate, whose gyroscopic forces have no part in the tangent. With a the
 /// acceleration at the start of the step and a1 that at its end,
 ///   x1 = x + h v + h^2 ((1/2 - beta) a + beta a1),   v1 = v + h ((1 - gamma) a + gamma a1),
 ///   M a1 = f(x1, v1) - rM M v1 + rK K v1

@@ -45,9 +45,9 @@ struct NewtonReport {
   }
   void init(int iterations) {
     *this = {};
-    const auto room = std::size_t(std::min(iterations, 1'000'000));
-    residuals.reserve(room + 1);
-    corrections.reserve(room);
+    const auto capacity = std::size_t(std::min(iterations, 1'000'000));
+    residuals.reserve(capacity + 1);
+    corrections.reserve(capacity);
   }
 };
 
@@ -133,13 +133,13 @@ bool newton_goes_on(Settings const& settings) {
   return settings.maxNbIterationsNewton > 1 || settings.maxNbIterationsLineSearch > 1;
 }
 
-/// The linear system A dx = b of each iteration, where A = -dr/dx has the given factors and b is r; `way` is
-/// made the sum of the corrections. A search for an equilibrium may find it at its start, and looks at where
-/// it ends in any case.
+/// The linear system A dx = b of each iteration, where A = -dr/dx has the given factors and b is r;
+/// `increment` becomes the sum of the corrections. A search for an equilibrium may end at its start, and
+/// evaluates the residual at its end in any case.
 template <class Operations>
 struct NewtonSystem {
   MatrixFactors factors;
-  MultiVecDeriv<Operations>&dx, &b, &way;
+  MultiVecDeriv<Operations>&dx, &b, &increment;
   bool equilibrium = false;
 };
 
@@ -167,7 +167,7 @@ struct NewtonSearch {
     report.corrections.clear();
     report.status = NewtonStatus::outOfIterations;
     if (!system.equilibrium && !newton_goes_on(settings)) return iterateOnce();
-    system.way.clear();
+    system.increment.clear();
     report.residuals.push_back(residual());
     if (system.equilibrium && below(report.residuals[0], settings.absoluteResidualStoppingThreshold)) {
       report.status = NewtonStatus::alreadyInEquilibrium;
@@ -187,7 +187,7 @@ struct NewtonSearch {
   void iterateOnce() {
     callbacks.evaluate();
     solve();
-    system.way.eq(system.dx);
+    system.increment.eq(system.dx);
     callbacks.advance(1);
   }
   void iterate() {
@@ -206,7 +206,7 @@ struct NewtonSearch {
         [&](auto& linear) { linear.solve(operations, system.factors, system.dx, system.b); });
   }
   void move(double s) {
-    system.way.peq(system.dx, s);
+    system.increment.peq(system.dx, s);
     callbacks.advance(s);
   }
   double residual() {
@@ -237,7 +237,7 @@ struct NewtonSearch {
         below(size, settings.relativeSuccessiveStoppingThreshold * last))
       return NewtonStatus::residualSmall;
     if (below(correction, settings.absoluteEstimateDifferenceThreshold) ||
-        below(correction, settings.relativeEstimateDifferenceThreshold * system.way.norm()))
+        below(correction, settings.relativeEstimateDifferenceThreshold * system.increment.norm()))
       return NewtonStatus::correctionSmall;
     return NewtonStatus::outOfIterations;
   }
@@ -247,7 +247,7 @@ struct NewtonSearch {
 
 /// Solves r = 0 by Newton's method: A dx = r, then the unknown moves by s dx. The length s is 1, or with a
 /// line search the first of 1, q, q^2... (q = lineSearchCoefficient, down to the precision of a double) that
-/// makes |r| smaller than it was, and 1 again where none does. A threshold of 0 or less is not looked at.
+/// makes |r| smaller than it was, and 1 again where none does. A threshold of 0 or less is ignored.
 template <class Solver, class Operations, class Evaluate, class Advance>
 void newton(Solver& solver, Operations& operations, NewtonSystem<Operations> const& system,
             NewtonCallbacks<Evaluate, Advance> callbacks) {

@@ -15,7 +15,7 @@ namespace sinew {
 /// GraphScattered products go through the scene graph, and the matrix is assembled for the preconditioner
 /// only, once in `update_step` solves.
 ///
-/// A preconditioner P that is kept for several solves is that of a body as it stood. With `warp` it turns
+/// A preconditioner P that is kept for several solves is that of a body as it stood. With `warp` it rotates
 /// with the body: R P^-1 R' is applied, R the rotation of each point's neighbourhood since P was made, as the
 /// positions tell it (Courtecuisse, Allard, Duriez, Cotin 2010; there P is made by another thread meanwhile).
 ///
@@ -59,7 +59,7 @@ struct ShewchukPCGLinearSolver {
         field("build_precond", &S::buildPrecond, "", "update the preconditioner after the first solve"),
         field("precondition", &S::precondition, "", "what it is made of"),
         field("omega", &S::omega, "", "relaxation of ssor", range::open(0, 2)),
-        field("warp", &S::warp, "", "a preconditioner that is kept turns with each point's neighbourhood"));
+        field("warp", &S::warp, "", "a preconditioner that is kept rotates with each point's neighbourhood"));
   }
 
   std::vector<double>
@@ -69,7 +69,7 @@ struct ShewchukPCGLinearSolver {
   Formed matrix{};
   Preconditioner<Formed> preconditioner{};
   PointRotations rotations{};
-  Vector turned{};  // R' r
+  Vector rotated{};  // R' r
   Vector x{}, b{}, r{}, p{}, q{};
   int age = -1;  // solves since the preconditioner was made
 
@@ -82,7 +82,7 @@ struct ShewchukPCGLinearSolver {
     preconditioner.init(matrix, method(), matrix.dofs());
     preconditioner.omega = omega;
     if (warp) rotations.init(operations, matrix);
-    for (Vector* v : {&x, &b, &r, &p, &q, &turned})
+    for (Vector* v : {&x, &b, &r, &p, &q, &rotated})
       v->setZero(matrix.dofs() + 1);  // the last stays 0: multiply reads it
   }
 
@@ -148,15 +148,15 @@ struct ShewchukPCGLinearSolver {
 
  private:
   template <class Operations>
-  bool statesSolve(Operations& operations, bool afresh = false) const {
-    return method() <= PreconditionerMethod::blockJacobi && states_solve(operations, !matrixFree, afresh);
+  bool statesSolve(Operations& operations, bool restart = false) const {
+    return method() <= PreconditionerMethod::blockJacobi && states_solve(operations, !matrixFree, restart);
   }
   // z = P^-1 r, or R P^-1 R' r
   void apply(Vector const& from, Vector& to) {
     if (!warp || age == 0) return preconditioner.apply(from, to);
-    turned = from;
-    rotations.apply(turned, true);
-    preconditioner.apply(turned, to);
+    rotated = from;
+    rotations.apply(rotated, true);
+    preconditioner.apply(rotated, to);
     rotations.apply(to, false);
   }
   // multiply(to, from): to = A from;  precondition(to, from): to = M^-1 from

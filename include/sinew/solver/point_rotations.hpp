@@ -9,8 +9,8 @@
 
 namespace sinew {
 
-/// How each point of a system has turned since a moment, from positions and the pattern of the matrix alone.
-/// A rigid body turns by its orientation; a point as its neighbours j do, the points that its row of the
+/// How each point of a system has rotated since a moment, from positions and the pattern of the matrix alone.
+/// A rigid body rotates by its orientation; a point as its neighbours j do, the points that its row of the
 /// matrix has blocks with:
 ///   R_i = the rotation nearest to A_i,  A_i = sum_j (x_j - x_i) (x0_j - x0_i)'
 /// (Mueller et al. 2005, of each neighbourhood). What A_i leaves open, as the twist of a wire, stays as it
@@ -18,14 +18,14 @@ namespace sinew {
 struct PointRotations {
   struct Point {
     int dof, size,
-        vectors;      // first scalar, scalars of a vector, and how many of them turn: two of a rigid body
+        vectors;      // first scalar, scalars of a vector, and how many of them rotate: two of a rigid body
     int first, last;  // of the neighbours
   };
   std::vector<Point> points{};
   std::vector<int> neighbours{};
   std::vector<Eigen::Vector3d> start{}, now{};       // places
   std::vector<Eigen::Quaterniond> posture{}, own{};  // of rigid bodies: at the start, now
-  std::vector<Eigen::Matrix3d> turn{};
+  std::vector<Eigen::Matrix3d> rotation{};
 
   template <class Operations, class Matrix>
   void init(Operations& operations, Matrix const& matrix) {
@@ -56,7 +56,7 @@ struct PointRotations {
     now = start;
     posture.assign(points.size(), Eigen::Quaterniond::Identity());
     own = posture;
-    turn.assign(points.size(), Eigen::Matrix3d::Identity());
+    rotation.assign(points.size(), Eigen::Matrix3d::Identity());
   }
 
   /// From now on.
@@ -65,7 +65,7 @@ struct PointRotations {
     look(operations);
     start = now;
     posture = own;
-    for (auto& r : turn) r.setIdentity();
+    for (auto& r : rotation) r.setIdentity();
   }
 
   template <class Operations>
@@ -75,7 +75,7 @@ struct PointRotations {
       Point const& p = points[i];
       if (p.vectors == 0) continue;
       if (p.first == p.last) {
-        turn[i] = (own[i] * posture[i].conjugate()).toRotationMatrix();
+        rotation[i] = (own[i] * posture[i].conjugate()).toRotationMatrix();
         continue;
       }
       Eigen::Matrix3d a = Eigen::Matrix3d::Zero();
@@ -83,7 +83,7 @@ struct PointRotations {
         const std::size_t j = std::size_t(neighbours[std::size_t(k)]);
         a += (now[j] - now[i]) * (start[j] - start[i]).transpose();
       }
-      turn[i] = nearest_rotation(Eigen::Matrix3d(a + 1e-6 * a.norm() * turn[i]));
+      rotation[i] = nearest_rotation(Eigen::Matrix3d(a + 1e-6 * a.norm() * rotation[i]));
     }
   }
 
@@ -95,17 +95,17 @@ struct PointRotations {
       for (int k = 0; k < points[i].vectors; ++k) {
         Real* const at = v.data() + points[i].dof + 3 * k;
         if (points[i].size == 3)
-          rotate<3>(at, turn[i], back);
+          rotate<3>(at, rotation[i], back);
         else
-          rotate<2>(at, turn[i], back);
+          rotate<2>(at, rotation[i], back);
       }
   }
 
  private:
   template <int N, class Real>
-  static void rotate(Real* at, Eigen::Matrix3d const& turn, bool back) {
+  static void rotate(Real* at, Eigen::Matrix3d const& rotation, bool back) {
     Eigen::Map<Vec<Real, N>> v(at);
-    const Mat<Real, N> r = turn.topLeftCorner<N, N>().template cast<Real>();
+    const Mat<Real, N> r = rotation.topLeftCorner<N, N>().template cast<Real>();
     v = back ? Vec<Real, N>(r.transpose() * v) : Vec<Real, N>(r * v);
   }
   template <class Operations>

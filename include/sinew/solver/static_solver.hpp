@@ -37,7 +37,7 @@ struct StaticSolver {
     MultiVecCoord pos(operations, vec_id::position);
     MultiVecDeriv vel(operations, vec_id::velocity), force(operations, vec_id::force),
         dx(operations, vec_id::dx);
-    MultiVecDeriv way(operations);
+    MultiVecDeriv increment(operations);
     auto evaluate = [&] {
       operations.propagate(pos.id, vel.id);
       operations.computeForce(force.id, pos.id, vel.id);
@@ -49,7 +49,7 @@ struct StaticSolver {
     operations.acted.balanceWithoutInertia();
     sinew::newton(*this,
                   operations,
-                  {.factors = {.k = -1}, .dx = dx, .b = force, .way = way, .equilibrium = true},
+                  {.factors = {.k = -1}, .dx = dx, .b = force, .increment = increment, .equilibrium = true},
                   NewtonCallbacks{evaluate, [&](double s) { pos.peq(dx, s); }});
   }
 };

@@ -7,8 +7,8 @@
 namespace sinew {
 
 /// The implicit midpoint rule, order 2, symplectic: energy stays bounded over any time, momentum is kept (the
-/// variational integrator of Kharevych et al. 2006). With d = h/2 w the way to the middle of the step, w =
-/// (x1 - x) / h and forces and masses taken there,
+/// variational integrator of Kharevych et al. 2006). With d = h/2 w the displacement to the middle of the
+/// step, w = (x1 - x) / h and forces and masses taken there,
 ///   M (w - v) 2/h = f(x + d, w) - rM M w + rK K w,   x1 = x + 2 d,   v1 = 2 w - v
 /// is solved for d by Newton's method. Its first iteration alone has the order for points, the second for
 /// rigid bodies too. `explicitIntegration` takes symplectic Euler instead, of order 1.
@@ -31,7 +31,7 @@ struct VariationalSymplecticSolver {
         field("newtonError",
               &S::newtonError,
               "",
-              "correction at which Newton's method stops, against the way of the step",
+              "correction at which Newton's method stops, relative to the displacement of the step",
               range::nonNegative),
         field("steps", &S::steps, "", "largest number of iterations of Newton's method", range::atLeast(1)),
         field("rayleighStiffness", &S::rayleighStiffness, "s", "damping per stiffness", range::nonNegative),

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <sinew/core/component.hpp>
-#include <sinew/core/euler.hpp>
+#include <sinew/core/placement.hpp>
 #include <sinew/state/vector_operations.hpp>
 
 #include <algorithm>
@@ -29,7 +29,8 @@ struct MechanicalObject {
   // where reset() goes; the start when not given
   VecCoord resetPosition{};
   VecDeriv resetVelocity{};
-  // moves the positions given, at init: scaled first, then turned by Euler angles about x, y, z, then shifted
+  // moves the positions given, at init: scaled first, then rotated by Euler angles about x, y, z, then
+  // shifted
   Eigen::Vector3d translation{0, 0, 0}, rotation{0, 0, 0}, scale3d{1, 1, 1};
 
   // of a checkpoint: what solvers keep from step to step, one auxiliary vector after the other
@@ -59,8 +60,10 @@ struct MechanicalObject {
               "m/s",
               "velocities to which a reset goes; those at the start when not given"),
         field("translation", &M::translation, "m", "moves all positions at the start"),
-        field(
-            "rotation", &M::rotation, "degree", "turns all positions at the start, about x, then y, then z"),
+        field("rotation",
+              &M::rotation,
+              "degree",
+              "rotates all positions at the start, about x, then y, then z"),
         field("scale3d", &M::scale3d, "", "stretches all positions at the start").also("scale"),
         field("history", &M::history, "", "what solvers keep from step to step, in a checkpoint"),
         field("last_solution",
@@ -84,7 +87,7 @@ struct MechanicalObject {
   std::vector<VecCoord> auxiliaryCoords{};
   std::vector<VecDeriv> auxiliaryDerivs{};
   std::optional<VecCoord> given{};  // positions that the mapping of a mapped state was given
-  SolverRoom<D> solverRoom{};
+  SolverWorkspace<D> solverWorkspace{};
   int dofOffset = -1;  // first scalar of this state in the assembled system of its solver
 
   std::size_t size() const { return position.size(); }
@@ -105,13 +108,13 @@ struct MechanicalObject {
     if (!points.empty() && std::ranges::equal(position, points, same)) pointsOfTopology = true;
     const Eigen::Vector3d none = Eigen::Vector3d::Zero(), whole = Eigen::Vector3d::Ones();
     if (translation == none && rotation == none && scale3d == whole) return;
-    const Eigen::Quaterniond turn = rotation_of_degrees(rotation);
+    const Eigen::Quaterniond rotate = rotation_of_degrees(rotation);
     for (VecCoord* all : {&position, &restPosition})
       for (auto& x : *all) {
         Eigen::Vector3d p = Eigen::Vector3d::Zero();
         p.template head<D::spatial>() = D::center(x).template cast<double>();
         const double before = p.norm();
-        p = turn * scale3d.cwiseProduct(p) + translation;
+        p = rotate * scale3d.cwiseProduct(p) + translation;
         if (p.template tail<3 - D::spatial>().norm() > 1e-9 * (p.norm() + before))
           throw Error(where,
                       text(component_name<MechanicalObject>(),
@@ -122,10 +125,10 @@ struct MechanicalObject {
                            ", ",
                            p[2],
                            "), out of its ",
-                           D::spatial == 2 ? "plane; move and turn it within" : "line; move it along"));
+                           D::spatial == 2 ? "plane; move and rotate it within" : "line; move it along"));
         D::setCenter(x, center_of(p));
         if constexpr (D::rigid && D::spatial == 3)
-          x.orientation = turn.template cast<typename D::Real>() * x.orientation;
+          x.orientation = rotate.template cast<typename D::Real>() * x.orientation;
         if constexpr (D::rigid && D::spatial == 2)
           x.orientation += typename D::Real(rotation[2] * std::numbers::pi / 180);
       }

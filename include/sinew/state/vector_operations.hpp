@@ -2,7 +2,7 @@
 #pragma once
 
 #include <sinew/core/data_types.hpp>
-#include <sinew/core/part.hpp>
+#include <sinew/core/work_share.hpp>
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -81,7 +81,7 @@ double sum_pieces(Run const& workers, Eigen::Index size, F&& f) {
     if (workers.count() > 1 && size >= 16 * piece) {
       const std::size_t pieces = std::size_t((size + piece - 1) / piece);
       double* const sums = workers.sums();
-      workers.run([&](Part part) {
+      workers.run([&](WorkShare part) {
         for (std::size_t k = part.begin(pieces); k < part.end(pieces); ++k)
           sums[k] = f(Eigen::Index(k) * piece, length(Eigen::Index(k) * piece));
       });
@@ -96,7 +96,7 @@ template <class Run, class F>
 void each_piece(Run const& workers, Eigen::Index size, F&& f) {
   if constexpr (!std::is_same_v<Run, OneThread>)
     if (workers.count() > 1 && size >= 16 * piece) {
-      workers.run([&](Part part) {
+      workers.run([&](WorkShare part) {
         const auto begin = Eigen::Index(part.begin(std::size_t(size)));
         f(begin, Eigen::Index(part.end(std::size_t(size))) - begin);
       });
@@ -156,7 +156,7 @@ double advance(Run const& workers, X&& x, P const& p, X&& r, P const& q, Real f)
 
 /// r = a + f r
 template <class Run, class R, class A, class Real>
-void turn(Run const& workers, R&& r, A const& a, Real f) {
+void xpay(Run const& workers, R&& r, A const& a, Real f) {
   each_piece(workers, r.size(), [&](Eigen::Index i, Eigen::Index n) {
     r.segment(i, n) = a.segment(i, n) + f * r.segment(i, n);
   });
@@ -239,8 +239,8 @@ struct VectorOperations {
   }
   /// r = a + f r
   template <class Run>
-  static void turn(Run const& workers, VecDeriv& r, VecDeriv const& a, Real f) {
-    vec::turn(workers, vec::flat(r), vec::flat(a), f);
+  static void xpay(Run const& workers, VecDeriv& r, VecDeriv const& a, Real f) {
+    vec::xpay(workers, vec::flat(r), vec::flat(a), f);
   }
   /// x += f p, r -= f q; returns r.r.
   template <class Run>
@@ -258,6 +258,6 @@ struct VectorOperations {
 
 /// What a solver that works on a device keeps with a state: nothing where there is none.
 template <class D>
-struct SolverRoom {};
+struct SolverWorkspace {};
 
 }  // namespace sinew

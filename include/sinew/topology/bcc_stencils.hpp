@@ -86,7 +86,7 @@ bool unsnap_flattened(BccLattice& lattice);
 namespace sinew::detail {
 
 /// Whether an odd number of coordinates fall in this direction.
-constexpr bool falls_oddly(int direction) {
+constexpr bool has_odd_sign(int direction) {
   int count = 0;
   for (const int x : bccDirections[std::size_t(direction)]) count += x < 0;
   return count % 2 == 1;
@@ -117,7 +117,7 @@ SINEW_ONCE void stuff(BccLattice const& lattice, BccTetrahedron const& cell, std
   };
   // parity rule, for the quad a, b, cut bd, cut ad whose cut edges are short: the diagonal leaves from the
   // one of a and b that exceeds d in an even number of coordinates
-  auto from_first = [&](int i, int j) { return !falls_oddly(cell.edge[std::size_t(i)][std::size_t(j)]); };
+  auto from_first = [&](int i, int j) { return !has_odd_sign(cell.edge[std::size_t(i)][std::size_t(j)]); };
   auto pyramid = [&](int apex) {
     const int ad = cut(a, d), bd = cut(b, d);
     if (from_first(a, d)) {

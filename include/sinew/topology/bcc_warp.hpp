@@ -64,8 +64,8 @@ void snap(BccLattice& lattice);
 /// or an edge, and inside points next to flat cavities.
 void unsnap_pinched(BccLattice& lattice);
 
-/// Turns all inside points outside, except for those of the largest group whose tetrahedra are joined by
-/// faces: inside points that share an edge, or see each other through a face with three corners on the
+/// Makes all inside points outside points, except for those of the largest group whose tetrahedra are joined
+/// by faces: inside points that share an edge, or see each other through a face with three corners on the
 /// surface.
 void keep_largest_component(BccLattice& lattice);
 

@@ -26,8 +26,8 @@ std::array<Index, N> sorted_corners(std::array<Index, N> face) {
   return face;
 }
 
-/// The border of volume elements, its faces turned outwards where these are positively oriented, in the order
-/// in which elements give them.
+/// The border of volume elements, its faces oriented outwards where these are positively oriented, in the
+/// order in which elements give them.
 Border border_of(std::span<Tetrahedron const> tetrahedra, std::span<Hexahedron const> hexahedra);
 
 }  // namespace sinew

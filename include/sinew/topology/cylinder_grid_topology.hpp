@@ -17,7 +17,7 @@ struct CylinderGridTopology {
   using Role = role::Topology;
   static constexpr std::string_view className = "CylinderGridTopology";
   static constexpr std::string_view aliases = "CylinderGrid";
-  static constexpr bool hasTetrahedra = true;  // its hexahedra can be split
+  static constexpr bool mayHaveTetrahedra = true;  // its hexahedra can be split
 
   std::array<int, 3> n{2, 2, 2};
   std::optional<int> nx{}, ny{}, nz{};

@@ -128,8 +128,8 @@ SINEW_ONCE ElementFit<4> TetrahedronFit::fit(Eigen::Vector3d const& p) const {
   const Eigen::Vector3d w = inverse * (p - origin);
   const Eigen::Vector4d weights(1 - w.sum(), w[0], w[1], w[2]);
   if (!all_finite(weights)) return {-std::numeric_limits<double>::infinity(), weights};
-  const double least = weights.minCoeff();
-  return {least < 0 ? least * size : 0, weights};
+  const double minimum = weights.minCoeff();
+  return {minimum < 0 ? minimum * size : 0, weights};
 }
 
 SINEW_ONCE TriangleFit::TriangleFit(std::span<Eigen::Vector3d const> x, Triangle const& t)
@@ -147,12 +147,12 @@ SINEW_ONCE ElementFit<3> TriangleFit::fit(Eigen::Vector3d const& p) const {
   if (!all_finite(weights)) return {-std::numeric_limits<double>::infinity(), weights};
   Eigen::Vector3d nearest = weights[0] * corner[0] + weights[1] * corner[1] + weights[2] * corner[2];
   if (weights.minCoeff() < 0) {  // outside: on the nearest of the sides
-    double least = std::numeric_limits<double>::infinity();
+    double minimum = std::numeric_limits<double>::infinity();
     for (int k = 0; k < 3; ++k) {
       const Eigen::Vector3d side = corner[(k + 1) % 3] - corner[k];
       const double part = std::clamp((p - corner[k]).dot(side) / side.squaredNorm(), 0.0, 1.0);
       const Eigen::Vector3d place = corner[k] + part * side;
-      if (const double d = (p - place).squaredNorm(); d < least) least = d, nearest = place;
+      if (const double d = (p - place).squaredNorm(); d < minimum) minimum = d, nearest = place;
     }
   }
   return {-(p - nearest).norm(), weights};

@@ -26,7 +26,7 @@ inline constexpr std::size_t hexahedronFaces[6][4] = {
 std::vector<Tetrahedron> hexahedra_to_tetrahedra(std::span<Hexahedron const> hexahedra);
 
 /// The grid that elements are of, x fastest, by its points each way, zeros for none; and whether its cells
-/// are mirrored in turn along each axis before they are cut.
+/// are mirrored alternately along each axis before they are cut.
 struct GridCells {
   std::array<int, 3> points{0, 0, 0};
   bool swapping = false;
@@ -40,9 +40,9 @@ struct GridCells {
 
 /// Six tetrahedra for each hexahedron, cut as in SOFA: four around the diagonal from corner 0 to 6, and those
 /// at the corners 2 and 4. In a grid neighbours match so; where they do not, all are cut as above. Those of
-/// mirrored cells, which would be inside out, have their points `turned` and turned + 1 exchanged.
+/// mirrored cells, which would be inside out, have their points `exchanged` and `exchanged` + 1 swapped.
 std::vector<Tetrahedron> hexahedra_to_tetrahedra(std::span<Hexahedron const> hexahedra, GridCells const& grid,
-                                                 std::size_t turned);
+                                                 std::size_t exchanged);
 
 /// Shape functions of the multilinear edge (Dim = 1), quad or hexahedron and their derivatives by its
 /// coordinates, at a place whose coordinates are 0 to 1 inside.
@@ -92,7 +92,7 @@ SINEW_ONCE std::vector<Tetrahedron> hexahedra_to_tetrahedra(std::span<Hexahedron
 }
 
 SINEW_ONCE std::vector<Tetrahedron> hexahedra_to_tetrahedra(std::span<Hexahedron const> hexahedra,
-                                                            GridCells const& grid, std::size_t turned) {
+                                                            GridCells const& grid, std::size_t exchanged) {
   constexpr std::size_t parts[6][4] = {
       {0, 5, 1, 6}, {0, 1, 3, 6}, {1, 3, 6, 2}, {6, 3, 0, 7}, {6, 7, 0, 5}, {7, 5, 4, 0}};
   // they cut the faces between the first and third of these corners
@@ -126,7 +126,7 @@ SINEW_ONCE std::vector<Tetrahedron> hexahedra_to_tetrahedra(std::span<Hexahedron
     }
     for (auto const& t : parts) {
       tetrahedra.push_back({c[t[0]], c[t[1]], c[t[2]], c[t[3]]});
-      if (insideOut) std::swap(tetrahedra.back()[turned], tetrahedra.back()[turned + 1]);
+      if (insideOut) std::swap(tetrahedra.back()[exchanged], tetrahedra.back()[exchanged + 1]);
     }
   }
   return tetrahedra;

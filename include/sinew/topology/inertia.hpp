@@ -23,7 +23,7 @@ struct MassProperties {
 ///   s = a + b + c,   d = a.(b x c)
 /// which the divergence theorem gives too (Mirtich, "Fast and accurate computation of polyhedral mass
 /// properties", 1996). The front of the surface may be inside as well as outside. Throws Error, naming
-/// `where`, unless the surface is closed, its faces turned alike, and there is a volume in it.
+/// `where`, unless the surface is closed, its faces oriented alike, and there is a volume in it.
 MassProperties mass_properties(std::string_view where, std::span<Eigen::Vector3d const> x,
                                std::span<Triangle const> triangles, std::span<Quad const> quads);
 
@@ -54,12 +54,13 @@ SINEW_ONCE MassProperties mass_properties(std::string_view where, std::span<Eige
   std::sort(back.begin(), back.end());
   if (const auto gap = std::mismatch(there.begin(), there.end(), back.begin()); gap.first != there.end()) {
     const Edge e = std::min(*gap.first, *gap.second);
-    throw Error(where,
-                text("the surface is not closed, or its faces are not turned alike, at the edge from point ",
-                     e[0],
-                     " to ",
-                     e[1],
-                     "; merge points in one place, close the holes, and turn the faces"));
+    throw Error(
+        where,
+        text("the surface is not closed, or its faces are not oriented alike, at the edge from point ",
+             e[0],
+             " to ",
+             e[1],
+             "; merge points in one place, close the holes, and reverse the faces"));
   }
 
   // from the middle of the points, where rounding is least

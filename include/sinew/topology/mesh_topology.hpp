@@ -17,7 +17,7 @@ struct MeshTopology {
       "QuadSetTopologyContainer TetrahedronSetTopologyContainer HexahedronSetTopologyContainer "
       "ManifoldEdgeSetTopologyContainer ManifoldTriangleSetTopologyContainer "
       "ManifoldTetrahedronSetTopologyContainer";
-  static constexpr bool hasTetrahedra = true;  // it may have; who needs some says so at init
+  static constexpr bool mayHaveTetrahedra = true;  // it may have; who needs some says so at init
 
   std::vector<Eigen::Vector3d> position{};
   std::vector<Edge> edges{};
@@ -33,7 +33,7 @@ struct MeshTopology {
         field("position", &T::position, "m", "points, for a state that is given none").also("points"),
         field("edges", &T::edges, "", "two points each", range::nonNegative).also("lines"),
         field("triangles", &T::triangles, "", "three points each", range::nonNegative),
-        field("quads", &T::quads, "", "four points each, in turn", range::nonNegative),
+        field("quads", &T::quads, "", "four points each, in the order around the quad", range::nonNegative),
         field("tetrahedra", &T::tetrahedra, "", "four points each", range::nonNegative).also("tetras"),
         field("hexahedra", &T::hexahedra, "", "eight points each, in VTK's order", range::nonNegative)
             .also("hexas"),

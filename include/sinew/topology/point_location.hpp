@@ -34,11 +34,11 @@ struct ElementLocator {
     }
     // the directions in which a sheet or a string has no extent do not count
     const Eigen::Vector3d extent = max_of(high - low, Eigen::Vector3d(1e-300, 1e-300, 1e-300));
-    double room = 1;
+    double measure = 1;
     int directions = 0;
     for (int c = 0; c < 3; ++c)
-      if (extent[c] > 1e-3 * extent.maxCoeff()) room *= extent[c], ++directions;
-    cell = std::max(std::pow(room / double(elements.size()), 1.0 / directions), extent.maxCoeff() / 512);
+      if (extent[c] > 1e-3 * extent.maxCoeff()) measure *= extent[c], ++directions;
+    cell = std::max(std::pow(measure / double(elements.size()), 1.0 / directions), extent.maxCoeff() / 512);
     for (std::size_t c = 0; c < 3; ++c) count[c] = std::clamp(int(extent[Index(c)] / cell) + 1, 1, 513);
 
     // two passes: count, then fill, so that cell c holds members[start[c]] ... in the order of the elements
@@ -82,15 +82,15 @@ struct ElementLocator {
     const auto home = cellOf(p);
     const Eigen::Vector3d size = cell * Eigen::Vector3d(count[0], count[1], count[2]);
     const double away = squared_distance(p, low, low + size);
-    const int most = std::max({count[0], count[1], count[2]});
-    int last = most;
+    const int maximum = std::max({count[0], count[1], count[2]});
+    int last = maximum;
     for (int r = 0; r <= last; ++r) {
       forShell(home, r, visit);
       if (best.fit.score == 0) break;
       if constexpr (Fit::isDistance) {
         if (best.fit.score * best.fit.score <= away + r * cell * r * cell) break;
       } else {
-        if (best.element >= 0 && last == most) last = std::min(last, r + 1);
+        if (best.element >= 0 && last == maximum) last = std::min(last, r + 1);
       }
     }
     return best;

@@ -18,19 +18,19 @@ namespace detail {
 /// Throws the Error of a box without volume.
 [[noreturn]] void refuse_box(std::string_view where, Eigen::Vector3d const& lo, Eigen::Vector3d const& hi);
 
-/// Throws Error unless a grid has `least` points or more in each direction, 2^mostLog2 altogether at most,
+/// Throws Error unless a grid has `minimum` points or more in each direction, 2^maxLog2 altogether at most,
 /// and a box that is not empty in directions of several points. Grids that may be sheets and strings, of
-/// `least` 1, may also run backwards, as in SOFA. One of a scene, of 2^24 at most, is also held to
+/// `minimum` 1, may also run backwards, as in SOFA. One of a scene, of 2^24 at most, is also held to
 /// memory_limit.
 void check_grid(std::string_view where, std::array<int, 3> const& n, Eigen::Vector3d const& lo,
-                Eigen::Vector3d const& hi, int least, int mostLog2);
+                Eigen::Vector3d const& hi, int minimum, int maxLog2);
 
 /// n coordinates evenly from lo to hi, which are met exactly; one is at lo.
 std::vector<double> grid_coordinates(int n, double lo, double hi);
 
 /// Points from lo to hi. Point (i, j, k) has number i + nx (j + ny k). Throws Error as check_grid().
 Mesh grid_points(std::string_view where, std::array<int, 3> const& n, Eigen::Vector3d const& lo,
-                 Eigen::Vector3d const& hi, int least = 2, int mostLog2 = 28);
+                 Eigen::Vector3d const& hi, int minimum = 2, int maxLog2 = 28);
 
 /// Points each way of a grid of cubic cells from lo that covers the box; its far corner becomes `hi`. A whole
 /// number of cells, to rounding, stays so.
@@ -138,19 +138,19 @@ Mesh cylinder_tetrahedra(int axis, double lo, double hi, double radius, int ring
 namespace sinew::detail {
 
 SINEW_ONCE void check_grid(std::string_view where, std::array<int, 3> const& n, Eigen::Vector3d const& lo,
-                           Eigen::Vector3d const& hi, int least, int mostLog2) {
+                           Eigen::Vector3d const& hi, int minimum, int maxLog2) {
   const std::string grid = text("a grid of ", n[0], " x ", n[1], " x ", n[2], " points");
-  if (std::min({n[0], n[1], n[2]}) < least)
-    throw Error(where, text(grid, " has no cells; give at least ", least, " each way"));
-  const double most = std::ldexp(1.0, mostLog2);
-  if (double(n[0]) * n[1] * n[2] > most)
+  if (std::min({n[0], n[1], n[2]}) < minimum)
+    throw Error(where, text(grid, " has no cells; give at least ", minimum, " each way"));
+  const double maximum = std::ldexp(1.0, maxLog2);
+  if (double(n[0]) * n[1] * n[2] > maximum)
     throw Error(where,
-                text(grid, " exceeds the limit of ", most, " points (2^", mostLog2, "); make it coarser"));
-  if (mostLog2 <= 24) check_memory(where, grid, double(n[0]) * n[1] * n[2]);
-  bool room = all_finite(lo) && all_finite(hi);
+                text(grid, " exceeds the limit of ", maximum, " points (2^", maxLog2, "); make it coarser"));
+  if (maxLog2 <= 24) check_memory(where, grid, double(n[0]) * n[1] * n[2]);
+  bool hasVolume = all_finite(lo) && all_finite(hi);
   for (int c = 0; c < 3; ++c)
-    room = room && (n[std::size_t(c)] == 1 || (least == 1 ? lo[c] != hi[c] : lo[c] < hi[c]));
-  if (!room) refuse_box(where, lo, hi);
+    hasVolume = hasVolume && (n[std::size_t(c)] == 1 || (minimum == 1 ? lo[c] != hi[c] : lo[c] < hi[c]));
+  if (!hasVolume) refuse_box(where, lo, hi);
 }
 
 SINEW_ONCE void refuse_box(std::string_view where, Eigen::Vector3d const& lo, Eigen::Vector3d const& hi) {
@@ -179,8 +179,8 @@ SINEW_ONCE std::vector<double> grid_coordinates(int n, double lo, double hi) {
 }
 
 SINEW_ONCE Mesh grid_points(std::string_view where, std::array<int, 3> const& n, Eigen::Vector3d const& lo,
-                            Eigen::Vector3d const& hi, int least, int mostLog2) {
-  check_grid(where, n, lo, hi, least, mostLog2);
+                            Eigen::Vector3d const& hi, int minimum, int maxLog2) {
+  check_grid(where, n, lo, hi, minimum, maxLog2);
   Mesh mesh;
   mesh.positions.reserve(std::size_t(n[0]) * std::size_t(n[1]) * std::size_t(n[2]));
   const auto xs = grid_coordinates(n[0], lo[0], hi[0]), ys = grid_coordinates(n[1], lo[1], hi[1]),

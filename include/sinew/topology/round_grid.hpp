@@ -23,10 +23,10 @@ namespace sinew::detail {
 /// The first `dimensions` coordinates moved along the ray from the origin so that squares of half width r (or
 /// cubes) become circles (or spheres) of radius r: p max|p_i| / |p|.
 inline void round_square(Eigen::Vector3d& p, int dimensions) {
-  double square = 0, most = 0;
-  for (int c = 0; c < dimensions; ++c) square += p[c] * p[c], most = std::max(most, std::abs(p[c]));
+  double square = 0, maximum = 0;
+  for (int c = 0; c < dimensions; ++c) square += p[c] * p[c], maximum = std::max(maximum, std::abs(p[c]));
   if (square > 0)
-    for (int c = 0; c < dimensions; ++c) p[c] *= most / std::sqrt(square);
+    for (int c = 0; c < dimensions; ++c) p[c] *= maximum / std::sqrt(square);
 }
 
 /// Right-handed axes, the third along `axis`, the first as near to x as can be; as near to y where `axis` is

@@ -16,7 +16,7 @@ struct SparseGridTopology {
   using Role = role::Topology;
   static constexpr std::string_view className = "SparseGridTopology";
   static constexpr std::string_view aliases = "SparseGrid";
-  static constexpr bool hasTetrahedra = true;  // its hexahedra can be split
+  static constexpr bool mayHaveTetrahedra = true;  // its hexahedra can be split
 
   std::array<int, 3> n{2, 2, 2};
   DataFile fileTopology{};
@@ -252,29 +252,29 @@ SINEW_ONCE Mesh SparseGridTopology::readSurface(std::string const& at) const {
 }
 
 SINEW_ONCE void SparseGridTopology::decideRest(Grid& grid, Mesh const& surface, std::string const& at) {
-  std::vector<Eigen::Vector3i> lot;
+  std::vector<Eigen::Vector3i> region;
   for (int k = 0; k < grid.cells[2]; ++k)
     for (int j = 0; j < grid.cells[1]; ++j)
       for (int i = 0; i < grid.cells[0]; ++i) {
         if (grid.kind({i, j, k}) != unknown) continue;
-        lot.assign(1, {i, j, k});
-        grid.kind(lot[0]) = outside;
-        for (std::size_t c = 0; c < lot.size(); ++c)
+        region.assign(1, {i, j, k});
+        grid.kind(region[0]) = outside;
+        for (std::size_t c = 0; c < region.size(); ++c)
           for (int side = 0; side < 6; ++side) {
-            Eigen::Vector3i next = lot[c];
+            Eigen::Vector3i next = region[c];
             int& step = next[side / 2];
             step += side % 2 == 0 ? -1 : 1;
             if (step < 0 || step >= grid.cells[side / 2] || grid.kind(next) != unknown) continue;
             grid.kind(next) = outside;
-            lot.push_back(next);
+            region.push_back(next);
           }
-        int turns = 0;
-        for (const std::size_t c : {std::size_t(0), lot.size() / 2, lot.size() - 1}) {
-          const auto [low, high] = grid.box(lot[c], lot[c] + Eigen::Vector3i::Ones());
+        int windings = 0;
+        for (const std::size_t c : {std::size_t(0), region.size() / 2, region.size() - 1}) {
+          const auto [low, high] = grid.box(region[c], region[c] + Eigen::Vector3i::Ones());
           const Eigen::Vector3d p = (low + high) / 2;
           const double winding = detail::winding_number(surface.positions, surface.triangles, p);
-          if (c == 0) turns = int(std::lround(winding));
-          if (!(std::abs(winding - turns) < 0.1))
+          if (c == 0) windings = int(std::lround(winding));
+          if (!(std::abs(winding - windings) < 0.1))
             throw Error(
                 at,
                 text("the surface is not closed, or its triangles do not all look outwards: it winds ",
@@ -287,8 +287,8 @@ SINEW_ONCE void SparseGridTopology::decideRest(Grid& grid, Mesh const& surface, 
                      p[2],
                      "); close its holes and orient its triangles alike"));
         }
-        if (turns != 0)
-          for (auto const& cell : lot) grid.kind(cell) = inside;
+        if (windings != 0)
+          for (auto const& cell : region) grid.kind(cell) = inside;
       }
 }
 

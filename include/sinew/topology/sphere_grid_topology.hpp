@@ -16,7 +16,7 @@ struct SphereGridTopology {
   using Role = role::Topology;
   static constexpr std::string_view className = "SphereGridTopology";
   static constexpr std::string_view aliases = "SphereGrid";
-  static constexpr bool hasTetrahedra = true;  // its hexahedra can be split
+  static constexpr bool mayHaveTetrahedra = true;  // its hexahedra can be split
 
   std::array<int, 3> n{2, 2, 2};
   std::optional<int> nx{}, ny{}, nz{};

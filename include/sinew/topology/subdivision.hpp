@@ -31,11 +31,11 @@ class AddedPoints {
  public:
   explicit AddedPoints(std::vector<Eigen::Vector3d>& positions) : positions_(positions) {}
 
-  Index amid(Index a, Index b) {
+  Index midpoint(Index a, Index b) {
     if (a == b) throw Error("subdivide", text("an element uses point ", a, " twice; remove or correct it"));
     return find(edges_, Edge{std::min(a, b), std::max(a, b)}, Edge{a, b});
   }
-  Index amid(Quad const& face) {
+  Index midpoint(Quad const& face) {
     Quad sorted = face;
     std::sort(sorted.begin(), sorted.end());
     return find(faces_, sorted, face);
@@ -62,24 +62,24 @@ class AddedPoints {
   }
 };
 
-/// Turns the points 1, 2, 3 of a tetrahedron so that of the four tetrahedra that subdivision puts around the
-/// line from amid 0 and 2 to amid 1 and 3, all of one volume, the worst, with the longest edges, is as good
-/// as it can be.
+/// Rotates the points 1, 2, 3 of a tetrahedron so that of the four tetrahedra that subdivision puts around
+/// the line from amid 0 and 2 to amid 1 and 3, all of one volume, the worst, with the longest edges, is as
+/// good as it can be.
 inline void choose_diagonal(Tetrahedron& t, std::vector<Eigen::Vector3d> const& positions) {
   auto worst = [&](Tetrahedron const& u) {
-    auto amid = [&](std::size_t i, std::size_t j) -> Eigen::Vector3d {
+    auto midpoint = [&](std::size_t i, std::size_t j) -> Eigen::Vector3d {
       return positions[std::size_t(u[i])] + positions[std::size_t(u[j])];
     };
-    const Eigen::Vector3d ends[2] = {amid(0, 2), amid(1, 3)},
-                          ring[4] = {amid(0, 1), amid(0, 3), amid(2, 3), amid(1, 2)};
-    double most = 0;
+    const Eigen::Vector3d ends[2] = {midpoint(0, 2), midpoint(1, 3)},
+                          ring[4] = {midpoint(0, 1), midpoint(0, 3), midpoint(2, 3), midpoint(1, 2)};
+    double maximum = 0;
     for (std::size_t k = 0; k < 4; ++k) {
       auto const &p = ring[k], &q = ring[(k + 1) % 4];
       double sum = (ends[0] - ends[1]).squaredNorm() + (p - q).squaredNorm();
       for (auto const& end : ends) sum += (end - p).squaredNorm() + (end - q).squaredNorm();
-      most = std::max(most, sum);
+      maximum = std::max(maximum, sum);
     }
-    return most;
+    return maximum;
   };
   Tetrahedron best = t;
   for (int k = 0; k < 2; ++k) {
@@ -91,11 +91,12 @@ inline void choose_diagonal(Tetrahedron& t, std::vector<Eigen::Vector3d> const& 
 
 /// Eight tetrahedra, four at the corners and four around a diagonal of the octahedron between them, of which
 /// further subdivision makes no more than three shapes in all (Bey 1995). Oriented as the whole; the two that
-/// Bey has the other way round are turned by their points 0 and 2, which leaves all later diagonals as they
-/// are.
+/// Bey has the other way round are reversed by exchanging their points 0 and 2, which leaves all later
+/// diagonals as they are.
 inline void subdivide_tetrahedron(Tetrahedron const& t, AddedPoints& points, std::vector<Tetrahedron>& to) {
-  const Index a = points.amid(t[0], t[1]), b = points.amid(t[0], t[2]), c = points.amid(t[0], t[3]),
-              d = points.amid(t[1], t[2]), e = points.amid(t[1], t[3]), f = points.amid(t[2], t[3]);
+  const Index a = points.midpoint(t[0], t[1]), b = points.midpoint(t[0], t[2]),
+              c = points.midpoint(t[0], t[3]), d = points.midpoint(t[1], t[2]),
+              e = points.midpoint(t[1], t[3]), f = points.midpoint(t[2], t[3]);
   for (Tetrahedron const& part : {Tetrahedron{t[0], a, b, c},
                                   Tetrahedron{a, t[1], d, e},
                                   Tetrahedron{b, d, t[2], f},
@@ -132,8 +133,8 @@ inline void subdivide_hexahedron(Hexahedron const& h, AddedPoints& points, std::
           around[n++] = corner(end[0], end[1], end[2]);
         }
         grid[z][y][x] = middle == 0   ? around[0]
-                        : middle == 1 ? points.amid(around[0], around[1])
-                        : middle == 2 ? points.amid(Quad{around[0], around[1], around[3], around[2]})
+                        : middle == 1 ? points.midpoint(around[0], around[1])
+                        : middle == 2 ? points.midpoint(Quad{around[0], around[1], around[3], around[2]})
                                       : points.inside(h);
       }
   for (int part = 0; part < 8; ++part) {
@@ -154,14 +155,14 @@ SINEW_ONCE Mesh subdivide(Mesh mesh, int levels) {
   if (levels < 0) throw Error(where, text(levels, " levels were asked for; give 0 or more"));
   check_mesh(where, mesh);
   // as if no two elements shared a new point
-  double most = double(mesh.positions.size()), part2 = double(mesh.edges.size()),
+  double maximum = double(mesh.positions.size()), part2 = double(mesh.edges.size()),
          part4 = 3. * double(mesh.triangles.size()) + 5. * double(mesh.quads.size()),
          part8 = 6. * double(mesh.tetrahedra.size()) + 19. * double(mesh.hexahedra.size());
-  for (int level = 0; level < levels && most <= 268435456; ++level) {
-    most += part2 + part4 + part8;
+  for (int level = 0; level < levels && maximum <= 268435456; ++level) {
+    maximum += part2 + part4 + part8;
     part2 *= 2, part4 *= 4, part8 *= 8;
   }
-  if (most > 268435456)
+  if (maximum > 268435456)
     throw Error(where, text(levels, " levels are too many: they may need more than 2^28 points; take fewer"));
   if (levels > 0)
     for (auto& t : mesh.tetrahedra) detail::choose_diagonal(t, mesh.positions);
@@ -170,25 +171,25 @@ SINEW_ONCE Mesh subdivide(Mesh mesh, int levels) {
     fine.positions = std::move(mesh.positions);
     detail::AddedPoints points(fine.positions);
     for (auto const& [a, b] : mesh.edges) {
-      const Index m = points.amid(a, b);
+      const Index m = points.midpoint(a, b);
       fine.edges.push_back({a, m});
       fine.edges.push_back({m, b});
     }
     for (auto const& [a, b, c] : mesh.triangles) {
-      const Index ab = points.amid(a, b), bc = points.amid(b, c), ca = points.amid(c, a);
+      const Index ab = points.midpoint(a, b), bc = points.midpoint(b, c), ca = points.midpoint(c, a);
       for (Triangle const& part :
            {Triangle{a, ab, ca}, Triangle{ab, b, bc}, Triangle{ca, bc, c}, Triangle{ab, bc, ca}})
         fine.triangles.push_back(part);
     }
     for (Quad const& q : mesh.quads) {
-      const Index m = points.amid(q);
+      const Index m = points.midpoint(q);
       for (std::size_t k = 0; k < 4; ++k) {
         // the corner that was at place k stays there
         Quad part;
         part[k] = q[k];
-        part[(k + 1) % 4] = points.amid(q[k], q[(k + 1) % 4]);
+        part[(k + 1) % 4] = points.midpoint(q[k], q[(k + 1) % 4]);
         part[(k + 2) % 4] = m;
-        part[(k + 3) % 4] = points.amid(q[k], q[(k + 3) % 4]);
+        part[(k + 3) % 4] = points.midpoint(q[k], q[(k + 3) % 4]);
         fine.quads.push_back(part);
       }
     }

@@ -47,7 +47,7 @@ bool project_to_surface(std::string_view where, Shape const& shape, double lengt
 }
 
 /// Moves each point to the middle of its neighbours and back onto the surface, where that enlarges the
-/// smallest angle of the triangles around it and turns none of them by 60 degrees or more. Sequential, so
+/// smallest angle of the triangles around it and rotates none of them by 60 degrees or more. Sequential, so
 /// deterministic.
 template <class Shape>
 void smooth_surface(std::string_view where, Shape const& shape, double spacing, int sweeps, Mesh& mesh) {

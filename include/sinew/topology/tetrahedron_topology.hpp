@@ -12,7 +12,7 @@ namespace sinew {
 struct TetrahedronTopology {
   using Role = role::Topology;
   static constexpr std::string_view className = "TetrahedronTopology";
-  static constexpr bool hasTetrahedra = true;
+  static constexpr bool mayHaveTetrahedra = true;
 
   std::vector<Tetrahedron> tetrahedra{};
 

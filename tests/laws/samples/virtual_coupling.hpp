@@ -12,7 +12,7 @@ namespace sample {
 template <class... A>
 void prepare(VirtualCoupling<A...>& c, Random&) {
   c.targetVelocity.clear();
-  if constexpr (VirtualCoupling<A...>::turns) c.target.clear();
+  if constexpr (VirtualCoupling<A...>::rotates) c.target.clear();
 }
 
 }  // namespace sample

@@ -3,7 +3,7 @@
 
 #include <sinew/core/element_force.hpp>
 #include <sinew/core/phase.hpp>
-#include <sinew/gpu/solver_room.hpp>
+#include <sinew/gpu/solver_workspace.hpp>
 #include <sinew/gpu/vector_operations.hpp>
 #include <sinew/scene/scope.hpp>
 
@@ -80,7 +80,7 @@ bool can_assemble(Operations& operations) {
 }
 
 /// The matrix m M + b B + k K of a solver, in rows on the device for each state: planned where that is not
-/// done. `unit` and `column` are room.
+/// done. `unit` and `column` are workspace.
 template <class Operations, class MultiVec>
 void assemble_on_device(Operations& operations, MatrixFactors factors, MultiVec& unit, MultiVec& column) {
   [[maybe_unused]] const auto span = operations.root.span(Phase::assembly);
@@ -89,7 +89,7 @@ void assemble_on_device(Operations& operations, MatrixFactors factors, MultiVec&
     if constexpr (OnDevice<D>) {
       using Real = typename D::Real;
       using Source = typename BlockRows<D>::Source;
-      BlockRows<D>& rows = state.solverRoom.rows;
+      BlockRows<D>& rows = state.solverWorkspace.rows;
       if (!rows.planned()) {
         std::vector<Source> sources;
         detail::for_each_acting_on<role::ForceField>(

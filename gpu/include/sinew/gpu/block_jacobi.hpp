@@ -77,7 +77,7 @@ struct PointBlocks {
 
 /// Makes the preconditioner of the states below a solver: the inverse diagonal blocks of what elements on the
 /// device and masses of each state add, as constraints leave them; where there is nothing, 1. `unit` and
-/// `column` are room.
+/// `column` are workspace.
 template <class Operations, class MultiVec>
 void make_block_jacobi(Operations& operations, MatrixFactors factors, bool diagonalOnly, MultiVec& unit,
                        MultiVec& column) {
@@ -88,13 +88,13 @@ void make_block_jacobi(Operations& operations, MatrixFactors factors, bool diago
       using Real = typename D::Real;
       using Blocks = PointBlocks<D>;
       const std::size_t points = state.size(), entries = points * std::size_t(D::size * D::size);
-      state.solverRoom.diagonal.resize(2 * entries);
-      Real* const room = state.solverRoom.diagonal.overwrite();
-      const Blocks blocks{int(points), room}, left{int(points), room + entries};
+      state.solverWorkspace.diagonal.resize(2 * entries);
+      Real* const workspace = state.solverWorkspace.diagonal.overwrite();
+      const Blocks blocks{int(points), workspace}, left{int(points), workspace + entries};
       for_each_index(points, typename Blocks::Clear{blocks});
       for_each_index(points, typename Blocks::Clear{left});
       detail::for_each_acting_on<role::ForceField>(operations, state, [&](auto& c) {
-        c.driver.addDiagonal(law_of(c), room, points, Real(factors.k), Real(factors.b));
+        c.driver.addDiagonal(law_of(c), workspace, points, Real(factors.k), Real(factors.b));
       });
       detail::for_each_mass_column(operations, state, factors.m, unit, column, [&](int c) {
         operations.projectResponse(unit.id);

@@ -120,7 +120,7 @@ struct BlockRows {
         const auto of = detail::BlockOfElement<Law::arity>(static_cast<unsigned>(contribution[i]));
         const Mat<Real, n> block =
             law.block(view.rest[of.element], view.tangent[of.element], of.a, of.b, k, b);
-        if (of.turned)
+        if (of.transposed)
           sum += block.transpose();
         else
           sum += block;
@@ -185,11 +185,11 @@ struct BlockRows {
     return {sliceFirst.device(), column.device(), values.data(), x, r};
   }
   // which blocks of elements a row has, and where
-  struct Part {
+  struct RowEntry {
     int column;
     int source;  // -1: of the diagonal
     int code;
-    auto operator<=>(Part const&) const = default;
+    auto operator<=>(RowEntry const&) const = default;
   };
   void place() {
     std::vector<std::size_t> begin(rows + 1, 0);
@@ -204,10 +204,10 @@ struct BlockRows {
     }
     for (std::size_t i = 0; i < rows; ++i) begin[i + 1] += begin[i] + 1;
     // the parts of each row, by columns: those of one place stand together, sources and elements rising
-    std::vector<Part> parts(begin[rows]);
+    std::vector<RowEntry> rowEntries(begin[rows]);
     {
       std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
-      for (std::size_t i = 0; i < rows; ++i) parts[next[i]++] = {int(i), -1, 0};
+      for (std::size_t i = 0; i < rows; ++i) rowEntries[next[i]++] = {int(i), -1, 0};
       for (std::size_t s = 0; s < sources.size(); ++s) {
         const auto arity = std::size_t(sources[s].arity);
         std::vector<int>& points = sources[s].points;
@@ -215,17 +215,18 @@ struct BlockRows {
         for (std::size_t e = 0; e < points.size(); e += arity)
           for (std::size_t i = e; i < e + arity; ++i)
             for (std::size_t j = i; j < e + arity; ++j, code += 2) {
-              parts[next[std::size_t(points[i])]++] = {points[j], int(s), code};
-              if (i != j) parts[next[std::size_t(points[j])]++] = {points[i], int(s), code + 1};
+              rowEntries[next[std::size_t(points[i])]++] = {points[j], int(s), code};
+              if (i != j) rowEntries[next[std::size_t(points[j])]++] = {points[i], int(s), code + 1};
             }
         points = {};
       }
     }
     std::vector<int> length(rows, 0);
     for (std::size_t i = 0; i < rows; ++i) {
-      std::sort(parts.begin() + std::ptrdiff_t(begin[i]), parts.begin() + std::ptrdiff_t(begin[i + 1]));
+      std::sort(rowEntries.begin() + std::ptrdiff_t(begin[i]),
+                rowEntries.begin() + std::ptrdiff_t(begin[i + 1]));
       for (std::size_t k = begin[i]; k < begin[i + 1]; ++k)
-        length[i] += k == begin[i] || parts[k].column != parts[k - 1].column;
+        length[i] += k == begin[i] || rowEntries[k].column != rowEntries[k - 1].column;
     }
     std::vector<int> firstOfSlice{0};
     for (std::size_t s = 0; s < rows; s += slice) {
@@ -236,12 +237,12 @@ struct BlockRows {
     }
     places = std::size_t(firstOfSlice.back());
     // f(row, place, part), places of a row rising
-    auto forEachPart = [&](auto&& f) {
+    auto forEachRowEntry = [&](auto&& f) {
       for (std::size_t i = 0; i < rows; ++i) {
         int at = firstOfSlice[i / slice] + int(i % slice) - slice;
         for (std::size_t k = begin[i]; k < begin[i + 1]; ++k) {
-          if (k == begin[i] || parts[k].column != parts[k - 1].column) at += slice;
-          f(i, at, parts[k]);
+          if (k == begin[i] || rowEntries[k].column != rowEntries[k - 1].column) at += slice;
+          f(i, at, rowEntries[k]);
         }
       }
     };
@@ -250,12 +251,12 @@ struct BlockRows {
       for (int p = firstOfSlice[s]; p < firstOfSlice[s + 1]; ++p)
         columns[std::size_t(p)] = int(std::min(rows - 1, s * slice + std::size_t(p % slice)));
     std::vector<std::vector<int>> counts(sources.size(), std::vector<int>(places + 1, 0));
-    forEachPart([&](std::size_t row, int at, Part const& part) {
-      columns[std::size_t(at)] = part.column;
-      if (part.source < 0)
+    forEachRowEntry([&](std::size_t row, int at, RowEntry const& entry) {
+      columns[std::size_t(at)] = entry.column;
+      if (entry.source < 0)
         diagonals[row] = at;
       else
-        ++counts[std::size_t(part.source)][std::size_t(at) + 1];
+        ++counts[std::size_t(entry.source)][std::size_t(at) + 1];
     });
     std::vector<std::vector<int>> codes(sources.size());
     for (std::size_t s = 0; s < sources.size(); ++s) {
@@ -263,10 +264,10 @@ struct BlockRows {
       codes[s].resize(std::size_t(counts[s].back()));
     }
     auto next = counts;
-    forEachPart([&](std::size_t, int at, Part const& part) {
-      if (part.source < 0) return;
-      const auto s = std::size_t(part.source);
-      codes[s][std::size_t(next[s][std::size_t(at)]++)] = part.code;
+    forEachRowEntry([&](std::size_t, int at, RowEntry const& entry) {
+      if (entry.source < 0) return;
+      const auto s = std::size_t(entry.source);
+      codes[s][std::size_t(next[s][std::size_t(at)]++)] = entry.code;
     });
     for (std::size_t s = 0; s < sources.size(); ++s) {
       sources[s].first = std::move(counts[s]);

@@ -27,15 +27,15 @@ void conjugate_gradients(Operations& operations, Solver& solver, MatrixFactors f
   if constexpr (assembled) assemble_on_device(operations, factors, p, q);
   const auto n = std::size_t(solver.iterations);
   numbers.resize(3 * n + 6);
-  double* const room = numbers.device();
+  double* const workspace = numbers.device();
   double threshold = 0;
   if constexpr (requires { solver.threshold; }) threshold = solver.threshold;
-  const CgScalars s{room,
-                    preconditioned ? room + n + 2 : room,
-                    room + 2 * n + 4,
+  const CgScalars s{workspace,
+                    preconditioned ? workspace + n + 2 : workspace,
+                    workspace + 2 * n + 4,
                     solver.tolerance * solver.tolerance,
                     threshold};
-  double* const ofState = room + 3 * n + 5;
+  double* const ofState = workspace + 3 * n + 5;
   solver.residuals.clear();
 
   // *to = what f(state, sum) puts into *sum, over all states
@@ -56,7 +56,7 @@ void conjugate_gradients(Operations& operations, Solver& solver, MatrixFactors f
     sum(to, [&]<class V>(auto& state, double* rz) {
       using D = typename std::decay_t<decltype(state)>::DataTypes;
       sum_indices(state.size(),
-                  typename PointBlocks<D>::Apply{{int(state.size()), state.solverRoom.diagonal.device()},
+                  typename PointBlocks<D>::Apply{{int(state.size()), state.solverWorkspace.diagonal.device()},
                                                  std::as_const(state[r.id]).device(),
                                                  state[z.id].overwrite()},
                   rz);
@@ -74,7 +74,7 @@ void conjugate_gradients(Operations& operations, Solver& solver, MatrixFactors f
     if constexpr (assembled) {
       // p has nothing that constraints forbid, so that p.Ap may be summed up before they act on Ap
       sum(s.curvature + i, [&]<class V>(auto& state, double* to) {
-        state.solverRoom.rows.multiply(state[q.id].overwrite(), std::as_const(state[p.id]).device(), to);
+        state.solverWorkspace.rows.multiply(state[q.id].overwrite(), std::as_const(state[p.id]).device(), to);
       });
       operations.projectResponse(q.id);
     } else {
@@ -90,7 +90,7 @@ void conjugate_gradients(Operations& operations, Solver& solver, MatrixFactors f
     if (preconditioned) precondition(next, s.rho + i + 1);
     operations.forEachIndependent([&](auto& state) {
       using D = typename std::decay_t<decltype(state)>::DataTypes;
-      if constexpr (OnDevice<D>) VectorOperations<D>::turn(state[p.id], state[next.id], s, i);
+      if constexpr (OnDevice<D>) VectorOperations<D>::xpay(state[p.id], state[next.id], s, i);
     });
     if (solver.tolerance > 0 && i % 10 == 9 && !recording()) {
       double size[2];

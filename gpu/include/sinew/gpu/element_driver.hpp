@@ -48,10 +48,10 @@ struct ElementDriver<LawOf, CudaTypes<H>, W> {
   /// Takes the elements. Throws Error on more than 2^31 - 1 ends of elements.
   void init(std::vector<Indices> const& all, std::vector<Rest> const& restOf) {
     const std::size_t count = all.size();
-    constexpr std::size_t most = std::numeric_limits<int>::max();
-    if (count > most / arity)
+    constexpr std::size_t maximum = std::numeric_limits<int>::max();
+    if (count > maximum / arity)
       throw Error("elements on a device",
-                  text(count, " elements exceed the 2^31 - 1 numbers of an int; split the body"));
+                  text(count, " elements exceed the range of an int, 2^31 - 1; split the body"));
     elements = all;
     rest = restOf;
     nodes = 0;
@@ -91,13 +91,13 @@ struct ElementDriver<LawOf, CudaTypes<H>, W> {
 
   /// f += the law's forces at (x, v); keeps what addDForce needs.
   template <class VecDeriv, class VecCoord>
-  void addForce(Law const& law, VecDeriv& f, VecCoord const& x, VecDeriv const& v, Part = {}) {
+  void addForce(Law const& law, VecDeriv& f, VecCoord const& x, VecDeriv const& v, WorkShare = {}) {
     forces(law, same(entries(x)), same(entries(v)));
     sum(around, entries(f));
   }
   /// df += (k K + b B) dx with the tangents of the last addForce.
   template <class VecDeriv>
-  void addDForce(Law const& law, VecDeriv& df, VecDeriv const& dx, Real k, Real b, Part = {}) const {
+  void addDForce(Law const& law, VecDeriv& df, VecDeriv const& dx, Real k, Real b, WorkShare = {}) const {
     Product& p = product;
     if (p.k != k || p.b != b) p = {std::move(p.rows), k, b, 0, false};
     if constexpr (arity > 2)
@@ -126,11 +126,11 @@ struct ElementDriver<LawOf, CudaTypes<H>, W> {
 
   // between two bodies
 
-  void addForce(Law const& law, Derivs f, Coords x, ConstDerivs v, Part = {}) {
+  void addForce(Law const& law, Derivs f, Coords x, ConstDerivs v, WorkShare = {}) {
     forces(law, x, v);
     sumAtEnds(f);
   }
-  void addDForce(Law const& law, Derivs df, ConstDerivs dx, Real k, Real b, Part = {}) const {
+  void addDForce(Law const& law, Derivs df, ConstDerivs dx, Real k, Real b, WorkShare = {}) const {
     products(law, dx, k, b);
     sumAtEnds(df);
   }
@@ -146,7 +146,7 @@ struct ElementDriver<LawOf, CudaTypes<H>, W> {
 
   /// Adds k K + b B to a matrix on the host.
   template <int... SideOf, class Sink>
-  void addToMatrix(Law const& law, Sink const& sink, Real k, Real b, Part = {}) {
+  void addToMatrix(Law const& law, Sink const& sink, Real k, Real b, WorkShare = {}) {
     if constexpr (Sink::phase != AssemblyPhase::bind) {
       constexpr std::array<int, arity> side = [] {
         if constexpr (sizeof...(SideOf) == 0)

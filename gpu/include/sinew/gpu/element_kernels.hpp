@@ -9,15 +9,15 @@
 namespace sinew::gpu::detail {
 
 /// A block of an element's tangent as a matrix knows it: a number for the element, the pair of its points,
-/// and whether the block is turned over. Pairs are (0, 0), (0, 1), .. (1, 1), (1, 2), ...
+/// and whether the block is transposed. Pairs are (0, 0), (0, 1), .. (1, 1), (1, 2), ...
 template <int Arity>
 struct BlockOfElement {
   static constexpr int pairs = Arity * (Arity + 1) / 2;
   int element, a = 0, b;
-  bool turned;
+  bool transposed;
 
   SINEW_INLINE explicit BlockOfElement(unsigned code)
-      : element(int(code / (2 * pairs))), b(int(code / 2 % pairs)), turned(code & 1) {
+      : element(int(code / (2 * pairs))), b(int(code / 2 % pairs)), transposed(code & 1) {
     while (b >= Arity - a) b -= Arity - a++;
     b += a;
   }

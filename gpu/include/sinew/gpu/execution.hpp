@@ -59,19 +59,19 @@ inline bool& recording() {
 }
 
 #if SINEW_CUDA
-inline constexpr unsigned most_threads = 256;  // of a block
+inline constexpr unsigned max_threads = 256;  // of a block
 /// Threads of a block for a loop of so many indices: few where the loop is short, so that it is spread over
 /// the GPU (Thrust's own loops give 512 indices to a block).
 inline unsigned threads_for(std::size_t count) {
   constexpr std::size_t processors = 128;
-  return count >= processors * most_threads ? most_threads
-         : count >= processors * 128        ? 128
-         : count >= processors * 64         ? 64
-                                            : 32;
+  return count >= processors * max_threads ? max_threads
+         : count >= processors * 128       ? 128
+         : count >= processors * 64        ? 64
+                                           : 32;
 }
 namespace detail {
 template <class Body>
-__global__ void __launch_bounds__(most_threads) each_kernel(unsigned count, Body body) {
+__global__ void __launch_bounds__(max_threads) each_kernel(unsigned count, Body body) {
   const unsigned i = blockIdx.x * blockDim.x + threadIdx.x;
   if (i < count) body(int(i));
 }
@@ -195,7 +195,7 @@ class Arrival {
   Arrival(Arrival const&) = delete;
   Arrival(Arrival&& other) noexcept { *this = std::move(other); }
   Arrival& operator=(Arrival&& other) noexcept {
-    std::swap(room_, other.room_);
+    std::swap(buffer_, other.buffer_);
     std::swap(capacity_, other.capacity_);
 #if SINEW_CUDA
     std::swap(there_, other.there_);
@@ -209,19 +209,20 @@ class Arrival {
     if (n > capacity_) {
       free();
 #if SINEW_CUDA
-      check(cudaMallocHost(reinterpret_cast<void**>(&room_), n * sizeof(T)),
+      check(cudaMallocHost(reinterpret_cast<void**>(&buffer_), n * sizeof(T)),
             "memory for copies from the GPU");
       check(cudaEventCreateWithFlags(&there_, cudaEventDisableTiming), "copy from the GPU");
 #else
-      room_ = static_cast<T*>(::operator new(n * sizeof(T), std::align_val_t(64)));
+      buffer_ = static_cast<T*>(::operator new(n * sizeof(T), std::align_val_t(64)));
 #endif
       capacity_ = n;
     }
 #if SINEW_CUDA
-    check(cudaMemcpyAsync(room_, from, n * sizeof(T), cudaMemcpyDeviceToHost, stream()), "copy from the GPU");
+    check(cudaMemcpyAsync(buffer_, from, n * sizeof(T), cudaMemcpyDeviceToHost, stream()),
+          "copy from the GPU");
     check(cudaEventRecord(there_, stream()), "copy from the GPU");
 #else
-    std::copy_n(from, n, room_);
+    std::copy_n(from, n, buffer_);
 #endif
   }
   /// Waits for it, and for nothing that has been queued since.
@@ -229,26 +230,26 @@ class Arrival {
 #if SINEW_CUDA
     check(cudaEventSynchronize(there_), "copy from the GPU");
 #endif
-    std::copy_n(room_, n, to);
+    std::copy_n(buffer_, n, to);
   }
 
  private:
-  T* room_ = nullptr;
+  T* buffer_ = nullptr;
   std::size_t capacity_ = 0;
 #if SINEW_CUDA
   cudaEvent_t there_ = nullptr;
 #endif
 
   void free() {
-    if (!room_) return;
+    if (!buffer_) return;
 #if SINEW_CUDA
-    cudaFreeHost(room_);
+    cudaFreeHost(buffer_);
     if (there_) cudaEventDestroy(there_);
     there_ = nullptr;
 #else
-    ::operator delete(room_, std::align_val_t(64));
+    ::operator delete(buffer_, std::align_val_t(64));
 #endif
-    room_ = nullptr;
+    buffer_ = nullptr;
     capacity_ = 0;
   }
 };

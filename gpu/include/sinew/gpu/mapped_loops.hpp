@@ -13,7 +13,7 @@ namespace sinew {
 
 namespace gpu {
 
-// what one turn of a loop does: body(to[i], from, i), or the same with a sum that begins at zero
+// the bodies of the loops: body(to[i], from, i), or the same with a sum that begins at zero
 template <class Body, class To, class From>
 struct Each {
   Body body;
@@ -90,10 +90,10 @@ struct PointLoops {
   void ask(To const& out, From const& in, Bodies const& bodies) const {
     if constexpr (across && OnDevice<In>) {
       if (atDevice) {
-        auto& room = like(out);
-        room.resize(out.size());
-        each_point<Device>(out.size(), Each{bodies(LoopSide::device), overwritten(room), entries(in)});
-        bring_to_host(room);
+        auto& workspace = like(out);
+        workspace.resize(out.size());
+        each_point<Device>(out.size(), Each{bodies(LoopSide::device), overwritten(workspace), entries(in)});
+        bring_to_host(workspace);
         asked = true;
       } else {
         bring_to_host(in);
@@ -112,10 +112,10 @@ struct PointLoops {
       asked = false;
       std::copy_n(std::as_const(like(out)).data(), out.size(), out.data());
     } else {
-      auto& room = like(in);
-      room.assign(in.begin(), in.end());
+      auto& workspace = like(in);
+      workspace.assign(in.begin(), in.end());
       each_point<Device>(out.size(),
-                         Each{bodies(LoopSide::device), overwritten(out), entries(std::as_const(room))});
+                         Each{bodies(LoopSide::device), overwritten(out), entries(std::as_const(workspace))});
     }
   }
 
@@ -124,7 +124,7 @@ struct PointLoops {
     if constexpr (!across) {
       each_point<Device>(in.size(), Each{bodies(LoopSide::device), entries(in), entries(out)});
     } else if constexpr (OnDevice<In>) {
-      // forces that the host has not made have no way to go
+      // without forces on the host there is nothing to transfer
       if (std::all_of(out.begin(), out.end(), [](auto const& f) { return f.isZero(0); })) return;
       if (atDevice) {
         derivs.assign(out.begin(), out.end());
@@ -154,7 +154,7 @@ struct PointLoops {
   static void onThisHost(std::size_t count, Loop const& loop) {
     for (std::size_t i = 0; i < count; ++i) loop(int(i));
   }
-  // room for a copy of a vector of the host
+  // buffer for a copy of a vector of the host
   template <class V>
   auto& like(V const&) const {
     if constexpr (std::is_same_v<typename V::value_type, typename Host::Deriv>)

@@ -45,7 +45,7 @@ struct PointWeights {
     });
     if (points.size() > std::size_t(std::numeric_limits<int>::max()))
       throw Error("a mapping on a device",
-                  text(points.size(), " weights exceed the 2^31 - 1 numbers of an int; split the body"));
+                  text(points.size(), " weights exceed the range of an int, 2^31 - 1; split the body"));
     for (std::size_t i = 0; i < children; ++i) below[i + 1] += below[i];
     for (std::size_t k = 0; k < parents; ++k) above[k + 1] += above[k];
     std::vector<int> next(above.begin(), above.end() - 1), back(points.size());

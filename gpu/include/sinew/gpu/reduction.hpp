@@ -8,20 +8,20 @@
 namespace sinew::gpu {
 
 /// Room for sums that are being made; one a thread of the host.
-struct SumRoom {
+struct SumBuffer {
   static constexpr unsigned blocks = 1056;  // at most; eight on each of 132 multiprocessors
   DeviceArray<double> parts{};              // one a block, and behind them the sum for the host
   DeviceArray<unsigned> counts{};           // blocks that are done; 0 between sums
 };
-inline SumRoom& sum_room() {
-  static thread_local SumRoom room;
-  if (!room.parts.data()) {
-    room.parts.resize(SumRoom::blocks + 1);
-    room.counts.resize(1);
+inline SumBuffer& sum_buffer() {
+  static thread_local SumBuffer buffer;
+  if (!buffer.parts.data()) {
+    buffer.parts.resize(SumBuffer::blocks + 1);
+    buffer.counts.resize(1);
     const unsigned none = 0;
-    copy_to_device(room.counts.data(), &none, 1);
+    copy_to_device(buffer.counts.data(), &none, 1);
   }
-  return room;
+  return buffer;
 }
 
 namespace detail {
@@ -38,7 +38,7 @@ SINEW_INLINE decltype(auto) of_thread(Term const& term) {
 #if SINEW_CUDA
 /// The sum of one value a thread, in the same order whenever the block has the same size; valid in thread 0.
 __device__ inline double block_sum(double value) {
-  __shared__ double ofWarp[most_threads / 32];
+  __shared__ double ofWarp[max_threads / 32];
   for (int offset = 16; offset > 0; offset /= 2) value += __shfl_down_sync(0xffffffffu, value, offset);
   __syncthreads();
   if (threadIdx.x % 32 == 0) ofWarp[threadIdx.x / 32] = value;
@@ -51,7 +51,7 @@ __device__ inline double block_sum(double value) {
 
 /// The last block that is done adds up what all have found.
 template <class Term>
-__global__ void __launch_bounds__(most_threads)
+__global__ void __launch_bounds__(max_threads)
     sum_kernel(unsigned count, Term term, double* parts, unsigned* done, double* to) {
   double sum = 0;
   auto const& ofThread = of_thread(term);
@@ -85,11 +85,11 @@ __global__ void __launch_bounds__(most_threads)
 template <class Term>
 void sum_indices(std::size_t count, Term const& term, double* to) {
 #if SINEW_CUDA
-  SumRoom& room = sum_room();
+  SumBuffer& buffer = sum_buffer();
   const unsigned threads = threads_for(count), needed = unsigned((count + threads - 1) / threads);
-  const unsigned blocks = std::max(1u, std::min(SumRoom::blocks, needed));
+  const unsigned blocks = std::max(1u, std::min(SumBuffer::blocks, needed));
   detail::sum_kernel<<<blocks, threads, 0, stream()>>>(
-      unsigned(count), term, room.parts.data(), room.counts.data(), to);
+      unsigned(count), term, buffer.parts.data(), buffer.counts.data(), to);
   check(cudaGetLastError(), "a sum on the GPU");
 #else
   double sum = 0;
@@ -101,10 +101,10 @@ void sum_indices(std::size_t count, Term const& term, double* to) {
 /// The same, brought to the host, which waits for it.
 template <class Term>
 double sum_on_host(std::size_t count, Term const& term) {
-  double* const room = sum_room().parts.data() + SumRoom::blocks;
-  sum_indices(count, term, room);
+  double* const buffer = sum_buffer().parts.data() + SumBuffer::blocks;
+  sum_indices(count, term, buffer);
   double sum = 0;
-  copy_to_host(&sum, room, 1);
+  copy_to_host(&sum, buffer, 1);
   return sum;
 }
 

@@ -48,7 +48,7 @@ requires(OnDevice<In> || OnDevice<Out>) struct RigidLoops<In, Out> {
     }
   }
 
-  /// A vector of the bodies as loops over the points find it.
+  /// Where loops over the points find a vector of the bodies.
   template <class V>
   auto const* bodies(V const& in) const {
     if constexpr (!OnDevice<Out>) {

@@ -4,7 +4,7 @@
 #include <sinew/core/component.hpp>
 #include <sinew/gpu/data_types.hpp>
 #include <sinew/gpu/reduction.hpp>
-#include <sinew/gpu/solver_room.hpp>
+#include <sinew/gpu/solver_workspace.hpp>
 #include <sinew/state/vector_operations.hpp>
 
 namespace sinew {
@@ -73,8 +73,8 @@ struct VectorOperations<CudaTypes<H>> {
     return gpu::sum_on_host(scalars(a), product(a, b));
   }
   template <class Run>
-  static void turn(Run const&, VecDeriv& r, VecDeriv const& a, Real f) {
-    gpu::for_each_index(scalars(r), Turn{flat(r), flat(a), f});
+  static void xpay(Run const&, VecDeriv& r, VecDeriv const& a, Real f) {
+    gpu::for_each_index(scalars(r), Xpay{flat(r), flat(a), f});
   }
   template <class Run>
   static double advance(Run const&, VecDeriv& x, VecDeriv const& p, VecDeriv& r, VecDeriv const& q, Real f) {
@@ -102,8 +102,8 @@ struct VectorOperations<CudaTypes<H>> {
     gpu::sum_indices(scalars(x), AdvanceOfIteration{flat(x), flat(r), flat(p), flat(q), s, i}, to);
   }
   /// p = r + beta p of iteration i
-  static void turn(VecDeriv& p, VecDeriv const& r, gpu::CgScalars const& s, int i) {
-    gpu::for_each_index(scalars(p), TurnOfIteration{flat(p), flat(r), s, i});
+  static void xpay(VecDeriv& p, VecDeriv const& r, gpu::CgScalars const& s, int i) {
+    gpu::for_each_index(scalars(p), XpayOfIteration{flat(p), flat(r), s, i});
   }
 
   /// Whether the matrix of a solver can be assembled on the device.
@@ -148,13 +148,13 @@ struct VectorOperations<CudaTypes<H>> {
     Real f;
     SINEW_HD void operator()(int i) const { D::increment(to[i], Deriv(f * from[i])); }
   };
-  struct Turn {
+  struct Xpay {
     Real* p;
     Real const* r;
     Real beta;
     SINEW_HD void operator()(int i) const { p[i] = r[i] + beta * p[i]; }
   };
-  struct TurnOfIteration {
+  struct XpayOfIteration {
     Real* p;
     Real const* r;
     gpu::CgScalars s;

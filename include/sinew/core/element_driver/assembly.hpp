@@ -38,8 +38,8 @@ constexpr int pair_number(int i, int j) {
 // to += block or its transpose, row-major; vectors are made of scalars in registers, since what is written
 // scalar by scalar cannot be read back at once as a vector
 template <int N, class Target, class Block>
-SINEW_INLINE void add_scalars(Target* to, Block const& block, bool turned) {
-  auto entry = [&](int r, int c) { return turned ? block(c, r) : block(r, c); };
+SINEW_INLINE void add_scalars(Target* to, Block const& block, bool isTransposed) {
+  auto entry = [&](int r, int c) { return isTransposed ? block(c, r) : block(r, c); };
 #if !defined(__CUDACC__)
   if constexpr (N == 3 && std::is_same_v<Target, typename Block::Scalar>) {
     typedef Target Four __attribute__((vector_size(4 * sizeof(Target))));
@@ -62,11 +62,12 @@ SINEW_INLINE void add_scalars(Target* to, Block const& block, bool turned) {
 // the block of each lane, or its transpose, row-major as the matrix has it
 template <bool Symmetric, int N, class L, class Real, std::size_t W, std::size_t Size>
 SINEW_INLINE void separate(Mat<L, N> const& block, std::uint16_t transposed, Real (&ofLane)[W][Size]) {
-  const auto turned = lanes_of_bits<L>(transposed);
+  const auto isTransposed = lanes_of_bits<L>(transposed);
   L rows[std::size_t(N * N)];
   for (int r = 0; r < N; ++r)
     for (int c = 0; c < N; ++c)
-      rows[r * N + c] = Symmetric || r == c ? block(r, c) : select(turned, L(block(c, r)), L(block(r, c)));
+      rows[r * N + c] =
+          Symmetric || r == c ? block(r, c) : select(isTransposed, L(block(c, r)), L(block(r, c)));
   transpose<N * N>(rows, ofLane);
 }
 
@@ -80,8 +81,8 @@ struct ElementSlots {
   int slot[std::size_t(Pairs)][std::size_t(W)];
   std::uint16_t transposed[std::size_t(Pairs)];
 
-  void set(int pair, int lane, bool turned) {
-    transposed[pair] = std::uint16_t((transposed[pair] & ~(1 << lane)) | turned << lane);
+  void set(int pair, int lane, bool isTransposed) {
+    transposed[pair] = std::uint16_t((transposed[pair] & ~(1 << lane)) | isTransposed << lane);
   }
   /// `first`: the number of the block of the body's first point.
   template <class Pack, class Matrix>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <sinew/core/late_sums.hpp>
+#include <sinew/core/deferred_sums.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -9,10 +9,10 @@
 
 namespace sinew {
 
-/// Summands of N scalars that the parts of a work keep for places of other parts, see LateSums.
+/// The deferred summands of N scalars each, of DeferredSums.
 template <class Real, int N>
 struct KeptSums {
-  LateSums late{};
+  DeferredSums deferred{};
   mutable std::vector<Real> values{};
 
   /// forEachPlace(piece, f) calls f(place) for each of the `each` summands of a piece; -1 is none.
@@ -21,20 +21,20 @@ struct KeptSums {
     int last = 0;
     for (std::size_t p = 0; p < pieces; ++p)
       forEachPlace(p, [&](int place) { last = std::max(last, place); });
-    late.plan(parts, pieces, each, std::size_t(last) + 1, forEachPlace);
-    values.resize(late.roomCount() * N);
+    deferred.plan(parts, pieces, each, std::size_t(last) + 1, forEachPlace);
+    values.resize(deferred.entryCount() * N);
   }
 
-  /// For each summand of a piece: the room that keeps it, or -1; null where all are added at once.
-  int const* roomsOf(std::size_t piece) const {
-    return late.firstOf[piece] >= 0 ? late.rooms.data() + late.firstOf[piece] : nullptr;
+  /// For each summand of a piece: its entry of the buffer, or -1; null where all are added at once.
+  int const* entriesOf(std::size_t piece) const {
+    return deferred.firstOf[piece] >= 0 ? deferred.entries.data() + deferred.firstOf[piece] : nullptr;
   }
-  Real* room(int number) const { return values.data() + std::ptrdiff_t(number) * N; }
+  Real* entry(int number) const { return values.data() + std::ptrdiff_t(number) * N; }
 
-  /// add(place, summand) for what the places of a part receive late.
+  /// add(place, summand) for the deferred summands of the places of a share.
   template <class Add>
-  void addLate(Part part, Add&& add) const {
-    late.addLate(part, [&](int place, std::size_t number) { add(place, room(int(number))); });
+  void addDeferred(WorkShare part, Add&& add) const {
+    deferred.addDeferred(part, [&](int place, std::size_t number) { add(place, entry(int(number))); });
   }
 };
 

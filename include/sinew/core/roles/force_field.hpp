@@ -84,7 +84,7 @@ concept Load = requires { requires C::isLoad; };
 /// of an elastic force between points of one body; a field that says nothing claims them all.
 struct ForceProperties {
   bool internal = true;      // moving the body as a whole changes nothing, and the forces sum to zero
-  bool objective = true;     // the same for turning it, and torques
+  bool objective = true;     // the same for rotating it, and torques
   bool conservative = true;  // f = -dE/dx
   bool exactTangent =
       true;  // addDForce is the derivative of addForce everywhere, not only in the undeformed body

@@ -39,19 +39,17 @@ concept HasInAndOut = requires {
   typename C::Out::VecDeriv;
 };
 /// Out = what follows In at the last apply; `part` is a mapping, or what maps one parent of several.
-template <class Part, class C>
-concept Applies = requires(Part part, typename C::In::VecCoord const in, typename C::Out::VecCoord out) {
+template <class WorkShare, class C>
+concept Applies = requires(WorkShare part, typename C::In::VecCoord const in, typename C::Out::VecCoord out) {
   part.apply(out, in);
 };
-template <class Part, class C>
-concept AppliesJ = requires(Part part, typename C::In::VecDeriv const in, typename C::Out::VecDeriv out) {
-  part.applyJ(out, in);
-};
+template <class WorkShare, class C>
+concept AppliesJ = requires(WorkShare part, typename C::In::VecDeriv const in,
+                            typename C::Out::VecDeriv out) { part.applyJ(out, in); };
 /// in += J' out.
-template <class Part, class C>
-concept AppliesJT = requires(Part part, typename C::In::VecDeriv in, typename C::Out::VecDeriv const out) {
-  part.applyJT(in, out);
-};
+template <class WorkShare, class C>
+concept AppliesJT = requires(WorkShare part, typename C::In::VecDeriv in,
+                             typename C::Out::VecDeriv const out) { part.applyJT(in, out); };
 /// May fill an empty child.
 template <class C>
 concept HasInitOfChild = HasInAndOut<C> &&
@@ -107,10 +105,9 @@ inline constexpr bool over_parent = requires {
 };
 /// f(point of the parent, block of J) for each block in the rows of a point: what solvers need that assemble
 /// a matrix.
-template <class Part>
-concept HasJacobianBlocks = requires(Part const part, void (*f)(int, AnySink)) {
-  part.forEachJacobianBlock(0, f);
-};
+template <class WorkShare>
+concept HasJacobianBlocks =
+    requires(WorkShare const part, void (*f)(int, AnySink)) { part.forEachJacobianBlock(0, f); };
 
 namespace detail {
 template <class C>
@@ -143,7 +140,7 @@ struct Promise<role::Mapping> : NoPromise {
 
   template <class C>
   struct Broken {
-    using Part = typename decltype(detail::part_of<C>())::type;
+    using WorkShare = typename decltype(detail::part_of<C>())::type;
     static constexpr bool maps = HasInAndOut<C> && (!HasParents<C> || HasParts<C>);
     static_assert(
         HasInAndOut<C>,
@@ -159,13 +156,13 @@ struct Promise<role::Mapping> : NoPromise {
     static_assert(!HasParents<C> || HasParts<C>,
                   "Sinew: a mapping with several parents has no 'parts', a list of mappings, one for each.");
     static_assert(
-        !maps || Applies<Part, C>,
+        !maps || Applies<WorkShare, C>,
         "Sinew: a mapping has no 'void apply(Out::VecCoord& out, In::VecCoord const& in)', which makes "
         "the positions of its child.");
-    static_assert(!maps || AppliesJ<Part, C>,
+    static_assert(!maps || AppliesJ<WorkShare, C>,
                   "Sinew: a mapping has no 'void applyJ(Out::VecDeriv& out, In::VecDeriv const& in) const', "
                   "which makes out = J in, the velocities of its child.");
-    static_assert(!maps || AppliesJT<Part, C>,
+    static_assert(!maps || AppliesJT<WorkShare, C>,
                   "Sinew: a mapping has no 'void applyJT(In::VecDeriv& in, Out::VecDeriv const& out) const', "
                   "which adds J' out, the forces on its child, to in.");
     static_assert(

@@ -49,9 +49,7 @@ concept Editable = requires(C c) {
 };
 /// What asks for tetrahedra finds them here: `static constexpr bool hasTetrahedra = true`.
 template <class C>
-concept MayHaveTetrahedra = requires {
-  C::hasTetrahedra;
-};
+concept MayHaveTetrahedra = requires { C::mayHaveTetrahedra; };
 
 template <>
 struct Promise<role::Topology> : NoPromise {

@@ -62,7 +62,7 @@ class SceneClasses {
                     "sinew_cuda` makes where nvcc is installed");
     else if (types.starts_with("Cuda") && item.candidates[0]->role == RoleKind::collisionModel)
       advice = "; map the state to one over Vec3d, and put the collision model there";
-    messages_.complain(
+    messages_.addError(
         given ? item.element->place(*given) : item.element->place(),
         text('<', item.tag, "> is not there over ", types, why, "; it is over ", known, advice));
     return nullptr;
@@ -91,12 +91,12 @@ class SceneClasses {
           if (!parent) return nullptr;
         }
         if (!parent)
-          return messages_.complain(
+          return messages_.addError(
                      *item.element,
                      "has no parent: no node above has a MechanicalObject; add one, or remove the mapping"),
                  nullptr;
         if (item.place->state.empty() && !item.place->visual)
-          return messages_.complain(
+          return messages_.addError(
                      *item.element,
                      "has no child: its node has neither a MechanicalObject nor an OglModel; add one"),
                  nullptr;
@@ -133,18 +133,18 @@ class SceneClasses {
         if (joins) acted = follow_to_node(item, *item.element->attribute("object1"), messages_);
         std::erase_if(item.candidates, [&](ClassInfo const* info) { return info->joins != joins; });
         if (item.candidates.empty())
-          return messages_.complain(*item.element,
+          return messages_.addError(*item.element,
                                     joins ? "does not join two objects; remove object1 and object2"
                                           : "joins two objects; give object1 and object2"),
                  nullptr;
         if (!acted)
-          return messages_.complain(
+          return messages_.addError(
                      *item.element,
                      "has no state to act on; put it into a node with a MechanicalObject, or below one"),
                  nullptr;
         if (!given.empty() && given.find(',') == given.npos && given != acted->state && joins == false &&
             first.role != RoleKind::mass && !sameKind(given, acted->state))
-          return messages_.complain(item.element->place(*item.element->attribute("template")),
+          return messages_.addError(item.element->place(*item.element->attribute("template")),
                                     text('<',
                                          item.tag,
                                          "> has the template ",
@@ -177,7 +177,7 @@ class SceneClasses {
   ScenePlace const* firstOfParents(SceneItem& item) {
     auto const* input = item.element->attribute("input");
     if (!input || !is_link(input->value))
-      return messages_.complain(*item.element, "names no parents; name them: input=\"@../left @../right\""),
+      return messages_.addError(*item.element, "names no parents; name them: input=\"@../left @../right\""),
              nullptr;
     ScenePlace const* firstParent = nullptr;
     XmlAttribute one = *input;

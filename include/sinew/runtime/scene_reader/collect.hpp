@@ -72,7 +72,7 @@ class SceneCollector {
     setPreconditioners(top);
     setDensities(top);
     splitVisuals(top);
-    sayTetrahedra(top);
+    reportTetrahedra(top);
   }
 
   /// An element of another class that stands for a part of what an element asks for. It lives as long as
@@ -133,7 +133,7 @@ class SceneCollector {
       if (lenient_)
         messages_.warnings.insert(text(element.place(), ": ", message, " It is left out."));
       else
-        messages_.complain(element.place(), message);
+        messages_.addError(element.place(), message);
     }
     return nullptr;
   }
@@ -205,7 +205,7 @@ class SceneCollector {
 
   void hasNoChildren(XmlElement const& component) {
     for (auto const& child : component.children)
-      messages_.complain(
+      messages_.addError(
           child,
           text("stands inside <", component.tag, ">, but a component has attributes only; move it out"));
   }
@@ -252,7 +252,7 @@ class SceneCollector {
                      : of.find("Vec6") != of.npos  ? 6
                                                    : 3;
     if (is_link(forces.value) || numbers % each != 0)
-      return messages_.complain(state.place(forces),
+      return messages_.addError(state.place(forces),
                                 text('<',
                                      state.tag,
                                      ">: externalForce: give ",
@@ -375,7 +375,7 @@ class SceneCollector {
           if (method->value == name) value = ours;
         }
         if (value.empty())
-          return messages_.complain(
+          return messages_.addError(
                      element.place(*method),
                      text('<', tag, ">: rotationMethod: ", shown(method->value), " is not one of ", methods)),
                  "";
@@ -384,7 +384,7 @@ class SceneCollector {
       element.set(over.attribute, value);
       return over.className;
     }
-    messages_.complain(types ? element.place(*types) : element.place(),
+    messages_.addError(types ? element.place(*types) : element.place(),
                        text('<',
                             tag,
                             "> is not there over ",
@@ -411,7 +411,7 @@ class SceneCollector {
         for (XmlElement const* density : at->densities)
           if (!found && (name.empty() || name_of(*density, density->tag) == name)) found = density;
       if (!found) {
-        messages_.complain(*item->element, "finds no NodalMassDensity; put one into its node, or above");
+        messages_.addError(*item->element, "finds no NodalMassDensity; put one into its node, or above");
         continue;
       }
       auto const* given = found->attribute("property");
@@ -419,7 +419,7 @@ class SceneCollector {
       Words words(property);
       const std::string density(words.end() ? "1" : words.next());
       if (!words.end() || is_link(density))
-        messages_.complain(
+        messages_.addError(
             found->place(*given),
             "<NodalMassDensity>: property: only one density for all points is simulated; give one number");
       item->element->set("massDensity", density);
@@ -429,12 +429,12 @@ class SceneCollector {
 
   // tetrahedra collide with the points that DiscreteIntersection tests against them, and with nothing
   // otherwise
-  void sayTetrahedra(ScenePlace const& top) {
+  void reportTetrahedra(ScenePlace const& top) {
     if (tetrahedra_.empty()) return;
     const bool collide = isThere(top, "DiscreteIntersection") && isThere(top, "PointCollisionModel");
     for (XmlElement const* element : tetrahedra_)
       if (collide && !lenient_)
-        messages_.complain(*element,
+        messages_.addError(*element,
                            "collides with points in SOFA, and with nothing here; take triangles, lines, "
                            "points, spheres or convex hulls");
       else
@@ -479,7 +479,7 @@ class SceneCollector {
   void takePreconditioner(SceneItem& item, std::string const& link, int depth = 0) {
     XmlElement const* const element = solverNamed(*item.place, link);
     if (!element || element == item.element || depth > 2)
-      return messages_.complain(*item.element,
+      return messages_.addError(*item.element,
                                 text("there is no preconditioner ", shown(link), "; correct the link"));
     takenPreconditioners_.insert(element);
     auto const* means = dialect::preconditioner_named(tag_of(*element));

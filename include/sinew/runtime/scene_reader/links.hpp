@@ -110,7 +110,7 @@ inline ScenePlace* follow_to_node(SceneItem& item, XmlAttribute const& attribute
     while (place->state.empty()) place = place->parent;
     return place;
   } catch (Error const& error) {
-    messages.complain(item.element->place(attribute),
+    messages.addError(item.element->place(attribute),
                       text('<', item.tag, ">: ", attribute.name, ": ", error.what()));
     return nullptr;
   }

@@ -78,11 +78,11 @@ struct SceneMessages {
   std::vector<std::string> errors{};
   std::set<std::string, std::less<>> ignored{}, warnings{};
 
-  void complain(std::string const& place, std::string_view what) {
+  void addError(std::string const& place, std::string_view what) {
     errors.push_back(text(place, ": ", what));
   }
-  void complain(XmlElement const& at, std::string_view what) {
-    complain(at.place(), text('<', at.tag, ">: ", what));
+  void addError(XmlElement const& at, std::string_view what) {
+    addError(at.place(), text('<', at.tag, ">: ", what));
   }
   /// f(), whose Error is one of the item.
   template <class F>
@@ -94,9 +94,9 @@ struct SceneMessages {
       item.failed = true;
       // the element has said the class
       const std::string own = item.info ? text(item.info->cppName, ": ") : std::string();
-      std::string_view said = error.what();
-      while (!own.empty() && said.starts_with(own)) said.remove_prefix(own.size());
-      complain(*item.element, said);
+      std::string_view cause = error.what();
+      while (!own.empty() && cause.starts_with(own)) cause.remove_prefix(own.size());
+      addError(*item.element, cause);
     }
   }
 };

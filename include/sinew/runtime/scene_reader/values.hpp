@@ -54,7 +54,7 @@ class SceneValues {
     std::set<std::string_view> given;
     for (auto const& a : item.element->attributes) attribute(item, a, given);
     if (auto const* src = item.element->attribute("src")) source(item, *src, given);
-    if (item.info->role == RoleKind::visualModel) clothe(item, given);
+    if (item.info->role == RoleKind::visualModel) fillVisualModel(item, given);
     place(item, placing);
     if (item.info->role == RoleKind::engine && !item.element->attribute("src")) surroundings(item, given);
     if (item.info->role == RoleKind::state) statePoints(item, given);
@@ -90,7 +90,7 @@ class SceneValues {
                                 : words(engine.scale);
       } catch (Error const& error) {
         item.failed = true;
-        messages_.complain(item.element->place(a), text('<', item.tag, ">: ", a.name, ": ", error.what()));
+        messages_.addError(item.element->place(a), text('<', item.tag, ">: ", a.name, ": ", error.what()));
       }
     messages_.locate(item, [&] {
       read_value(position.write(item.address), engine.inputPosition);
@@ -121,7 +121,7 @@ class SceneValues {
           for_each_name(f.aliases, [&](std::string_view alias) { names.push_back(alias); });
         }
       item.failed = true;
-      messages_.complain(item.element->place(a),
+      messages_.addError(item.element->place(a),
                          text('<', item.tag, "> has no attribute '", a.name, "'", suggestion(a.name, names)));
       return;
     }
@@ -142,7 +142,7 @@ class SceneValues {
       setField(item, *field, is_link(a.value) ? linked : a.value, a);
     } catch (Error const& error) {
       item.failed = true;
-      messages_.complain(item.element->place(a), text('<', item.tag, ">: ", a.name, ": ", error.what()));
+      messages_.addError(item.element->place(a), text('<', item.tag, ">: ", a.name, ": ", error.what()));
     }
   }
 
@@ -193,7 +193,7 @@ class SceneValues {
                                    "; no element bears the load by its number, as in SOFA"));
   }
 
-  // of points in space for frames: these are not turned
+  // of points in space for frames: these are not rotated
   std::string linkedValue(SceneItem& item, FieldInfo const& field, LinkTarget target) {
     if (!target.item) target.item = target.place->ofRole(RoleKind::state);
     const std::string types = target.item && target.item->info ? target.item->info->dataTypes : "Rigid3d";
@@ -275,7 +275,7 @@ class SceneValues {
     if (collector_.lenient())
       return void(messages_.warnings.insert(text(item.element->place(a), ": ", what, "; it is left out")));
     item.failed = true;
-    messages_.complain(item.element->place(a),
+    messages_.addError(item.element->place(a),
                        text(what, "; remove it, or read the scene with --lenient, which leaves it out"));
   }
 
@@ -339,7 +339,7 @@ class SceneValues {
       if (item.info->role == RoleKind::visualModel)  // nothing moves otherwise for a picture that is missing
         return void(messages_.warnings.insert(text(item.element->place(src), ": ", message)));
       item.failed = true;
-      messages_.complain(item.element->place(src), message);
+      messages_.addError(item.element->place(src), message);
     }
   }
 
@@ -415,7 +415,7 @@ class SceneValues {
 
   // A visual model without vertices has, below a mapping of the same points, those of the state above,
   // otherwise those of the nearest topology; and its elements, where it has none of its own.
-  void clothe(SceneItem& item, std::set<std::string_view> const& given) {
+  void fillVisualModel(SceneItem& item, std::set<std::string_view> const& given) {
     if (given.count("position")) return;
     SceneItem* topology = nullptr;
     for (ScenePlace* at = item.place; at && !topology; at = at->parent) {
@@ -468,7 +468,7 @@ class SceneValues {
     ClassInfo const* const loader = collector_.loaderOf(ending);
     if (!loader) {
       item.failed = true;
-      return messages_.complain(item.element->place(file),
+      return messages_.addError(item.element->place(file),
                                 text('<',
                                      item.tag,
                                      ">: ",
@@ -524,7 +524,7 @@ class SceneValues {
                            "'"));
         }
       } catch (Error const& error) {
-        messages_.complain(item.element->place(*a), text('<', item.tag, ">: ", a->name, ": ", error.what()));
+        messages_.addError(item.element->place(*a), text('<', item.tag, ">: ", a->name, ": ", error.what()));
       }
     }
   }

@@ -69,7 +69,8 @@ struct FusedBody {
   std::size_t shared() const {
     const std::size_t vector = Team::global ? 0 : 2 * 3 * std::size_t(longestVector);
     return (std::size_t(entriesOfWidest) * components + vector) * sizeof(Real) +
-           std::size_t(entriesOfWidest) * sizeof(typename Team::Column) + room_for_sums * sizeof(double) + 64;
+           std::size_t(entriesOfWidest) * sizeof(typename Team::Column) + sum_buffer_size * sizeof(double) +
+           64;
   }
 };
 

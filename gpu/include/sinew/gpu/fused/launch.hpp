@@ -85,14 +85,14 @@ class FusedLauncher {
       launch(gridKernel(),
              body,
              GridMemory{arrived_.device(),
-                        turn_,
+                        parity_,
                         announced_.data(),
                         sums_.data(),
                         std::as_const(nearFirst_).device(),
                         std::as_const(near_).device()});
     else
       launch(clusterKernel(), body);
-    turn_ = 1 - turn_;
+    parity_ = 1 - parity_;
 #else
     std::vector<double> shared(shape_.shared / sizeof(double) + 1);
     for (int c = 0; c < copies_; ++c)
@@ -110,28 +110,29 @@ class FusedLauncher {
   DeviceArray<unsigned> announced_{};
   DeviceVector<int> nearFirst_{}, near_{};
   DeviceVector<unsigned long long> arrived_{};
-  int turn_ = 0;
+  int parity_ = 0;
 
   FusedPlan shaped(std::vector<std::vector<int>> const& neighbours, int blocks) {
 #if SINEW_CUDA
     char const* const what = "FusedSimulation";
-    int device = 0, most = 0, processors = 0, clusters = 0;
+    int device = 0, maximum = 0, processors = 0, clusters = 0;
     gpu::check(cudaGetDevice(&device), what);
-    gpu::check(cudaDeviceGetAttribute(&most, cudaDevAttrMaxSharedMemoryPerBlockOptin, device), what);
+    gpu::check(cudaDeviceGetAttribute(&maximum, cudaDevAttrMaxSharedMemoryPerBlockOptin, device), what);
     gpu::check(cudaDeviceGetAttribute(&processors, cudaDevAttrMultiProcessorCount, device), what);
     gpu::check(cudaDeviceGetAttribute(&clusters, cudaDevAttrClusterLaunch, device), what);
     std::size_t entries = neighbours.size();
     for (auto const& n : neighbours) entries += n.size();
-    auto fits = [&](FusedPlan const& plan, bool grid, int least) {
+    auto fits = [&](FusedPlan const& plan, bool grid, int minimum) {
       using Cluster = detail::FusedCluster<1, Body>;
       using Grid = detail::FusedGrid<1, Body>;
       for (const int lanes : {8, 4, 2, 1}) {
-        if (lanes < least || (!grid && !plan.possible())) return false;
+        if (lanes < minimum || (!grid && !plan.possible())) return false;
         take(plan, lanes * (grid ? Grid::keptEntries : Cluster::keptEntries));
         const std::size_t shared = grid ? sizes_.template shared<Grid>() : sizes_.template shared<Cluster>();
         const int threads = (plan.widest * lanes + 31) / 32 * 32 + (grid ? Grid::helpers : 0);
         shape_ = {grid, plan.ranks, threads, lanes, shared};
-        if (threads <= (grid ? detail::grid_threads : detail::cluster_threads) && shared <= std::size_t(most))
+        if (threads <= (grid ? detail::grid_threads : detail::cluster_threads) &&
+            shared <= std::size_t(maximum))
           return true;
       }
       return false;
@@ -139,20 +140,21 @@ class FusedLauncher {
     if (copies_ == 1 && (blocks == 0 ? entries > detail::cluster_threads : blocks > 16)) {
       // 16 rows a block while that leaves a quarter of the GPU idle, since many blocks exchange sums slower
       // than few; else as few as have eight threads a row, or all
-      struct Wish {
+      struct Candidate {
         int blocks, lanes;
       };
       constexpr int rows = (detail::grid_threads - detail::FusedGrid<1, Body>::helpers) / 8;
       const int nodes = int(neighbours.size());
-      const std::vector<Wish> wishes =
-          blocks == 0 ? std::vector<Wish>{{std::min((nodes + 15) / 16, std::max(1, processors * 3 / 4)), 8},
-                                          {(nodes + rows - 1) / rows, 8},
-                                          {processors, 2}}
-                      : std::vector<Wish>{{std::min(blocks, processors), 2}};
-      for (const Wish wish : wishes) {
-        if (wish.blocks > processors) continue;
-        FusedPlan plan(neighbours, wish.blocks);
-        if (fits(plan, true, wish.lanes)) return plan;
+      const std::vector<Candidate> candidates =
+          blocks == 0
+              ? std::vector<Candidate>{{std::min((nodes + 15) / 16, std::max(1, processors * 3 / 4)), 8},
+                                       {(nodes + rows - 1) / rows, 8},
+                                       {processors, 2}}
+              : std::vector<Candidate>{{std::min(blocks, processors), 2}};
+      for (const Candidate candidate : candidates) {
+        if (candidate.blocks > processors) continue;
+        FusedPlan plan(neighbours, candidate.blocks);
+        if (fits(plan, true, candidate.lanes)) return plan;
       }
     }
     std::optional<FusedPlan> chosen;
@@ -188,7 +190,7 @@ class FusedLauncher {
     sharedFirst_ = std::move(shared.first);
     sizes_.rows = plan.rows;
     sizes_.widest = plan.widest;
-    sizes_.entriesOfWidest = shared.most;
+    sizes_.entriesOfWidest = shared.maximum;
     sizes_.longestVector = plan.longestVector;
   }
 

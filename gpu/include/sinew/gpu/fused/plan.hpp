@@ -14,7 +14,7 @@ namespace sinew::gpu {
 /// block's rows have neighbours in other blocks. What a block needs of the others, its border, follows its
 /// own rows in its vectors; the owner of a value sends it there.
 struct FusedPlan {
-  static constexpr int mostRows = 4095;  // of a block, with its border
+  static constexpr int maxRows = 4095;  // of a block, with its border
 
   int ranks = 0, rows = 0;
   int widest = 0, longestVector = 0;         // over the blocks: rows, rows with border
@@ -93,7 +93,7 @@ struct FusedPlan {
   /// are kept elsewhere; and the largest number of them in a rank.
   struct Shared {
     std::vector<int> first{};
-    int most = 0;
+    int maximum = 0;
   };
   Shared shared(int kept) const {
     Shared all;
@@ -103,12 +103,12 @@ struct FusedPlan {
         all.first.push_back(place);
         place += std::max(0, entryFirst[std::size_t(row) + 1] - entryFirst[std::size_t(row)] - kept);
       }
-      all.most = std::max(all.most, place);
+      all.maximum = std::max(all.maximum, place);
     }
     return all;
   }
 
-  bool possible() const { return longestVector <= mostRows; }
+  bool possible() const { return longestVector <= maxRows; }
 
  private:
   void orderRows(std::vector<std::vector<int>> const& neighbours) {

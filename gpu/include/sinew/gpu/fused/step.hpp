@@ -52,8 +52,9 @@ class FusedStep {
   const int copy = team.copy;
 
   // shared memory; a row's entries that its threads do not keep in registers are in `values`
-  double* const room;
-  Real* const values = reinterpret_cast<Real*>(room + room_for_sums);  // component c of entry e at c size + e
+  double* const buffer;
+  Real* const values =
+      reinterpret_cast<Real*>(buffer + sum_buffer_size);  // component c of entry e at c size + e
   const int size = body.entriesOfWidest;
   Real* const vectors = values + std::ptrdiff_t(size) * components;  // two of the rows and their border
   typename Team::Column* const column = reinterpret_cast<typename Team::Column*>(
@@ -67,11 +68,11 @@ class FusedStep {
   const Real h = body.h, kFactor = -h * (h + body.rayleighStiffness), bFactor = -h;
 
   typename Team::template Rows<Own> own;
-  int turn = 0;  // which of the two vectors: nobody writes what another may still read
+  int parity = 0;  // which of the two vectors: nobody writes what another may still read
 
  public:
   SINEW_INLINE FusedStep(Team const& team_, Body const& body_, unsigned char* shared)
-      : team(team_), body(body_), room(reinterpret_cast<double*>(shared)), own(rows) {}
+      : team(team_), body(body_), buffer(reinterpret_cast<double*>(shared)), own(rows) {}
 
   /// What stays the same in all steps: the rows of this block, where their entries are, who is sent them.
   SINEW_INLINE void takeRows() {
@@ -124,7 +125,7 @@ class FusedStep {
   SINEW_INLINE void solve() {
     double start = 0, byRho = 0, byAlpha = 0;
     for (int iteration = 0; iteration < body.iterations; ++iteration) {
-      turn = 1 - turn;
+      parity = 1 - parity;
       Real local[2] = {0, 0};
       forRows([&](int row, int lane, Own& o) {
         if (lane == 0) publish(row, o, o.w);
@@ -137,12 +138,12 @@ class FusedStep {
           local[1] += o.r[c] * o.w[c];
         }
       });
-      team.give(local, room);
+      team.give(local, buffer);
       team.awaitRows();
-      team.fetchSums(room);
+      team.fetchSums(buffer);
       forRows([&](int, int, Own& o) { multiply(o, o.n); });
       double total[2];
-      team.takeSums(room, total);
+      team.takeSums(buffer, total);
       const double next = total[0], beta = next * byRho, curvature = total[1] - beta * next * byAlpha;
       if (iteration == 0) start = next;
       if (!(next > body.tolerance2 * start) || !(curvature > body.threshold || curvature < -body.threshold))
@@ -162,7 +163,7 @@ class FusedStep {
         }
       });
     }
-    turn = 1 - turn;
+    parity = 1 - parity;
   }
 
   /// v += dv, x += h v
@@ -195,9 +196,9 @@ class FusedStep {
   }
   SINEW_INLINE Real* vector() const {
     if constexpr (Team::global)
-      return body.vectors + turn * Team::stride * nodes;
+      return body.vectors + parity * Team::stride * nodes;
     else
-      return vectors + turn * 3 * body.longestVector;
+      return vectors + parity * 3 * body.longestVector;
   }
 
   // the values of a row go to all that have it
@@ -320,13 +321,13 @@ class FusedStep {
       next = ++i < to ? field.entryCode[i] : 0;  // on its way while this one is computed
       auto addBlock = [&](auto const& tangent) {
         add<components>(
-            block, field.law.block(rest[of.element], tangent, of.a, of.b, kFactor, bFactor), of.turned);
+            block, field.law.block(rest[of.element], tangent, of.a, of.b, kFactor, bFactor), of.transposed);
       };
       if constexpr (Field::byRows) {
         Deriv force[Field::arity];
         typename Field::Law::Tangent tangent;
         forceOf(field, of.element, tangent, force);
-        for (int c = 0; c < 3; ++c) f[c] += of.turned ? force[Field::arity - 1][c] : force[0][c];
+        for (int c = 0; c < 3; ++c) f[c] += of.transposed ? force[Field::arity - 1][c] : force[0][c];
         addBlock(tangent);
       } else {
         addBlock(field.tangent[std::ptrdiff_t(copy) * field.count + of.element]);

@@ -13,9 +13,9 @@
 
 namespace sinew::gpu {
 
-/// Those who simulate one copy of a body together: `ranks` blocks, each with its rows and its shared memory.
-/// `lanes` threads of a block share a row, and each keeps some of its entries in registers. This one is
-/// alone: a thread of the host, for tests, and for machines without a GPU.
+/// The threads that simulate one copy of a body together: `ranks` blocks, each with its rows and its shared
+/// memory. `lanes` threads of a block share a row, and each keeps some of its entries in registers. This one
+/// is alone: a thread of the host, for tests, and for machines without a GPU.
 struct SerialTeam {
   static constexpr int lanes = 1, keptEntries = 0;
   static constexpr bool global = false;  // whether what is exchanged is in memory that all blocks see
@@ -49,23 +49,23 @@ struct SerialTeam {
   };
   /// An exchange, in which all take part, one call after the other: rows have been published, which
   /// announce() says; each thread gives two numbers; behind awaitRows() those rows may be loaded that others
-  /// have published; fetchSums() and takeSums() bring the sums over all threads of all blocks. `room` is the
-  /// same in each.
+  /// have published; fetchSums() and takeSums() bring the sums over all threads of all blocks. `buffer` is
+  /// the same in each.
   void announce() const {}
   template <class Real>
-  void give(Real const (&value)[2], double* room) const {
-    room[0] = double(value[0]);
-    room[1] = double(value[1]);
+  void give(Real const (&value)[2], double* buffer) const {
+    buffer[0] = double(value[0]);
+    buffer[1] = double(value[1]);
   }
   void awaitRows() const {}
   void fetchSums(double*) const {}
-  void takeSums(double const* room, double (&total)[2]) const {
-    total[0] = room[0];
-    total[1] = room[1];
+  void takeSums(double const* buffer, double (&total)[2]) const {
+    total[0] = buffer[0];
+    total[1] = buffer[1];
   }
 };
-/// Numbers in `room`: two lists of a pair for each block of a cluster, and a pair for each warp.
-inline constexpr int room_of_lists = 2 * 2 * 16, room_for_sums = room_of_lists + 2 * 32;
+/// Numbers in `buffer`: two lists of a pair for each block of a cluster, and a pair for each warp.
+inline constexpr int list_buffer_size = 2 * 2 * 16, sum_buffer_size = list_buffer_size + 2 * 32;
 
 #if SINEW_CUDA
 /// What teams of a GPU have in common.
@@ -88,17 +88,17 @@ struct DeviceTeam {
     __device__ explicit Rows(int) {}
     __device__ T& operator[](int) { return one; }
   };
-  mutable unsigned round = 0;  // exchanges so far; of two lists, one is used in turn
+  mutable unsigned round = 0;  // exchanges so far; of two lists, used alternately
 
-  /// Puts the sums over the threads of the warp into `room`.
+  /// Puts the sums over the threads of the warp into `buffer`.
   template <class Real>
-  __device__ void giveOfWarp(Real const (&value)[2], double* room) const {
+  __device__ void giveOfWarp(Real const (&value)[2], double* buffer) const {
     Real a = value[0], b = value[1];
     for (int offset = 16; offset > 0; offset /= 2) {
       a += __shfl_xor_sync(0xffffffffu, a, offset);
       b += __shfl_xor_sync(0xffffffffu, b, offset);
     }
-    double2* const ofWarp = reinterpret_cast<double2*>(room + room_of_lists);
+    double2* const ofWarp = reinterpret_cast<double2*>(buffer + list_buffer_size);
     if (thread % 32 == 0) ofWarp[thread / 32] = make_double2(double(a), double(b));
   }
   static __device__ double2 pair(double const* list, int k) {
@@ -150,37 +150,37 @@ struct ClusterTeam : DeviceTeam<Lanes, KeptEntries> {
   }
   __device__ void announce() const { ++this->round; }
   template <class Real>
-  __device__ void give(Real const (&value)[2], double* room) const {
-    this->giveOfWarp(value, room);
+  __device__ void give(Real const (&value)[2], double* buffer) const {
+    this->giveOfWarp(value, buffer);
     __syncthreads();
     if (this->thread >= this->ranks) return;
     double2 own = make_double2(0, 0);
     for (int w = 0; w < (this->threads + 31) / 32; ++w) {
-      const double2 one = this->pair(room + room_of_lists, w);
+      const double2 one = this->pair(buffer + list_buffer_size, w);
       own.x += one.x;
       own.y += one.y;
     }
-    of(this->thread, reinterpret_cast<double2*>(list(room))[this->rank]) = own;
+    of(this->thread, reinterpret_cast<double2*>(list(buffer))[this->rank]) = own;
   }
   __device__ void awaitRows() const { sync(); }
   __device__ void fetchSums(double*) const {}
-  __device__ void takeSums(double* room, double (&total)[2]) const {
+  __device__ void takeSums(double* buffer, double (&total)[2]) const {
     total[0] = total[1] = 0;
     for (int k = 0; k < this->ranks; ++k) {
-      const double2 one = this->pair(list(room), k);
+      const double2 one = this->pair(list(buffer), k);
       total[0] += one.x;
       total[1] += one.y;
     }
   }
 
  private:
-  __device__ double* list(double* room) const { return room + this->round % 2 * (room_of_lists / 2); }
+  __device__ double* list(double* buffer) const { return buffer + this->round % 2 * (list_buffer_size / 2); }
 };
 
 /// What the blocks of a launch exchange in the memory of the GPU.
 struct GridMemory {
-  unsigned long long* arrived;  // two counters, of which launches take turns
-  int turn;
+  unsigned long long* arrived;  // two counters, used alternately by launches
+  int parity;
   unsigned* announced;          // by each block: the exchange up to which others may load its rows
   double* sums;                 // two lists of a pair for each block
   int const *nearFirst, *near;  // of each block: those whose rows it loads, and that load its own
@@ -191,8 +191,8 @@ struct GridMemory {
 /// are multiplied. Two warps of each block, the last, have no rows: one announces those of the block and
 /// waits for the others', the other exchanges the sums, whose last bits say of which round they are.
 ///
-/// There are two lists of sums, and two vectors of rows, used in turn. Who writes to one has all sums of the
-/// round before; these were given by blocks that had taken, and loaded, all of what is now overwritten.
+/// There are two lists of sums, and two vectors of rows, used alternately. Who writes to one has all sums of
+/// the round before; these were given by blocks that had taken, and loaded, all of what is now overwritten.
 template <int Lanes, int KeptEntries>
 struct GridTeam : DeviceTeam<Lanes, KeptEntries> {
   static constexpr bool global = true;
@@ -209,7 +209,7 @@ struct GridTeam : DeviceTeam<Lanes, KeptEntries> {
     nearEnd = memory.nearFirst[this->rank + 1];
     // the counter of the next launch; and behind the first sync() there is nothing of the last one
     if (this->thread == 0) {
-      if (this->rank == 0) memory.arrived[1 - memory.turn] = 0;
+      if (this->rank == 0) memory.arrived[1 - memory.parity] = 0;
       memory.announced[this->rank] = 0;
       for (int list = 0; list < 2; ++list)
         reinterpret_cast<double2*>(memory.sums)[list * this->ranks + this->rank] = make_double2(0, 0);
@@ -219,7 +219,7 @@ struct GridTeam : DeviceTeam<Lanes, KeptEntries> {
   __device__ void sync() const {
     __syncthreads();
     if (threadIdx.x == 0) {
-      unsigned long long* const arrived = memory.arrived + memory.turn;
+      unsigned long long* const arrived = memory.arrived + memory.parity;
       waited += gridDim.x;
       asm volatile("red.release.gpu.global.add.u64 [%0], 1;" ::"l"(arrived) : "memory");
       unsigned long long now = 0;
@@ -264,17 +264,17 @@ struct GridTeam : DeviceTeam<Lanes, KeptEntries> {
     if (this->thread < rowThreads() + 32) await(rowsAround);
   }
   template <class Real>
-  __device__ void give(Real const (&value)[2], double* room) const {
+  __device__ void give(Real const (&value)[2], double* buffer) const {
     if (this->thread >= rowThreads()) return;
-    this->giveOfWarp(value, room);
+    this->giveOfWarp(value, buffer);
     arrive(sumsGiven);
   }
-  __device__ void fetchSums(double* room) const {
+  __device__ void fetchSums(double* buffer) const {
     if (this->thread < rowThreads() + 32) return;
     await(sumsGiven);
     const int lane = this->thread % 32;
     double2 own = make_double2(0, 0), all = own;
-    if (lane < rowThreads() / 32) own = this->pair(room + room_of_lists, lane);
+    if (lane < rowThreads() / 32) own = this->pair(buffer + list_buffer_size, lane);
     own = sumOfWarp(own);
     double* const list = memory.sums + this->round % 2 * (2 * std::ptrdiff_t(this->ranks));
     if (lane == 0)
@@ -297,11 +297,11 @@ struct GridTeam : DeviceTeam<Lanes, KeptEntries> {
         if (first + 32 * k < this->ranks) all.x += unmarked(one[k].x), all.y += unmarked(one[k].y);
     }
     all = sumOfWarp(all);
-    if (lane == 0) reinterpret_cast<double2*>(room)[this->round % 2] = all;
+    if (lane == 0) reinterpret_cast<double2*>(buffer)[this->round % 2] = all;
   }
-  __device__ void takeSums(double const* room, double (&total)[2]) const {
+  __device__ void takeSums(double const* buffer, double (&total)[2]) const {
     __syncthreads();
-    const double2 all = this->pair(room, int(this->round % 2));
+    const double2 all = this->pair(buffer, int(this->round % 2));
     total[0] = all.x;
     total[1] = all.y;
   }

@@ -7,7 +7,7 @@
 namespace sinew {
 
 template <class H>
-struct SolverRoom<CudaTypes<H>> {
+struct SolverWorkspace<CudaTypes<H>> {
   gpu::DeviceVector<double> numbers{};             // of conjugate gradients (CgScalars)
   gpu::DeviceVector<typename H::Real> diagonal{};  // blocks of a preconditioner (PointBlocks), two a point
   gpu::BlockRows<CudaTypes<H>> rows{};             // the assembled system

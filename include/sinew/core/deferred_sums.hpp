@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <sinew/core/part.hpp>
+#include <sinew/core/work_share.hpp>
 
 #include <cstddef>
 #include <vector>
 
 namespace sinew {
 
-/// What several parts of a work would add to the same place. Each part adds to a place that no part before it
-/// has touched, and keeps what it has for others in a room of its own; when all parts are done, that is added
-/// in the order of the work. So a place receives the same summands in the same order as from one thread.
-struct LateSums {
-  std::vector<int> firstOf{};  // of each piece of work: where its `rooms` begin; -1: nothing is kept
-  std::vector<int> rooms{};    // for each summand: the room that keeps it; -1: added at once
-  std::vector<int> places{}, startOf{};  // the places, and where the rooms of each begin
+/// What the shares of several threads would add to the same place. Each share adds directly to the places
+/// that no share before it touches, and stores the other summands in a buffer; when all shares are done,
+/// these are added in the order of the work. So a place receives the same summands in the same order as from
+/// one thread.
+struct DeferredSums {
+  std::vector<int> firstOf{};  // of each piece of work: where its `entries` begin; -1: nothing is deferred
+  std::vector<int> entries{};  // for each summand: its entry of the buffer; -1: added at once
+  std::vector<int> places{}, startOf{};  // the places, and where the entries of each begin
 
-  std::size_t roomCount() const { return places.empty() ? 0 : std::size_t(startOf.back()); }
+  std::size_t entryCount() const { return places.empty() ? 0 : std::size_t(startOf.back()); }
 
   /// forEachSummand(piece, f) calls f(place) for each summand of a piece of work, in the order of addition;
   /// each piece has `each` summands, a place of -1 is none.
@@ -24,15 +25,15 @@ struct LateSums {
   void plan(int parts, std::size_t pieces, std::size_t each, std::size_t placeCount,
             ForEachSummand&& forEachSummand) {
     std::vector<int> first(placeCount, -1), count(placeCount + 1, 0);
-    auto isLate = [&](int place, int part) { return place >= 0 && first[std::size_t(place)] != part; };
+    auto isDeferred = [&](int place, int part) { return place >= 0 && first[std::size_t(place)] != part; };
     firstOf.assign(pieces, -1);
     int used = 0;
     for (int k = 0; k < parts; ++k) {
-      const Part part{k, parts};
+      const WorkShare part{k, parts};
       for (std::size_t p = part.begin(pieces); p < part.end(pieces); ++p)
         forEachSummand(p, [&](int place) {
           if (place >= 0 && first[std::size_t(place)] < 0) first[std::size_t(place)] = k;
-          if (!isLate(place, k)) return;
+          if (!isDeferred(place, k)) return;
           ++count[std::size_t(place)];
           if (firstOf[p] < 0) firstOf[p] = int(each) * used++;
         });
@@ -46,23 +47,24 @@ struct LateSums {
       startOf.push_back(startOf.back() + count[place]);
       next[place] = startOf[startOf.size() - 2];
     }
-    rooms.assign(each * std::size_t(used), -1);
+    entries.assign(each * std::size_t(used), -1);
     for (int k = 0; k < parts; ++k) {
-      const Part part{k, parts};
+      const WorkShare part{k, parts};
       for (std::size_t p = part.begin(pieces); p < part.end(pieces); ++p) {
-        std::size_t room = std::size_t(firstOf[p]);
+        std::size_t entry = std::size_t(firstOf[p]);
         if (firstOf[p] >= 0)
-          forEachSummand(
-              p, [&](int place) { rooms[room++] = isLate(place, k) ? next[std::size_t(place)]++ : -1; });
+          forEachSummand(p, [&](int place) {
+            entries[entry++] = isDeferred(place, k) ? next[std::size_t(place)]++ : -1;
+          });
       }
     }
   }
 
-  /// add(place, room) for what the places of a part receive late.
+  /// add(place, entry) for the deferred summands of the places of a share.
   template <class Add>
-  void addLate(Part part, Add&& add) const {
+  void addDeferred(WorkShare part, Add&& add) const {
     for (std::size_t i = part.begin(places.size()); i < part.end(places.size()); ++i)
-      for (int room = startOf[i]; room < startOf[i + 1]; ++room) add(places[i], std::size_t(room));
+      for (int entry = startOf[i]; entry < startOf[i + 1]; ++entry) add(places[i], std::size_t(entry));
   }
 };
 

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/platform.hpp>
+
+#include <cstddef>
+
+namespace sinew {
+
+/// The share of a loop that one of several threads does: number `index` of `count` shares of about the same
+/// size. What several shares add to one place is added in a second pass, `deferred`, in the order of the
+/// whole loop: the bits of a result do not depend on the number of threads.
+struct WorkShare {
+  int index = 0, count = 1;
+  bool deferred = false;
+
+  /// Of n things, those from begin(n) to end(n).
+  std::size_t begin(std::size_t n) const { return n * std::size_t(index) / std::size_t(count); }
+  std::size_t end(std::size_t n) const { return n * std::size_t(index + 1) / std::size_t(count); }
+};
+
+/// Runs the whole work in the thread of the caller, for scenes without threads of their own; Workers
+/// (workers.hpp) share it out among threads.
+struct OneThread {
+  static constexpr int count() { return 1; }
+  template <class F>
+  static void run(F&& f) {
+    f(WorkShare{});
+  }
+  static void reserveSums(std::size_t) {}
+  static double* sums() { return nullptr; }
+};
+
+/// A component whose addForce, addDForce and addToMatrix do the share of the work that their parameters ask
+/// for.
+template <class C>
+inline constexpr bool shares_work = requires { requires C::sharesWork; };
+
+}  // namespace sinew
