@@ -9,8 +9,8 @@ using Catch::Approx;
 #include <catch2/catch.hpp>
 #endif
 
-// Sanitized code without optimisation takes 25 times as long: tests that are no more than many of the same are shorter there, and
-// those with the tag [long] left out.
+// Sanitized code without optimisation takes 25 times as long: tests that are no more than many of the same
+// are shorter there, and those with the tag [long] left out.
 #if defined(__SANITIZE_ADDRESS__)
 inline constexpr bool sanitized = true;
 #elif defined(__has_feature)

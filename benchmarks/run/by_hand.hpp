@@ -44,20 +44,21 @@ inline std::vector<int> hand_fixed(sinew::Mesh const& mesh) {
 
 inline auto hand_liver_scene(sinew::Mesh const& mesh) {
   using namespace sinew;
-  Simulation sim{node<"root">(Gravity{{0, -9.81, 0}},
-                              EulerImplicitSolver{.rayleighStiffness = 0.1, .rayleighMass = 0.1},
-                              CGLinearSolver<CompressedRowSparseMatrixMat3x3d>{.iterations = 25, .tolerance = 0},
-                              TetrahedronTopology{mesh.tetrahedra},
-                              MechanicalObject<Vec3d>{mesh.positions},
-                              DiagonalMass<Vec3d>{.massDensity = 1000},
-                              TetrahedronFEMForceField<Vec3d>{.youngModulus = {3000}, .poissonRatio = 0.3},
-                              FixedConstraint<Vec3d>{.indices = hand_fixed(mesh)})};
+  Simulation sim{
+      node<"root">(Gravity{{0, -9.81, 0}},
+                   EulerImplicitSolver{.rayleighStiffness = 0.1, .rayleighMass = 0.1},
+                   CGLinearSolver<CompressedRowSparseMatrixMat3x3d>{.iterations = 25, .tolerance = 0},
+                   TetrahedronTopology{mesh.tetrahedra},
+                   MechanicalObject<Vec3d>{mesh.positions},
+                   DiagonalMass<Vec3d>{.massDensity = 1000},
+                   TetrahedronFEMForceField<Vec3d>{.youngModulus = {3000}, .poissonRatio = 0.3},
+                   FixedConstraint<Vec3d>{.indices = hand_fixed(mesh)})};
   sim.init();
   return sim;
 }
 
-/// The liver written by hand for this one purpose, over the library's element law, element driver and matrix: what a
-/// scene adds to them (nodes, roles, traversals, multi-vectors) is what the comparison measures.
+/// The liver written by hand for this one purpose, over the library's element law, element driver and matrix:
+/// what a scene adds to them (nodes, roles, traversals, multi-vectors) is what the comparison measures.
 struct HandLiver {
   using Matrix = sinew::CompressedRowSparseMatrixMat3x3d;
   using Driver = sinew::ElementDriver<sinew::TetrahedronFEM, sinew::Vec3d>;
@@ -86,7 +87,8 @@ struct HandLiver {
     for (auto const& t : mesh.tetrahedra) {
       Eigen::Vector3d at[4];
       for (std::size_t k = 0; k < 4; ++k) at[k] = x[std::size_t(t[k])];
-      rest.push_back(sinew::TetrahedronFEM<sinew::Vec3d>::restOf(at, mu, lambda, sinew::RotationMethod::large));
+      rest.push_back(
+          sinew::TetrahedronFEM<sinew::Vec3d>::restOf(at, mu, lambda, sinew::RotationMethod::large));
       const double volume = (at[1] - at[0]).cross(at[2] - at[0]).dot(at[3] - at[0]) / 6;
       for (const int i : t) mass[std::size_t(i)] += 1000 * volume / 4;
     }

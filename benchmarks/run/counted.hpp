@@ -17,7 +17,8 @@ struct Counted {
 
   Counted() = default;
   template <class S>
-  requires std::is_arithmetic_v<S> Counted(S s) : value(double(s)) {}
+  requires std::is_arithmetic_v<S>
+  Counted(S s) : value(double(s)) {}
 
   static Counted after(double v) {
     ++operations;

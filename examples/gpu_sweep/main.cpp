@@ -5,8 +5,8 @@
 
 #include <cstdio>
 
-// A sweep over a parameter: bars of eight stiffnesses bend under their weight at the same time, each step of all of
-// them one kernel. Prints how far the end of each has sunk after a second.
+// A sweep over a parameter: bars of eight stiffnesses bend under their weight at the same time, each step of
+// all of them one kernel. Prints how far the end of each has sunk after a second.
 int main() try {
   using namespace sinew;
   constexpr int copies = 8;

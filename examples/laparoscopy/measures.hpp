@@ -21,9 +21,9 @@ struct LaparoscopyMeasures {
   double farthest = -std::numeric_limits<double>::infinity();  // of a skin from inside the wall [m]
   double smallest = 1, largest = 1;                            // volume of a skin, over that at rest
   std::string where{};                                         // of that penetration
-  double lowest = 1;          // volume of a tetrahedron or cell, over that at rest
-  std::size_t contacts = 0;   // most at a time
-  int within = 0;             // places of ribs and tool seen inside organs
+  double lowest = 1;             // volume of a tetrahedron or cell, over that at rest
+  std::size_t contacts = 0;      // most at a time
+  int within = 0;                // places of ribs and tool seen inside organs
   int maximum = 0, longest = 0;  // inverted elements at a time, and looks in a row at which one was inverted
   std::vector<int> inRow[2]{};
 

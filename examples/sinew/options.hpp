@@ -19,7 +19,7 @@ struct SceneOptions {
   Settings set{};
   std::vector<std::string> data{};
   bool lenient = false;
-  double dt = 0;               // 0: the scene's
+  double dt = 0;              // 0: the scene's
   std::size_t maxMemory = 0;  // bytes; 0: what the machine has
 };
 

@@ -47,9 +47,9 @@ Eye make_eye(EyeOptions const& options);
 
 /// What the surgeon wants to know of the retina at these positions of all points.
 struct RetinaState {
-  double tension = 0;        // sum of |F| over the springs of the retina [N]
-  double energy = 0;         // in them [J]
-  double traction = 0;       // with which the cuttable springs that are left pull, sum of |F| [N]
+  double tension = 0;           // sum of |F| over the springs of the retina [N]
+  double energy = 0;            // in them [J]
+  double traction = 0;          // with which the cuttable springs that are left pull, sum of |F| [N]
   double rms = 0, maximum = 0;  // distance from the natural shape [m]
 };
 RetinaState examine(Eye const& eye, std::vector<Eigen::Vector3d> const& now,

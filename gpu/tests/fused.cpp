@@ -56,16 +56,15 @@ auto bar(Settings const& s = {}) {
 // that is cut off carries rounding along
 template <class D>
 auto net() {
-  Simulation sim{
-      node<"root">(Gravity{},
-                   EulerImplicitSolver{.rayleighStiffness = 0.01, .rayleighMass = 0.1},
-                   CGLinearSolver<>{.iterations = 60, .tolerance = 0},
-                   node<"bar">(RegularGridTopology{.n = {7, 4, 4}, .max = {3, 1, 1}},
-                               MechanicalObject<D>{},
-                               UniformMass<D>{.totalMass = 10},
-                               RegularGridSpringForceField<D>{.stiffness = 50, .damping = 1},
-                               PlaneForceField<D>{.d = -0.5, .stiffness = 500, .damping = 10},
-                               FixedConstraint<D>{.indices = {0, 7, 14, 21, 28, 56, 84}}))};
+  Simulation sim{node<"root">(Gravity{},
+                              EulerImplicitSolver{.rayleighStiffness = 0.01, .rayleighMass = 0.1},
+                              CGLinearSolver<>{.iterations = 60, .tolerance = 0},
+                              node<"bar">(RegularGridTopology{.n = {7, 4, 4}, .max = {3, 1, 1}},
+                                          MechanicalObject<D>{},
+                                          UniformMass<D>{.totalMass = 10},
+                                          RegularGridSpringForceField<D>{.stiffness = 50, .damping = 1},
+                                          PlaneForceField<D>{.d = -0.5, .stiffness = 500, .damping = 10},
+                                          FixedConstraint<D>{.indices = {0, 7, 14, 21, 28, 56, 84}}))};
   sim.init();
   return sim;
 }

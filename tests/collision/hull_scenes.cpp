@@ -79,7 +79,8 @@ TEST_CASE("an aligned stack is as deep as weight over stiffness", "[long]") {
   }
 }
 
-TEST_CASE("a stiff stack that starts deep in itself and the floor gains no energy, and comes to rest", "[long]") {
+TEST_CASE("a stiff stack that starts deep in itself and the floor gains no energy, and comes to rest",
+          "[long]") {
   const double m = 3, g = 10, dt = 0.01;
   for (const double k : {2e6, 2e7})  // k dt^2/m = 67, 667
     for (const double depth : {0.0, 0.001, 0.01})

@@ -17,7 +17,8 @@ namespace {
 constexpr ContinuousIntersection tight{.alarmDistance = 0.02, .contactDistance = 0.01};
 }
 
-TEST_CASE("no turn, spin or speed takes a hull through a plate or a triangle under ContinuousIntersection", "[long]") {
+TEST_CASE("no turn, spin or speed takes a hull through a plate or a triangle under ContinuousIntersection",
+          "[long]") {
   // a box between a plate and a sheet, at up to 3e4 m/s and 50 rad/s: its centre stays in between for as long
   // as it is over both. Stopped from v, a contact is v dt/(1 + k dt^2/m) deep: here 3e-5 m. (Above 100 rad/s
   // the free rotation, a radian a step, is itself not stable.)

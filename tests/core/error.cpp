@@ -25,8 +25,13 @@ TEST_CASE("the nearest known name is suggested, and none when all are far") {
 }
 
 TEST_CASE("what shares words with a name, but not the word that tells it from others, is another thing") {
-  const std::vector<std::string> known{"TetrahedronFEMForceField", "FixedPlaneConstraint", "CGLinearSolver", "MeshOBJLoader",
-                                       "IdentityMapping", "StiffSpringForceField", "EulerImplicitSolver"};
+  const std::vector<std::string> known{"TetrahedronFEMForceField",
+                                       "FixedPlaneConstraint",
+                                       "CGLinearSolver",
+                                       "MeshOBJLoader",
+                                       "IdentityMapping",
+                                       "StiffSpringForceField",
+                                       "EulerImplicitSolver"};
   for (auto const& [word, name] : {std::pair{"TetrahedronFEMForceFeild", "TetrahedronFEMForceField"},
                                    {"TetrahedronFemForcefield", "TetrahedronFEMForceField"},
                                    {"TetraedronFEMForceField", "TetrahedronFEMForceField"},
@@ -35,8 +40,14 @@ TEST_CASE("what shares words with a name, but not the word that tells it from ot
                                    {"cglinearsolver", "CGLinearSolver"},
                                    {"FixedPlaneConstrant", "FixedPlaneConstraint"}})
     CHECK(nearest_name(word, known) == name);
-  for (auto const* word : {"BilateralLagrangianConstraint", "BTDLinearSolver", "MeshOffLoader", "IdentityMultiMapping",
-                           "JointSpringForceField", "TaitSurfacePressureForceField", "Solver", ""})
+  for (auto const* word : {"BilateralLagrangianConstraint",
+                           "BTDLinearSolver",
+                           "MeshOffLoader",
+                           "IdentityMultiMapping",
+                           "JointSpringForceField",
+                           "TaitSurfacePressureForceField",
+                           "Solver",
+                           ""})
     CHECK(nearest_name(word, known).empty());
 }
 

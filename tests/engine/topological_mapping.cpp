@@ -67,12 +67,16 @@ TEST_CASE("the surface of hexahedra in quads, and these in triangles") {
   }
 }
 
-TEST_CASE("hexahedra of a grid, mirrored in turn or not, become tetrahedra that match and fill it, as SOFA cuts them") {
+TEST_CASE(
+    "hexahedra of a grid, mirrored in turn or not, become tetrahedra that match and fill it, as SOFA cuts "
+    "them") {
   for (const bool swapping : {false, true})
     for (const int across : {3, 4}) {
       const Mesh mesh = regular_grid(across, ny, nz, {0, 0, 0}, {across - 1.0, 3, 4});
-      Hexa2TetraTopologicalMapping tetra{
-          .position = mesh.positions, .elements = mesh.hexahedra, .swapping = swapping, .grid = {across, ny, nz}};
+      Hexa2TetraTopologicalMapping tetra{.position = mesh.positions,
+                                         .elements = mesh.hexahedra,
+                                         .swapping = swapping,
+                                         .grid = {across, ny, nz}};
       tetra.update("t");
       double minimum = 1;
       for (Tetrahedron const& t : tetra.converted) {
@@ -84,7 +88,8 @@ TEST_CASE("hexahedra of a grid, mirrored in turn or not, become tetrahedra that 
       CHECK(minimum == Approx(1.0 / 6));
       // inner faces have two tetrahedra: what is left is the surface
       const auto surface = boundary_triangles(tetra.converted);
-      CHECK(surface.size() == 4 * std::size_t((across - 1) * (ny - 1) + (ny - 1) * (nz - 1) + (nz - 1) * (across - 1)));
+      CHECK(surface.size() ==
+            4 * std::size_t((across - 1) * (ny - 1) + (ny - 1) * (nz - 1) + (nz - 1) * (across - 1)));
       CHECK(volume_inside(mesh.positions, surface) == Approx(12.0 * (across - 1)));
       // SOFA's first tetrahedron of the first cell, which is mirrored along x with swapping
       CHECK(tetra.converted[0] == (swapping ? Tetrahedron{1, across * ny, across * ny + across, 0}

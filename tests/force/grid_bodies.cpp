@@ -134,14 +134,17 @@ TEST_CASE("TetrahedronFEMForceField over hexahedra is that over six tetrahedra i
   CHECK(largest > 1);
 }
 
-TEST_CASE("TetrahedronFEMForceField fills a ball of hexahedra, which SOFA's cut would turn inside out at its rim") {
+TEST_CASE(
+    "TetrahedronFEMForceField fills a ball of hexahedra, which SOFA's cut would turn inside out at its rim") {
   SphereGridTopology ball{.n = {5, 5, 5}, .radius = 2};
   ball.generate("");
   TetrahedronFEMForceField<Vec3d> fem{.youngModulus = {1000}, .poissonRatio = 0.3};
   CHECK(error_of([&] { fem.init(InitContext<Vec3d>{"/root", ball.position, ball.view()}); }).empty());
   auto hexahedra = ball.hexahedra;
   hexahedra[3][2] = 999;
-  CHECK(contains(error_of([&] { fem.init(InitContext<Vec3d>{"/root", ball.position, {.hexahedra = hexahedra}}); }),
+  CHECK(contains(error_of([&] {
+                   fem.init(InitContext<Vec3d>{"/root", ball.position, {.hexahedra = hexahedra}});
+                 }),
                  "hexahedron 3 refers to point 999"));
 }
 

@@ -14,9 +14,9 @@ using namespace sinew;
 
 struct Fuzzed
     : Registry<Gravity, MeshTopology, RegularGridTopology, TetrahedronTopology, VisualModel, MeshOBJLoader,
-               BoxROI<Vec3d>, TransformEngine<Vec3d>, MechanicalObject<Vec3d>, MechanicalObject<Rigid3d>, MechanicalObject<Vec3f>,
-               UniformMass<Vec3d>, UniformMass<Rigid3d>, DiagonalMass<Vec3d>, StiffSpringForceField<Vec3d>,
-               StiffSpringForceField<Vec3d, Linked>, ConstantForceField<Vec3d>,
+               BoxROI<Vec3d>, TransformEngine<Vec3d>, MechanicalObject<Vec3d>, MechanicalObject<Rigid3d>,
+               MechanicalObject<Vec3f>, UniformMass<Vec3d>, UniformMass<Rigid3d>, DiagonalMass<Vec3d>,
+               StiffSpringForceField<Vec3d>, StiffSpringForceField<Vec3d, Linked>, ConstantForceField<Vec3d>,
                TetrahedronFEMForceField<Vec3d>, FixedConstraint<Vec3d>, RigidMapping<Rigid3d, Vec3d>,
                IdentityMapping<Vec3d, Vec3d>, BarycentricMapping<Vec3d, Vec3f>, EulerImplicitSolver,
                EulerExplicitSolver, CGLinearSolver<>> {};

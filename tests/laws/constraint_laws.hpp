@@ -47,9 +47,8 @@ struct SubjectOf : Subject<D> {
       c.init(context, context);
     else
       c.init(context);
-    apply(VecCoord(2 * context.rest.size(), D::zero()), [&](auto&... x) {
-      this->prescribes = requires { c.projectPosition(0.0, x...); };
-    });
+    apply(VecCoord(2 * context.rest.size(), D::zero()),
+          [&](auto&... x) { this->prescribes = requires { c.projectPosition(0.0, x...); }; });
     this->follows = requires { c.twoWay; };
   }
   // f(vector), or f(first half, second half)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "catch.hpp"
-#include "solver/fem_bar.hpp"
 #include "error_of.hpp"
+#include "solver/fem_bar.hpp"
 
 #include <sinew/solver/cholesky_solver.hpp>
 #include <sinew/solver/sparse_ldl_solver.hpp>

@@ -68,8 +68,8 @@ TEST_CASE("a pinched hemisphere gives way as in the literature") {
     return 10 * Vector3d(std::cos(north) * std::cos(east), std::cos(north) * std::sin(east), std::sin(north));
   });
   // planes of symmetry: no way out of them, no turn but about their normal
-  const Held y0{sheet.where([](Vector3d const&c) { return c[1] < 1e-9; }), {0, 1, 0, 1, 0, 1}},
-      x0{sheet.where([](Vector3d const&c) { return c[0] < 1e-9; }), {1, 0, 0, 0, 1, 1}},
+  const Held y0{sheet.where([](Vector3d const& c) { return c[1] < 1e-9; }), {0, 1, 0, 1, 0, 1}},
+      x0{sheet.where([](Vector3d const& c) { return c[0] < 1e-9; }), {1, 0, 0, 0, 1, 1}},
       height{{n * (n + 1)}, {0, 0, 1}};
   Rigid3d::VecDeriv loads(sheet.x.size(), Deriv::Zero());
   loads[0][0] = 200, loads[n][1] = -200;

@@ -47,8 +47,8 @@ struct CollisionSurface {
   // vertices, now
   std::vector<Eigen::Vector3d> position{}, velocity{}, force{}, dx{};
   std::vector<Eigen::Vector3d> spin{}, torque{}, angularDx{};  // of rigids: angular velocity, ..., angular dx
-  std::vector<Eigen::Quaterniond> orientation{};          // of rigids
-  std::vector<int> touched{};                             // vertices with contacts
+  std::vector<Eigen::Quaterniond> orientation{};               // of rigids
+  std::vector<int> touched{};                                  // vertices with contacts
   std::vector<char> isTouched{};
 
   std::vector<AxisBox> boxes{};  // of the elements

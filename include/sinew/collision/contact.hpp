@@ -156,8 +156,6 @@ concept ContactLaw = requires(R const r, Contact c, Eigen::Vector3d u) {
 /// A response to contacts that changes a component C of a touched state:
 /// touch(component, points) with the touched points of that state.
 template <class R, class C>
-concept TouchResponse = requires(R const r, C c, std::span<int const> points) {
-  r.touch(c, points);
-};
+concept TouchResponse = requires(R const r, C c, std::span<int const> points) { r.touch(c, points); };
 
 }  // namespace sinew

@@ -239,8 +239,9 @@ struct ContactManager {
   /// f(response, state, touched points of it) for the contacts of responses that change what they touch.
   template <class F>
   void forEachTouchResponse(F&& f) {
-    [&]<std::size_t... I>(std::index_sequence<I...>) { (forEachTouched<I>(f), ...); }
-    (std::index_sequence_for<Responses...>{});
+    [&]<std::size_t... I>(std::index_sequence<I...>) {
+      (forEachTouched<I>(f), ...);
+    }(std::index_sequence_for<Responses...>{});
   }
 
   /// Forces on the vertices of all contacts that `chosen` picks.

@@ -54,8 +54,7 @@ struct ContactResponses {
   static void visit(std::tuple<Responses...> const& responses, int place, F&& f) {
     [&]<std::size_t... I>(std::index_sequence<I...>) {
       ((place == int(I) ? f(std::get<I>(responses)) : void()), ...);
-    }
-    (std::index_sequence_for<Responses...>{});
+    }(std::index_sequence_for<Responses...>{});
   }
   static void setStep(std::tuple<Responses...>& responses, double dt) {
     auto set = [dt](auto& response) {

@@ -119,7 +119,8 @@ struct AttachProjectiveConstraint {
   }
 
   template <class... V>
-  requires(sizeof...(V) == (between ? 2 : 1)) void projectResponse(V&... dx) const {
+  requires(sizeof...(V) == (between ? 2 : 1))
+  void projectResponse(V&... dx) const {
     const std::array<VecDeriv*, sizeof...(V)> states{&dx...};
     forEachGroup([&](std::span<Member const> group) {
       if (twoWay)
@@ -130,21 +131,24 @@ struct AttachProjectiveConstraint {
     });
   }
   template <class... V>
-  requires(sizeof...(V) == (between ? 2 : 1)) void projectAcceleration(V&... a) const {
+  requires(sizeof...(V) == (between ? 2 : 1))
+  void projectAcceleration(V&... a) const {
     if (twoWay)
       projectVelocity(0.0, a...);
     else
       projectResponse(a...);
   }
   template <class... V>
-  requires(sizeof...(V) == (between ? 2 : 1)) void projectVelocity(double /*time*/, V&... v) const {
+  requires(sizeof...(V) == (between ? 2 : 1))
+  void projectVelocity(double /*time*/, V&... v) const {
     const std::array<VecDeriv*, sizeof...(V)> states{&v...};
     forEachGroup([&](std::span<Member const> group) {
       shareMean(states, group, [](Member const& m) { return m.weight; });
     });
   }
   template <class... X>
-  requires(sizeof...(X) == (between ? 2 : 1)) void projectPosition(double /*time*/, X&... x) const {
+  requires(sizeof...(X) == (between ? 2 : 1))
+  void projectPosition(double /*time*/, X&... x) const {
     const std::array<VecCoord*, sizeof...(X)> states{&x...};
     forEachGroup([&](std::span<Member const> group) {
       auto mean = of(states, group[0]);

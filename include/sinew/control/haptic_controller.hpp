@@ -133,7 +133,7 @@ struct HapticController {
   }
 
   // from tick to tick
-  ToolTarget reading{};  // the last good pose of the device
+  ToolTarget reading{};     // the last good pose of the device
   bool hasReading = false;  // that of this tick is good
   ToolState tool{};
   bool hasTool = false;

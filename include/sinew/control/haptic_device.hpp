@@ -15,10 +15,11 @@ struct DeviceState {
   unsigned buttons = 0;
 };
 
-/// A haptic device. It is told the force and the torque on the hand, in its own axes. Both functions are called by the thread of the loop, read before write, once a tick; they
-/// must return well within a period. `time` [s] is that of the loop: a simulated device is there at that
-/// time, a real one needs no clock. An exception ends the loop with a force of zero. A device of three
-/// degrees of freedom leaves the orientation as it is and ignores the torque.
+/// A haptic device. It is told the force and the torque on the hand, in its own axes. Both functions are
+/// called by the thread of the loop, read before write, once a tick; they must return well within a period.
+/// `time` [s] is that of the loop: a simulated device is there at that time, a real one needs no clock. An
+/// exception ends the loop with a force of zero. A device of three degrees of freedom leaves the orientation
+/// as it is and ignores the torque.
 template <class D>
 concept HapticDevice = requires(D device, double time, Wrench const& wrench) {
   { device.read(time) } -> std::convertible_to<DeviceState>;

@@ -11,8 +11,8 @@ namespace sinew {
 
 /// How many threads of the processor do the steps of the solvers in this node and below: the product with an
 /// assembled matrix of 3 x 3 blocks, vectors of solvers, and forces, tangents and matrices of elements of
-/// one body that are taken in lanes. A step has the same bits with any number of threads. Bodies of less than about a
-/// thousand points or elements are left to one thread, since they would wait longer than they work.
+/// one body that are taken in lanes. A step has the same bits with any number of threads. Bodies of less than
+/// about a thousand points or elements are left to one thread, since they would wait longer than they work.
 struct Threads {
   using Role = role::Execution;
   static constexpr std::string_view className = "Threads";

@@ -27,19 +27,16 @@ namespace sinew {
 // What a component has, whatever its role. The shortest of each role is in its header.
 
 template <class C>
-concept NamesRole = requires {
-  typename C::Role;
-};
+concept NamesRole = requires { typename C::Role; };
 template <class C>
-concept HasKnownRole = NamesRole<C> &&(detail::role_index<typename C::Role> >= 0);
+concept HasKnownRole = NamesRole<C> && (detail::role_index<typename C::Role> >= 0);
 template <class C>
 concept HasClassName = requires {
   { C::className } -> std::convertible_to<std::string_view>;
 };
 template <class C>
-concept HasConstantFields = HasFields<C> && requires {
-  typename std::bool_constant<(static_cast<void>(C::fields()), true)>;
-};
+concept HasConstantFields =
+    HasFields<C> && requires { typename std::bool_constant<(static_cast<void>(C::fields()), true)>; };
 namespace detail {
 template <class C, class... Owner, class... T>
 constexpr bool are_members(boost::hana::tuple<Field<Owner, T>...> const*) {
@@ -47,8 +44,8 @@ constexpr bool are_members(boost::hana::tuple<Field<Owner, T>...> const*) {
 }
 }  // namespace detail
 template <class C>
-concept ListsOwnFields = HasConstantFields<C> &&
-    detail::are_members<C>(static_cast<decltype(C::fields())*>(nullptr));
+concept ListsOwnFields =
+    HasConstantFields<C> && detail::are_members<C>(static_cast<decltype(C::fields())*>(nullptr));
 
 /// A component: a default-constructible class with a role, a name and fields.
 template <class C>
@@ -71,15 +68,11 @@ concept ActsBeforeStep = requires {
 /// computes anew: reset() makes it what it was, at time 0. It may return a bool: true says that elements are
 /// there again whose places in a matrix have to be found.
 template <class C>
-concept Resettable = requires(C c) {
-  c.reset();
-};
+concept Resettable = requires(C c) { c.reset(); };
 
 /// A component that is given the masses of the points at init: those of its parent, where it is a mapping.
 template <class C>
-inline constexpr bool needs_masses = requires {
-  C::needsMasses;
-};
+inline constexpr bool needs_masses = requires { C::needsMasses; };
 
 /// Whether a component does all that its role and its hooks promise.
 template <class C>
@@ -88,7 +81,7 @@ concept ActsAsSaid = is_called(named::beginStep<C> || named::beforeStep<C>, Acts
                      is_called(named::reset<C>, Resettable<C>);
 template <class C>
 inline constexpr bool keeps_promise =
-    spelled_right<C>&& ActsAsSaid<C>&& Promise<typename C::Role>::template kept<C>;
+    spelled_right<C> && ActsAsSaid<C> && Promise<typename C::Role>::template kept<C>;
 
 /// Says which hook nothing calls.
 template <class C>

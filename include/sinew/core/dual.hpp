@@ -17,7 +17,8 @@ struct Dual {
     for (int i = 0; i < N; ++i) slope[i] = T(0);
   }
   template <class S>
-  requires(std::is_arithmetic_v<S> && !std::is_same_v<S, T>) SINEW_INLINE Dual(S s) : Dual(T(s)) {}
+  requires(std::is_arithmetic_v<S> && !std::is_same_v<S, T>)
+  SINEW_INLINE Dual(S s) : Dual(T(s)) {}
 
   /// g(value), where g' is known.
   SINEW_INLINE Dual through(T g, T derivative) const {

@@ -126,9 +126,7 @@ constexpr auto field_list(F... fields) {
 }
 
 template <class T>
-concept HasFields = requires {
-  T::fields();
-};
+concept HasFields = requires { T::fields(); };
 
 /// The classes by which scene files know a component beside its className, apart by blanks.
 template <class C>

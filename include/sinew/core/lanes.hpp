@@ -24,11 +24,17 @@ using lane_scalar = typename lane_traits<T>::Scalar;
 
 /// a where the mask holds, b elsewhere; for scalars, which are one lane, and for lanes.
 template <class T>
-requires std::is_floating_point_v<T> SINEW_INLINE T select(bool mask, T a, T b) { return mask ? a : b; }
+requires std::is_floating_point_v<T>
+SINEW_INLINE T select(bool mask, T a, T b) {
+  return mask ? a : b;
+}
 SINEW_INLINE bool any(bool mask) { return mask; }
 SINEW_INLINE bool both(bool a, bool b) { return a && b; }
 template <class T>
-requires std::is_floating_point_v<T> SINEW_INLINE T lane(T a, int) { return a; }
+requires std::is_floating_point_v<T>
+SINEW_INLINE T lane(T a, int) {
+  return a;
+}
 template <int N, class T>
 SINEW_INLINE void transpose(T const* in, T (&out)[1][std::size_t(N + 3) / 4 * 4]) {
   for (int c = 0; c < (N + 3) / 4 * 4; ++c) out[0][c] = c < N ? in[c] : T(0);
@@ -70,7 +76,8 @@ struct Lanes {
   Lanes() = default;
   SINEW_INLINE Lanes(Vector vector) : v(vector) {}
   template <class S>
-  requires std::is_arithmetic_v<S> SINEW_INLINE Lanes(S s) : v(T(s) - Vector{}) {}
+  requires std::is_arithmetic_v<S>
+  SINEW_INLINE Lanes(S s) : v(T(s) - Vector{}) {}
 
   SINEW_INLINE T operator[](int lane) const { return v[lane]; }
   SINEW_INLINE void set(int lane, T value) { v[lane] = value; }
@@ -262,7 +269,8 @@ SINEW_INLINE typename Lanes<T, W>::Vector alternating(typename Lanes<T, W>::Vect
 /// Point l at to + 3 * index[l] += lane l of the three components `from`; lane after lane, where points are
 /// the same.
 template <class T, int W>
-requires(W >= 4) SINEW_INLINE void add3(Lanes<T, W> const* from, T* to, int const (&index)[std::size_t(W)]) {
+requires(W >= 4)
+SINEW_INLINE void add3(Lanes<T, W> const* from, T* to, int const (&index)[std::size_t(W)]) {
   using V = typename Lanes<T, W>::Vector;
   typedef T Two __attribute__((vector_size(2 * sizeof(T))));
   const V xy0 = detail::interleaved<1, 0, T, W>(from[0].v, from[1].v),
@@ -288,8 +296,8 @@ requires(W >= 4) SINEW_INLINE void add3(Lanes<T, W> const* from, T* to, int cons
 /// to[c] = lanes of component c of W points, point l at from + 3 * index[l]. One scalar behind each point is
 /// read.
 template <class T, int W>
-requires(W >= 4) SINEW_INLINE
-    void gather3(T const* from, int const (&index)[std::size_t(W)], Lanes<T, W>* to) {
+requires(W >= 4)
+SINEW_INLINE void gather3(T const* from, int const (&index)[std::size_t(W)], Lanes<T, W>* to) {
   using V = typename Lanes<T, W>::Vector;
   constexpr int each = W / 4;  // points a vector holds, four scalars each
   V rows[4];

@@ -17,8 +17,8 @@
 #include <sinew/see_the_error_above>
 #endif
 
-/// SINEW_HD marks a function that a GPU kernel may call. The library's other macros are SINEW_INLINE, and those
-/// of compiled.hpp and version.hpp.
+/// SINEW_HD marks a function that a GPU kernel may call. The library's other macros are SINEW_INLINE, and
+/// those of compiled.hpp and version.hpp.
 #if defined(__CUDACC__)
 #define SINEW_HD __host__ __device__
 #else

@@ -79,9 +79,8 @@ template <class C>
 concept HasDataTypes = IsDataTypes<typename C::DataTypes>;
 /// A component that is initialised on one state, or on two.
 template <class C>
-concept HasInit = HasDataTypes<C> && requires(C c, InitContext<typename C::DataTypes> const context) {
-  c.init(context);
-};
+concept HasInit =
+    HasDataTypes<C> && requires(C c, InitContext<typename C::DataTypes> const context) { c.init(context); };
 template <class C>
 concept HasInitOfTwo = HasDataTypes<C> && requires(C c, InitContext<typename C::DataTypes> const context) {
   c.init(context, context);

@@ -25,8 +25,8 @@ std::false_type is_matrix(void const*);
 
 /// A matrix, or an expression of one, whose size is known to the compiler.
 template <class A>
-concept FixedMatrix = decltype(detail::is_matrix(static_cast<A const*>(nullptr)))::value &&
-                      (int(A::SizeAtCompileTime) > 0);
+concept FixedMatrix =
+    decltype(detail::is_matrix(static_cast<A const*>(nullptr)))::value && (int(A::SizeAtCompileTime) > 0);
 
 template <class A, class B>
 concept FixedMatrices =
@@ -75,8 +75,8 @@ constexpr void same_size() {
 }  // namespace detail
 
 template <class A, class B>
-requires FixedMatrices<A, B> SINEW_INLINE detail::Value<A>
-operator+(A const& left, B const& right) {
+requires FixedMatrices<A, B>
+SINEW_INLINE detail::Value<A> operator+(A const& left, B const& right) {
   detail::same_size<A, B>();
   auto const& a = detail::entries(left);
   auto const& b = detail::entries(right);
@@ -84,8 +84,8 @@ operator+(A const& left, B const& right) {
 }
 
 template <class A, class B>
-requires FixedMatrices<A, B> SINEW_INLINE detail::Value<A>
-operator-(A const& left, B const& right) {
+requires FixedMatrices<A, B>
+SINEW_INLINE detail::Value<A> operator-(A const& left, B const& right) {
   detail::same_size<A, B>();
   auto const& a = detail::entries(left);
   auto const& b = detail::entries(right);
@@ -99,19 +99,21 @@ SINEW_INLINE detail::Value<A> operator-(A const& matrix) {
 }
 
 template <class A, class S>
-requires ScalarOf<S, A> SINEW_INLINE detail::Value<A>
-operator*(A const& matrix, S const& factor) {
+requires ScalarOf<S, A>
+SINEW_INLINE detail::Value<A> operator*(A const& matrix, S const& factor) {
   auto const& a = detail::entries(matrix);
   const typename A::Scalar s(factor);
   return detail::matrix_of<detail::Value<A>>([&](int i, int j) { return a.coeff(i, j) * s; });
 }
 template <class S, class A>
-requires ScalarOf<S, A> SINEW_INLINE detail::Value<A>
-operator*(S const& factor, A const& matrix) { return matrix * factor; }
+requires ScalarOf<S, A>
+SINEW_INLINE detail::Value<A> operator*(S const& factor, A const& matrix) {
+  return matrix * factor;
+}
 
 template <class A, class S>
-requires ScalarOf<S, A> SINEW_INLINE detail::Value<A>
-operator/(A const& matrix, S const& divisor) {
+requires ScalarOf<S, A>
+SINEW_INLINE detail::Value<A> operator/(A const& matrix, S const& divisor) {
   auto const& a = detail::entries(matrix);
   const typename A::Scalar s(divisor);
   return detail::matrix_of<detail::Value<A>>([&](int i, int j) { return a.coeff(i, j) / s; });
@@ -120,8 +122,8 @@ operator/(A const& matrix, S const& divisor) {
 /// Not of a row and a column, whose product Eigen lets become a scalar.
 template <class A, class B>
 requires(FixedMatrices<A, B> && (int(A::RowsAtCompileTime) > 1 || int(B::ColsAtCompileTime) > 1))
-    SINEW_INLINE detail::Value<A, A::RowsAtCompileTime, B::ColsAtCompileTime>
-operator*(A const& left, B const& right) {
+SINEW_INLINE detail::Value<A, A::RowsAtCompileTime, B::ColsAtCompileTime> operator*(A const& left,
+                                                                                    B const& right) {
   static_assert(int(A::ColsAtCompileTime) == int(B::RowsAtCompileTime),
                 "SINEW: the sizes of the factors of a product do not fit");
   auto const& a = detail::entries(left);
@@ -136,13 +138,15 @@ operator*(A const& left, B const& right) {
 
 /// The smaller and the larger of each two entries.
 template <class A, class B>
-requires FixedMatrices<A, B> SINEW_INLINE detail::Value<A> min_of(A const& a, B const& b) {
+requires FixedMatrices<A, B>
+SINEW_INLINE detail::Value<A> min_of(A const& a, B const& b) {
   detail::same_size<A, B>();
   return detail::matrix_of<detail::Value<A>>(
       [&](int i, int j) { return b.coeff(i, j) < a.coeff(i, j) ? b.coeff(i, j) : a.coeff(i, j); });
 }
 template <class A, class B>
-requires FixedMatrices<A, B> SINEW_INLINE detail::Value<A> max_of(A const& a, B const& b) {
+requires FixedMatrices<A, B>
+SINEW_INLINE detail::Value<A> max_of(A const& a, B const& b) {
   detail::same_size<A, B>();
   return detail::matrix_of<detail::Value<A>>(
       [&](int i, int j) { return a.coeff(i, j) < b.coeff(i, j) ? b.coeff(i, j) : a.coeff(i, j); });

@@ -39,7 +39,8 @@ SINEW_INLINE void store(Eigen::Quaterniond const& from, Real (&q)[4]) {
 
 /// Angle over sine of a half turn with w >= 0: 2 atan2(s, w) / s, s2 = s^2 = 1 - w^2.
 template <class T>
-requires std::is_floating_point_v<T> SINEW_INLINE T arc_ratio(T s2, T w) {
+requires std::is_floating_point_v<T>
+SINEW_INLINE T arc_ratio(T s2, T w) {
   if (s2 < T(1e-3)) return 2 + s2 * (T(1) / 3 + s2 * (T(3) / 20 + s2 * (T(5) / 56 + s2 * (T(35) / 576))));
   const T s = std::sqrt(s2);
   return 2 * std::atan2(s, w) / s;

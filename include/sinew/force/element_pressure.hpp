@@ -121,7 +121,9 @@ struct ElementPressure {
   std::vector<Across> across{};  // where the load follows the edges
 
   /// Edges by their points go with these.
-  void follow(Followed const& change) requires ofEdges {
+  void follow(Followed const& change)
+  requires ofEdges
+  {
     const bool some = !edges.empty();
     std::erase_if(edges,
                   [&](Edge const& e) { return !change.points.stays(e[0]) || !change.points.stays(e[1]); });

@@ -258,9 +258,9 @@ struct SkinningMapping {
   static Four pure(Vec<Real, 3> const& v) { return Four(v[0], v[1], v[2], 0); }
 
   struct Motion {
-    Four q;               // rotation from rest, its sign that of the blend
+    Four q;                // rotation from rest, its sign that of the blend
     Vec<Real, 3> rotated;  // the centre at rest, rotated
-    Four shift;           // t
+    Four shift;            // t
   };
   Motion motion(Influence const& one, typename In::VecCoord const& in, Four const& pivot) const {
     auto const& frame = in[std::size_t(one.frame)];

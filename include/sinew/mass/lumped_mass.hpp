@@ -133,7 +133,7 @@ struct LumpedMass {
     MassType const* mass;
     Coord const* x;
     Deriv const* v;
-    bool each;     // has a mass of its own
+    bool each;            // has a mass of its own
     Real gyroscopicStep;  // see MechanicalParams
     SINEW_HD void operator()(int i) const {
       MassType const& own = mass[each ? i : 0];

@@ -127,7 +127,8 @@ inline constexpr auto reservedNames = std::to_array<std::string_view>(
      "override",  "import",   "module",    "linux",    "unix",     "i386",          "errno",      "stdin",
      "stdout",    "stderr",   "assert",    "offsetof", "std",      "sinew",         "baked",      "hana",
      "boost",     "node",     "data",      "dt",       "main",     "Eigen",         "Simulation", "Between",
-     "Vec",       "Parents",   "Mesh",     "NULL",      "EOF",      "INFINITY", "NAN",           "list",       "values"});
+     "Vec",       "Parents",  "Mesh",      "NULL",     "EOF",      "INFINITY",      "NAN",        "list",
+     "values"});
 
 /// The parts between the commas of a list, brackets and literals respected.
 inline std::vector<std::string_view> split_list(std::string_view cpp) {

@@ -296,8 +296,8 @@ class AnyMatrix {
 
 /// f(sink) where degrees of freedom are found at run time, of whichever tree the matrix is.
 template <AssemblyPhase Phase, class Matrix, class A, class B, class F>
-requires(detail::is_runtime_dofs<A> ||
-         detail::is_runtime_dofs<B>) void with_sink(Matrix& matrix, A const& first, B const& second, F&& f) {
+requires(detail::is_runtime_dofs<A> || detail::is_runtime_dofs<B>)
+void with_sink(Matrix& matrix, A const& first, B const& second, F&& f) {
   detail::BlockTarget target;
   if constexpr (std::is_same_v<Matrix, AnyMatrix>)
     target = matrix.target();

@@ -89,11 +89,12 @@ class SceneReader {
   void fill(ScenePlace& place, RuntimeNode<R>& node) {
     auto const* gravity = place.element->attribute("gravity");
     if (gravity && place.parent) {
-      messages_.warnings.insert(text(place.element->place(*gravity),
-                                     ": <Node>: gravity has an effect in the outermost node only, as in SOFA; for what is "
-                                     "below another, put <Gravity gravity=\"",
-                                     gravity->value,
-                                     "\"/> into it"));
+      messages_.warnings.insert(
+          text(place.element->place(*gravity),
+               ": <Node>: gravity has an effect in the outermost node only, as in SOFA; for what is "
+               "below another, put <Gravity gravity=\"",
+               gravity->value,
+               "\"/> into it"));
       gravity = nullptr;
     }
     if (!place.parent) {

@@ -69,8 +69,7 @@ template <class T>
 concept DynamicList = requires(T list) {
   list.clear();
   list.push_back(list.front());
-}
-&&!std::is_same_v<T, std::string>;
+} && !std::is_same_v<T, std::string>;
 
 template <class T>
 inline constexpr bool is_eigen = std::is_base_of_v<Eigen::MatrixBase<T>, T>;

@@ -340,8 +340,8 @@ struct FirstBroken;
 template <class First, class... Rest>
 struct FirstBroken<First, Rest...> : FirstBroken<Rest...> {};
 template <Component C, class... Rest>
-requires(!keeps_promise<C>) struct FirstBroken<C, Rest...> : std::type_identity<C> {
-};
+requires(!keeps_promise<C>)
+struct FirstBroken<C, Rest...> : std::type_identity<C> {};
 template <class Name, class... Cs, class... Ns, class... Rest>
 struct FirstBroken<Node<Name, hana::tuple<Cs...>, hana::tuple<Ns...>>, Rest...>
     : FirstBroken<Cs..., Ns..., Rest...> {};

@@ -16,9 +16,7 @@ namespace sinew {
 
 /// A topology whose elements may be removed.
 template <class T>
-inline constexpr bool editable_topology = requires(T t) {
-  t.edit();
-};
+inline constexpr bool editable_topology = requires(T t) { t.edit(); };
 
 /// Takes elements out of one topology of a scene, with all that refers to them; the scene then has to be
 /// initialised again where touched() says. Triangles and quads that are the whole border of the volume, of a

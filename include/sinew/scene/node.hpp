@@ -34,11 +34,11 @@ struct BeforeStep;
 /// Stands for all components that have a reset(), whatever their roles.
 struct WithReset;
 template <class C, class... Roles>
-inline constexpr bool has_any_role = ((std::is_same_v<typename C::Role, Roles> ||
-                                       std::is_same_v<Roles, AnyRole> ||
-                                       (std::is_same_v<Roles, BeforeStep> && ActsBeforeStep<C>) ||
-                                       (std::is_same_v<Roles, WithReset> && Resettable<C>)) ||
-                                      ...);
+inline constexpr bool has_any_role =
+    ((std::is_same_v<typename C::Role, Roles> || std::is_same_v<Roles, AnyRole> ||
+      (std::is_same_v<Roles, BeforeStep> && ActsBeforeStep<C>) ||
+      (std::is_same_v<Roles, WithReset> && Resettable<C>)) ||
+     ...);
 
 /// Whether there may be a component with one of the roles in a subtree; runtime nodes may hold any.
 template <class N, class... Roles>
@@ -63,8 +63,7 @@ template <bool... Conditions>
 constexpr auto places_of() {
   return []<std::size_t... I>(std::index_sequence<I...>) {
     return std::index_sequence<true_at<Conditions...>[I]...>{};
-  }
-  (std::make_index_sequence<true_at<Conditions...>.size()>{});
+  }(std::make_index_sequence<true_at<Conditions...>.size()>{});
 }
 }  // namespace detail
 
@@ -120,8 +119,9 @@ struct NodeParts<hana::tuple<Cs...>, hana::tuple<Ns...>> {
   /// f(component, args...) for those with one of the roles of a RoleVisitor, in their order.
   template <class... Roles, class F, class... Args>
   void forEachComponent(RoleVisitor<F, Roles...> const& visitor, Args const&... args) {
-    [&]<std::size_t... I>(std::index_sequence<I...>) { (visitor.f(hana::at_c<I>(components), args...), ...); }
-    (which<Roles...>);
+    [&]<std::size_t... I>(std::index_sequence<I...>) {
+      (visitor.f(hana::at_c<I>(components), args...), ...);
+    }(which<Roles...>);
   }
 
   template <class R>

@@ -89,9 +89,8 @@ struct ScopeOf {
 template <class N, class A>
 struct ScopeBelow : ScopeOf<N, A> {};
 template <class Name, class Components, class Children, class A>
-requires(!A::profiled) struct ScopeBelow<Node<Name, Components, Children>, A>
-    : ScopeOf<NodeParts<Components, Children>, A> {
-};
+requires(!A::profiled)
+struct ScopeBelow<Node<Name, Components, Children>, A> : ScopeOf<NodeParts<Components, Children>, A> {};
 
 /// A node of a typed scene seen from the path that leads to it. All traversals, operations and solvers know a
 /// tree through these members only (RuntimeScope has the same); every choice here is made by the compiler.
@@ -255,8 +254,7 @@ struct Scope {
   void forEachChildReversed(F&& f) const {
     [&]<std::size_t... I>(std::index_sequence<I...>) {
       (visitChild<Roles...>(f, hana::at_c<sizeof...(I) - 1 - I>(node.children)), ...);
-    }
-    (std::make_index_sequence<std::size_t(N::childCount)>{});
+    }(std::make_index_sequence<std::size_t(N::childCount)>{});
   }
   /// What the compiler could not prove is checked at init: that of runtime nodes.
   void check() const {
@@ -301,8 +299,7 @@ struct Scope {
     [&]<FixedString... Paths>(Parents<Paths...>) {
       std::size_t k = 0;
       (reach<Paths>([&](auto const& parent) { f(k++, parent.stateScope()); }), ...);
-    }
-    (typename M::Parents{});
+    }(typename M::Parents{});
   }
   /// f(mapping, child, parent state) for the mapping of this node, or for each part of one with several
   /// parents; the child is a state or a visual model.

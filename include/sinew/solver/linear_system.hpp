@@ -24,9 +24,7 @@ struct GraphScattered {
 /// DataTypes that solve systems over their vectors by themselves (VectorOperations::solve), where the host
 /// would have to bring these vectors to its memory.
 template <class D>
-concept SolvesSystems = requires {
-  requires VectorOperations<D>::solvesSystems;
-};
+concept SolvesSystems = requires { requires VectorOperations<D>::solvesSystems; };
 
 /// Whether all states of a solver are over such; with `restart` their workspace is cleared.
 /// `assembled`: the solver forms a matrix.

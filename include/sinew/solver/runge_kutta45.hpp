@@ -99,7 +99,8 @@ struct RungeKutta45Solver {
         newX = pos;
         newX.peq(theta);
         operations.computeAcc(start + done + time[stage] * h, acc[stage], newX, newV);
-        if (stage < 6 && weight[6][stage] != 0) operations.acted.add(vec_id::force, weight[6][stage] * h / dt);
+        if (stage < 6 && weight[6][stage] != 0)
+          operations.acted.add(vec_id::force, weight[6][stage] * h / dt);
         operations.chartRate(k[stage].id, theta.id, newV.id);
       }
       double estimate = 0;

@@ -256,7 +256,8 @@ struct MechanicalObject {
 
 /// What says that DataTypes are missing, or are none.
 template <class D>
-requires(!IsDataTypes<D>) struct MechanicalObject<D> {
+requires(!IsDataTypes<D>)
+struct MechanicalObject<D> {
   static_assert(
       !std::is_same_v<D, D>,
       "Sinew: a MechanicalObject is over DataTypes; write MechanicalObject<Vec3d>{...}, or others of "

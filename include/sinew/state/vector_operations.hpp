@@ -29,7 +29,9 @@ auto flat(std::vector<Deriv> const& v) {
 /// The same of vectors that have a side on the host and one elsewhere.
 template <class V>
 requires requires(V& v) { v.host(); }
-auto flat(V& v) { return flat(v.host()); }
+auto flat(V& v) {
+  return flat(v.host());
+}
 
 // Eigen's sums over vectors of any length. With AVX-512 g++ 12 takes the undefined register of its own
 // intrinsics, which they are made of, for a bug (GCC bug 105593)

@@ -16,9 +16,7 @@ namespace sinew::gpu {
 namespace detail {
 
 template <class C>
-concept HasDeviceElements = requires(C c) {
-  c.driver.view();
-};
+concept HasDeviceElements = requires(C c) { c.driver.view(); };
 
 // f(component) for the force fields with elements on the device, or the masses, that act on a state itself,
 // in their order

@@ -24,9 +24,7 @@ struct CudaTypes : H {
 
 /// DataTypes whose vectors live on a device.
 template <class D>
-concept OnDevice = requires {
-  typename D::Host;
-};
+concept OnDevice = requires { typename D::Host; };
 
 using CudaVec3f = CudaTypes<Vec3f>;
 using CudaVec3d = CudaTypes<Vec3d>;

@@ -167,8 +167,7 @@ struct ElementDriver<LawOf, CudaTypes<H>, W> {
             }
           };
           (one.template operator()<P / arity, P % arity>(), ...);
-        }
-        (std::make_integer_sequence<int, arity * arity>{});
+        }(std::make_integer_sequence<int, arity * arity>{});
       }
     }
   }

@@ -177,7 +177,8 @@ struct OfOnePoint {
 }  // namespace gpu
 
 template <class In, class Out>
-requires(OnDevice<In> || OnDevice<Out>) struct MappedLoops<In, Out> {
+requires(OnDevice<In> || OnDevice<Out>)
+struct MappedLoops<In, Out> {
   gpu::PointLoops<In, Out> loops{};
 
   void init(std::size_t parents, std::size_t children) { loops.init(parents, children); }

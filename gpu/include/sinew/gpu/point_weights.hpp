@@ -113,7 +113,8 @@ struct PointWeights {
 }  // namespace gpu
 
 template <class In, class Out>
-requires(OnDevice<In> || OnDevice<Out>) struct SubsetLoops<In, Out> {
+requires(OnDevice<In> || OnDevice<Out>)
+struct SubsetLoops<In, Out> {
   gpu::PointWeights<In, Out> weights{};
 
   void init(std::size_t parents, std::vector<int> const& indices) {
@@ -131,7 +132,8 @@ requires(OnDevice<In> || OnDevice<Out>) struct SubsetLoops<In, Out> {
 };
 
 template <class In, class Out>
-requires(OnDevice<In> || OnDevice<Out>) struct CarriedPoints<In, Out> {
+requires(OnDevice<In> || OnDevice<Out>)
+struct CarriedPoints<In, Out> {
   using Carriers = std::vector<Carrier<typename In::Real>>;
   gpu::PointWeights<In, Out> weights{};
 

@@ -12,7 +12,8 @@ namespace sinew {
 /// and the bodies' vectors cross: positions down, and sums of loads up. On a device these are sums of pieces
 /// of at most 64 points, then of the pieces, in the order of the points.
 template <class In, class Out>
-requires(OnDevice<In> || OnDevice<Out>) struct RigidLoops<In, Out> {
+requires(OnDevice<In> || OnDevice<Out>)
+struct RigidLoops<In, Out> {
   using Coord = typename In::Coord;
   using Deriv = typename In::Deriv;
   using Device = std::conditional_t<OnDevice<In>, In, Out>;

@@ -27,8 +27,7 @@ void for_each_pair(F&& f) {
           if constexpr (i <= j) f.template operator()<i, j>();
         }(),
         ...);
-  }
-  (std::make_integer_sequence<int, Arity * Arity>{});
+  }(std::make_integer_sequence<int, Arity * Arity>{});
 }
 template <int Arity>
 constexpr int pair_number(int i, int j) {

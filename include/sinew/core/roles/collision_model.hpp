@@ -9,13 +9,9 @@ namespace sinew {
 // the rest: PointCollisionModel is the shortest.
 
 template <class C>
-concept SaysShape = requires {
-  C::shape;
-};
+concept SaysShape = requires { C::shape; };
 template <class C>
-concept HasSurface = requires(C c) {
-  c.surface.elements;
-};
+concept HasSurface = requires(C c) { c.surface.elements; };
 
 /// Primitives over the points of a state, at init; the rest is done with its `surface` (collision/).
 template <class C>
@@ -32,9 +28,10 @@ struct Promise<role::CollisionModel> : NoPromise {
                   "state whose points collide, such as Vec3d.");
     static_assert(!HasDataTypes<C> || HasInit<C>,
                   "Sinew: a collision model has no 'void init(InitContext<DataTypes> const& context)'.");
-    static_assert(SaysShape<C>,
-                  "Sinew: a collision model does not say what its primitives are; write 'static constexpr Shape "
-                  "shape = Shape::triangle;', or another shape.");
+    static_assert(
+        SaysShape<C>,
+        "Sinew: a collision model does not say what its primitives are; write 'static constexpr Shape "
+        "shape = Shape::triangle;', or another shape.");
     static_assert(HasSurface<C>,
                   "Sinew: a collision model has no 'CollisionSurface surface{}', its primitives.");
   };

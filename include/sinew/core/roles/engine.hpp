@@ -30,13 +30,9 @@ namespace sinew {
 //   };
 
 template <class C>
-concept HasOutputs = requires {
-  C::outputs();
-};
+concept HasOutputs = requires { C::outputs(); };
 template <class C>
-concept HasUpdate = requires(C c, std::string where) {
-  c.update(where);
-};
+concept HasUpdate = requires(C c, std::string where) { c.update(where); };
 
 /// Files to read and points to select, turned into data of other components before the scene starts:
 /// update(where) makes what outputs() lists, as fields() does, from the fields.

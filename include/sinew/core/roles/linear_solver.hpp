@@ -35,22 +35,18 @@ namespace sinew {
 
 /// Is called once, and where the pattern of the matrix has changed.
 template <class C>
-concept HasInitOfSystem = requires(C c, AnyOperations operations) {
-  c.init(operations);
-};
+concept HasInitOfSystem = requires(C c, AnyOperations operations) { c.init(operations); };
 
 template <class C>
-concept LinearSolver = HasRole<C, role::LinearSolver> && SaysAuxiliary<C> && HasInitOfSystem<C> &&
-    may_have<C>(named::solve<C>);
+concept LinearSolver =
+    HasRole<C, role::LinearSolver> && SaysAuxiliary<C> && HasInitOfSystem<C> && may_have<C>(named::solve<C>);
 
 // Hook:
 
 /// A linear solver that keeps a matrix, whose pattern is fixed at init and when contacts join other points;
 /// one that does not says so, `static constexpr bool needsPattern = false`.
 template <class C>
-inline constexpr bool needs_pattern = !requires {
-  requires !C::needsPattern;
-};
+inline constexpr bool needs_pattern = !requires { requires !C::needsPattern; };
 
 template <>
 struct Promise<role::LinearSolver> : NoPromise {

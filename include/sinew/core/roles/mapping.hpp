@@ -52,38 +52,32 @@ concept AppliesJT = requires(WorkShare part, typename C::In::VecDeriv in,
                              typename C::Out::VecDeriv const out) { part.applyJT(in, out); };
 /// May fill an empty child.
 template <class C>
-concept HasInitOfChild = HasInAndOut<C> &&
+concept HasInitOfChild =
+    HasInAndOut<C> &&
     requires(C c, InitContext<typename C::In> const parent, InitContext<typename C::Out> const child,
-             typename C::Out::VecCoord positions) {
-  c.init(parent, child, positions);
-};
+             typename C::Out::VecCoord positions) { c.init(parent, child, positions); };
 
 template <class C>
 concept Mapping = HasRole<C, role::Mapping> && HasInAndOut<C> && HasInitOfChild<C> && Applies<C, C> &&
-    AppliesJ<C, C> && AppliesJT<C, C>;
+                  AppliesJ<C, C> && AppliesJT<C, C>;
 
 /// A mapping with several parents, named by paths. It has a part for each, a mapping from that parent alone
 /// to those points of the child that follow it.
 template <class C>
-concept HasParents = HasRole<C, role::Mapping> && requires {
-  typename C::Parents;
-};
+concept HasParents = HasRole<C, role::Mapping> && requires { typename C::Parents; };
 /// As many parts as parents.
 template <class C>
-concept HasInitOfParents = HasInAndOut<C> &&
-    requires(C c, std::vector<InitContext<typename C::In>> const parents,
-             InitContext<typename C::Out> const child, typename C::Out::VecCoord positions) {
-  c.init(parents, child, positions);
-};
+concept HasInitOfParents =
+    HasInAndOut<C> && requires(C c, std::vector<InitContext<typename C::In>> const parents,
+                               InitContext<typename C::Out> const child,
+                               typename C::Out::VecCoord positions) { c.init(parents, child, positions); };
 template <class C>
-concept HasParts = requires(C c) {
-  c.parts[0];
-};
+concept HasParts = requires(C c) { c.parts[0]; };
 template <class C>
 using PartOf = std::decay_t<decltype(std::declval<C&>().parts[0])>;
 template <class C>
 concept MultiMapping = HasParents<C> && HasInAndOut<C> && HasInitOfParents<C> && HasParts<C> &&
-    Applies<PartOf<C>, C> && AppliesJ<PartOf<C>, C> && AppliesJT<PartOf<C>, C>;
+                       Applies<PartOf<C>, C> && AppliesJ<PartOf<C>, C> && AppliesJT<PartOf<C>, C>;
 
 // Hooks, what a mapping may have beside these:
 
@@ -91,18 +85,16 @@ concept MultiMapping = HasParents<C> && HasInAndOut<C> && HasInitOfParents<C> &&
 /// K_g = (dJ'/dx) f, at the force f on its child that updateK was given last. It also adds K_g to a matrix
 /// over the parent's degrees of freedom (AddsToMatrix). K_g is symmetric.
 template <class C>
-concept HasGeometricStiffness = HasInAndOut<C> &&
-    requires(C m, typename C::In::VecDeriv vi, typename C::Out::VecDeriv const vo) {
-  m.updateK(vo);
-  m.addKx(vi, vi, 1.0);  // df += k K_g dx
-};
+concept HasGeometricStiffness =
+    HasInAndOut<C> && requires(C m, typename C::In::VecDeriv vi, typename C::Out::VecDeriv const vo) {
+      m.updateK(vo);
+      m.addKx(vi, vi, 1.0);  // df += k K_g dx
+    };
 /// A mapping for which the elements of the topology in its node are over the points of its parent. Its points
 /// are elements of that topology, or of the parent's where the node has none: pointsThatStay(before, change)
 /// says which stay when elements are removed.
 template <class C>
-inline constexpr bool over_parent = requires {
-  C::overParent;
-};
+inline constexpr bool over_parent = requires { C::overParent; };
 /// f(point of the parent, block of J) for each block in the rows of a point: what solvers need that assemble
 /// a matrix.
 template <class WorkShare>
@@ -133,8 +125,8 @@ inline constexpr bool says_stiffness = named::updateK<C> || named::addKx<C>;
 template <>
 struct Promise<role::Mapping> : NoPromise {
   template <class C>
-  static constexpr bool kept = (Mapping<C> || MultiMapping<C>)&&is_called(detail::says_stiffness<C>,
-                                                                          HasGeometricStiffness<C>);
+  static constexpr bool kept =
+      (Mapping<C> || MultiMapping<C>)&&is_called(detail::says_stiffness<C>, HasGeometricStiffness<C>);
   template <class C>
   static constexpr bool assembled = detail::maps_in_matrix<C>();
 

@@ -33,34 +33,30 @@ namespace sinew {
 
 /// f += the weight, and gyroscopic forces of rigids.
 template <class C>
-concept HasWeight = HasDataTypes<C> &&
-    requires(C c, MechanicalParams const p, typename C::DataTypes::VecDeriv f,
-             typename C::DataTypes::VecCoord const x, typename C::DataTypes::VecDeriv const v) {
-  c.addForce(p, f, x, v);
-};
+concept HasWeight =
+    HasDataTypes<C> && requires(C c, MechanicalParams const p, typename C::DataTypes::VecDeriv f,
+                                typename C::DataTypes::VecCoord const x,
+                                typename C::DataTypes::VecDeriv const v) { c.addForce(p, f, x, v); };
 /// f += factor M dx.
 template <class C>
 concept HasAddMDx = HasDataTypes<C> &&
-    requires(C c, typename C::DataTypes::VecDeriv f, typename C::DataTypes::VecCoord const x,
-             typename C::DataTypes::VecDeriv const dx) {
-  c.addMDx(f, x, dx, 1.0);
-};
+                    requires(C c, typename C::DataTypes::VecDeriv f, typename C::DataTypes::VecCoord const x,
+                             typename C::DataTypes::VecDeriv const dx) { c.addMDx(f, x, dx, 1.0); };
 /// a = M^-1 f.
 template <class C>
-concept HasAccFromF = HasDataTypes<C> &&
+concept HasAccFromF =
+    HasDataTypes<C> &&
     requires(C c, typename C::DataTypes::VecDeriv a, typename C::DataTypes::VecCoord const x,
-             typename C::DataTypes::VecDeriv const f) {
-  c.accFromF(a, x, f);
-};
+             typename C::DataTypes::VecDeriv const f) { c.accFromF(a, x, f); };
 template <class C>
-concept HasKineticEnergy = HasDataTypes<C> &&
-    requires(C c, typename C::DataTypes::VecCoord const x, typename C::DataTypes::VecDeriv const v) {
+concept HasKineticEnergy = HasDataTypes<C> && requires(C c, typename C::DataTypes::VecCoord const x,
+                                                       typename C::DataTypes::VecDeriv const v) {
   { c.kineticEnergy(x, v) } -> std::convertible_to<double>;
 };
 
 template <class C>
 concept Mass = HasRole<C, role::Mass> && HasInit<C> && HasWeight<C> && HasAddMDx<C> && HasAccFromF<C> &&
-    HasKineticEnergy<C>;
+               HasKineticEnergy<C>;
 
 // Hooks, what a mass may have beside these:
 
@@ -71,15 +67,14 @@ concept HasExactInverse = requires(C c) {
 };
 /// p.m M, added block by block as sink.add(i, j, block): what solvers need that assemble a matrix.
 template <class C>
-concept AddsMassToMatrix = HasDataTypes<C> &&
-    requires(C c, MechanicalParams const p, typename C::DataTypes::VecCoord const x, AnySink const sink) {
-  c.addToMatrix(p, x, sink);
-};
+concept AddsMassToMatrix =
+    HasDataTypes<C> && requires(C c, MechanicalParams const p, typename C::DataTypes::VecCoord const x,
+                                AnySink const sink) { c.addToMatrix(p, x, sink); };
 
 template <>
 struct Promise<role::Mass> : NoPromise {
   template <class C>
-  static constexpr bool kept = Mass<C>&& is_called(named::exactInverse<C>, HasExactInverse<C>);
+  static constexpr bool kept = Mass<C> && is_called(named::exactInverse<C>, HasExactInverse<C>);
   template <class C>
   static constexpr bool assembled = AddsMassToMatrix<C>;
 

@@ -22,11 +22,9 @@ struct BesideAllNames : C, AllNames {};
 /// Whether a component has a member of this name, be it a value, a function, or a template with whatever
 /// arguments: named::addForce<C>. Of a final class nothing is known, and it is false.
 namespace named {
-#define SINEW_SHORT_NAME(name)                                    \
-  template <class C>                                              \
-  inline constexpr bool name = !std::is_final_v<C> && !requires { \
-    &detail::BesideAllNames<C>::name;                             \
-  };
+#define SINEW_SHORT_NAME(name) \
+  template <class C>           \
+  inline constexpr bool name = !std::is_final_v<C> && !requires { &detail::BesideAllNames<C>::name; };
 #define SINEW_NAME(name, lower, underscored) \
   SINEW_SHORT_NAME(name)                     \
   SINEW_SHORT_NAME(lower)                    \

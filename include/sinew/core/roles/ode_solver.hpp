@@ -27,18 +27,12 @@ namespace sinew {
 
 /// Whether it solves linear systems, and so needs a linear solver.
 template <class C>
-concept SaysImplicit = requires {
-  requires std::convertible_to<decltype(C::implicit), bool>;
-};
+concept SaysImplicit = requires { requires std::convertible_to<decltype(C::implicit), bool>; };
 /// How many auxiliary vectors it takes from the pool at the same time.
 template <class C>
-concept SaysAuxiliary = requires {
-  requires std::convertible_to<decltype(C::auxiliary), Auxiliary>;
-};
+concept SaysAuxiliary = requires { requires std::convertible_to<decltype(C::auxiliary), Auxiliary>; };
 template <class C>
-concept Integrates = requires(C c, AnyOperations operations) {
-  c.solve(operations, 0.0);
-};
+concept Integrates = requires(C c, AnyOperations operations) { c.solve(operations, 0.0); };
 
 /// `convergenceOrder`, that of the error in time with its settings as they are by default, is proved in
 /// tests/validation; 0 for one that does not integrate.
@@ -49,14 +43,10 @@ concept OdeSolver = HasRole<C, role::OdeSolver> && SaysImplicit<C> && SaysAuxili
 
 /// It does not integrate but changes the state after the solver that stands before it in its node.
 template <class C>
-inline constexpr bool stands_beside = requires {
-  requires C::beside;
-};
+inline constexpr bool stands_beside = requires { requires C::beside; };
 /// An explicit one that takes a linear solver where masses are not diagonal: `solvesMass`.
 template <class C>
-concept SolvesMass = requires {
-  C::solvesMass;
-};
+concept SolvesMass = requires { C::solvesMass; };
 
 template <>
 struct Promise<role::OdeSolver> : NoPromise {

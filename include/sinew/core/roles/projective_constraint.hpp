@@ -20,13 +20,11 @@ namespace sinew {
 
 /// dx without its forbidden part.
 template <class C>
-concept HasProjectResponse = HasDataTypes<C> && requires(C c, typename C::DataTypes::VecDeriv dx) {
-  c.projectResponse(dx);
-};
+concept HasProjectResponse =
+    HasDataTypes<C> && requires(C c, typename C::DataTypes::VecDeriv dx) { c.projectResponse(dx); };
 template <class C>
-concept HasProjectResponseOfTwo = HasDataTypes<C> && requires(C c, typename C::DataTypes::VecDeriv dx) {
-  c.projectResponse(dx, dx);
-};
+concept HasProjectResponseOfTwo =
+    HasDataTypes<C> && requires(C c, typename C::DataTypes::VecDeriv dx) { c.projectResponse(dx, dx); };
 
 template <class C>
 concept ProjectiveConstraint =
@@ -40,28 +38,31 @@ concept InteractionConstraint =
 
 /// Points that move on a prescribed path or stay on a surface, at the time t at the end of a step.
 template <class C>
-concept HasProjectPosition = HasDataTypes<C> &&(
-    requires(C c, double t, typename C::DataTypes::VecCoord x) { c.projectPosition(t, x); } ||
-    requires(C c, double t, typename C::DataTypes::VecCoord x) { c.projectPosition(t, x, x); });
+concept HasProjectPosition =
+    HasDataTypes<C> &&
+    (
+        requires(C c, double t, typename C::DataTypes::VecCoord x) { c.projectPosition(t, x); } ||
+        requires(C c, double t, typename C::DataTypes::VecCoord x) { c.projectPosition(t, x, x); });
 template <class C>
-concept HasProjectVelocity = HasDataTypes<C> &&(
-    requires(C c, double t, typename C::DataTypes::VecDeriv v) { c.projectVelocity(t, v); } ||
-    requires(C c, double t, typename C::DataTypes::VecDeriv v) { c.projectVelocity(t, v, v); });
+concept HasProjectVelocity =
+    HasDataTypes<C> &&
+    (
+        requires(C c, double t, typename C::DataTypes::VecDeriv v) { c.projectVelocity(t, v); } ||
+        requires(C c, double t, typename C::DataTypes::VecDeriv v) { c.projectVelocity(t, v, v); });
 /// Accelerations M^-1 f that it allows, where these are others than their projection.
 template <class C>
-concept HasProjectAcceleration = HasDataTypes<C> &&(
-    requires(C c, typename C::DataTypes::VecDeriv a) { c.projectAcceleration(a); } ||
-    requires(C c, typename C::DataTypes::VecDeriv a) { c.projectAcceleration(a, a); });
+concept HasProjectAcceleration =
+    HasDataTypes<C> && (
+                           requires(C c, typename C::DataTypes::VecDeriv a) { c.projectAcceleration(a); } ||
+                           requires(C c, typename C::DataTypes::VecDeriv a) { c.projectAcceleration(a, a); });
 template <class C>
 concept ProjectsAsSaid = is_called(named::projectPosition<C>, HasProjectPosition<C>) &&
-    is_called(named::projectVelocity<C>, HasProjectVelocity<C>) &&
-    is_called(named::projectAcceleration<C>, HasProjectAcceleration<C>);
+                         is_called(named::projectVelocity<C>, HasProjectVelocity<C>) &&
+                         is_called(named::projectAcceleration<C>, HasProjectAcceleration<C>);
 /// A = P A P + (I - P), by sink.fix(point) or sink.project(point, P): what solvers need that assemble a
 /// matrix.
 template <class C>
-concept ProjectsMatrix = requires(C c, AnySink const sink) {
-  c.projectMatrix(sink);
-};
+concept ProjectsMatrix = requires(C c, AnySink const sink) { c.projectMatrix(sink); };
 
 template <>
 struct Promise<role::ProjectiveConstraint> : NoPromise {

@@ -20,15 +20,13 @@ namespace sinew {
 /// endStep(step, state, kineticEnergy) after each step, where kineticEnergy() is that of the state's mass. It
 /// may have finish(), which Simulation::finish() calls.
 template <class C>
-concept WatchesState = HasRole<C, role::StepCallback> && requires {
-  typename C::DataTypes;
-};
+concept WatchesState = HasRole<C, role::StepCallback> && requires { typename C::DataTypes; };
 
 /// It watches a state, or has call(StepInfo const&), or call(StepInfo const&, node).
 template <class C>
-concept StepCalled = HasRole<C, role::StepCallback> &&
-    ((WatchesState<C> && HasInit<C> && may_have<C>(named::endStep<C>)) ||
-     (!WatchesState<C> && may_have<C>(named::call<C>)));
+concept StepCalled =
+    HasRole<C, role::StepCallback> && ((WatchesState<C> && HasInit<C> && may_have<C>(named::endStep<C>)) ||
+                                       (!WatchesState<C> && may_have<C>(named::call<C>)));
 
 template <>
 struct Promise<role::StepCallback> : NoPromise {

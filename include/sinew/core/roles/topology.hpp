@@ -28,9 +28,7 @@ concept HasView = requires(C const c) {
 };
 /// Checks its elements against the points of the state.
 template <class C>
-concept HasInitOnPoints = requires(C c, InitContext<Vec3d> const context) {
-  c.init(context);
-};
+concept HasInitOnPoints = requires(C c, InitContext<Vec3d> const context) { c.init(context); };
 
 template <class C>
 concept Topology = HasRole<C, role::Topology> && HasView<C> && HasInitOnPoints<C>;
@@ -39,14 +37,10 @@ concept Topology = HasRole<C, role::Topology> && HasView<C> && HasInitOnPoints<C
 
 /// Makes its points and elements before all else.
 template <class C>
-concept Generates = requires(C c, std::string_view where) {
-  c.generate(where);
-};
+concept Generates = requires(C c, std::string_view where) { c.generate(where); };
 /// Its elements may be removed while the scene runs: edit(), its ElementLists.
 template <class C>
-concept Editable = requires(C c) {
-  c.edit();
-};
+concept Editable = requires(C c) { c.edit(); };
 /// What asks for tetrahedra finds them here: `static constexpr bool hasTetrahedra = true`.
 template <class C>
 concept MayHaveTetrahedra = requires { C::mayHaveTetrahedra; };

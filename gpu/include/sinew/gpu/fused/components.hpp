@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <sinew/core/component.hpp>
 #include <sinew/context/gravity.hpp>
+#include <sinew/core/component.hpp>
 #include <sinew/solver/cg_linear_solver.hpp>
 #include <sinew/solver/euler_implicit.hpp>
 

@@ -21,9 +21,8 @@ namespace detail {
 /// there for it (128 and 168).
 inline constexpr int cluster_threads = 512, grid_threads = 384;
 template <class Body, int Registers>
-inline constexpr int kept_in = std::min(Body::keptEntries,
-                                        Registers /
-                                            (Body::components * int(sizeof(typename Body::Real) / 4)));
+inline constexpr int kept_in =
+    std::min(Body::keptEntries, Registers / (Body::components * int(sizeof(typename Body::Real) / 4)));
 
 template <int Lanes, class Body>
 using FusedCluster = ClusterTeam<Lanes, kept_in<Body, 36>>;

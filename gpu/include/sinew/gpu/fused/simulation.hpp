@@ -207,8 +207,9 @@ class FusedSimulation {
   template <class F>
   void withFields(All const& all, F&& f) {
     const auto fields = fieldsOf(all);
-    [&]<std::size_t... I>(std::index_sequence<I...>) { (f(std::get<I>(fields_), *std::get<I>(fields)), ...); }
-    (std::make_index_sequence<std::tuple_size_v<Data>>{});
+    [&]<std::size_t... I>(std::index_sequence<I...>) {
+      (f(std::get<I>(fields_), *std::get<I>(fields)), ...);
+    }(std::make_index_sequence<std::tuple_size_v<Data>>{});
   }
   template <class Elements>
   static void addNeighbours(std::vector<std::vector<int>>& neighbours, Elements const& elements) {
