@@ -102,7 +102,7 @@ TEST_CASE("TextReader refuses with path and line") {
              "found \"a??b\"");
   check_says(error_of([&] { in(std::string(100, 'y')).integer("a tag"); }),
              "p.msh:1",
-             std::string(40, 'y') + "...\"");
+             std::string(40, 'y').append("...\""));
   check_says(error_of([&] { in("5").index(5); }), "p.msh:1", "point 5 is not among the 5 points");
   check_says(error_of([&] { in("-1").index(5); }), "p.msh:1", "point -1 is not");
   check_says(error_of([&] { in("text\n\n\x02").rejectBinary(); }), "p.msh:3", "byte 2");

@@ -180,16 +180,14 @@ struct ElementDriver {
       }
     } else if constexpr (Sink::phase != AssemblyPhase::bind) {
       if (part.index > 0 || part.deferred) return;
-      if constexpr (within)
+      if constexpr (within) {
         for (Pack const& pack : packs)
           for (int i = 0; i < arity; ++i)
             for (int j = i; j < arity; ++j) detail::add_pair<0, 0, D::size>(law, sink, pack, i, j, k, b);
-      else
-        for (Pack const& pack : packs)
-          detail::for_each_pair<arity>([&]<int I, int J>() {
-            constexpr std::array<int, std::size_t(arity)> side{SideOf...};
-            detail::add_pair<side[I], side[J], D::size>(law, sink, pack, I, J, k, b);
-          });
+      } else {
+        using Sides = std::integer_sequence<int, SideOf...>;
+        for (Pack const& pack : packs) detail::add_between<Sides, D::size>(law, sink, pack, k, b);
+      }
     }
   }
 

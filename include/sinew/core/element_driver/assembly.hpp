@@ -123,6 +123,19 @@ void add_pair(Law const& law, Sink const& sink, Pack const& pack, int i, int j, 
   }
 }
 
+// all blocks of elements whose point i is on the end Sides[i]
+template <int... Side>
+constexpr int side_of(std::integer_sequence<int, Side...>, int i) {
+  constexpr int sides[]{Side...};
+  return sides[i];
+}
+template <class Sides, int N, class Law, class Sink, class Pack, class Real>
+void add_between(Law const& law, Sink const& sink, Pack const& pack, Real k, Real b) {
+  for_each_pair<Pack::arity>([&]<int I, int J>() {
+    add_pair<side_of(Sides{}, I), side_of(Sides{}, J), N>(law, sink, pack, I, J, k, b);
+  });
+}
+
 // all blocks of an element that is alone in its pack, to their slots
 template <int N, class Law, class Pack, class Slots, class Matrix, class Real>
 void add_blocks_of_one(Law const& law, Pack const& pack, Slots const& slots, Matrix& matrix, Real k, Real b) {
