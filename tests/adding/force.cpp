@@ -16,7 +16,7 @@ TEST_CASE("the law suite proves the force that CONTRIBUTING.md adds") {
   laws::check_force_fields<Registry<GreenSpringForceField<Vec3d>>, Vec3d>();
 }
 TEST_CASE("the contact manager of scene files has the response that CONTRIBUTING.md adds") {
-  CHECK(DefaultContactManager::find("ElasticContact") >= 0);
+  CHECK(DefaultContactManager::All::find("ElasticContact") >= 0);
 }
 
 }  // namespace test_force
