@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/platform.hpp>
+
 namespace sinew {
 
 /// What the primitives of a collision model are: the convex hull of a rigid, simplices over one, two or three

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/platform.hpp>
+
 namespace sinew {
 
 /// Of an isotropic linear material: stress = 2 mu e + lambda tr(e) I                                [Pa]

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/compiled.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <sinew/core/compiled.hpp>
-#include <sinew/core/platform.hpp>
 #include <string>
 #include <string_view>
 

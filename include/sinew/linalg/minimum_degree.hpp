@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/compiled.hpp>
+
 #include <algorithm>
 #include <cstddef>
-#include <sinew/core/compiled.hpp>
-#include <sinew/core/platform.hpp>
 #include <span>
 #include <vector>
 
