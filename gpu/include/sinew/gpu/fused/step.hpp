@@ -60,19 +60,23 @@ class FusedStep {
   typename Team::Column* const column = reinterpret_cast<typename Team::Column*>(
       vectors + (Team::global ? 0 : 2 * 3 * std::ptrdiff_t(body.longestVector)));
 
-  const int begin = body.rowBegin[team.rank], rows = body.rowBegin[team.rank + 1] - begin;
+  const int begin = body.rowBegin[team.rank], rows = rowsOf(team, body);
   const std::ptrdiff_t nodes = body.rows;
   Coord* const x = body.x + copy * nodes;
   Deriv* const v = body.v + copy * nodes;
   const Deriv gravity = body.gravity[copy];
   const Real h = body.h, kFactor = -h * (h + body.rayleighStiffness), bFactor = -h;
 
-  typename Team::template Rows<Own> own;
+  typename Team::template Rows<Own>& own;  // not a member: as a part of this it is not kept in registers
   int parity = 0;  // which of the two vectors: nobody writes what another may still read
 
  public:
-  SINEW_INLINE FusedStep(Team const& team_, Body const& body_, unsigned char* shared)
-      : team(team_), body(body_), buffer(reinterpret_cast<double*>(shared)), own(rows) {}
+  using Rows = typename Team::template Rows<Own>;
+  static SINEW_INLINE int rowsOf(Team const& team, Body const& body) {
+    return body.rowBegin[team.rank + 1] - body.rowBegin[team.rank];
+  }
+  SINEW_INLINE FusedStep(Team const& team_, Body const& body_, unsigned char* shared, Rows& own_)
+      : team(team_), body(body_), buffer(reinterpret_cast<double*>(shared)), own(own_) {}
 
   /// What stays the same in all steps: the rows of this block, where their entries are, who is sent them.
   SINEW_INLINE void takeRows() {
@@ -353,7 +357,9 @@ class FusedStep {
 
 template <class Team, class Body>
 SINEW_HD void fused_steps(Team const& team, Body const& body, unsigned char* shared) {
-  FusedStep<Team, Body> all(team, body, shared);
+  using Steps = FusedStep<Team, Body>;
+  typename Steps::Rows own(Steps::rowsOf(team, body));
+  Steps all(team, body, shared, own);
   all.takeRows();
   for (int step = 1; step <= body.steps; ++step) {
     all.findForces();
