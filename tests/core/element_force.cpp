@@ -168,7 +168,7 @@ TEST_CASE("a force with functions of its own moves as an element force does") {
     for (std::size_t i = 0; i < 2; ++i) CHECK((a.first[i] - b.first[i]).norm() < 1e-12);
     CHECK(a.second == Approx(b.second));
   };
-  const CGLinearSolver iterative{.iterations = 50, .tolerance = 1e-14};
+  const CGLinearSolver<> iterative{.iterations = 50, .tolerance = 1e-14};
   near(swinging(thread, iterative), swinging(own, iterative));
   near(swinging(thread, SparseLDLSolver<CompressedRowSparseMatrixMat3x3d>{}),
        swinging(own, SparseLDLSolver<CompressedRowSparseMatrixMat3x3d>{}));

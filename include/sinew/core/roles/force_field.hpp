@@ -124,8 +124,9 @@ struct Promise<role::ForceField> : NoPromise {
   };
   template <class C>
   struct NotAssembled {
+    static constexpr bool adds = AddsToMatrix<C>;  // compilers explain a concept at length
     static_assert(
-        AddsToMatrix<C>,
+        adds,
         "Sinew: a force field is under a linear solver that assembles a matrix, and has no 'template "
         "<class Sink> void addToMatrix(MechanicalParams const& p, Sink const& sink)', which adds "
         "p.k df/dx + p.b df/dv by sink.add(i, j, block); add it, or take CGLinearSolver<> without a "

@@ -89,8 +89,9 @@ struct Promise<role::InteractionForceField> : NoPromise {
   };
   template <class C>
   struct NotAssembled {
+    static constexpr bool adds = AddsToMatrix<C>;  // compilers explain a concept at length
     static_assert(
-        AddsToMatrix<C>,
+        adds,
         "Sinew: an interaction is under a linear solver that assembles a matrix, and has no 'template "
         "<class Sink> void addToMatrix(MechanicalParams const& p, Sink const& sink)', which adds its "
         "blocks by sink.template add<0, 1>(i, j, block); add it, or take CGLinearSolver<> without a "
