@@ -60,11 +60,10 @@ class RuntimeNode {
   static_assert(lack != detail::Lack::className,
                 "Sinew: a class of a registry has no className, by which scene files know it; write 'static "
                 "constexpr std::string_view className = \"MyForce\";'.");
-  static_assert(
-      lack != detail::Lack::fields,
-      "Sinew: a class of a registry has no fields() of its own; write 'static constexpr auto fields() "
-      "{ return field_list(field(\"stiffness\", &MyForce::stiffness, \"N/m\", \"of a spring\")); "
-      "}'.");
+  static_assert(lack != detail::Lack::fields,
+                "Sinew: a class of a registry has no fields(); write 'static constexpr auto fields() "
+                "{ return field_list(field(\"stiffness\", &MyForce::stiffness, \"N/m\", \"of a spring\")); "
+                "}'.");
 
  public:
   using Entry = RuntimeEntry<R>;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// expect: Sinew: a class of a registry has no fields() of its own
+// expect: Sinew: a class of a registry has no fields()
 #include <sinew/mass/uniform_mass.hpp>
 #include <sinew/runtime/node.hpp>
 
