@@ -45,8 +45,11 @@ TEST_CASE("a mass of 2 kg on a rail is stopped, held, or let go") {
   ConstraintSweeps sweeps;
   auto f = [&](double free, ConstraintBlock const& block) {
     ConstraintProblem p = problem_of(W, Eigen::VectorXd::Constant(1, free), {block});
+    ConstraintProblem q = p;
     CHECK(sweeps.gaussSeidel(p, exact, "test").converged);
     CHECK(p.residual() < 1e-12);
+    CHECK(sweeps.jacobi(q, exact, 0.5, "test").converged);
+    CHECK(q.multipliers[0] == Approx(p.multipliers[0]).margin(1e-11));
     return p.multipliers[0];
   };
   CHECK(f(-3, ConstraintBlock::equality(0, 1)) == Approx(6));
@@ -169,6 +172,26 @@ TEST_CASE("iterations that do not suffice say so, with what is left") {
   CHECK_FALSE(result.converged);
   CHECK(result.iterations == 2);
   CHECK(result.error > 1e-12);
+
+  // what is left is inside the cones, whatever the method
+  ConstraintProblem q = random_contacts(12, 0.3, 1);
+  CHECK_FALSE(
+      sweeps.nonsmoothConjugateGradients(q, {.maxIterations = 5, .tolerance = 1e-12}, "test").converged);
+  for (int c = 0; c < 12; ++c) {
+    const Eigen::Vector3d f = q.multipliers.segment<3>(3 * c);
+    CHECK(f.tail<2>().norm() <= 0.3 * f[0] + 1e-15);
+  }
+}
+
+TEST_CASE("a problem that is solved ends at once, with a tolerance of zero") {
+  ConstraintSweeps sweeps;
+  ConstraintProblem p = problem_of(ConstraintProblem::Matrix::Identity(2, 2),
+                                   Eigen::Vector2d(-1, 1),
+                                   {ConstraintBlock::unilateral(0), ConstraintBlock::unilateral(1)});
+  const SweepSettings settings{.maxIterations = 10, .tolerance = 0};
+  CHECK(sweeps.nonsmoothConjugateGradients(p, settings, "test").iterations == 2);
+  CHECK(p.multipliers == Eigen::Vector2d(1, 0));
+  CHECK(sweeps.gaussSeidel(p, settings, "test").iterations == 1);
 }
 
 TEST_CASE("problems that cannot be solved are refused, with their rows") {

@@ -12,7 +12,8 @@ namespace sinew {
 /// When the iterations over the blocks of constraints end.
 struct SweepSettings {
   int maxIterations = 1000;
-  /// Of the sum over the blocks of |W_bb (f_b - f_b before)|, in the unit of the violation.
+  /// Of the sum over the rows i of sqrt(sum_j (W_ij (f_j - f_j before))^2), j in the block of i, in the unit
+  /// of the violation.
   double tolerance = 1e-3;
   bool scaleTolerance = true;  // times the number of rows
   bool allVerified = false;    // no row may change by more than the tolerance, instead of the sum
@@ -57,12 +58,18 @@ class ConstraintSweeps {
                                                             : settings.tolerance;
   }
   // f of a block from the violation d that it has with all multipliers as they are
-  void solveBlock(ConstraintProblem& problem, std::size_t number, Few& d) const;
+  // `weight`: of the violation, and so of the ends of intervals
+  void solveBlock(ConstraintProblem& problem, std::size_t number, Few& d, double weight = 1) const;
 
   struct Change {
     double sum = 0, largest = 0;  // over blocks; of one row
-    bool within(double tolerance, bool each) const { return each ? largest <= tolerance : sum < tolerance; }
   };
+  // what is left of the problem by this change, into the result
+  static void judge(SweepResult& result, Change const& change, ConstraintProblem const& problem,
+                    SweepSettings const& settings) {
+    result.error = settings.allVerified ? change.largest : change.sum;
+    result.converged = result.error <= limit(problem, settings);
+  }
   static void add(Change& change, ConstraintProblem const& problem, ConstraintBlock const& block,
                   Few const& step);
   Change sweep(ConstraintProblem& problem) const;
@@ -87,7 +94,8 @@ inline void ConstraintSweeps::begin(ConstraintProblem const& problem, std::strin
   }
 }
 
-inline void ConstraintSweeps::solveBlock(ConstraintProblem& problem, std::size_t number, Few& d) const {
+inline void ConstraintSweeps::solveBlock(ConstraintProblem& problem, std::size_t number, Few& d,
+                                         double weight) const {
   ConstraintBlock const& b = problem.blocks[number];
   auto const& W = problem.compliance;
   Eigen::VectorXd& f = problem.multipliers;
@@ -98,7 +106,7 @@ inline void ConstraintSweeps::solveBlock(ConstraintProblem& problem, std::size_t
       break;
     case ConstraintBlock::Kind::interval: {
       const double without = d[0] - W(i, i) * f[i];
-      f[i] = (std::clamp(without, b.lower, b.upper) - without) / W(i, i);
+      f[i] = (std::clamp(without, weight * b.lower, weight * b.upper) - without) / W(i, i);
       break;
     }
     case ConstraintBlock::Kind::friction: {
@@ -149,7 +157,6 @@ inline SweepResult ConstraintSweeps::gaussSeidel(ConstraintProblem& problem, Swe
   begin(problem, where);
   SweepResult result;
   if (problem.rows() == 0) return result;
-  const double tolerance = limit(problem, settings);
   result.converged = false;
   while (result.iterations < settings.maxIterations && !result.converged) {
     last_ = problem.multipliers;
@@ -157,8 +164,7 @@ inline SweepResult ConstraintSweeps::gaussSeidel(ConstraintProblem& problem, Swe
     if (settings.relaxation != 1)
       problem.multipliers = settings.relaxation * problem.multipliers + (1 - settings.relaxation) * last_;
     ++result.iterations;
-    result.error = change.sum;
-    result.converged = change.within(tolerance, settings.allVerified);
+    judge(result, change, problem, settings);
   }
   return result;
 }
@@ -169,21 +175,18 @@ inline SweepResult ConstraintSweeps::nonsmoothConjugateGradients(ConstraintProbl
   begin(problem, where);
   SweepResult result;
   if (problem.rows() == 0) return result;
-  const double tolerance = limit(problem, settings);
   last_ = problem.multipliers;
-  sweep(problem);
+  judge(result, sweep(problem), problem, settings);
+  result.iterations = 1;
   change_ = problem.multipliers - last_;  // minus the gradient
   direction_ = change_;
   double squared = change_.squaredNorm();
-  result.iterations = 1;
-  result.converged = squared == 0;
   while (result.iterations < settings.maxIterations && !result.converged) {
     last_ = problem.multipliers;
     const Change change = sweep(problem);
     ++result.iterations;
-    result.error = change.sum;
-    result.converged = change.within(tolerance, settings.allVerified);
-    if (result.converged) break;
+    judge(result, change, problem, settings);
+    if (result.converged || result.iterations == settings.maxIterations) break;  // both end with a sweep
     change_ = problem.multipliers - last_;
     const double next = change_.squaredNorm(), beta = next / squared;
     squared = next;
@@ -202,7 +205,6 @@ inline SweepResult ConstraintSweeps::jacobi(ConstraintProblem& problem, SweepSet
   begin(problem, where);
   SweepResult result;
   if (problem.rows() == 0) return result;
-  const double tolerance = limit(problem, settings);
   result.converged = false;
   while (result.iterations < settings.maxIterations && !result.converged) {
     violation_ = problem.freeViolation;
@@ -212,12 +214,11 @@ inline SweepResult ConstraintSweeps::jacobi(ConstraintProblem& problem, SweepSet
       ConstraintBlock const& b = problem.blocks[k];
       const Few before = problem.multipliers.segment(b.first, b.rows);
       Few d = weight * violation_.segment(b.first, b.rows);
-      solveBlock(problem, k, d);
+      solveBlock(problem, k, d, weight);
       add(change, problem, b, problem.multipliers.segment(b.first, b.rows) - before);
     }
     ++result.iterations;
-    result.error = change.sum;
-    result.converged = change.within(tolerance, settings.allVerified);
+    judge(result, change, problem, settings);
   }
   return result;
 }

@@ -328,7 +328,8 @@ constexpr auto scene() {
   }
 }
 
-/// Whether all components of a node and below keep their promises; of runtime nodes, their registry says so.
+/// Whether all components of a node and below keep their promises. Of runtime nodes nothing is asked here:
+/// their registry checks roles, names and fields (runtime/node.hpp).
 template <class N>
 inline constexpr bool all_kept = true;
 template <class Name, class... Cs, class... Ns>

@@ -62,9 +62,9 @@ class AddedPoints {
   }
 };
 
-/// Rotates the points 1, 2, 3 of a tetrahedron so that of the four tetrahedra that subdivision puts around
-/// the line from amid 0 and 2 to amid 1 and 3, all of one volume, the worst, with the longest edges, is as
-/// good as it can be.
+/// Permutes the points 1, 2, 3 of a tetrahedron cyclically so that of the four tetrahedra that subdivision
+/// puts around the line from the midpoint of 0 and 2 to that of 1 and 3, all of one volume, the worst, with
+/// the longest edges, is as good as it can be.
 inline void choose_diagonal(Tetrahedron& t, std::vector<Eigen::Vector3d> const& positions) {
   auto worst = [&](Tetrahedron const& u) {
     auto midpoint = [&](std::size_t i, std::size_t j) -> Eigen::Vector3d {

@@ -38,7 +38,7 @@ namespace sinew {
 /// A force that is its fields, a list of elements and their law: `driver`, an ElementDriver made by init.
 /// law() is the law with its settings, where it has any; law<L>() where it may be asked for lanes or one
 /// element at a time. What forces do is in core/element_force.hpp; the functions that other forces have are
-/// left to it.
+/// left to it, unless the component has one of its own.
 template <class C>
 concept ElementForce = requires {
   typename C::Driver::Law;
@@ -47,19 +47,20 @@ concept ElementForce = requires {
 
 /// f += the forces at (x, v).
 template <class C>
-concept HasAddForce =
-    ElementForce<C> || requires(C c, MechanicalParams const p, typename C::DataTypes::VecDeriv f,
-                                typename C::DataTypes::VecCoord const x,
-                                typename C::DataTypes::VecDeriv const v) { c.addForce(p, f, x, v); };
+concept HasAddForce = (ElementForce<C> && !named::addForce<C>) ||
+                      requires(C c, MechanicalParams const p, typename C::DataTypes::VecDeriv f,
+                               typename C::DataTypes::VecCoord const x,
+                               typename C::DataTypes::VecDeriv const v) { c.addForce(p, f, x, v); };
 /// df += (k K + b B) dx at the last addForce.
 template <class C>
-concept HasAddDForce =
-    ElementForce<C> || requires(C c, MechanicalParams const p, typename C::DataTypes::VecDeriv df,
+concept HasAddDForce = (ElementForce<C> && !named::addDForce<C>) ||
+                       requires(C c, MechanicalParams const p, typename C::DataTypes::VecDeriv df,
                                 typename C::DataTypes::VecDeriv const dx) { c.addDForce(p, df, dx); };
 template <class C>
-concept HasPotentialEnergy = ElementForce<C> || requires(C c, typename C::DataTypes::VecCoord const x) {
-  { c.potentialEnergy(x) } -> std::convertible_to<double>;
-};
+concept HasPotentialEnergy = (ElementForce<C> && !named::potentialEnergy<C>) ||
+                             requires(C c, typename C::DataTypes::VecCoord const x) {
+                               { c.potentialEnergy(x) } -> std::convertible_to<double>;
+                             };
 
 template <class C>
 concept PlainForce = HasAddForce<C> && HasAddDForce<C> && HasPotentialEnergy<C>;
@@ -72,9 +73,9 @@ concept ForceField = HasRole<C, role::ForceField> && HasInit<C> && PlainForce<C>
 /// K = k df/dx + b df/dv at the last addForce, added block by block as sink.add(i, j, block): what solvers
 /// need that assemble a matrix.
 template <class C>
-concept AddsToMatrix = ElementForce<C> || requires(C c, MechanicalParams const p, AnySink const sink) {
-  c.addToMatrix(p, sink);
-};
+concept AddsToMatrix =
+    (ElementForce<C> && !named::addToMatrix<C>) ||
+    requires(C c, MechanicalParams const p, AnySink const sink) { c.addToMatrix(p, sink); };
 
 /// A force that does not depend on positions and velocities: no matrix has anything of it.
 template <class C>

@@ -39,17 +39,20 @@ concept HasEnds = requires { typename C::Ends; };
 /// The same as those of a force field, each with the vectors of both states.
 template <class C>
 concept HasAddForceOfTwo =
-    ElementForce<C> || requires(C c, MechanicalParams const p, typename C::DataTypes::VecDeriv f,
-                                typename C::DataTypes::VecCoord const x,
-                                typename C::DataTypes::VecDeriv const v) { c.addForce(p, f, f, x, x, v, v); };
+    (ElementForce<C> && !named::addForce<C>) ||
+    requires(C c, MechanicalParams const p, typename C::DataTypes::VecDeriv f,
+             typename C::DataTypes::VecCoord const x,
+             typename C::DataTypes::VecDeriv const v) { c.addForce(p, f, f, x, x, v, v); };
 template <class C>
 concept HasAddDForceOfTwo =
-    ElementForce<C> || requires(C c, MechanicalParams const p, typename C::DataTypes::VecDeriv df,
-                                typename C::DataTypes::VecDeriv const dx) { c.addDForce(p, df, df, dx, dx); };
+    (ElementForce<C> && !named::addDForce<C>) ||
+    requires(C c, MechanicalParams const p, typename C::DataTypes::VecDeriv df,
+             typename C::DataTypes::VecDeriv const dx) { c.addDForce(p, df, df, dx, dx); };
 template <class C>
-concept HasPotentialEnergyOfTwo = ElementForce<C> || requires(C c, typename C::DataTypes::VecCoord const x) {
-  { c.potentialEnergy(x, x) } -> std::convertible_to<double>;
-};
+concept HasPotentialEnergyOfTwo = (ElementForce<C> && !named::potentialEnergy<C>) ||
+                                  requires(C c, typename C::DataTypes::VecCoord const x) {
+                                    { c.potentialEnergy(x, x) } -> std::convertible_to<double>;
+                                  };
 
 template <class C>
 concept InteractionForceField = HasRole<C, role::InteractionForceField> && HasEnds<C> && HasInitOfTwo<C> &&

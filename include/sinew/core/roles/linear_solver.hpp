@@ -61,7 +61,7 @@ struct Promise<role::LinearSolver> : NoPromise {
         HasInitOfSystem<C>,
         "Sinew: a linear solver has no 'template <class Operations> void init(Operations& operations)'.");
     static_assert(
-        named::solve<C>,
+        may_have<C>(named::solve<C>),
         "Sinew: a linear solver has no 'template <class Operations> void solve(Operations& operations, "
         "MatrixFactors factors, MultiVecDeriv<Operations>& x, MultiVecDeriv<Operations>& b)', which "
         "solves (m M + b B + k K) x = b.");

@@ -39,16 +39,15 @@ concept HasInAndOut = requires {
   typename C::Out::VecDeriv;
 };
 /// Out = what follows In at the last apply; `part` is a mapping, or what maps one parent of several.
-template <class WorkShare, class C>
-concept Applies = requires(WorkShare part, typename C::In::VecCoord const in, typename C::Out::VecCoord out) {
-  part.apply(out, in);
-};
-template <class WorkShare, class C>
-concept AppliesJ = requires(WorkShare part, typename C::In::VecDeriv const in,
+template <class PartMapping, class C>
+concept Applies = requires(PartMapping part, typename C::In::VecCoord const in,
+                           typename C::Out::VecCoord out) { part.apply(out, in); };
+template <class PartMapping, class C>
+concept AppliesJ = requires(PartMapping part, typename C::In::VecDeriv const in,
                             typename C::Out::VecDeriv out) { part.applyJ(out, in); };
 /// in += J' out.
-template <class WorkShare, class C>
-concept AppliesJT = requires(WorkShare part, typename C::In::VecDeriv in,
+template <class PartMapping, class C>
+concept AppliesJT = requires(PartMapping part, typename C::In::VecDeriv in,
                              typename C::Out::VecDeriv const out) { part.applyJT(in, out); };
 /// May fill an empty child.
 template <class C>
@@ -97,9 +96,9 @@ template <class C>
 inline constexpr bool over_parent = requires { C::overParent; };
 /// f(point of the parent, block of J) for each block in the rows of a point: what solvers need that assemble
 /// a matrix.
-template <class WorkShare>
+template <class PartMapping>
 concept HasJacobianBlocks =
-    requires(WorkShare const part, void (*f)(int, AnySink)) { part.forEachJacobianBlock(0, f); };
+    requires(PartMapping const part, void (*f)(int, AnySink)) { part.forEachJacobianBlock(0, f); };
 
 namespace detail {
 template <class C>
@@ -125,14 +124,14 @@ inline constexpr bool says_stiffness = named::updateK<C> || named::addKx<C>;
 template <>
 struct Promise<role::Mapping> : NoPromise {
   template <class C>
-  static constexpr bool kept =
-      (Mapping<C> || MultiMapping<C>)&&is_called(detail::says_stiffness<C>, HasGeometricStiffness<C>);
+  static constexpr bool kept = ((!HasParents<C> && Mapping<C>) || MultiMapping<C>)&&is_called(
+      detail::says_stiffness<C>, HasGeometricStiffness<C>);
   template <class C>
   static constexpr bool assembled = detail::maps_in_matrix<C>();
 
   template <class C>
   struct Broken {
-    using WorkShare = typename decltype(detail::part_of<C>())::type;
+    using PartMapping = typename decltype(detail::part_of<C>())::type;
     static constexpr bool maps = HasInAndOut<C> && (!HasParents<C> || HasParts<C>);
     static_assert(
         HasInAndOut<C>,
@@ -148,13 +147,13 @@ struct Promise<role::Mapping> : NoPromise {
     static_assert(!HasParents<C> || HasParts<C>,
                   "Sinew: a mapping with several parents has no 'parts', a list of mappings, one for each.");
     static_assert(
-        !maps || Applies<WorkShare, C>,
+        !maps || Applies<PartMapping, C>,
         "Sinew: a mapping has no 'void apply(Out::VecCoord& out, In::VecCoord const& in)', which makes "
         "the positions of its child.");
-    static_assert(!maps || AppliesJ<WorkShare, C>,
+    static_assert(!maps || AppliesJ<PartMapping, C>,
                   "Sinew: a mapping has no 'void applyJ(Out::VecDeriv& out, In::VecDeriv const& in) const', "
                   "which makes out = J in, the velocities of its child.");
-    static_assert(!maps || AppliesJT<WorkShare, C>,
+    static_assert(!maps || AppliesJT<PartMapping, C>,
                   "Sinew: a mapping has no 'void applyJT(In::VecDeriv& in, Out::VecDeriv const& out) const', "
                   "which adds J' out, the forces on its child, to in.");
     static_assert(

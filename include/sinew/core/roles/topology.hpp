@@ -41,7 +41,7 @@ concept Generates = requires(C c, std::string_view where) { c.generate(where); }
 /// Its elements may be removed while the scene runs: edit(), its ElementLists.
 template <class C>
 concept Editable = requires(C c) { c.edit(); };
-/// What asks for tetrahedra finds them here: `static constexpr bool hasTetrahedra = true`.
+/// What asks for tetrahedra may find them here: `static constexpr bool mayHaveTetrahedra = true`.
 template <class C>
 concept MayHaveTetrahedra = requires { C::mayHaveTetrahedra; };
 
