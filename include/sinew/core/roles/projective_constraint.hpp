@@ -38,18 +38,25 @@ concept InteractionConstraint =
 
 /// Points that move on a prescribed path or stay on a surface, at the time t at the end of a step.
 template <class C>
-concept HasProjectPosition = HasDataTypes<C> && requires(C c, double t, typename C::DataTypes::VecCoord x) {
-  requires(JoinsTwo<C> ? requires { c.projectPosition(t, x, x); } : requires { c.projectPosition(t, x); });
-};
+concept HasProjectPosition =
+    HasDataTypes<C> && ((JoinsTwo<C> && requires(C c, double t, typename C::DataTypes::VecCoord x) {
+                          c.projectPosition(t, x, x);
+                        }) || (!JoinsTwo<C> && requires(C c, double t, typename C::DataTypes::VecCoord x) {
+                          c.projectPosition(t, x);
+                        }));
 template <class C>
-concept HasProjectVelocity = HasDataTypes<C> && requires(C c, double t, typename C::DataTypes::VecDeriv v) {
-  requires(JoinsTwo<C> ? requires { c.projectVelocity(t, v, v); } : requires { c.projectVelocity(t, v); });
-};
+concept HasProjectVelocity =
+    HasDataTypes<C> && ((JoinsTwo<C> && requires(C c, double t, typename C::DataTypes::VecDeriv v) {
+                          c.projectVelocity(t, v, v);
+                        }) || (!JoinsTwo<C> && requires(C c, double t, typename C::DataTypes::VecDeriv v) {
+                          c.projectVelocity(t, v);
+                        }));
 /// Accelerations M^-1 f that it allows, where these are others than their projection.
 template <class C>
-concept HasProjectAcceleration = HasDataTypes<C> && requires(C c, typename C::DataTypes::VecDeriv a) {
-  requires(JoinsTwo<C> ? requires { c.projectAcceleration(a, a); } : requires { c.projectAcceleration(a); });
-};
+concept HasProjectAcceleration =
+    HasDataTypes<C> &&
+    ((JoinsTwo<C> && requires(C c, typename C::DataTypes::VecDeriv a) { c.projectAcceleration(a, a); }) ||
+     (!JoinsTwo<C> && requires(C c, typename C::DataTypes::VecDeriv a) { c.projectAcceleration(a); }));
 template <class C>
 concept ProjectsAsSaid = is_called(named::projectPosition<C>, HasProjectPosition<C>) &&
                          is_called(named::projectVelocity<C>, HasProjectVelocity<C>) &&
