@@ -159,7 +159,7 @@ inline SweepResult ConstraintSweeps::gaussSeidel(ConstraintProblem& problem, Swe
   if (problem.rows() == 0) return result;
   result.converged = false;
   while (result.iterations < settings.maxIterations && !result.converged) {
-    last_ = problem.multipliers;
+    if (settings.relaxation != 1) last_ = problem.multipliers;
     const Change change = sweep(problem);
     if (settings.relaxation != 1)
       problem.multipliers = settings.relaxation * problem.multipliers + (1 - settings.relaxation) * last_;

@@ -137,12 +137,10 @@ inline constexpr auto field_codes = [] {
   }
   return codes;
 }();
-template <class C>
-concept MakesElements = requires(C c) { c.generate(""); };
 template <class... Cs>
 constexpr auto class_codes(TypeList<Cs...>) {
   return std::array<ClassCode, sizeof...(Cs)>{
-      ClassCode{type_name<Cs>(), MakesElements<Cs>, field_codes<Cs>.data()}...};
+      ClassCode{type_name<Cs>(), Generates<Cs>, field_codes<Cs>.data()}...};
 }
 
 /// The C++ of a value as FieldInfo gives it, to initialise a member with.
