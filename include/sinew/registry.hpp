@@ -139,10 +139,17 @@ using StandardCollision =
              DiscreteIntersection, ContinuousIntersection, DefaultContactManager, CarvingManager,
              PointCollisionModels<Vec3d>, SphereCollisionModel<Rigid3d>, ConvexCollisionModels>;
 
+template <class D>
+using LagrangianConstraints = Registry<FixedLagrangianConstraint<D>, BilateralLagrangianConstraint<D>,
+                                       BilateralLagrangianConstraint<D, Linked>>;
+using StandardMultipliers =
+    Registry<FreeMotionAnimationLoop, BlockGaussSeidelConstraintSolver, LinearSolverConstraintCorrection,
+             LagrangianConstraints<Vec3d>, LagrangianConstraints<Rigid3d>>;
+
 /// Every component that Sinew brings, over the DataTypes that scenes use.
-struct Standard
-    : Registry<Gravity, Threads, StandardTopologies, MadeMeshes, VisualModel, StandardEngines, StandardForces,
-               StandardMappings, StandardSolvers, StandardCollision, Playback<Vec3d>, Playback<Rigid3d>> {};
+struct Standard : Registry<Gravity, Threads, StandardTopologies, MadeMeshes, VisualModel, StandardEngines,
+                           StandardForces, StandardMappings, StandardSolvers, StandardCollision,
+                           StandardMultipliers, Playback<Vec3d>, Playback<Rigid3d>> {};
 
 /// The same over the rarer DataTypes too: what the law suites prove.
 struct Extended

@@ -4,7 +4,6 @@
 #include <sinew/core/error.hpp>
 
 #include <Eigen/Core>
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>

@@ -3,6 +3,8 @@
 
 #include <sinew/lagrangian/constraint_problem.hpp>
 
+#include <Eigen/LU>
+
 #include <cmath>
 #include <string_view>
 #include <vector>

@@ -118,12 +118,8 @@ inline constexpr std::string_view tetrahedronModels = "TetrahedronModel Tetrahed
 
 /// What prepares or solves something that the scene may not have at all.
 inline constexpr std::array inert = std::to_array<ClassesLeftOut>(
-    {{"FreeMotionAnimationLoop FreeMotionMasterSolver ConstraintAnimationLoop GenericConstraintSolver "
-      "ProjectedGaussSeidelConstraintSolver BlockGaussSeidelConstraintSolver "
-      "UnbuiltGaussSeidelConstraintSolver ImprovedJacobiConstraintSolver NNCGConstraintSolver "
-      "LCPConstraintSolver LMConstraintSolver LMConstraintDirectSolver GenericConstraintCorrection "
-      "LinearSolverConstraintCorrection PrecomputedConstraintCorrection UncoupledConstraintCorrection",
-      "does nothing, as in a scene without constraints that multipliers solve; there are none here"},
+    {{"LMConstraintSolver LMConstraintDirectSolver",
+      "does nothing: constraints by multipliers are solved where the root has a FreeMotionAnimationLoop"},
      {"CollisionGroupManager DefaultCollisionGroupManager TreeCollisionGroupManager CollisionGroup",
       "does nothing: bodies that touch stay under their own solvers; put them below one, so that their "
       "contact is part of its system"}});

@@ -3,8 +3,10 @@
 
 #include <sinew/scene/carving.hpp>
 #include <sinew/scene/collision.hpp>
+#include <sinew/scene/constrained_step.hpp>
 #include <sinew/scene/loose_interactions.hpp>
 #include <sinew/scene/mechanical_operations.hpp>
+#include <sinew/scene/solvers.hpp>
 
 #include <algorithm>
 #include <string>
@@ -23,15 +25,13 @@ class Initialisation {
 
   void run();
   /// The solvers alone: of a scene whose elements have come back.
-  void initSolvers() {
-    served_.clear();
-    initSolversBelow(root_);
-  }
+  void initSolvers();
 
  private:
   RootScope const& root_;
   const InitAgain again_;
-  std::vector<void const*> served_{};  // linear solvers that have a matrix
+  std::vector<void const*> served_{};    // linear solvers that have a matrix
+  ConstrainedMotion* motion_ = nullptr;  // of a scene that solves constraints by multipliers
 
   void checkFields();
   // topologies are made first; then states, parents before children
@@ -40,8 +40,6 @@ class Initialisation {
   void initStatesBelow(S const& scope);
   // what acts on them
   void initComponents();
-  template <class S>
-  void initSolversBelow(S const& scope);
 
   template <class C, class S>
   static void initState(C& c, S const& scope) {
@@ -103,7 +101,8 @@ class Initialisation {
         });
       });
     } else if constexpr (HasRole<C, role::ForceField> || HasRole<C, role::Mass> ||
-                         HasRole<C, role::ProjectiveConstraint> || WatchesState<C>) {
+                         HasRole<C, role::ProjectiveConstraint> || HasRole<C, role::LagrangianConstraint> ||
+                         CorrectsState<C> || WatchesState<C>) {
       withContext<C, typename C::DataTypes>(scope, [&](auto const& context) { c.init(context); });
     }
     if constexpr (requires { c.warning(); }) warn(c, scope);
@@ -148,11 +147,13 @@ class Initialisation {
   template <class Ode, class S>
   void initSolver(Ode& ode, S const& scope) {
     MechanicalOperations<S> operations(scope);
-    operations.reserve(Ode::auxiliary);
+    const Auxiliary beside = motion_ ? MultiplierResponse::auxiliary : Auxiliary{};
+    operations.reserve(Ode::auxiliary + beside);
+    if (motion_) operations.numberDofs(1);
     operations.template withLinearSolverOf<Ode>([&](auto& linear) {
       using Linear = std::decay_t<decltype(linear)>;
       if constexpr (needs_pattern<Linear>) serveOne<Ode>(linear, scope);
-      operations.reserve(Ode::auxiliary + Linear::auxiliary);
+      operations.reserve(Ode::auxiliary + Linear::auxiliary + beside);
       linear.init(operations);
     });
     if constexpr (requires { ode.init(operations); }) ode.init(operations);
@@ -160,6 +161,30 @@ class Initialisation {
     // what a solver remembers of the last step is not that of a scene that has changed
     if constexpr (requires { ode.lastEnd; })
       if (again_) ode.lastEnd = -1;
+  }
+  // what a scene needs that solves constraints by multipliers
+  template <class Ode, class S>
+  void initConstrained(Ode&, S const& scope) {
+    if constexpr (!takes_multipliers<Ode>) {
+      throw Error(
+          text(scope.path(), ": ", component_name<Ode>()),
+          "this solver does not say what multipliers do in its step, and the scene solves constraints by "
+          "them; "
+          "take EulerImplicitSolver, NewmarkImplicitSolver, StaticSolver, VariationalSymplecticSolver or an "
+          "explicit one, or leave out the FreeMotionAnimationLoop");
+    } else if constexpr (!stands_beside<Ode>) {
+      MechanicalOperations<S> operations(scope);
+      const int number = int(motion_->systems.size());
+      int dofs = 0;
+      operations.forEachState([&](auto& s) { s.solver = number; });
+      operations.forEachIndependent([&](auto& s) {
+        using D = typename std::decay_t<decltype(s)>::DataTypes;
+        dofs = std::max(dofs, s.dofOffset + int(s.size()) * D::size);
+      });
+      ConstrainedSystem& system = motion_->systems.emplace_back();
+      system.force.setZero(dofs);
+      system.motion.setZero(dofs);
+    }
   }
   template <class Ode, class Linear, class S>
   void serveOne(Linear const& linear, S const& scope) {
@@ -238,17 +263,20 @@ void Initialisation<RootScope>::initComponents() {
 }
 
 template <class RootScope>
-template <class S>
-void Initialisation<RootScope>::initSolversBelow(S const& scope) {
-  bool solved = false;
-  auto visit = on<role::OdeSolver>([&](auto& ode) {
-    solved = true;
-    scope.located(ode, [&] { initSolver(ode, scope); });
+void Initialisation<RootScope>::initSolvers() {
+  served_.clear();
+  if constexpr (holds<typename RootScope::NodeType, role::AnimationLoop>())
+    with_first<role::AnimationLoop>(root_, [&](auto& loop) {
+      loop.motion.systems.clear();
+      motion_ = &loop.motion;
+    });
+  for_each_solver(root_, [&](auto& ode, auto const& scope) {
+    scope.located(ode, [&] {
+      initSolver(ode, scope);
+      if constexpr (holds<typename RootScope::NodeType, role::AnimationLoop>())
+        if (motion_) initConstrained(ode, scope);
+    });
   });
-  if (scope.integrates()) scope.forEachComponent(visit);
-  if constexpr (!S::template always<role::OdeSolver>)
-    if (!solved)
-      scope.template forEachChild<role::OdeSolver>([&](auto const& child) { initSolversBelow(child); });
 }
 
 }  // namespace sinew

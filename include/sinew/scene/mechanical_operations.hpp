@@ -149,18 +149,22 @@ struct MechanicalOperations {
 
   // the assembled system
 
-  /// Numbers the degrees of freedom of the independent states, each from a block of `matrix` on, and fixes
-  /// its pattern.
-  template <class Matrix>
-  void initMatrix(Matrix& matrix) {
-    [[maybe_unused]] const auto span = root.span(Phase::pattern);
-    constexpr int block = Matrix::blockSize;
+  /// Numbers the degrees of freedom of the independent states, each from a block of so many on, and returns
+  /// how many there are with what fills the last blocks.
+  int numberDofs(int block) {
     int dofs = 0;
     forEachIndependent([&](auto& s) {
       s.dofOffset = dofs;
       dofs += int(s.size()) * DataTypesOf<decltype(s)>::size;
       dofs = (dofs + block - 1) / block * block;
     });
+    return dofs;
+  }
+  /// Numbers them from blocks of `matrix` on, and fixes its pattern.
+  template <class Matrix>
+  void initMatrix(Matrix& matrix) {
+    [[maybe_unused]] const auto span = root.span(Phase::pattern);
+    const int dofs = numberDofs(Matrix::blockSize);
     matrix.startPattern(dofs);
     auto&& assembled = root.assembled(matrix);
     preallocate(assembled);
@@ -215,6 +219,12 @@ struct MechanicalOperations {
                if (!scope.mapped()) f(c);
              }));
   }
+  template <class F>
+  void forEachMapped(F&& f) {
+    traverse(root, on<role::State>([&](auto& c, auto const& scope) {
+               if (scope.mapped()) f(c);
+             }));
+  }
 
  private:
   friend ActedForces<MechanicalOperations>;
@@ -252,12 +262,6 @@ struct MechanicalOperations {
     return scope.template state<typename C::DataTypes>();
   }
 
-  template <class F>
-  void forEachMapped(F&& f) {
-    traverse(root, on<role::State>([&](auto& c, auto const& scope) {
-               if (scope.mapped()) f(c);
-             }));
-  }
   // f(mapping, child state, parent state), parents first, visual models left out
   template <class F>
   void forEachMapping(F&& f) {

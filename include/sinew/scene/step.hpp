@@ -3,8 +3,10 @@
 
 #include <sinew/scene/carving.hpp>
 #include <sinew/scene/collision.hpp>
+#include <sinew/scene/constrained_step.hpp>
 #include <sinew/scene/loose_interactions.hpp>
 #include <sinew/scene/mechanical_operations.hpp>
+#include <sinew/scene/solvers.hpp>
 
 #include <string>
 #include <vector>
@@ -61,8 +63,16 @@ struct Step {
   /// The external forces of interactions between solvers.
   void computeLoose() const { LooseInteractions<RootScope>{root}.compute({.time = time, .dt = dt}); }
 
-  /// Each ODE solver integrates its subtree and propagates.
-  void integrate(bool keepsForces) const { integrate(root, keepsForces); }
+  /// Each ODE solver integrates its subtree and propagates; where the scene has an animation loop,
+  /// constraints by multipliers hold at the end.
+  void integrate(bool keepsForces) const {
+    const bool constrained = with_first<role::AnimationLoop>(root, [&](auto& loop) {
+      ConstrainedStep<RootScope>{root, time, dt}.integrate(
+          loop.motion, loop.solveVelocityConstraintFirst, keepsForces);
+    });
+    if (!constrained)
+      for_each_solver(root, [&](auto& ode, auto const& scope) { solve(ode, scope, keepsForces); });
+  }
 
   /// Checks states, and calls what watches them. The time is that of the end of the step.
   void end() const {
@@ -82,20 +92,6 @@ struct Step {
     scope.template forEachChild<BeforeStep>([&](auto const& child) { forEachAhead(child, ahead, f); });
   }
 
-  // where a node has no solver, its children are looked at
-  template <class S>
-  void integrate(S const& scope, bool keepsForces) const {
-    bool solved = false;
-    auto visit = on<role::OdeSolver>([&](auto& ode) {
-      solve(ode, scope, keepsForces);
-      solved = true;
-    });
-    if (scope.integrates()) scope.forEachComponent(visit);
-    if constexpr (!S::template always<role::OdeSolver>)
-      if (!solved)
-        scope.template forEachChild<role::OdeSolver>(
-            [&](auto const& child) { integrate(child, keepsForces); });
-  }
   template <class Ode, class S>
   void solve(Ode& ode, S const& scope, bool keepsForces) const {
     MechanicalOperations<S> operations(scope, time, dt);

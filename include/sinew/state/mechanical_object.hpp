@@ -89,6 +89,7 @@ struct MechanicalObject {
   std::optional<VecCoord> given{};  // positions that the mapping of a mapped state was given
   SolverWorkspace<D> solverWorkspace{};
   int dofOffset = -1;  // first scalar of this state in the assembled system of its solver
+  int solver = -1;     // which of the ODE solvers of the scene moves it, in their order; -1: none
 
   std::size_t size() const { return position.size(); }
 

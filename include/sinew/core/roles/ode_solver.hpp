@@ -48,10 +48,24 @@ inline constexpr bool stands_beside = requires { requires C::beside; };
 template <class C>
 concept SolvesMass = requires { C::solvesMass; };
 
+/// How multipliers f [N] act in a step: A u = impulse J' f with the matrix A = m M + b B + k K of the step and the
+/// Jacobian J of the constraints; positions move by position u, velocities change by velocity u.
+struct ConstraintFactors {
+  MatrixFactors matrix{};
+  double impulse = 0, position = 0, velocity = 0;
+};
+/// An implicit solver says it for a step of length h, for scenes with an animation loop that solves constraints. It
+/// may have `corrected(operations, u)`, which is called when positions and velocities have taken u.
+template <class C>
+concept HasConstraintFactors = requires(C const c) {
+  { c.constraintFactors(0.01) } -> std::same_as<ConstraintFactors>;
+};
+
 template <>
 struct Promise<role::OdeSolver> : NoPromise {
   template <class C>
-  static constexpr bool kept = OdeSolver<C>;
+  static constexpr bool kept =
+      OdeSolver<C> && is_called(named::constraintFactors<C>, HasConstraintFactors<C>);
   template <class C>
   struct Broken {
     static_assert(
@@ -66,6 +80,9 @@ struct Promise<role::OdeSolver> : NoPromise {
         Integrates<C>,
         "Sinew: an ODE solver has no 'template <class Operations> void solve(Operations& operations, "
         "double dt)', which makes a step.");
+    static_assert(is_called(named::constraintFactors<C>, HasConstraintFactors<C>),
+                  "Sinew: an ODE solver has a constraintFactors that nothing calls; write 'ConstraintFactors "
+                  "constraintFactors(double h) const'.");
   };
 };
 

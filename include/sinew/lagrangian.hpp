@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+// Constraints by Lagrange multipliers, and what solves them.
+
+// All components of lagrangian:
+#include <sinew/lagrangian/bilateral_lagrangian_constraint.hpp>
+#include <sinew/lagrangian/block_gauss_seidel_constraint_solver.hpp>
+#include <sinew/lagrangian/fixed_lagrangian_constraint.hpp>
+#include <sinew/lagrangian/free_motion_animation_loop.hpp>
+#include <sinew/lagrangian/linear_solver_constraint_correction.hpp>

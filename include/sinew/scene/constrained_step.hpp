@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/lagrangian/constrained_motion.hpp>
+#include <sinew/scene/mechanical_operations.hpp>
+#include <sinew/scene/solvers.hpp>
+#include <sinew/solver/multi_vec.hpp>
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+namespace sinew {
+
+/// What an ODE solver makes of multipliers in a step of length h, and which of the auxiliary vectors are free
+/// then.
+struct MultiplierResponse {
+  ConstraintFactors factors{};
+  bool bySystem = false;  // by the system that the solver has solved, else by the masses
+  int derivs = 0;
+
+  template <class Ode>
+  static MultiplierResponse of(Ode const& ode, double h) {
+    ConstraintFactors factors{{.m = 1}, h, h, 1};
+    if constexpr (HasConstraintFactors<Ode>) factors = ode.constraintFactors(h);
+    const bool ofForces = factors.matrix.b != 0 || factors.matrix.k != 0;
+    return {factors, (Ode::implicit && ofForces) || SolvesMass<Ode>, Ode::auxiliary.derivs};
+  }
+  /// Vectors that it takes beside those of the solvers.
+  static constexpr Auxiliary auxiliary{.derivs = 2};
+  DerivId force() const { return {DerivId::reserved + derivs}; }
+  DerivId motion() const { return {DerivId::reserved + derivs + 1}; }
+};
+/// Whether an ODE solver takes part in a scene with constraints by multipliers.
+template <class Ode>
+inline constexpr bool takes_multipliers = !Ode::implicit || HasConstraintFactors<Ode> || stands_beside<Ode>;
+
+/// A step of a scene whose root has an animation loop: bodies move freely, the constraints of the scene are
+/// solved together, and bodies are corrected. While constraints are solved `position` is that at the start of
+/// the step, at which mappings and masses stand, and `freePosition` that of the free motion, for a mapped
+/// state as its velocity says.
+template <class RootScope>
+struct ConstrainedStep {
+  RootScope const& root;
+  double time, dt;
+
+  void integrate(ConstrainedMotion& motion, bool velocityFirst, bool keepsForces) const;
+
+ private:
+  template <class Ode, class S>
+  void moveFreely(Ode& ode, S const& scope, bool keepsForces) const {
+    MechanicalOperations<S> operations(scope, time, dt);
+    if constexpr (!stands_beside<Ode>) {
+      operations.eq(vec_id::freePosition, vec_id::position);  // the start, for now
+      operations.acted.begin(keepsForces);
+    }
+    ode.solve(operations, dt);
+    operations.projectPositionAndVelocity(time + dt, vec_id::position, vec_id::velocity);
+    if constexpr (!stands_beside<Ode>)
+      if (!operations.acted.end(vec_id::force))
+        throw Error(
+            scope.path(),
+            text(component_name<Ode>(),
+                 ": forces cannot be kept, since this solver does not say which acted over its step; let it "
+                 "call operations.acted.add(), or leave out Simulation::keepForces"));
+  }
+  // states as they were, mappings as they were, and where all would come to be by the velocities that they
+  // have now
+  template <class S>
+  void lookFromStart(S const& scope) const {
+    MechanicalOperations<S> operations(scope, time, dt);
+    operations.forEachIndependent([](auto& s) { s.position.swap(s.freePosition); });
+    operations.propagate(vec_id::position, vec_id::velocity);
+    operations.forEachMapped([&](auto& s) {
+      using V = VectorOperations<typename std::decay_t<decltype(s)>::DataTypes>;
+      s.freePosition = s.position;
+      V::move(s.freePosition, s.velocity, typename std::decay_t<decltype(s)>::DataTypes::Real(dt));
+    });
+  }
+
+  void collectRows(ConstrainedMotion& m, bool ofVelocity) const {
+    [[maybe_unused]] const auto span = root.span(Phase::constraint);
+    m.rows.clear();
+    m.rows.ofVelocity = ofVelocity;
+    m.rowsOf.clear();
+    for (auto& system : m.systems) system.clear();
+    traverse(root,
+             on<role::LagrangianConstraint>([&](auto& c, auto const& scope) { addRowsOf(c, scope, m); }));
+  }
+  template <class D, class S>
+  ConstrainedState<D> stateAt(S const& scope) const {
+    auto& s = scope.template state<D>();
+    return {s.position, s.freePosition, s.velocity, s.restPosition, dt};
+  }
+  template <class C, class S>
+  void addRowsOf(C& c, S const& scope, ConstrainedMotion& m) const {
+    using D = typename C::DataTypes;
+    const int before = m.rows.count();
+    m.rows.entries.clear();
+    if constexpr (JoinsTwo<C>) {
+      scope.withEnds(c, [&](auto const& a, auto const& b) {
+        c.addRows(m.rows, stateAt<D>(a), stateAt<D>(b));
+        withSystem<D>(a, m, [&](auto const& first) {
+          withSystem<D>(b, m, [&](auto const& second) {
+            for (ConstraintRows::Entry const& e : m.rows.entries) e.side == 0 ? first.add(e) : second.add(e);
+          });
+        });
+      });
+    } else {
+      c.addRows(m.rows, stateAt<D>(scope));
+      withSystem<D>(scope, m, [&](auto const& only) {
+        for (ConstraintRows::Entry const& e : m.rows.entries) only.add(e);
+      });
+    }
+    const auto count = std::size_t(m.rows.count() - before);
+    m.rowsOf.push_back(int(count));
+    if constexpr (KeepsMultipliers<C>)
+      if (c.multipliers.size() == count)
+        std::copy(c.multipliers.begin(), c.multipliers.end(), m.rows.multipliers.begin() + before);
+  }
+
+  // adds entries of rows over the points of a state to the system of its solver
+  template <class Dofs>
+  struct Expansion {
+    ConstrainedSystem* system;  // null: no solver moves the state
+    Dofs const& dofs;
+
+    void add(ConstraintRows::Entry const& e) const {
+      if (!system) return;
+      expand_point(dofs, e.point, [&](int dof, int columns, double const* j) {
+        for (int i = 0; columns == 0 && i < e.size; ++i)
+          system->add(e.row, dof + i, e.values[std::size_t(i)]);
+        for (int c = 0; c < columns; ++c) {
+          double value = 0;
+          for (int i = 0; i < e.size; ++i) value += e.values[std::size_t(i)] * j[e.size * c + i];
+          system->add(e.row, dof + c, value);
+        }
+      });
+    }
+  };
+  template <class D, class S, class F>
+  static void withSystem(S const& scope, ConstrainedMotion& m, F&& f) {
+    const int solver = scope.template state<D>().solver;
+    ConstrainedSystem* system = solver < 0 ? nullptr : &m.systems[std::size_t(solver)];
+    scope.template withDofs<D>([&](auto const& dofs) {
+      f(Expansion<std::decay_t<decltype(dofs)>>{system, dofs});
+    });
+  }
+
+  // W = J A^-1 J', and d_free
+  void findCompliance(ConstrainedMotion& m) const;
+  template <class S>
+  void addCompliance(S const& scope, MultiplierResponse const& how, ConstrainedSystem& system,
+                     ConstrainedMotion& m) const {
+    const double reached = m.rows.ofVelocity ? how.factors.velocity : how.factors.position;
+    for (int k = 0; k < system.jacobian.rows(); ++k) {
+      system.force.setZero();
+      system.jacobian.addTransposed(k, 1, system.force);
+      respond(scope, how, system);
+      for (int l = k; l < system.jacobian.rows(); ++l) {
+        const double w = reached * system.jacobian.times(l, system.motion);
+        const int i = system.rows[std::size_t(k)], j = system.rows[std::size_t(l)];
+        m.problem.compliance(i, j) += w;
+        if (i != j) m.problem.compliance(j, i) += w;
+      }
+    }
+  }
+  void checkCompliance(ConstrainedMotion const& m) const {
+    int row = 0;
+    std::size_t number = 0;
+    traverse(
+        root, on<role::LagrangianConstraint>([&](auto& c, auto const& scope) {
+          for (int end = row + m.rowsOf[number++]; row < end; ++row)
+            if (!(m.problem.compliance(row, row) > 0))
+              throw Error(
+                  text(scope.path(), ": ", component_name<std::decay_t<decltype(c)>>()),
+                  text("nothing that its equation ",
+                       row + m.rowsOf[number - 1] - end,
+                       " holds can move: its points are fixed, or no solver moves them, or its direction "
+                       "is zero; leave it out, or free a point"));
+        }));
+  }
+
+  // motion = A^-1 (impulse J' f) of a system for its force; the vector of states how.motion() has it too
+  template <class S>
+  void respond(S const& scope, MultiplierResponse const& how, ConstrainedSystem& system) const {
+    using Operations = MechanicalOperations<S>;
+    Operations operations(scope, time, dt);
+    operations.derivsTaken = how.derivs;  // what a solver keeps from step to step is in these
+    MultiVecDeriv<Operations> b(operations), u(operations);
+    operations.scatter(b.id, system.force);
+    operations.projectResponse(b.id);
+    u.clear();
+    if (!respondByCorrections(scope, how.factors, u.id, b.id)) {
+      b.teq(how.factors.impulse);
+      auto linearly = [&](auto& linear) { solveAgain(linear, operations, how.factors.matrix, u, b); };
+      const bool ofForces = how.factors.matrix.b != 0 || how.factors.matrix.k != 0;
+      if (how.bySystem && (ofForces || !operations.massIsDiagonal()))
+        scope.withLinearSolverIfAny(linearly);
+      else
+        operations.accFromF(u.id, b.id, vec_id::position);
+    }
+    operations.projectResponse(u.id);
+    operations.gather(system.motion, u.id);
+  }
+  template <class Linear, class Operations>
+  static void solveAgain(Linear& linear, Operations& operations, MatrixFactors factors,
+                         MultiVecDeriv<Operations>& u, MultiVecDeriv<Operations>& b) {
+    if constexpr (HasSolveAgain<Linear>)
+      linear.solveAgain(operations, u, b);
+    else
+      linear.solve(operations, factors, u, b);
+  }
+  // by components that say what forces do to their states; false where there is none
+  template <class S>
+  static bool respondByCorrections(S const& scope, ConstraintFactors const& factors, DerivId u, DerivId f) {
+    bool some = false;
+    traverse(scope, on<role::ConstraintCorrection>([&](auto& c, auto const& at) {
+               using C = std::decay_t<decltype(c)>;
+               if constexpr (CorrectsState<C>) {
+                 auto& s = at.template state<typename C::DataTypes>();
+                 c.addCorrection(s[u], s[f], s.position, factors);
+                 some = true;
+               }
+             }));
+    return some;
+  }
+
+  void solve(ConstrainedMotion& m) const {
+    [[maybe_unused]] const auto span = root.span(Phase::constraint);
+    bool solved = false;
+    traverse(root, on<role::ConstraintSolver>([&](auto& solver, auto const& scope) {
+               if (std::exchange(solved, true)) return;
+               solver.solve(m.problem, scope.path());
+             }));
+  }
+  // constraints keep their multipliers
+  void giveBack(ConstrainedMotion& m) const {
+    std::size_t number = 0;
+    double const* f = m.problem.multipliers.data();
+    traverse(root, on<role::LagrangianConstraint>([&](auto& c, auto const&) {
+               double const* const end = f + m.rowsOf[number++];
+               if constexpr (KeepsMultipliers<std::decay_t<decltype(c)>>) c.multipliers.assign(f, end);
+               f = end;
+             }));
+  }
+
+  template <class S>
+  void correct(S const& scope, MultiplierResponse const& how, ConstrainedMotion const& m,
+               ConstrainedSystem& system, bool keepsForces) const {
+    MechanicalOperations<S> operations(scope, time, dt);
+    auto takeFree = [&] { operations.forEachIndependent([](auto& s) { s.position.swap(s.freePosition); }); };
+    if (system.rows.empty()) return takeFree();
+    system.force.setZero();
+    for (int k = 0; k < system.jacobian.rows(); ++k)
+      system.jacobian.addTransposed(k, m.problem.multipliers[system.rows[std::size_t(k)]], system.force);
+    respond(scope, how, system);
+    if (keepsForces) keep(operations, how);
+    operations.peq(vec_id::velocity, how.motion(), how.factors.velocity);
+    if (m.rows.ofVelocity) {
+      operations.peq(vec_id::position, vec_id::velocity, dt);
+    } else {
+      takeFree();
+      operations.peq(vec_id::position, how.motion(), how.factors.position);
+    }
+  }
+  // What multipliers and what they move have done over the step: with A u = impulse J' f the forces of the
+  // system change by
+  // -(A - M) u / impulse, and constraints of all kinds are the rest, A u / impulse.
+  template <class Operations>
+  static void keep(Operations& operations, MultiplierResponse const& how) {
+    const double s = 1 / how.factors.impulse;
+    const MatrixFactors a = how.factors.matrix;
+    operations.addMBKdx(
+        vec_id::applied, how.motion(), {.m = a.m == 0 ? 0 : (1 - a.m) * s, .b = -a.b * s, .k = -a.k * s});
+    operations.addMBKdx(vec_id::reaction, how.motion(), {.m = a.m * s, .b = a.b * s, .k = a.k * s});
+  }
+};
+
+// Outside the class, so that a program may have them instantiated in one place: runtime/precompiled.hpp.
+
+template <class RootScope>
+void ConstrainedStep<RootScope>::integrate(ConstrainedMotion& m, bool velocityFirst, bool keepsForces) const {
+  for_each_solver(root, [&](auto& ode, auto const& scope) { moveFreely(ode, scope, keepsForces); });
+  for_each_integrator(root, [&](auto&, auto const& scope) { lookFromStart(scope); });
+  collectRows(m, velocityFirst);
+  if (m.rows.count() > 0) {
+    findCompliance(m);
+    solve(m);
+    giveBack(m);
+  }
+  std::size_t number = 0;
+  for_each_integrator(root, [&](auto& ode, auto const& scope) {
+    const auto how = MultiplierResponse::of(ode, dt);
+    ConstrainedSystem& system = m.systems[number++];
+    correct(scope, how, m, system, keepsForces);
+    MechanicalOperations<std::decay_t<decltype(scope)>> operations(scope, time, dt);
+    if constexpr (requires { ode.corrected(operations, how.motion()); })
+      if (!system.rows.empty()) ode.corrected(operations, how.motion());
+    operations.projectPositionAndVelocity(time + dt, vec_id::position, vec_id::velocity);
+    operations.propagate(vec_id::position, vec_id::velocity);
+  });
+}
+
+template <class RootScope>
+void ConstrainedStep<RootScope>::findCompliance(ConstrainedMotion& m) const {
+  [[maybe_unused]] const auto span = root.span(Phase::constraint);
+  ConstraintProblem& problem = m.problem;
+  const int n = m.rows.count();
+  problem.blocks = m.rows.blocks;
+  problem.freeViolation = Eigen::Map<Eigen::VectorXd const>(m.rows.violation.data(), n);
+  problem.multipliers = Eigen::Map<Eigen::VectorXd const>(m.rows.multipliers.data(), n);
+  problem.compliance.setZero(n, n);
+  std::size_t number = 0;
+  for_each_integrator(root, [&](auto& ode, auto const& scope) {
+    addCompliance(scope, MultiplierResponse::of(ode, dt), m.systems[number++], m);
+  });
+  checkCompliance(m);
+}
+
+}  // namespace sinew
