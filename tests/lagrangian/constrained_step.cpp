@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // A typed scene with constraints by multipliers, against closed forms.
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 #include <sinew/lagrangian.hpp>
 #include <sinew/mechanics.hpp>
