@@ -4,9 +4,11 @@
 #include <sinew/collision/attachment.hpp>
 #include <sinew/collision/contact_assembly.hpp>
 #include <sinew/collision/contact_responses.hpp>
+#include <sinew/collision/contact_rules.hpp>
 #include <sinew/collision/friction_contact_constraint.hpp>
 #include <sinew/collision/penalty_contact.hpp>
 #include <sinew/collision/stick_contact.hpp>
+#include <sinew/collision/stick_contact_constraint.hpp>
 #include <sinew/collision/vertex_contacts.hpp>
 #include <sinew/core/component.hpp>
 #include <sinew/core/memory_limit.hpp>
@@ -22,8 +24,9 @@
 namespace sinew {
 
 /// Keeps the contacts from step to step and applies the responses to them: that of a model that names one,
-/// else its own. A contact is known again by the vertices that meet; what its response remembers goes with
-/// it. Contacts stand in the order of their keys, whatever the order in which they were found.
+/// else of the first rule that fits the two models, else its own. A contact is known again by the vertices
+/// that meet; what its response remembers goes with it. Contacts stand in the order of their keys, whatever
+/// the order in which they were found.
 ///
 /// `Responses`: laws of force (ContactLaw), multipliers (ContactConstraint), and what changes components that
 /// are touched (TouchResponse). Two models together have the stiffness k1 k2 / (contact distance with the
@@ -36,9 +39,10 @@ struct ContactManager {
   using All = ContactResponses<Responses...>;
   static constexpr std::string_view ownName = All::managerName();
   static constexpr std::string_view className = ownName.empty() ? "DefaultContactManager" : ownName;
-  static constexpr std::string_view aliases = ownName.empty() ? "CollisionResponse" : "";
+  static constexpr std::string_view aliases =
+      ownName.empty() ? "CollisionResponse RuleBasedContactManager" : "";
 
-  std::string response = "PenalityContactForceField", responseParams{};
+  std::string response = "PenalityContactForceField", responseParams{}, rules{};
   int capacity = 1000;
   std::tuple<Responses...> responses{};
 
@@ -50,6 +54,13 @@ struct ContactManager {
               &M::responseParams,
               "",
               "parameters of that response, such as mu=0.5: the coefficient of friction"),
+        field(
+            "rules",
+            &M::rules,
+            "",
+            "responses of pairs of models, each by three words: two models by name, path, group or *, and a "
+            "response with parameters, as in 'tool * StickContactConstraint  1 2 "
+            "FrictionContactConstraint?mu=0.3'; nullptr for none"),
         field("capacity",
               &M::capacity,
               "",
@@ -69,8 +80,7 @@ struct ContactManager {
   std::vector<CollisionSurface*> surfaces{};  // in the order of the scene, of this step
   std::vector<int> bodies{};                  // of each surface, the first one that is on the same state
   std::vector<int> points{};
-  ResponseChoice answer{};                // the response of this manager,
-  std::vector<ResponseChoice> answers{};  // and that of each model, of no place for one that names none
+  ContactRules answers{};
   ContactAssembly assembly{};
   VertexContacts ofVertices{}, foundVertices{};  // of the last step, and of those that were found
   bool listed = false;                           // whether ofVertices is that of the contacts
@@ -103,11 +113,11 @@ struct ContactManager {
     points.reserve(6 * std::size_t(capacity));
     attachments.reserve(8);
     grown = 0;
-    answer = All::choose(where, responseParams.empty() ? response : text(response, '?', responseParams));
-    answers.assign(surfaces.size(), {});
-    for (std::size_t s = 0; s < surfaces.size(); ++s)
-      if (std::string const& wanted = surfaces[s]->settings.contactResponse; !wanted.empty())
-        answers[s] = All::choose(surfaces[s]->path, wanted);
+    answers.read(where,
+                 responseParams.empty() ? response : text(response, '?', responseParams),
+                 rules,
+                 surfaces,
+                 &All::choose);
     for (std::size_t i = 0; i < contacts.size(); ++i)
       if (!fits(contacts[i].a) || !fits(contacts[i].b) || contacts[i].response < 0 ||
           contacts[i].response >= All::count)
@@ -121,10 +131,7 @@ struct ContactManager {
   }
 
   /// Whether a response by multipliers may answer contacts.
-  bool asksForMultipliers() const {
-    auto asks = [](ResponseChoice const& r) { return r.place >= 0 && All::isConstraint(r.place); };
-    return asks(answer) || std::any_of(answers.begin(), answers.end(), asks);
-  }
+  bool asksForMultipliers() const { return answers.any(&All::isConstraint); }
 
   bool acts() const { return !contacts.empty() || !attachments.empty(); }
   /// Forgets all contacts.
@@ -220,11 +227,11 @@ struct ContactManager {
       else if (const int other = ofVertices.find(key, bodies); other >= 0)
         remember(c, contacts[std::size_t(other)]);
     }
+    listed = std::erase_if(found, [](Contact const& c) { return c.response < 0; }) == 0;
     couplingChanged = couplingChanged || coupling(contacts) != coupling(found);
     contacts.swap(found);
     found.clear();
     ofVertices.swap(foundVertices);
-    listed = true;
     All::setStep(responses, dt);
     for (auto* s : surfaces) s->clearTouched();
     auto touch = [&](ContactSide const& side) {
@@ -375,11 +382,9 @@ struct ContactManager {
     c.stiffness = ofA.contactStiffness * ofB.contactStiffness / (reach > 0 ? reach : 1);
     c.damping = ofA.contactDamping + ofB.contactDamping;
     c.fall = std::max({0.0, c.normal.dot(a.gravity), -c.normal.dot(b.gravity)});
-    const ResponseChoice byA = answers[std::size_t(c.a.surface)], byB = answers[std::size_t(c.b.surface)],
-                         chosen = byA.place >= 0   ? byA
-                                  : byB.place >= 0 ? byB
-                                                   : answer;
+    const ResponseChoice chosen = answers.find(c.a.surface, c.b.surface);
     c.response = chosen.place;
+    if (c.response < 0) return;
     c.friction = ofA.contactFriction + ofB.contactFriction;
     All::visit(responses, c.response, [&](auto const& r) {
       if constexpr (HasFriction<std::decay_t<decltype(r)>>) {
@@ -398,7 +403,7 @@ struct ContactManager {
 };
 
 /// What scene files have.
-using DefaultContactManager =
-    ContactManager<PenalityContactForceField, StickContactForceField, FrictionContactConstraint>;
+using DefaultContactManager = ContactManager<PenalityContactForceField, StickContactForceField,
+                                             FrictionContactConstraint, StickContactConstraint>;
 
 }  // namespace sinew

@@ -16,7 +16,8 @@ namespace sinew {
 
 /// A response of a contact manager by its place, with what its parameters say.
 struct ResponseChoice {
-  int place = -1;        // none
+  static constexpr int notGiven = -1, noResponse = -2;
+  int place = notGiven;
   double friction = -1;  // mu of a response that has one; negative: they do not say it
 };
 
@@ -55,11 +56,13 @@ struct ContactResponses {
     (look(static_cast<Responses const*>(nullptr)), ...);
     return place;
   }
-  /// The response that "Name" or "Name?mu=0.5" asks for, as scene files do; throws Error where there is none.
+  /// The response that "Name" or "Name?mu=0.5" asks for, as scene files do, or that there shall be none by
+  /// "nullptr" (SOFA); throws Error where nothing has that name.
   static ResponseChoice choose(std::string_view where, std::string_view wanted) {
     const std::size_t mark = wanted.find('?');
     const std::string_view name = wanted.substr(0, mark);
-    ResponseChoice choice{find(name)};
+    if (name == "nullptr") return {.place = ResponseChoice::noResponse};
+    ResponseChoice choice{.place = find(name)};
     if (choice.place < 0)
       throw Error(where,
                   text("contacts ask for the response '",
@@ -78,7 +81,7 @@ struct ContactResponses {
   }
   static bool isConstraint(int place) {
     constexpr std::array constraints{ContactConstraint<Responses>...};
-    return constraints[std::size_t(place)];
+    return place >= 0 && constraints[std::size_t(place)];
   }
 
   /// f(response) for that at a place.

@@ -57,6 +57,8 @@ struct Collision {
                model.surface.solver = -1;
                model.surface.companions = {};
                model.surface.beside.clear();
+               if constexpr (requires { scope.node.entryOf(&model).name; })
+                 model.surface.name = scope.node.entryOf(&model).name;
                all.push_back(&model.surface);
              }));
     int solvers = 0;

@@ -6,6 +6,8 @@
 #include <sinew/lagrangian/constrained_motion.hpp>
 #include <sinew/scene/scope.hpp>
 
+#include <Eigen/Eigenvalues>
+
 #include <type_traits>
 
 namespace sinew {
@@ -49,6 +51,10 @@ struct ContactRows {
     for (ConstraintBlock const& b : p.blocks) {
       if (b.first < m.contactRows) continue;
       const double most = diagonal.segment(b.first, b.rows).maxCoeff();
+      if (b.kind == ConstraintBlock::Kind::equality && most > least) {
+        fillRank(p, b.first);
+        continue;
+      }
       for (int i = b.first; i < b.first + b.rows; ++i) {
         if (diagonal[i] > least) continue;
         p.compliance.row(i).setZero();
@@ -61,6 +67,19 @@ struct ContactRows {
   }
 
  private:
+  // an equality in all three directions, of which some cannot move
+  static void fillRank(ConstraintProblem& p, int first) {
+    auto block = p.compliance.block<3, 3>(first, first);
+    auto d = p.freeViolation.segment<3>(first);
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solved(Eigen::Matrix3d{block});
+    const Eigen::Vector3d values = solved.eigenvalues();
+    for (int i = 0; i < 3; ++i) {
+      if (values[i] > 1e-12 * values[2]) continue;
+      const Eigen::Vector3d v = solved.eigenvectors().col(i);
+      block += (values[2] - values[i]) * v * v.transpose();
+      d -= v.dot(d) * v;
+    }
+  }
   template <class F>
   void forEachManager(F&& f) const {
     traverse(root, on<role::ContactManager>([&](auto& manager, auto const& scope) { f(manager, scope); }));
@@ -87,6 +106,7 @@ struct ContactRows {
     manager.forEachConstrained([&](auto const& response, Contact& c) {
       const int row = m.rows.count();
       c.motion = motionOf(manager, c);
+      c.start = c.motion.start;
       response.addRows(m.rows, c, c.motion);
       c.rows = m.rows.count() - row;
       c.row = c.rows > 0 ? row : -1;
