@@ -28,7 +28,8 @@ struct CollisionSurface {
   std::vector<std::array<int, 3>> elements{};  // their corners, -1 behind the last; of a hull its centre
   std::vector<double> radius{};                // of each sphere
   std::optional<ConvexHull> hull{};            // of each element, in the axes of its rigid
-  std::string path{};                          // for messages
+  std::string path{};                          // of its node
+  std::string name{};                          // of the model, where it has one
   void const* state = nullptr;
   int number = -1;                   // among the surfaces of the scene, in their order
   int solver = -1;                   // which of the ODE solvers moves it; none: -1

@@ -36,6 +36,7 @@ struct ConstrainedMotion {
   ConstraintProblem problem{};  // of the last step; multipliers in N
   std::vector<ConstrainedSystem> systems{};
   std::vector<int> rowsOf{};  // how many each constraint has, in the order of the scene
+  int contactRows = 0;        // the first row behind them: those of contacts
 };
 
 }  // namespace sinew

@@ -201,10 +201,6 @@ inline constexpr std::array anotherMethod = std::to_array<AnotherMethod>(
     {{"LocalMinDistance",
       "all pairs of elements within the distance are contacts, as with MinProximityIntersection; SOFA leaves "
       "out those that are no local minima of the distance"},
-     {"FrictionContact",
-      "bodies are kept apart by penalty forces with Coulomb friction, as with PenalityContactForceField; "
-      "SOFA solves "
-      "for multipliers"},
      {"AsyncSparseLDLSolver",
       "the matrix of each step is factorised before it is solved, as with SparseLDLSolver; SOFA goes on with "
       "the factorisation of an earlier step while a thread makes the next"},

@@ -116,7 +116,7 @@ inline constexpr std::array notSimulated = std::to_array<NotSimulated>({
     {"RegularGridTopology", "pyramids", ""}, {"SparseGridTopology", "pyramids", ""},
     {"SphereGridTopology", "pyramids", ""}, {"", "radius", "1e-05"}, {"LinearSolverConstraintCorrection", "regularizationTerm", "0"}, {"", "rayleighMass", "0"},
     {"", "rayleighStiffness", "0"}, {"PolynomialSpringsForceField", "recompute_indices", "0"},
-    {"", "resizeToModel", "0"}, {"", "responseFactor", "1"}, {"", "responseParams", ""},
+    {"", "resizeToModel", "0"}, {"", "responseFactor", "1"},
     {"", "restRotations", "0"}, {"", "restScale", "1"}, {"", "rotation2", "0 0 0"},
     {"", "separateGravity", "0"}, {"", "size", "0|1"}, {"", "solveConstraint", "0"},
     {"", "spring", ""}, {"", "springsIndices1", ""},

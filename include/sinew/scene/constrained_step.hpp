@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/lagrangian/constrained_motion.hpp>
+#include <sinew/scene/contact_rows.hpp>
 #include <sinew/scene/mechanical_operations.hpp>
 #include <sinew/scene/solvers.hpp>
 #include <sinew/solver/multi_vec.hpp>
@@ -86,6 +87,8 @@ struct ConstrainedStep {
     for (auto& system : m.systems) system.clear();
     traverse(root,
              on<role::LagrangianConstraint>([&](auto& c, auto const& scope) { addRowsOf(c, scope, m); }));
+    m.contactRows = m.rows.count();
+    ContactRows<RootScope>{root, dt}.add(m);
   }
   template <class D, class S>
   ConstrainedState<D> stateAt(S const& scope) const {
@@ -255,7 +258,7 @@ struct ConstrainedStep {
     for (int k = 0; k < system.jacobian.rows(); ++k)
       system.jacobian.addTransposed(k, m.problem.multipliers[system.rows[std::size_t(k)]], system.force);
     respond(scope, how, system);
-    if (keepsForces) keep(operations, how);
+    if (keepsForces) keep(operations, how, m, system);
     operations.peq(vec_id::velocity, how.motion(), how.factors.velocity);
     if (m.rows.ofVelocity) {
       operations.peq(vec_id::position, vec_id::velocity, dt);
@@ -264,16 +267,33 @@ struct ConstrainedStep {
       operations.peq(vec_id::position, how.motion(), how.factors.position);
     }
   }
-  // What multipliers and what they move have done over the step: with A u = impulse J' f the forces of the
-  // system change by
-  // -(A - M) u / impulse, and constraints of all kinds are the rest, A u / impulse.
+  // What multipliers and what they move have done over the step. With A u = impulse J' f the forces of the
+  // system change by -(A - M) u / impulse, and those of contacts are forces too; the reaction of points is
+  // that of the multipliers of constraints, and what holds points that do not follow, (1 - P) (A u / impulse
+  // - J' f).
   template <class Operations>
-  static void keep(Operations& operations, MultiplierResponse const& how) {
+  static void keep(Operations& operations, MultiplierResponse const& how, ConstrainedMotion const& m,
+                   ConstrainedSystem& system) {
+    constexpr DerivId held = vec_id::marked, follows = vec_id::startVelocity;
     const double s = 1 / how.factors.impulse;
     const MatrixFactors a = how.factors.matrix;
     operations.addMBKdx(
         vec_id::applied, how.motion(), {.m = a.m == 0 ? 0 : (1 - a.m) * s, .b = -a.b * s, .k = -a.k * s});
-    operations.addMBKdx(vec_id::reaction, how.motion(), {.m = a.m * s, .b = a.b * s, .k = a.k * s});
+    operations.clear(held);
+    operations.addMBKdx(held, how.motion(), {.m = a.m * s, .b = a.b * s, .k = a.k * s});
+    for (const bool ofContacts : {false, true}) {
+      system.force.setZero();
+      for (int k = 0; k < system.jacobian.rows(); ++k)
+        if (const int row = system.rows[std::size_t(k)]; (row >= m.contactRows) == ofContacts)
+          system.jacobian.addTransposed(k, m.problem.multipliers[row], system.force);
+      operations.scatter(how.force(), system.force);
+      operations.peq(held, how.force(), -1);
+      operations.peq(ofContacts ? vec_id::applied : vec_id::reaction, how.force(), 1);
+    }
+    operations.eq(follows, held);
+    operations.projectResponse(follows);
+    operations.peq(vec_id::reaction, held, 1);
+    operations.peq(vec_id::reaction, follows, -1);
   }
 };
 
@@ -289,6 +309,7 @@ void ConstrainedStep<RootScope>::integrate(ConstrainedMotion& m, bool velocityFi
     solve(m);
     giveBack(m);
   }
+  ContactRows<RootScope>{root, dt}.giveBack(m);
   std::size_t number = 0;
   for_each_integrator(root, [&](auto& ode, auto const& scope) {
     const auto how = MultiplierResponse::of(ode, dt);
@@ -315,6 +336,7 @@ void ConstrainedStep<RootScope>::findCompliance(ConstrainedMotion& m) const {
   for_each_integrator(root, [&](auto& ode, auto const& scope) {
     addCompliance(scope, MultiplierResponse::of(ode, dt), m.systems[number++], m);
   });
+  ContactRows<RootScope>::leaveOutFixed(m);
   checkCompliance(m);
 }
 

@@ -253,11 +253,6 @@ class SceneValues {
     // a picture has neither forces nor masses
     if (a.name.starts_with("map") && item.info->role == RoleKind::mapping && item.place->state.empty())
       return;
-    // parameters of the response that is named: only friction has some
-    if (a.name == "responseParams")
-      if (auto const* response = item.element->attribute("response");
-          !response || response->value != "FrictionContact")
-        return;
     if (dialect::another_method(item.tag))
       return void(messages_.warnings.insert(text(item.element->place(a),
                                                  ": <",
