@@ -316,6 +316,7 @@ void ConstrainedStep<RootScope>::findCompliance(ConstrainedMotion& m) const {
     addCompliance(scope, MultiplierResponse::of(ode, dt), m.systems[number++], m);
   });
   checkCompliance(m);
+  problem.compliance.diagonal() += Eigen::Map<Eigen::VectorXd const>(m.rows.compliance.data(), n);
 }
 
 }  // namespace sinew
