@@ -338,6 +338,7 @@ void ConstrainedStep<RootScope>::findCompliance(ConstrainedMotion& m) const {
   });
   ContactRows<RootScope>::leaveOutFixed(m);
   checkCompliance(m);
+  problem.compliance.diagonal() += Eigen::Map<Eigen::VectorXd const>(m.rows.compliance.data(), n);
 }
 
 }  // namespace sinew
