@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/core/error.hpp>
+#include <sinew/linalg/reserved.hpp>
 
 #include <Eigen/Core>
 
@@ -42,9 +43,9 @@ struct ConstraintBlock {
 struct ConstraintProblem {
   using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-  Matrix compliance{};              // W
-  Eigen::VectorXd freeViolation{};  // d_free, of the motion without multipliers
-  Eigen::VectorXd multipliers{};    // f: the first guess, then the solution
+  Reserved<Matrix> compliance{};   // W
+  ReservedVector freeViolation{};  // d_free, of the motion without multipliers
+  ReservedVector multipliers{};    // f: the first guess, then the solution
   std::vector<ConstraintBlock> blocks{};
 
   int rows() const { return int(freeViolation.size()); }

@@ -52,7 +52,7 @@ class ConstraintSweeps {
   using Few = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, ConstraintBlock::maxRows, 1>;
 
   std::vector<Small> inverses_{};  // of W_bb, for equalities
-  Eigen::VectorXd last_{}, change_{}, direction_{}, violation_{};
+  ReservedVector last_{}, change_{}, direction_{}, violation_{};
 
   void begin(ConstraintProblem const& problem, std::string_view where);
   static double limit(ConstraintProblem const& problem, SweepSettings const& settings) {
@@ -100,7 +100,7 @@ inline void ConstraintSweeps::solveBlock(ConstraintProblem& problem, std::size_t
                                          double weight) const {
   ConstraintBlock const& b = problem.blocks[number];
   auto const& W = problem.compliance;
-  Eigen::VectorXd& f = problem.multipliers;
+  auto& f = problem.multipliers;
   const int i = b.first;
   switch (b.kind) {
     case ConstraintBlock::Kind::equality:
