@@ -85,10 +85,7 @@ struct BilateralLagrangianConstraint {
     check_points(where, "first_point", first_point, first.rest.size());
     check_points(where, "second_point", second_point, second.rest.size());
   }
-  void reset() {
-    multipliers.clear();
-    differences.clear();
-  }
+  void reset() { differences.clear(); }
 
   void addRows(ConstraintRows& rows, ConstrainedState<D> const& state) { addRows(rows, state, state); }
   void addRows(ConstraintRows& rows, ConstrainedState<D> const& first, ConstrainedState<D> const& second) {

@@ -38,7 +38,6 @@ struct FixedLagrangianConstraint {
   void init(InitContext<D> const& context) {
     held = held_points<FixedLagrangianConstraint>(context, indices, fixAll);
   }
-  void reset() { multipliers.clear(); }
 
   void addRows(ConstraintRows& rows, ConstrainedState<D> const& state) const {
     for (const int point : held) {

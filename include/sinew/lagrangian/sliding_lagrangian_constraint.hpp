@@ -57,7 +57,6 @@ struct SlidingLagrangianConstraint {
     check_points(where, "sliding_point", std::vector{sliding_point}, first.rest.size());
     check_points(where, "axis_1 or axis_2", std::vector{axis_1, axis_2}, second.rest.size());
   }
-  void reset() { multipliers.clear(); }
 
   void addRows(ConstraintRows& rows, ConstrainedState<D> const& state) const { addRows(rows, state, state); }
   void addRows(ConstraintRows& rows, ConstrainedState<D> const& first,

@@ -39,7 +39,6 @@ struct StopperLagrangianConstraint {
     check_points<StopperLagrangianConstraint>(context, {index});
     checkStops(place_of<StopperLagrangianConstraint>(context));
   }
-  void reset() { multipliers.clear(); }
 
   void addRows(ConstraintRows& rows, ConstrainedState<D> const& state) const {
     const auto p = std::size_t(index);

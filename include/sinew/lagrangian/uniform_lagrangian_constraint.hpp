@@ -42,7 +42,6 @@ struct UniformLagrangianConstraint {
   }
 
   void init(InitContext<D> const&) {}
-  void reset() { multipliers.clear(); }
 
   void addRows(ConstraintRows& rows, ConstrainedState<D> const& state) const {
     const int count = int(state.free.size()) * D::size;

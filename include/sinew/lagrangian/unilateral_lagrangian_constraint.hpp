@@ -2,7 +2,7 @@
 #pragma once
 
 #include <sinew/core/ends.hpp>
-#include <sinew/lagrangian/contact_rows.hpp>
+#include <sinew/lagrangian/point_contacts.hpp>
 
 #include <vector>
 
@@ -41,7 +41,6 @@ struct UnilateralLagrangianConstraint {
   void init(InitContext<D> const& first, InitContext<D> const& second) {
     check_contacts(*this, first, second);
   }
-  void reset() { multipliers.clear(); }
 
   void addRows(ConstraintRows& rows, ConstrainedState<D> const& state) const { addRows(rows, state, state); }
   void addRows(ConstraintRows& rows, ConstrainedState<D> const& first,

@@ -109,7 +109,7 @@ inline constexpr std::array notYet = std::to_array<ClassesLeftOut>(
       "RayCollisionModel",
       "collides with nothing here; take triangles, lines, points, spheres or convex hulls"},
      {"DirectSAPNarrowPhase", "is no stage here; take BVHNarrowPhase, which finds the same pairs"},
-     {"RayTraceDetection RayTraceNarrowPhase CompositeCollisionPipeline RuleBasedContactManager",
+     {"RayTraceDetection RayTraceNarrowPhase CompositeCollisionPipeline",
       "is no stage of collision here; take DefaultPipeline, BVHNarrowPhase and DefaultContactManager"}});
 
 /// Collide in SOFA with points, and only where DiscreteIntersection tests them

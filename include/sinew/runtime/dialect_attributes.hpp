@@ -101,7 +101,7 @@ inline constexpr std::array notSimulated = std::to_array<NotSimulated>({
     {"", "filterIntersection", "1"}, {"", "first", "4294967295"}, {"", "flipNormals", "0"},
     {"", "geometricStiffness", "Exact|1"}, {"", "ignoreNotFound", "0"}, {"", "indexFromEnd", "0"},
     {"", "indices", ""}, {"", "initialPoints", ""}, {"", "isCompliance", "0"}, {"", "last", "4294967295"},
-    {"", "lastDir", ""}, {"", "lastFreeRotation", "0"}, {"", "lastPos", ""}, {"", "lengths", ""}, {"", "load", "1"},
+    {"", "lastDir", ""}, {"", "lastFreeRotation", "0"}, {"", "lastPos", ""}, {"", "lengths", ""},
     {"MeshSpringForceField", "localRange", "4294967295 4294967295"},
     {"PlaneForceField", "localRange", "-1 -1"}, {"QuadBendingSprings", "localRange", "-1 -1"},
     {"SphereForceField", "localRange", "-1 -1"}, {"UniformMass", "localRange", "-1 -1"},
