@@ -4,6 +4,7 @@
 #include "catch.hpp"
 #include "sample.hpp"
 
+#include <limits>
 #include <map>
 
 namespace laws {
@@ -11,8 +12,8 @@ namespace laws {
 using namespace sinew;
 using sample::Random;
 
-/// What rows of a Lagrangian constraint over D have to be, whatever it holds. States are two bodies, the second
-/// for the second end of a constraint between two.
+/// What rows of a Lagrangian constraint over D have to be, whatever it holds. States are two bodies, the
+/// second for the second end of a constraint between two.
 template <class D>
 struct LagrangianSuite {
   using Real = typename D::Real;
@@ -24,10 +25,11 @@ struct LagrangianSuite {
   sample::Body body{random};
   VecCoord rest[2] = {body_positions(), body_positions()};
   VecCoord position[2] = {moved(rest[0]), moved(rest[1])};
-  VecDeriv velocity[2] = {sample::derivs<D>(rest[0].size(), random), sample::derivs<D>(rest[0].size(), random)};
+  VecDeriv velocity[2] = {sample::derivs<D>(rest[0].size(), random),
+                          sample::derivs<D>(rest[0].size(), random)};
 
-  // bodies in space, whose orientations are almost the same: that of a rotation vector of length e in the world
-  // has the Jacobian I + O(e)
+  // bodies in space, whose orientations are almost the same: that of a rotation vector of length e in the
+  // world has the Jacobian I + O(e)
   static constexpr double turn = 1e-6;
   VecCoord body_positions() {
     VecCoord x = sample::positions<D>(body, random);
@@ -78,8 +80,8 @@ struct LagrangianSuite {
     CHECK(found > 0);
   }
 
-  // the Jacobian of rows is the change of violations with free positions, or with velocities; returns how many
-  // rows there are
+  // the Jacobian of rows is the change of violations with free positions, or with velocities; returns how
+  // many rows there are
   template <class C>
   int jacobian(C& c, bool ofVelocity) {
     INFO((ofVelocity ? "of velocities" : "of positions"));
@@ -104,8 +106,12 @@ struct LagrangianSuite {
         column[std::size_t(e.row)] += e.values[std::size_t(i)];
       }
     }
-    // d is linear but in rotations, with a second derivative of 1: that is h, and rounding is 1e-16/h
-    const double h = 1e-4, error = D::rigid ? 100 * turn + h * h : 1e-11;
+    // d is linear but in rotations, with a second derivative of 1, which is h; what rounding of d comes to is
+    // eps |d| / h
+    double largest = 1;
+    for (const double d : at.violation) largest = std::max(largest, std::abs(d));
+    const double h = 1e-4, rounding = 10 * std::numeric_limits<double>::epsilon() * largest / h,
+                 error = D::rigid ? 100 * turn + h * h : rounding;
     for (int side = 0; side < (JoinsTwo<C> ? 2 : 1); ++side)
       for (std::size_t p = 0; p < rest[side].size(); ++p)
         for (int i = 0; i < D::size; ++i) {
