@@ -9,8 +9,12 @@
 #include <sinew/lagrangian/block_gauss_seidel_constraint_solver.hpp>
 #include <sinew/lagrangian/fixed_lagrangian_constraint.hpp>
 #include <sinew/lagrangian/free_motion_animation_loop.hpp>
+#include <sinew/lagrangian/lcp_constraint_solver.hpp>
 #include <sinew/lagrangian/linear_solver_constraint_correction.hpp>
+#include <sinew/lagrangian/nncg_constraint_solver.hpp>
 #include <sinew/lagrangian/sliding_lagrangian_constraint.hpp>
 #include <sinew/lagrangian/stopper_lagrangian_constraint.hpp>
+#include <sinew/lagrangian/unbuilt_gauss_seidel_constraint_solver.hpp>
+#include <sinew/lagrangian/uncoupled_constraint_correction.hpp>
 #include <sinew/lagrangian/uniform_lagrangian_constraint.hpp>
 #include <sinew/lagrangian/unilateral_lagrangian_constraint.hpp>
