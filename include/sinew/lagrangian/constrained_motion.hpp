@@ -25,7 +25,7 @@ struct ConstrainedSystem {
       rows.push_back(row);
       jacobian.addRow();
     }
-    jacobian.add(dof, value);
+    jacobian.addToLast(dof, value);
   }
 };
 
