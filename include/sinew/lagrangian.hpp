@@ -3,6 +3,8 @@
 
 // Constraints by Lagrange multipliers, and what solves them.
 
+#include <sinew/scene/constrained_step.hpp>
+
 // All components of lagrangian:
 #include <sinew/lagrangian/augmented_lagrangian_constraint.hpp>
 #include <sinew/lagrangian/bilateral_lagrangian_constraint.hpp>
