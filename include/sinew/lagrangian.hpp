@@ -9,6 +9,7 @@
 #include <sinew/lagrangian/augmented_lagrangian_constraint.hpp>
 #include <sinew/lagrangian/bilateral_lagrangian_constraint.hpp>
 #include <sinew/lagrangian/block_gauss_seidel_constraint_solver.hpp>
+#include <sinew/lagrangian/convex_constraint_solver.hpp>
 #include <sinew/lagrangian/fixed_lagrangian_constraint.hpp>
 #include <sinew/lagrangian/free_motion_animation_loop.hpp>
 #include <sinew/lagrangian/lcp_constraint_solver.hpp>

@@ -11,11 +11,13 @@ namespace {
 
 const Eigen::Vector3d g(0, 0, -10);
 
-template <class Ode, class... Linear>
+template <class ConstraintSolver = BlockGaussSeidelConstraintSolver, class Ode, class... Linear>
 auto hanging(Ode ode, Linear... linear) {
+  ConstraintSolver solver;
+  solver.tolerance = 1e-13;
   return Simulation{node<"root">(Gravity{g},
                                  FreeMotionAnimationLoop{},
-                                 BlockGaussSeidelConstraintSolver{.tolerance = 1e-14},
+                                 solver,
                                  ode,
                                  linear...,
                                  node<"body">(MechanicalObject<Vec3d>{.position = {{0, 0, 0}, {0, 0, -1}}},
@@ -44,6 +46,8 @@ TEST_CASE("a point that a multiplier holds stays, and the multiplier is its weig
   holds(hanging(EulerImplicitSolver{}, SparseLDLSolver<>{}));
   holds(hanging(EulerImplicitSolver{}, CGLinearSolver<>{.tolerance = 1e-14}));
   holds(hanging(NewmarkImplicitSolver{}, SparseLDLSolver<>{}));
+  holds(hanging<ConvexConstraintSolver>(EulerExplicitSolver{}));
+  holds(hanging<ConvexConstraintSolver>(EulerImplicitSolver{}, CGLinearSolver<>{.tolerance = 1e-14}));
   holds(hanging(VariationalSymplecticSolver{}, SparseLDLSolver<>{}));
 }
 

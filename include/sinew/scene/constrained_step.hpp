@@ -4,6 +4,7 @@
 #include <sinew/lagrangian/constrained_motion.hpp>
 #include <sinew/scene/contact_rows.hpp>
 #include <sinew/scene/mechanical_operations.hpp>
+#include <sinew/scene/motion_problem.hpp>
 #include <sinew/scene/solvers.hpp>
 #include <sinew/solver/multi_vec.hpp>
 
@@ -211,7 +212,13 @@ struct ConstrainedStep {
     bool solved = false;
     traverse(root, on<role::ConstraintSolver>([&](auto& solver, auto const& scope) {
                if (std::exchange(solved, true)) return;
-               solver.solve(m.problem, scope.path());
+               if constexpr (SolvesMotion<std::decay_t<decltype(solver)>>) {
+                 MotionProblem<RootScope>{root, time, dt}.solve(m, solver, scope.path());
+                 m.hasMotion = true;
+               } else {
+                 findCompliance(m);
+                 solver.solve(m.problem, scope.path());
+               }
              }));
   }
   // constraints keep their multipliers
@@ -231,10 +238,14 @@ struct ConstrainedStep {
     MechanicalOperations<S> operations(scope, time, dt);
     auto takeFree = [&] { operations.forEachIndependent([](auto& s) { s.position.swap(s.freePosition); }); };
     if (system.rows.empty()) return takeFree();
-    system.force.setZero();
-    for (int k = 0; k < system.jacobian.rows(); ++k)
-      system.jacobian.addTransposed(k, m.problem.multipliers[system.rows[std::size_t(k)]], system.force);
-    respond(scope, how, system);
+    if (m.hasMotion) {
+      operations.scatter(how.motion(), system.motion);
+    } else {
+      system.force.setZero();
+      for (int k = 0; k < system.jacobian.rows(); ++k)
+        system.jacobian.addTransposed(k, m.problem.multipliers[system.rows[std::size_t(k)]], system.force);
+      respond(scope, how, system);
+    }
     if (keepsForces) keep(operations, how, m, system);
     operations.peq(vec_id::velocity, how.motion(), how.factors.velocity);
     if (m.rows.ofVelocity) {
@@ -281,8 +292,8 @@ void ConstrainedStep<RootScope>::integrate(ConstrainedMotion& m, bool velocityFi
   for_each_solver(root, [&](auto& ode, auto const& scope) { moveFreely(ode, scope, keepsForces); });
   for_each_integrator(root, [&](auto&, auto const& scope) { lookFromStart(scope); });
   collectRows(m, velocityFirst);
+  m.hasMotion = false;
   if (m.rows.count() > 0) {
-    findCompliance(m);
     solve(m);
     giveBack(m);
   }

@@ -180,8 +180,8 @@ class Initialisation {
         dofs = std::max(dofs, s.dofOffset + int(s.size()) * D::size);
       });
       auto& system = motion.systems.emplace_back();
-      system.force.setZero(dofs);
-      system.motion.setZero(dofs);
+      system.force.setZero(dofs + 1);
+      system.motion.setZero(dofs + 1);
     }
   }
   template <class Ode, class Linear, class S>
