@@ -154,9 +154,9 @@ using LagrangianConstraints =
              StopperLagrangianConstraint<Vec1d>>;
 using StandardMultipliers =
     Registry<FreeMotionAnimationLoop, BlockGaussSeidelConstraintSolver, NNCGConstraintSolver,
-             UnbuiltGaussSeidelConstraintSolver, LCPConstraintSolver, LinearSolverConstraintCorrection,
-             UncoupledConstraintCorrection<Vec3d>, UncoupledConstraintCorrection<Rigid3d>,
-             LagrangianConstraints>;
+             UnbuiltGaussSeidelConstraintSolver, LCPConstraintSolver, ConvexConstraintSolver,
+             LinearSolverConstraintCorrection, UncoupledConstraintCorrection<Vec3d>,
+             UncoupledConstraintCorrection<Rigid3d>, LagrangianConstraints>;
 
 /// Every component that Sinew brings, over the DataTypes that scenes use.
 struct Standard : Registry<Gravity, Threads, StandardTopologies, MadeMeshes, VisualModel, StandardEngines,
