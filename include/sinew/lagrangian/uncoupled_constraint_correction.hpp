@@ -23,6 +23,7 @@ struct UncoupledConstraintCorrection {
 
   double defaultCompliance = 1e-5;
   std::vector<double> compliance{};
+  bool useOdeSolverIntegrationFactors = true;
 
   static constexpr auto fields() {
     using C = UncoupledConstraintCorrection;
@@ -36,7 +37,12 @@ struct UncoupledConstraintCorrection {
                             rotates ? "1/kg, 1/(kg m^2)" : "1/kg",
                             rotates ? "of all bodies: one number for their centres, and six for their "
                                       "rotations, xx xy xz yy yz zz"
-                                    : "one for all points, or one for each"));
+                                    : "one for all points, or one for each"),
+                      field("useOdeSolverIntegrationFactors",
+                            &C::useOdeSolverIntegrationFactors,
+                            "",
+                            "else compliances are of positions, the displacement in a step for a force [m/N, "
+                            "rad/(N m)], and velocities change by that over the length of the step"));
   }
 
   void init(InitContext<D> const& context) {
@@ -63,7 +69,8 @@ struct UncoupledConstraintCorrection {
 
   void addCorrection(typename D::VecDeriv& u, typename D::VecDeriv const& f, typename D::VecCoord const&,
                      ConstraintFactors const& factors) const {
-    for (std::size_t i = 0; i < u.size(); ++i) u[i] += Real(factors.impulse) * answer(i, f[i]);
+    const Real by = Real(useOdeSolverIntegrationFactors ? factors.impulse : 1 / factors.position);
+    for (std::size_t i = 0; i < u.size(); ++i) u[i] += by * answer(i, f[i]);
   }
 
  private:

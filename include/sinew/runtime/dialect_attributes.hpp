@@ -123,7 +123,7 @@ inline constexpr std::array notSimulated = std::to_array<NotSimulated>({
     {"", "springsIndices2", ""},     {"", "transformation", "[1 0 0 0,0 1 0 0,0 0 1 0,0 0 0 1]"}, {"", "translation2", "0 0 0"},
     {"", "triAngle", "0"}, {"", "triangulate", "0"}, {"", "updateStateWhenDiverged", "1"}, {"", "updateStiffnessMatrix", "0"},
     {"", "svdSingularValueNullSpaceCriteriaFactor", "0.01"}, {"", "svdSingularVectorNullSpaceCriteriaFactor", "0.001"},
-    {"", "useLineLine", "1"}, {"", "useOdeSolverIntegrationFactors", "1"}, {"", "useSVDForRegularization", "0"}, {"", "useLinePoint", "1"}, {"", "useLMDFilters", "0"},
+    {"", "useLineLine", "1"}, {"", "useSVDForRegularization", "0"}, {"", "useLinePoint", "1"}, {"", "useLMDFilters", "0"},
     {"", "usePointPoint", "1"}, {"BarycentricMapping", "useRestPosition", "0"},
     {"NearestPointROI", "useRestPosition", "1"}, {"", "useSphereTriangle", "1"},
     {"", "useSurfaceNormals", "0"}, {"", "useTangentStiffness", "1"}, {"", "useTopology", "1"},

@@ -64,8 +64,10 @@ class SceneValues {
       component(item).template visit<role::Topology>([&](auto& topology) {
         if constexpr (requires { topology.generate(""); }) topology.generate(item.info->cppName);
       });
-      component(item).template visit<role::InteractionForceField, role::ProjectiveConstraint>(
-          [&](auto& joint) {
+      component(item)
+          .template visit<role::InteractionForceField,
+                          role::ProjectiveConstraint,
+                          role::LagrangianConstraint>([&](auto& joint) {
             if constexpr (requires { joint.ends.object1; })
               joint.ends.object1 = item.ends[0], joint.ends.object2 = item.ends[1];
           });
