@@ -136,13 +136,15 @@ class ConstraintTerms {
     if (lag == FrictionLag::gap)
       for (ConstraintBlock const& b : *blocks_)
         if (b.kind == ConstraintBlock::Kind::friction)
-          lag_[b.first] = b.friction * violation.segment<2>(b.first + 1).norm();
+          lag_[b.first] = std::min(b.friction, contact_potential::largestFriction) *
+                          violation.segment<2>(b.first + 1).norm();
     setBefore(multipliers);
     evaluateMultipliers();
   }
 
   /// ConstraintProblem::residual, with an estimate of the diagonal of W; where nothing is lagged, without the
-  /// term of De Saxce.
+  /// term of De Saxce. Above a friction of 10, that term is mostly mu times the error of what sticks; the map
+  /// is then that of Alart and Curnier (1991), the projection on the normal and on the disk of mu f_n.
   double residual(Eigen::VectorXd const& compliance) const;
 
   /// How far the potentials are from the conditions, in the unit of d: by the regularisation, r |f - g|, and
@@ -153,6 +155,8 @@ class ConstraintTerms {
   Rest rest(Eigen::VectorXd const& compliance) const;
 
  private:
+  static constexpr double steepCone = 10;
+
   using Values = std::array<double, ConstraintBlock::maxRows>;
 
   JacobianRows const* J_ = nullptr;
@@ -203,6 +207,11 @@ inline double ConstraintTerms::residual(Eigen::VectorXd const& compliance) const
       case ConstraintBlock::Kind::friction: {
         const Eigen::Vector3d f = multipliers.segment<3>(b.first);
         Eigen::Vector3d d = violation.segment<3>(b.first);
+        if (kind_ != FrictionLag::none && b.friction > steepCone) {
+          const Eigen::Vector3d y = f - d / w;
+          worst = std::max(worst, (f - contact_potential::bounded(b.friction * f[0], y)).norm() * w);
+          break;
+        }
         if (kind_ != FrictionLag::none) d[0] += b.friction * d.tail<2>().norm();
         worst = std::max(worst, (f - project_on_cone(f - d / w, b.friction)).norm() * w);
         break;
