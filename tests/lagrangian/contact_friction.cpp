@@ -15,33 +15,37 @@ RigidMass<double, 3> ball(double radius) {
   return {mass, 0.4 * mass * radius * radius * Eigen::Matrix3d::Identity()};
 }
 
+const BlockGaussSeidelConstraintSolver gaussSeidel{.maxIterations = 20000, .tolerance = 1e-13};
+const ConvexConstraintSolver convex{.tolerance = 1e-12, .momentumTolerance = 1e-12};
+
 // a cube of 1 m on four spheres, on a slope; it touches
-template <class Ode, class... Linear>
-auto block(double mu, double angle, double speed, Ode ode, Linear... linear) {
+template <class Solver, class Ode, class... Linear>
+auto block(Solver solver, double mu, double angle, double speed, Ode ode, Linear... linear) {
   std::vector<Eigen::Vector3d> feet;
   for (auto [x, y] : {std::pair{-0.4, -0.4}, {0.4, -0.4}, {0.4, 0.4}, {-0.4, 0.4}})
     feet.push_back({x, y, -0.4});
   const auto start = on_slope(angle, {0, 0, 0.51});
   Eigen::Matrix<double, 6, 1> v;
   v << speed * (start.orientation * Eigen::Vector3d::UnitX()), 0, 0, 0;
-  return constrained_scene(near_by(),
-                           mu,
-                           fixed_floor(angle),
-                           node<"block">(ode,
-                                         linear...,
-                                         MechanicalObject<Rigid3d>{.position = {start}, .velocity = {v}},
-                                         UniformMass<Rigid3d>{.vertexMass = cube()},
-                                         node<"feet">(MechanicalObject<Vec3d>{.position = feet},
-                                                      RigidMapping<Rigid3d, Vec3d>{},
-                                                      SphereCollisionModel<Vec3d>{.radius = 0.1})));
+  return constrained_scene_by(solver,
+                              near_by(),
+                              mu,
+                              fixed_floor(angle),
+                              node<"block">(ode,
+                                            linear...,
+                                            MechanicalObject<Rigid3d>{.position = {start}, .velocity = {v}},
+                                            UniformMass<Rigid3d>{.vertexMass = cube()},
+                                            node<"feet">(MechanicalObject<Vec3d>{.position = feet},
+                                                         RigidMapping<Rigid3d, Vec3d>{},
+                                                         SphereCollisionModel<Vec3d>{.radius = 0.1})));
 }
 
 }  // namespace
 
 TEST_CASE("a block on a slope sticks below the angle of friction, and slides as it should above") {
   const double mu = 0.5, critical = std::atan(mu);
-  auto run = [&](double angle, auto... solvers) {
-    auto sim = block(mu, angle, 0, solvers...);
+  auto run = [&](auto solver, double angle, auto... solvers) {
+    auto sim = block(solver, mu, angle, 0, solvers...);
     sim.init();
     auto const& body = sim.template at<"block">().state();
     const Eigen::Vector3d start = body.position[0].center,
@@ -59,20 +63,25 @@ TEST_CASE("a block on a slope sticks below the angle of friction, and slides as 
   };
   for (const double angle : {0.0, critical - 1e-4, critical + 1e-4, critical + 0.2}) {
     INFO(angle);
-    run(angle, EulerExplicitSolver{});
-    run(angle, EulerImplicitSolver{}, CGLinearSolver<>{.tolerance = 1e-14});
+    run(gaussSeidel, angle, EulerExplicitSolver{});
+    run(gaussSeidel, angle, EulerImplicitSolver{}, CGLinearSolver<>{.tolerance = 1e-14});
+    run(convex, angle, EulerExplicitSolver{});
   }
 }
 
 TEST_CASE("a block that slides stops where friction has its energy") {
   const double mu = 0.3, v0 = 3;
-  auto sim = block(mu, 0, v0, EulerExplicitSolver{});
-  sim.init();
-  auto const& body = sim.at<"block">().state();
-  for (int i = 0; i < 200; ++i) sim.animate(dt);
-  // each step moves by the velocity at its end
-  CHECK(body.position[0].center[0] == Approx(v0 * v0 / (2 * mu * g) - v0 * dt / 2).epsilon(1e-7));
-  CHECK(body.velocity[0].norm() < 1e-8);
+  auto run = [&](auto solver) {
+    auto sim = block(solver, mu, 0, v0, EulerExplicitSolver{});
+    sim.init();
+    auto const& body = sim.template at<"block">().state();
+    for (int i = 0; i < 200; ++i) sim.animate(dt);
+    // each step moves by the velocity at its end
+    CHECK(body.position[0].center[0] == Approx(v0 * v0 / (2 * mu * g) - v0 * dt / 2).epsilon(1e-7));
+    CHECK(body.velocity[0].norm() < 1e-8);
+  };
+  run(gaussSeidel);
+  run(convex);
 }
 
 TEST_CASE("a ball rolls down a slope without slip, and slips where friction is too little") {

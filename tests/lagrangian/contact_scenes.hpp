@@ -16,13 +16,12 @@ namespace sinew {
 
 inline constexpr double g = 10;  // [m/s^2]
 
-/// A root with all stages, and contacts by multipliers with friction mu, or another response of its class.
-/// Bodies touch at the contact distance 0.01 m.
-template <class Intersection, class... Children>
-auto constrained_scene(Intersection intersection, double mu, Children... children) {
+/// A root with all stages, and contacts by multipliers with friction mu. Bodies touch at the contact distance 0.01 m.
+template <class Solver, class Intersection, class... Children>
+auto constrained_scene_by(Solver solver, Intersection intersection, double mu, Children... children) {
   return Simulation{node<"root">(
       FreeMotionAnimationLoop{},
-      BlockGaussSeidelConstraintSolver{.maxIterations = 20000, .tolerance = 1e-13},
+      solver,
       DefaultPipeline{},
       BruteForceBroadPhase{},
       BVHNarrowPhase{},
@@ -30,6 +29,13 @@ auto constrained_scene(Intersection intersection, double mu, Children... childre
       DefaultContactManager{.response = "FrictionContactConstraint", .responseParams = text("mu=", mu)},
       Gravity{{0, 0, -g}},
       children...)};
+}
+template <class Intersection, class... Children>
+auto constrained_scene(Intersection intersection, double mu, Children... children) {
+  return constrained_scene_by(BlockGaussSeidelConstraintSolver{.maxIterations = 20000, .tolerance = 1e-13},
+                              intersection,
+                              mu,
+                              children...);
 }
 inline MinProximityIntersection near_by() { return {.alarmDistance = 0.1, .contactDistance = 0.01}; }
 

@@ -26,7 +26,7 @@ class ConstrainedBlockJacobi {
     gather(terms);
     inverse_.resize(system.size());
     for (std::size_t i = 0; i < system.size(); ++i) invert(system[i], inverse_[i]);
-    compliance.setZero(terms.rows().rows());
+    ConstraintTerms::clear(terms.rows().rows(), compliance);
     for (std::size_t k = 0; k < terms.blocks().size(); ++k) {
       ConstraintBlock const& b = terms.blocks()[k];
       for (std::size_t e = ends_[k]; e < ends_[k + 1]; ++e) {

@@ -22,7 +22,8 @@ enum class FrictionLag { bound, gap, none };
 
 /// The constraints of a step as terms of a convex function of the velocity v: sum_b l_b(d_b + s_b) with the
 /// violation d = J v + d_0, the potentials l of contact_potential.hpp, and the lagged gap s along the normal
-/// of contacts, or the lagged bound c of their friction. Vectors keep their room from one step to the next.
+/// of contacts, or the lagged bound c of their friction. Vectors over the rows are never made shorter, so
+/// that contacts may come and go; what is behind the last row is 0.
 class ConstraintTerms {
  public:
   Eigen::VectorXd regularisation{};  // r of each row, in the unit of the compliance W = J A^-1 J'
@@ -35,14 +36,20 @@ class ConstraintTerms {
              Eigen::VectorXd const& guess, FrictionLag lag) {
     J_ = &J;
     blocks_ = &blocks;
-    start_ = start;
     kind_ = lag;
-    lag_.setZero(start.size());
-    curvature_.setZero(3 * start.size());
-    product_.resize(start.size());
-    regularisation.setOnes(start.size());
-    multipliers.resize(start.size());
+    const Eigen::Index n = start.size();
+    for (Eigen::VectorXd* of :
+         {&start_, &lag_, &product_, &regularisation, &violation, &multipliers, &before})
+      clear(n, *of);
+    clear(3 * n, curvature_);
+    start_.head(n) = start;
+    regularisation.head(n).setOnes();
     setBefore(guess);
+  }
+  /// At least n zeros.
+  static void clear(Eigen::Index n, Eigen::VectorXd& of) {
+    if (of.size() < n) of.resize(n);
+    of.setZero();
   }
 
   JacobianRows const& rows() const { return *J_; }
@@ -129,12 +136,15 @@ class ConstraintTerms {
     if (lag == FrictionLag::gap)
       for (ConstraintBlock const& b : *blocks_)
         if (b.kind == ConstraintBlock::Kind::friction)
-          lag_[b.first] = b.friction * violation.segment<2>(b.first + 1).norm();
+          lag_[b.first] = std::min(b.friction, contact_potential::largestFriction) *
+                          violation.segment<2>(b.first + 1).norm();
     setBefore(multipliers);
     evaluateMultipliers();
   }
 
-  /// ConstraintProblem::residual, with an estimate of the diagonal of W.
+  /// ConstraintProblem::residual, with an estimate of the diagonal of W; where nothing is lagged, without the
+  /// term of De Saxce. Above a friction of 10, that term is mostly mu times the error of what sticks; the map
+  /// is then that of Alart and Curnier (1991), the projection on the normal and on the disk of mu f_n.
   double residual(Eigen::VectorXd const& compliance) const;
 
   /// How far the potentials are from the conditions, in the unit of d: by the regularisation, r |f - g|, and
@@ -145,6 +155,8 @@ class ConstraintTerms {
   Rest rest(Eigen::VectorXd const& compliance) const;
 
  private:
+  static constexpr double steepCone = 10;
+
   using Values = std::array<double, ConstraintBlock::maxRows>;
 
   JacobianRows const* J_ = nullptr;
@@ -166,7 +178,7 @@ class ConstraintTerms {
     return sum;
   }
   void setBefore(Eigen::VectorXd const& f) {
-    before = f;
+    before.head(J_->rows()) = f.head(J_->rows());
     for (ConstraintBlock const& b : *blocks_) {
       if (b.kind != ConstraintBlock::Kind::friction) continue;
       before.segment<3>(b.first) = project_on_cone(f.segment<3>(b.first), b.friction);
@@ -195,7 +207,12 @@ inline double ConstraintTerms::residual(Eigen::VectorXd const& compliance) const
       case ConstraintBlock::Kind::friction: {
         const Eigen::Vector3d f = multipliers.segment<3>(b.first);
         Eigen::Vector3d d = violation.segment<3>(b.first);
-        d[0] += b.friction * d.tail<2>().norm();
+        if (kind_ != FrictionLag::none && b.friction > steepCone) {
+          const Eigen::Vector3d y = f - d / w;
+          worst = std::max(worst, (f - contact_potential::bounded(b.friction * f[0], y)).norm() * w);
+          break;
+        }
+        if (kind_ != FrictionLag::none) d[0] += b.friction * d.tail<2>().norm();
         worst = std::max(worst, (f - project_on_cone(f - d / w, b.friction)).norm() * w);
         break;
       }
@@ -214,7 +231,7 @@ inline ConstraintTerms::Rest ConstraintTerms::rest(Eigen::VectorXd const& compli
     if (kind_ == FrictionLag::bound)
       rest.lag = std::max(rest.lag,
                           compliance[b.first] * std::abs(b.friction * multipliers[b.first] - lag_[b.first]));
-    else if (multipliers[b.first] > 0)
+    else if (kind_ == FrictionLag::gap && multipliers[b.first] > 0)
       rest.lag =
           std::max(rest.lag, std::abs(b.friction * violation.segment<2>(b.first + 1).norm() - lag_[b.first]));
   }

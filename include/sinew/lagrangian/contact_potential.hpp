@@ -67,7 +67,7 @@ inline Curvature curvature_of(Projection const& p, Vector3 const& r, Vector3 con
     G(0, 0) = share / r[0];
     G.block<1, 2>(0, 1) = (p.mu * share / r[0]) * t.transpose();
     G.block<2, 1>(1, 0) = G.block<1, 2>(0, 1).transpose();
-    G.block<2, 2>(1, 1) = (along - across) * t * t.transpose();
+    G.block<2, 2>(1, 1) = (along - across) * (t * t.transpose()).eval();  // symmetric to the last bit
     G(1, 1) += across;
     G(2, 2) += across;
   }
@@ -84,7 +84,7 @@ inline Curvature bounded_curvature(double bound, Vector3 const& r, Vector3 const
   const double t = std::hypot(y[1], y[2]);
   if (t > bound) {
     const Eigen::Vector2d across(-y[2] / t, y[1] / t);
-    G.block<2, 2>(1, 1) = (bound / (t * r[1])) * across * across.transpose();
+    G.block<2, 2>(1, 1) = (bound / (t * r[1])) * (across * across.transpose()).eval();
   } else if (bound > 0) {
     G(1, 1) = G(2, 2) = 1 / r[1];
   }

@@ -19,10 +19,10 @@ struct ConvexStepSettings {
   double momentumTolerance = 1e-6;  // of A v - b = J' f, relative
   FrictionLag friction = FrictionLag::bound;
 
-  /// Of each row, over the mean diagonal of the estimated W of its block: at first, where the guess of the
-  /// multipliers is zero or not, and times `decrease` at each update until it is `regularisation`. Where that
-  /// is what holds convergence up, it decreases on to `leastRegularisation`.
-  double firstRegularisation = 20, warmRegularisation = 1;
+  /// Of each row, over the mean diagonal of the estimated W of its block: at first, and times `decrease` at
+  /// each update until it is `regularisation`. Where that is what holds convergence up, it decreases on to
+  /// `leastRegularisation`.
+  double firstRegularisation = 20;
   double decrease = 0.3, regularisation = 0.1, leastRegularisation = 1e-3;
 
   double reduction = 0.1;  // of the gradient between two updates
@@ -52,11 +52,12 @@ struct ConvexStepResult {
 /// any before. Results do not depend on what it solved before.
 class ConvexStep {
  public:
-  /// `multiply(p, q)`: q = A p, A symmetric and positive definite. `preconditioner`: as
-  /// ConstrainedBlockJacobi, with begin, update and apply. `start`: d_0, the violation at v = 0, as g / h.
-  /// `velocity` and `multipliers`: the first guess, then the solution; with zero multipliers the start is
-  /// cold. Throws Error for sizes that do not fit, numbers that are not finite, blocks that check_blocks
-  /// refuses, and rows that nothing can move.
+  /// `multiply(p, q)`: q = A p, A symmetric and positive definite. `preconditioner`: what has the functions
+  /// of ConstrainedBlockJacobi: dofs; begin, which estimates the diagonal of W and then stands for A; update
+  /// for A + J' G J; apply, which is symmetric and positive definite. `start`: d_0, the violation at v = 0,
+  /// as g / h. `velocity` and `multipliers`: the first guess, then the solution; with zero multipliers the
+  /// start is cold. Throws Error for sizes that do not fit, numbers that are not finite, blocks that
+  /// check_blocks refuses, and rows that nothing can move.
   template <class System, class Preconditioner>
   ConvexStepResult solve(System&& multiply, Preconditioner& preconditioner, Eigen::VectorXd const& b,
                          JacobianRows const& J, std::vector<ConstraintBlock> const& blocks,
@@ -77,7 +78,7 @@ class ConvexStep {
   int since_ = 0;               // updates since the best
   double fixed_ = 0;            // |b|
 
-  void begin(ConvexStepSettings const& settings, bool warm);
+  void begin(ConvexStepSettings const& settings);
   void regularise(double relative);
   /// What changes between two problems: r, g and what is lagged.
   void update(ConvexStepSettings const& settings, double residual);
@@ -127,13 +128,12 @@ inline void ConvexStep::regularise(double relative) {
       terms_.regularisation.segment(b.first, b.rows) = relative * compliance_.segment(b.first, b.rows);
 }
 
-inline void ConvexStep::begin(ConvexStepSettings const& settings, bool warm) {
-  acceleration_.reset();
+inline void ConvexStep::begin(ConvexStepSettings const& settings) {
+  acceleration_.reset(terms_.rows().rows());
   accelerating_ = false;
   since_ = 0;
   last_ = best_ = std::numeric_limits<double>::infinity();
-  regularise(
-      std::max(settings.regularisation, warm ? settings.warmRegularisation : settings.firstRegularisation));
+  regularise(std::max(settings.regularisation, settings.firstRegularisation));
 }
 
 inline void ConvexStep::update(ConvexStepSettings const& settings, double residual) {
@@ -142,7 +142,7 @@ inline void ConvexStep::update(ConvexStepSettings const& settings, double residu
     since_ = 0;
   } else if (++since_ == settings.patience && terms_.lag() != FrictionLag::none) {
     terms_.change(terms_.lag() == FrictionLag::gap ? FrictionLag::bound : FrictionLag::gap);
-    begin(settings, true);
+    begin(settings);
     return;
   }
   const double contraction = residual / last_;
@@ -154,7 +154,7 @@ inline void ConvexStep::update(ConvexStepSettings const& settings, double residu
     const auto rest = terms_.rest(compliance_);
     if (rest.regularisation > rest.lag && relative_ > settings.leastRegularisation) {
       regularise(std::max(settings.leastRegularisation, settings.decrease * relative_));
-      acceleration_.reset();
+      acceleration_.reset(terms_.rows().rows());
     } else {
       accelerating_ = true;
     }
@@ -188,11 +188,18 @@ ConvexStepResult ConvexStep::solve(System&& multiply, Preconditioner& preconditi
                                    Eigen::VectorXd& velocity, Eigen::VectorXd& multipliers,
                                    ConvexStepSettings const& settings, std::string_view where) {
   check_convex_step(b, J, blocks, start, velocity, multipliers, where);
+  if (preconditioner.dofs() != int(b.size()))
+    throw Error(where,
+                text("a step of ",
+                     b.size(),
+                     " dofs has a preconditioner of ",
+                     preconditioner.dofs(),
+                     "; give it the blocks of each point"));
   ConvexStepResult result;
   terms_.begin(J, blocks, start, multipliers, settings.friction);
   preconditioner.begin(terms_, compliance_);
-  check_movable(compliance_, where);
-  begin(settings, multipliers.size() > 0 && !multipliers.isZero(0));
+  check_movable(compliance_.head(J.rows()), where);
+  begin(settings);
   for (Eigen::VectorXd* v :
        {&momentum_, &reaction_, &gradient_, &step_, &residual_, &scaled_, &direction_, &product_})
     v->resize(b.size());
@@ -225,7 +232,7 @@ ConvexStepResult ConvexStep::solve(System&& multiply, Preconditioner& preconditi
     ++result.updates;
     update(settings, result.residual);
   }
-  multipliers = terms_.multipliers;
+  multipliers = terms_.multipliers.head(J.rows());
   return result;
 }
 

@@ -51,9 +51,9 @@ struct JacobianRows {
     for (auto k = std::size_t(first[std::size_t(row)]); k < end; ++k) f(dofs[k], values[k]);
   }
 
-  /// d = J v
+  /// d = J v, the first entries of d, which is made longer where it is too short.
   void multiply(Eigen::VectorXd const& v, Eigen::VectorXd& d) const {
-    d.resize(rows());
+    if (d.size() < rows()) d.resize(rows());
     for (int i = 0; i < rows(); ++i) d[i] = times(i, v);
   }
   /// J v of one row.
