@@ -5,6 +5,7 @@
 #include <sinew/lagrangian/constraint_rows.hpp>
 #include <sinew/lagrangian/jacobian_rows.hpp>
 #include <sinew/linalg/block_matrix.hpp>
+#include <sinew/linalg/factored_rows.hpp>
 
 #include <vector>
 
@@ -13,7 +14,8 @@ namespace sinew {
 /// The rows that act on the bodies of one ODE solver, over the degrees of freedom of its system.
 struct ConstrainedSystem {
   std::vector<int> rows{};            // which of all they are, rising
-  JacobianRows jacobian{};            // of those
+  JacobianRows jacobian{};            // of those, without what projective constraints take away
+  JacobianRows whole{};               // with that, where forces are kept
   Eigen::VectorXd force{}, motion{};  // of all degrees of freedom, and one number more
 
   // for solvers that need no compliance (scene/motion_problem.hpp)
@@ -75,6 +77,7 @@ struct ConstrainedMotion {
   std::vector<int> rowsOf{};  // how many each constraint has, in the order of the scene
   int contactRows = 0;        // the first row behind them: those of contacts
   MotionRows motionRows{};
+  FactoredRows factored{};
   bool hasMotion = false;  // the solver has found the motion of systems with the multipliers
 };
 

@@ -77,7 +77,7 @@ inline constexpr std::array withoutEffectOf = std::to_array<AttributeOf>({
     {"MeshVTKLoader", "polylines"}, {"MeshVTKLoader", "prisms"}, {"MeshVTKLoader", "pyramids"}, {"VisualModel", "dfactor"}, {"VisualModel", "sfactor"},
     {"NNCGConstraintSolver", "sor"}, {"RegularGridTopology", "position"}, {"RegularGridTopology", "tetrahedra"},
     {"RestShapeSpringsForceField", "recompute_indices"}, {"SparseGridTopology", "tetrahedra"},
-    {"SparseLDLSolver", "iterations"}, {"SparseLDLSolver", "threshold"}, {"SparseLDLSolver", "tolerance"},
+    {"SlidingLagrangianConstraint", "force"}, {"SparseLDLSolver", "iterations"}, {"SparseLDLSolver", "threshold"}, {"SparseLDLSolver", "tolerance"},
     {"SphereGridTopology", "tetrahedra"}, {"TetrahedronFEMForceField", "indices"},
     {"TriangleFEMForceField", "computePrincipalStress"}, {"TriangleFEMForceField", "criteriaValue"},
     {"TriangleFEMForceField", "hosfordExponant"}, {"TrianglePressureForceField", "useConstantForce"},

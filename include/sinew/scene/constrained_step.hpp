@@ -14,6 +14,13 @@
 
 namespace sinew {
 
+/// A linear solver that keeps a factor, by which rows have their compliance (linalg/factored_rows.hpp).
+template <class Linear>
+concept HasBlockFactor = requires(Linear const& linear) {
+  linear.factor.lower;
+  linear.factor.newIndex;
+};
+
 /// A step of a scene whose root has an animation loop: bodies move freely, the constraints of the scene are
 /// solved together, and bodies are corrected. While constraints are solved `position` is that at the start of
 /// the step, at which mappings and masses stand, and `freePosition` that of the free motion, for a mapped
@@ -57,7 +64,7 @@ struct ConstrainedStep {
     });
   }
 
-  void collectRows(ConstrainedMotion& m, bool ofVelocity) const {
+  void collectRows(ConstrainedMotion& m, bool ofVelocity, bool keepsForces) const {
     [[maybe_unused]] const auto span = root.span(Phase::constraint);
     m.rows.clear();
     m.rows.ofVelocity = ofVelocity;
@@ -67,6 +74,12 @@ struct ConstrainedStep {
              on<role::LagrangianConstraint>([&](auto& c, auto const& scope) { addRowsOf(c, scope, m); }));
     m.contactRows = m.rows.count();
     ContactRows<RootScope>{root, dt}.add(m);
+    std::size_t number = 0;
+    for_each_integrator(root, [&](auto& ode, auto const& scope) {
+      ConstrainedSystem& system = m.systems[number++];
+      if (keepsForces) system.whole = system.jacobian;
+      project(scope, MultiplierResponse::of(ode, dt), m.motionRows.jacobian, system);
+    });
   }
   template <class D, class S>
   ConstrainedState<D> stateAt(S const& scope) const {
@@ -128,22 +141,77 @@ struct ConstrainedStep {
     });
   }
 
+  // J P, where P is what projective constraints leave of a motion
+  template <class S>
+  void project(S const& scope, MultiplierResponse const& how, JacobianRows& left,
+               ConstrainedSystem& system) const {
+    if (system.rows.empty()) return;
+    bool some = false;
+    traverse(scope, on<role::ProjectiveConstraint>([&](auto&, auto const&) { some = true; }));
+    if (!some) return;
+    MechanicalOperations<S> operations(scope, time, dt);
+    auto projected = [&] {
+      operations.scatter(how.force(), system.force);
+      operations.projectResponse(how.force());
+      operations.gather(system.motion, how.force());
+    };
+    // numbers that no two neighbours share, exact in single precision: what stays as it is is free, what
+    // becomes 0 fixed
+    for (int i = 0; i < system.dofs(); ++i) system.force[i] = 1 + (i * 619 % 1024) / 1024.0;
+    projected();
+    bool mixes = false;
+    for (int i = 0; i < system.dofs(); ++i)
+      mixes = mixes || (system.motion[i] != 0 && system.motion[i] != system.force[i]);
+    left.clear();
+    if (!mixes) {
+      system.force = system.motion;  // 0 where fixed
+      for (int k = 0; k < system.jacobian.rows(); ++k) {
+        system.jacobian.forEachInRow(k, [&](int dof, double value) {
+          if (system.force[dof] != 0) left.add(dof, value);
+        });
+        left.endRow();
+      }
+    } else {
+      for (int k = 0; k < system.jacobian.rows(); ++k) {
+        system.force.setZero();
+        system.jacobian.addTransposed(k, 1, system.force);
+        projected();
+        for (int i = 0; i < system.dofs(); ++i)
+          if (system.motion[i] != 0) left.add(i, system.motion[i]);
+        left.endRow();
+      }
+    }
+    std::swap(left, system.jacobian);
+  }
+
   // W = J A^-1 J', and d_free
   void findCompliance(ConstrainedMotion& m) const;
   template <class S>
   void addCompliance(S const& scope, MultiplierResponse const& how, ConstrainedSystem& system,
                      ConstrainedMotion& m) const {
     const double reached = m.rows.ofVelocity ? how.factors.velocity : how.factors.position;
+    auto add = [&](int k, int l, double w) {
+      const int i = system.rows[std::size_t(k)], j = system.rows[std::size_t(l)];
+      m.problem.compliance(i, j) += w;
+      if (i != j) m.problem.compliance(j, i) += w;
+    };
+    bool found = false;
+    if (how.bySystem && !hasCorrections(scope))
+      scope.withLinearSolverIfAny([&](auto& linear) {
+        if constexpr (HasBlockFactor<std::decay_t<decltype(linear)>>) {
+          m.factored.compliance(linear.factor, system.jacobian, [&](int k, int l, double w) {
+            add(k, l, reached * how.factors.impulse * w);
+          });
+          found = true;
+        }
+      });
+    if (found) return;
     for (int k = 0; k < system.jacobian.rows(); ++k) {
       system.force.setZero();
       system.jacobian.addTransposed(k, 1, system.force);
       respond(scope, how, system);
-      for (int l = k; l < system.jacobian.rows(); ++l) {
-        const double w = reached * system.jacobian.times(l, system.motion);
-        const int i = system.rows[std::size_t(k)], j = system.rows[std::size_t(l)];
-        m.problem.compliance(i, j) += w;
-        if (i != j) m.problem.compliance(j, i) += w;
-      }
+      for (int l = k; l < system.jacobian.rows(); ++l)
+        add(k, l, reached * system.jacobian.times(l, system.motion));
     }
   }
   void checkCompliance(ConstrainedMotion const& m) const {
@@ -191,6 +259,14 @@ struct ConstrainedStep {
       linear.solveAgain(operations, u, b);
     else
       linear.solve(operations, factors, u, b);
+  }
+  template <class S>
+  static bool hasCorrections(S const& scope) {
+    bool some = false;
+    traverse(scope, on<role::ConstraintCorrection>([&](auto& c, auto const&) {
+               if constexpr (CorrectsState<std::decay_t<decltype(c)>>) some = true;
+             }));
+    return some;
   }
   // by components that say what forces do to their states; false where there is none
   template <class S>
@@ -271,9 +347,9 @@ struct ConstrainedStep {
     operations.addMBKdx(held, how.motion(), {.m = a.m * s, .b = a.b * s, .k = a.k * s});
     for (const bool ofContacts : {false, true}) {
       system.force.setZero();
-      for (int k = 0; k < system.jacobian.rows(); ++k)
+      for (int k = 0; k < system.whole.rows(); ++k)
         if (const int row = system.rows[std::size_t(k)]; (row >= m.contactRows) == ofContacts)
-          system.jacobian.addTransposed(k, m.problem.multipliers[row], system.force);
+          system.whole.addTransposed(k, m.problem.multipliers[row], system.force);
       operations.scatter(how.force(), system.force);
       operations.peq(held, how.force(), -1);
       operations.peq(ofContacts ? vec_id::applied : vec_id::reaction, how.force(), 1);
@@ -291,7 +367,7 @@ template <class RootScope>
 void ConstrainedStep<RootScope>::integrate(ConstrainedMotion& m, bool velocityFirst, bool keepsForces) const {
   for_each_solver(root, [&](auto& ode, auto const& scope) { moveFreely(ode, scope, keepsForces); });
   for_each_integrator(root, [&](auto&, auto const& scope) { lookFromStart(scope); });
-  collectRows(m, velocityFirst);
+  collectRows(m, velocityFirst, keepsForces);
   m.hasMotion = false;
   if (m.rows.count() > 0) {
     solve(m);

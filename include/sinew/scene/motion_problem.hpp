@@ -15,9 +15,9 @@ namespace sinew {
 /// The constraints of a step as a problem for the motion v = position u that multipliers add to the free one,
 /// for constraint solvers that need no compliance W (SolvesMotion):
 ///   S v = J' f,   d = d_free + J v,   S = A / (impulse position)
-/// over the degrees of freedom of all systems that have rows, one after the other, without what projective
-/// constraints take away. A row that is soft, C, or of a contact and along which nothing can move, has a
-/// degree of freedom of its own behind them, of which S is 1/C.
+/// over the degrees of freedom of all systems that have rows, one after the other. A row that is soft, C, or
+/// of a contact and along which nothing can move, has a degree of freedom of its own behind them, of which S
+/// is 1/C.
 template <class RootScope>
 struct MotionProblem {
   RootScope const& root;
@@ -36,7 +36,6 @@ struct MotionProblem {
       system.scale =
           1 / (how.factors.impulse * (m.rows.ofVelocity ? how.factors.velocity : how.factors.position));
       assemble(scope, how, system);
-      project(scope, how, m, system);
       dofs += system.dofs();
     });
     joinRows(m, dofs);
@@ -74,49 +73,6 @@ struct MotionProblem {
       system.hasPattern = true;
     }
     operations.assemble(system.matrix, how.factors.matrix);
-  }
-
-  // J P, where P is what projective constraints leave of a motion
-  template <class S>
-  void project(S const& scope, MultiplierResponse const& how, ConstrainedMotion& m,
-               ConstrainedSystem& system) const {
-    bool some = false;
-    traverse(scope, on<role::ProjectiveConstraint>([&](auto&, auto const&) { some = true; }));
-    if (!some) return;
-    MechanicalOperations<S> operations(scope, time, dt);
-    auto projected = [&] {
-      operations.scatter(how.force(), system.force);
-      operations.projectResponse(how.force());
-      operations.gather(system.motion, how.force());
-    };
-    // numbers that no two neighbours share, exact in single precision: what stays as it is is free, what
-    // becomes 0 fixed
-    for (int i = 0; i < system.dofs(); ++i) system.force[i] = 1 + (i * 619 % 1024) / 1024.0;
-    projected();
-    bool mixes = false;
-    for (int i = 0; i < system.dofs(); ++i)
-      mixes = mixes || (system.motion[i] != 0 && system.motion[i] != system.force[i]);
-    JacobianRows& left = m.motionRows.jacobian;
-    left.clear();
-    if (!mixes) {
-      system.force = system.motion;  // 0 where fixed
-      for (int k = 0; k < system.jacobian.rows(); ++k) {
-        system.jacobian.forEachInRow(k, [&](int dof, double value) {
-          if (system.force[dof] != 0) left.add(dof, value);
-        });
-        left.endRow();
-      }
-    } else {
-      for (int k = 0; k < system.jacobian.rows(); ++k) {
-        system.force.setZero();
-        system.jacobian.addTransposed(k, 1, system.force);
-        projected();
-        for (int i = 0; i < system.dofs(); ++i)
-          if (system.motion[i] != 0) left.add(i, system.motion[i]);
-        left.endRow();
-      }
-    }
-    std::swap(left, system.jacobian);
   }
 
   // the rows of all systems together, without contacts that nothing can part
