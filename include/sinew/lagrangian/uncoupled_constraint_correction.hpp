@@ -60,7 +60,7 @@ struct UncoupledConstraintCorrection {
                     text("compliance has ",
                          compliance.size(),
                          " numbers; give 7: one for the centres and six for rotations, xx xy xz yy yz zz"));
-      for (const std::size_t k : {0, 1, 4, 6}) positive(k);
+      for (const int k : {0, 1, 4, 6}) positive(std::size_t(k));
     } else {
       check_one_or_each(where, "compliance", compliance.size(), context.rest.size(), "points");
       for (std::size_t k = 0; k < compliance.size(); ++k) positive(k);
@@ -69,8 +69,12 @@ struct UncoupledConstraintCorrection {
 
   void addCorrection(typename D::VecDeriv& u, typename D::VecDeriv const& f, typename D::VecCoord const&,
                      ConstraintFactors const& factors) const {
+    for (std::size_t i = 0; i < u.size(); ++i) u[i] += answer(i, f[i], factors);
+  }
+  typename D::Deriv answer(std::size_t i, typename D::Deriv const& f,
+                           ConstraintFactors const& factors) const {
     const Real by = Real(useOdeSolverIntegrationFactors ? factors.impulse : 1 / factors.position);
-    for (std::size_t i = 0; i < u.size(); ++i) u[i] += by * answer(i, f[i]);
+    return by * answer(i, f);
   }
 
  private:

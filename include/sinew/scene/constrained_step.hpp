@@ -206,6 +206,7 @@ struct ConstrainedStep {
         }
       });
     if (found) return;
+    if (answersByPoint(scope)) return addByPoints(scope, how, system, m, add, reached);
     for (int k = 0; k < system.jacobian.rows(); ++k) {
       system.force.setZero();
       system.jacobian.addTransposed(k, 1, system.force);
@@ -267,6 +268,56 @@ struct ConstrainedStep {
                if constexpr (CorrectsState<std::decay_t<decltype(c)>>) some = true;
              }));
     return some;
+  }
+  template <class S>
+  static bool answersByPoint(S const& scope) {
+    bool some = false, all = true;
+    traverse(scope, on<role::ConstraintCorrection>([&](auto& c, auto const&) {
+               using C = std::decay_t<decltype(c)>;
+               some = some || AnswersByPoint<C>;
+               if constexpr (CorrectsState<C> && !AnswersByPoint<C>) all = false;
+             }));
+    return some && all;
+  }
+  // the same where points answer alone: a row moves its own points only
+  template <class S, class Add>
+  static void addByPoints(S const& scope, MultiplierResponse const& how, ConstrainedSystem& system,
+                          ConstrainedMotion& m, Add&& add, double reached) {
+    // J C of all rows, then its products with J
+    JacobianRows& answers = m.motionRows.jacobian;
+    answers.clear();
+    system.force.setZero();
+    for (int k = 0; k < system.jacobian.rows(); ++k) {
+      system.jacobian.addTransposed(k, 1, system.force);
+      traverse(scope, on<role::ConstraintCorrection>([&](auto& c, auto const& at) {
+                 using C = std::decay_t<decltype(c)>;
+                 if constexpr (AnswersByPoint<C>) {
+                   using D = typename C::DataTypes;
+                   auto const& s = at.template state<D>();
+                   const int end = s.dofOffset + int(s.size()) * D::size;
+                   system.jacobian.forEachInRow(k, [&](int dof, double) {
+                     if (dof < s.dofOffset || dof >= end) return;
+                     const int point = (dof - s.dofOffset) / D::size, first = s.dofOffset + point * D::size;
+                     auto f = system.force.template segment<D::size>(first);
+                     if (f.isZero(0)) return;  // looked at already
+                     const typename D::Deriv u =
+                         c.answer(std::size_t(point), f.template cast<typename D::Real>(), how.factors);
+                     for (int i = 0; i < D::size; ++i) answers.add(first + i, double(u[i]));
+                     f.setZero();
+                   });
+                 }
+               }));
+      system.jacobian.forEachInRow(k, [&](int dof, double) { system.force[dof] = 0; });
+      answers.endRow();
+    }
+    system.motion.setZero();
+    for (int k = 0; k < answers.rows(); ++k) {
+      answers.addTransposed(k, 1, system.motion);
+      for (int l = k; l < answers.rows(); ++l)
+        if (const double w = system.jacobian.times(l, system.motion); w != 0 || l == k)
+          add(k, l, reached * w);
+      answers.forEachInRow(k, [&](int dof, double) { system.motion[dof] = 0; });
+    }
   }
   // by components that say what forces do to their states; false where there is none
   template <class S>
