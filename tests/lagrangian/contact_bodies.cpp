@@ -15,7 +15,8 @@ RigidMass<double, 3> ball(double mass, double radius) {
   return {mass, 0.4 * mass * radius * radius * Eigen::Matrix3d::Identity()};
 }
 template <FixedString Name, class Ode = EulerExplicitSolver>
-auto balls_node(std::vector<Rigid3d::Coord> const& places, std::vector<Rigid3d::Deriv> const& velocities, Ode ode = {}) {
+auto balls_node(std::vector<Rigid3d::Coord> const& places, std::vector<Rigid3d::Deriv> const& velocities,
+                Ode ode = {}) {
   return node<Name>(ode,
                     MechanicalObject<Rigid3d>{.position = places, .velocity = velocities},
                     UniformMass<Rigid3d>{.vertexMass = ball(2, 0.5)},
@@ -66,7 +67,8 @@ TEST_CASE("an impact keeps the momenta, also between bodies of two solvers and w
       CHECK(now.energy < last.energy + 1e-9);
     }
   };
-  const Rigid3d::Coord left{{-0.6, 0, 0}, Eigen::Quaterniond::Identity()}, right{{0.6, 0.3, 0.1}, Eigen::Quaterniond::Identity()};
+  const Rigid3d::Coord left{{-0.6, 0, 0}, Eigen::Quaterniond::Identity()},
+      right{{0.6, 0.3, 0.1}, Eigen::Quaterniond::Identity()};
   for (const double mu : {0.0, 0.4}) {
     INFO(mu);
     auto two = constrained_scene(skin,
@@ -78,7 +80,8 @@ TEST_CASE("an impact keeps the momenta, also between bodies of two solvers and w
       m.add(sim.template at<"b">().state());
     });
     CHECK((two.at<"a">().state().velocity[0] - moving({2, 0, 0}, {0, 0, 3})).norm() > 1);
-    auto one = constrained_scene(skin, mu, balls_node<"a">({left, right}, {moving({2, 0, 0}, {0, 0, 3}), moving({-2, 0, 0})}));
+    auto one = constrained_scene(
+        skin, mu, balls_node<"a">({left, right}, {moving({2, 0, 0}, {0, 0, 3}), moving({-2, 0, 0})}));
     impact(one, mu, [](auto& sim, Motion& m) { m.add(sim.template at<"a">().state()); });
     // they are the same bodies
     CHECK((one.at<"a">().state().velocity[0] - two.at<"a">().state().velocity[0]).norm() < 1e-12);
@@ -89,7 +92,8 @@ TEST_CASE("energy never grows where balls fall onto each other, and two runs hav
   std::vector<Rigid3d::Coord> places;
   std::vector<Rigid3d::Deriv> velocities;
   for (int i = 0; i < 12; ++i) {
-    places.push_back({{0.35 * (i % 3) - 0.3 + 0.01 * i, 0.4 * (i % 2) - 0.013 * i, 0.6 + 1.05 * i}, Eigen::Quaterniond::Identity()});
+    places.push_back({{0.35 * (i % 3) - 0.3 + 0.01 * i, 0.4 * (i % 2) - 0.013 * i, 0.6 + 1.05 * i},
+                      Eigen::Quaterniond::Identity()});
     velocities.push_back(moving({0.3 * (i % 4), -0.2 * (i % 3), 0}, {1.0 * (i % 2), 0, 2}));
   }
   auto run = [&] {
@@ -118,7 +122,8 @@ TEST_CASE("energy never grows where balls fall onto each other, and two runs hav
 }
 
 TEST_CASE("a contact of what moves apart has no force, and one of what cannot move none either") {
-  const Rigid3d::Coord low{{0, 0, 0.52}, Eigen::Quaterniond::Identity()}, side{{3, 0, 0.51}, Eigen::Quaterniond::Identity()};
+  const Rigid3d::Coord low{{0, 0, 0.52}, Eigen::Quaterniond::Identity()},
+      side{{3, 0, 0.51}, Eigen::Quaterniond::Identity()};
   auto sim = constrained_scene(near_by(),
                                0.5,
                                fixed_floor(),
@@ -142,13 +147,14 @@ TEST_CASE("a contact of what moves apart has no force, and one of what cannot mo
 
 TEST_CASE("a bullet does not pass a plate with continuous detection") {
   // 10 m in a step
-  auto sim = constrained_scene(ContinuousIntersection{.alarmDistance = 0.1, .contactDistance = 0.01},
-                               0.5,
-                               fixed_floor(),
-                               node<"bullet">(EulerExplicitSolver{},
-                                              MechanicalObject<Vec3d>{.position = {{0, 0, 6}}, .velocity = {{100, 0, -1000}}},
-                                              UniformMass<Vec3d>{.totalMass = 0.01},
-                                              PointCollisionModel<Vec3d>{}));
+  auto sim = constrained_scene(
+      ContinuousIntersection{.alarmDistance = 0.1, .contactDistance = 0.01},
+      0.5,
+      fixed_floor(),
+      node<"bullet">(EulerExplicitSolver{},
+                     MechanicalObject<Vec3d>{.position = {{0, 0, 6}}, .velocity = {{100, 0, -1000}}},
+                     UniformMass<Vec3d>{.totalMass = 0.01},
+                     PointCollisionModel<Vec3d>{}));
   sim.init();
   for (int i = 0; i < 5; ++i) {
     sim.animate(dt);

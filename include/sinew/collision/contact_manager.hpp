@@ -190,6 +190,12 @@ struct ContactManager {
       });
   }
 
+  /// By how much, as the sine of an angle, what is near need not be nearest of all around, so that the
+  /// contacts of two models are found together: forces need where bodies touch first, multipliers all that
+  /// will.
+  double coneOf(int a, int b) const {
+    return All::isConstraint(answers.find(a, b).place) ? 0.1 : CollisionSurface::leastCone;
+  }
   void add(Contact const& c) {
     if (found.size() == found.capacity()) ++grown;
     found.push_back(c);
