@@ -36,7 +36,7 @@ struct ConvexStepSettings {
 struct ConvexStepResult {
   int updates = 0, newtonIterations = 0, conjugateGradients = 0, lineSearches = 0;
   double residual = 0;  // ConstraintProblem::residual, with an estimate of W
-  double momentum = 0;  // |A v - b - J' f| over the larger of |b| and |J' f|, in the preconditioner's norm
+  double momentum = 0;  // |A v - b - J' f| in the preconditioner's norm, over sqrt(v' A v) or |J' f|
   bool converged = true;
 };
 
@@ -53,8 +53,8 @@ struct ConvexStepResult {
 class ConvexStep {
  public:
   /// `multiply(p, q)`: q = A p, A symmetric and positive definite. `preconditioner`: what has the functions
-  /// of ConstrainedBlockJacobi: dofs; begin, which estimates the diagonal of W and then stands for A; update
-  /// for A + J' G J; apply, which is symmetric and positive definite. `start`: d_0, the violation at v = 0,
+  /// of ConstrainedBlockJacobi: dofs; begin, which estimates the diagonal of W; update, for
+  /// A + J' G J; apply, which is symmetric and positive definite. `start`: d_0, the violation at v = 0,
   /// as g / h. `velocity` and `multipliers`: the first guess, then the solution; with zero multipliers the
   /// start is cold. Throws Error for sizes that do not fit, numbers that are not finite, blocks that
   /// check_blocks refuses, and rows that nothing can move.
@@ -76,7 +76,6 @@ class ConvexStep {
   bool accelerating_ = false;
   double last_ = 0, best_ = 0;  // residuals
   int since_ = 0;               // updates since the best
-  double fixed_ = 0;            // |b|
 
   void begin(ConvexStepSettings const& settings);
   void regularise(double relative);
@@ -85,7 +84,8 @@ class ConvexStep {
 
   /// The size of the gradient.
   template <class Preconditioner>
-  double evaluate(Preconditioner& preconditioner, ConvexStepResult& result);
+  double evaluate(Preconditioner& preconditioner, Eigen::VectorXd const& b, Eigen::VectorXd const& velocity,
+                  ConvexStepResult& result);
   /// False where no direction was found.
   template <class System, class Preconditioner>
   bool newton(System& multiply, Preconditioner& preconditioner, Eigen::VectorXd& velocity,
@@ -167,14 +167,16 @@ inline void ConvexStep::update(ConvexStepSettings const& settings, double residu
 }
 
 template <class Preconditioner>
-double ConvexStep::evaluate(Preconditioner& preconditioner, ConvexStepResult& result) {
+double ConvexStep::evaluate(Preconditioner& preconditioner, Eigen::VectorXd const& b,
+                            Eigen::VectorXd const& velocity, ConvexStepResult& result) {
   reaction_.setZero();
   terms_.rows().addTransposed(terms_.multipliers, reaction_);
   gradient_ = momentum_ - reaction_;
   terms_.evaluateCurvature();
   preconditioner.update(terms_);
   preconditioner.apply(reaction_, scaled_);
-  const double whole = std::max(fixed_, std::sqrt(std::max(0., reaction_.dot(scaled_))));
+  const double energy = velocity.dot(momentum_) + velocity.dot(b);  // v' A v
+  const double whole = std::sqrt(std::max({0., energy, reaction_.dot(scaled_)}));
   preconditioner.apply(gradient_, scaled_);
   const double size = std::sqrt(std::max(0., gradient_.dot(scaled_)));
   result.momentum = whole > 0 ? size / whole : size;
@@ -203,14 +205,12 @@ ConvexStepResult ConvexStep::solve(System&& multiply, Preconditioner& preconditi
   for (Eigen::VectorXd* v :
        {&momentum_, &reaction_, &gradient_, &step_, &residual_, &scaled_, &direction_, &product_})
     v->resize(b.size());
-  preconditioner.apply(b, scaled_);
-  fixed_ = std::sqrt(std::max(0., b.dot(scaled_)));
 
   terms_.evaluate(velocity);
   while (true) {
     multiply(velocity, momentum_);
     momentum_ -= b;
-    double size = evaluate(preconditioner, result);
+    double size = evaluate(preconditioner, b, velocity, result);
     const double first = size;
     bool stuck = false;
     for (int i = 0; i < settings.maxNewtonIterations && !stuck; ++i) {
@@ -224,7 +224,7 @@ ConvexStepResult ConvexStep::solve(System&& multiply, Preconditioner& preconditi
       if (size <= settings.reduction * first && result.residual > settings.tolerance) break;
       stuck = result.conjugateGradients >= settings.maxConjugateGradients ||
               !newton(multiply, preconditioner, velocity, settings, result);
-      size = evaluate(preconditioner, result);
+      size = evaluate(preconditioner, b, velocity, result);
     }
     result.residual = terms_.residual(compliance_);
     result.converged = result.residual <= settings.tolerance && result.momentum <= settings.momentumTolerance;
