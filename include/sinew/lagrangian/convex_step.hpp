@@ -3,6 +3,7 @@
 
 #include <sinew/lagrangian/anderson_acceleration.hpp>
 #include <sinew/lagrangian/constraint_terms.hpp>
+#include <sinew/lagrangian/convex_step_settings.hpp>
 
 #include <Eigen/Core>
 
@@ -14,39 +15,15 @@
 
 namespace sinew {
 
-struct ConvexStepSettings {
-  double tolerance = 1e-6;          // of the natural map, in the unit of the violation
-  double momentumTolerance = 1e-6;  // of A v - b = J' f, relative
-  FrictionLag friction = FrictionLag::bound;
-
-  /// Of each row, over the mean diagonal of the estimated W of its block: at first, and times `decrease` at
-  /// each update until it is `regularisation`. Where that is what holds convergence up, it decreases on to
-  /// `leastRegularisation`.
-  double firstRegularisation = 20;
-  double decrease = 0.3, regularisation = 0.1, leastRegularisation = 1e-3;
-
-  double reduction = 0.1;  // of the gradient between two updates
-  double forcing = 0.1;    // of the residual of Newton's equation
-  int patience = 10;       // updates without half the residual, before what is lagged changes
-  int maxUpdates = 50;
-  int maxNewtonIterations = 30;       // between two updates
-  int maxConjugateGradients = 10000;  // in total
-};
-
-struct ConvexStepResult {
-  int updates = 0, newtonIterations = 0, conjugateGradients = 0, lineSearches = 0;
-  double residual = 0;  // ConstraintProblem::residual, with an estimate of W
-  double momentum = 0;  // |A v - b - J' f| in the preconditioner's norm, over sqrt(v' A v) or |J' f|
-  bool converged = true;
-};
-
 /// A step with constraints as a sequence of convex problems without any,
 ///   min_v 1/2 v' A v - b' v + sum_i l_i(J_i v + d_0i),
 /// the same as 1/2 |v - v*|^2_A of the free velocity v* = A^-1 b, which is not needed (Castro, Permenter, Han
 /// 2022; Todorov 2014). A is known by products alone. Newton's method, whose equation (A + J' G J) dv = -grad
 /// is solved by conjugate gradients up to `forcing`, with an exact line search; then l is moved to the
 /// multipliers found (augmented Lagrangian; Hestenes 1969), until J v + d_0 and f fulfil the conditions of
-/// their blocks, Coulomb's law included.
+/// their blocks, Coulomb's law included. The regularisation begins soft, so that the first problems have no
+/// sharp kinks and are well conditioned; they find out which contacts slide. Where updates converge slowly,
+/// they are accelerated, or the other part of Coulomb's law is lagged.
 ///
 /// One object serves a scene for all its steps; it allocates only where a step has more dofs or rows than
 /// any before. Results do not depend on what it solved before.
@@ -93,31 +70,6 @@ class ConvexStep {
   double lineSearch(double slope, double curvature, ConvexStepResult& result) const;
 };
 
-inline void check_convex_step(Eigen::VectorXd const& b, JacobianRows const& J,
-                              std::vector<ConstraintBlock> const& blocks, Eigen::VectorXd const& start,
-                              Eigen::VectorXd const& velocity, Eigen::VectorXd const& multipliers,
-                              std::string_view where) {
-  if (velocity.size() != b.size())
-    throw Error(where,
-                text("a step of ", b.size(), " dofs has ", velocity.size(), " velocities; give each one"));
-  if (start.size() != J.rows() || multipliers.size() != J.rows())
-    throw Error(where,
-                text("constraints have ",
-                     J.rows(),
-                     " rows, ",
-                     start.size(),
-                     " violations and ",
-                     multipliers.size(),
-                     " multipliers; give each as many"));
-  if (!b.allFinite() || !velocity.allFinite() || !start.allFinite() || !multipliers.allFinite())
-    throw Error(
-        where,
-        "a momentum, a velocity, a violation or a multiplier of a step with constraints is not a finite "
-        "number");
-  J.check(int(b.size()), where);
-  check_blocks(blocks, J.rows(), where);
-}
-
 inline void ConvexStep::regularise(double relative) {
   relative_ = relative;
   for (ConstraintBlock const& b : terms_.blocks())
@@ -141,8 +93,8 @@ inline void ConvexStep::update(ConvexStepSettings const& settings, double residu
     best_ = residual;
     since_ = 0;
   } else if (++since_ == settings.patience && terms_.lag() != FrictionLag::none) {
-    terms_.change(terms_.lag() == FrictionLag::gap ? FrictionLag::bound : FrictionLag::gap);
     begin(settings);
+    terms_.change(terms_.lag() == FrictionLag::gap ? FrictionLag::bound : FrictionLag::gap);
     return;
   }
   const double contraction = residual / last_;
@@ -190,6 +142,7 @@ ConvexStepResult ConvexStep::solve(System&& multiply, Preconditioner& preconditi
                                    Eigen::VectorXd& velocity, Eigen::VectorXd& multipliers,
                                    ConvexStepSettings const& settings, std::string_view where) {
   check_convex_step(b, J, blocks, start, velocity, multipliers, where);
+  check_convex_step(settings, where);
   if (preconditioner.dofs() != int(b.size()))
     throw Error(where,
                 text("a step of ",
