@@ -301,7 +301,8 @@ TEST_CASE("steps that cannot be solved are refused, with what is wrong") {
              Contains("row 0 of the constraints is not a finite number"));
   CHECK_THAT(says([](Bodies<3>& p, Solution&) { p.rows.dofs[0] = 9; }), Contains("dof 9 of 9"));
   CHECK_THAT(says([](Bodies<3>& p, Solution&) { p.rows.first.back() = 3; }), Contains("end at entry 3"));
-  CHECK_THAT(says([](Bodies<3>& p, Solution&) { p.rows.first[1] = 100; }), Contains("row"));
+  CHECK_THAT(says([](Bodies<3>& p, Solution&) { p.rows.first[1] = 100; }),
+             Contains("row 1 of the constraints ends before"));
   CHECK_THAT(says([](Bodies<3>& p, Solution&) { p.blocks[1].friction = -1; }), Contains("friction -1"));
   CHECK_THAT(says([](Bodies<3>& p, Solution&) { p.blocks.pop_back(); }), Contains("cover 3 rows of 6"));
   CHECK_THAT(says([](Bodies<3>& p, Solution&) { std::fill(p.rows.values.begin(), p.rows.values.end(), 0.); }),
@@ -311,6 +312,16 @@ TEST_CASE("steps that cannot be solved are refused, with what is wrong") {
   CHECK_THAT(
       says([&](Bodies<3>& p, Solution&) { p.mass[0](0, 0) = std::numeric_limits<double>::infinity(); }),
       Contains("not finite") || Contains("not a finite number"));
+}
+
+TEST_CASE("settings out of their range are refused") {
+  const Bodies<3> p = tree_of_points(2, 0.4, 1);
+  auto says = [&](ConvexStepSettings const& settings) { return error_of([&] { solve(p, settings); }); };
+  using Catch::Contains;
+  CHECK_THAT(says({.regularisation = 0}), Contains("positive number"));
+  CHECK_THAT(says({.firstRegularisation = std::nan("")}), Contains("positive number"));
+  CHECK_THAT(says({.forcing = 1}), Contains("between 0 and 1"));
+  CHECK_THAT(says({.tolerance = -1}), Contains("negative"));
 }
 
 TEST_CASE("a system that is not positive definite ends without a crash, and is not called solved") {

@@ -3,6 +3,7 @@
 
 #include <sinew/lagrangian/anderson_acceleration.hpp>
 #include <sinew/lagrangian/constraint_terms.hpp>
+#include <sinew/lagrangian/convex_step_settings.hpp>
 
 #include <Eigen/Core>
 
@@ -14,47 +15,23 @@
 
 namespace sinew {
 
-struct ConvexStepSettings {
-  double tolerance = 1e-6;          // of the natural map, in the unit of the violation
-  double momentumTolerance = 1e-6;  // of A v - b = J' f, relative
-  FrictionLag friction = FrictionLag::bound;
-
-  /// Of each row, over the mean diagonal of the estimated W of its block: at first, and times `decrease` at
-  /// each update until it is `regularisation`. Where that is what holds convergence up, it decreases on to
-  /// `leastRegularisation`.
-  double firstRegularisation = 20;
-  double decrease = 0.3, regularisation = 0.1, leastRegularisation = 1e-3;
-
-  double reduction = 0.1;  // of the gradient between two updates
-  double forcing = 0.1;    // of the residual of Newton's equation
-  int patience = 10;       // updates without half the residual, before what is lagged changes
-  int maxUpdates = 50;
-  int maxNewtonIterations = 30;       // between two updates
-  int maxConjugateGradients = 10000;  // in total
-};
-
-struct ConvexStepResult {
-  int updates = 0, newtonIterations = 0, conjugateGradients = 0, lineSearches = 0;
-  double residual = 0;  // ConstraintProblem::residual, with an estimate of W
-  double momentum = 0;  // |A v - b - J' f| over the larger of |b| and |J' f|, in the preconditioner's norm
-  bool converged = true;
-};
-
 /// A step with constraints as a sequence of convex problems without any,
 ///   min_v 1/2 v' A v - b' v + sum_i l_i(J_i v + d_0i),
 /// the same as 1/2 |v - v*|^2_A of the free velocity v* = A^-1 b, which is not needed (Castro, Permenter, Han
 /// 2022; Todorov 2014). A is known by products alone. Newton's method, whose equation (A + J' G J) dv = -grad
 /// is solved by conjugate gradients up to `forcing`, with an exact line search; then l is moved to the
 /// multipliers found (augmented Lagrangian; Hestenes 1969), until J v + d_0 and f fulfil the conditions of
-/// their blocks, Coulomb's law included.
+/// their blocks, Coulomb's law included. The regularisation begins soft, so that the first problems have no
+/// sharp kinks and are well conditioned; they find out which contacts slide. Where updates converge slowly,
+/// they are accelerated, or the other part of Coulomb's law is lagged.
 ///
 /// One object serves a scene for all its steps; it allocates only where a step has more dofs or rows than
 /// any before. Results do not depend on what it solved before.
 class ConvexStep {
  public:
   /// `multiply(p, q)`: q = A p, A symmetric and positive definite. `preconditioner`: what has the functions
-  /// of ConstrainedBlockJacobi: dofs; begin, which estimates the diagonal of W and then stands for A; update
-  /// for A + J' G J; apply, which is symmetric and positive definite. `start`: d_0, the violation at v = 0,
+  /// of ConstrainedBlockJacobi: dofs; begin, which estimates the diagonal of W; update, for
+  /// A + J' G J; apply, which is symmetric and positive definite. `start`: d_0, the violation at v = 0,
   /// as g / h. `velocity` and `multipliers`: the first guess, then the solution; with zero multipliers the
   /// start is cold. Throws Error for sizes that do not fit, numbers that are not finite, blocks that
   /// check_blocks refuses, and rows that nothing can move.
@@ -76,7 +53,6 @@ class ConvexStep {
   bool accelerating_ = false;
   double last_ = 0, best_ = 0;  // residuals
   int since_ = 0;               // updates since the best
-  double fixed_ = 0;            // |b|
 
   void begin(ConvexStepSettings const& settings);
   void regularise(double relative);
@@ -85,38 +61,14 @@ class ConvexStep {
 
   /// The size of the gradient.
   template <class Preconditioner>
-  double evaluate(Preconditioner& preconditioner, ConvexStepResult& result);
+  double evaluate(Preconditioner& preconditioner, Eigen::VectorXd const& b, Eigen::VectorXd const& velocity,
+                  ConvexStepResult& result);
   /// False where no direction was found.
   template <class System, class Preconditioner>
   bool newton(System& multiply, Preconditioner& preconditioner, Eigen::VectorXd& velocity,
               ConvexStepSettings const& settings, ConvexStepResult& result);
   double lineSearch(double slope, double curvature, ConvexStepResult& result) const;
 };
-
-inline void check_convex_step(Eigen::VectorXd const& b, JacobianRows const& J,
-                              std::vector<ConstraintBlock> const& blocks, Eigen::VectorXd const& start,
-                              Eigen::VectorXd const& velocity, Eigen::VectorXd const& multipliers,
-                              std::string_view where) {
-  if (velocity.size() != b.size())
-    throw Error(where,
-                text("a step of ", b.size(), " dofs has ", velocity.size(), " velocities; give each one"));
-  if (start.size() != J.rows() || multipliers.size() != J.rows())
-    throw Error(where,
-                text("constraints have ",
-                     J.rows(),
-                     " rows, ",
-                     start.size(),
-                     " violations and ",
-                     multipliers.size(),
-                     " multipliers; give each as many"));
-  if (!b.allFinite() || !velocity.allFinite() || !start.allFinite() || !multipliers.allFinite())
-    throw Error(
-        where,
-        "a momentum, a velocity, a violation or a multiplier of a step with constraints is not a finite "
-        "number");
-  J.check(int(b.size()), where);
-  check_blocks(blocks, J.rows(), where);
-}
 
 inline void ConvexStep::regularise(double relative) {
   relative_ = relative;
@@ -141,8 +93,8 @@ inline void ConvexStep::update(ConvexStepSettings const& settings, double residu
     best_ = residual;
     since_ = 0;
   } else if (++since_ == settings.patience && terms_.lag() != FrictionLag::none) {
-    terms_.change(terms_.lag() == FrictionLag::gap ? FrictionLag::bound : FrictionLag::gap);
     begin(settings);
+    terms_.change(terms_.lag() == FrictionLag::gap ? FrictionLag::bound : FrictionLag::gap);
     return;
   }
   const double contraction = residual / last_;
@@ -167,14 +119,16 @@ inline void ConvexStep::update(ConvexStepSettings const& settings, double residu
 }
 
 template <class Preconditioner>
-double ConvexStep::evaluate(Preconditioner& preconditioner, ConvexStepResult& result) {
+double ConvexStep::evaluate(Preconditioner& preconditioner, Eigen::VectorXd const& b,
+                            Eigen::VectorXd const& velocity, ConvexStepResult& result) {
   reaction_.setZero();
   terms_.rows().addTransposed(terms_.multipliers, reaction_);
   gradient_ = momentum_ - reaction_;
   terms_.evaluateCurvature();
   preconditioner.update(terms_);
   preconditioner.apply(reaction_, scaled_);
-  const double whole = std::max(fixed_, std::sqrt(std::max(0., reaction_.dot(scaled_))));
+  const double energy = velocity.dot(momentum_) + velocity.dot(b);  // v' A v
+  const double whole = std::sqrt(std::max({0., energy, reaction_.dot(scaled_)}));
   preconditioner.apply(gradient_, scaled_);
   const double size = std::sqrt(std::max(0., gradient_.dot(scaled_)));
   result.momentum = whole > 0 ? size / whole : size;
@@ -188,6 +142,7 @@ ConvexStepResult ConvexStep::solve(System&& multiply, Preconditioner& preconditi
                                    Eigen::VectorXd& velocity, Eigen::VectorXd& multipliers,
                                    ConvexStepSettings const& settings, std::string_view where) {
   check_convex_step(b, J, blocks, start, velocity, multipliers, where);
+  check_convex_step(settings, where);
   if (preconditioner.dofs() != int(b.size()))
     throw Error(where,
                 text("a step of ",
@@ -203,14 +158,12 @@ ConvexStepResult ConvexStep::solve(System&& multiply, Preconditioner& preconditi
   for (Eigen::VectorXd* v :
        {&momentum_, &reaction_, &gradient_, &step_, &residual_, &scaled_, &direction_, &product_})
     v->resize(b.size());
-  preconditioner.apply(b, scaled_);
-  fixed_ = std::sqrt(std::max(0., b.dot(scaled_)));
 
   terms_.evaluate(velocity);
   while (true) {
     multiply(velocity, momentum_);
     momentum_ -= b;
-    double size = evaluate(preconditioner, result);
+    double size = evaluate(preconditioner, b, velocity, result);
     const double first = size;
     bool stuck = false;
     for (int i = 0; i < settings.maxNewtonIterations && !stuck; ++i) {
@@ -224,7 +177,7 @@ ConvexStepResult ConvexStep::solve(System&& multiply, Preconditioner& preconditi
       if (size <= settings.reduction * first && result.residual > settings.tolerance) break;
       stuck = result.conjugateGradients >= settings.maxConjugateGradients ||
               !newton(multiply, preconditioner, velocity, settings, result);
-      size = evaluate(preconditioner, result);
+      size = evaluate(preconditioner, b, velocity, result);
     }
     result.residual = terms_.residual(compliance_);
     result.converged = result.residual <= settings.tolerance && result.momentum <= settings.momentumTolerance;

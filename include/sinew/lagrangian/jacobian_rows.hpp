@@ -85,10 +85,11 @@ struct JacobianRows {
                        " dofs and ",
                        values.size(),
                        " values; rows begin at entry 0 and cover all"));
-    for (int i = 0; i < rows(); ++i) {
+    for (int i = 0; i < rows(); ++i)
       if (first[std::size_t(i)] > first[std::size_t(i) + 1])
         throw Error(where,
                     text("row ", i, " of the constraints ends before it begins; entries are in order"));
+    for (int i = 0; i < rows(); ++i)
       forEachInRow(i, [&](int dof, double value) {
         if (dof < 0 || dof >= dofCount)
           throw Error(
@@ -97,7 +98,6 @@ struct JacobianRows {
         if (!std::isfinite(value))
           throw Error(where, text("row ", i, " of the constraints is not a finite number at dof ", dof));
       });
-    }
   }
 };
 
