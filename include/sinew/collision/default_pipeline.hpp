@@ -68,10 +68,14 @@ struct DefaultPipeline {
         contact.b.surface = j;
         manager.add(contact);
       };
-      if constexpr (A == Shape::hull || B == Shape::hull)
+      if constexpr (A == Shape::hull || B == Shape::hull) {
         HullContacts<A, B>::find(pair, intersection, add);
-      else if (auto contact = intersection.intersect(pair))
-        add(*contact);
+      } else {
+        static_assert(Intersects<Intersection, A, B>,
+                      "Sinew: an intersection method has no 'std::optional<Contact> "
+                      "intersect(PrimitivePair<A, B> const& pair) const' for two shapes of the scene.");
+        if (auto contact = intersection.intersect(pair)) add(*contact);
+      }
     });
   }
 };

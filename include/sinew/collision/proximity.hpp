@@ -3,6 +3,7 @@
 
 #include <sinew/collision/closest_points.hpp>
 #include <sinew/collision/contact.hpp>
+#include <sinew/core/roles/intersection.hpp>
 
 #include <Eigen/Geometry>
 #include <algorithm>
