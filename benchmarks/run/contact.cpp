@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
-// Steps a second of a soft block that lies on a plane and slides there, its contacts solved by multipliers, by each constraint
-// solver: contact NX NY NZ STEPS [profile]. The block has NX x NY points that touch, and NZ layers of them. Each line is a solver:
-// its name, contacts, steps/s, iterations a step, and the residual of the friction problem of the last step [m], by the natural
-// map with an estimate of W where W is not formed.
+// Steps a second of a soft block that lies on a plane and slides there, its contacts solved by multipliers,
+// by each constraint solver: contact NX NY NZ STEPS [profile]. The block has NX x NY points that touch, and
+// NZ layers of them. Each line is a solver: its name, contacts, steps/s, iterations a step, and the residual
+// of the friction problem of the last step [m], by the natural map with an estimate of W where W is not
+// formed.
 #include "bodies.hpp"
 
 #include <sinew/scene/profile_report.hpp>
@@ -26,12 +27,14 @@ Block block_of(std::array<int, 3> n) {
   Block b;
   for (int k = 0; k < n[2]; ++k)
     for (int j = 0; j < n[1]; ++j)
-      for (int i = 0; i < n[0]; ++i) b.points.push_back(edge * Eigen::Vector3d(i, j, k) + Eigen::Vector3d(0, 0, contactDistance));
+      for (int i = 0; i < n[0]; ++i)
+        b.points.push_back(edge * Eigen::Vector3d(i, j, k) + Eigen::Vector3d(0, 0, contactDistance));
   auto number = [&](std::array<int, 3> at) { return at[0] + n[0] * (at[1] + n[1] * at[2]); };
   for (int k = 0; k + 1 < n[2]; ++k)
     for (int j = 0; j + 1 < n[1]; ++j)
       for (int i = 0; i + 1 < n[0]; ++i)
-        for (auto const& order : {std::array{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}) {
+        for (auto const& order :
+             {std::array{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}) {
           std::array<int, 3> at{i, j, k};
           std::array<int, 4> t{number(at), 0, 0, 0};
           for (std::size_t c = 0; c < 3; ++c) {
@@ -39,7 +42,8 @@ Block block_of(std::array<int, 3> n) {
             t[c + 1] = number(at);
           }
           const bool odd = (order[0] + 1) % 3 != order[1];
-          b.tetrahedra.push_back(odd ? Tetrahedron{t[0], t[2], t[1], t[3]} : Tetrahedron{t[0], t[1], t[2], t[3]});
+          b.tetrahedra.push_back(odd ? Tetrahedron{t[0], t[2], t[1], t[3]}
+                                     : Tetrahedron{t[0], t[1], t[2], t[3]});
         }
   for (int i = 0; i < n[0] * n[1]; ++i) b.bottom.push_back(i);
   return b;
@@ -59,20 +63,23 @@ auto scene(Block const& block, Solver solver, Linear linear) {
       BruteForceBroadPhase{},
       BVHNarrowPhase{},
       MinProximityIntersection{.alarmDistance = 0.01, .contactDistance = contactDistance},
-      DefaultContactManager{
-          .response = "FrictionContactConstraint", .responseParams = "mu=0.5", .capacity = 2 * int(touching.size())},
-      node<"floor">(floor,
-                    MechanicalObject<Vec3d>{.position = {{-50, -50, 0}, {50, -50, 0}, {50, 50, 0}, {-50, 50, 0}}},
-                    TriangleCollisionModel<Vec3d>{.moving = false, .simulated = false}),
-      node<"block">(EulerImplicitSolver{.rayleighStiffness = 0.01, .rayleighMass = 0.01},
-                    linear,
-                    TetrahedronTopology{block.tetrahedra},
-                    MechanicalObject<Vec3d>{.position = block.points, .velocity = {{1, 0, 0}}},
-                    UniformMass<Vec3d>{.totalMass = density * edge * edge * edge * double(block.tetrahedra.size()) / 6},
-                    TetrahedronFEMForceField<Vec3d>{.youngModulus = {1e5}, .poissonRatio = 0.4},
-                    node<"skin">(MechanicalObject<Vec3d>{.position = touching},
-                                 SubsetMapping<Vec3d, Vec3d>{.indices = block.bottom},
-                                 PointCollisionModel<Vec3d>{})));
+      DefaultContactManager{.response = "FrictionContactConstraint",
+                            .responseParams = "mu=0.5",
+                            .capacity = 2 * int(touching.size())},
+      node<"floor">(
+          floor,
+          MechanicalObject<Vec3d>{.position = {{-50, -50, 0}, {50, -50, 0}, {50, 50, 0}, {-50, 50, 0}}},
+          TriangleCollisionModel<Vec3d>{.moving = false, .simulated = false}),
+      node<"block">(
+          EulerImplicitSolver{.rayleighStiffness = 0.01, .rayleighMass = 0.01},
+          linear,
+          TetrahedronTopology{block.tetrahedra},
+          MechanicalObject<Vec3d>{.position = block.points, .velocity = {{1, 0, 0}}},
+          UniformMass<Vec3d>{.totalMass = density * edge * edge * edge * double(block.tetrahedra.size()) / 6},
+          TetrahedronFEMForceField<Vec3d>{.youngModulus = {1e5}, .poissonRatio = 0.4},
+          node<"skin">(MechanicalObject<Vec3d>{.position = touching},
+                       SubsetMapping<Vec3d, Vec3d>{.indices = block.bottom},
+                       PointCollisionModel<Vec3d>{})));
 }
 
 template <class Sim>

@@ -16,7 +16,8 @@ namespace sinew {
 
 inline constexpr double g = 10;  // [m/s^2]
 
-/// A root with all stages, and contacts by multipliers with friction mu. Bodies touch at the contact distance 0.01 m.
+/// A root with all stages, and contacts by multipliers with friction mu. Bodies touch at the contact distance
+/// 0.01 m.
 template <class Solver, class Intersection, class... Children>
 auto constrained_scene_by(Solver solver, Intersection intersection, double mu, Children... children) {
   return Simulation{node<"root">(

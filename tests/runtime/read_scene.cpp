@@ -142,11 +142,13 @@ TEST_CASE("what has no meaning here is accepted, and said once") {
 TEST_CASE("an animation loop takes a constraint solver where the scene has none, and says so") {
   auto scene = parse("<Node><FreeMotionAnimationLoop/></Node>");
   REQUIRE(scene.warnings.size() == 1);
-  CHECK_THAT(scene.warnings[0],
-             Catch::Contains("test.scn:1:7: <FreeMotionAnimationLoop> finds no constraint solver, and takes a "
-                             "BlockGaussSeidelConstraintSolver"));
+  CHECK_THAT(
+      scene.warnings[0],
+      Catch::Contains("test.scn:1:7: <FreeMotionAnimationLoop> finds no constraint solver, and takes a "
+                      "BlockGaussSeidelConstraintSolver"));
   CHECK(scene.root.get<BlockGaussSeidelConstraintSolver>());
-  CHECK(parse("<Node><FreeMotionAnimationLoop/><Node><GenericConstraintSolver/></Node></Node>").warnings.empty());
+  CHECK(parse("<Node><FreeMotionAnimationLoop/><Node><GenericConstraintSolver/></Node></Node>")
+            .warnings.empty());
 }
 
 TEST_CASE("a class that would be missed is an error, or a warning to the lenient") {

@@ -6,8 +6,8 @@
 
 namespace sinew {
 
-// Says what multipliers do to a body. Without one it is the system of the body's ODE solver that answers, by its linear
-// solver, or by its masses where the solver is explicit. The shortest that says otherwise:
+// Says what multipliers do to a body. Without one it is the system of the body's ODE solver that answers, by its
+// linear solver, or by its masses where the solver is explicit. The shortest:
 //
 //   /// Each point follows a force as a mass of 1 kg would.
 //   struct OneKilogram {
