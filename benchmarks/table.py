@@ -173,6 +173,22 @@ def roofline(build, rounds, sizes=(17, 55)):
     return rows
 
 
+def contact(build):
+    """A soft block that slides on a plane, by each constraint solver."""
+    rows = []
+    print("\na soft block that slides on a plane, mu = 0.5, dt = 0.01 s; medians of the steps")
+    print(f"  {'solver':34} {'tetrahedra':>10} {'contacts':>8} {'steps/s':>8} {'iterations':>10} {'residual [m]':>12}")
+    for points in [(8, 8, 3), (16, 16, 3), (22, 22, 2), (32, 32, 6)]:
+        lines = output(build / "bench_contact", *points, 40 if points[0] < 30 else 10).splitlines()
+        tetrahedra = int(lines[0].split()[1])
+        for line in lines[1:]:
+            solver, contacts, speed, iterations, residual = line.split()
+            print(f"  {solver:34} {tetrahedra:>10} {contacts:>8} {speed:>8} {iterations:>10} {residual:>12}")
+            rows.append({"solver": solver, "tetrahedra": tetrahedra, "contacts": int(contacts), "steps_per_second": float(speed),
+                         "iterations": float(iterations), "residual": float(residual)})
+    return rows
+
+
 def growth(build, rounds, sizes=(6, 12, 26, 55)):
     rows, lines = [], []
     for cells in sizes:
