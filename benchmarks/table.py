@@ -175,17 +175,15 @@ def roofline(build, rounds, sizes=(17, 55)):
 
 def contact(build):
     """A soft block that slides on a plane, by each constraint solver."""
-    rows = []
-    print("\na soft block that slides on a plane, mu = 0.5, dt = 0.01 s; medians of the steps")
-    print(f"  {'solver':34} {'tetrahedra':>10} {'contacts':>8} {'steps/s':>8} {'iterations':>10} {'residual [m]':>12}")
+    rows, lines = [], []
     for points in [(8, 8, 3), (16, 16, 3), (22, 22, 2), (32, 32, 6)]:
-        lines = output(build / "bench_contact", *points, 40 if points[0] < 30 else 10).splitlines()
-        tetrahedra = int(lines[0].split()[1])
-        for line in lines[1:]:
-            solver, contacts, speed, iterations, residual = line.split()
-            print(f"  {solver:34} {tetrahedra:>10} {contacts:>8} {speed:>8} {iterations:>10} {residual:>12}")
+        head, *found = output(build / "bench_contact", *points, 40 if points[0] < 30 else 10).splitlines()
+        for solver, contacts, speed, iterations, residual in map(str.split, found):
+            tetrahedra = int(head.split()[1])
+            lines.append([f"{tetrahedra:,}", contacts, solver, speed, iterations, residual])
             rows.append({"solver": solver, "tetrahedra": tetrahedra, "contacts": int(contacts), "steps_per_second": float(speed),
                          "iterations": float(iterations), "residual": float(residual)})
+    print_table("a soft block that slides on a plane, mu = 0.5, dt = 0.01 s", ["tetrahedra", "contacts", "solver", "steps/s", "iterations", "residual [m]"], lines)
     return rows
 
 
