@@ -33,6 +33,61 @@ struct ConstrainedStep {
   void integrate(ConstrainedMotion& motion, bool velocityFirst, bool keepsForces) const;
 
  private:
+  // The forces of the multipliers of the last step on mapped states, where these are now: mappings that are
+  // not linear turn them in this step, which their geometric stiffness tells the system of the free motion.
+  void forceMapped(ConstrainedMotion& m, bool ofVelocity) const {
+    [[maybe_unused]] const auto span = root.span(Phase::constraint);
+    traverse(root, on<role::State>([](auto& s, auto const&) {
+               if constexpr (requires { s.multiplierForce; })
+                 if (!s.multiplierForce.empty()) s.multiplierForce.clear(), forceOf(s);
+             }));
+    m.rows.ofVelocity = ofVelocity;
+    traverse(root, on<role::LagrangianConstraint>([&](auto& c, auto const& scope) {
+               if constexpr (KeepsMultipliers<std::decay_t<decltype(c)>>)
+                 if (!c.multipliers.empty()) forceMapped(c, scope, m.rows);
+             }));
+    traverse_back(root, on<role::Mapping>([&](auto& mapping, auto const& scope) {
+                    scope.withMapped(mapping, [&](auto& it, auto& child, auto& parent) {
+                      if constexpr (requires { child.multiplierForce, parent.multiplierForce; })
+                        if (!child.multiplierForce.empty() && scope.parentScope().stateScope().mapped())
+                          it.applyJT(forceOf(parent), child.multiplierForce);
+                    });
+                  }));
+  }
+  template <class C, class S>
+  void forceMapped(C& c, S const& scope, ConstraintRows& rows) const {
+    using D = typename C::DataTypes;
+    auto now = [&](auto const& at) {
+      auto& s = at.template state<D>();
+      return ConstrainedState<D>{s.position, s.position, s.velocity, s.restPosition, dt};
+    };
+    auto add = [&](auto const& at, int side) {
+      if (!at.stateScope().mapped() || c.multipliers.size() != std::size_t(rows.count())) return;
+      auto& f = forceOf(at.template state<D>());
+      for (ConstraintRows::Entry const& e : rows.entries)
+        for (int i = 0; e.side == side && i < e.size; ++i)
+          f[std::size_t(e.point)][i] +=
+              typename D::Real(c.multipliers[std::size_t(e.row)] * e.values[std::size_t(i)]);
+    };
+    rows.clear();
+    if constexpr (JoinsTwo<C>) {
+      scope.withEnds(c, [&](auto const& a, auto const& b) {
+        if (!a.stateScope().mapped() && !b.stateScope().mapped()) return;
+        c.addRows(rows, now(a), now(b));
+        add(a, 0);
+        add(b, 1);
+      });
+    } else if (scope.stateScope().mapped()) {
+      c.addRows(rows, now(scope));
+      add(scope, 0);
+    }
+  }
+  template <class State>
+  static auto& forceOf(State& s) {
+    s.multiplierForce.resize(s.position.size(), State::DataTypes::Deriv::Zero());
+    return s.multiplierForce;
+  }
+
   template <class Ode, class S>
   void moveFreely(Ode& ode, S const& scope, bool keepsForces) const {
     MechanicalOperations<S> operations(scope, time, dt);
@@ -416,6 +471,7 @@ struct ConstrainedStep {
 
 template <class RootScope>
 void ConstrainedStep<RootScope>::integrate(ConstrainedMotion& m, bool velocityFirst, bool keepsForces) const {
+  forceMapped(m, velocityFirst);
   for_each_solver(root, [&](auto& ode, auto const& scope) { moveFreely(ode, scope, keepsForces); });
   for_each_integrator(root, [&](auto&, auto const& scope) { lookFromStart(scope); });
   collectRows(m, velocityFirst, keepsForces);

@@ -175,6 +175,9 @@ class Initialisation {
       const int number = int(motion.systems.size());
       int dofs = 0;
       operations.forEachState([&](auto& s) { s.solver = number; });
+      operations.forEachMapped([](auto& s) {
+        if constexpr (requires { s.multiplierForce; }) s.multiplierForce.reserve(s.size());
+      });
       operations.forEachIndependent([&](auto& s) {
         using D = typename std::decay_t<decltype(s)>::DataTypes;
         dofs = std::max(dofs, s.dofOffset + int(s.size()) * D::size);
