@@ -293,8 +293,8 @@ struct MechanicalOperations {
     if constexpr (requires { child.multiplierForce; })
       if (!child.multiplierForce.empty()) {
         auto& sum = child[vec_id::dx];
-        sum = child[f];
-        for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += child.multiplierForce[i];
+        Vectors<Child>::eq(OneThread{}, sum, child[f]);
+        Vectors<Child>::peq(OneThread{}, sum, child.multiplierForce, real(child, 1));
         return sum;
       }
     return child[f];
