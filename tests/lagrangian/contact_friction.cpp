@@ -16,7 +16,7 @@ RigidMass<double, 3> ball(double radius) {
 }
 
 const BlockGaussSeidelConstraintSolver gaussSeidel{.maxIterations = 20000, .tolerance = 1e-13};
-const ConvexConstraintSolver convex{.tolerance = 1e-12, .momentumTolerance = 1e-12};
+const ConvexConstraintSolver convex{.tolerance = 1e-12, .momentumTolerance = 1e-12, .maxUpdates = 500};
 
 // a cube of 1 m on four spheres, on a slope; it touches
 template <class Solver, class Ode, class... Linear>

@@ -3,7 +3,7 @@
 
 #include <sinew/lagrangian/constraint_problem.hpp>
 
-#include <Eigen/LU>
+#include <Eigen/Cholesky>
 
 #include <cmath>
 #include <string_view>
@@ -84,15 +84,18 @@ inline void ConstraintSweeps::begin(ConstraintProblem const& problem, std::strin
     ConstraintBlock const& b = problem.blocks[k];
     if (b.kind != ConstraintBlock::Kind::equality) continue;
     const Small w = problem.compliance.block(b.first, b.first, b.rows, b.rows);
-    const Eigen::FullPivLU<Small> factor(w);
-    if (!factor.isInvertible())
+    const Eigen::LDLT<Small> factor(w);
+    const Few pivots = factor.vectorD();
+    if (!(pivots.minCoeff() > 1e-13 * pivots.maxCoeff()))
       throw Error(where,
                   text("the equalities in rows ",
                        b.first,
                        " to ",
                        b.first + b.rows - 1,
                        " depend on each other, so that their multipliers are not determined; leave one out"));
-    inverses_[k] = factor.inverse();
+    // column by column, since nvcc takes Eigen's solution for a matrix for a function of the device
+    inverses_[k].resize(b.rows, b.rows);
+    for (int c = 0; c < b.rows; ++c) inverses_[k].col(c) = factor.solve(Few(Few::Unit(b.rows, c)));
   }
 }
 
