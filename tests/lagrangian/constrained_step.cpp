@@ -5,6 +5,8 @@
 #include <sinew/lagrangian.hpp>
 #include <sinew/mechanics.hpp>
 
+namespace test_constrained_step {
+
 using namespace sinew;
 
 namespace {
@@ -74,3 +76,5 @@ TEST_CASE("bodies of different solvers that are joined fall as one, and keep the
     CHECK((b.velocity[0] - Eigen::Vector3d(1, 0, 0)).norm() < 1e-9);
   }
 }
+
+}  // namespace test_constrained_step
