@@ -101,4 +101,18 @@ TEST_CASE("compliances that move nothing, or are too few, are refused") {
   wrong({.defaultCompliance = 0}, "defaultCompliance");
 }
 
+TEST_CASE("a solver that asks the systems alone refuses a correction, which it would leave out") {
+  Simulation sim{node<"root">(FreeMotionAnimationLoop{},
+                              ConvexConstraintSolver{},
+                              EulerExplicitSolver{},
+                              MechanicalObject<Vec3d>{.position = {{0, 0, 1}}},
+                              UniformMass<Vec3d>{},
+                              FixedLagrangianConstraint<Vec3d>{.indices = {0}},
+                              UncoupledConstraintCorrection<Vec3d>{})};
+  sim.init();
+  CHECK_THROWS_WITH(sim.animate(dt),
+                    Catch::Contains("/root: UncoupledConstraintCorrection<Vec3d>") &&
+                        Catch::Contains("leave this correction out"));
+}
+
 }  // namespace test_corrections

@@ -56,10 +56,26 @@ struct MotionProblem {
   }
 
  private:
+  // what bodies answer is their system here
+  template <class S>
+  static void refuseCorrections(S const& scope) {
+    traverse(
+        scope, on<role::ConstraintCorrection>([](auto& c, auto const& at) {
+          using C = std::decay_t<decltype(c)>;
+          if constexpr (CorrectsState<C>)
+            throw Error(
+                text(at.path(), ": ", component_name<C>()),
+                "a constraint solver without a compliance matrix moves bodies by the systems of their ODE "
+                "solvers, and would leave this correction out; remove it, or take "
+                "BlockGaussSeidelConstraintSolver");
+        }));
+  }
+
   template <class S>
   void assemble(S const& scope, MultiplierResponse const& how, ConstrainedSystem& system) const {
     MechanicalOperations<S> operations(scope, time, dt);
     if (!system.hasPattern) {
+      refuseCorrections(scope);
       operations.forEachIndependent([&](auto& s) {
         using D = typename std::decay_t<decltype(s)>::DataTypes;
         if (D::size % 3 != 0)
