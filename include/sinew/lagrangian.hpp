@@ -17,7 +17,6 @@
 #include <sinew/lagrangian/nncg_constraint_solver.hpp>
 #include <sinew/lagrangian/sliding_lagrangian_constraint.hpp>
 #include <sinew/lagrangian/stopper_lagrangian_constraint.hpp>
-#include <sinew/lagrangian/unbuilt_gauss_seidel_constraint_solver.hpp>
 #include <sinew/lagrangian/uncoupled_constraint_correction.hpp>
 #include <sinew/lagrangian/uniform_lagrangian_constraint.hpp>
 #include <sinew/lagrangian/unilateral_lagrangian_constraint.hpp>

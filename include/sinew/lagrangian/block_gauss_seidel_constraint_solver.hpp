@@ -6,11 +6,13 @@
 namespace sinew {
 
 /// Block Gauss-Seidel over the compliance W of all constraints (Duriez et al. 2006): each block in turn is
-/// solved for its own multipliers, those of the others as they are.
+/// solved for its own multipliers, those of the others as they are. SOFA's UnbuiltGaussSeidelConstraintSolver
+/// asks the bodies for what a block changes in the place of W, and has the same iterates.
 struct BlockGaussSeidelConstraintSolver {
   using Role = role::ConstraintSolver;
   static constexpr std::string_view className = "BlockGaussSeidelConstraintSolver";
-  static constexpr std::string_view aliases = "GenericConstraintSolver ProjectedGaussSeidelConstraintSolver";
+  static constexpr std::string_view aliases =
+      "GenericConstraintSolver ProjectedGaussSeidelConstraintSolver UnbuiltGaussSeidelConstraintSolver";
   static constexpr bool takenByDefault = true;
 
   int maxIterations = 1000;

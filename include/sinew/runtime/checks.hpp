@@ -3,6 +3,7 @@
 
 #include <sinew/runtime/scope.hpp>
 #include <sinew/scene/rules.hpp>
+#include <sinew/scene/solvers.hpp>
 
 #include <map>
 #include <set>
@@ -79,11 +80,7 @@ struct RuntimeFacts {
     return found;
   }
   bool inRoot() const { return !scope.node.parent() && !scope.mount().scope; }
-  bool constraintSolver() const {
-    bool found = false;
-    traverse(scope, on<role::ConstraintSolver>([&](auto&, auto const&) { found = true; }));
-    return found;
-  }
+  bool constraintSolver() const { return any_below<role::ConstraintSolver>(scope); }
   bool loopInRoot() const {
     return scope.node.top().mount.scope || Scope(scope.node.top()).template has<role::AnimationLoop>();
   }

@@ -5,6 +5,8 @@
 #include <sinew/runtime/scene_files.hpp>
 #include <sinew/runtime/scene_reader/classes.hpp>
 #include <sinew/runtime/scene_reader/values.hpp>
+#include <sinew/runtime/scope.hpp>
+#include <sinew/scene/solvers.hpp>
 
 namespace sinew {
 
@@ -58,14 +60,8 @@ class SceneReader {
 
   // An animation loop without a constraint solver takes the one by default, as in SOFA.
   void addConstraintSolver(ScenePlace const& top, RuntimeNode<R>& root) {
-    auto has = [](auto const& self, RuntimeNode<R> const& node) -> bool {
-      for (auto const& entry : node.components())
-        if (entry.component.template is<role::ConstraintSolver>()) return true;
-      return std::any_of(
-          node.children().begin(), node.children().end(), [&](auto const& c) { return self(self, *c); });
-    };
     SceneItem const* const loop = top.ofRole(RoleKind::animationLoop);
-    if (!loop || has(has, root)) return;
+    if (!loop || any_below<role::ConstraintSolver>(RuntimeScope<R>(root))) return;
     for (ClassInfo const& info : table_)
       if (info.role == RoleKind::constraintSolver && info.traits.takenByDefault) {
         messages_.warnings.insert(text(loop->element->place(),

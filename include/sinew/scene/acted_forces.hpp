@@ -3,6 +3,7 @@
 
 #include <sinew/collision/collision_surface.hpp>
 #include <sinew/core/assembly.hpp>
+#include <sinew/core/component.hpp>
 #include <sinew/core/vec_id.hpp>
 #include <sinew/scene/scope.hpp>
 
@@ -136,5 +137,18 @@ class ActedForces {
     withContacts([&](auto& manager, auto&& mine) { manager.forEachChosen(mine, f); });
   }
 };
+
+/// Ends those of a step of an ODE solver. Throws Error where they were to be kept and it did not say which
+/// acted.
+template <class Ode, class Operations>
+void end_acted_forces(Operations& operations) {
+  if constexpr (!stands_beside<Ode>)
+    if (!operations.acted.end(vec_id::force))
+      throw Error(
+          operations.root.path(),
+          text(component_name<Ode>(),
+               ": forces cannot be kept, since this solver does not say which acted over its step; let it "
+               "call operations.acted.add(), or leave out Simulation::keepForces"));
+}
 
 }  // namespace sinew

@@ -9,7 +9,6 @@
 #include <sinew/solver/multi_vec.hpp>
 
 #include <algorithm>
-#include <span>
 #include <utility>
 
 namespace sinew {
@@ -97,13 +96,7 @@ struct ConstrainedStep {
     }
     ode.solve(operations, dt);
     operations.projectPositionAndVelocity(time + dt, vec_id::position, vec_id::velocity);
-    if constexpr (!stands_beside<Ode>)
-      if (!operations.acted.end(vec_id::force))
-        throw Error(
-            scope.path(),
-            text(component_name<Ode>(),
-                 ": forces cannot be kept, since this solver does not say which acted over its step; let it "
-                 "call operations.acted.add(), or leave out Simulation::keepForces"));
+    end_acted_forces<Ode>(operations);
   }
   // states as they were, mappings as they were, and where all would come to be by the velocities that they
   // have now
@@ -200,10 +193,7 @@ struct ConstrainedStep {
   template <class S>
   void project(S const& scope, MultiplierResponse const& how, JacobianRows& left,
                ConstrainedSystem& system) const {
-    if (system.rows.empty()) return;
-    bool some = false;
-    traverse(scope, on<role::ProjectiveConstraint>([&](auto&, auto const&) { some = true; }));
-    if (!some) return;
+    if (system.rows.empty() || !any_below<role::ProjectiveConstraint>(scope)) return;
     MechanicalOperations<S> operations(scope, time, dt);
     auto projected = [&] {
       operations.scatter(how.force(), system.force);

@@ -29,6 +29,13 @@ void for_each_integrator(S const& scope, F&& f) {
   });
 }
 
+/// Whether a component with a role is here or below.
+template <class Role, class S>
+bool any_below(S const& scope) {
+  bool found = false;
+  traverse(scope, on<Role>([&](auto&, auto const&) { found = true; }));
+  return found;
+}
 /// f(component) for the first with a role in the node of a scope; says whether there is one.
 template <class Role, class S, class F>
 bool with_first(S const& scope, F&& f) {

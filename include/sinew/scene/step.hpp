@@ -113,13 +113,7 @@ struct Step {
     ode.solve(operations, dt);
     operations.projectPositionAndVelocity(time + dt, vec_id::position, vec_id::velocity);
     operations.propagate(vec_id::position, vec_id::velocity);
-    if constexpr (!stands_beside<Ode>)
-      if (!operations.acted.end(vec_id::force))
-        throw Error(
-            scope.path(),
-            text(component_name<Ode>(),
-                 ": forces cannot be kept, since this solver does not say which acted over its step; let it "
-                 "call operations.acted.add(), or leave out Simulation::keepForces"));
+    end_acted_forces<Ode>(operations);
   }
 
   template <class C, class S>
