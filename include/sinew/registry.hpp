@@ -156,7 +156,8 @@ using StandardMultipliers =
     Registry<FreeMotionAnimationLoop, BlockGaussSeidelConstraintSolver, NNCGConstraintSolver,
              UnbuiltGaussSeidelConstraintSolver, LCPConstraintSolver, ConvexConstraintSolver,
              LinearSolverConstraintCorrection, UncoupledConstraintCorrection<Vec3d>,
-             UncoupledConstraintCorrection<Rigid3d>, LagrangianConstraints>;
+             UncoupledConstraintCorrection<Rigid3d>, PrecomputedConstraintCorrection<Vec3d>,
+             PrecomputedConstraintCorrection<Rigid3d>, LagrangianConstraints>;
 
 /// Every component that Sinew brings, over the DataTypes that scenes use.
 struct Standard : Registry<Gravity, Threads, StandardTopologies, MadeMeshes, VisualModel, StandardEngines,

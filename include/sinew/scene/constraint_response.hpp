@@ -304,8 +304,7 @@ void ConstraintResponse<S>::prepare() const {
   forEachCorrection([&](auto& c, auto const& at) {
     using C = std::decay_t<decltype(c)>;
     if constexpr (CorrectsState<C> && KeepsCompliance<C>)
-      if (c.needsCompliance(dt, at.template state<typename C::DataTypes>().restPosition))
-        keepCompliance(c, at);
+      if (c.needsCompliance(dt)) keepCompliance(c, at);
   });
 }
 
@@ -335,13 +334,13 @@ void ConstraintResponse<S>::keepCompliance(C& c, At const& at) const {
     f(state[u.id]);
   };
   if (byMasses(operations))
-    c.keepCompliance([&](int dof, auto&& f) {
+    c.keepCompliance(dt, [&](int dof, auto&& f) {
       column([&](bool) { operations.accFromF(u.id, b.id, vec_id::position); }, dof, f);
     });
   else
     scope.withLinearSolverIfAny([&](auto& linear) {
       auto columns = [&] {
-        c.keepCompliance([&](int dof, auto&& f) {
+        c.keepCompliance(dt, [&](int dof, auto&& f) {
           column(
               [&](bool first) {
                 if (first)

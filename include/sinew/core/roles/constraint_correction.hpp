@@ -55,11 +55,11 @@ concept MovesByOwnFactors = requires(C const c, ConstraintFactors const factors)
 template <class C>
 concept BeginsCorrections =
     requires(C c, typename C::DataTypes::VecCoord const x) { c.beginCorrections(x); };
-/// Keeps the A^-1 of the system of its solver at rest: where needsCompliance(dt, rest), keepCompliance(solve) is called
+/// Keeps the A^-1 of the system of its solver at rest: where needsCompliance(dt), keepCompliance(dt, solve) is called
 /// before the step, and solve(dof, f) calls f(the column of A^-1 on the points of the state).
 template <class C>
-concept KeepsCompliance = requires(C c, typename C::DataTypes::VecCoord const x) {
-  { c.needsCompliance(0.01, x) } -> std::convertible_to<bool>;
+concept KeepsCompliance = requires(C c) {
+  { c.needsCompliance(0.01) } -> std::convertible_to<bool>;
 };
 /// `regularizationTerm`, of all corrections: what is added to the compliance of each row that acts on the state, or, of
 /// one that stands for the system, on states at and below its node [m/(N s)]. `complianceFactor`, of those that stand for
