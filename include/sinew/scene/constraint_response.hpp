@@ -170,6 +170,7 @@ struct ConstraintResponse {
   void addByPoints(JacobianRows& room, Add&& add) const {
     findAnswers();
     room.clear();
+    room.reserve(system.jacobian.rows(), 6 * int(system.jacobian.values.size()));
     for (int k = 0; k < system.jacobian.rows(); ++k) {
       system.jacobian.forEachInRow(k, [&](int dof, double value) {
         const int begin = system.pointBegin[std::size_t(dof)], size = system.pointSize[std::size_t(dof)];
