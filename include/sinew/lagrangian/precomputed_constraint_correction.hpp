@@ -105,7 +105,7 @@ struct PrecomputedConstraintCorrection {
     for (std::size_t i = 0; i < x.size(); ++i) {
       if constexpr (D::rigid) {
         const auto q = restDeformations ? Quat<Real>(x[i].orientation * rest[i].orientation.conjugate())
-                                     : Quat<Real>(x[i].orientation);
+                                        : Quat<Real>(x[i].orientation);
         rotation[i] = q.toRotationMatrix().template cast<double>();
       } else {
         Eigen::Matrix3d a = Eigen::Matrix3d::Zero();

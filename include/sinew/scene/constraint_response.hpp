@@ -5,7 +5,9 @@
 #include <sinew/scene/mechanical_operations.hpp>
 #include <sinew/solver/multi_vec.hpp>
 
+#include <algorithm>
 #include <cstddef>
+#include <type_traits>
 
 namespace sinew {
 
