@@ -26,6 +26,7 @@
 #include <sinew/force/element_pressure.hpp>
 #include <sinew/force/hyperelastic_material.hpp>
 #include <sinew/force/viscoelastic_material.hpp>
+#include <sinew/lagrangian/compliance_file.hpp>
 #include <sinew/scene/path.hpp>
 #include <sinew/scene/profile_report.hpp>
 #include <sinew/scene/removed_border.hpp>

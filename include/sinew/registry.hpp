@@ -152,10 +152,12 @@ using LagrangianConstraints =
              FixedLagrangianConstraint<Vec1d>, FixedLagrangianConstraint<Vec2d>,
              FixedLagrangianConstraint<Vec6d>, UniformLagrangianConstraint<Vec1d>,
              StopperLagrangianConstraint<Vec1d>>;
-using StandardMultipliers = Registry<FreeMotionAnimationLoop, BlockGaussSeidelConstraintSolver,
-                                     NNCGConstraintSolver, LCPConstraintSolver, ConvexConstraintSolver,
-                                     LinearSolverConstraintCorrection, UncoupledConstraintCorrection<Vec3d>,
-                                     UncoupledConstraintCorrection<Rigid3d>, LagrangianConstraints>;
+using StandardMultipliers =
+    Registry<FreeMotionAnimationLoop, BlockGaussSeidelConstraintSolver, NNCGConstraintSolver,
+             UnbuiltGaussSeidelConstraintSolver, LCPConstraintSolver, ConvexConstraintSolver,
+             LinearSolverConstraintCorrection, UncoupledConstraintCorrection<Vec3d>,
+             UncoupledConstraintCorrection<Rigid3d>, PrecomputedConstraintCorrection<Vec3d>,
+             PrecomputedConstraintCorrection<Rigid3d>, LagrangianConstraints>;
 
 /// Every component that Sinew brings, over the DataTypes that scenes use.
 struct Standard : Registry<Gravity, Threads, StandardTopologies, MadeMeshes, VisualModel, StandardEngines,

@@ -2,6 +2,7 @@
 #include "catch.hpp"
 #include "solver/fem_bar.hpp"
 
+#include <sinew/lagrangian.hpp>
 #include <sinew/solver/cholmod_solver.hpp>
 #include <sinew/solver/sparse_ldl_solver.hpp>
 
@@ -59,4 +60,26 @@ TEST_CASE("CHOLMOD takes points of any size in any blocks, and says where a matr
     for (const std::string word : {"/root: CholmodSolver", "not positive definite", "point 1, component 1"})
       CHECK(said.find(word) != std::string::npos);
   }
+}
+
+TEST_CASE("CHOLMOD solves again for multipliers, with the factor of the step") {
+  auto velocities = [](auto linear) {
+    MechanicalObject<Vec3d> state{.position = {{0, 0, 0}, {1, 0, 0}, {2, 0.1, 0}, {3, 0, 0}}};
+    StiffSpringForceField<Vec3d> springs;
+    for (int i = 0; i < 3; ++i) springs.springs.push_back({i, i + 1, 200, 1, 1});
+    Simulation sim{node<"root">(FreeMotionAnimationLoop{},
+                                BlockGaussSeidelConstraintSolver{.tolerance = 1e-15},
+                                Gravity{{0, -10, 0}},
+                                EulerImplicitSolver{},
+                                linear,
+                                state,
+                                UniformMass<Vec3d>{.totalMass = 4},
+                                springs,
+                                FixedLagrangianConstraint<Vec3d>{.indices = {0, 3}})};
+    sim.init();
+    for (int i = 0; i < 10; ++i) sim.animate(0.01);
+    return Eigen::VectorXd(vec::flat(sim.root().state().velocity));
+  };
+  const Eigen::VectorXd exact = velocities(SparseLDLSolver<>{});
+  CHECK((velocities(CholmodSolver<>{}) - exact).norm() < 1e-10 * exact.norm());
 }

@@ -17,6 +17,12 @@ struct ConstrainedSystem {
   JacobianRows jacobian{};            // of those, without what projective constraints take away
   JacobianRows whole{};               // with that, where forces are kept
   Eigen::VectorXd force{}, motion{};  // of all degrees of freedom, and one number more
+  bool joined = false;                // projective constraints give several points one motion
+
+  // where points answer alone: what a unit force in each of their directions does, a column each; of each
+  // degree of freedom the first of its point, and how many that has
+  Reserved<Eigen::MatrixXd> answers{};
+  std::vector<int> pointBegin{}, pointSize{};
 
   // for solvers that need no compliance (scene/motion_problem.hpp)
   CompressedRowSparseMatrixMat3x3d matrix{};  // A

@@ -115,7 +115,8 @@ inline void check_blocks(std::vector<ConstraintBlock> const& blocks, int rows, s
 }
 
 /// Throws Error where the diagonal of W has an entry that is not positive.
-inline void check_movable(Eigen::Ref<Eigen::VectorXd const> const& compliance, std::string_view where) {
+inline void check_movable(Eigen::Ref<Eigen::VectorXd const, 0, Eigen::InnerStride<>> const& compliance,
+                          std::string_view where) {
   for (int i = 0; i < int(compliance.size()); ++i)
     if (!(compliance[i] > 0))
       throw Error(where,
@@ -142,7 +143,7 @@ inline void ConstraintProblem::check(std::string_view where) const {
   if (!compliance.allFinite() || !freeViolation.allFinite() || !multipliers.allFinite())
     throw Error(where, "the compliance, a violation or a multiplier of constraints is not a finite number");
   check_blocks(blocks, int(n), where);
-  check_movable(Eigen::VectorXd(compliance.diagonal()), where);
+  check_movable(compliance.diagonal(), where);
 }
 
 inline double ConstraintProblem::residual() const {

@@ -3,7 +3,6 @@
 
 #include <sinew/constraint/constrained_points.hpp>
 
-#include <array>
 #include <vector>
 
 namespace sinew {
@@ -12,7 +11,8 @@ namespace sinew {
 ///   u = c h J' f,
 /// in the place of A^-1 of its solver. With c = 1/m it is what an explicit solver gives. Rigid bodies have
 /// seven numbers, for all of them: the compliance of their centres [1/kg], and the upper triangle of that of
-/// their rotations, xx xy xz yy yz zz, in world axes [1/(kg m^2)].
+/// their rotations, xx xy xz yy yz zz, in world axes [1/(kg m^2)]; where they are given none, their masses
+/// answer, with inertias that turn with them.
 template <class D>
 struct UncoupledConstraintCorrection {
   using Role = role::ConstraintCorrection;
@@ -20,29 +20,45 @@ struct UncoupledConstraintCorrection {
   using Real = typename D::Real;
   static constexpr std::string_view className = "UncoupledConstraintCorrection";
   static constexpr bool rotates = D::rigid && D::spatial == 3;
+  static constexpr bool answersByPoint = true;
 
-  double defaultCompliance = 1e-5;
+  double defaultCompliance = rotates ? 0 : 1e-5;
   std::vector<double> compliance{};
   bool useOdeSolverIntegrationFactors = true;
+  double correctionPositionFactor = 1, correctionVelocityFactor = 1;
 
   static constexpr auto fields() {
     using C = UncoupledConstraintCorrection;
-    return field_list(field("defaultCompliance",
-                            &C::defaultCompliance,
-                            "1/kg",
-                            "velocity for an impulse of 1 N s, of points without a compliance of their own",
-                            range::positive),
-                      field("compliance",
-                            &C::compliance,
-                            rotates ? "1/kg, 1/(kg m^2)" : "1/kg",
-                            rotates ? "of all bodies: one number for their centres, and six for their "
-                                      "rotations, xx xy xz yy yz zz"
-                                    : "one for all points, or one for each"),
-                      field("useOdeSolverIntegrationFactors",
-                            &C::useOdeSolverIntegrationFactors,
-                            "",
-                            "else compliances are of positions, the displacement in a step for a force [m/N, "
-                            "rad/(N m)], and velocities change by that over the length of the step"));
+    return field_list(
+        field("defaultCompliance",
+              &C::defaultCompliance,
+              "1/kg",
+              rotates ? "velocity of the centres for an impulse of 1 N s, where no compliance is "
+                        "given; 0: their masses answer"
+                      : "velocity for an impulse of 1 N s, of points without a compliance of "
+                        "their own",
+              rotates ? range::nonNegative : range::positive),
+        field("compliance",
+              &C::compliance,
+              rotates ? "1/kg, 1/(kg m^2)" : "1/kg",
+              rotates ? "of all bodies: one number for their centres, and six for their "
+                        "rotations, xx xy xz yy yz zz"
+                      : "one for all points, or one for each"),
+        field("useOdeSolverIntegrationFactors",
+              &C::useOdeSolverIntegrationFactors,
+              "",
+              "else compliances are of positions, the displacement in a step for a force [m/N, "
+              "rad/(N m)], and velocities change by that over the length of the step"),
+        field("correctionPositionFactor",
+              &C::correctionPositionFactor,
+              "",
+              "part of that displacement that positions take, without the factors of the solver",
+              range::nonNegative),
+        field("correctionVelocityFactor",
+              &C::correctionVelocityFactor,
+              "",
+              "part of it that velocities take",
+              range::nonNegative));
   }
 
   void init(InitContext<D> const& context) {
@@ -67,31 +83,34 @@ struct UncoupledConstraintCorrection {
     }
   }
 
+  bool answersByMasses() const { return rotates && compliance.empty() && !(defaultCompliance > 0); }
+
   void addCorrection(typename D::VecDeriv& u, typename D::VecDeriv const& f, typename D::VecCoord const&,
                      ConstraintFactors const& factors) const {
-    for (std::size_t i = 0; i < u.size(); ++i) u[i] += answer(i, f[i], factors);
-  }
-  typename D::Deriv answer(std::size_t i, typename D::Deriv const& f,
-                           ConstraintFactors const& factors) const {
     const Real by = Real(useOdeSolverIntegrationFactors ? factors.impulse : 1 / factors.position);
-    return by * answer(i, f);
-  }
-
- private:
-  typename D::Deriv answer(std::size_t i, typename D::Deriv const& f) const {
-    if (compliance.empty()) return Real(defaultCompliance) * f;
     if constexpr (rotates) {
-      std::array<Real, 7> c;
-      for (std::size_t k = 0; k < 7; ++k) c[k] = Real(compliance[k]);
-      Mat<Real, 3> rotation;
-      rotation << c[1], c[2], c[3], c[2], c[4], c[5], c[3], c[5], c[6];
-      typename D::Deriv u;
-      u.template head<3>() = c[0] * f.template head<3>();
-      u.template tail<3>() = rotation * f.template tail<3>();
-      return u;
+      // beside a compliance of centres alone rotations answer as those of 1 kg m^2
+      Mat<Real, 3> rotation = Real(factors.impulse) * Mat<Real, 3>::Identity();
+      Real center = by * Real(defaultCompliance);
+      if (!compliance.empty()) {
+        auto c = [&](std::size_t k) { return by * Real(compliance[k]); };
+        center = c(0);
+        rotation << c(1), c(2), c(3), c(2), c(4), c(5), c(3), c(5), c(6);
+      }
+      for (std::size_t i = 0; i < u.size(); ++i) {
+        u[i].template head<3>() += center * f[i].template head<3>();
+        u[i].template tail<3>() += rotation * f[i].template tail<3>();
+      }
     } else {
-      return Real(one_or_each(compliance, i)) * f;
+      for (std::size_t i = 0; i < u.size(); ++i)
+        u[i] += by * Real(compliance.empty() ? defaultCompliance : one_or_each(compliance, i)) * f[i];
     }
+  }
+  ConstraintFactors moved(ConstraintFactors factors, double dt, bool ofVelocity) const {
+    if (useOdeSolverIntegrationFactors) return factors;
+    factors.velocity = correctionVelocityFactor * (ofVelocity ? factors.velocity : factors.position / dt);
+    factors.position *= correctionPositionFactor;
+    return factors;
   }
 };
 

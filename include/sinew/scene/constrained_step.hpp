@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/lagrangian/constrained_motion.hpp>
+#include <sinew/scene/constraint_response.hpp>
 #include <sinew/scene/contact_rows.hpp>
 #include <sinew/scene/mechanical_operations.hpp>
 #include <sinew/scene/motion_problem.hpp>
@@ -12,13 +13,6 @@
 #include <utility>
 
 namespace sinew {
-
-/// A linear solver that keeps a factor, by which rows have their compliance (linalg/factored_rows.hpp).
-template <class Linear>
-concept HasBlockFactor = requires(Linear const& linear) {
-  linear.factor.lower;
-  linear.factor.newIndex;
-};
 
 /// A step of a scene whose root has an animation loop: bodies move freely, the constraints of the scene are
 /// solved together, and bodies are corrected. While constraints are solved `position` is that at the start of
@@ -193,6 +187,7 @@ struct ConstrainedStep {
   template <class S>
   void project(S const& scope, MultiplierResponse const& how, JacobianRows& left,
                ConstrainedSystem& system) const {
+    system.joined = false;
     if (system.rows.empty() || !any_below<role::ProjectiveConstraint>(scope)) return;
     MechanicalOperations<S> operations(scope, time, dt);
     auto projected = [&] {
@@ -217,6 +212,7 @@ struct ConstrainedStep {
         left.endRow();
       }
     } else {
+      system.joined = true;
       for (int k = 0; k < system.jacobian.rows(); ++k) {
         system.force.setZero();
         system.jacobian.addTransposed(k, 1, system.force);
@@ -231,35 +227,6 @@ struct ConstrainedStep {
 
   // W = J A^-1 J', and d_free
   void findCompliance(ConstrainedMotion& m) const;
-  template <class S>
-  void addCompliance(S const& scope, MultiplierResponse const& how, ConstrainedSystem& system,
-                     ConstrainedMotion& m) const {
-    const double reached = m.rows.ofVelocity ? how.factors.velocity : how.factors.position;
-    auto add = [&](int k, int l, double w) {
-      const int i = system.rows[std::size_t(k)], j = system.rows[std::size_t(l)];
-      m.problem.compliance(i, j) += w;
-      if (i != j) m.problem.compliance(j, i) += w;
-    };
-    bool found = false;
-    if (how.bySystem && !hasCorrections(scope))
-      scope.withLinearSolverIfAny([&](auto& linear) {
-        if constexpr (HasBlockFactor<std::decay_t<decltype(linear)>>) {
-          m.factored.compliance(linear.factor, system.jacobian, [&](int k, int l, double w) {
-            add(k, l, reached * how.factors.impulse * w);
-          });
-          found = true;
-        }
-      });
-    if (found) return;
-    if (answersByPoint(scope)) return addByPoints(scope, how, system, m, add, reached);
-    for (int k = 0; k < system.jacobian.rows(); ++k) {
-      system.force.setZero();
-      system.jacobian.addTransposed(k, 1, system.force);
-      respond(scope, how, system);
-      for (int l = k; l < system.jacobian.rows(); ++l)
-        add(k, l, reached * system.jacobian.times(l, system.motion));
-    }
-  }
   void checkCompliance(ConstrainedMotion const& m) const {
     int row = 0;
     std::size_t number = 0;
@@ -274,109 +241,6 @@ struct ConstrainedStep {
                        " holds can move: its points are fixed, or no solver moves them, or its direction "
                        "is zero; leave it out, or free a point"));
         }));
-  }
-
-  // motion = A^-1 (impulse J' f) of a system for its force; the vector of states how.motion() has it too
-  template <class S>
-  void respond(S const& scope, MultiplierResponse const& how, ConstrainedSystem& system) const {
-    using Operations = MechanicalOperations<S>;
-    Operations operations(scope, time, dt);
-    operations.derivsTaken = how.derivs;  // what a solver keeps from step to step is in these
-    MultiVecDeriv<Operations> b(operations), u(operations);
-    operations.scatter(b.id, system.force);
-    operations.projectResponse(b.id);
-    u.clear();
-    if (!respondByCorrections(scope, how.factors, u.id, b.id)) {
-      b.teq(how.factors.impulse);
-      auto linearly = [&](auto& linear) { solveAgain(linear, operations, how.factors.matrix, u, b); };
-      const bool ofForces = how.factors.matrix.b != 0 || how.factors.matrix.k != 0;
-      if (how.bySystem && (ofForces || !operations.massIsDiagonal()))
-        scope.withLinearSolverIfAny(linearly);
-      else
-        operations.accFromF(u.id, b.id, vec_id::position);
-    }
-    operations.projectResponse(u.id);
-    operations.gather(system.motion, u.id);
-  }
-  template <class Linear, class Operations>
-  static void solveAgain(Linear& linear, Operations& operations, MatrixFactors factors,
-                         MultiVecDeriv<Operations>& u, MultiVecDeriv<Operations>& b) {
-    if constexpr (HasSolveAgain<Linear>)
-      linear.solveAgain(operations, u, b);
-    else
-      linear.solve(operations, factors, u, b);
-  }
-  template <class S>
-  static bool hasCorrections(S const& scope) {
-    bool some = false;
-    traverse(scope, on<role::ConstraintCorrection>([&](auto& c, auto const&) {
-               if constexpr (CorrectsState<std::decay_t<decltype(c)>>) some = true;
-             }));
-    return some;
-  }
-  template <class S>
-  static bool answersByPoint(S const& scope) {
-    bool some = false, all = true;
-    traverse(scope, on<role::ConstraintCorrection>([&](auto& c, auto const&) {
-               using C = std::decay_t<decltype(c)>;
-               some = some || AnswersByPoint<C>;
-               if constexpr (CorrectsState<C> && !AnswersByPoint<C>) all = false;
-             }));
-    return some && all;
-  }
-  // the same where points answer alone: a row moves its own points only
-  template <class S, class Add>
-  static void addByPoints(S const& scope, MultiplierResponse const& how, ConstrainedSystem& system,
-                          ConstrainedMotion& m, Add&& add, double reached) {
-    // J C of all rows, then its products with J
-    JacobianRows& answers = m.motionRows.jacobian;
-    answers.clear();
-    system.force.setZero();
-    for (int k = 0; k < system.jacobian.rows(); ++k) {
-      system.jacobian.addTransposed(k, 1, system.force);
-      traverse(scope, on<role::ConstraintCorrection>([&](auto& c, auto const& at) {
-                 using C = std::decay_t<decltype(c)>;
-                 if constexpr (AnswersByPoint<C>) {
-                   using D = typename C::DataTypes;
-                   auto const& s = at.template state<D>();
-                   const int end = s.dofOffset + int(s.size()) * D::size;
-                   system.jacobian.forEachInRow(k, [&](int dof, double) {
-                     if (dof < s.dofOffset || dof >= end) return;
-                     const int point = (dof - s.dofOffset) / D::size, first = s.dofOffset + point * D::size;
-                     auto f = system.force.template segment<D::size>(first);
-                     if (f.isZero(0)) return;  // looked at already
-                     const typename D::Deriv u =
-                         c.answer(std::size_t(point), f.template cast<typename D::Real>(), how.factors);
-                     for (int i = 0; i < D::size; ++i) answers.add(first + i, double(u[i]));
-                     f.setZero();
-                   });
-                 }
-               }));
-      system.jacobian.forEachInRow(k, [&](int dof, double) { system.force[dof] = 0; });
-      answers.endRow();
-    }
-    system.motion.setZero();
-    for (int k = 0; k < answers.rows(); ++k) {
-      answers.addTransposed(k, 1, system.motion);
-      for (int l = k; l < answers.rows(); ++l)
-        if (const double w = system.jacobian.times(l, system.motion); w != 0 || l == k)
-          add(k, l, reached * w);
-      answers.forEachInRow(k, [&](int dof, double) { system.motion[dof] = 0; });
-    }
-  }
-  // by components that say what forces do to their states; false where there is none
-  template <class S>
-  static bool respondByCorrections(S const& scope, ConstraintFactors const& factors, DerivId u, DerivId f) {
-    bool some = false;
-    traverse(scope, on<role::ConstraintCorrection>([&](auto& c, auto const& at) {
-               using C = std::decay_t<decltype(c)>;
-               if constexpr (CorrectsState<C>) {
-                 auto& s = at.template state<typename C::DataTypes>();
-                 c.addCorrection(s[u], s[f], s.position, factors);
-                 some = true;
-               }
-             }));
-    return some;
   }
 
   void solve(ConstrainedMotion& m) const {
@@ -405,9 +269,10 @@ struct ConstrainedStep {
   }
 
   template <class S>
-  void correct(S const& scope, MultiplierResponse const& how, ConstrainedMotion const& m,
-               ConstrainedSystem& system, bool keepsForces) const {
-    MechanicalOperations<S> operations(scope, time, dt);
+  void correct(ConstraintResponse<S> const& response, ConstrainedMotion const& m, bool keepsForces) const {
+    MultiplierResponse const& how = response.how;
+    ConstrainedSystem& system = response.system;
+    MechanicalOperations<S> operations(response.scope, time, dt);
     auto takeFree = [&] { operations.forEachIndependent([](auto& s) { s.position.swap(s.freePosition); }); };
     if (system.rows.empty()) return takeFree();
     if (m.hasMotion) {
@@ -416,16 +281,12 @@ struct ConstrainedStep {
       system.force.setZero();
       for (int k = 0; k < system.jacobian.rows(); ++k)
         system.jacobian.addTransposed(k, m.problem.multipliers[system.rows[std::size_t(k)]], system.force);
-      respond(scope, how, system);
+      response.respond();
     }
     if (keepsForces) keep(operations, how, m, system);
-    operations.peq(vec_id::velocity, how.motion(), how.factors.velocity);
-    if (m.rows.ofVelocity) {
-      operations.peq(vec_id::position, vec_id::velocity, dt);
-    } else {
-      takeFree();
-      operations.peq(vec_id::position, how.motion(), how.factors.position);
-    }
+    if (!m.rows.ofVelocity) takeFree();
+    response.move(m.rows.ofVelocity);
+    if (m.rows.ofVelocity) operations.peq(vec_id::position, vec_id::velocity, dt);
   }
   // What multipliers and what they move have done over the step. With A u = impulse J' f the forces of the
   // system change by -(A - M) u / impulse, and those of contacts are forces too; the reaction of points is
@@ -461,6 +322,10 @@ struct ConstrainedStep {
 
 template <class RootScope>
 void ConstrainedStep<RootScope>::integrate(ConstrainedMotion& m, bool velocityFirst, bool keepsForces) const {
+  std::size_t system = 0;
+  for_each_integrator(root, [&](auto& ode, auto const& scope) {
+    ConstraintResponse<std::decay_t<decltype(scope)>>{scope, ode, time, dt, m.systems[system++]}.prepare();
+  });
   forceMapped(m, velocityFirst);
   for_each_solver(root, [&](auto& ode, auto const& scope) { moveFreely(ode, scope, keepsForces); });
   for_each_integrator(root, [&](auto&, auto const& scope) { lookFromStart(scope); });
@@ -473,12 +338,12 @@ void ConstrainedStep<RootScope>::integrate(ConstrainedMotion& m, bool velocityFi
   ContactRows<RootScope>{root, dt}.giveBack(m);
   std::size_t number = 0;
   for_each_integrator(root, [&](auto& ode, auto const& scope) {
-    const auto how = MultiplierResponse::of(ode, dt);
-    ConstrainedSystem& system = m.systems[number++];
-    correct(scope, how, m, system, keepsForces);
-    MechanicalOperations<std::decay_t<decltype(scope)>> operations(scope, time, dt);
-    if constexpr (requires { ode.corrected(operations, how.motion()); })
-      if (!system.rows.empty()) ode.corrected(operations, how.motion());
+    using S = std::decay_t<decltype(scope)>;
+    const ConstraintResponse<S> response(scope, ode, time, dt, m.systems[number++]);
+    correct(response, m, keepsForces);
+    MechanicalOperations<S> operations(scope, time, dt);
+    if constexpr (requires { ode.corrected(operations, response.how.motion()); })
+      if (!response.system.rows.empty()) ode.corrected(operations, response.how.motion());
     operations.projectPositionAndVelocity(time + dt, vec_id::position, vec_id::velocity);
     operations.propagate(vec_id::position, vec_id::velocity);
   });
@@ -495,7 +360,13 @@ void ConstrainedStep<RootScope>::findCompliance(ConstrainedMotion& m) const {
   problem.compliance.setZero(n, n);
   std::size_t number = 0;
   for_each_integrator(root, [&](auto& ode, auto const& scope) {
-    addCompliance(scope, MultiplierResponse::of(ode, dt), m.systems[number++], m);
+    ConstrainedSystem& system = m.systems[number++];
+    const ConstraintResponse<std::decay_t<decltype(scope)>> response(scope, ode, time, dt, system);
+    response.addCompliance(m.factored, m.motionRows.jacobian, m.rows.ofVelocity, [&](int k, int l, double w) {
+      const int i = system.rows[std::size_t(k)], j = system.rows[std::size_t(l)];
+      problem.compliance(i, j) += w;
+      if (i != j) problem.compliance(j, i) += w;
+    });
   });
   ContactRows<RootScope>::leaveOutFixed(m);
   checkCompliance(m);

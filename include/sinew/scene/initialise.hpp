@@ -102,6 +102,11 @@ class Initialisation {
     } else if constexpr (HasRole<C, role::ForceField> || HasRole<C, role::Mass> ||
                          HasRole<C, role::ProjectiveConstraint> || HasRole<C, role::LagrangianConstraint> ||
                          CorrectsState<C> || WatchesState<C>) {
+      if constexpr (CorrectsState<C>)
+        if (scope.stateScope().mapped())
+          throw Error(text(scope.path(), ": ", component_name<C>()),
+                      "the state follows another by a mapping, so that it is that one which answers to "
+                      "multipliers; put the correction into its node");
       withContext<C, typename C::DataTypes>(scope, [&](auto const& context) { c.init(context); });
     }
     if constexpr (requires { c.warning(); }) warn(c, scope);

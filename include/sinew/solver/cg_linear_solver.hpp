@@ -50,7 +50,8 @@ struct CGLinearSolver {
   }
 
   std::vector<double>
-      residuals{};  // |b - A x| / |b| of the last solve: at the start, then after each iteration
+      residuals{};       // |b - A x| / |b| of the last solve: at the start, then after each iteration
+  MatrixFactors last{};  // of the last solve
 
   using Vector =
       Eigen::Matrix<typename std::conditional_t<matrixFree, CompressedRowSparseMatrixd, Matrix>::Real,
@@ -79,15 +80,29 @@ struct CGLinearSolver {
   template <class Operations>
   void solve(Operations& operations, MatrixFactors factors, MultiVecDeriv<Operations>& x,
              MultiVecDeriv<Operations>& b) {
+    last = factors;
     if (states_solve(operations, !matrixFree)) return let_states_solve(*this, operations, factors, x, b);
+    if constexpr (!matrixFree) operations.assemble(system.matrix, factors);
+    run(operations, x, b, warmStart);
+  }
+  /// With the matrix of the last solve, from x = 0.
+  template <class Operations>
+  void solveAgain(Operations& operations, MultiVecDeriv<Operations>& x, MultiVecDeriv<Operations>& b) {
+    if (states_solve(operations, !matrixFree)) return let_states_solve(*this, operations, last, x, b);
+    run(operations, x, b, false);
+  }
+
+ private:
+  template <class Operations>
+  void run(Operations& operations, MultiVecDeriv<Operations>& x, MultiVecDeriv<Operations>& b, bool warm) {
     if constexpr (matrixFree) {
       MultiVecDeriv r(operations), p(operations), q(operations);
       r.eq(b);
       const double whole = b.dot(b);
-      if (warmStart && whole > 0) {
+      if (warm && whole > 0) {
         operations.projectResponse(x.id);
         q.clear();
-        operations.addMBKdx(q.id, x.id, factors);
+        operations.addMBKdx(q.id, x.id, last);
         operations.projectResponse(q.id);
         r.peq(q, -1);
       } else {
@@ -95,11 +110,11 @@ struct CGLinearSolver {
       }
       p.eq(r);
       iterate(
-          warmStart ? r.dot(r) : whole,
+          warm ? r.dot(r) : whole,
           whole,
           [&] {
             q.clear();
-            operations.addMBKdx(q.id, p.id, factors);
+            operations.addMBKdx(q.id, p.id, last);
             operations.projectResponse(q.id);
             return p.dot(q);
           },
@@ -109,11 +124,10 @@ struct CGLinearSolver {
       auto& s = system;
       using Real = typename Matrix::Real;
       const auto workers = operations.workers();
-      operations.assemble(s.matrix, factors);
       operations.gather(s.b, b.id);
       s.r = s.b;
       const double whole = double(vec::squared_norm(s.b));
-      if (warmStart && whole > 0) {
+      if (warm && whole > 0) {
         operations.projectResponse(x.id);
         operations.gather(s.x, x.id);
         s.matrix.multiply(workers, s.x.data(), s.q.data());
@@ -123,7 +137,7 @@ struct CGLinearSolver {
       }
       s.p = s.r;
       iterate(
-          warmStart ? double(vec::squared_norm(s.r)) : whole,
+          warm ? double(vec::squared_norm(s.r)) : whole,
           whole,
           [&] { return s.matrix.multiply(workers, s.p.data(), s.q.data()); },
           [&](double alpha) { return vec::advance(workers, s.x, s.p, s.r, s.q, Real(alpha)); },
@@ -131,8 +145,6 @@ struct CGLinearSolver {
       operations.scatter(x.id, s.x);
     }
   }
-
- private:
   // rho = r.r, whole = b.b;  multiply: q = A p, returns p.q;  advance: x += alpha p, r -= alpha q, returns
   // r.r; xpay: p = r + beta p
   template <class Multiply, class Advance, class Xpay>

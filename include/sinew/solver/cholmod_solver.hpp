@@ -149,6 +149,10 @@ struct CholmodSolver {
                dof_text(operations, dof),
                "; fix points of the body, take a smaller dt, or use SparseLDLSolver or MinResLinearSolver, "
                "which solve indefinite systems"));
+    solveAgain(operations, to, from);
+  }
+  template <class Operations>
+  void solveAgain(Operations& operations, MultiVecDeriv<Operations>& to, MultiVecDeriv<Operations>& from) {
     operations.gather(b, from.id);
     for (std::size_t i = 0; i < rhs.size(); ++i) rhs[i] = double(b[Eigen::Index(i)]);
     factor.solve(rhs, solution);

@@ -36,7 +36,8 @@ struct MinResLinearSolver {
   }
 
   std::vector<double>
-      residuals{};  // |b - A x| / |b| of the last solve: at the start, then after each iteration
+      residuals{};       // |b - A x| / |b| of the last solve: at the start, then after each iteration
+  MatrixFactors last{};  // of the last solve
 
   using Vector =
       Eigen::Matrix<typename std::conditional_t<matrixFree, CompressedRowSparseMatrixd, Matrix>::Real,
@@ -62,15 +63,21 @@ struct MinResLinearSolver {
   template <class Operations>
   void solve(Operations& operations, MatrixFactors factors, MultiVecDeriv<Operations>& x,
              MultiVecDeriv<Operations>& b) {
+    last = factors;
+    if constexpr (!matrixFree) operations.assemble(system.matrix, factors);
+    solveAgain(operations, x, b);
+  }
+  /// With the matrix of the last solve.
+  template <class Operations>
+  void solveAgain(Operations& operations, MultiVecDeriv<Operations>& x, MultiVecDeriv<Operations>& b) {
     if constexpr (matrixFree) {
       MultiVecDeriv v0(operations), v1(operations), w0(operations), w1(operations);
       iterate(x, b, &v0, &v1, &w0, &w1, [&](auto& r, auto& v) {
-        operations.addMBKdx(r.id, v.id, factors);
+        operations.addMBKdx(r.id, v.id, last);
         operations.projectResponse(r.id);
       });
     } else {
       auto& s = system;
-      operations.assemble(s.matrix, factors);
       operations.gather(s.b, b.id);
       SystemVec<Vector> sx{s.x}, sb{s.b}, v0{s.v[0]}, v1{s.v[1]}, w0{s.w[0]}, w1{s.w[1]};
       iterate(sx, sb, &v0, &v1, &w0, &w1, [&](auto& r, auto& v) {

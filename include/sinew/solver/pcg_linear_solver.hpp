@@ -71,7 +71,8 @@ struct ShewchukPCGLinearSolver {
   PointRotations rotations{};
   Vector rotated{};  // R' r
   Vector x{}, b{}, r{}, p{}, q{};
-  int age = -1;  // solves since the preconditioner was made
+  int age = -1;          // solves since the preconditioner was made
+  MatrixFactors last{};  // of the last solve
 
   template <class Operations>
   void init(Operations& operations) {
@@ -94,6 +95,7 @@ struct ShewchukPCGLinearSolver {
   template <class Operations>
   void solve(Operations& operations, MatrixFactors factors, MultiVecDeriv<Operations>& solution,
              MultiVecDeriv<Operations>& rhs) {
+    last = factors;
     const bool update = method() != PreconditionerMethod::none &&
                         (age < 0 || (buildPrecond && updateStep > 0 && age + 1 >= updateStep));
     if (statesSolve(operations)) {
@@ -108,6 +110,13 @@ struct ShewchukPCGLinearSolver {
     age = update ? 0 : age + 1;
     if (warp && update) rotations.reset(operations);
     if (warp && age > 0) rotations.update(operations);
+    solveAgain(operations, solution, rhs);
+  }
+  /// With the matrix and the preconditioner of the last solve.
+  template <class Operations>
+  void solveAgain(Operations& operations, MultiVecDeriv<Operations>& solution,
+                  MultiVecDeriv<Operations>& rhs) {
+    if (statesSolve(operations)) return let_states_solve(*this, operations, last, solution, rhs);
     if constexpr (matrixFree) {
       MultiVecDeriv res(operations), dir(operations), product(operations);
       iterate(
@@ -118,7 +127,7 @@ struct ShewchukPCGLinearSolver {
           product,
           [&](auto& to, auto& from) {
             to.clear();
-            operations.addMBKdx(to.id, from.id, factors);
+            operations.addMBKdx(to.id, from.id, last);
             operations.projectResponse(to.id);
           },
           [&](auto& to, auto& from) {

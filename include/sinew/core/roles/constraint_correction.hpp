@@ -4,6 +4,8 @@
 #include <sinew/core/role.hpp>
 #include <sinew/core/roles/ode_solver.hpp>
 
+#include <concepts>
+
 namespace sinew {
 
 // Says what multipliers do to a body. Without one it is the system of the body's ODE solver that answers, by its
@@ -31,13 +33,46 @@ concept CorrectsState =
     requires(C const c, typename C::DataTypes::VecDeriv u, typename C::DataTypes::VecDeriv const f,
              typename C::DataTypes::VecCoord const x,
              ConstraintFactors const factors) { c.addCorrection(u, f, x, factors); };
-/// Its points do not feel each other: answer(point, f, factors) is what C f is for a force on one, so that what a row does
-/// costs no more than its points.
+
+// Hooks, what such a correction may have beside these:
+
+/// Its points do not feel each other, and addCorrection for unit forces on all of them tells what each does, so that
+/// a row costs no more than its points: `static constexpr bool answersByPoint = true`.
 template <class C>
-concept AnswersByPoint = CorrectsState<C> && requires(C const c, typename C::DataTypes::Deriv const f,
-                                                      ConstraintFactors const factors) {
-  { c.answer(std::size_t(0), f, factors) } -> std::convertible_to<typename C::DataTypes::Deriv>;
+concept AnswersByPoint = CorrectsState<C> && requires { requires C::answersByPoint; };
+/// `bool answersByMasses() const`: the masses of the state answer in its place.
+template <class C>
+concept MayAnswerByMasses = requires(C const c) {
+  { c.answersByMasses() } -> std::convertible_to<bool>;
 };
+/// Positions and velocities of its state take other parts of u than the factors of the ODE solver say: those of
+/// moved(factors, dt, ofVelocity). With `ofVelocity` constraints are solved for velocities, which then move positions.
+template <class C>
+concept MovesByOwnFactors = requires(C const c, ConstraintFactors const factors) {
+  { c.moved(factors, 0.01, false) } -> std::same_as<ConstraintFactors>;
+};
+/// Is called before rows are answered, with positions at the start of the step: beginCorrections(x).
+template <class C>
+concept BeginsCorrections =
+    requires(C c, typename C::DataTypes::VecCoord const x) { c.beginCorrections(x); };
+/// Keeps the A^-1 of the system of its solver at rest: where needsCompliance(dt), keepCompliance(dt, solve) is called
+/// before the step, and solve(dof, f) calls f(the column of A^-1 on the points of the state).
+template <class C>
+concept KeepsCompliance = requires(C c) {
+  { c.needsCompliance(0.01) } -> std::convertible_to<bool>;
+};
+/// `regularizationTerm`, of all corrections: what is added to the compliance of each row that acts on the state, or, of
+/// one that stands for the system, on states at and below its node [m/(N s)]. `complianceFactor`, of those that stand for
+/// the system: it answers as many times as much.
+template <class C>
+concept Regularizes = requires(C const c) {
+  { c.regularizationTerm } -> std::convertible_to<double>;
+};
+template <class C>
+concept ScalesCompliance = requires(C const c) {
+  { c.complianceFactor } -> std::convertible_to<double>;
+};
+
 /// It says that the system of the ODE solver answers.
 template <class C>
 concept CorrectsBySystem = requires { requires C::ofSystem; };

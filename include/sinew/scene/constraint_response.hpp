@@ -1,0 +1,377 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/lagrangian/constrained_motion.hpp>
+#include <sinew/scene/mechanical_operations.hpp>
+#include <sinew/solver/multi_vec.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <type_traits>
+
+namespace sinew {
+
+/// A linear solver that keeps a factor, by which rows have their compliance (linalg/factored_rows.hpp).
+template <class Linear>
+concept HasBlockFactor = requires(Linear const& linear) {
+  linear.factor.lower;
+  linear.factor.newIndex;
+};
+
+/// What the bodies of one ODE solver, at and below a scope, do when multipliers act on them: the system of
+/// the solver, or the masses where it is explicit, answers for each state that has no correction of its own.
+template <class S>
+struct ConstraintResponse {
+  using Operations = MechanicalOperations<S>;
+  S const& scope;
+  double time, dt;
+  MultiplierResponse how;
+  ConstrainedSystem& system;
+
+  template <class Ode>
+  ConstraintResponse(S const& s, Ode const& ode, double t, double h, ConstrainedSystem& of)
+      : scope(s), time(t), dt(h), how(MultiplierResponse::of(ode, h)), system(of) {
+    forEachCorrection([&](auto& c, auto const&) {
+      if constexpr (ScalesCompliance<std::decay_t<decltype(c)>>) {
+        how.factors.position *= c.complianceFactor;
+        how.factors.velocity *= c.complianceFactor;
+      }
+    });
+  }
+
+  /// What corrections have to know of the system at rest, before the step.
+  void prepare() const;
+
+  /// add(k, l, w) for pairs k <= l of rows of the system: J A^-1 J' times what a multiplier is and what of it
+  /// is reached.
+  template <class Add>
+  void addCompliance(FactoredRows& factored, JacobianRows& room, bool ofVelocity, Add&& add) const {
+    forEachCorrection([&](auto& c, auto const& at) {
+      using C = std::decay_t<decltype(c)>;
+      if constexpr (CorrectsState<C> && BeginsCorrections<C>)
+        c.beginCorrections(at.template state<typename C::DataTypes>().position);
+    });
+    const double reached = ofVelocity ? how.factors.velocity : how.factors.position;
+    auto to = [&](int k, int l, double w) { add(k, l, reached * w); };
+    if (!addByFactor(factored, to)) {
+      if (answersByPoint())
+        addByPoints(room, to);
+      else
+        addByRows(to);
+    }
+    regularize(add);
+  }
+
+  /// motion = A^-1 (impulse J' f) of the system for its force; the vector of states how.motion() has it too.
+  void respond() const {
+    Operations operations(scope, time, dt);
+    operations.derivsTaken = how.derivs;  // what a solver keeps from step to step is in these
+    MultiVecDeriv<Operations> b(operations), u(operations);
+    operations.scatter(b.id, system.force);
+    operations.projectResponse(b.id);
+    u.clear();
+    if (!allCorrected()) respondBySystem(operations, u, b);
+    respondByCorrections(u.id, b.id);
+    operations.projectResponse(u.id);
+    operations.gather(system.motion, u.id);
+  }
+
+  /// Velocities take the motion, and positions unless these move by velocities.
+  void move(bool ofVelocity) const {
+    Operations operations(scope, time, dt);
+    operations.peq(vec_id::velocity, how.motion(), how.factors.velocity);
+    if (!ofVelocity) operations.peq(vec_id::position, how.motion(), how.factors.position);
+    forEachCorrection([&](auto& c, auto const& at) {
+      using C = std::decay_t<decltype(c)>;
+      if constexpr (CorrectsState<C> && MovesByOwnFactors<C>) {
+        using D = typename C::DataTypes;
+        using V = VectorOperations<D>;
+        auto& s = at.template state<D>();
+        const ConstraintFactors own = c.moved(how.factors, dt, ofVelocity);
+        if (const double more = own.velocity - how.factors.velocity; more != 0)
+          V::peq(OneThread{}, s.velocity, s[how.motion()], typename D::Real(more));
+        if (const double more = own.position - how.factors.position; more != 0 && !ofVelocity)
+          V::move(s.position, s[how.motion()], typename D::Real(more));
+      }
+    });
+  }
+
+ private:
+  template <class F>
+  void forEachCorrection(F&& f) const {
+    traverse(scope, on<role::ConstraintCorrection>([&f](auto& c, auto const& at) { f(c, at); }));
+  }
+  // whether a state has a correction of its own, of a kind
+  template <class State, class Kind>
+  bool isCorrected(State const& state, Kind&& kind) const {
+    bool found = false;
+    forEachCorrection([&](auto& c, auto const& at) {
+      using C = std::decay_t<decltype(c)>;
+      if constexpr (CorrectsState<C>)
+        // states of one system have their own degrees of freedom each
+        found = found || (kind(c) && at.template state<typename C::DataTypes>().dofOffset == state.dofOffset);
+    });
+    return found;
+  }
+  template <class State>
+  bool isCorrected(State const& state) const {
+    return isCorrected(state, [](auto&) { return true; });
+  }
+  template <bool Wanted, class F>
+  bool each(F&& f) const {
+    bool all = true;
+    Operations(scope).forEachIndependent([&](auto& s) { all = all && f(s) == Wanted; });
+    return all;
+  }
+  bool allCorrected() const {
+    return each<true>([&](auto& s) { return isCorrected(s); });
+  }
+  bool noneCorrected() const {
+    return each<false>([&](auto& s) { return isCorrected(s); });
+  }
+  // the masses answer for states without a correction
+  bool byMasses(Operations& operations) const {
+    const bool ofForces = how.factors.matrix.b != 0 || how.factors.matrix.k != 0;
+    return !(how.bySystem && (ofForces || !operations.massIsDiagonal()));
+  }
+
+  template <class Add>
+  bool addByFactor(FactoredRows& factored, Add&& add) const {
+    bool found = false;
+    Operations operations(scope, time, dt);
+    if (!byMasses(operations) && noneCorrected())
+      scope.withLinearSolverIfAny([&](auto& linear) {
+        if constexpr (HasBlockFactor<std::decay_t<decltype(linear)>>) {
+          factored.compliance(linear.factor, system.jacobian, [&](int k, int l, double w) {
+            add(k, l, how.factors.impulse * w);
+          });
+          found = true;
+        }
+      });
+    return found;
+  }
+  template <class Add>
+  void addByRows(Add&& add) const {
+    for (int k = 0; k < system.jacobian.rows(); ++k) {
+      system.force.setZero();
+      system.jacobian.addTransposed(k, 1, system.force);
+      respond();
+      for (int l = k; l < system.jacobian.rows(); ++l) add(k, l, system.jacobian.times(l, system.motion));
+    }
+  }
+
+  bool answersByPoint() const {
+    Operations operations(scope, time, dt);
+    return !system.joined && each<true>([&](auto& s) {
+      if (isCorrected(s, [](auto& c) { return !AnswersByPoint<std::decay_t<decltype(c)>>; })) return false;
+      return isCorrected(s) || byMasses(operations);
+    });
+  }
+  // each row moves its own points only: J C of all rows, then its products with J
+  template <class Add>
+  void addByPoints(JacobianRows& room, Add&& add) const {
+    findAnswers();
+    room.clear();
+    room.reserve(system.jacobian.rows(), 6 * int(system.jacobian.values.size()));
+    for (int k = 0; k < system.jacobian.rows(); ++k) {
+      system.jacobian.forEachInRow(k, [&](int dof, double value) {
+        const int begin = system.pointBegin[std::size_t(dof)], size = system.pointSize[std::size_t(dof)];
+        for (int i = 0; i < size; ++i)
+          if (const double u = system.answers(begin + i, dof - begin); u != 0) room.add(begin + i, value * u);
+      });
+      room.endRow();
+    }
+    system.motion.setZero();
+    for (int k = 0; k < room.rows(); ++k) {
+      room.addTransposed(k, 1, system.motion);
+      for (int l = k; l < room.rows(); ++l)
+        if (const double w = system.jacobian.times(l, system.motion); w != 0) add(k, l, w);
+      room.forEachInRow(k, [&](int dof, double) { system.motion[dof] = 0; });
+    }
+  }
+  // what unit forces do that act on all points at the same time, one direction after the other
+  void findAnswers() const {
+    Operations operations(scope, time, dt);
+    operations.derivsTaken = how.derivs;
+    MultiVecDeriv<Operations> b(operations), u(operations);
+    int directions = 0;
+    if (system.pointBegin.empty()) system.pointBegin.resize(std::size_t(system.dofs()));
+    system.pointSize.resize(system.pointBegin.size());
+    operations.forEachIndependent([&](auto& s) {
+      constexpr int size = std::decay_t<decltype(s)>::DataTypes::size;
+      directions = std::max(directions, size);
+      for (int dof = s.dofOffset; dof < s.dofOffset + int(s.size()) * size; ++dof) {
+        system.pointBegin[std::size_t(dof)] = dof - (dof - s.dofOffset) % size;
+        system.pointSize[std::size_t(dof)] = size;
+      }
+    });
+    system.answers.resize(system.motion.size(), directions);
+    for (int c = 0; c < directions; ++c) {
+      operations.forEachIndependent([&](auto& s) {
+        using D = typename std::decay_t<decltype(s)>::DataTypes;
+        const typename D::Deriv unit = c < D::size ? D::Deriv::Unit(c) : typename D::Deriv(D::Deriv::Zero());
+        for (auto& f : s[b.id]) f = unit;
+      });
+      u.clear();
+      traverse(scope, on<role::Mass>([&](auto& mass, auto const& at) {
+                 if (at.stateScope().mapped()) return;
+                 auto& s = at.template state<typename std::decay_t<decltype(mass)>::DataTypes>();
+                 mass.accFromF(s[u.id], s.position, s[b.id]);
+               }));
+      u.teq(how.factors.impulse);
+      respondByCorrections(u.id, b.id);
+      operations.gather(system.motion, u.id);
+      system.answers.col(c) = system.motion;
+    }
+  }
+
+  void respondBySystem(Operations& operations, MultiVecDeriv<Operations>& u,
+                       MultiVecDeriv<Operations>& b) const {
+    const bool mixed = !noneCorrected();
+    if (mixed)
+      operations.forEachIndependent([&](auto& s) {
+        if (isCorrected(s))
+          VectorOperations<typename std::decay_t<decltype(s)>::DataTypes>::clear(OneThread{}, s[b.id]);
+      });
+    b.teq(how.factors.impulse);
+    if (byMasses(operations))
+      operations.accFromF(u.id, b.id, vec_id::position);
+    else
+      scope.withLinearSolverIfAny(
+          [&](auto& linear) { solveAgain(linear, operations, how.factors.matrix, u, b); });
+    if (mixed) {
+      operations.scatter(b.id, system.force);
+      operations.projectResponse(b.id);
+    }
+  }
+  template <class Linear>
+  static void solveAgain(Linear& linear, Operations& operations, MatrixFactors factors,
+                         MultiVecDeriv<Operations>& u, MultiVecDeriv<Operations>& b) {
+    if constexpr (HasSolveAgain<Linear>)
+      linear.solveAgain(operations, u, b);
+    else
+      linear.solve(operations, factors, u, b);
+  }
+  // by components that say what forces do to their states, in the place of what the system says
+  void respondByCorrections(DerivId u, DerivId f) const {
+    forEachCorrection([&](auto& c, auto const& at) {
+      using C = std::decay_t<decltype(c)>;
+      if constexpr (CorrectsState<C>) {
+        using D = typename C::DataTypes;
+        auto& s = at.template state<D>();
+        VectorOperations<D>::clear(OneThread{}, s[u]);
+        if constexpr (MayAnswerByMasses<C>)
+          if (c.answersByMasses()) {
+            at.stateScope().withMass([&](auto& mass) {
+              if constexpr (std::is_same_v<typename std::decay_t<decltype(mass)>::DataTypes, D>)
+                mass.accFromF(s[u], s.position, s[f]);
+            });
+            return VectorOperations<D>::teq(s[u], typename D::Real(how.factors.impulse));
+          }
+        c.addCorrection(s[u], s[f], s.position, how.factors);
+      }
+    });
+  }
+
+  // rows that act on the states of a correction
+  template <class Add>
+  void regularize(Add&& add) const {
+    forEachCorrection([&](auto& c, auto const& at) {
+      using C = std::decay_t<decltype(c)>;
+      if constexpr (Regularizes<C>) {
+        if (!(c.regularizationTerm > 0)) return;
+        for (int k = 0; k < system.jacobian.rows(); ++k) {
+          bool acts = false;
+          auto look = [&](auto& s) {
+            const int end = s.dofOffset + int(s.size()) * std::decay_t<decltype(s)>::DataTypes::size;
+            system.jacobian.forEachInRow(k, [&](int dof, double value) {
+              acts = acts || (value != 0 && dof >= s.dofOffset && dof < end);
+            });
+          };
+          if constexpr (CorrectsState<C>)
+            look(at.template state<typename C::DataTypes>());
+          else
+            MechanicalOperations<std::decay_t<decltype(at)>>(at).forEachIndependent(look);
+          if (acts) add(k, k, how.factors.impulse * c.regularizationTerm);
+        }
+      }
+    });
+  }
+
+  template <class C, class At>
+  void keepCompliance(C& c, At const& at) const;
+};
+
+template <class S>
+void ConstraintResponse<S>::prepare() const {
+  forEachCorrection([&](auto& c, auto const& at) {
+    using C = std::decay_t<decltype(c)>;
+    if constexpr (CorrectsState<C> && KeepsCompliance<C>)
+      if (c.needsCompliance(dt)) keepCompliance(c, at);
+  });
+}
+
+// The bodies are put at rest, where forces and their derivatives are asked for, and back again. An iterative
+// solver goes on to rounding meanwhile.
+template <class S>
+template <class C, class At>
+void ConstraintResponse<S>::keepCompliance(C& c, At const& at) const {
+  auto& state = at.template state<typename C::DataTypes>();
+  Operations operations(scope, time, dt);
+  operations.derivsTaken = how.derivs;
+  MultiVecDeriv<Operations> b(operations), u(operations);
+  operations.eq(vec_id::freePosition, vec_id::position);
+  operations.forEachIndependent([](auto& s) { s.position = s.restPosition; });
+  operations.eq(vec_id::dx, vec_id::velocity);
+  operations.clear(vec_id::velocity);
+  operations.propagate(vec_id::position, vec_id::velocity);
+  operations.computeForce(vec_id::force, vec_id::position, vec_id::velocity);
+  auto column = [&](auto&& solve, int dof, auto&& f) {
+    system.force.setZero();
+    system.force[state.dofOffset + dof] = 1;
+    operations.scatter(b.id, system.force);
+    operations.projectResponse(b.id);
+    u.clear();
+    solve(dof == 0);
+    operations.projectResponse(u.id);
+    f(state[u.id]);
+  };
+  if (byMasses(operations))
+    c.keepCompliance(dt, [&](int dof, auto&& f) {
+      column([&](bool) { operations.accFromF(u.id, b.id, vec_id::position); }, dof, f);
+    });
+  else
+    scope.withLinearSolverIfAny([&](auto& linear) {
+      auto columns = [&] {
+        c.keepCompliance(dt, [&](int dof, auto&& f) {
+          column(
+              [&](bool first) {
+                if (first)
+                  linear.solve(operations, how.factors.matrix, u, b);
+                else
+                  solveAgain(linear, operations, how.factors.matrix, u, b);
+              },
+              dof,
+              f);
+        });
+      };
+      if constexpr (requires { linear.iterations, linear.tolerance; }) {
+        const auto iterations = linear.iterations;
+        const double tolerance = linear.tolerance;
+        linear.iterations = std::max(iterations, 5000);
+        linear.tolerance = 1e-14;
+        columns();
+        linear.iterations = iterations;
+        linear.tolerance = tolerance;
+      } else {
+        columns();
+      }
+      if constexpr (requires { linear.reset(); }) linear.reset();
+    });
+  operations.eq(vec_id::position, vec_id::freePosition);
+  operations.eq(vec_id::velocity, vec_id::dx);
+  operations.clear(vec_id::dx);  // where some solvers begin
+  operations.propagate(vec_id::position, vec_id::velocity);
+}
+
+}  // namespace sinew
