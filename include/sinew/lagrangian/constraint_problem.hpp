@@ -53,6 +53,7 @@ struct ConstraintProblem {
   /// Throws Error where sizes do not fit, a number is not one, blocks do not cover each row once, mu is
   /// negative, or no multiplier of a block changes its violation.
   void check(std::string_view where) const;
+  void checkSizes(std::string_view where) const;  // and numbers, of that
 
   /// How far f is from a solution, in the unit of d: the largest |f - P(f - r (d + c))| / r over the blocks,
   /// with the projection P on what f may be, r = 1 / mean diagonal of W in the block, and c = mu |d_t| along
@@ -69,24 +70,11 @@ inline Eigen::Vector3d project_on_cone(Eigen::Vector3d const& f, double mu) {
   return {onCone, mu * onCone * f[1] / t, mu * onCone * f[2] / t};
 }
 
-inline void ConstraintProblem::check(std::string_view where) const {
-  const auto n = freeViolation.size();
-  if (compliance.rows() != n || compliance.cols() != n || multipliers.size() != n)
-    throw Error(where,
-                text("constraints have ",
-                     n,
-                     " violations, a compliance of ",
-                     compliance.rows(),
-                     " x ",
-                     compliance.cols(),
-                     " and ",
-                     multipliers.size(),
-                     " multipliers; give each as many"));
-  if (!compliance.allFinite() || !freeViolation.allFinite() || !multipliers.allFinite())
-    throw Error(where, "the compliance, a violation or a multiplier of constraints is not a finite number");
+/// Throws Error where blocks do not cover each of so many rows once and in order, or one of them is none.
+inline void check_blocks(std::vector<ConstraintBlock> const& blocks, int rows, std::string_view where) {
   int next = 0;
   for (ConstraintBlock const& b : blocks) {
-    if (b.first != next || b.rows < 1 || b.rows > ConstraintBlock::maxRows || b.rows > int(n) - next)
+    if (b.first != next || b.rows < 1 || b.rows > ConstraintBlock::maxRows || b.rows > rows - next)
       throw Error(where,
                   text("a block of constraints has rows ",
                        b.first,
@@ -95,7 +83,7 @@ inline void ConstraintProblem::check(std::string_view where) const {
                        " where ",
                        next,
                        " is the next of ",
-                       n,
+                       rows,
                        "; blocks have 1 to ",
                        ConstraintBlock::maxRows,
                        " rows and follow each other without a gap"));
@@ -120,17 +108,46 @@ inline void ConstraintProblem::check(std::string_view where) const {
                        " with ",
                        b.rows,
                        " rows; it needs one row, and a lower end that is not above the upper one"));
-    for (int i = b.first; i < b.first + b.rows; ++i)
-      if (!(compliance(i, i) > 0))
-        throw Error(where,
-                    text("nothing that constraint ",
-                         i,
-                         " holds can move (its compliance is ",
-                         compliance(i, i),
-                         "): it is between fixed points, or its direction is zero"));
     next += b.rows;
   }
-  if (next != int(n)) throw Error(where, text("blocks of constraints cover ", next, " rows of ", n));
+  if (next != rows) throw Error(where, text("blocks of constraints cover ", next, " rows of ", rows));
+}
+
+/// Throws Error where no multiplier of a block changes its violation; `diagonal` is that of W_bb.
+template <class Diagonal>
+void check_moves(ConstraintBlock const& b, Diagonal const& diagonal, std::string_view where) {
+  for (int i = 0; i < b.rows; ++i)
+    if (!(diagonal[i] > 0))
+      throw Error(where,
+                  text("nothing that constraint ",
+                       b.first + i,
+                       " holds can move (its compliance is ",
+                       diagonal[i],
+                       "): it is between fixed points, or its direction is zero"));
+}
+
+inline void ConstraintProblem::checkSizes(std::string_view where) const {
+  const auto n = freeViolation.size();
+  if (compliance.rows() != n || compliance.cols() != n || multipliers.size() != n)
+    throw Error(where,
+                text("constraints have ",
+                     n,
+                     " violations, a compliance of ",
+                     compliance.rows(),
+                     " x ",
+                     compliance.cols(),
+                     " and ",
+                     multipliers.size(),
+                     " multipliers; give each as many"));
+  if (!compliance.allFinite() || !freeViolation.allFinite() || !multipliers.allFinite())
+    throw Error(where, "the compliance, a violation or a multiplier of constraints is not a finite number");
+  check_blocks(blocks, int(n), where);
+}
+
+inline void ConstraintProblem::check(std::string_view where) const {
+  checkSizes(where);
+  for (ConstraintBlock const& b : blocks)
+    check_moves(b, compliance.diagonal().segment(b.first, b.rows), where);
 }
 
 inline double ConstraintProblem::residual() const {
