@@ -140,11 +140,23 @@ using StandardCollision =
              PointCollisionModels<Vec3d>, SphereCollisionModel<Rigid3d>, ConvexCollisionModels>;
 
 template <class D>
-using LagrangianConstraints = Registry<FixedLagrangianConstraint<D>, BilateralLagrangianConstraint<D>,
-                                       BilateralLagrangianConstraint<D, Linked>>;
+using LagrangianJoints = Registry<FixedLagrangianConstraint<D>, BilateralLagrangianConstraint<D>,
+                                  BilateralLagrangianConstraint<D, Linked>, SlidingLagrangianConstraint<D>,
+                                  SlidingLagrangianConstraint<D, Linked>>;
+template <class D>
+using LagrangianContacts =
+    Registry<UnilateralLagrangianConstraint<D>, UnilateralLagrangianConstraint<D, Linked>,
+             AugmentedLagrangianConstraint<D>, AugmentedLagrangianConstraint<D, Linked>>;
+using LagrangianConstraints =
+    Registry<LagrangianJoints<Vec3d>, LagrangianJoints<Rigid3d>, LagrangianContacts<Vec3d>,
+             FixedLagrangianConstraint<Vec1d>, FixedLagrangianConstraint<Vec2d>,
+             FixedLagrangianConstraint<Vec6d>, UniformLagrangianConstraint<Vec1d>,
+             StopperLagrangianConstraint<Vec1d>>;
 using StandardMultipliers =
-    Registry<FreeMotionAnimationLoop, BlockGaussSeidelConstraintSolver, LinearSolverConstraintCorrection,
-             LagrangianConstraints<Vec3d>, LagrangianConstraints<Rigid3d>>;
+    Registry<FreeMotionAnimationLoop, BlockGaussSeidelConstraintSolver, NNCGConstraintSolver,
+             UnbuiltGaussSeidelConstraintSolver, LCPConstraintSolver, ConvexConstraintSolver,
+             LinearSolverConstraintCorrection, UncoupledConstraintCorrection<Vec3d>,
+             UncoupledConstraintCorrection<Rigid3d>, LagrangianConstraints>;
 
 /// Every component that Sinew brings, over the DataTypes that scenes use.
 struct Standard : Registry<Gravity, Threads, StandardTopologies, MadeMeshes, VisualModel, StandardEngines,

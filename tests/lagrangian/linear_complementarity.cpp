@@ -217,7 +217,7 @@ TEST_CASE("a first guess is taken, or not") {
 TEST_CASE("minW leaves out what can hardly move, maxF what would need too large a force") {
   // three masses on the ground, 1 kg, 2 kg and fixed
   ConstraintProblem p{
-      Eigen::Vector3d(1, 0.5, 0).asDiagonal(),
+      Eigen::Matrix3d(Eigen::Vector3d(1, 0.5, 0).asDiagonal()),
       Eigen::Vector3d(-1, -1, -1),
       Eigen::VectorXd::Zero(3),
       {ConstraintBlock::unilateral(0), ConstraintBlock::unilateral(1), ConstraintBlock::unilateral(2)}};

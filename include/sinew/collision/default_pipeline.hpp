@@ -58,19 +58,24 @@ struct DefaultPipeline {
   void detect(Narrow& narrow, Intersection const& intersection, Manager& manager, int i, int j, double dt) {
     CollisionSurface const &a = *surfaces[std::size_t(i)], &b = *surfaces[std::size_t(j)];
     if (skeleton(b.shape) != B) return;
+    const double cone = manager.coneOf(i, j);
     narrow.pairs(a, b, [&](int elementA, int elementB) {
       ++boxTests;
       if (adjacent(a, elementA, b, elementB)) return;
-      const PrimitivePair<A, B> pair{a, b, elementA, elementB, dt};
+      const PrimitivePair<A, B> pair{a, b, elementA, elementB, dt, cone};
       auto add = [&](Contact& contact) {
         contact.a.surface = i;
         contact.b.surface = j;
         manager.add(contact);
       };
-      if constexpr (A == Shape::hull || B == Shape::hull)
+      if constexpr (A == Shape::hull || B == Shape::hull) {
         HullContacts<A, B>::find(pair, intersection, add);
-      else if (auto contact = intersection.intersect(pair))
-        add(*contact);
+      } else {
+        static_assert(Intersects<Intersection, A, B>,
+                      "Sinew: an intersection method has no 'std::optional<Contact> "
+                      "intersect(PrimitivePair<A, B> const& pair) const' for two shapes of the scene.");
+        if (auto contact = intersection.intersect(pair)) add(*contact);
+      }
     });
   }
 };

@@ -33,10 +33,9 @@ struct HullContacts {
 
   template <class Intersection, class Add>
   static void find(PrimitivePair<A, B> const& pair, Intersection const& method, Add&& add) {
-    static_assert(
-        requires { method.limit(); },
-        "Sinew: an intersection method that meets hulls has limit(), the distance below which the "
-        "response acts.");
+    static_assert(MeetsHulls<Intersection>,
+                  "Sinew: an intersection method that meets hulls has limit(), the distance below which the "
+                  "response acts.");
     const double limit = method.limit() + pair.proximity(), reach = method.reach() + pair.proximity();
     if constexpr (Intersection::continuous)
       if (const double time = detail::time_of_hull_impact(pair, limit); time >= 0) {

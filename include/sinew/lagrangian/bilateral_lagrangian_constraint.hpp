@@ -13,8 +13,9 @@ namespace sinew {
 /// Points of two bodies stay together by multipliers, or as far from each other as `rest_vector` says:
 ///   d = x2 - x1 - r,
 /// and rigid bodies in the same orientation too, d = rotation vector from the first to the second [rad], or
-/// with `keepOrientationDifference` as they are turned against each other, and shifted, at the start. Where
-/// the two lists have different lengths the rest of the longer one is free.
+/// with `keepOrientationDifference` as the second is turned in the axes of the first at the start, with the
+/// shift in the world between them at the start. Where the two lists have different lengths the rest of the
+/// longer one is free.
 template <class D, class E = Within>
 struct BilateralLagrangianConstraint {
   using Ends = E;
@@ -32,6 +33,7 @@ struct BilateralLagrangianConstraint {
   std::vector<int> first_point{}, second_point{};
   std::vector<Deriv> rest_vector{};
   bool activate = true, keepOrientationDifference = false;
+  double load = 1;
   [[no_unique_address]] E ends{};
 
   static constexpr auto fields() {
@@ -48,22 +50,33 @@ struct BilateralLagrangianConstraint {
         field("rest_vector",
               &F::rest_vector,
               "m",
-              "from each point of the first body to that of the second; zero where not given"),
+              "from each point of the first body to that of the second; zero where not given")
+            .oneEach(Of::entries),
         field("activate", &F::activate, "", "the points are joined"),
         field("keepOrientationDifference",
               &F::keepOrientationDifference,
               "",
               "rigid bodies keep the shift and the rotation between them that they have at the start, in "
-              "place of "
-              "rest_vector"));
+              "place of rest_vector"),
+        field("load",
+              &F::load,
+              "",
+              "part of the violation of the free motion that is taken away in a step, and so of the force "
+              "that holds the points",
+              range::closed(0, 1)));
   }
 
-  std::vector<Deriv> shift{};  // from the first to the second at the start, of rigid bodies
   std::vector<double> multipliers{};
+  typename D::VecCoord
+      differences{};  // at the start, of rigid bodies: the shift, and the second in the first
 
   static constexpr auto state() {
-    return field_list(
-        field("multipliers", &BilateralLagrangianConstraint::multipliers, "N", "of the last step"));
+    using F = BilateralLagrangianConstraint;
+    constexpr auto kept = field("multipliers", &F::multipliers, "N", "of the last step");
+    if constexpr (D::rigid)
+      return field_list(kept, field("differences", &F::differences, "m", "between the bodies at the start"));
+    else
+      return field_list(kept);
   }
 
   void init(InitContext<D> const& context) { init(context, context); }
@@ -71,51 +84,57 @@ struct BilateralLagrangianConstraint {
     const std::string where = place_of<BilateralLagrangianConstraint>(first);
     check_points(where, "first_point", first_point, first.rest.size());
     check_points(where, "second_point", second_point, second.rest.size());
-    shift.clear();
   }
+  void reset() { differences.clear(); }
 
   void addRows(ConstraintRows& rows, ConstrainedState<D> const& state) { addRows(rows, state, state); }
   void addRows(ConstraintRows& rows, ConstrainedState<D> const& first, ConstrainedState<D> const& second) {
-    if (!activate) return;
+    if (!activate || load == 0) return;
     const std::size_t n = std::min(first_point.size(), second_point.size());
-    if constexpr (D::rigid)
-      while (keepOrientationDifference && shift.size() < n)
-        shift.push_back(D::difference(first.position[std::size_t(first_point[shift.size()])],
-                                      second.position[std::size_t(second_point[shift.size()])]));
+    if (keeps()) keepDifferences(first.position, second.position, n);
     for (std::size_t i = 0; i < n; ++i) {
       const int a = first_point[i], b = second_point[i];
-      const Deriv d = violation(rows, first, second, i);
-      // orientations are a block of their own
-      for (int begin = 0; begin < D::size; begin += D::rigid ? D::spatial : D::size) {
-        const int size = D::rigid ? (begin == 0 ? D::spatial : D::size - D::spatial) : D::size;
-        const int row = rows.addEquality(size);
-        for (int c = 0; c < size; ++c) {
-          rows.addTo(row + c, a, Deriv(-Deriv::Unit(begin + c)));
-          rows.addTo(row + c, b, Deriv::Unit(begin + c), between ? 1 : 0);
-          rows.setViolation(row + c, double(d[begin + c]));
-        }
-      }
+      const Deriv d = Real(load) * violation(rows, first, second, i);
+      add_point_equalities<D>(rows, [&](int row, int c) {
+        rows.addTo(row, a, Deriv(-Deriv::Unit(c)));
+        rows.addTo(row, b, Deriv::Unit(c), between ? 1 : 0);
+        rows.setViolation(row, double(d[c]));
+      });
     }
   }
 
  private:
+  bool keeps() const { return D::rigid && keepOrientationDifference; }
   Deriv violation(ConstraintRows const& rows, ConstrainedState<D> const& first,
                   ConstrainedState<D> const& second, std::size_t i) const {
     const auto a = std::size_t(first_point[i]), b = std::size_t(second_point[i]);
     Coord from = rows.ofVelocity ? first.position[a] : first.free[a];
-    if constexpr (D::rigid) {
-      if (keepOrientationDifference) {
-        const Deriv center = shift[i];
-        D::setCenter(from, D::center(from) + center.template head<D::spatial>());
-        Deriv rotation = shift[i];
-        rotation.template head<D::spatial>().setZero();
-        D::increment(from, rotation);
-      }
-    }
+    if constexpr (D::rigid)
+      if (keeps()) shift(from, differences[i]);
     Deriv d = D::difference(from, rows.ofVelocity ? second.position[b] : second.free[b]);
-    if (!(D::rigid && keepOrientationDifference) && i < rest_vector.size()) d -= rest_vector[i];
+    if (!keeps() && i < rest_vector.size()) d -= rest_vector[i];
     if (rows.ofVelocity) d = d / Real(first.dt) + (second.velocity[b] - first.velocity[a]);
     return d;
+  }
+  void keepDifferences(typename D::VecCoord const& x1, typename D::VecCoord const& x2, std::size_t n) {
+    if constexpr (D::rigid)
+      for (std::size_t i = differences.size(); i < n; ++i) {
+        Coord const &a = x1[std::size_t(first_point[i])], &b = x2[std::size_t(second_point[i])];
+        Coord difference = b;
+        difference.center -= a.center;
+        if constexpr (D::spatial == 3)
+          difference.orientation = (a.orientation.conjugate() * b.orientation).normalized();
+        else
+          difference.orientation -= a.orientation;
+        differences.push_back(difference);
+      }
+  }
+  static void shift(Coord& x, Coord const& by) {
+    x.center += by.center;
+    if constexpr (D::spatial == 3)
+      x.orientation = x.orientation * by.orientation;
+    else
+      x.orientation += by.orientation;
   }
 };
 

@@ -3,7 +3,7 @@
 
 #include <sinew/lagrangian/constraint_problem.hpp>
 
-#include <Eigen/LU>
+#include <Eigen/Cholesky>
 
 #include <algorithm>
 #include <cmath>
@@ -22,15 +22,19 @@ using BlockVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, ConstraintBlock:
 /// W_bb^-1 of a block of equalities; an Error where they depend on each other.
 inline BlockMatrix inverse_compliance(BlockMatrix const& w, ConstraintBlock const& b,
                                       std::string_view where) {
-  const Eigen::FullPivLU<BlockMatrix> factor(w);
-  if (!factor.isInvertible())
+  const Eigen::LDLT<BlockMatrix> factor(w);
+  const BlockVector pivots = factor.vectorD();
+  if (!(pivots.minCoeff() > 1e-13 * pivots.maxCoeff()))
     throw Error(where,
                 text("the equalities in rows ",
                      b.first,
                      " to ",
                      b.first + b.rows - 1,
                      " depend on each other, so that their multipliers are not determined; leave one out"));
-  return factor.inverse();
+  // column by column, since nvcc takes Eigen's solution for a matrix for a function of the device
+  BlockMatrix inverse(b.rows, b.rows);
+  for (int c = 0; c < b.rows; ++c) inverse.col(c) = factor.solve(BlockVector(BlockVector::Unit(b.rows, c)));
+  return inverse;
 }
 
 /// The multipliers f of a block, from their last value and the violation d that it has with this. w is W_bb,
@@ -118,7 +122,7 @@ concept ConstraintOperator = requires(O& o, std::size_t b, BlockVector const& st
 /// One block of Gauss-Seidel.
 template <ConstraintOperator O>
 void relax_block(O& problem, std::vector<ConstraintBlock> const& blocks, std::size_t number,
-                 BlockMatrix const& inverse, Eigen::VectorXd& multipliers, SweepChange& change) {
+                 BlockMatrix const& inverse, Eigen::Ref<Eigen::VectorXd> multipliers, SweepChange& change) {
   ConstraintBlock const& b = blocks[number];
   auto&& w = problem.diagonal(number);
   const BlockVector before = multipliers.segment(b.first, b.rows);

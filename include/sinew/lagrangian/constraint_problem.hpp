@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/core/error.hpp>
+#include <sinew/linalg/reserved.hpp>
 
 #include <Eigen/Core>
 
@@ -42,9 +43,9 @@ struct ConstraintBlock {
 struct ConstraintProblem {
   using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-  Matrix compliance{};              // W
-  Eigen::VectorXd freeViolation{};  // d_free, of the motion without multipliers
-  Eigen::VectorXd multipliers{};    // f: the first guess, then the solution
+  Reserved<Matrix> compliance{};   // W
+  ReservedVector freeViolation{};  // d_free, of the motion without multipliers
+  ReservedVector multipliers{};    // f: the first guess, then the solution
   std::vector<ConstraintBlock> blocks{};
 
   int rows() const { return int(freeViolation.size()); }
@@ -70,7 +71,8 @@ inline Eigen::Vector3d project_on_cone(Eigen::Vector3d const& f, double mu) {
   return {onCone, mu * onCone * f[1] / t, mu * onCone * f[2] / t};
 }
 
-/// Throws Error where blocks do not cover each of so many rows once and in order, or one of them is none.
+/// Throws Error where blocks do not cover each of so many rows once, have a wrong number of them, a friction
+/// that is negative or not finite, or ends of an interval in the wrong order.
 inline void check_blocks(std::vector<ConstraintBlock> const& blocks, int rows, std::string_view where) {
   int next = 0;
   for (ConstraintBlock const& b : blocks) {
@@ -113,16 +115,16 @@ inline void check_blocks(std::vector<ConstraintBlock> const& blocks, int rows, s
   if (next != rows) throw Error(where, text("blocks of constraints cover ", next, " rows of ", rows));
 }
 
-/// Throws Error where no multiplier of a block changes its violation; `diagonal` is that of W_bb.
+/// Throws Error where the diagonal of W, from a row on, has an entry that is not positive.
 template <class Diagonal>
-void check_moves(ConstraintBlock const& b, Diagonal const& diagonal, std::string_view where) {
-  for (int i = 0; i < b.rows; ++i)
-    if (!(diagonal[i] > 0))
+void check_movable(Diagonal const& compliance, std::string_view where, int first = 0) {
+  for (int i = 0; i < int(compliance.size()); ++i)
+    if (!(compliance[i] > 0))
       throw Error(where,
                   text("nothing that constraint ",
-                       b.first + i,
+                       first + i,
                        " holds can move (its compliance is ",
-                       diagonal[i],
+                       compliance[i],
                        "): it is between fixed points, or its direction is zero"));
 }
 
@@ -146,8 +148,7 @@ inline void ConstraintProblem::checkSizes(std::string_view where) const {
 
 inline void ConstraintProblem::check(std::string_view where) const {
   checkSizes(where);
-  for (ConstraintBlock const& b : blocks)
-    check_moves(b, compliance.diagonal().segment(b.first, b.rows), where);
+  check_movable(compliance.diagonal(), where);
 }
 
 inline double ConstraintProblem::residual() const {

@@ -25,8 +25,9 @@ class ConstraintRows {
 
   std::vector<ConstraintBlock> blocks{};
   std::vector<double> violation{}, multipliers{};
-  std::vector<Entry> entries{};  // rising by row
-  bool ofVelocity = false;       // violations are rates, of the velocities without multipliers
+  std::vector<double> compliance{};  // of each row: what it adds to d for each newton of its multiplier
+  std::vector<Entry> entries{};      // rising by row
+  bool ofVelocity = false;           // violations are rates, of the velocities without multipliers
 
   int count() const { return int(violation.size()); }
 
@@ -53,11 +54,14 @@ class ConstraintRows {
   }
   void setViolation(int row, double d) { violation[std::size_t(row)] = d; }
   void setMultiplier(int row, double f) { multipliers[std::size_t(row)] = f; }
+  /// The row gives way: its condition is one for d + C f [m/N; of a rate m/(N s)].
+  void soften(int row, double c) { compliance[std::size_t(row)] = c; }
 
   void clear() {
     blocks.clear();
     violation.clear();
     multipliers.clear();
+    compliance.clear();
     entries.clear();
   }
 
@@ -66,8 +70,21 @@ class ConstraintRows {
     blocks.push_back(block);
     violation.resize(violation.size() + std::size_t(block.rows), 0);
     multipliers.resize(violation.size(), 0);
+    compliance.resize(violation.size(), 0);
     return block.first;
   }
 };
+
+/// Blocks of equalities for all coordinates of the difference of two points of D, the orientation of rigid
+/// bodies in one of its own: each(row, coordinate) fills a row.
+template <class D, class F>
+void add_point_equalities(ConstraintRows& rows, F&& each) {
+  for (int begin = 0; begin < D::size;) {
+    const int size = D::rigid && begin == 0 ? D::spatial : D::size - begin;
+    const int first = rows.addEquality(size);
+    for (int c = 0; c < size; ++c) each(first + c, begin + c);
+    begin += size;
+  }
+}
 
 }  // namespace sinew

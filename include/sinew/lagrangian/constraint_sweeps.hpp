@@ -41,7 +41,8 @@ struct JacobiSettings {
 
 /// Whether the iterations diverge: a block changes by so much more than what there is to correct. Then the
 /// multipliers are set to zero, which all conditions but equalities permit, and the error to infinity.
-inline bool runs_away(SweepResult& result, double change, double scale, Eigen::VectorXd& multipliers) {
+inline bool runs_away(SweepResult& result, double change, double scale,
+                      Eigen::Ref<Eigen::VectorXd> multipliers) {
   if (change <= 1e9 * scale && multipliers.allFinite()) return false;
   multipliers.setZero();
   result.error = std::numeric_limits<double>::infinity();
@@ -51,8 +52,8 @@ inline bool runs_away(SweepResult& result, double change, double scale, Eigen::V
 
 /// Largest eigenvalue of D^-1 W by power iterations, from below to about 1e-3 of it; W and D are symmetric
 /// and positive, and `solve` is D^-1.
-template <class Solve>
-double largest_eigenvalue(ConstraintProblem::Matrix const& W, Solve&& solve) {
+template <class Matrix, class Solve>
+double largest_eigenvalue(Matrix const& W, Solve&& solve) {
   const auto n = W.rows();
   Eigen::VectorXd x(n), y(n);
   for (Eigen::Index i = 0; i < n; ++i) x[i] = std::sin(1 + 12.9898 * double(i));  // orthogonal to nothing
@@ -83,8 +84,7 @@ inline double stable_weight(ConstraintProblem const& problem) {
     for (ConstraintBlock const& b : problem.blocks) {
       auto const w = problem.compliance.block(b.first, b.first, b.rows, b.rows);
       if (b.kind == ConstraintBlock::Kind::equality)
-        y.segment(b.first, b.rows) =
-            BlockMatrix(w).fullPivLu().solve(BlockVector(y.segment(b.first, b.rows)));
+        y.segment(b.first, b.rows) = BlockMatrix(w).ldlt().solve(BlockVector(y.segment(b.first, b.rows)));
       else
         y[b.first] /= w(0, 0);
       if (b.kind == ConstraintBlock::Kind::friction) y.segment<2>(b.first + 1) *= 2 / (w(1, 1) + w(2, 2));
@@ -120,7 +120,7 @@ class ConstraintSweeps {
 
  private:
   std::vector<BlockMatrix> inverses_{};  // of W_bb, for equalities
-  Eigen::VectorXd last_{}, change_{}, direction_{}, violation_{}, steps_{}, behind_{};
+  ReservedVector last_{}, change_{}, direction_{}, violation_{}, steps_{}, behind_{};
   double scale_ = 0;  // what there is to correct
 
   void begin(ConstraintProblem const& problem, std::string_view where);

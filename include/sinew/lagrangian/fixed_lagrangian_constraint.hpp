@@ -14,6 +14,8 @@ template <class D>
 struct FixedLagrangianConstraint {
   using Role = role::LagrangianConstraint;
   using DataTypes = D;
+  using Real = typename D::Real;
+  using Deriv = typename D::Deriv;
   static constexpr std::string_view className = "FixedLagrangianConstraint";
 
   std::vector<int> indices{};
@@ -40,14 +42,12 @@ struct FixedLagrangianConstraint {
   void addRows(ConstraintRows& rows, ConstrainedState<D> const& state) const {
     for (const int point : held) {
       const auto p = std::size_t(point);
-      const typename D::Deriv d = rows.ofVelocity
-                                      ? state.velocity[p]
-                                      : typename D::Deriv(D::difference(state.rest[p], state.free[p]));
-      const int row = rows.addEquality(D::size);
-      for (int c = 0; c < D::size; ++c) {
-        rows.addTo(row + c, point, D::Deriv::Unit(c));
-        rows.setViolation(row + c, double(d[c]));
-      }
+      Deriv d = D::difference(state.rest[p], rows.ofVelocity ? state.position[p] : state.free[p]);
+      if (rows.ofVelocity) d = d / Real(state.dt) + state.velocity[p];
+      add_point_equalities<D>(rows, [&](int row, int c) {
+        rows.addTo(row, point, Deriv::Unit(c));
+        rows.setViolation(row, double(d[c]));
+      });
     }
   }
 };

@@ -82,7 +82,7 @@ inline SweepResult LinearComplementarity::solve(ConstraintProblem& problem, std:
     }
   const auto n = Eigen::Index(ends_.size()), m = Eigen::Index(equalities_.size());
   auto const& W = problem.compliance;
-  Eigen::VectorXd& f = problem.multipliers;
+  auto& f = problem.multipliers;
   f.setZero();
 
   // what an end does to an end, and equalities to both: f_e = -W_ee^-1 (d_e + W_ec f_c)
@@ -137,7 +137,7 @@ inline SweepResult ComplementaritySweeps::solve(ConstraintProblem& problem,
                                                 std::string_view where) {
   problem.checkSizes(where);
   SweepResult result;
-  Eigen::VectorXd& f = problem.multipliers;
+  auto& f = problem.multipliers;
   if (!settings.initialGuess) f.setZero();
   ignored_.assign(problem.blocks.size(), 0);
   bool rubs = false;
@@ -159,7 +159,7 @@ inline SweepResult ComplementaritySweeps::solve(ConstraintProblem& problem,
       f.segment(b.first, b.rows).setZero();
       continue;
     }
-    check_moves(b, w.diagonal(), where);
+    check_movable(w.diagonal(), where, b.first);
     scale += size_of_block(b, w, problem.freeViolation.segment(b.first, b.rows), f.segment(b.first, b.rows));
   }
   if (problem.blocks.empty()) return result;

@@ -15,8 +15,9 @@ namespace sinew {
 class UnbuiltGaussSeidel {
  public:
   template <ConstraintOperator O>
-  SweepResult solve(O& problem, std::vector<ConstraintBlock> const& blocks, Eigen::VectorXd& multipliers,
-                    SweepSettings const& settings, std::string_view where) {
+  SweepResult solve(O& problem, std::vector<ConstraintBlock> const& blocks,
+                    Eigen::Ref<Eigen::VectorXd> multipliers, SweepSettings const& settings,
+                    std::string_view where) {
     double scale = begin(problem, blocks, multipliers, where);
     SweepResult result;
     if (blocks.empty()) return result;
@@ -37,12 +38,12 @@ class UnbuiltGaussSeidel {
 
  private:
   std::vector<BlockMatrix> inverses_{};  // of W_bb, for equalities
-  Eigen::VectorXd last_{};
+  ReservedVector last_{};
 
   // what there is to correct, for runs_away
   template <class O>
-  double begin(O& problem, std::vector<ConstraintBlock> const& blocks, Eigen::VectorXd const& multipliers,
-               std::string_view where) {
+  double begin(O& problem, std::vector<ConstraintBlock> const& blocks,
+               Eigen::Ref<Eigen::VectorXd const> const& multipliers, std::string_view where) {
     check_blocks(blocks, int(multipliers.size()), where);
     inverses_.resize(blocks.size());
     double scale = std::numeric_limits<double>::min();
@@ -56,7 +57,7 @@ class UnbuiltGaussSeidel {
                     text("the compliance, the violation or a multiplier of the constraints from row ",
                          b.first,
                          " on is not a finite number"));
-      check_moves(b, w.diagonal(), where);
+      check_movable(w.diagonal(), where, b.first);
       if (b.kind == ConstraintBlock::Kind::equality) inverses_[k] = inverse_compliance(w, b, where);
       scale += size_of_block(b, w, d, f);
     }
@@ -68,7 +69,7 @@ class UnbuiltGaussSeidel {
   }
 
   template <class O>
-  void relax(O& problem, std::vector<ConstraintBlock> const& blocks, Eigen::VectorXd& multipliers,
+  void relax(O& problem, std::vector<ConstraintBlock> const& blocks, Eigen::Ref<Eigen::VectorXd> multipliers,
              double relaxation) {
     for (std::size_t k = 0; k < blocks.size(); ++k) {
       auto f = multipliers.segment(blocks[k].first, blocks[k].rows);

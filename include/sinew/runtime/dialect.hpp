@@ -109,7 +109,7 @@ inline constexpr std::array notYet = std::to_array<ClassesLeftOut>(
       "RayCollisionModel",
       "collides with nothing here; take triangles, lines, points, spheres or convex hulls"},
      {"DirectSAPNarrowPhase", "is no stage here; take BVHNarrowPhase, which finds the same pairs"},
-     {"RayTraceDetection RayTraceNarrowPhase CompositeCollisionPipeline RuleBasedContactManager",
+     {"RayTraceDetection RayTraceNarrowPhase CompositeCollisionPipeline",
       "is no stage of collision here; take DefaultPipeline, BVHNarrowPhase and DefaultContactManager"}});
 
 /// Collide in SOFA with points, and only where DiscreteIntersection tests them
@@ -201,10 +201,6 @@ inline constexpr std::array anotherMethod = std::to_array<AnotherMethod>(
     {{"LocalMinDistance",
       "all pairs of elements within the distance are contacts, as with MinProximityIntersection; SOFA leaves "
       "out those that are no local minima of the distance"},
-     {"FrictionContact",
-      "bodies are kept apart by penalty forces with Coulomb friction, as with PenalityContactForceField; "
-      "SOFA solves "
-      "for multipliers"},
      {"AsyncSparseLDLSolver",
       "the matrix of each step is factorised before it is solved, as with SparseLDLSolver; SOFA goes on with "
       "the factorisation of an earlier step while a thread makes the next"},

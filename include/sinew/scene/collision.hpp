@@ -57,6 +57,8 @@ struct Collision {
                model.surface.solver = -1;
                model.surface.companions = {};
                model.surface.beside.clear();
+               if constexpr (requires { scope.node.entryOf(&model).name; })
+                 model.surface.name = scope.node.entryOf(&model).name;
                all.push_back(&model.surface);
              }));
     int solvers = 0;
@@ -69,8 +71,10 @@ struct Collision {
         }
     traverse(root, on<role::CollisionPipeline>([&](auto& pipeline, auto const& scope) {
                collect(pipeline, scope);
-               with_first<role::ContactManager>(
-                   scope, [&](auto& manager) { manager.init(scope.path(), pipeline.surfaces, again); });
+               with_first<role::ContactManager>(scope, [&](auto& manager) {
+                 manager.init(scope.path(), pipeline.surfaces, again);
+                 checkMultipliers(manager, scope);
+               });
                pipeline.near.reserve(pipeline.surfaces.size() * (pipeline.surfaces.size() + 1) / 2);
                for (auto* s : pipeline.surfaces) s->enclose(0, 0);  // the trees are built
                traverse(scope, on<role::CollisionModel>([](auto& model, auto const& s) {
@@ -121,6 +125,15 @@ struct Collision {
   }
 
  private:
+  template <class Manager, class S>
+  void checkMultipliers(Manager const& manager, S const& scope) const {
+    if (manager.asksForMultipliers() && !with_first<role::AnimationLoop>(root, [](auto const&) {}))
+      throw Error(
+          text(scope.path(), ": ", component_name<Manager>()),
+          "a response to contacts is by multipliers, for which nothing solves: put a FreeMotionAnimationLoop "
+          "and a constraint solver, such as BlockGaussSeidelConstraintSolver, into the root, or take a "
+          "response by forces, such as PenalityContactForceField");
+  }
   // where the models are now
   template <class Pipeline, class S>
   static void collect(Pipeline& pipeline, S const& scope) {

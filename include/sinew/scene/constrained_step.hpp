@@ -2,7 +2,9 @@
 #pragma once
 
 #include <sinew/lagrangian/constrained_motion.hpp>
+#include <sinew/scene/contact_rows.hpp>
 #include <sinew/scene/mechanical_operations.hpp>
+#include <sinew/scene/motion_problem.hpp>
 #include <sinew/scene/solvers.hpp>
 #include <sinew/solver/multi_vec.hpp>
 
@@ -12,28 +14,12 @@
 
 namespace sinew {
 
-/// What an ODE solver makes of multipliers in a step of length h, and which of the auxiliary vectors are free
-/// then.
-struct MultiplierResponse {
-  ConstraintFactors factors{};
-  bool bySystem = false;  // by the system that the solver has solved, else by the masses
-  int derivs = 0;
-
-  template <class Ode>
-  static MultiplierResponse of(Ode const& ode, double h) {
-    ConstraintFactors factors{{.m = 1}, h, h, 1};
-    if constexpr (HasConstraintFactors<Ode>) factors = ode.constraintFactors(h);
-    const bool ofForces = factors.matrix.b != 0 || factors.matrix.k != 0;
-    return {factors, (Ode::implicit && ofForces) || SolvesMass<Ode>, Ode::auxiliary.derivs};
-  }
-  /// Vectors that it takes beside those of the solvers.
-  static constexpr Auxiliary auxiliary{.derivs = 2};
-  DerivId force() const { return {DerivId::reserved + derivs}; }
-  DerivId motion() const { return {DerivId::reserved + derivs + 1}; }
+/// A linear solver that keeps a factor, by which rows have their compliance (linalg/factored_rows.hpp).
+template <class Linear>
+concept HasBlockFactor = requires(Linear const& linear) {
+  linear.factor.lower;
+  linear.factor.newIndex;
 };
-/// Whether an ODE solver takes part in a scene with constraints by multipliers.
-template <class Ode>
-inline constexpr bool takes_multipliers = !Ode::implicit || HasConstraintFactors<Ode> || stands_beside<Ode>;
 
 /// A step of a scene whose root has an animation loop: bodies move freely, the constraints of the scene are
 /// solved together, and bodies are corrected. While constraints are solved `position` is that at the start of
@@ -47,6 +33,61 @@ struct ConstrainedStep {
   void integrate(ConstrainedMotion& motion, bool velocityFirst, bool keepsForces) const;
 
  private:
+  // The forces of the multipliers of the last step on mapped states, where these are now: mappings that are
+  // not linear turn them in this step, which their geometric stiffness tells the system of the free motion.
+  void forceMapped(ConstrainedMotion& m, bool ofVelocity) const {
+    [[maybe_unused]] const auto span = root.span(Phase::constraint);
+    traverse(root, on<role::State>([](auto& s, auto const&) {
+               if constexpr (requires { s.multiplierForce; })
+                 if (!s.multiplierForce.empty()) s.multiplierForce.clear(), forceOf(s);
+             }));
+    m.rows.ofVelocity = ofVelocity;
+    traverse(root, on<role::LagrangianConstraint>([&](auto& c, auto const& scope) {
+               if constexpr (KeepsMultipliers<std::decay_t<decltype(c)>>)
+                 if (!c.multipliers.empty()) forceMapped(c, scope, m.rows);
+             }));
+    traverse_back(root, on<role::Mapping>([&](auto& mapping, auto const& scope) {
+                    scope.withMapped(mapping, [&](auto& it, auto& child, auto& parent) {
+                      if constexpr (requires { child.multiplierForce, parent.multiplierForce; })
+                        if (!child.multiplierForce.empty() && scope.parentScope().stateScope().mapped())
+                          it.applyJT(forceOf(parent), child.multiplierForce);
+                    });
+                  }));
+  }
+  template <class C, class S>
+  void forceMapped(C& c, S const& scope, ConstraintRows& rows) const {
+    using D = typename C::DataTypes;
+    auto now = [&](auto const& at) {
+      auto& s = at.template state<D>();
+      return ConstrainedState<D>{s.position, s.position, s.velocity, s.restPosition, dt};
+    };
+    auto add = [&](auto const& at, int side) {
+      if (!at.stateScope().mapped() || c.multipliers.size() != std::size_t(rows.count())) return;
+      auto& f = forceOf(at.template state<D>());
+      for (ConstraintRows::Entry const& e : rows.entries)
+        for (int i = 0; e.side == side && i < e.size; ++i)
+          f[std::size_t(e.point)][i] +=
+              typename D::Real(c.multipliers[std::size_t(e.row)] * e.values[std::size_t(i)]);
+    };
+    rows.clear();
+    if constexpr (JoinsTwo<C>) {
+      scope.withEnds(c, [&](auto const& a, auto const& b) {
+        if (!a.stateScope().mapped() && !b.stateScope().mapped()) return;
+        c.addRows(rows, now(a), now(b));
+        add(a, 0);
+        add(b, 1);
+      });
+    } else if (scope.stateScope().mapped()) {
+      c.addRows(rows, now(scope));
+      add(scope, 0);
+    }
+  }
+  template <class State>
+  static auto& forceOf(State& s) {
+    s.multiplierForce.resize(s.position.size(), State::DataTypes::Deriv::Zero());
+    return s.multiplierForce;
+  }
+
   template <class Ode, class S>
   void moveFreely(Ode& ode, S const& scope, bool keepsForces) const {
     MechanicalOperations<S> operations(scope, time, dt);
@@ -78,7 +119,7 @@ struct ConstrainedStep {
     });
   }
 
-  void collectRows(ConstrainedMotion& m, bool ofVelocity) const {
+  void collectRows(ConstrainedMotion& m, bool ofVelocity, bool keepsForces) const {
     [[maybe_unused]] const auto span = root.span(Phase::constraint);
     m.rows.clear();
     m.rows.ofVelocity = ofVelocity;
@@ -86,6 +127,14 @@ struct ConstrainedStep {
     for (auto& system : m.systems) system.clear();
     traverse(root,
              on<role::LagrangianConstraint>([&](auto& c, auto const& scope) { addRowsOf(c, scope, m); }));
+    m.contactRows = m.rows.count();
+    ContactRows<RootScope>{root, dt}.add(m);
+    std::size_t number = 0;
+    for_each_integrator(root, [&](auto& ode, auto const& scope) {
+      ConstrainedSystem& system = m.systems[number++];
+      if (keepsForces) system.whole = system.jacobian;
+      project(scope, MultiplierResponse::of(ode, dt), m.motionRows.jacobian, system);
+    });
   }
   template <class D, class S>
   ConstrainedState<D> stateAt(S const& scope) const {
@@ -147,22 +196,78 @@ struct ConstrainedStep {
     });
   }
 
+  // J P, where P is what projective constraints leave of a motion
+  template <class S>
+  void project(S const& scope, MultiplierResponse const& how, JacobianRows& left,
+               ConstrainedSystem& system) const {
+    if (system.rows.empty()) return;
+    bool some = false;
+    traverse(scope, on<role::ProjectiveConstraint>([&](auto&, auto const&) { some = true; }));
+    if (!some) return;
+    MechanicalOperations<S> operations(scope, time, dt);
+    auto projected = [&] {
+      operations.scatter(how.force(), system.force);
+      operations.projectResponse(how.force());
+      operations.gather(system.motion, how.force());
+    };
+    // numbers that no two neighbours share, exact in single precision: what stays as it is is free, what
+    // becomes 0 fixed
+    for (int i = 0; i < system.dofs(); ++i) system.force[i] = 1 + (i * 619 % 1024) / 1024.0;
+    projected();
+    bool mixes = false;
+    for (int i = 0; i < system.dofs(); ++i)
+      mixes = mixes || (system.motion[i] != 0 && system.motion[i] != system.force[i]);
+    left.clear();
+    if (!mixes) {
+      system.force = system.motion;  // 0 where fixed
+      for (int k = 0; k < system.jacobian.rows(); ++k) {
+        system.jacobian.forEachInRow(k, [&](int dof, double value) {
+          if (system.force[dof] != 0) left.add(dof, value);
+        });
+        left.endRow();
+      }
+    } else {
+      for (int k = 0; k < system.jacobian.rows(); ++k) {
+        system.force.setZero();
+        system.jacobian.addTransposed(k, 1, system.force);
+        projected();
+        for (int i = 0; i < system.dofs(); ++i)
+          if (system.motion[i] != 0) left.add(i, system.motion[i]);
+        left.endRow();
+      }
+    }
+    std::swap(left, system.jacobian);
+  }
+
   // W = J A^-1 J', and d_free
   void findCompliance(ConstrainedMotion& m) const;
   template <class S>
   void addCompliance(S const& scope, MultiplierResponse const& how, ConstrainedSystem& system,
                      ConstrainedMotion& m) const {
     const double reached = m.rows.ofVelocity ? how.factors.velocity : how.factors.position;
+    auto add = [&](int k, int l, double w) {
+      const int i = system.rows[std::size_t(k)], j = system.rows[std::size_t(l)];
+      m.problem.compliance(i, j) += w;
+      if (i != j) m.problem.compliance(j, i) += w;
+    };
+    bool found = false;
+    if (how.bySystem && !hasCorrections(scope))
+      scope.withLinearSolverIfAny([&](auto& linear) {
+        if constexpr (HasBlockFactor<std::decay_t<decltype(linear)>>) {
+          m.factored.compliance(linear.factor, system.jacobian, [&](int k, int l, double w) {
+            add(k, l, reached * how.factors.impulse * w);
+          });
+          found = true;
+        }
+      });
+    if (found) return;
+    if (answersByPoint(scope)) return addByPoints(scope, how, system, m, add, reached);
     for (int k = 0; k < system.jacobian.rows(); ++k) {
       system.force.setZero();
       system.jacobian.addTransposed(k, 1, system.force);
       respond(scope, how, system);
-      for (int l = k; l < system.jacobian.rows(); ++l) {
-        const double w = reached * system.jacobian.times(l, system.motion);
-        const int i = system.rows[std::size_t(k)], j = system.rows[std::size_t(l)];
-        m.problem.compliance(i, j) += w;
-        if (i != j) m.problem.compliance(j, i) += w;
-      }
+      for (int l = k; l < system.jacobian.rows(); ++l)
+        add(k, l, reached * system.jacobian.times(l, system.motion));
     }
   }
   void checkCompliance(ConstrainedMotion const& m) const {
@@ -211,6 +316,64 @@ struct ConstrainedStep {
     else
       linear.solve(operations, factors, u, b);
   }
+  template <class S>
+  static bool hasCorrections(S const& scope) {
+    bool some = false;
+    traverse(scope, on<role::ConstraintCorrection>([&](auto& c, auto const&) {
+               if constexpr (CorrectsState<std::decay_t<decltype(c)>>) some = true;
+             }));
+    return some;
+  }
+  template <class S>
+  static bool answersByPoint(S const& scope) {
+    bool some = false, all = true;
+    traverse(scope, on<role::ConstraintCorrection>([&](auto& c, auto const&) {
+               using C = std::decay_t<decltype(c)>;
+               some = some || AnswersByPoint<C>;
+               if constexpr (CorrectsState<C> && !AnswersByPoint<C>) all = false;
+             }));
+    return some && all;
+  }
+  // the same where points answer alone: a row moves its own points only
+  template <class S, class Add>
+  static void addByPoints(S const& scope, MultiplierResponse const& how, ConstrainedSystem& system,
+                          ConstrainedMotion& m, Add&& add, double reached) {
+    // J C of all rows, then its products with J
+    JacobianRows& answers = m.motionRows.jacobian;
+    answers.clear();
+    system.force.setZero();
+    for (int k = 0; k < system.jacobian.rows(); ++k) {
+      system.jacobian.addTransposed(k, 1, system.force);
+      traverse(scope, on<role::ConstraintCorrection>([&](auto& c, auto const& at) {
+                 using C = std::decay_t<decltype(c)>;
+                 if constexpr (AnswersByPoint<C>) {
+                   using D = typename C::DataTypes;
+                   auto const& s = at.template state<D>();
+                   const int end = s.dofOffset + int(s.size()) * D::size;
+                   system.jacobian.forEachInRow(k, [&](int dof, double) {
+                     if (dof < s.dofOffset || dof >= end) return;
+                     const int point = (dof - s.dofOffset) / D::size, first = s.dofOffset + point * D::size;
+                     auto f = system.force.template segment<D::size>(first);
+                     if (f.isZero(0)) return;  // looked at already
+                     const typename D::Deriv u =
+                         c.answer(std::size_t(point), f.template cast<typename D::Real>(), how.factors);
+                     for (int i = 0; i < D::size; ++i) answers.add(first + i, double(u[i]));
+                     f.setZero();
+                   });
+                 }
+               }));
+      system.jacobian.forEachInRow(k, [&](int dof, double) { system.force[dof] = 0; });
+      answers.endRow();
+    }
+    system.motion.setZero();
+    for (int k = 0; k < answers.rows(); ++k) {
+      answers.addTransposed(k, 1, system.motion);
+      for (int l = k; l < answers.rows(); ++l)
+        if (const double w = system.jacobian.times(l, system.motion); w != 0 || l == k)
+          add(k, l, reached * w);
+      answers.forEachInRow(k, [&](int dof, double) { system.motion[dof] = 0; });
+    }
+  }
   // by components that say what forces do to their states; false where there is none
   template <class S>
   static bool respondByCorrections(S const& scope, ConstraintFactors const& factors, DerivId u, DerivId f) {
@@ -231,7 +394,13 @@ struct ConstrainedStep {
     bool solved = false;
     traverse(root, on<role::ConstraintSolver>([&](auto& solver, auto const& scope) {
                if (std::exchange(solved, true)) return;
-               solver.solve(m.problem, scope.path());
+               if constexpr (SolvesMotion<std::decay_t<decltype(solver)>>) {
+                 MotionProblem<RootScope>{root, time, dt}.solve(m, solver, scope.path());
+                 m.hasMotion = true;
+               } else {
+                 findCompliance(m);
+                 solver.solve(m.problem, scope.path());
+               }
              }));
   }
   // constraints keep their multipliers
@@ -251,11 +420,15 @@ struct ConstrainedStep {
     MechanicalOperations<S> operations(scope, time, dt);
     auto takeFree = [&] { operations.forEachIndependent([](auto& s) { s.position.swap(s.freePosition); }); };
     if (system.rows.empty()) return takeFree();
-    system.force.setZero();
-    for (int k = 0; k < system.jacobian.rows(); ++k)
-      system.jacobian.addTransposed(k, m.problem.multipliers[system.rows[std::size_t(k)]], system.force);
-    respond(scope, how, system);
-    if (keepsForces) keep(operations, how);
+    if (m.hasMotion) {
+      operations.scatter(how.motion(), system.motion);
+    } else {
+      system.force.setZero();
+      for (int k = 0; k < system.jacobian.rows(); ++k)
+        system.jacobian.addTransposed(k, m.problem.multipliers[system.rows[std::size_t(k)]], system.force);
+      respond(scope, how, system);
+    }
+    if (keepsForces) keep(operations, how, m, system);
     operations.peq(vec_id::velocity, how.motion(), how.factors.velocity);
     if (m.rows.ofVelocity) {
       operations.peq(vec_id::position, vec_id::velocity, dt);
@@ -264,16 +437,33 @@ struct ConstrainedStep {
       operations.peq(vec_id::position, how.motion(), how.factors.position);
     }
   }
-  // What multipliers and what they move have done over the step: with A u = impulse J' f the forces of the
-  // system change by
-  // -(A - M) u / impulse, and constraints of all kinds are the rest, A u / impulse.
+  // What multipliers and what they move have done over the step. With A u = impulse J' f the forces of the
+  // system change by -(A - M) u / impulse, and those of contacts are forces too; the reaction of points is
+  // that of the multipliers of constraints, and what holds points that do not follow, (1 - P) (A u / impulse
+  // - J' f).
   template <class Operations>
-  static void keep(Operations& operations, MultiplierResponse const& how) {
+  static void keep(Operations& operations, MultiplierResponse const& how, ConstrainedMotion const& m,
+                   ConstrainedSystem& system) {
+    constexpr DerivId held = vec_id::marked, follows = vec_id::startVelocity;
     const double s = 1 / how.factors.impulse;
     const MatrixFactors a = how.factors.matrix;
     operations.addMBKdx(
         vec_id::applied, how.motion(), {.m = a.m == 0 ? 0 : (1 - a.m) * s, .b = -a.b * s, .k = -a.k * s});
-    operations.addMBKdx(vec_id::reaction, how.motion(), {.m = a.m * s, .b = a.b * s, .k = a.k * s});
+    operations.clear(held);
+    operations.addMBKdx(held, how.motion(), {.m = a.m * s, .b = a.b * s, .k = a.k * s});
+    for (const bool ofContacts : {false, true}) {
+      system.force.setZero();
+      for (int k = 0; k < system.whole.rows(); ++k)
+        if (const int row = system.rows[std::size_t(k)]; (row >= m.contactRows) == ofContacts)
+          system.whole.addTransposed(k, m.problem.multipliers[row], system.force);
+      operations.scatter(how.force(), system.force);
+      operations.peq(held, how.force(), -1);
+      operations.peq(ofContacts ? vec_id::applied : vec_id::reaction, how.force(), 1);
+    }
+    operations.eq(follows, held);
+    operations.projectResponse(follows);
+    operations.peq(vec_id::reaction, held, 1);
+    operations.peq(vec_id::reaction, follows, -1);
   }
 };
 
@@ -281,14 +471,16 @@ struct ConstrainedStep {
 
 template <class RootScope>
 void ConstrainedStep<RootScope>::integrate(ConstrainedMotion& m, bool velocityFirst, bool keepsForces) const {
+  forceMapped(m, velocityFirst);
   for_each_solver(root, [&](auto& ode, auto const& scope) { moveFreely(ode, scope, keepsForces); });
   for_each_integrator(root, [&](auto&, auto const& scope) { lookFromStart(scope); });
-  collectRows(m, velocityFirst);
+  collectRows(m, velocityFirst, keepsForces);
+  m.hasMotion = false;
   if (m.rows.count() > 0) {
-    findCompliance(m);
     solve(m);
     giveBack(m);
   }
+  ContactRows<RootScope>{root, dt}.giveBack(m);
   std::size_t number = 0;
   for_each_integrator(root, [&](auto& ode, auto const& scope) {
     const auto how = MultiplierResponse::of(ode, dt);
@@ -315,7 +507,9 @@ void ConstrainedStep<RootScope>::findCompliance(ConstrainedMotion& m) const {
   for_each_integrator(root, [&](auto& ode, auto const& scope) {
     addCompliance(scope, MultiplierResponse::of(ode, dt), m.systems[number++], m);
   });
+  ContactRows<RootScope>::leaveOutFixed(m);
   checkCompliance(m);
+  problem.compliance.diagonal() += Eigen::Map<Eigen::VectorXd const>(m.rows.compliance.data(), n);
 }
 
 }  // namespace sinew

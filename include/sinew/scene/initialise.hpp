@@ -3,7 +3,6 @@
 
 #include <sinew/scene/carving.hpp>
 #include <sinew/scene/collision.hpp>
-#include <sinew/scene/constrained_step.hpp>
 #include <sinew/scene/loose_interactions.hpp>
 #include <sinew/scene/mechanical_operations.hpp>
 #include <sinew/scene/solvers.hpp>
@@ -30,8 +29,8 @@ class Initialisation {
  private:
   RootScope const& root_;
   const InitAgain again_;
-  std::vector<void const*> served_{};    // linear solvers that have a matrix
-  ConstrainedMotion* motion_ = nullptr;  // of a scene that solves constraints by multipliers
+  std::vector<void const*> served_{};  // linear solvers that have a matrix
+  bool constrained_ = false;           // the scene solves constraints by multipliers
 
   void checkFields();
   // topologies are made first; then states, parents before children
@@ -147,9 +146,9 @@ class Initialisation {
   template <class Ode, class S>
   void initSolver(Ode& ode, S const& scope) {
     MechanicalOperations<S> operations(scope);
-    const Auxiliary beside = motion_ ? MultiplierResponse::auxiliary : Auxiliary{};
+    const Auxiliary beside = constrained_ ? MultiplierResponse::auxiliary : Auxiliary{};
     operations.reserve(Ode::auxiliary + beside);
-    if (motion_) operations.numberDofs(1);
+    if (constrained_) operations.numberDofs(1);
     operations.template withLinearSolverOf<Ode>([&](auto& linear) {
       using Linear = std::decay_t<decltype(linear)>;
       if constexpr (needs_pattern<Linear>) serveOne<Ode>(linear, scope);
@@ -163,27 +162,29 @@ class Initialisation {
       if (again_) ode.lastEnd = -1;
   }
   // what a scene needs that solves constraints by multipliers
-  template <class Ode, class S>
-  void initConstrained(Ode&, S const& scope) {
+  template <class Ode, class S, class Motion>
+  static void initConstrained(Ode&, S const& scope, Motion& motion) {
     if constexpr (!takes_multipliers<Ode>) {
       throw Error(
           text(scope.path(), ": ", component_name<Ode>()),
           "this solver does not say what multipliers do in its step, and the scene solves constraints by "
-          "them; "
-          "take EulerImplicitSolver, NewmarkImplicitSolver, StaticSolver, VariationalSymplecticSolver or an "
-          "explicit one, or leave out the FreeMotionAnimationLoop");
-    } else if constexpr (!stands_beside<Ode>) {
+          "them; take EulerImplicitSolver, NewmarkImplicitSolver, StaticSolver, "
+          "VariationalSymplecticSolver or an explicit one, or leave out the FreeMotionAnimationLoop");
+    } else {
       MechanicalOperations<S> operations(scope);
-      const int number = int(motion_->systems.size());
+      const int number = int(motion.systems.size());
       int dofs = 0;
       operations.forEachState([&](auto& s) { s.solver = number; });
+      operations.forEachMapped([](auto& s) {
+        if constexpr (requires { s.multiplierForce; }) s.multiplierForce.reserve(s.size());
+      });
       operations.forEachIndependent([&](auto& s) {
         using D = typename std::decay_t<decltype(s)>::DataTypes;
         dofs = std::max(dofs, s.dofOffset + int(s.size()) * D::size);
       });
-      ConstrainedSystem& system = motion_->systems.emplace_back();
-      system.force.setZero(dofs);
-      system.motion.setZero(dofs);
+      auto& system = motion.systems.emplace_back();
+      system.force.setZero(dofs + 1);
+      system.motion.setZero(dofs + 1);
     }
   }
   template <class Ode, class Linear, class S>
@@ -265,16 +266,13 @@ void Initialisation<RootScope>::initComponents() {
 template <class RootScope>
 void Initialisation<RootScope>::initSolvers() {
   served_.clear();
-  if constexpr (holds<typename RootScope::NodeType, role::AnimationLoop>())
-    with_first<role::AnimationLoop>(root_, [&](auto& loop) {
-      loop.motion.systems.clear();
-      motion_ = &loop.motion;
-    });
-  for_each_solver(root_, [&](auto& ode, auto const& scope) {
-    scope.located(ode, [&] {
-      initSolver(ode, scope);
-      if constexpr (holds<typename RootScope::NodeType, role::AnimationLoop>())
-        if (motion_) initConstrained(ode, scope);
+  constrained_ = with_first<role::AnimationLoop>(root_, [](auto&) {});
+  for_each_solver(root_,
+                  [&](auto& ode, auto const& scope) { scope.located(ode, [&] { initSolver(ode, scope); }); });
+  with_first<role::AnimationLoop>(root_, [&](auto& loop) {
+    loop.motion.systems.clear();
+    for_each_integrator(root_, [&](auto& ode, auto const& scope) {
+      scope.located(ode, [&] { initConstrained(ode, scope, loop.motion); });
     });
   });
 }

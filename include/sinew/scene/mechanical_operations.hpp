@@ -287,6 +287,18 @@ struct MechanicalOperations {
                     });
                   }));
   }
+  // the force f on a mapped state with that of multipliers; its dx holds the sum
+  template <class Child>
+  static auto& withMultipliers(Child& child, DerivId f) {
+    if constexpr (requires { child.multiplierForce; })
+      if (!child.multiplierForce.empty()) {
+        auto& sum = child[vec_id::dx];
+        Vectors<Child>::eq(OneThread{}, sum, child[f]);
+        Vectors<Child>::peq(OneThread{}, sum, child.multiplierForce, real(child, 1));
+        return sum;
+      }
+    return child[f];
+  }
   template <class C, class S, class F>
   void forEnds(C const& c, S const& scope, F&& f) {
     using D = typename C::DataTypes;
@@ -380,7 +392,8 @@ void MechanicalOperations<Root>::computeForce(DerivId f, CoordId x, DerivId v, d
       }));
   contacts().addForces(f, x, v);
   accumulate(f, [f](auto& mapping, auto& child, auto&) {
-    if constexpr (HasGeometricStiffness<std::decay_t<decltype(mapping)>>) mapping.updateK(child[f]);
+    if constexpr (HasGeometricStiffness<std::decay_t<decltype(mapping)>>)
+      mapping.updateK(withMultipliers(child, f));
   });
 }
 

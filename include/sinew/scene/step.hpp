@@ -3,7 +3,6 @@
 
 #include <sinew/scene/carving.hpp>
 #include <sinew/scene/collision.hpp>
-#include <sinew/scene/constrained_step.hpp>
 #include <sinew/scene/loose_interactions.hpp>
 #include <sinew/scene/mechanical_operations.hpp>
 #include <sinew/scene/solvers.hpp>
@@ -12,6 +11,12 @@
 #include <vector>
 
 namespace sinew {
+
+/// scene/constrained_step.hpp, which sinew/lagrangian.hpp includes.
+template <class RootScope>
+struct ConstrainedStep;
+template <class T>
+concept IsComplete = requires { sizeof(T); };
 
 /// The stages of one step of a scene, in the order in which Simulation::animate takes them.
 template <class RootScope>
@@ -66,10 +71,8 @@ struct Step {
   /// Each ODE solver integrates its subtree and propagates; where the scene has an animation loop,
   /// constraints by multipliers hold at the end.
   void integrate(bool keepsForces) const {
-    const bool constrained = with_first<role::AnimationLoop>(root, [&](auto& loop) {
-      ConstrainedStep<RootScope>{root, time, dt}.integrate(
-          loop.motion, loop.solveVelocityConstraintFirst, keepsForces);
-    });
+    const bool constrained =
+        with_first<role::AnimationLoop>(root, [&](auto& loop) { integrateConstrained(loop, keepsForces); });
     if (!constrained)
       for_each_solver(root, [&](auto& ode, auto const& scope) { solve(ode, scope, keepsForces); });
   }
@@ -82,6 +85,17 @@ struct Step {
   }
 
  private:
+  // (a function, since the body of a generic lambda is looked at where there is no loop)
+  template <class Loop>
+  void integrateConstrained(Loop& loop, bool keepsForces) const {
+    static_assert(IsComplete<ConstrainedStep<RootScope>>,
+                  "Sinew: a scene with an animation loop needs what solves constraints; include "
+                  "<sinew/lagrangian.hpp>, or <sinew/scene/constrained_step.hpp>.");
+    if constexpr (IsComplete<ConstrainedStep<RootScope>>)
+      ConstrainedStep<RootScope>{root, time, dt}.integrate(
+          loop.motion, loop.solveVelocityConstraintFirst, keepsForces);
+  }
+
   // f(component, state, step) for what acts before a step
   template <class S, class F>
   static void forEachAhead(S const& scope, StepAhead ahead, F&& f) {

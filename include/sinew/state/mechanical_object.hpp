@@ -81,6 +81,9 @@ struct MechanicalObject {
   VecCoord freePosition{};
   VecDeriv externalForce{};  // of interactions with bodies under other solvers, at the start of the step [N];
                              // empty where there are none
+  VecDeriv multiplierForce{};  // on a mapped state, of the multipliers that constraints have from the last
+                               // step [N], from which the mapping has its geometric stiffness; empty where
+                               // there are none
   // of Simulation::keepForces, empty without it: what acted over the last step, as impulse over dt, without
   // and of constraints [N]; and what its balance needs
   VecDeriv applied{}, reaction{}, startVelocity{}, marked{};
@@ -204,7 +207,8 @@ struct MechanicalObject {
   /// Points that go leave all vectors.
   void follow(Renumbering const& points) {
     for (VecCoord* v : {&position, &restPosition, &resetPosition, &freePosition}) points.filter(*v);
-    for (VecDeriv* v : {&velocity, &resetVelocity, &force, &dx, &externalForce, &applied, &reaction})
+    for (VecDeriv* v :
+         {&velocity, &resetVelocity, &force, &dx, &externalForce, &multiplierForce, &applied, &reaction})
       points.filter(*v);
     for (VecCoord& v : auxiliaryCoords) points.filter(v);
     for (VecDeriv& v : auxiliaryDerivs) points.filter(v);

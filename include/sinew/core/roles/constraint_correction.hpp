@@ -6,8 +6,8 @@
 
 namespace sinew {
 
-// Says what multipliers do to a body. Without one it is the system of the body's ODE solver that answers, by its linear
-// solver, or by its masses where the solver is explicit. The shortest that says otherwise:
+// Says what multipliers do to a body. Without one it is the system of the body's ODE solver that answers, by its
+// linear solver, or by its masses where the solver is explicit. The shortest:
 //
 //   /// Each point follows a force as a mass of 1 kg would.
 //   struct OneKilogram {
@@ -31,6 +31,13 @@ concept CorrectsState =
     requires(C const c, typename C::DataTypes::VecDeriv u, typename C::DataTypes::VecDeriv const f,
              typename C::DataTypes::VecCoord const x,
              ConstraintFactors const factors) { c.addCorrection(u, f, x, factors); };
+/// Its points do not feel each other: answer(point, f, factors) is what C f is for a force on one, so that what a row does
+/// costs no more than its points.
+template <class C>
+concept AnswersByPoint = CorrectsState<C> && requires(C const c, typename C::DataTypes::Deriv const f,
+                                                      ConstraintFactors const factors) {
+  { c.answer(std::size_t(0), f, factors) } -> std::convertible_to<typename C::DataTypes::Deriv>;
+};
 /// It says that the system of the ODE solver answers.
 template <class C>
 concept CorrectsBySystem = requires { requires C::ofSystem; };

@@ -30,8 +30,15 @@ template <class C>
 concept SolvesConstraintProblem =
     requires(C c, ConstraintProblem& problem, std::string_view where) { c.solve(problem, where); };
 
+/// It needs no compliance matrix, and finds the motion of the bodies with the multipliers (scene/motion_problem.hpp):
+/// solveMotion(multiply, rows, where) with the product multiply(p, q), q = S p, and `preconditioner.system`, the diagonal
+/// blocks of S.
 template <class C>
-concept ConstraintSolver = HasRole<C, role::ConstraintSolver> && SolvesConstraintProblem<C>;
+concept SolvesMotion = named::solveMotion<C> && requires(C c) { c.preconditioner.system; };
+
+template <class C>
+concept ConstraintSolver =
+    HasRole<C, role::ConstraintSolver> && (SolvesConstraintProblem<C> || SolvesMotion<C>);
 
 template <>
 struct Promise<role::ConstraintSolver> : NoPromise {
@@ -40,7 +47,7 @@ struct Promise<role::ConstraintSolver> : NoPromise {
   template <class C>
   struct Broken {
     static_assert(
-        SolvesConstraintProblem<C>,
+        SolvesConstraintProblem<C> || SolvesMotion<C>,
         "Sinew: a constraint solver has no 'void solve(ConstraintProblem& problem, std::string_view where)', "
         "which finds the multipliers.");
   };

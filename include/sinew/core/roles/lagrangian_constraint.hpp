@@ -10,7 +10,7 @@ class ConstraintRows;
 // Gives equations for the state of its node, or between two states, that the constraint solver of the scene solves by
 // multipliers. The shortest:
 //
-//   /// The first point stays in the plane z = 0.
+//   /// The first point stays in the plane y = 0.
 //   struct OnTable {
 //     using Role = role::LagrangianConstraint;
 //     using DataTypes = Vec3d;
@@ -20,8 +20,8 @@ class ConstraintRows;
 //     void init(InitContext<Vec3d> const&) {}
 //     void addRows(ConstraintRows& rows, ConstrainedState<Vec3d> const& state) const {
 //       const int row = rows.addEquality(1);
-//       rows.addTo(row, 0, Eigen::Vector3d(0, 0, 1));
-//       rows.setViolation(row, state.free[0][2]);
+//       rows.addTo(row, 0, Eigen::Vector3d(0, 1, 0));
+//       rows.setViolation(row, state.free[0][1]);
 //     }
 //   };
 

@@ -61,6 +61,29 @@ concept HasConstraintFactors = requires(C const c) {
   { c.constraintFactors(0.01) } -> std::same_as<ConstraintFactors>;
 };
 
+/// What an ODE solver makes of multipliers in a step of length h, and which of the auxiliary vectors are free
+/// then.
+struct MultiplierResponse {
+  ConstraintFactors factors{};
+  bool bySystem = false;  // by the system that the solver has solved, else by the masses
+  int derivs = 0;
+
+  template <class Ode>
+  static MultiplierResponse of(Ode const& ode, double h) {
+    ConstraintFactors factors{{.m = 1}, h, h, 1};
+    if constexpr (HasConstraintFactors<Ode>) factors = ode.constraintFactors(h);
+    const bool ofForces = factors.matrix.b != 0 || factors.matrix.k != 0;
+    return {factors, (Ode::implicit && ofForces) || SolvesMass<Ode>, Ode::auxiliary.derivs};
+  }
+  /// Vectors that it takes beside those of the solvers.
+  static constexpr Auxiliary auxiliary{.derivs = 2};
+  DerivId force() const { return {DerivId::reserved + derivs}; }
+  DerivId motion() const { return {DerivId::reserved + derivs + 1}; }
+};
+/// Whether an ODE solver takes part in a scene with constraints by multipliers.
+template <class Ode>
+inline constexpr bool takes_multipliers = !Ode::implicit || HasConstraintFactors<Ode> || stands_beside<Ode>;
+
 template <>
 struct Promise<role::OdeSolver> : NoPromise {
   template <class C>

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSL-1.0
+// expect: Sinew: a narrow phase has no 'template <class F> void pairs(
+#include <sinew/collision/brute_force_broad_phase.hpp>
+#include <sinew/collision/collision_surface.hpp>
+#include <sinew/collision/contact_manager.hpp>
+#include <sinew/collision/default_pipeline.hpp>
+#include <sinew/collision/min_proximity_intersection.hpp>
+#include <sinew/collision/sphere_collision_model.hpp>
+#include <sinew/mass/uniform_mass.hpp>
+#include <sinew/scene/simulation.hpp>
+#include <sinew/state/mechanical_object.hpp>
+
+using namespace sinew;
+
+struct Grid {
+  using Role = role::NarrowPhase;
+  static constexpr std::string_view className = "Grid";
+  static constexpr auto fields() { return field_list(); }
+  template <class F>
+  void pairs(CollisionSurface const&, F&&) {}
+};
+
+int main() {
+  Simulation sim{node<"root">(DefaultPipeline{},
+                              BruteForceBroadPhase{},
+                              Grid{},
+                              MinProximityIntersection{},
+                              DefaultContactManager{},
+                              MechanicalObject<Vec3d>{},
+                              UniformMass<Vec3d>{},
+                              SphereCollisionModel<Vec3d>{})};
+  sim.init();
+  sim.animate(0.1);
+}
