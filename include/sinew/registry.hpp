@@ -154,8 +154,8 @@ using LagrangianConstraints =
              StopperLagrangianConstraint<Vec1d>>;
 using StandardMultipliers =
     Registry<FreeMotionAnimationLoop, BlockGaussSeidelConstraintSolver, NNCGConstraintSolver,
-             UnbuiltGaussSeidelConstraintSolver, LCPConstraintSolver, ConvexConstraintSolver,
-             LinearSolverConstraintCorrection, UncoupledConstraintCorrection<Vec3d>,
+             UnbuiltGaussSeidelConstraintSolver, ImprovedJacobiConstraintSolver, LCPConstraintSolver,
+             ConvexConstraintSolver, LinearSolverConstraintCorrection, UncoupledConstraintCorrection<Vec3d>,
              UncoupledConstraintCorrection<Rigid3d>, LagrangianConstraints>;
 
 /// Every component that Sinew brings, over the DataTypes that scenes use.

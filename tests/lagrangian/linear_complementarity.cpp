@@ -229,9 +229,32 @@ TEST_CASE("minW leaves out what can hardly move, maxF what would need too large 
   q = p;
   REQUIRE(ComplementaritySweeps().solve(q, {.minW = 1e-9, .maxF = 1.5}, "test").converged);
   CHECK((q.multipliers - Eigen::Vector3d(1, 0, 0)).norm() < 1e-15);
+  // with friction only where the iterations have converged, as in SOFA
+  ConstraintProblem rubbing = box_stack(3, 2).problem();
+  ConstraintProblem unfinished = rubbing;
+  ComplementaritySweeps().solve(rubbing, {.maxIterations = 100000, .tolerance = 1e-9, .maxF = 1e-9}, "test");
+  CHECK(rubbing.multipliers.isZero());
+  ComplementaritySweeps().solve(unfinished, {.maxIterations = 2, .tolerance = 0, .maxF = 1e-9}, "test");
+  CHECK(unfinished.multipliers.norm() > 1e-3);
+  // equalities hold, whatever minW and maxF are
+  q = p;
   q.blocks[0] = ConstraintBlock::equality(0, 1);
-  CHECK_THAT(error_of([&] { ComplementaritySweeps().solve(q, {}, "root"); }),
-             Catch::Contains("equalities, which LCPConstraintSolver does not know"));
+  REQUIRE(ComplementaritySweeps().solve(q, {.minW = 0.6, .maxF = 0.5}, "test").converged);
+  CHECK(q.multipliers[0] == Approx(1));
+  CHECK(q.multipliers[1] == 0);
+}
+
+TEST_CASE("equalities among contacts are solved by SOFA's iteration as by Gauss-Seidel") {
+  ConstraintProblem p = soft_grid(3, 2).problem();
+  p.blocks[2] = ConstraintBlock::equality(6, 3);
+  ConstraintProblem a = p, b = p;
+  REQUIRE(ComplementaritySweeps().solve(a, exact, "test").converged);
+  REQUIRE(ConstraintSweeps()
+              .gaussSeidel(b, {.maxIterations = 100000, .tolerance = 1e-12, .scaleTolerance = false}, "test")
+              .converged);
+  CHECK(a.residual() < 1e-11);
+  CHECK((a.multipliers - b.multipliers).norm() < 1e-8 * b.multipliers.norm());
+  CHECK(a.violation().segment(6, 3).norm() < 1e-11);
 }
 
 }  // namespace test_linear_complementarity

@@ -47,6 +47,7 @@ struct ConstraintProblem {
   ReservedVector freeViolation{};  // d_free, of the motion without multipliers
   ReservedVector multipliers{};    // f: the first guess, then the solution
   std::vector<ConstraintBlock> blocks{};
+  double timeStep = 1;  // [s]; SOFA's multipliers are impulses, f times that, and its compliance W over that
 
   int rows() const { return int(freeViolation.size()); }
   Eigen::VectorXd violation() const { return compliance * multipliers + freeViolation; }

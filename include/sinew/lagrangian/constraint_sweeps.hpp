@@ -52,42 +52,54 @@ inline bool runs_away(SweepResult& result, double change, double scale,
 
 /// Largest eigenvalue of D^-1 W by power iterations, from below to about 1e-3 of it; W and D are symmetric
 /// and positive, and `solve` is D^-1.
-template <class Matrix, class Solve>
-double largest_eigenvalue(Matrix const& W, Solve&& solve) {
-  const auto n = W.rows();
-  Eigen::VectorXd x(n), y(n);
-  for (Eigen::Index i = 0; i < n; ++i) x[i] = std::sin(1 + 12.9898 * double(i));  // orthogonal to nothing
-  double value = 0;
-  for (int k = 0; k < 1000; ++k) {
-    y.noalias() = W * x;
-    solve(y);
-    const double norm = y.norm() / x.norm();
-    if (!(norm > 0) || !std::isfinite(norm)) return 0;
-    x = y / y.norm();
-    if (k > 10 && std::abs(norm - value) <= 1e-6 * norm) return norm;
-    value = norm;
+class LargestEigenvalue {
+ public:
+  template <class Matrix, class Solve>
+  double operator()(Matrix const& W, Solve&& solve) {
+    const auto n = W.rows();
+    x_.resize(n);
+    y_.resize(n);
+    for (Eigen::Index i = 0; i < n; ++i) x_[i] = std::sin(1 + 12.9898 * double(i));  // orthogonal to nothing
+    double value = 0;
+    for (int k = 0; k < 1000; ++k) {
+      y_.noalias() = W * x_;
+      solve(y_);
+      const double norm = y_.norm() / x_.norm();
+      if (!(norm > 0) || !std::isfinite(norm)) return 0;
+      x_ = y_ / y_.norm();
+      if (k > 10 && std::abs(norm - value) <= 1e-6 * norm) return norm;
+      value = norm;
+    }
+    return value;
   }
-  return value;
-}
+
+ private:
+  ReservedVector x_{}, y_{};
+};
 
 /// SOFA's weight of Jacobi (useSpectralCorrection): factor min(1, 1.8 / the largest eigenvalue of W), which
-/// depends on the unit of W. SOFA's compliance is W / h.
-inline double spectral_weight(ConstraintProblem const& problem, double factor, double h = 1) {
-  const double radius = largest_eigenvalue(problem.compliance, [](Eigen::VectorXd&) {}) / h;
+/// depends on the unit of W: it is SOFA's, in which multipliers are impulses.
+inline double spectral_weight(ConstraintProblem const& problem, double factor, LargestEigenvalue& largest) {
+  const double radius = largest(problem.compliance, [](auto&) {}) / problem.timeStep;
   return factor * (radius > 0 ? std::min(1., 1.8 / radius) : 1);
+}
+inline double spectral_weight(ConstraintProblem const& problem, double factor) {
+  LargestEigenvalue largest;
+  return spectral_weight(problem, factor, largest);
 }
 
 /// A weight with which Jacobi converges on equalities and contacts that stick, whatever the unit of W: min(1,
 /// 1.8 / the largest eigenvalue of D^-1 W), where D is what a block divides by.
 inline double stable_weight(ConstraintProblem const& problem) {
-  const double radius = largest_eigenvalue(problem.compliance, [&](Eigen::VectorXd& y) {
+  const double radius = LargestEigenvalue()(problem.compliance, [&](auto& y) {
     for (ConstraintBlock const& b : problem.blocks) {
       auto const w = problem.compliance.block(b.first, b.first, b.rows, b.rows);
       if (b.kind == ConstraintBlock::Kind::equality)
         y.segment(b.first, b.rows) = BlockMatrix(w).ldlt().solve(BlockVector(y.segment(b.first, b.rows)));
       else
         y[b.first] /= w(0, 0);
-      if (b.kind == ConstraintBlock::Kind::friction) y.segment<2>(b.first + 1) *= 2 / (w(1, 1) + w(2, 2));
+      if (b.kind == ConstraintBlock::Kind::friction)
+        y.template segment<2>(b.first + 1) *= 2 / (w(1, 1) + w(2, 2));
     }
   });
   return radius > 0 ? std::min(1., 1.8 / radius) : 1;

@@ -45,15 +45,15 @@ struct ComplementaritySettings {
 };
 
 /// SOFA's LCPConstraintSolver: block Gauss-Seidel as ConstraintSweeps has it, with a measure of errors of its
-/// own. It knows contacts and one-sided constraints only, and equalities are an Error. As there, with
-/// friction a force is compared with maxF only if the iterations have converged.
+/// own. As there, with friction a force is compared with maxF only if the iterations have converged.
+/// Equalities, which SOFA's takes for contacts, are solved as they are; minW and maxF are not for them.
 class ComplementaritySweeps {
  public:
   SweepResult solve(ConstraintProblem& problem, ComplementaritySettings const& settings,
                     std::string_view where);
 
  private:
-  BlockMatrix noInverse_{};
+  std::vector<BlockMatrix> inverses_{};  // of W_bb, for equalities
   std::vector<char> ignored_{};
 };
 
@@ -140,26 +140,21 @@ inline SweepResult ComplementaritySweeps::solve(ConstraintProblem& problem,
   auto& f = problem.multipliers;
   if (!settings.initialGuess) f.setZero();
   ignored_.assign(problem.blocks.size(), 0);
+  inverses_.resize(problem.blocks.size());
   bool rubs = false;
   double scale = std::numeric_limits<double>::min();
   for (std::size_t k = 0; k < problem.blocks.size(); ++k) {
     ConstraintBlock const& b = problem.blocks[k];
-    if (b.kind == ConstraintBlock::Kind::equality)
-      throw Error(where,
-                  text("the constraints in rows ",
-                       b.first,
-                       " to ",
-                       b.first + b.rows - 1,
-                       " are equalities, which LCPConstraintSolver does not know; take "
-                       "BlockGaussSeidelConstraintSolver or NNCGConstraintSolver"));
     rubs = rubs || (b.kind == ConstraintBlock::Kind::friction && b.friction > 0);
-    auto const w = problem.compliance.block(b.first, b.first, b.rows, b.rows);
-    ignored_[k] = settings.minW > 0 && std::abs(w(0, 0)) <= settings.minW;
+    BlockMatrix const w = problem.compliance.block(b.first, b.first, b.rows, b.rows);
+    const bool equal = b.kind == ConstraintBlock::Kind::equality;
+    ignored_[k] = !equal && settings.minW > 0 && std::abs(w(0, 0)) <= settings.minW;
     if (ignored_[k]) {
       f.segment(b.first, b.rows).setZero();
       continue;
     }
     check_movable(w.diagonal(), where, b.first);
+    if (equal) inverses_[k] = inverse_compliance(w, b, where);
     scale += size_of_block(b, w, problem.freeViolation.segment(b.first, b.rows), f.segment(b.first, b.rows));
   }
   if (problem.blocks.empty()) return result;
@@ -170,7 +165,7 @@ inline SweepResult ComplementaritySweeps::solve(ConstraintProblem& problem,
   while (result.iterations < settings.maxIterations && !result.converged) {
     SweepChange change;
     for (std::size_t k = 0; k < problem.blocks.size(); ++k)
-      if (!ignored_[k]) relax_block(built, problem.blocks, k, noInverse_, f, change);
+      if (!ignored_[k]) relax_block(built, problem.blocks, k, inverses_[k], f, change);
     ++result.iterations;
     if (runs_away(result, change.blocks, scale, f)) return result;
     result.error = change.blocks;
@@ -178,7 +173,8 @@ inline SweepResult ComplementaritySweeps::solve(ConstraintProblem& problem,
   }
   if (settings.maxF > 0 && (result.converged || !rubs))
     for (ConstraintBlock const& b : problem.blocks)
-      if (std::abs(f[b.first]) >= settings.maxF) f.segment(b.first, b.rows).setZero();
+      if (b.kind != ConstraintBlock::Kind::equality && std::abs(f[b.first]) >= settings.maxF)
+        f.segment(b.first, b.rows).setZero();
   return result;
 }
 
