@@ -52,6 +52,11 @@ TEST_CASE("a point that a multiplier holds stays, and the multiplier is its weig
   holds(hanging<ConvexConstraintSolver>(EulerExplicitSolver{}));
   holds(hanging<ConvexConstraintSolver>(EulerImplicitSolver{}, CGLinearSolver<>{.tolerance = 1e-14}));
   holds(hanging(VariationalSymplecticSolver{}, SparseLDLSolver<>{}));
+  // each solver of constraints
+  holds(hanging<NNCGConstraintSolver>(EulerExplicitSolver{}));
+  holds(hanging<UnbuiltGaussSeidelConstraintSolver>(EulerExplicitSolver{}));
+  holds(hanging<ImprovedJacobiConstraintSolver>(EulerExplicitSolver{}));
+  holds(hanging<LCPConstraintSolver>(EulerExplicitSolver{}));
 }
 
 TEST_CASE("bodies of different solvers that are joined fall as one, and keep their momentum") {
