@@ -29,7 +29,7 @@ constexpr ComplementaritySettings exact{.maxIterations = 100000, .tolerance = 1e
 
 TEST_CASE("Lemke's method: problems solved by hand") {
   Lemke lemke;
-  Eigen::VectorXd z;
+  ReservedVector z;
   // Murty's example: z = (2, 0, 1) / ..., by complementarity from its active rows
   const Eigen::MatrixXd M{{2, 1}, {1, 2}};
   REQUIRE(lemke.solve(M, Eigen::Vector2d(-5, -6), z, 100) == Lemke::End::solved);
@@ -49,7 +49,7 @@ TEST_CASE("Lemke's method: problems solved by hand") {
 
 TEST_CASE("Lemke's method ends on a ray where there is no solution") {
   Lemke lemke;
-  Eigen::VectorXd z;
+  ReservedVector z;
   // one multiplier pushes apart what the other pushes together, and both are to grow
   const Eigen::MatrixXd M{{1, -1}, {-1, 1}};
   CHECK(lemke.solve(M, Eigen::Vector2d(-1, -1), z, 100) == Lemke::End::ray);
@@ -73,7 +73,7 @@ TEST_CASE("Lemke's method: random contacts, with more of them than motions") {
     const Eigen::VectorXd q = -J * J.transpose() * Eigen::VectorXd::Ones(n).cwiseAbs() * unit;
     const Eigen::VectorXd free =
         q + unit * Eigen::VectorXd::NullaryExpr(n, [&] { return random.between(0, 3); });
-    Eigen::VectorXd z;
+    ReservedVector z;
     CAPTURE(seed, n);
     REQUIRE(lemke.solve(M, free, z, 50 * n) == Lemke::End::solved);
     // rounding times the condition of a basis
@@ -90,7 +90,7 @@ TEST_CASE("Lemke's method does not cycle where all bases are degenerate") {
   const int n = 40;
   const Eigen::MatrixXd M = Eigen::MatrixXd::Ones(n, n);
   Lemke lemke;
-  Eigen::VectorXd z;
+  ReservedVector z;
   REQUIRE(lemke.solve(M, Eigen::VectorXd::Constant(n, -2), z, 50 * n) == Lemke::End::solved);
   CHECK(z.sum() == Approx(2));
   // with corners: four legs under a square plate, of which three would do

@@ -153,23 +153,25 @@ inline void ConstraintProblem::check(std::string_view where) const {
 }
 
 inline double ConstraintProblem::residual() const {
-  const Eigen::VectorXd d = violation();
   double worst = 0;
   for (ConstraintBlock const& b : blocks) {
+    Eigen::Matrix<double, Eigen::Dynamic, 1, 0, ConstraintBlock::maxRows, 1> d =
+        freeViolation.segment(b.first, b.rows);
+    d.noalias() += compliance.middleRows(b.first, b.rows) * multipliers;
     const double r = b.rows / compliance.block(b.first, b.first, b.rows, b.rows).trace();
     switch (b.kind) {
       case ConstraintBlock::Kind::equality:
-        worst = std::max(worst, d.segment(b.first, b.rows).norm());
+        worst = std::max(worst, d.norm());
         break;
       case ConstraintBlock::Kind::interval: {
         // d may be anywhere in the interval; the nearest d that f permits
         const double f = multipliers[b.first];
-        worst = std::max(worst, std::abs(d[b.first] - std::clamp(d[b.first] - f / r, b.lower, b.upper)));
+        worst = std::max(worst, std::abs(d[0] - std::clamp(d[0] - f / r, b.lower, b.upper)));
         break;
       }
       case ConstraintBlock::Kind::friction: {
         const Eigen::Vector3d f = multipliers.segment<3>(b.first);
-        Eigen::Vector3d v = d.segment<3>(b.first);
+        Eigen::Vector3d v = d.head<3>();
         v[0] += b.friction * v.tail<2>().norm();
         worst = std::max(worst, (f - project_on_cone(f - r * v, b.friction)).norm() / r);
         break;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <Eigen/Core>
-#include <Eigen/LU>
+#include <sinew/linalg/reserved.hpp>
 
+#include <Eigen/Core>
+
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -23,13 +25,15 @@ class Lemke {
   };
   int pivots = 0;  // of the last problem
 
-  End solve(Eigen::MatrixXd const& M, Eigen::VectorXd const& q, Eigen::VectorXd& z, int maxPivots);
+  /// z is 0 where no solution is found.
+  End solve(Eigen::Ref<Eigen::MatrixXd const> const& M, Eigen::Ref<Eigen::VectorXd const> const& q,
+            ReservedVector& z, int maxPivots);
 
  private:
   // Basis B of the columns of w - M z - e z0 = q, scaled so that M has a diagonal of ones and q a largest
   // entry of one, which makes tolerances those of rounding.
-  Eigen::MatrixXd scaled_{}, basis_{}, inverse_{};
-  Eigen::VectorXd scale_{}, q_{}, x_{}, column_{}, row_{};
+  Reserved<Eigen::MatrixXd> scaled_{}, basis_{}, inverse_{};
+  ReservedVector scale_{}, q_{}, x_{}, column_{}, row_{};
   std::vector<int> basic_{};  // i: w_i, n + i: z_i, 2 n: z0
   static constexpr double zero = 1e-11;
 
@@ -42,9 +46,24 @@ class Lemke {
     else
       column.setConstant(-1);
   }
+  // x and B^-1 of the basis as it is, by elimination with a pivot in each column
   void refactor() {
+    const auto n = q_.size();
     for (std::size_t i = 0; i < basic_.size(); ++i) setColumn(basic_[i], basis_.col(Eigen::Index(i)));
-    inverse_ = basis_.partialPivLu().inverse();
+    inverse_.setIdentity();
+    for (Eigen::Index c = 0; c < n; ++c) {
+      Eigen::Index below = 0;
+      basis_.col(c).tail(n - c).cwiseAbs().maxCoeff(&below);
+      for (auto* matrix : {&basis_, &inverse_}) matrix->row(c).swap(matrix->row(c + below));
+      column_ = basis_.col(c);
+      const double pivot = column_[c];
+      column_[c] = 0;
+      for (auto* matrix : {&basis_, &inverse_}) {
+        row_ = matrix->row(c).transpose() / pivot;
+        matrix->noalias() -= column_ * row_.transpose();
+        matrix->row(c) = row_.transpose();
+      }
+    }
     x_.noalias() = inverse_ * q_;
   }
   // whether (x, row of B^-1) / column of i comes before that of j
@@ -74,7 +93,7 @@ inline int Lemke::leavingRow() const {
 
 inline void Lemke::pivot(int row, int variable) {
   const double pivot = column_[row];
-  row_ = inverse_.row(row) / pivot;
+  row_ = inverse_.row(row).transpose() / pivot;
   const double value = x_[row] / pivot;
   x_ -= value * column_;
   x_[row] = value;
@@ -84,8 +103,8 @@ inline void Lemke::pivot(int row, int variable) {
   if (++pivots % 50 == 0) refactor();  // so that errors do not add up
 }
 
-inline Lemke::End Lemke::solve(Eigen::MatrixXd const& M, Eigen::VectorXd const& q, Eigen::VectorXd& z,
-                               int maxPivots) {
+inline Lemke::End Lemke::solve(Eigen::Ref<Eigen::MatrixXd const> const& M,
+                               Eigen::Ref<Eigen::VectorXd const> const& q, ReservedVector& z, int maxPivots) {
   const int n = int(q.size());
   pivots = 0;
   z.setZero(n);
@@ -99,8 +118,10 @@ inline Lemke::End Lemke::solve(Eigen::MatrixXd const& M, Eigen::VectorXd const& 
   q_ /= unit;
   x_ = q_;
   basis_.resize(n, n);
-  inverse_.setIdentity(n, n);
-  column_.setConstant(n, -1);  // of z0
+  inverse_.resize(n, n);
+  inverse_.setIdentity();
+  column_.resize(n);
+  column_.setConstant(-1);  // of z0
   basic_.resize(std::size_t(n));
   for (int i = 0; i < n; ++i) basic_[std::size_t(i)] = i;
 

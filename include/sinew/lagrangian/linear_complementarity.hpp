@@ -28,8 +28,9 @@ class LinearComplementarity {
   Lemke lemke_{};
   std::vector<End> ends_{};
   std::vector<int> equalities_{};
-  Eigen::MatrixXd M_{}, coupling_{}, eliminated_{};
-  Eigen::VectorXd q_{}, z_{};
+  Reserved<Eigen::MatrixXd> M_{}, coupling_{};
+  Eigen::MatrixXd eliminated_{};  // by equalities
+  ReservedVector q_{}, z_{};
 };
 
 /// What SOFA's LCPConstraintSolver has as fields. Its violations and multipliers are an impulse's; here
