@@ -12,6 +12,7 @@
 #include <sinew/lagrangian/convex_constraint_solver.hpp>
 #include <sinew/lagrangian/fixed_lagrangian_constraint.hpp>
 #include <sinew/lagrangian/free_motion_animation_loop.hpp>
+#include <sinew/lagrangian/improved_jacobi_constraint_solver.hpp>
 #include <sinew/lagrangian/lcp_constraint_solver.hpp>
 #include <sinew/lagrangian/linear_solver_constraint_correction.hpp>
 #include <sinew/lagrangian/nncg_constraint_solver.hpp>

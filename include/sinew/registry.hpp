@@ -154,7 +154,7 @@ using LagrangianConstraints =
              StopperLagrangianConstraint<Vec1d>>;
 using StandardMultipliers =
     Registry<FreeMotionAnimationLoop, BlockGaussSeidelConstraintSolver, NNCGConstraintSolver,
-             UnbuiltGaussSeidelConstraintSolver, LCPConstraintSolver, ConvexConstraintSolver,
+             ImprovedJacobiConstraintSolver, LCPConstraintSolver, ConvexConstraintSolver,
              LinearSolverConstraintCorrection, UncoupledConstraintCorrection<Vec3d>,
              UncoupledConstraintCorrection<Rigid3d>, PrecomputedConstraintCorrection<Vec3d>,
              PrecomputedConstraintCorrection<Rigid3d>, LagrangianConstraints>;

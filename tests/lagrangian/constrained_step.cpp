@@ -52,6 +52,10 @@ TEST_CASE("a point that a multiplier holds stays, and the multiplier is its weig
   holds(hanging<ConvexConstraintSolver>(EulerExplicitSolver{}));
   holds(hanging<ConvexConstraintSolver>(EulerImplicitSolver{}, CGLinearSolver<>{.tolerance = 1e-14}));
   holds(hanging(VariationalSymplecticSolver{}, SparseLDLSolver<>{}));
+  // each solver of constraints
+  holds(hanging<NNCGConstraintSolver>(EulerExplicitSolver{}));
+  holds(hanging<ImprovedJacobiConstraintSolver>(EulerExplicitSolver{}));
+  holds(hanging<LCPConstraintSolver>(EulerExplicitSolver{}));
 }
 
 TEST_CASE("bodies of different solvers that are joined fall as one, and keep their momentum") {
@@ -75,6 +79,25 @@ TEST_CASE("bodies of different solvers that are joined fall as one, and keep the
     CHECK((a.velocity[0] - Eigen::Vector3d(1, 0, 0)).norm() < 1e-9);
     CHECK((b.velocity[0] - Eigen::Vector3d(1, 0, 0)).norm() < 1e-9);
   }
+}
+
+// What an impulse moves the point by is h / m, SOFA's W: Jacobi's weight is 1.8 m / h where that is below
+// one, and so much of the weight of the point its first iteration finds.
+TEST_CASE("Jacobi's weight is of the length of the step") {
+  const double h = 0.01, m = 1e-3;
+  Simulation sim{
+      node<"root">(Gravity{g},
+                   FreeMotionAnimationLoop{},
+                   ImprovedJacobiConstraintSolver{.maxIterations = 1, .useSpectralCorrection = true},
+                   EulerExplicitSolver{},
+                   node<"body">(MechanicalObject<Vec3d>{.position = {{0, 0, 0}}},
+                                UniformMass<Vec3d>{.totalMass = m},
+                                FixedLagrangianConstraint<Vec3d>{.indices = {0}}))};
+  sim.init();
+  sim.animate(h);
+  auto const& f = sim.at<"body">().get<FixedLagrangianConstraint<Vec3d>>().multipliers;
+  REQUIRE(f.size() == 3);
+  CHECK(f[2] == Approx(1.8 * m / h * m * 10).epsilon(1e-3));
 }
 
 }  // namespace test_constrained_step

@@ -54,29 +54,32 @@ void check(int size, double shift) {
   const double condition = dense.norm() * inverse.norm();
   std::mt19937 random(2);
   FactoredRows factored;
-  // from less than a group of rows to so many that whole solutions cost less; the room of many serves few
-  for (const int rows : {3, 8, 21, 400, 5}) {
-    JacobianRows j;
-    Eigen::MatrixXd J = Eigen::MatrixXd::Zero(rows, points * size);
-    for (int r = 0; r < rows; ++r) {
-      j.addRow();
-      for (int k = 0; k < 4; ++k) {
-        const int dof = std::uniform_int_distribution<int>(0, points * size - 1)(random);
-        const double value = r == 2 ? 0 : std::normal_distribution<double>()(random);  // one has no entries
-        j.addToLast(dof, value);
-        J(r, dof) += value;
+  // from less than a group of rows to so many that whole solutions cost less; the room of many serves few.
+  // Of the rows one has no entries, or all but one
+  for (const bool one : {true, false})
+    for (const int rows : {3, 8, 21, 400, 5}) {
+      JacobianRows j;
+      Eigen::MatrixXd J = Eigen::MatrixXd::Zero(rows, points * size);
+      for (int r = 0; r < rows; ++r) {
+        j.addRow();
+        for (int k = 0; k < 4; ++k) {
+          const int dof = std::uniform_int_distribution<int>(0, points * size - 1)(random);
+          const bool none = one ? r == 2 : r >= 1;
+          const double value = none ? 0 : std::normal_distribution<double>()(random);
+          j.addToLast(dof, value);
+          J(r, dof) += value;
+        }
       }
+      Eigen::MatrixXd W = Eigen::MatrixXd::Zero(rows, rows), given = W;
+      factored.compliance(factor, j, [&](int k, int l, double w) {
+        W(k, l) = W(l, k) = w;
+        given(k, l) += 1;
+        if (k != l) given(l, k) += 1;
+      });
+      CHECK((given.array() == 1).all());
+      const Eigen::MatrixXd exact = J * inverse * J.transpose();
+      CHECK((W - exact).norm() < 1e-15 * condition * exact.norm());
     }
-    Eigen::MatrixXd W = Eigen::MatrixXd::Zero(rows, rows), given = W;
-    factored.compliance(factor, j, [&](int k, int l, double w) {
-      W(k, l) = W(l, k) = w;
-      given(k, l) += 1;
-      if (k != l) given(l, k) += 1;
-    });
-    CHECK((given.array() == 1).all());
-    const Eigen::MatrixXd exact = J * inverse * J.transpose();
-    CHECK((W - exact).norm() < 1e-15 * condition * exact.norm());
-  }
 }
 
 }  // namespace

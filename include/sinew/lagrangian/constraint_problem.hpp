@@ -47,6 +47,7 @@ struct ConstraintProblem {
   ReservedVector freeViolation{};  // d_free, of the motion without multipliers
   ReservedVector multipliers{};    // f: the first guess, then the solution
   std::vector<ConstraintBlock> blocks{};
+  double timeStep = 1;  // [s]; SOFA's multipliers are impulses, f times that, and its compliance W over that
 
   int rows() const { return int(freeViolation.size()); }
   Eigen::VectorXd violation() const { return compliance * multipliers + freeViolation; }
@@ -54,6 +55,7 @@ struct ConstraintProblem {
   /// Throws Error where sizes do not fit, a number is not one, blocks do not cover each row once, mu is
   /// negative, or no multiplier of a block changes its violation.
   void check(std::string_view where) const;
+  void checkSizes(std::string_view where) const;  // and numbers, of that
 
   /// How far f is from a solution, in the unit of d: the largest |f - P(f - r (d + c))| / r over the blocks,
   /// with the projection P on what f may be, r = 1 / mean diagonal of W in the block, and c = mu |d_t| along
@@ -114,20 +116,20 @@ inline void check_blocks(std::vector<ConstraintBlock> const& blocks, int rows, s
   if (next != rows) throw Error(where, text("blocks of constraints cover ", next, " rows of ", rows));
 }
 
-/// Throws Error where the diagonal of W has an entry that is not positive.
-inline void check_movable(Eigen::Ref<Eigen::VectorXd const, 0, Eigen::InnerStride<>> const& compliance,
-                          std::string_view where) {
+/// Throws Error where the diagonal of W, from a row on, has an entry that is not positive.
+template <class Diagonal>
+void check_movable(Diagonal const& compliance, std::string_view where, int first = 0) {
   for (int i = 0; i < int(compliance.size()); ++i)
     if (!(compliance[i] > 0))
       throw Error(where,
                   text("nothing that constraint ",
-                       i,
+                       first + i,
                        " holds can move (its compliance is ",
                        compliance[i],
                        "): it is between fixed points, or its direction is zero"));
 }
 
-inline void ConstraintProblem::check(std::string_view where) const {
+inline void ConstraintProblem::checkSizes(std::string_view where) const {
   const auto n = freeViolation.size();
   if (compliance.rows() != n || compliance.cols() != n || multipliers.size() != n)
     throw Error(where,
@@ -143,27 +145,33 @@ inline void ConstraintProblem::check(std::string_view where) const {
   if (!compliance.allFinite() || !freeViolation.allFinite() || !multipliers.allFinite())
     throw Error(where, "the compliance, a violation or a multiplier of constraints is not a finite number");
   check_blocks(blocks, int(n), where);
+}
+
+inline void ConstraintProblem::check(std::string_view where) const {
+  checkSizes(where);
   check_movable(compliance.diagonal(), where);
 }
 
 inline double ConstraintProblem::residual() const {
-  const Eigen::VectorXd d = violation();
   double worst = 0;
   for (ConstraintBlock const& b : blocks) {
+    Eigen::Matrix<double, Eigen::Dynamic, 1, 0, ConstraintBlock::maxRows, 1> d =
+        freeViolation.segment(b.first, b.rows);
+    d.noalias() += compliance.middleRows(b.first, b.rows) * multipliers;
     const double r = b.rows / compliance.block(b.first, b.first, b.rows, b.rows).trace();
     switch (b.kind) {
       case ConstraintBlock::Kind::equality:
-        worst = std::max(worst, d.segment(b.first, b.rows).norm());
+        worst = std::max(worst, d.norm());
         break;
       case ConstraintBlock::Kind::interval: {
         // d may be anywhere in the interval; the nearest d that f permits
         const double f = multipliers[b.first];
-        worst = std::max(worst, std::abs(d[b.first] - std::clamp(d[b.first] - f / r, b.lower, b.upper)));
+        worst = std::max(worst, std::abs(d[0] - std::clamp(d[0] - f / r, b.lower, b.upper)));
         break;
       }
       case ConstraintBlock::Kind::friction: {
         const Eigen::Vector3d f = multipliers.segment<3>(b.first);
-        Eigen::Vector3d v = d.segment<3>(b.first);
+        Eigen::Vector3d v = d.head<3>();
         v[0] += b.friction * v.tail<2>().norm();
         worst = std::max(worst, (f - project_on_cone(f - r * v, b.friction)).norm() / r);
         break;

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <sinew/lagrangian/constraint_problem.hpp>
-
-#include <Eigen/Cholesky>
+#include <sinew/lagrangian/block_solve.hpp>
 
 #include <cmath>
+#include <limits>
 #include <string_view>
 #include <vector>
 
@@ -20,13 +19,91 @@ struct SweepSettings {
   bool scaleTolerance = true;  // times the number of rows
   bool allVerified = false;    // no row may change by more than the tolerance, instead of the sum
   double relaxation = 1;       // sor: f = sor f + (1 - sor) f before
+
+  double limit(Eigen::Index rows) const {
+    return scaleTolerance && !allVerified ? tolerance * double(rows) : tolerance;
+  }
 };
 
 struct SweepResult {
   int iterations = 0;
-  double error = 0;  // what the tolerance is compared with
+  double error = 0;  // what the tolerance is compared with; infinite where the iterations have run away
   bool converged = true;
 };
+
+/// How Jacobi's iteration goes from all violations to the next multipliers.
+struct JacobiSettings {
+  double weight = 1;  // of the violations
+  /// The last change is added to the next one, times (i / maxIterations)^delay in iteration i (Francu,
+  /// Moldoveanu 2014; SOFA's conjugateResidueSpeedFactor); none where it is infinite.
+  double delay = std::numeric_limits<double>::infinity();
+};
+
+/// Whether the iterations diverge: a block changes by so much more than what there is to correct. Then the
+/// multipliers are set to zero, which all conditions but equalities permit, and the error to infinity.
+inline bool runs_away(SweepResult& result, double change, double scale,
+                      Eigen::Ref<Eigen::VectorXd> multipliers) {
+  if (change <= 1e9 * scale && multipliers.allFinite()) return false;
+  multipliers.setZero();
+  result.error = std::numeric_limits<double>::infinity();
+  result.converged = false;
+  return true;
+}
+
+/// Largest eigenvalue of D^-1 W by power iterations, from below to about 1e-3 of it; W and D are symmetric
+/// and positive, and `solve` is D^-1.
+class LargestEigenvalue {
+ public:
+  template <class Matrix, class Solve>
+  double operator()(Matrix const& W, Solve&& solve) {
+    const auto n = W.rows();
+    x_.resize(n);
+    y_.resize(n);
+    for (Eigen::Index i = 0; i < n; ++i) x_[i] = std::sin(1 + 12.9898 * double(i));  // orthogonal to nothing
+    double value = 0;
+    for (int k = 0; k < 1000; ++k) {
+      y_.noalias() = W * x_;
+      solve(y_);
+      const double norm = y_.norm() / x_.norm();
+      if (!(norm > 0) || !std::isfinite(norm)) return 0;
+      x_ = y_ / y_.norm();
+      if (k > 10 && std::abs(norm - value) <= 1e-6 * norm) return norm;
+      value = norm;
+    }
+    return value;
+  }
+
+ private:
+  ReservedVector x_{}, y_{};
+};
+
+/// SOFA's weight of Jacobi (useSpectralCorrection): factor min(1, 1.8 / the largest eigenvalue of W), which
+/// depends on the unit of W: it is SOFA's, in which multipliers are impulses.
+inline double spectral_weight(ConstraintProblem const& problem, double factor, LargestEigenvalue& largest) {
+  const double radius = largest(problem.compliance, [](auto&) {}) / problem.timeStep;
+  return factor * (radius > 0 ? std::min(1., 1.8 / radius) : 1);
+}
+inline double spectral_weight(ConstraintProblem const& problem, double factor) {
+  LargestEigenvalue largest;
+  return spectral_weight(problem, factor, largest);
+}
+
+/// A weight with which Jacobi converges on equalities and contacts that stick, whatever the unit of W: min(1,
+/// 1.8 / the largest eigenvalue of D^-1 W), where D is what a block divides by.
+inline double stable_weight(ConstraintProblem const& problem) {
+  const double radius = LargestEigenvalue()(problem.compliance, [&](auto& y) {
+    for (ConstraintBlock const& b : problem.blocks) {
+      auto const w = problem.compliance.block(b.first, b.first, b.rows, b.rows);
+      if (b.kind == ConstraintBlock::Kind::equality)
+        y.segment(b.first, b.rows) = BlockMatrix(w).ldlt().solve(BlockVector(y.segment(b.first, b.rows)));
+      else
+        y[b.first] /= w(0, 0);
+      if (b.kind == ConstraintBlock::Kind::friction)
+        y.template segment<2>(b.first + 1) *= 2 / (w(1, 1) + w(2, 2));
+    }
+  });
+  return radius > 0 ? std::min(1., 1.8 / radius) : 1;
+}
 
 /// Iterations over the blocks of a problem. Between them nothing is kept but room, so that one object serves
 /// a scene for all its steps.
@@ -42,119 +119,51 @@ class ConstraintSweeps {
                                           std::string_view where);
 
   /// Projected Jacobi: all blocks are solved with the multipliers of the last iteration, their violations
-  /// weighed by `weight`. It converges where `weight` times the largest eigenvalue of D^-1 W is below 2.
+  /// weighed. It converges where the weight times the largest eigenvalue of D^-1 W is below 2.
+  /// What the tolerance is compared with is here the sum over the blocks of sqrt(sum_ik (W_ik step_k)^2), i
+  /// in the block, k over all rows, with the new steps up to the block and the last ones behind it, as SOFA
+  /// has it; and with allVerified each of these, not each row.
+  SweepResult jacobi(ConstraintProblem& problem, SweepSettings const& settings,
+                     JacobiSettings const& jacobiSettings, std::string_view where);
   SweepResult jacobi(ConstraintProblem& problem, SweepSettings const& settings, double weight,
-                     std::string_view where);
+                     std::string_view where) {
+    return jacobi(problem, settings, JacobiSettings{.weight = weight}, where);
+  }
 
  private:
-  using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, ConstraintBlock::maxRows,
-                              ConstraintBlock::maxRows>;
-  using Few = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, ConstraintBlock::maxRows, 1>;
-
-  std::vector<Small> inverses_{};  // of W_bb, for equalities
-  ReservedVector last_{}, change_{}, direction_{}, violation_{};
+  std::vector<BlockMatrix> inverses_{};  // of W_bb, for equalities
+  ReservedVector last_{}, change_{}, direction_{}, violation_{}, steps_{}, behind_{};
+  double scale_ = 0;  // what there is to correct
 
   void begin(ConstraintProblem const& problem, std::string_view where);
-  static double limit(ConstraintProblem const& problem, SweepSettings const& settings) {
-    return settings.scaleTolerance && !settings.allVerified ? settings.tolerance * problem.rows()
-                                                            : settings.tolerance;
+  // what is left of the problem by this change, into the result; whether to go on
+  bool judge(SweepResult& result, SweepChange const& change, ConstraintProblem& problem,
+             SweepSettings const& settings) const {
+    if (runs_away(result, change.rows, scale_, problem.multipliers)) return false;
+    result.error = settings.allVerified ? change.largest : change.rows;
+    result.converged = result.error <= settings.limit(problem.rows());
+    return !result.converged && result.iterations < settings.maxIterations;
   }
-  // f of a block from the violation d that it has with all multipliers as they are
-  // `weight`: of the violation, and so of the ends of intervals
-  void solveBlock(ConstraintProblem& problem, std::size_t number, Few& d, double weight = 1) const;
-
-  struct Change {
-    double sum = 0, largest = 0;  // over blocks; of one row
-  };
-  // what is left of the problem by this change, into the result
-  static void judge(SweepResult& result, Change const& change, ConstraintProblem const& problem,
-                    SweepSettings const& settings) {
-    result.error = settings.allVerified ? change.largest : change.sum;
-    result.converged = result.error <= limit(problem, settings);
+  SweepChange sweep(ConstraintProblem& problem) const {
+    SweepChange change;
+    for (std::size_t k = 0; k < problem.blocks.size(); ++k)
+      relax_block(problem, problem.blocks[k], inverses_[k], change);
+    return change;
   }
-  static void add(Change& change, ConstraintProblem const& problem, ConstraintBlock const& block,
-                  Few const& step);
-  Change sweep(ConstraintProblem& problem) const;
+  SweepChange product(ConstraintProblem const& problem);
 };
 
 inline void ConstraintSweeps::begin(ConstraintProblem const& problem, std::string_view where) {
   problem.check(where);
   inverses_.resize(problem.blocks.size());
+  scale_ = std::numeric_limits<double>::min();
   for (std::size_t k = 0; k < problem.blocks.size(); ++k) {
     ConstraintBlock const& b = problem.blocks[k];
-    if (b.kind != ConstraintBlock::Kind::equality) continue;
-    const Small w = problem.compliance.block(b.first, b.first, b.rows, b.rows);
-    const Eigen::LDLT<Small> factor(w);
-    const Few pivots = factor.vectorD();
-    if (!(pivots.minCoeff() > 1e-13 * pivots.maxCoeff()))
-      throw Error(where,
-                  text("the equalities in rows ",
-                       b.first,
-                       " to ",
-                       b.first + b.rows - 1,
-                       " depend on each other, so that their multipliers are not determined; leave one out"));
-    // column by column, since nvcc takes Eigen's solution for a matrix for a function of the device
-    inverses_[k].resize(b.rows, b.rows);
-    for (int c = 0; c < b.rows; ++c) inverses_[k].col(c) = factor.solve(Few(Few::Unit(b.rows, c)));
+    BlockMatrix const w = problem.compliance.block(b.first, b.first, b.rows, b.rows);
+    if (b.kind == ConstraintBlock::Kind::equality) inverses_[k] = inverse_compliance(w, b, where);
+    scale_ += size_of_block(
+        b, w, problem.freeViolation.segment(b.first, b.rows), problem.multipliers.segment(b.first, b.rows));
   }
-}
-
-inline void ConstraintSweeps::solveBlock(ConstraintProblem& problem, std::size_t number, Few& d,
-                                         double weight) const {
-  ConstraintBlock const& b = problem.blocks[number];
-  auto const& W = problem.compliance;
-  auto& f = problem.multipliers;
-  const int i = b.first;
-  switch (b.kind) {
-    case ConstraintBlock::Kind::equality:
-      f.segment(i, b.rows) -= inverses_[number] * d;
-      break;
-    case ConstraintBlock::Kind::interval: {
-      const double without = d[0] - W(i, i) * f[i];
-      f[i] = (std::clamp(without, weight * b.lower, weight * b.upper) - without) / W(i, i);
-      break;
-    }
-    case ConstraintBlock::Kind::friction: {
-      // first along the normal, then along the tangents by the mean of their compliances, then back onto the
-      // cone
-      const double before = f[i];
-      f[i] -= d[0] / W(i, i);
-      if (f[i] < 0) {
-        f.segment<3>(i).setZero();
-        break;
-      }
-      const double tangential = (W(i + 1, i + 1) + W(i + 2, i + 2)) / 2;
-      for (int t = 1; t <= 2; ++t) f[i + t] -= (d[t] + W(i + t, i) * (f[i] - before)) / tangential;
-      const double held = std::hypot(f[i + 1], f[i + 2]), allowed = b.friction * f[i];
-      if (held > allowed) f.segment<2>(i + 1) *= allowed / held;
-      break;
-    }
-  }
-}
-
-inline void ConstraintSweeps::add(Change& change, ConstraintProblem const& problem, ConstraintBlock const& b,
-                                  Few const& step) {
-  for (int l = 0; l < b.rows; ++l) {
-    const double row =
-        (problem.compliance.row(b.first + l).segment(b.first, b.rows).transpose().array() * step.array())
-            .matrix()
-            .norm();
-    change.sum += row;
-    change.largest = std::max(change.largest, row);
-  }
-}
-
-inline ConstraintSweeps::Change ConstraintSweeps::sweep(ConstraintProblem& problem) const {
-  Change change;
-  for (std::size_t k = 0; k < problem.blocks.size(); ++k) {
-    ConstraintBlock const& b = problem.blocks[k];
-    const Few before = problem.multipliers.segment(b.first, b.rows);
-    Few d = problem.freeViolation.segment(b.first, b.rows);
-    d.noalias() += problem.compliance.middleRows(b.first, b.rows) * problem.multipliers;
-    solveBlock(problem, k, d);
-    add(change, problem, b, problem.multipliers.segment(b.first, b.rows) - before);
-  }
-  return change;
 }
 
 inline SweepResult ConstraintSweeps::gaussSeidel(ConstraintProblem& problem, SweepSettings const& settings,
@@ -163,13 +172,14 @@ inline SweepResult ConstraintSweeps::gaussSeidel(ConstraintProblem& problem, Swe
   SweepResult result;
   if (problem.rows() == 0) return result;
   result.converged = false;
-  while (result.iterations < settings.maxIterations && !result.converged) {
+  bool goesOn = settings.maxIterations > 0;
+  while (goesOn) {
     if (settings.relaxation != 1) last_ = problem.multipliers;
-    const Change change = sweep(problem);
+    const SweepChange change = sweep(problem);
     if (settings.relaxation != 1)
       problem.multipliers = settings.relaxation * problem.multipliers + (1 - settings.relaxation) * last_;
     ++result.iterations;
-    judge(result, change, problem, settings);
+    goesOn = judge(result, change, problem, settings);
   }
   return result;
 }
@@ -181,50 +191,103 @@ inline SweepResult ConstraintSweeps::nonsmoothConjugateGradients(ConstraintProbl
   SweepResult result;
   if (problem.rows() == 0) return result;
   last_ = problem.multipliers;
-  judge(result, sweep(problem), problem, settings);
   result.iterations = 1;
+  if (!judge(result, sweep(problem), problem, settings)) return result;
   change_ = problem.multipliers - last_;  // minus the gradient
   direction_ = change_;
   double squared = change_.squaredNorm();
-  while (result.iterations < settings.maxIterations && !result.converged) {
+  while (true) {
     last_ = problem.multipliers;
-    const Change change = sweep(problem);
+    const SweepChange change = sweep(problem);
     ++result.iterations;
-    judge(result, change, problem, settings);
-    if (result.converged || result.iterations == settings.maxIterations) break;  // both end with a sweep
+    if (!judge(result, change, problem, settings)) return result;  // all ends are behind a sweep
     change_ = problem.multipliers - last_;
     const double next = change_.squaredNorm(), beta = next / squared;
     squared = next;
-    if (beta > 1) {
+    if (!(beta <= 1)) {
       direction_.setZero();  // begins anew
     } else {
       problem.multipliers += beta * direction_;
       direction_ = beta * direction_ + change_;
     }
   }
-  return result;
+}
+
+// d += W steps, and how much that is
+inline SweepChange ConstraintSweeps::product(ConstraintProblem const& problem) {
+  SweepChange change;
+  for (std::size_t k = 0; k < problem.blocks.size(); ++k) {
+    ConstraintBlock const& b = problem.blocks[k];
+    const auto end = b.first + b.rows;
+    double squared = behind_[Eigen::Index(k)], behind = 0;
+    for (int i = b.first; i < end; ++i) {
+      auto const w = problem.compliance.row(i).transpose().array();
+      violation_[i] += (w * steps_.array()).sum();
+      squared += (w.head(end) * steps_.array().head(end)).square().sum();
+      behind += (w.tail(problem.rows() - end) * steps_.array().tail(problem.rows() - end)).square().sum();
+    }
+    behind_[Eigen::Index(k)] = behind;
+    change.rows += std::sqrt(squared);
+    change.largest = std::max(change.largest, std::sqrt(squared));
+  }
+  return change;
 }
 
 inline SweepResult ConstraintSweeps::jacobi(ConstraintProblem& problem, SweepSettings const& settings,
-                                            double weight, std::string_view where) {
+                                            JacobiSettings const& jacobiSettings, std::string_view where) {
   begin(problem, where);
+  if (!(jacobiSettings.weight > 0) || !std::isfinite(jacobiSettings.weight) || !(jacobiSettings.delay >= 0))
+    throw Error(where,
+                text("Jacobi's iteration has the weight ",
+                     jacobiSettings.weight,
+                     " and the delay ",
+                     jacobiSettings.delay,
+                     "; the weight is positive and finite, the delay at least 0"));
   SweepResult result;
   if (problem.rows() == 0) return result;
   result.converged = false;
-  while (result.iterations < settings.maxIterations && !result.converged) {
-    violation_ = problem.freeViolation;
-    violation_.noalias() += problem.compliance * problem.multipliers;
-    Change change;
+  violation_ = problem.freeViolation;
+  violation_.noalias() += problem.compliance * problem.multipliers;
+  steps_.setZero(problem.rows());
+  behind_.setZero(Eigen::Index(problem.blocks.size()));
+  const double weight = jacobiSettings.weight;
+  double momentum = 0;
+  bool goesOn = settings.maxIterations > 0;
+  while (goesOn) {
+    momentum = std::isfinite(jacobiSettings.delay)
+                   ? std::pow(double(result.iterations) / settings.maxIterations, jacobiSettings.delay)
+                   : 0;
     for (std::size_t k = 0; k < problem.blocks.size(); ++k) {
       ConstraintBlock const& b = problem.blocks[k];
-      const Few before = problem.multipliers.segment(b.first, b.rows);
-      Few d = weight * violation_.segment(b.first, b.rows);
-      solveBlock(problem, k, d, weight);
-      add(change, problem, b, problem.multipliers.segment(b.first, b.rows) - before);
+      auto f = problem.multipliers.segment(b.first, b.rows);
+      auto step = steps_.segment(b.first, b.rows);
+      const BlockVector before = f;
+      BlockVector next = before;
+      solve_block(b,
+                  problem.compliance.block(b.first, b.first, b.rows, b.rows),
+                  inverses_[k],
+                  weight * violation_.segment(b.first, b.rows),
+                  next,
+                  weight);
+      f = next + momentum * step;
+      step = f - before;
     }
     ++result.iterations;
-    judge(result, change, problem, settings);
+    goesOn = judge(result, product(problem), problem, settings);
+    if (result.converged && result.iterations == 1 && !settings.allVerified) {
+      // as SOFA does; but what has no step at all has no other next
+      result.converged = result.error == 0 || settings.maxIterations == 1;
+      goesOn = !result.converged;
+    }
   }
+  if (momentum > 0)  // it may have led out of what is permitted
+    for (ConstraintBlock const& b : problem.blocks) {
+      auto f = problem.multipliers.segment(b.first, b.rows);
+      if (b.kind == ConstraintBlock::Kind::friction) f = project_on_cone(f, b.friction);
+      if (b.kind != ConstraintBlock::Kind::interval) continue;
+      if (!std::isfinite(b.upper)) f[0] = std::max(0., f[0]);
+      if (!std::isfinite(b.lower)) f[0] = std::min(0., f[0]);
+    }
   return result;
 }
 

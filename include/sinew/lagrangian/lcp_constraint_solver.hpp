@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/lagrangian/linear_complementarity.hpp>
 #include <sinew/lagrangian/sweeping_solver.hpp>
 
 namespace sinew {
 
 /// Block Gauss-Seidel over the compliance W for contacts (Duriez et al. 2006), with one coefficient of
 /// friction for all of them in the place of their own; where it is zero a linear complementarity problem is
-/// left, and the iteration is projected Gauss-Seidel. Other constraints are solved as they are.
+/// left, and the iteration is projected Gauss-Seidel, or Lemke's method takes its place, which has no
+/// tolerance. Other constraints are solved as they are.
 struct LCPConstraintSolver {
   using Role = role::ConstraintSolver;
   static constexpr std::string_view className = "LCPConstraintSolver";
@@ -16,9 +18,9 @@ struct LCPConstraintSolver {
   double tolerance = 0.001;
   double mu = 0.6;
   bool initial_guess = true;
+  double minW = 0, maxF = 0;
   double regularizationTerm = 0;
-  bool stopsUnsolved = false;
-  static constexpr bool scaleTolerance = true, allVerified = false;
+  bool lemke = false, stopsUnsolved = false;
 
   static constexpr auto fields() {
     using S = LCPConstraintSolver;
@@ -27,31 +29,87 @@ struct LCPConstraintSolver {
         field("tolerance",
               &S::tolerance,
               "m",
-              "change of the violations in an iteration at which to stop, for each equation",
+              "change of the violations in an iteration at which to stop, the sum over all constraints; with "
+              "friction times their number and one more",
               range::nonNegative),
         field("mu", &S::mu, "", "coefficient of Coulomb's friction of all contacts", range::nonNegative),
         field("initial_guess", &S::initial_guess, "", "start from the multipliers of the last step"),
+        field("minW",
+              &S::minW,
+              "m/N",
+              "contacts whose compliance along the normal is not above that are ignored; 0: none",
+              range::nonNegative),
+        field("maxF",
+              &S::maxF,
+              "N",
+              "contacts whose normal force would be at least that are ignored; 0: none",
+              range::nonNegative),
         field("regularizationTerm",
               &S::regularizationTerm,
               "m/N",
               "added to the compliance of each equation",
               range::nonNegative),
-        field("stopsUnsolved",
-              &S::stopsUnsolved,
+        field("lemke",
+              &S::lemke,
               "",
-              "an Error where the iterations end above the tolerance; else the step goes on with what they "
-              "have found"));
+              "by Lemke's pivots in place of iterations, for mu 0: to rounding, also where W is singular"),
+        field(
+            "stopsUnsolved",
+            &S::stopsUnsolved,
+            "",
+            "an Error where the iterations end above the tolerance, or Lemke's method finds that there is no "
+            "solution; else the step goes on with what they have found"));
   }
 
   SweepResult result{};  // of the last step
-  ConstraintSweeps sweeps{};
+  ComplementaritySweeps sweeps{};
+  LinearComplementarity pivots{};
 
   void solve(ConstraintProblem& problem, std::string_view where) {
+    checkLemke(where);
     for (ConstraintBlock& block : problem.blocks)
       if (block.kind == ConstraintBlock::Kind::friction) block.friction = mu;
-    if (!initial_guess) problem.multipliers.setZero();
-    sweep(
-        *this, problem, where, [&](auto& p) { return sweeps.gaussSeidel(p, sweep_settings(*this), where); });
+    problem.compliance.diagonal().array() += regularizationTerm;
+    result = lemke ? pivots.solve(problem, where)
+                   : sweeps.solve(problem,
+                                  {.maxIterations = maxIterations,
+                                   .tolerance = tolerance,
+                                   .initialGuess = initial_guess,
+                                   .minW = minW,
+                                   .maxF = maxF},
+                                  where);
+    if (stopsUnsolved && !result.converged) throw Error(where, unsolved());
+  }
+
+ private:
+  void checkLemke(std::string_view where) const {
+    if (lemke && (mu > 0 || minW > 0 || maxF > 0))
+      throw Error(
+          where,
+          text("LCPConstraintSolver: Lemke's method is for contacts without friction or bounds, and mu "
+               "is ",
+               mu,
+               ", minW ",
+               minW,
+               ", maxF ",
+               maxF,
+               "; set these to 0, or lemke to false"));
+  }
+  std::string unsolved() const {
+    if (lemke)
+      return text("LCPConstraintSolver: Lemke's method found no solution in ",
+                  result.iterations,
+                  " pivots: without forces the constraints are broken by ",
+                  result.error,
+                  " m; look for constraints that contradict each other, or set regularizationTerm");
+    return text("LCPConstraintSolver: the constraints are not solved after ",
+                result.iterations,
+                " iterations: the error is ",
+                result.error,
+                ", the tolerance ",
+                tolerance,
+                mu > 0 ? " times the number of constraints and one more" : "",
+                "; allow more iterations (maxIt), or look for constraints that contradict each other");
   }
 };
 

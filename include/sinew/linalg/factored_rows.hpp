@@ -189,7 +189,8 @@ class FactoredRows {
   // tile = (D^-1 Y_g)' Y_h over the columns that both visit
   template <int B>
   void product(int g, int h, double (&tile)[G][G]) {
-    const int from = visited_[begin_[std::size_t(g)]];
+    const std::size_t first = begin_[std::size_t(g)];
+    const int from = first < visited_.size() ? visited_[first] : int(mark_.size());  // rows may be empty
     const auto end = begin_[std::size_t(h) + 1];
     auto v = std::size_t(std::lower_bound(visited_.begin() + std::ptrdiff_t(begin_[std::size_t(h)]),
                                           visited_.begin() + std::ptrdiff_t(end),

@@ -355,6 +355,7 @@ void ConstrainedStep<RootScope>::findCompliance(ConstrainedMotion& m) const {
   ConstraintProblem& problem = m.problem;
   const int n = m.rows.count();
   problem.blocks = m.rows.blocks;
+  problem.timeStep = dt;
   problem.freeViolation = Eigen::Map<Eigen::VectorXd const>(m.rows.violation.data(), n);
   problem.multipliers = Eigen::Map<Eigen::VectorXd const>(m.rows.multipliers.data(), n);
   problem.compliance.setZero(n, n);
