@@ -142,7 +142,9 @@ using StandardCollision =
 /// Every component that Sinew brings, over the DataTypes that scenes use.
 struct Standard
     : Registry<Gravity, Threads, StandardTopologies, MadeMeshes, VisualModel, StandardEngines, StandardForces,
-               StandardMappings, StandardSolvers, StandardCollision, Playback<Vec3d>, Playback<Rigid3d>> {};
+               StandardMappings, StandardSolvers, StandardCollision, Playback<Vec3d>, Playback<Rigid3d>> {
+  static constexpr bool proved = true;  // tests/runtime/promises.cpp
+};
 
 /// The same over the rarer DataTypes too: what the law suites prove.
 struct Extended
@@ -153,6 +155,8 @@ struct Extended
                RigidMapping<Rigid2f, Vec2f>, RigidMapping<Rigid2f, Vec2d>, DistanceMapping<Vec3f, Vec1f>,
                VolumeMapping<Vec3f, Vec1f>, CenterOfMassMapping<Vec3d, Vec3f>,
                SkinningMapping<Rigid3f, Vec3f>, Playback<Vec1d>, Playback<Vec2d>, Playback<Vec6d>,
-               Playback<Vec3f>, Playback<Rigid2d>, Playback<Rigid3f>> {};
+               Playback<Vec3f>, Playback<Rigid2d>, Playback<Rigid3f>> {
+  static constexpr bool proved = true;
+};
 
 }  // namespace sinew

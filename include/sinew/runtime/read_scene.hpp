@@ -141,11 +141,13 @@ auto as_scene_error(F&& f) {
 }  // namespace detail
 
 template <class R>
-ReadScene<R> read_scene(std::string const& path, ReadSceneOptions const& options) {
+ReadScene<R> read_scene(std::string const& path, ReadSceneOptions const& options,
+                        checks::RegistryVerdict<R>) {
   return detail::as_scene_error([&] { return detail::SceneReader<R>(options).read(path); });
 }
 template <class R>
-ReadScene<R> parse_scene(std::string const& path, std::string content, ReadSceneOptions const& options) {
+ReadScene<R> parse_scene(std::string const& path, std::string content, ReadSceneOptions const& options,
+                         checks::RegistryVerdict<R>) {
   return detail::as_scene_error(
       [&] { return detail::SceneReader<R>(options).parse(path, std::move(content)); });
 }
