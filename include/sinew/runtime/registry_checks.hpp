@@ -37,30 +37,71 @@ struct NoComponent {
 template <class R>
 concept Proved = requires { requires R::proved; };
 
-// what is wrong with a class of a registry, or with the first one that is wrong of a list
-template <class... Entries>
-constexpr auto registered(std::type_identity<Registry<Entries...>>);
+// what is wrong with a class of a registry by itself
 template <class C>
-constexpr auto registered(std::type_identity<C>) {
-  if constexpr (Proved<C>)
-    return std::type_identity<Right>{};
-  else if constexpr (requires { typename C::Listed; })
-    return checks::registered(std::type_identity<typename C::Listed>{});
-  else if constexpr (!Component<C>)
+constexpr auto promised(std::type_identity<C>) {
+  if constexpr (!Component<C>)
     return std::type_identity<NoComponent<C>>{};
   else if constexpr (!keeps_promise<C>)
     return broken_promise<C>();
   else
     return std::type_identity<Right>{};
 }
-template <class... Entries>
-constexpr auto registered(std::type_identity<Registry<Entries...>>) {
-  return checks::worst(checks::registered(std::type_identity<Entries>{})...);
+// the same, beside a linear solver that assembles a matrix
+template <class C>
+constexpr auto assembled(std::type_identity<C>) {
+  using Promised = Promise<typename C::Role>;
+  if constexpr (!Promised::template assembled<C>)
+    return std::type_identity<typename Promised::template NotAssembled<C>>{};
+  else
+    return std::type_identity<Right>{};
+}
+// of the classes that are not proved, the first that is wrong
+template <bool Assembled, class... Entries>
+constexpr auto listed(std::type_identity<Registry<Entries...>>);
+template <bool Assembled, class C>
+constexpr auto listed(std::type_identity<C> c) {
+  if constexpr (Proved<C>)
+    return std::type_identity<Right>{};
+  else if constexpr (requires { typename C::Listed; })
+    return checks::listed<Assembled>(std::type_identity<typename C::Listed>{});
+  else if constexpr (Assembled)
+    return checks::assembled(c);
+  else
+    return checks::promised(c);
+}
+template <bool Assembled, class... Entries>
+constexpr auto listed(std::type_identity<Registry<Entries...>>) {
+  return checks::worst(checks::listed<Assembled>(std::type_identity<Entries>{})...);
+}
+
+template <class C>
+constexpr bool keeps_matrix() {
+  if constexpr (HasRole<C, role::LinearSolver>)
+    return needs_pattern<C>;
+  else
+    return false;
+}
+template <class... Cs>
+constexpr bool any_keeps_matrix(sinew::detail::TypeList<Cs...>) {
+  for (const bool one : {keeps_matrix<Cs>()..., false})
+    if (one) return true;
+  return false;
+}
+template <class R>
+constexpr auto registry() {
+  constexpr auto first = checks::listed<false>(std::type_identity<R>{});
+  if constexpr (Proved<R> || !right<std::remove_const_t<decltype(first)>>)
+    return first;
+  else if constexpr (any_keeps_matrix(typename sinew::detail::Flat<R>::type{}))
+    return checks::listed<true>(std::type_identity<R>{});
+  else
+    return first;
 }
 
 /// Right, or the type that says what is wrong with a class of a registry (runtime/node.hpp takes it as
 /// Simulation does with the verdict on a typed scene).
 template <class R>
-using RegistryVerdict = typename decltype(checks::registered(std::type_identity<R>{}))::type;
+using RegistryVerdict = typename decltype(checks::registry<R>())::type;
 
 }  // namespace sinew::checks
