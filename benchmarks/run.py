@@ -21,7 +21,7 @@ import picture  # noqa: E402
 import table  # noqa: E402
 from tools import Yardstick, fail, output  # noqa: E402
 
-TABLES = ["fem", "grids", "small", "accuracy", "roofline", "growth", "threads", "portability", "by-hand", "vitrectomy", "runtime", "families", "collision",
+TABLES = ["fem", "grids", "small", "accuracy", "roofline", "growth", "threads", "portability", "by-hand", "vitrectomy", "runtime", "families", "collision", "contact",
           "laparoscopy", "compile"]
 
 
@@ -124,6 +124,8 @@ def main():
             results["growth"] = table.growth(build, rounds)
         if wanted("threads"):
             results["threads"] = table.threads(build, arguments.cells, arguments.threads)
+        if wanted("contact"):
+            results["contact"] = table.contact(build)
         if wanted("portability"):
             results["portability"] = table.portability(build, rounds)
         if wanted("by-hand"):

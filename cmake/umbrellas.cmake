@@ -5,7 +5,8 @@
 get_filename_component(top ${CMAKE_CURRENT_LIST_DIR} DIRECTORY)
 set(include ${top}/include)
 set(stale)
-foreach(umbrella include/sinew/contact.hpp include/sinew/control.hpp include/sinew/engines.hpp include/sinew/mechanics.hpp
+foreach(umbrella include/sinew/contact.hpp include/sinew/control.hpp include/sinew/engines.hpp include/sinew/lagrangian.hpp
+                 include/sinew/mechanics.hpp
                  tests/laws/samples.hpp)
   file(READ ${top}/${umbrella} text)
   if(NOT text MATCHES "^(.*// All (components|files) of ([^:]+):\n)")

@@ -21,6 +21,7 @@ set(quick_collision axis_box bounding_tree broad_phase closest_points contact_la
     time_of_impact)
 set(quick_scene bad_input element_removal picking place replay reset simulation)
 set(quick_components constraint/constraints control/trajectory mapping/measuring_mappings solver/direct_solvers solver/solver_fields)
+set(quick_lagrangian constrained_step contact_friction corrections)
 # each component over the DataTypes that most scenes have
 set(quick_laws constraints_vec3 elements_vec3d force_rigid3d force_vec3d hyperelastic_vec3d loads_vec3d mappings_points
     mappings_rigid masses spatial_springs_vec3d)

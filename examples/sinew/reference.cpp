@@ -66,7 +66,12 @@ RoleWords words_of(sinew::RoleKind role) {
        {"Contact managers", "Keep the contacts from step to step, and apply the responses to them."},
        {"Collision models", "Primitives over the points of the state of the node."},
        {"Carving", "Takes away what tools touch."},
-       {"Execution", "By which threads of the processor the solvers of the node and its children work."}});
+       {"Execution", "By which threads of the processor the solvers of the node and its children work."},
+       {"Animation loops", "In the root: what a step of the scene is."},
+       {"Constraints by multipliers",
+        "Equations for the states of the scene; an animation loop solves them."},
+       {"Constraint solvers", "Find the multipliers of all constraints of the scene together."},
+       {"Constraint corrections", "Say what multipliers do to the bodies of the node and below it."}});
   static_assert(all.size() == enum_names(sinew::RoleKind{}).size());
   return all[std::size_t(role)];
 }

@@ -139,10 +139,29 @@ using StandardCollision =
              DiscreteIntersection, ContinuousIntersection, DefaultContactManager, CarvingManager,
              PointCollisionModels<Vec3d>, SphereCollisionModel<Rigid3d>, ConvexCollisionModels>;
 
+template <class D>
+using LagrangianJoints = Registry<FixedLagrangianConstraint<D>, BilateralLagrangianConstraint<D>,
+                                  BilateralLagrangianConstraint<D, Linked>, SlidingLagrangianConstraint<D>,
+                                  SlidingLagrangianConstraint<D, Linked>>;
+template <class D>
+using LagrangianContacts =
+    Registry<UnilateralLagrangianConstraint<D>, UnilateralLagrangianConstraint<D, Linked>,
+             AugmentedLagrangianConstraint<D>, AugmentedLagrangianConstraint<D, Linked>>;
+using LagrangianConstraints =
+    Registry<LagrangianJoints<Vec3d>, LagrangianJoints<Rigid3d>, LagrangianContacts<Vec3d>,
+             FixedLagrangianConstraint<Vec1d>, FixedLagrangianConstraint<Vec2d>,
+             FixedLagrangianConstraint<Vec6d>, UniformLagrangianConstraint<Vec1d>,
+             StopperLagrangianConstraint<Vec1d>>;
+using StandardMultipliers =
+    Registry<FreeMotionAnimationLoop, BlockGaussSeidelConstraintSolver, NNCGConstraintSolver,
+             UnbuiltGaussSeidelConstraintSolver, LCPConstraintSolver, ConvexConstraintSolver,
+             LinearSolverConstraintCorrection, UncoupledConstraintCorrection<Vec3d>,
+             UncoupledConstraintCorrection<Rigid3d>, LagrangianConstraints>;
+
 /// Every component that Sinew brings, over the DataTypes that scenes use.
-struct Standard
-    : Registry<Gravity, Threads, StandardTopologies, MadeMeshes, VisualModel, StandardEngines, StandardForces,
-               StandardMappings, StandardSolvers, StandardCollision, Playback<Vec3d>, Playback<Rigid3d>> {
+struct Standard : Registry<Gravity, Threads, StandardTopologies, MadeMeshes, VisualModel, StandardEngines,
+                           StandardForces, StandardMappings, StandardSolvers, StandardCollision,
+                           StandardMultipliers, Playback<Vec3d>, Playback<Rigid3d>> {
   static constexpr bool proved = true;  // tests/runtime/promises.cpp
 };
 

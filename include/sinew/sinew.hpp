@@ -6,4 +6,5 @@
 #include <sinew/contact.hpp>
 #include <sinew/control.hpp>
 #include <sinew/engines.hpp>
+#include <sinew/lagrangian.hpp>
 #include <sinew/mechanics.hpp>

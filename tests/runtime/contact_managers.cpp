@@ -8,6 +8,8 @@
 #include <sinew/collision/sphere_collision_model.hpp>
 #include <sinew/context/gravity.hpp>
 #include <sinew/core/registry.hpp>
+#include <sinew/lagrangian/block_gauss_seidel_constraint_solver.hpp>
+#include <sinew/lagrangian/free_motion_animation_loop.hpp>
 #include <sinew/mass/uniform_mass.hpp>
 #include <sinew/runtime/read_scene.hpp>
 #include <sinew/runtime/runtime.hpp>
@@ -41,7 +43,8 @@ using ConstantContactManager = ContactManager<PenalityContactForceField, Constan
 struct Mine
     : Registry<Gravity, DefaultPipeline, BruteForceBroadPhase, BVHNarrowPhase, MinProximityIntersection,
                DefaultContactManager, ConstantContactManager, EulerImplicitSolver, CGLinearSolver<>,
-               MechanicalObject<Vec3d>, UniformMass<Vec3d>, SphereCollisionModel<Vec3d>> {};
+               MechanicalObject<Vec3d>, UniformMass<Vec3d>, SphereCollisionModel<Vec3d>,
+               FreeMotionAnimationLoop, BlockGaussSeidelConstraintSolver> {};
 
 // two balls of 2 kg, 0.9 m apart and 1 m wide
 std::string balls(std::string const& manager) {
@@ -101,6 +104,70 @@ TEST_CASE("the default contact manager does not know the response of another one
       parse_scene<Mine>("balls.scn", balls(R"(DefaultContactManager response="ConstantContact")")).root};
   CHECK_THROWS_WITH(sim.init(),
                     Catch::Contains("'ConstantContact'") && Catch::Contains("StickContactForceField"));
+}
+
+// a ball of 2 kg that slides at 4 m/s over a fixed one of 1000 m, which it touches
+std::string sliding(std::string const& manager, std::string const& model = "",
+                    std::string const& loop = "<FreeMotionAnimationLoop/>") {
+  return "<Node name='root' gravity='0 0 -10'>" + loop +
+         R"(<BlockGaussSeidelConstraintSolver tolerance="1e-13"/>
+    <DefaultPipeline/><BruteForceBroadPhase/><BVHNarrowPhase/>
+    <MinProximityIntersection alarmDistance="0.2" contactDistance="0.1"/><)" +
+         manager + R"(/>
+    <Node name="ground"><MechanicalObject template="Vec3d" position="0 0 -1000"/>
+      <SphereCollisionModel name="earth" radius="1000" simulated="false" moving="false"/></Node>
+    <Node name="thing"><EulerImplicitSolver/><CGLinearSolver iterations="25" tolerance="1e-14" threshold="0"/>
+      <MechanicalObject template="Vec3d" position="0 0 0.6" velocity="4 0 0"/><UniformMass vertexMass="2"/>
+      <SphereCollisionModel name="ball" radius="0.5" )" +
+         model + "/></Node></Node>";
+}
+// by how much it has become slower in ten steps of 0.01 s, which with g = 10 m/s^2 is the friction
+double friction_of(std::string const& xml) {
+  Simulation sim{parse_scene<Mine>("sliding.scn", xml).root};
+  sim.init();
+  for (int i = 0; i < 10; ++i) sim.animate(0.01);
+  return 4 - sim.root().find_node("thing")->get<MechanicalObject<Vec3d>>()->velocity[0][0];
+}
+
+TEST_CASE("scene files say responses by multipliers, their friction, and rules, as SOFA's do") {
+  // the curved ground takes v^2 / r of gravity, 0.16 % of it
+  auto is = [](double mu) { return Approx(mu).epsilon(3e-3); };
+  auto of = [](std::string const& manager, std::string const& model = "") {
+    return friction_of(sliding(manager, model));
+  };
+  CHECK(of("CollisionResponse response='FrictionContactConstraint' responseParams='mu=0.5'") == is(0.5));
+  CHECK(of("DefaultContactManager response='FrictionContact'") == is(0.8));
+  CHECK(of("DefaultContactManager response='FrictionContact'",
+           "contactResponse='FrictionContactConstraint?mu=0.3'") == is(0.3));
+  const std::string byRules = "RuleBasedContactManager response='FrictionContactConstraint' rules='";
+  CHECK(of(byRules + "default'") == is(0.8));
+  CHECK(of(byRules + "earth ball FrictionContactConstraint?mu=0.2'") == is(0.2));
+  CHECK(of(byRules + "ball * StickContactConstraint'") == is(4));
+  CHECK_THROWS_WITH(
+      friction_of(sliding("DefaultContactManager response='FrictionContactConstraint'", "", "")),
+      Catch::Contains("FreeMotionAnimationLoop"));
+  CHECK_THROWS_WITH(of("DefaultContactManager response='FrictionContactConstraint' responseParams='mu=-1'"),
+                    Catch::Contains("coefficient of friction"));
+}
+
+TEST_CASE("contacts by multipliers go on from a checkpoint with the same bits") {
+  for (const std::string response : {"FrictionContactConstraint", "StickContactConstraint"}) {
+    INFO(response);
+    // with a tolerance at which the first guess shows
+    std::string xml = sliding("DefaultContactManager response='" + response + "'");
+    xml.replace(xml.find("1e-13"), 5, "1e-5");
+    Simulation sim{parse_scene<Mine>("sliding.scn", xml).root};
+    sim.init();
+    for (int i = 0; i < 5; ++i) sim.animate(0.01);
+    const std::string saved = scene_text(sim, 0.01);
+    CHECK_THAT(saved, Catch::Contains("<FreeMotionAnimationLoop"));
+    Simulation again{parse_scene<Mine>("saved.scn", saved).root};
+    again.init(sim.time(), sim.step());
+    for (int i = 0; i < 5; ++i) sim.animate(0.01), again.animate(0.01);
+    auto state = [](auto& s) { return s.root().find_node("thing")->template get<MechanicalObject<Vec3d>>(); };
+    CHECK(state(again)->position == state(sim)->position);
+    CHECK(state(again)->velocity == state(sim)->velocity);
+  }
 }
 
 }  // namespace test_contact_managers

@@ -457,8 +457,6 @@ TEST_CASE("what has no effect on a picture, or on a response that is named, is t
   CHECK_THAT(wrong("<MechanicalObject position='0 0 0'/><Node name='n'><MechanicalObject/><IdentityMapping "
                    "mapForces='0'/></Node>"),
              Catch::Contains("mapForces is not simulated"));
-  CHECK_THAT(wrong("<DefaultContactManager response='FrictionContact' responseParams='mu=0.5'/>"),
-             Catch::Contains("responseParams is not simulated"));
 }
 
 TEST_CASE("what old scenes say beside is ignored") {

@@ -130,13 +130,25 @@ TEST_CASE("what has no meaning here is accepted, and said once") {
     <RequiredPlugin name="A"/> <RequiredPlugin name="B"/> <VisualStyle displayFlags="showForceFields"/>
     <TetrahedronSetGeometryAlgorithms drawTetrahedra="1"/>
     <MechanicalObject showObject="1" drawMode="2" printLog="0"/>
-    <FreeMotionAnimationLoop/> <CollisionGroupManager/>
+    <LMConstraintSolver/> <CollisionGroupManager/>
     <Node name="off" activated="0"><Nonsense/></Node>
   </Node>)");
   CHECK(scene.ignored.size() == 4);
   REQUIRE(scene.warnings.size() == 2);
   CHECK_THAT(scene.warnings[0], Catch::Contains("<CollisionGroupManager> does nothing: bodies that touch"));
-  CHECK_THAT(scene.warnings[1], Catch::Contains("test.scn:5:5: <FreeMotionAnimationLoop> does nothing"));
+  CHECK_THAT(scene.warnings[1], Catch::Contains("test.scn:5:5: <LMConstraintSolver> does nothing"));
+}
+
+TEST_CASE("an animation loop takes a constraint solver where the scene has none, and says so") {
+  auto scene = parse("<Node><FreeMotionAnimationLoop/></Node>");
+  REQUIRE(scene.warnings.size() == 1);
+  CHECK_THAT(
+      scene.warnings[0],
+      Catch::Contains("test.scn:1:7: <FreeMotionAnimationLoop> finds no constraint solver, and takes a "
+                      "BlockGaussSeidelConstraintSolver"));
+  CHECK(scene.root.get<BlockGaussSeidelConstraintSolver>());
+  CHECK(parse("<Node><FreeMotionAnimationLoop/><Node><GenericConstraintSolver/></Node></Node>")
+            .warnings.empty());
 }
 
 TEST_CASE("a class that would be missed is an error, or a warning to the lenient") {

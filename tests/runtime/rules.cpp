@@ -11,6 +11,7 @@
 #include <sinew/collision/sphere_collision_model.hpp>
 #include <sinew/constraint/attach.hpp>
 #include <sinew/force/stiff_spring.hpp>
+#include <sinew/lagrangian.hpp>
 #include <sinew/mapping/identity_mapping.hpp>
 #include <sinew/mapping/rigid_mapping.hpp>
 #include <sinew/mapping/subset_multi_mapping.hpp>
@@ -163,6 +164,22 @@ void solver_rules() {
   breaks<Rule::noLinearSolver>(node<"root">(EulerImplicitSolver{}, dofs, mass));
 }
 
+/// Constraints by multipliers are solved by what stands in the root.
+void multiplier_rules() {
+  const FixedLagrangianConstraint<Vec3d> fixed{.indices = {0}};
+  const FreeMotionAnimationLoop loop{};
+  const BlockGaussSeidelConstraintSolver gaussSeidel{};
+  breaks<Rule::noLoop>(node<"root">(euler, dofs, mass, fixed));
+  breaks<Rule::noLoop>(node<"root">(euler,
+                                    BilateralLagrangianConstraint<Vec3d, Between<"a", "b">>{},
+                                    node<"a">(dofs, mass),
+                                    node<"b">(dofs, mass)));
+  breaks<Rule::loopNotInRoot>(node<"root">(node<"a">(loop, gaussSeidel)));
+  breaks<Rule::noConstraintSolver>(node<"root">(loop, euler, dofs, mass));
+  breaks<Rule::secondLoop>(node<"root">(loop, loop, gaussSeidel));
+  breaks<Rule::secondLoop>(node<"root">(loop, gaussSeidel, gaussSeidel));
+}
+
 }  // namespace
 
 TEST_CASE("what is wrong is said before what has no effect") {
@@ -176,6 +193,7 @@ TEST_CASE("each rule is broken by a scene, and both trees say so") {
   joining_rules();
   mapping_rules();
   solver_rules();
+  multiplier_rules();
   for (rules::Sentence const& sentence : rules::sentences) {
     CAPTURE(sentence.name);
     CHECK(seen.contains(sentence.rule));

@@ -66,7 +66,7 @@ TEST_CASE("each attribute of SOFA is a field, has no effect, or is not simulated
     CHECK(anywhere);
   }
   // of classes that SOFA has no more
-  const std::set<std::string> old{".isCompliance", ".geometricStiffness", ".solveVelocityConstraintFirst", ".updateStateWhenDiverged"};
+  const std::set<std::string> old{".isCompliance", ".geometricStiffness", ".updateStateWhenDiverged"};
   for (auto const& n : dialect::notSimulated) {
     const std::string name = std::string(n.className) + '.' + std::string(n.attribute);
     INFO(name);
@@ -141,12 +141,11 @@ TEST_CASE("a name that stands for another method than SOFA's says what differs")
   for (auto const& other : dialect::anotherMethod) {
     INFO(other.name);
     const bool known = std::any_of(table.begin(), table.end(), [&](auto const& info) { return info.known(other.name); });
-    CHECK((known || dialect::preconditioner_named(other.name) || other.name == "FrictionContact"));
+    CHECK((known || dialect::preconditioner_named(other.name)));
   }
   const auto scene = parse("<EulerImplicitSolver/><AsyncSparseLDLSolver/><UniformMass totalMass='1'/>");
   REQUIRE(scene.warnings.size() == 1);
   CHECK_THAT(scene.warnings[0], Contains("test.scn:1:") && Contains("<AsyncSparseLDLSolver>: the matrix of each step"));
-  CHECK(parse("<CollisionPipeline/><CollisionResponse response='FrictionContact'/>").warnings.size() == 1);
   CHECK(parse("<EulerImplicitSolver/><SparseLDLSolver/><UniformMass totalMass='1'/>").warnings.empty());
 }
 

@@ -48,8 +48,9 @@ def node_of(path):
 
 
 def made_by_contact(node):
-    """Whether SOFA's responses made this node for themselves: their names are 15 letters and digits at random."""
-    return any(re.fullmatch(r"[A-Za-z0-9]{15}", part) for part in node.split("/"))
+    """Whether SOFA's responses made this node for themselves: their names are 15 letters and digits at random, or those of the two
+    models in contact."""
+    return any(re.fullmatch(r"[A-Za-z0-9]{15}|.+-.+", part) for part in node.split("/"))
 
 
 def difference(first, last, states):

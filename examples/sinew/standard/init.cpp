@@ -4,5 +4,5 @@
 namespace sinew {
 template void Simulation<RuntimeNode<Standard>>::init(double, long);
 template void Initialisation<RuntimeScope<Standard>>::run();
-template void Initialisation<RuntimeScope<Standard>>::initSolversBelow(RuntimeScope<Standard> const&);
+template void Initialisation<RuntimeScope<Standard>>::initSolvers();
 }  // namespace sinew

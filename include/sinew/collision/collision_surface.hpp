@@ -28,7 +28,8 @@ struct CollisionSurface {
   std::vector<std::array<int, 3>> elements{};  // their corners, -1 behind the last; of a hull its centre
   std::vector<double> radius{};                // of each sphere
   std::optional<ConvexHull> hull{};            // of each element, in the axes of its rigid
-  std::string path{};                          // for messages
+  std::string path{};                          // of its node
+  std::string name{};                          // of the model, where it has one
   void const* state = nullptr;
   int number = -1;                   // among the surfaces of the scene, in their order
   int solver = -1;                   // which of the ODE solvers moves it; none: -1
@@ -80,8 +81,11 @@ struct CollisionSurface {
 
   /// Whether the distance d from a place of this surface, on the primitive over these vertices of an element,
   /// to somewhere else is the least one around it, and not only on this element: where it is not, a neighbour
-  /// is nearer (the filter of Duriez, LocalMinDistance).
-  bool isLocalMinimum(int element, std::array<int, 3> const& vertices, Eigen::Vector3d const& d) const;
+  /// is nearer (the filter of Duriez, LocalMinDistance). `cone`: the sine of the angle by which a neighbour
+  /// may lean towards the other place.
+  bool isLocalMinimum(int element, std::array<int, 3> const& vertices, Eigen::Vector3d const& d,
+                      double cone = leastCone) const;
+  static constexpr double leastCone = 1e-9;
 
   void findNeighbours(std::size_t vertices);
   /// What is wrong with the order of the corners of one-sided triangles where they are now, which says what
@@ -183,10 +187,10 @@ SINEW_ONCE bool CollisionSurface::isAccompaniedBy(CollisionSurface const& other)
 }
 
 SINEW_ONCE bool CollisionSurface::isLocalMinimum(int element, std::array<int, 3> const& vertices,
-                                                 Eigen::Vector3d const& d) const {
+                                                 Eigen::Vector3d const& d, double cone) const {
   if (corners() < 2 || vertices[2] >= 0) return true;
   auto towards = [&](Eigen::Vector3d const& direction) {
-    return d.dot(direction) > 1e-9 * d.norm() * direction.norm();
+    return d.dot(direction) > cone * d.norm() * direction.norm();
   };
   if (vertices[1] < 0) {
     const auto v = std::size_t(vertices[0]);

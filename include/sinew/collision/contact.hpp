@@ -58,6 +58,13 @@ constexpr std::array<std::string_view, 3> enum_names(FrictionState::Mode) {
   return {"apart", "sticks", "slides"};
 }
 
+/// How the two places of a contact move against each other over a step without multipliers, as u = p_b - p_a.
+struct ContactMotion {
+  Eigen::Vector3d start{0, 0, 0}, free{0, 0, 0};  // at the start of the step, and at its end [m]
+  Eigen::Vector3d rate{0, 0, 0};                  // at its end [m/s]
+  double dt = 0;
+};
+
 /// Two places near each other. All is measured along u = p_b - p_a.
 struct Contact {
   ContactSide a{}, b{};
@@ -91,6 +98,10 @@ struct Contact {
   Eigen::Matrix3d stiffnessMatrix = Eigen::Matrix3d::Zero(), dampingMatrix = Eigen::Matrix3d::Zero();
   Eigen::Vector3d marked{0, 0, 0};  // `force` at a time to which a solver may go back
 
+  // of a response by multipliers, in this step: its first equation, and how many it has
+  int row = -1, rows = 0;
+  ContactMotion motion{};
+
   static constexpr auto fields() {
     using C = Contact;
     return field_list(field("a", &C::a, "", "first side"),
@@ -105,6 +116,7 @@ struct Contact {
                       field("response", &C::response, "", "place among the responses"),
                       field("frictionState", &C::frictionState, "", "what friction remembers"),
                       field("pushed", &C::pushed, "", "it pushed in the last step"),
+                      field("force", &C::force, "N", "on b, over the last step"),
                       field("start", &C::start, "m", "displacement at detection"),
                       field("sliding", &C::sliding, "", "direction in which it slides"));
   }

@@ -31,12 +31,23 @@ struct ContactAssembly {
   }
   void sort();
 
-  template <AssemblyPhase Phase, class Matrix>
-  void add(Matrix& matrix, Contact const& c, std::vector<CollisionSurface*> const& surfaces, double k,
-           double b) {
+  /// The Jacobian of u in the degrees of freedom of a solver.
+  struct Block {
+    int solver, dof, columns;
+    Eigen::Matrix<double, 3, 6> rows;
+  };
+  /// The Jacobian of the displacement of a contact.
+  std::vector<Block> const& blocksOf(Contact const& c, std::vector<CollisionSurface*> const& surfaces) {
     blocks_.clear();
     if (c.a.surface >= 0) addSide(c.a, *surfaces[std::size_t(c.a.surface)], -1);
     addSide(c.b, *surfaces[std::size_t(c.b.surface)], 1);
+    return blocks_;
+  }
+
+  template <AssemblyPhase Phase, class Matrix>
+  void add(Matrix& matrix, Contact const& c, std::vector<CollisionSurface*> const& surfaces, double k,
+           double b) {
+    blocksOf(c, surfaces);
     const Eigen::Matrix3d kb = -(k * c.stiffnessMatrix + b * c.dampingMatrix);
     for (Block const& x : blocks_)
       for (Block const& y : blocks_) {
@@ -50,10 +61,6 @@ struct ContactAssembly {
   }
 
  private:
-  struct Block {
-    int dof, columns;
-    Eigen::Matrix<double, 3, 6> rows;
-  };
   std::vector<Block> blocks_{};
 
   void addSide(ContactSide const& side, CollisionSurface const& s, double sign);
@@ -81,7 +88,7 @@ SINEW_ONCE void ContactAssembly::addSide(ContactSide const& side, CollisionSurfa
         std::pair(side.surface, vertex),
         [](Entry const& x, std::pair<int, int> const& key) { return std::pair(x.surface, x.vertex) < key; });
     for (; e != entries.end() && e->surface == side.surface && e->vertex == vertex; ++e) {
-      Block block{e->dof, e->columns, {}};
+      Block block{s.solver, e->dof, e->columns, {}};
       block.rows = w * e->rows.topRows<3>();
       if (s.rigid) {
         const Eigen::Vector3d r = lever_of(side, s);

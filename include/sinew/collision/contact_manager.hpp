@@ -4,12 +4,16 @@
 #include <sinew/collision/attachment.hpp>
 #include <sinew/collision/contact_assembly.hpp>
 #include <sinew/collision/contact_responses.hpp>
+#include <sinew/collision/contact_rules.hpp>
+#include <sinew/collision/friction_contact_constraint.hpp>
 #include <sinew/collision/penalty_contact.hpp>
 #include <sinew/collision/stick_contact.hpp>
+#include <sinew/collision/stick_contact_constraint.hpp>
 #include <sinew/collision/vertex_contacts.hpp>
 #include <sinew/core/component.hpp>
 #include <sinew/core/memory_limit.hpp>
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <string>
@@ -20,22 +24,25 @@
 namespace sinew {
 
 /// Keeps the contacts from step to step and applies the responses to them: that of a model that names one,
-/// else its own. A contact is known again by the vertices that meet; what its response remembers goes with
-/// it. Contacts stand in the order of their keys, whatever the order in which they were found.
+/// else of the first rule that fits the two models, else its own. A contact is known again by the vertices
+/// that meet; what its response remembers goes with it. Contacts stand in the order of their keys, whatever
+/// the order in which they were found.
 ///
-/// `Responses`: laws of force (ContactLaw), and what changes components that are touched (TouchResponse).
-/// Two models together have the stiffness k1 k2 / (contact distance with the radii of the two) [N/m], the sum
-/// of frictions and of dampings, as in SOFA. A response that has a `managerName` names the class, so that
-/// scene files may choose between it and others.
+/// `Responses`: laws of force (ContactLaw), multipliers (ContactConstraint), and what changes components that
+/// are touched (TouchResponse). Two models together have the stiffness k1 k2 / (contact distance with the
+/// radii of the two) [N/m], the sum of frictions and of dampings, as in SOFA. A response that has a mu gives
+/// it where models have no friction; one in its parameters takes the place of that of models, too. A response
+/// that has a `managerName` names the class, so that scene files may choose between it and others.
 template <class... Responses>
 struct ContactManager {
   using Role = role::ContactManager;
   using All = ContactResponses<Responses...>;
   static constexpr std::string_view ownName = All::managerName();
   static constexpr std::string_view className = ownName.empty() ? "DefaultContactManager" : ownName;
-  static constexpr std::string_view aliases = ownName.empty() ? "CollisionResponse" : "";
+  static constexpr std::string_view aliases =
+      ownName.empty() ? "CollisionResponse RuleBasedContactManager" : "";
 
-  std::string response = "PenalityContactForceField";
+  std::string response = "PenalityContactForceField", responseParams{}, rules{};
   int capacity = 1000;
   std::tuple<Responses...> responses{};
 
@@ -43,6 +50,17 @@ struct ContactManager {
     using M = ContactManager;
     return field_list(
         field("response", &M::response, "", "class of the response to contacts of models that name none"),
+        field("responseParams",
+              &M::responseParams,
+              "",
+              "parameters of that response, such as mu=0.5: the coefficient of friction"),
+        field(
+            "rules",
+            &M::rules,
+            "",
+            "responses of pairs of models, each by three words: two models by name, path, group or *, and a "
+            "response with parameters, as in 'tool * StickContactConstraint  1 2 "
+            "FrictionContactConstraint?mu=0.3'; nullptr for none"),
         field("capacity",
               &M::capacity,
               "",
@@ -62,8 +80,7 @@ struct ContactManager {
   std::vector<CollisionSurface*> surfaces{};  // in the order of the scene, of this step
   std::vector<int> bodies{};                  // of each surface, the first one that is on the same state
   std::vector<int> points{};
-  int answer = 0;              // place of the response of this manager,
-  std::vector<int> answers{};  // and of that of each model; -1 for one that names none
+  ContactRules answers{};
   ContactAssembly assembly{};
   VertexContacts ofVertices{}, foundVertices{};  // of the last step, and of those that were found
   bool listed = false;                           // whether ofVertices is that of the contacts
@@ -96,23 +113,11 @@ struct ContactManager {
     points.reserve(6 * std::size_t(capacity));
     attachments.reserve(8);
     grown = 0;
-    auto known = [&](std::string_view place, std::string_view name) {
-      if (All::find(name) < 0)
-        throw Error(place,
-                    text("contacts ask for the response '",
-                         name,
-                         "', which this contact manager does not have; take one of: ",
-                         All::names()));
-    };
-    known(where, response);
-    answer = All::find(response);
-    answers.assign(surfaces.size(), -1);
-    for (std::size_t s = 0; s < surfaces.size(); ++s) {
-      std::string const& wanted = surfaces[s]->settings.contactResponse;
-      if (wanted.empty()) continue;
-      known(surfaces[s]->path, wanted);
-      answers[s] = All::find(wanted);
-    }
+    answers.read(where,
+                 responseParams.empty() ? response : text(response, '?', responseParams),
+                 rules,
+                 surfaces,
+                 &All::choose);
     for (std::size_t i = 0; i < contacts.size(); ++i)
       if (!fits(contacts[i].a) || !fits(contacts[i].b) || contacts[i].response < 0 ||
           contacts[i].response >= All::count)
@@ -124,6 +129,9 @@ struct ContactManager {
                          "checkpoint with the "
                          "scene that it was made of"));
   }
+
+  /// Whether a response by multipliers may answer contacts.
+  bool asksForMultipliers() const { return answers.any(&All::isConstraint); }
 
   bool acts() const { return !contacts.empty() || !attachments.empty(); }
   /// Forgets all contacts.
@@ -182,6 +190,12 @@ struct ContactManager {
       });
   }
 
+  /// By how much, as the sine of an angle, what is near need not be nearest of all around, so that the
+  /// contacts of two models are found together: forces need where bodies touch first, multipliers all that
+  /// will.
+  double coneOf(int a, int b) const {
+    return All::isConstraint(answers.find(a, b).place) ? 0.1 : CollisionSurface::leastCone;
+  }
   void add(Contact const& c) {
     if (found.size() == found.capacity()) ++grown;
     found.push_back(c);
@@ -204,25 +218,26 @@ struct ContactManager {
     foundVertices.list(found, bodies);
     foundVertices.dropSamePlaces(found, bodies);
     foundVertices.dropBehindOthers(found, bodies);
-    couplingChanged = std::exchange(couplesAgain, false) || found.size() != contacts.size();
+    couplingChanged = std::exchange(couplesAgain, false);
     if (!listed) ofVertices.list(contacts, bodies);
     auto old = contacts.begin();
     for (Contact& c : found) {
       const ContactKey key = c.key();
       while (old != contacts.end() && old->key() < key) ++old;
       const bool again = old != contacts.end() && old->key() == key;
-      couplingChanged = couplingChanged || !again;
       describe(c, *surfaces[std::size_t(c.a.surface)], *surfaces[std::size_t(c.b.surface)]);
+      couplingChanged = couplingChanged || (!again && !All::isConstraint(c.response));
       c.start = displacement(c);
       if (again)
         remember(c, *old);
       else if (const int other = ofVertices.find(key, bodies); other >= 0)
         remember(c, contacts[std::size_t(other)]);
     }
+    listed = std::erase_if(found, [](Contact const& c) { return c.response < 0; }) == 0;
+    couplingChanged = couplingChanged || coupling(contacts) != coupling(found);
     contacts.swap(found);
     found.clear();
     ofVertices.swap(foundVertices);
-    listed = true;
     All::setStep(responses, dt);
     for (auto* s : surfaces) s->clearTouched();
     auto touch = [&](ContactSide const& side) {
@@ -280,6 +295,16 @@ struct ContactManager {
         add_force(a.contact.b, *surfaces[std::size_t(a.contact.b.surface)], change(a, k, b));
   }
 
+  /// f(response, contact) for the contacts that multipliers answer.
+  template <class F>
+  void forEachConstrained(F&& f) {
+    if constexpr ((ContactConstraint<Responses> || ...))
+      for (Contact& c : contacts)
+        All::visit(responses, c.response, [&](auto const& r) {
+          if constexpr (ContactConstraint<std::decay_t<decltype(r)>>) f(r, c);
+        });
+  }
+
   /// f(contact) for the contacts that `chosen` picks, and for those of attachments.
   template <class Chosen, class F>
   void forEachChosen(Chosen&& chosen, F&& f) {
@@ -308,6 +333,11 @@ struct ContactManager {
   }
 
  private:
+  // how many of them may join vertices in the matrix of a solver
+  static auto coupling(std::vector<Contact> const& all) {
+    return std::count_if(
+        all.begin(), all.end(), [](Contact const& c) { return !All::isConstraint(c.response); });
+  }
   bool fits(ContactSide const& side) const {
     if (side.surface < 0 || side.surface >= int(surfaces.size())) return false;
     auto const& s = *surfaces[std::size_t(side.surface)];
@@ -337,7 +367,8 @@ struct ContactManager {
   }
   template <std::size_t R, class F>
   void forEachTouched(F& f) {
-    if constexpr (!ContactLaw<std::tuple_element_t<R, std::tuple<Responses...>>>)
+    using Response = std::tuple_element_t<R, std::tuple<Responses...>>;
+    if constexpr (!ContactLaw<Response> && !ContactConstraint<Response>)
       for (std::size_t s = 0; s < surfaces.size(); ++s) {
         points.clear();
         for (Contact const& c : contacts)
@@ -355,21 +386,30 @@ struct ContactManager {
     const double reach = c.limit + a.radiusOf(c.a.element) + b.radiusOf(c.b.element);
     CollisionSettings const &ofA = a.settings, &ofB = b.settings;
     c.stiffness = ofA.contactStiffness * ofB.contactStiffness / (reach > 0 ? reach : 1);
-    c.friction = ofA.contactFriction + ofB.contactFriction;
     c.damping = ofA.contactDamping + ofB.contactDamping;
     c.fall = std::max({0.0, c.normal.dot(a.gravity), -c.normal.dot(b.gravity)});
-    const int byA = answers[std::size_t(c.a.surface)], byB = answers[std::size_t(c.b.surface)];
-    c.response = byA >= 0 ? byA : byB >= 0 ? byB : answer;
+    const ResponseChoice chosen = answers.find(c.a.surface, c.b.surface);
+    c.response = chosen.place;
+    if (c.response < 0) return;
+    c.friction = ofA.contactFriction + ofB.contactFriction;
+    All::visit(responses, c.response, [&](auto const& r) {
+      if constexpr (HasFriction<std::decay_t<decltype(r)>>) {
+        if (c.friction == 0) c.friction = r.mu;
+        if (chosen.friction >= 0) c.friction = chosen.friction;
+      }
+    });
     find_solver(c, &a, &b);
     if (!All::isForce(c.response)) c.solver = -1, c.loose = false;
   }
   static void remember(Contact& c, Contact const& old) {
     c.frictionState = old.frictionState;
     c.pushed = old.pushed;
+    c.force = old.force;
   }
 };
 
 /// What scene files have.
-using DefaultContactManager = ContactManager<PenalityContactForceField, StickContactForceField>;
+using DefaultContactManager = ContactManager<PenalityContactForceField, StickContactForceField,
+                                             FrictionContactConstraint, StickContactConstraint>;
 
 }  // namespace sinew

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <sinew/collision/contact.hpp>
+#include <sinew/collision/contact_constraint.hpp>
 #include <sinew/core/error.hpp>
 
 #include <array>
+#include <charconv>
+#include <cmath>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -12,8 +14,19 @@
 
 namespace sinew {
 
-/// What answers contacts: laws of force (ContactLaw), and what changes components that are touched
-/// (TouchResponse), in the order of a contact manager, which numbers them.
+/// A response of a contact manager by its place, with what its parameters say.
+struct ResponseChoice {
+  static constexpr int notGiven = -1, noResponse = -2;
+  int place = notGiven;
+  double friction = -1;  // mu of a response that has one; negative: they do not say it
+};
+
+/// A response with a coefficient of friction of its own, a parameter in scene files.
+template <class R>
+concept HasFriction = requires(R r) { r.mu = 0.5; };
+
+/// What answers contacts: laws of force (ContactLaw), multipliers (ContactConstraint), and what changes
+/// components that are touched (TouchResponse), in the order of a contact manager, which numbers them.
 template <class... Responses>
 struct ContactResponses {
   static constexpr int count = int(sizeof...(Responses));
@@ -43,10 +56,32 @@ struct ContactResponses {
     (look(static_cast<Responses const*>(nullptr)), ...);
     return place;
   }
-  /// What changes components is no force, and no solver needs to know.
+  /// The response that "Name" or "Name?mu=0.5" asks for, as scene files do, or that there shall be none by
+  /// "nullptr" (SOFA); throws Error where nothing has that name.
+  static ResponseChoice choose(std::string_view where, std::string_view wanted) {
+    const std::size_t mark = wanted.find('?');
+    const std::string_view name = wanted.substr(0, mark);
+    if (name == "nullptr") return {.place = ResponseChoice::noResponse};
+    ResponseChoice choice{.place = find(name)};
+    if (choice.place < 0)
+      throw Error(where,
+                  text("contacts ask for the response '",
+                       name,
+                       "', which this contact manager does not have; take one of: ",
+                       names()));
+    const bool takesFriction[] = {HasFriction<Responses>...};
+    if (mark != wanted.npos && takesFriction[choice.place])
+      choice.friction = parse_friction(where, name, wanted.substr(mark + 1));
+    return choice;
+  }
+  /// By a law of force, the only one that ODE solvers see.
   static bool isForce(int place) {
     constexpr std::array forces{ContactLaw<Responses>...};
     return forces[std::size_t(place)];
+  }
+  static bool isConstraint(int place) {
+    constexpr std::array constraints{ContactConstraint<Responses>...};
+    return place >= 0 && constraints[std::size_t(place)];
   }
 
   /// f(response) for that at a place.
@@ -61,6 +96,32 @@ struct ContactResponses {
       if constexpr (requires { response.dt = dt; }) response.dt = dt;
     };
     std::apply([&](auto&... r) { (set(r), ...); }, responses);
+  }
+
+ private:
+  // "name=value&name=value"
+  static double parse_friction(std::string_view where, std::string_view response,
+                               std::string_view parameters) {
+    double mu = -1;
+    while (!parameters.empty()) {
+      const std::size_t end = std::min(parameters.find('&'), parameters.size()),
+                        equals = std::min(parameters.find('='), end);
+      const std::string_view name = parameters.substr(0, equals),
+                             value = parameters.substr(std::min(equals + 1, end),
+                                                       end - std::min(equals + 1, end));
+      parameters.remove_prefix(std::min(end + 1, parameters.size()));
+      if (name != "mu")
+        throw Error(where, text("the response '", response, "' has no parameter '", name, "'; it has: mu"));
+      const auto [last, error] = std::from_chars(value.data(), value.data() + value.size(), mu);
+      if (error != std::errc{} || last != value.data() + value.size() || !std::isfinite(mu) || mu < 0)
+        throw Error(where,
+                    text("the response '",
+                         response,
+                         "' has mu='",
+                         value,
+                         "'; the coefficient of friction is a number of at least 0, such as in mu=0.5"));
+    }
+    return mu;
   }
 };
 

@@ -58,10 +58,11 @@ struct DefaultPipeline {
   void detect(Narrow& narrow, Intersection const& intersection, Manager& manager, int i, int j, double dt) {
     CollisionSurface const &a = *surfaces[std::size_t(i)], &b = *surfaces[std::size_t(j)];
     if (skeleton(b.shape) != B) return;
+    const double cone = manager.coneOf(i, j);
     narrow.pairs(a, b, [&](int elementA, int elementB) {
       ++boxTests;
       if (adjacent(a, elementA, b, elementB)) return;
-      const PrimitivePair<A, B> pair{a, b, elementA, elementB, dt};
+      const PrimitivePair<A, B> pair{a, b, elementA, elementB, dt, cone};
       auto add = [&](Contact& contact) {
         contact.a.surface = i;
         contact.b.surface = j;

@@ -24,7 +24,7 @@ namespace sinew {
 /// impact, 1 + k dt^2/m times what it will be.
 struct PenalityContactForceField {
   static constexpr std::string_view className = "PenalityContactForceField";
-  static constexpr std::string_view aliases = "PenalityContact PenaltyContact FrictionContact default";
+  static constexpr std::string_view aliases = "PenalityContact PenaltyContact default";
 
   double dt = 0;  // of the step, set by the manager
 

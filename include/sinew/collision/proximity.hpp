@@ -23,6 +23,7 @@ struct PrimitivePair {
   CollisionSurface const &a, &b;
   int elementA, elementB;
   double dt;
+  double cone = CollisionSurface::leastCone;  // for isLocalMinimum
 
   auto cornersA() const { return a.corner<std::size_t(corners_of(A))>(a.position, elementA); }
   auto cornersB() const { return b.corner<std::size_t(corners_of(B))>(b.position, elementB); }
@@ -146,8 +147,11 @@ std::optional<Contact> contact_at(PrimitivePair<A, B> const& pair, ShapeCorners<
   detail::set_side<A>(contact.a, pair.a, pair.elementA, closest.weightsA);
   detail::set_side<B>(contact.b, pair.b, pair.elementB, closest.weightsB);
   const Eigen::Vector3d between = contact.start;
-  if (onlyLocalMinima && (!pair.a.isLocalMinimum(pair.elementA, contact.a.vertices, between) ||
-                          !pair.b.isLocalMinimum(pair.elementB, contact.b.vertices, -between)))
+  // a point has one nearest place, and would be stopped by the edges inside a floor that it slides on
+  constexpr bool ofPoint = std::tuple_size_v<ShapeCorners<A>> == 1 || std::tuple_size_v<ShapeCorners<B>> == 1;
+  const double cone = ofPoint ? CollisionSurface::leastCone : pair.cone;
+  if (onlyLocalMinima && (!pair.a.isLocalMinimum(pair.elementA, contact.a.vertices, between, cone) ||
+                          !pair.b.isLocalMinimum(pair.elementB, contact.b.vertices, -between, cone)))
     return std::nullopt;
   const Eigen::Vector3d outOfA = detail::outer_normal(pair.a, a, closest.weightsA),
                         outOfB = detail::outer_normal(pair.b, b, closest.weightsB);

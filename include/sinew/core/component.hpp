@@ -5,10 +5,13 @@
 #include <sinew/core/fields.hpp>
 #include <sinew/core/renumbering.hpp>
 #include <sinew/core/role.hpp>
+#include <sinew/core/roles/animation_loop.hpp>
 #include <sinew/core/roles/broad_phase.hpp>
 #include <sinew/core/roles/carving.hpp>
 #include <sinew/core/roles/collision_model.hpp>
 #include <sinew/core/roles/collision_pipeline.hpp>
+#include <sinew/core/roles/constraint_correction.hpp>
+#include <sinew/core/roles/constraint_solver.hpp>
 #include <sinew/core/roles/contact_manager.hpp>
 #include <sinew/core/roles/context.hpp>
 #include <sinew/core/roles/engine.hpp>
@@ -16,6 +19,7 @@
 #include <sinew/core/roles/force_field.hpp>
 #include <sinew/core/roles/interaction_force_field.hpp>
 #include <sinew/core/roles/intersection.hpp>
+#include <sinew/core/roles/lagrangian_constraint.hpp>
 #include <sinew/core/roles/linear_solver.hpp>
 #include <sinew/core/roles/mapping.hpp>
 #include <sinew/core/roles/mass.hpp>

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <sinew/core/error.hpp>
+#include <sinew/linalg/reserved.hpp>
 
 #include <Eigen/Core>
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -43,9 +43,9 @@ struct ConstraintBlock {
 struct ConstraintProblem {
   using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-  Matrix compliance{};              // W
-  Eigen::VectorXd freeViolation{};  // d_free, of the motion without multipliers
-  Eigen::VectorXd multipliers{};    // f: the first guess, then the solution
+  Reserved<Matrix> compliance{};   // W
+  ReservedVector freeViolation{};  // d_free, of the motion without multipliers
+  ReservedVector multipliers{};    // f: the first guess, then the solution
   std::vector<ConstraintBlock> blocks{};
 
   int rows() const { return int(freeViolation.size()); }
@@ -70,24 +70,12 @@ inline Eigen::Vector3d project_on_cone(Eigen::Vector3d const& f, double mu) {
   return {onCone, mu * onCone * f[1] / t, mu * onCone * f[2] / t};
 }
 
-inline void ConstraintProblem::check(std::string_view where) const {
-  const auto n = freeViolation.size();
-  if (compliance.rows() != n || compliance.cols() != n || multipliers.size() != n)
-    throw Error(where,
-                text("constraints have ",
-                     n,
-                     " violations, a compliance of ",
-                     compliance.rows(),
-                     " x ",
-                     compliance.cols(),
-                     " and ",
-                     multipliers.size(),
-                     " multipliers; give each as many"));
-  if (!compliance.allFinite() || !freeViolation.allFinite() || !multipliers.allFinite())
-    throw Error(where, "the compliance, a violation or a multiplier of constraints is not a finite number");
+/// Throws Error where blocks do not cover each of so many rows once, have a wrong number of them, a friction
+/// that is negative or not finite, or ends of an interval in the wrong order.
+inline void check_blocks(std::vector<ConstraintBlock> const& blocks, int rows, std::string_view where) {
   int next = 0;
   for (ConstraintBlock const& b : blocks) {
-    if (b.first != next || b.rows < 1 || b.rows > ConstraintBlock::maxRows || b.rows > int(n) - next)
+    if (b.first != next || b.rows < 1 || b.rows > ConstraintBlock::maxRows || b.rows > rows - next)
       throw Error(where,
                   text("a block of constraints has rows ",
                        b.first,
@@ -96,7 +84,7 @@ inline void ConstraintProblem::check(std::string_view where) const {
                        " where ",
                        next,
                        " is the next of ",
-                       n,
+                       rows,
                        "; blocks have 1 to ",
                        ConstraintBlock::maxRows,
                        " rows and follow each other without a gap"));
@@ -121,17 +109,40 @@ inline void ConstraintProblem::check(std::string_view where) const {
                        " with ",
                        b.rows,
                        " rows; it needs one row, and a lower end that is not above the upper one"));
-    for (int i = b.first; i < b.first + b.rows; ++i)
-      if (!(compliance(i, i) > 0))
-        throw Error(where,
-                    text("nothing that constraint ",
-                         i,
-                         " holds can move (its compliance is ",
-                         compliance(i, i),
-                         "): it is between fixed points, or its direction is zero"));
     next += b.rows;
   }
-  if (next != int(n)) throw Error(where, text("blocks of constraints cover ", next, " rows of ", n));
+  if (next != rows) throw Error(where, text("blocks of constraints cover ", next, " rows of ", rows));
+}
+
+/// Throws Error where the diagonal of W has an entry that is not positive.
+inline void check_movable(Eigen::Ref<Eigen::VectorXd const> const& compliance, std::string_view where) {
+  for (int i = 0; i < int(compliance.size()); ++i)
+    if (!(compliance[i] > 0))
+      throw Error(where,
+                  text("nothing that constraint ",
+                       i,
+                       " holds can move (its compliance is ",
+                       compliance[i],
+                       "): it is between fixed points, or its direction is zero"));
+}
+
+inline void ConstraintProblem::check(std::string_view where) const {
+  const auto n = freeViolation.size();
+  if (compliance.rows() != n || compliance.cols() != n || multipliers.size() != n)
+    throw Error(where,
+                text("constraints have ",
+                     n,
+                     " violations, a compliance of ",
+                     compliance.rows(),
+                     " x ",
+                     compliance.cols(),
+                     " and ",
+                     multipliers.size(),
+                     " multipliers; give each as many"));
+  if (!compliance.allFinite() || !freeViolation.allFinite() || !multipliers.allFinite())
+    throw Error(where, "the compliance, a violation or a multiplier of constraints is not a finite number");
+  check_blocks(blocks, int(n), where);
+  check_movable(Eigen::VectorXd(compliance.diagonal()), where);
 }
 
 inline double ConstraintProblem::residual() const {

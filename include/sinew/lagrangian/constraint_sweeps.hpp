@@ -3,6 +3,8 @@
 
 #include <sinew/lagrangian/constraint_problem.hpp>
 
+#include <Eigen/Cholesky>
+
 #include <cmath>
 #include <string_view>
 #include <vector>
@@ -50,7 +52,7 @@ class ConstraintSweeps {
   using Few = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, ConstraintBlock::maxRows, 1>;
 
   std::vector<Small> inverses_{};  // of W_bb, for equalities
-  Eigen::VectorXd last_{}, change_{}, direction_{}, violation_{};
+  ReservedVector last_{}, change_{}, direction_{}, violation_{};
 
   void begin(ConstraintProblem const& problem, std::string_view where);
   static double limit(ConstraintProblem const& problem, SweepSettings const& settings) {
@@ -82,15 +84,18 @@ inline void ConstraintSweeps::begin(ConstraintProblem const& problem, std::strin
     ConstraintBlock const& b = problem.blocks[k];
     if (b.kind != ConstraintBlock::Kind::equality) continue;
     const Small w = problem.compliance.block(b.first, b.first, b.rows, b.rows);
-    const Eigen::FullPivLU<Small> factor(w);
-    if (!factor.isInvertible())
+    const Eigen::LDLT<Small> factor(w);
+    const Few pivots = factor.vectorD();
+    if (!(pivots.minCoeff() > 1e-13 * pivots.maxCoeff()))
       throw Error(where,
                   text("the equalities in rows ",
                        b.first,
                        " to ",
                        b.first + b.rows - 1,
                        " depend on each other, so that their multipliers are not determined; leave one out"));
-    inverses_[k] = factor.inverse();
+    // column by column, since nvcc takes Eigen's solution for a matrix for a function of the device
+    inverses_[k].resize(b.rows, b.rows);
+    for (int c = 0; c < b.rows; ++c) inverses_[k].col(c) = factor.solve(Few(Few::Unit(b.rows, c)));
   }
 }
 
@@ -98,7 +103,7 @@ inline void ConstraintSweeps::solveBlock(ConstraintProblem& problem, std::size_t
                                          double weight) const {
   ConstraintBlock const& b = problem.blocks[number];
   auto const& W = problem.compliance;
-  Eigen::VectorXd& f = problem.multipliers;
+  auto& f = problem.multipliers;
   const int i = b.first;
   switch (b.kind) {
     case ConstraintBlock::Kind::equality:

@@ -238,11 +238,12 @@ class Baker {
 
   std::array<Node*, 2> endsOf(Node& node, Entry const& entry) const {
     std::array<Node*, 2> ends{nullptr, nullptr};
-    entry.component.template visit<role::InteractionForceField, role::ProjectiveConstraint>(
-        [&](auto const& joint) {
-          if constexpr (requires { joint.ends.object1; })
-            ends = {node.resolve(joint.ends.object1), node.resolve(joint.ends.object2)};
-        });
+    entry.component
+        .template visit<role::InteractionForceField, role::ProjectiveConstraint, role::LagrangianConstraint>(
+            [&](auto const& joint) {
+              if constexpr (requires { joint.ends.object1; })
+                ends = {node.resolve(joint.ends.object1), node.resolve(joint.ends.object2)};
+            });
     return ends;
   }
   // "../left"

@@ -78,6 +78,15 @@ struct RuntimeFacts {
     scope.withLinearSolver([&](auto&) { found = true; });
     return found;
   }
+  bool inRoot() const { return !scope.node.parent() && !scope.mount().scope; }
+  bool constraintSolver() const {
+    bool found = false;
+    traverse(scope, on<role::ConstraintSolver>([&](auto&, auto const&) { found = true; }));
+    return found;
+  }
+  bool loopInRoot() const {
+    return scope.node.top().mount.scope || Scope(scope.node.top()).template has<role::AnimationLoop>();
+  }
   bool pipelineAbove() const {
     for (auto* n = &scope.node; n; n = n->parent())
       if (Scope(*n).template has<role::CollisionPipeline>()) return true;
@@ -249,6 +258,8 @@ void check_counts(RuntimeScope<R> const& scope) {
     one.template operator()<role::NarrowPhase>(Rule::secondStage, 3);
     one.template operator()<role::Intersection>(Rule::secondStage, 4);
     one.template operator()<role::ContactManager>(Rule::secondStage, 5);
+    one.template operator()<role::AnimationLoop>(Rule::secondLoop, 1);
+    one.template operator()<role::ConstraintSolver>(Rule::secondLoop, 2);
   }
   std::set<std::string_view> names;
   for (auto const& child : scope.node.children())

@@ -109,7 +109,7 @@ inline constexpr std::array notYet = std::to_array<ClassesLeftOut>(
       "RayCollisionModel",
       "collides with nothing here; take triangles, lines, points, spheres or convex hulls"},
      {"DirectSAPNarrowPhase", "is no stage here; take BVHNarrowPhase, which finds the same pairs"},
-     {"RayTraceDetection RayTraceNarrowPhase CompositeCollisionPipeline RuleBasedContactManager",
+     {"RayTraceDetection RayTraceNarrowPhase CompositeCollisionPipeline",
       "is no stage of collision here; take DefaultPipeline, BVHNarrowPhase and DefaultContactManager"}});
 
 /// Collide in SOFA with points, and only where DiscreteIntersection tests them
@@ -118,12 +118,8 @@ inline constexpr std::string_view tetrahedronModels = "TetrahedronModel Tetrahed
 
 /// What prepares or solves something that the scene may not have at all.
 inline constexpr std::array inert = std::to_array<ClassesLeftOut>(
-    {{"FreeMotionAnimationLoop FreeMotionMasterSolver ConstraintAnimationLoop GenericConstraintSolver "
-      "ProjectedGaussSeidelConstraintSolver BlockGaussSeidelConstraintSolver "
-      "UnbuiltGaussSeidelConstraintSolver ImprovedJacobiConstraintSolver NNCGConstraintSolver "
-      "LCPConstraintSolver LMConstraintSolver LMConstraintDirectSolver GenericConstraintCorrection "
-      "LinearSolverConstraintCorrection PrecomputedConstraintCorrection UncoupledConstraintCorrection",
-      "does nothing, as in a scene without constraints that multipliers solve; there are none here"},
+    {{"LMConstraintSolver LMConstraintDirectSolver",
+      "does nothing: constraints by multipliers are solved where the root has a FreeMotionAnimationLoop"},
      {"CollisionGroupManager DefaultCollisionGroupManager TreeCollisionGroupManager CollisionGroup",
       "does nothing: bodies that touch stay under their own solvers; put them below one, so that their "
       "contact is part of its system"}});
@@ -205,10 +201,6 @@ inline constexpr std::array anotherMethod = std::to_array<AnotherMethod>(
     {{"LocalMinDistance",
       "all pairs of elements within the distance are contacts, as with MinProximityIntersection; SOFA leaves "
       "out those that are no local minima of the distance"},
-     {"FrictionContact",
-      "bodies are kept apart by penalty forces with Coulomb friction, as with PenalityContactForceField; "
-      "SOFA solves "
-      "for multipliers"},
      {"AsyncSparseLDLSolver",
       "the matrix of each step is factorised before it is solved, as with SparseLDLSolver; SOFA goes on with "
       "the factorisation of an earlier step while a thread makes the next"},

@@ -47,12 +47,37 @@ class SceneReader {
     ReadScene<R> scene{RuntimeNode<R>(top.name)};
     readNode(top, scene);
     fill(top, scene.root);
+    addConstraintSolver(top, scene.root);
     if (!messages_.errors.empty()) throw SceneError(messages_.errors);
     scene.ignored.assign(messages_.ignored.begin(), messages_.ignored.end());
     scene.warnings.assign(messages_.warnings.begin(), messages_.warnings.end());
     scene.warnings.insert(scene.warnings.end(), xml_.warnings.begin(), xml_.warnings.end());
     scene.files = values_.files;
     return scene;
+  }
+
+  // An animation loop without a constraint solver takes the one by default, as in SOFA.
+  void addConstraintSolver(ScenePlace const& top, RuntimeNode<R>& root) {
+    auto has = [](auto const& self, RuntimeNode<R> const& node) -> bool {
+      for (auto const& entry : node.components())
+        if (entry.component.template is<role::ConstraintSolver>()) return true;
+      return std::any_of(
+          node.children().begin(), node.children().end(), [&](auto const& c) { return self(self, *c); });
+    };
+    SceneItem const* const loop = top.ofRole(RoleKind::animationLoop);
+    if (!loop || has(has, root)) return;
+    for (ClassInfo const& info : table_)
+      if (info.role == RoleKind::constraintSolver && info.traits.takenByDefault) {
+        messages_.warnings.insert(text(loop->element->place(),
+                                       ": <",
+                                       loop->tag,
+                                       "> finds no constraint solver, and takes a ",
+                                       info.name,
+                                       "; add one to the scene"));
+        root.add(RuntimeEntry<R>{
+            AnyComponent<R>::make(info.type), std::string(info.name), loop->element->place()});
+        return;
+      }
   }
 
   void readNode(ScenePlace const& place, ReadScene<R>& scene) {

@@ -84,13 +84,14 @@ class SceneWriter {
           }
         });
       if (info.joins)
-        component.template visit<role::InteractionForceField, role::ProjectiveConstraint>(
-            [&](auto const& joint) {
-              if constexpr (requires { joint.ends.object1; }) {
-                set(element, "object1", text('@', joint.ends.object1));
-                set(element, "object2", text('@', joint.ends.object2));
-              }
-            });
+        component.template visit<role::InteractionForceField,
+                                 role::ProjectiveConstraint,
+                                 role::LagrangianConstraint>([&](auto const& joint) {
+          if constexpr (requires { joint.ends.object1; }) {
+            set(element, "object1", text('@', joint.ends.object1));
+            set(element, "object2", text('@', joint.ends.object2));
+          }
+        });
     }
     for (auto const& child : node.children()) {
       pugi::xml_node element = to.append_child("Node");

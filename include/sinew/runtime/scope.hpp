@@ -288,13 +288,15 @@ struct RuntimeScope {
   /// is none at a path.
   std::vector<RuntimeNode<R>*> const& endsOf(RuntimeEntry<R>& entry) const {
     if (entry.ends.empty())
-      entry.component.template visit<role::InteractionForceField, role::ProjectiveConstraint, role::Mapping>(
-          [&](auto const& c) {
-            if constexpr (requires { c.ends.object1; })
-              entry.ends = {node.resolve(c.ends.object1), node.resolve(c.ends.object2)};
-            if constexpr (requires { c.parents.paths; })
-              for (auto const& path : c.parents.paths) entry.ends.push_back(node.resolve(path));
-          });
+      entry.component.template visit<role::InteractionForceField,
+                                     role::ProjectiveConstraint,
+                                     role::LagrangianConstraint,
+                                     role::Mapping>([&](auto const& c) {
+        if constexpr (requires { c.ends.object1; })
+          entry.ends = {node.resolve(c.ends.object1), node.resolve(c.ends.object2)};
+        if constexpr (requires { c.parents.paths; })
+          for (auto const& path : c.parents.paths) entry.ends.push_back(node.resolve(path));
+      });
     return entry.ends;
   }
 

@@ -191,6 +191,9 @@ struct Facts {
   static constexpr bool solverHere() { return solves<N> && !solverAbove(); }
   static constexpr bool integrates() { return checks::integrates<S>(); }
   static constexpr bool linearSolver() { return has_above<S, role::LinearSolver>(); }
+  static constexpr bool inRoot() { return std::is_same_v<typename S::Above, NoScope>; }
+  static constexpr bool constraintSolver() { return N::template holds<role::ConstraintSolver>; }
+  static constexpr bool loopInRoot() { return has_above<S, role::AnimationLoop>(); }
   static constexpr bool pipelineAbove() { return has_above<S, role::CollisionPipeline>(); }
   static constexpr bool pipelineHere() { return N::template count<role::CollisionPipeline> > 0; }
   static constexpr bool allStages() {
@@ -286,6 +289,8 @@ constexpr Rule too_many() {
                       N::template count<role::Intersection>,
                       N::template count<role::ContactManager>})
     if (n > 1) return Rule::secondStage;
+  if (N::template count < role::AnimationLoop >> 1 || N::template count < role::ConstraintSolver >> 1)
+    return Rule::secondLoop;
   return N::childNamesDiffer() ? Rule::none : Rule::sameNames;
 }
 

@@ -5,7 +5,7 @@
 #include <sinew/collision/contact.hpp>
 #include <sinew/core/error.hpp>
 #include <sinew/core/registry.hpp>
-#include <sinew/scene/scope.hpp>
+#include <sinew/scene/solvers.hpp>
 
 #include <utility>
 #include <vector>
@@ -41,17 +41,6 @@ constexpr Shapes shapes_below() {
   }
 }
 
-// f(component) for the first with a role in the node of a scope
-template <class Role, class S, class F>
-bool with_first(S const& scope, F&& f) {
-  bool found = false;
-  auto visit = on<Role>([&](auto& c) {
-    if (!std::exchange(found, true)) f(c);
-  });
-  scope.forEachComponent(visit);
-  return found;
-}
-
 }  // namespace detail
 
 /// Collision detection in a scene: what its DefaultPipeline asks of the tree.
@@ -68,6 +57,8 @@ struct Collision {
                model.surface.solver = -1;
                model.surface.companions = {};
                model.surface.beside.clear();
+               if constexpr (requires { scope.node.entryOf(&model).name; })
+                 model.surface.name = scope.node.entryOf(&model).name;
                all.push_back(&model.surface);
              }));
     int solvers = 0;
@@ -80,8 +71,10 @@ struct Collision {
         }
     traverse(root, on<role::CollisionPipeline>([&](auto& pipeline, auto const& scope) {
                collect(pipeline, scope);
-               detail::with_first<role::ContactManager>(
-                   scope, [&](auto& manager) { manager.init(scope.path(), pipeline.surfaces, again); });
+               with_first<role::ContactManager>(scope, [&](auto& manager) {
+                 manager.init(scope.path(), pipeline.surfaces, again);
+                 checkMultipliers(manager, scope);
+               });
                pipeline.near.reserve(pipeline.surfaces.size() * (pipeline.surfaces.size() + 1) / 2);
                for (auto* s : pipeline.surfaces) s->enclose(0, 0);  // the trees are built
                traverse(scope, on<role::CollisionModel>([](auto& model, auto const& s) {
@@ -102,22 +95,22 @@ struct Collision {
           {
             [[maybe_unused]] const auto span = root.span(Phase::positions);
             collect(pipeline, scope);
-            detail::with_first<role::ContactManager>(
-                scope, [&](auto& manager) { manager.settle(pipeline.surfaces); });
+            with_first<role::ContactManager>(scope,
+                                             [&](auto& manager) { manager.settle(pipeline.surfaces); });
           }
-          detail::with_first<role::Intersection>(scope, [&](auto const& intersection) {
+          with_first<role::Intersection>(scope, [&](auto const& intersection) {
             [[maybe_unused]] const auto span = root.span(Phase::boundingTrees);
             for (auto* s : pipeline.surfaces)
               s->enclose(intersection.reach() / 2, intersection.continuous ? dt : 0);
           });
-          detail::with_first<role::BroadPhase>(scope, [&](auto& broad) {
+          with_first<role::BroadPhase>(scope, [&](auto& broad) {
             [[maybe_unused]] const auto span = root.span(Phase::broadPhase);
             pipeline.findNear(broad);
           });
-          detail::with_first<role::ContactManager>(scope, [&](auto& manager) {
-            detail::with_first<role::NarrowPhase>(scope, [&](auto& narrow) {
+          with_first<role::ContactManager>(scope, [&](auto& manager) {
+            with_first<role::NarrowPhase>(scope, [&](auto& narrow) {
               [[maybe_unused]] const auto span = root.span(Phase::narrowPhase);
-              detail::with_first<role::Intersection>(scope, [&](auto const& intersection) {
+              with_first<role::Intersection>(scope, [&](auto const& intersection) {
                 using S = std::decay_t<decltype(scope)>;
                 pipeline.findContacts(
                     detail::list_of_shapes<detail::shapes_below<S>()>(), narrow, intersection, manager, dt);
@@ -132,6 +125,15 @@ struct Collision {
   }
 
  private:
+  template <class Manager, class S>
+  void checkMultipliers(Manager const& manager, S const& scope) const {
+    if (manager.asksForMultipliers() && !with_first<role::AnimationLoop>(root, [](auto const&) {}))
+      throw Error(
+          text(scope.path(), ": ", component_name<Manager>()),
+          "a response to contacts is by multipliers, for which nothing solves: put a FreeMotionAnimationLoop "
+          "and a constraint solver, such as BlockGaussSeidelConstraintSolver, into the root, or take a "
+          "response by forces, such as PenalityContactForceField");
+  }
   // where the models are now
   template <class Pipeline, class S>
   static void collect(Pipeline& pipeline, S const& scope) {
@@ -160,17 +162,8 @@ struct Collision {
   // f(scope, implicit) for the nodes whose subtrees the solvers integrate
   template <class S, class F>
   static void forEachSolver(S const& scope, F&& f) {
-    bool solved = false;
-    auto visit = on<role::OdeSolver>([&](auto& ode) {
-      if constexpr (!stands_beside<std::decay_t<decltype(ode)>>) {
-        solved = true;
-        f(scope, std::decay_t<decltype(ode)>::implicit);
-      }
-    });
-    if (scope.integrates()) scope.forEachComponent(visit);
-    if constexpr (!S::template always<role::OdeSolver>)
-      if (!solved)
-        scope.template forEachChild<role::OdeSolver>([&](auto const& child) { forEachSolver(child, f); });
+    for_each_integrator(
+        scope, [&](auto& ode, auto const& solved) { f(solved, std::decay_t<decltype(ode)>::implicit); });
   }
 
   template <class R, class C>

@@ -5,6 +5,7 @@
 #include <sinew/scene/collision.hpp>
 #include <sinew/scene/loose_interactions.hpp>
 #include <sinew/scene/mechanical_operations.hpp>
+#include <sinew/scene/solvers.hpp>
 
 #include <algorithm>
 #include <string>
@@ -23,15 +24,13 @@ class Initialisation {
 
   void run();
   /// The solvers alone: of a scene whose elements have come back.
-  void initSolvers() {
-    served_.clear();
-    initSolversBelow(root_);
-  }
+  void initSolvers();
 
  private:
   RootScope const& root_;
   const InitAgain again_;
   std::vector<void const*> served_{};  // linear solvers that have a matrix
+  bool constrained_ = false;           // the scene solves constraints by multipliers
 
   void checkFields();
   // topologies are made first; then states, parents before children
@@ -40,8 +39,6 @@ class Initialisation {
   void initStatesBelow(S const& scope);
   // what acts on them
   void initComponents();
-  template <class S>
-  void initSolversBelow(S const& scope);
 
   template <class C, class S>
   static void initState(C& c, S const& scope) {
@@ -103,7 +100,8 @@ class Initialisation {
         });
       });
     } else if constexpr (HasRole<C, role::ForceField> || HasRole<C, role::Mass> ||
-                         HasRole<C, role::ProjectiveConstraint> || WatchesState<C>) {
+                         HasRole<C, role::ProjectiveConstraint> || HasRole<C, role::LagrangianConstraint> ||
+                         CorrectsState<C> || WatchesState<C>) {
       withContext<C, typename C::DataTypes>(scope, [&](auto const& context) { c.init(context); });
     }
     if constexpr (requires { c.warning(); }) warn(c, scope);
@@ -148,11 +146,13 @@ class Initialisation {
   template <class Ode, class S>
   void initSolver(Ode& ode, S const& scope) {
     MechanicalOperations<S> operations(scope);
-    operations.reserve(Ode::auxiliary);
+    const Auxiliary beside = constrained_ ? MultiplierResponse::auxiliary : Auxiliary{};
+    operations.reserve(Ode::auxiliary + beside);
+    if (constrained_) operations.numberDofs(1);
     operations.template withLinearSolverOf<Ode>([&](auto& linear) {
       using Linear = std::decay_t<decltype(linear)>;
       if constexpr (needs_pattern<Linear>) serveOne<Ode>(linear, scope);
-      operations.reserve(Ode::auxiliary + Linear::auxiliary);
+      operations.reserve(Ode::auxiliary + Linear::auxiliary + beside);
       linear.init(operations);
     });
     if constexpr (requires { ode.init(operations); }) ode.init(operations);
@@ -160,6 +160,32 @@ class Initialisation {
     // what a solver remembers of the last step is not that of a scene that has changed
     if constexpr (requires { ode.lastEnd; })
       if (again_) ode.lastEnd = -1;
+  }
+  // what a scene needs that solves constraints by multipliers
+  template <class Ode, class S, class Motion>
+  static void initConstrained(Ode&, S const& scope, Motion& motion) {
+    if constexpr (!takes_multipliers<Ode>) {
+      throw Error(
+          text(scope.path(), ": ", component_name<Ode>()),
+          "this solver does not say what multipliers do in its step, and the scene solves constraints by "
+          "them; take EulerImplicitSolver, NewmarkImplicitSolver, StaticSolver, "
+          "VariationalSymplecticSolver or an explicit one, or leave out the FreeMotionAnimationLoop");
+    } else {
+      MechanicalOperations<S> operations(scope);
+      const int number = int(motion.systems.size());
+      int dofs = 0;
+      operations.forEachState([&](auto& s) { s.solver = number; });
+      operations.forEachMapped([](auto& s) {
+        if constexpr (requires { s.multiplierForce; }) s.multiplierForce.reserve(s.size());
+      });
+      operations.forEachIndependent([&](auto& s) {
+        using D = typename std::decay_t<decltype(s)>::DataTypes;
+        dofs = std::max(dofs, s.dofOffset + int(s.size()) * D::size);
+      });
+      auto& system = motion.systems.emplace_back();
+      system.force.setZero(dofs + 1);
+      system.motion.setZero(dofs + 1);
+    }
   }
   template <class Ode, class Linear, class S>
   void serveOne(Linear const& linear, S const& scope) {
@@ -238,17 +264,17 @@ void Initialisation<RootScope>::initComponents() {
 }
 
 template <class RootScope>
-template <class S>
-void Initialisation<RootScope>::initSolversBelow(S const& scope) {
-  bool solved = false;
-  auto visit = on<role::OdeSolver>([&](auto& ode) {
-    solved = true;
-    scope.located(ode, [&] { initSolver(ode, scope); });
+void Initialisation<RootScope>::initSolvers() {
+  served_.clear();
+  constrained_ = with_first<role::AnimationLoop>(root_, [](auto&) {});
+  for_each_solver(root_,
+                  [&](auto& ode, auto const& scope) { scope.located(ode, [&] { initSolver(ode, scope); }); });
+  with_first<role::AnimationLoop>(root_, [&](auto& loop) {
+    loop.motion.systems.clear();
+    for_each_integrator(root_, [&](auto& ode, auto const& scope) {
+      scope.located(ode, [&] { initConstrained(ode, scope, loop.motion); });
+    });
   });
-  if (scope.integrates()) scope.forEachComponent(visit);
-  if constexpr (!S::template always<role::OdeSolver>)
-    if (!solved)
-      scope.template forEachChild<role::OdeSolver>([&](auto const& child) { initSolversBelow(child); });
 }
 
 }  // namespace sinew

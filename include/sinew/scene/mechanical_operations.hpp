@@ -149,18 +149,22 @@ struct MechanicalOperations {
 
   // the assembled system
 
-  /// Numbers the degrees of freedom of the independent states, each from a block of `matrix` on, and fixes
-  /// its pattern.
-  template <class Matrix>
-  void initMatrix(Matrix& matrix) {
-    [[maybe_unused]] const auto span = root.span(Phase::pattern);
-    constexpr int block = Matrix::blockSize;
+  /// Numbers the degrees of freedom of the independent states, each from a block of so many on, and returns
+  /// how many there are with what fills the last blocks.
+  int numberDofs(int block) {
     int dofs = 0;
     forEachIndependent([&](auto& s) {
       s.dofOffset = dofs;
       dofs += int(s.size()) * DataTypesOf<decltype(s)>::size;
       dofs = (dofs + block - 1) / block * block;
     });
+    return dofs;
+  }
+  /// Numbers them from blocks of `matrix` on, and fixes its pattern.
+  template <class Matrix>
+  void initMatrix(Matrix& matrix) {
+    [[maybe_unused]] const auto span = root.span(Phase::pattern);
+    const int dofs = numberDofs(Matrix::blockSize);
     matrix.startPattern(dofs);
     auto&& assembled = root.assembled(matrix);
     preallocate(assembled);
@@ -215,6 +219,12 @@ struct MechanicalOperations {
                if (!scope.mapped()) f(c);
              }));
   }
+  template <class F>
+  void forEachMapped(F&& f) {
+    traverse(root, on<role::State>([&](auto& c, auto const& scope) {
+               if (scope.mapped()) f(c);
+             }));
+  }
 
  private:
   friend ActedForces<MechanicalOperations>;
@@ -252,12 +262,6 @@ struct MechanicalOperations {
     return scope.template state<typename C::DataTypes>();
   }
 
-  template <class F>
-  void forEachMapped(F&& f) {
-    traverse(root, on<role::State>([&](auto& c, auto const& scope) {
-               if (scope.mapped()) f(c);
-             }));
-  }
   // f(mapping, child state, parent state), parents first, visual models left out
   template <class F>
   void forEachMapping(F&& f) {
@@ -282,6 +286,18 @@ struct MechanicalOperations {
                       also(m, child, parent);
                     });
                   }));
+  }
+  // the force f on a mapped state with that of multipliers; its dx holds the sum
+  template <class Child>
+  static auto& withMultipliers(Child& child, DerivId f) {
+    if constexpr (requires { child.multiplierForce; })
+      if (!child.multiplierForce.empty()) {
+        auto& sum = child[vec_id::dx];
+        Vectors<Child>::eq(OneThread{}, sum, child[f]);
+        Vectors<Child>::peq(OneThread{}, sum, child.multiplierForce, real(child, 1));
+        return sum;
+      }
+    return child[f];
   }
   template <class C, class S, class F>
   void forEnds(C const& c, S const& scope, F&& f) {
@@ -376,7 +392,8 @@ void MechanicalOperations<Root>::computeForce(DerivId f, CoordId x, DerivId v, d
       }));
   contacts().addForces(f, x, v);
   accumulate(f, [f](auto& mapping, auto& child, auto&) {
-    if constexpr (HasGeometricStiffness<std::decay_t<decltype(mapping)>>) mapping.updateK(child[f]);
+    if constexpr (HasGeometricStiffness<std::decay_t<decltype(mapping)>>)
+      mapping.updateK(withMultipliers(child, f));
   });
 }
 

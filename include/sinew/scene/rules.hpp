@@ -64,6 +64,11 @@ constexpr Rule joins(Place const& end, bool solved, bool constrains) {
   if (constrains && end.mapped) return Rule::constraintOnMapped;
   return constrains && !end.sameSolver ? Rule::constraintAcrossSolvers : Rule::none;
 }
+constexpr Rule joins_by_multipliers(Place const& end) {
+  if (!end.there) return Rule::noEnd;
+  if (!end.state) return Rule::endWithoutState;
+  return end.sameDataTypes ? Rule::none : Rule::endOfOtherDataTypes;
+}
 constexpr Rule follows(Place const& parent, bool mechanical) {
   if (!parent.state) return Rule::noParent;
   if (!parent.sameDataTypes) return Rule::mappingIn;
@@ -83,6 +88,8 @@ struct Kind {
   bool acts = false;     // on the state of its node
   bool watches = false;  // looks at it only
   bool constrains = false;
+  bool byMultipliers = false;  // a constraint
+  bool loop = false;
   bool collides = false;
   bool maps = false, severalParents = false;
   bool stage = false, pipeline = false;  // of collision detection; composes its stages
@@ -95,9 +102,11 @@ constexpr Kind kind_of() {
   kind.joins = JoinsTwo<C>;
   kind.watches = WatchesState<C>;
   kind.constrains = HasRole<C, role::ProjectiveConstraint>;
+  kind.byMultipliers = HasRole<C, role::LagrangianConstraint>;
+  kind.loop = HasRole<C, role::AnimationLoop>;
   kind.collides = HasRole<C, role::CollisionModel>;
   kind.acts = !JoinsTwo<C> && (HasRole<C, role::ForceField> || HasRole<C, role::Mass> || kind.constrains ||
-                               kind.collides || kind.watches);
+                               kind.byMultipliers || CorrectsState<C> || kind.collides || kind.watches);
   kind.maps = HasRole<C, role::Mapping>;
   kind.severalParents = HasParents<C>;
   kind.stage = HasRole<C, role::BroadPhase> || HasRole<C, role::NarrowPhase> ||
@@ -121,6 +130,8 @@ constexpr Kind kind_of() {
 ///   visual()               its node has a visual model
 ///   solved(), solverAbove(), solverHere()   an ODE solver moves its node, from above, from its own
 ///   integrates()           there is a state here or below that no mapping moves
+///   inRoot(), loopInRoot()   its node is the root; the root has an animation loop
+///   constraintSolver()     there is one, here or below
 ///   linearSolver(), pipelineAbove(), pipelineHere(), allStages(), tetrahedra(), parentTetrahedra()
 ///                          they are in reach
 template <Kind kind, class Facts>
@@ -135,11 +146,15 @@ constexpr Broken broken(Facts const& facts) {
   };
   if constexpr (kind.joins) {
     if (const Rule rule = facts.named(); rule != Rule::none) return {rule};
-    return first_of(facts.ends(),
-                    [&](Place const& end) { return joins(end, facts.solved(), kind.constrains); });
+    if (kind.byMultipliers && !facts.loopInRoot()) return {Rule::noLoop};
+    return first_of(facts.ends(), [&](Place const& end) {
+      return kind.byMultipliers ? joins_by_multipliers(end) : joins(end, facts.solved(), kind.constrains);
+    });
   } else if constexpr (kind.acts) {
     const Place own = facts.own();
-    if (const Rule rule = acts_on(own, !kind.watches && facts.solved()); rule != Rule::none) return {rule};
+    if (kind.byMultipliers && !facts.loopInRoot()) return {Rule::noLoop};
+    const bool ofOneSolver = !kind.watches && !kind.byMultipliers;
+    if (const Rule rule = acts_on(own, ofOneSolver && facts.solved()); rule != Rule::none) return {rule};
     if (kind.constrains && own.mapped) return {Rule::constraintOnMapped};
     if (kind.needsTetrahedra && !facts.tetrahedra()) return {Rule::noTetrahedra};
     if (kind.collides && !facts.pipelineAbove()) return {Rule::noPipeline};
@@ -155,6 +170,9 @@ constexpr Broken broken(Facts const& facts) {
       if (const Rule rule = follows(facts.parent(), child.state); rule != Rule::none) return {rule};
       if (kind.needsParentTetrahedra && !facts.parentTetrahedra()) return {Rule::noParentTetrahedra};
     }
+  } else if constexpr (kind.loop) {
+    if (!facts.inRoot()) return {Rule::loopNotInRoot};
+    if (!facts.constraintSolver()) return {Rule::noConstraintSolver};
   } else if constexpr (kind.stage) {
     if (!facts.pipelineHere()) return {Rule::loneStage};
   } else if constexpr (kind.pipeline) {

@@ -272,6 +272,9 @@ void Simulation<Root>::reset() {
              else
                c.reset();
            }));
+  traverse(rootScope(), on<role::LagrangianConstraint>([](auto& c, auto const&) {
+             if constexpr (KeepsMultipliers<std::decay_t<decltype(c)>>) c.multipliers.clear();
+           }));
   if constexpr (proved)
     if (regained) Initialisation<RootScope>(rootScope(), {.again = true}).initSolvers();
   time_ = 0;

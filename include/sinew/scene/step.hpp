@@ -5,11 +5,18 @@
 #include <sinew/scene/collision.hpp>
 #include <sinew/scene/loose_interactions.hpp>
 #include <sinew/scene/mechanical_operations.hpp>
+#include <sinew/scene/solvers.hpp>
 
 #include <string>
 #include <vector>
 
 namespace sinew {
+
+/// scene/constrained_step.hpp, which sinew/lagrangian.hpp includes.
+template <class RootScope>
+struct ConstrainedStep;
+template <class T>
+concept IsComplete = requires { sizeof(T); };
 
 /// The stages of one step of a scene, in the order in which Simulation::animate takes them.
 template <class RootScope>
@@ -61,8 +68,14 @@ struct Step {
   /// The external forces of interactions between solvers.
   void computeLoose() const { LooseInteractions<RootScope>{root}.compute({.time = time, .dt = dt}); }
 
-  /// Each ODE solver integrates its subtree and propagates.
-  void integrate(bool keepsForces) const { integrate(root, keepsForces); }
+  /// Each ODE solver integrates its subtree and propagates; where the scene has an animation loop,
+  /// constraints by multipliers hold at the end.
+  void integrate(bool keepsForces) const {
+    const bool constrained =
+        with_first<role::AnimationLoop>(root, [&](auto& loop) { integrateConstrained(loop, keepsForces); });
+    if (!constrained)
+      for_each_solver(root, [&](auto& ode, auto const& scope) { solve(ode, scope, keepsForces); });
+  }
 
   /// Checks states, and calls what watches them. The time is that of the end of the step.
   void end() const {
@@ -72,6 +85,17 @@ struct Step {
   }
 
  private:
+  // (a function, since the body of a generic lambda is looked at where there is no loop)
+  template <class Loop>
+  void integrateConstrained(Loop& loop, bool keepsForces) const {
+    static_assert(IsComplete<ConstrainedStep<RootScope>>,
+                  "Sinew: a scene with an animation loop needs what solves constraints; include "
+                  "<sinew/lagrangian.hpp>, or <sinew/scene/constrained_step.hpp>.");
+    if constexpr (IsComplete<ConstrainedStep<RootScope>>)
+      ConstrainedStep<RootScope>{root, time, dt}.integrate(
+          loop.motion, loop.solveVelocityConstraintFirst, keepsForces);
+  }
+
   // f(component, state, step) for what acts before a step
   template <class S, class F>
   static void forEachAhead(S const& scope, StepAhead ahead, F&& f) {
@@ -82,20 +106,6 @@ struct Step {
     scope.template forEachChild<BeforeStep>([&](auto const& child) { forEachAhead(child, ahead, f); });
   }
 
-  // where a node has no solver, its children are looked at
-  template <class S>
-  void integrate(S const& scope, bool keepsForces) const {
-    bool solved = false;
-    auto visit = on<role::OdeSolver>([&](auto& ode) {
-      solve(ode, scope, keepsForces);
-      solved = true;
-    });
-    if (scope.integrates()) scope.forEachComponent(visit);
-    if constexpr (!S::template always<role::OdeSolver>)
-      if (!solved)
-        scope.template forEachChild<role::OdeSolver>(
-            [&](auto const& child) { integrate(child, keepsForces); });
-  }
   template <class Ode, class S>
   void solve(Ode& ode, S const& scope, bool keepsForces) const {
     MechanicalOperations<S> operations(scope, time, dt);

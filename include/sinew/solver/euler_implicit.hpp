@@ -53,6 +53,13 @@ struct EulerImplicitSolver {
 
   NewtonReport newton{};
 
+  ConstraintFactors constraintFactors(double h) const {
+    const double t = trapezoidalScheme ? 0.5 : 1;
+    if (firstOrder) return {{.m = 1, .k = -t * h}, 1, h, 1};
+    return {
+        {.m = 1 + t * h * rayleighMass, .b = -t * h, .k = -t * h * (t * h + rayleighStiffness)}, h, t * h, 1};
+  }
+
   template <class Operations>
   void init(Operations&) {
     newton.init(maxNbIterationsNewton);
@@ -94,8 +101,7 @@ struct EulerImplicitSolver {
       if (!first) operations.addMBKdx(b.id, increment.id, {.m = -1});
       operations.projectResponse(b.id);
     };
-    MatrixFactors factors{.m = 1 + t * h * rM, .b = -t * h, .k = -t * h * (t * h + rK)};
-    if (firstOrder) factors = {.m = 1, .k = -t * h};
+    const MatrixFactors factors = constraintFactors(h).matrix;
     sinew::newton(*this,
                   operations,
                   {.factors = factors, .dx = dv, .b = b, .increment = increment},

@@ -50,6 +50,19 @@ struct NewmarkImplicitSolver {
   }
   void reset() { lastEnd = -1; }
 
+  ConstraintFactors constraintFactors(double h) const {
+    const double now = h * gamma;
+    return {{.m = 1 + now * rayleighMass, .b = -now, .k = -h * h * beta - now * rayleighStiffness},
+            1,
+            h * h * beta,
+            now};
+  }
+  /// The acceleration that the next step begins with has the part of the multipliers.
+  template <class Operations>
+  void corrected(Operations& operations, DerivId u) const {
+    operations.peq(DerivId{DerivId::reserved}, u, 1);
+  }
+
   template <class Operations>
   void solve(Operations& operations, double h) {
     MultiVecDeriv a(operations), move(operations);
@@ -70,7 +83,7 @@ struct NewmarkImplicitSolver {
     move.peq(a, h * h * (0.5 - beta));
     operations.addMBKdx(b.id, move.id, {.k = 1});
     operations.addMBKdx(b.id, a.id, {.m = -old * rM, .b = old, .k = old * rK});
-    solveFor(a1, {.m = 1 + now * rM, .b = -now, .k = -h * h * beta - now * rK});
+    solveFor(a1, constraintFactors(h).matrix);
     move.peq(a1, h * h * beta);
     // the forces at the end of the step, with which M a1 is in balance
     operations.acted.add(move.id, {.k = 1});

@@ -57,6 +57,11 @@ struct SparseLDLSolver {
               dof_text(operations, dof),
               ": nothing holds it there; fix points of the body, or give it mass or stiffness (if a value is "
               "not finite, the simulation diverged before: take a smaller dt)"));
+    solveAgain(operations, solution, rhs);
+  }
+  template <class Operations>
+  void solveAgain(Operations& operations, MultiVecDeriv<Operations>& solution,
+                  MultiVecDeriv<Operations>& rhs) {
     [[maybe_unused]] const auto span = operations.root.span(Phase::substitution);
     operations.gather(b, rhs.id);
     factor.solve(b, x);

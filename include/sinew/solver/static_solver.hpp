@@ -27,6 +27,8 @@ struct StaticSolver {
 
   NewtonReport newton{};
 
+  ConstraintFactors constraintFactors(double) const { return {{.k = -1}, 1, 1, 0}; }
+
   template <class Operations>
   void init(Operations&) {
     newton.init(maxNbIterationsNewton);

@@ -41,6 +41,14 @@ struct VariationalSymplecticSolver {
 
   int iterations = 0;  // of Newton's method in the last step
 
+  ConstraintFactors constraintFactors(double h) const {
+    if (explicitIntegration) return {{.m = 1}, h, h, 1};
+    return {{.m = 4 / (h * h) + 2 * rayleighMass / h, .b = -2 / h, .k = -1 - 2 * rayleighStiffness / h},
+            1,
+            2,
+            4 / h};
+  }
+
   template <class Operations>
   void solve(Operations& operations, double h) {
     MultiVecCoord pos(operations, vec_id::position), start(operations);
@@ -76,9 +84,8 @@ struct VariationalSymplecticSolver {
       operations.addMBKdx(b.id, change.id, {.m = 1});
       if (rM != 0 || rK != 0) operations.addMBKdx(b.id, w.id, {.m = -rM, .k = rK});
       operations.projectResponse(b.id);
-      operations.root.withLinearSolver([&](auto& linear) {
-        linear.solve(operations, {.m = 4 / (h * h) + 2 * rM / h, .b = -2 / h, .k = -1 - 2 * rK / h}, dx, b);
-      });
+      operations.root.withLinearSolver(
+          [&](auto& linear) { linear.solve(operations, constraintFactors(h).matrix, dx, b); });
       d.peq(dx);
       if (iterations >= steps || !(dx.norm() > newtonError * d.norm())) break;
     }

@@ -81,6 +81,9 @@ struct MechanicalObject {
   VecCoord freePosition{};
   VecDeriv externalForce{};  // of interactions with bodies under other solvers, at the start of the step [N];
                              // empty where there are none
+  VecDeriv multiplierForce{};  // on a mapped state, of the multipliers that constraints have from the last
+                               // step [N], from which the mapping has its geometric stiffness; empty where
+                               // there are none
   // of Simulation::keepForces, empty without it: what acted over the last step, as impulse over dt, without
   // and of constraints [N]; and what its balance needs
   VecDeriv applied{}, reaction{}, startVelocity{}, marked{};
@@ -89,6 +92,7 @@ struct MechanicalObject {
   std::optional<VecCoord> given{};  // positions that the mapping of a mapped state was given
   SolverWorkspace<D> solverWorkspace{};
   int dofOffset = -1;  // first scalar of this state in the assembled system of its solver
+  int solver = -1;     // which of the ODE solvers of the scene moves it, in their order; -1: none
 
   std::size_t size() const { return position.size(); }
 
@@ -203,7 +207,8 @@ struct MechanicalObject {
   /// Points that go leave all vectors.
   void follow(Renumbering const& points) {
     for (VecCoord* v : {&position, &restPosition, &resetPosition, &freePosition}) points.filter(*v);
-    for (VecDeriv* v : {&velocity, &resetVelocity, &force, &dx, &externalForce, &applied, &reaction})
+    for (VecDeriv* v :
+         {&velocity, &resetVelocity, &force, &dx, &externalForce, &multiplierForce, &applied, &reaction})
       points.filter(*v);
     for (VecCoord& v : auxiliaryCoords) points.filter(v);
     for (VecDeriv& v : auxiliaryDerivs) points.filter(v);

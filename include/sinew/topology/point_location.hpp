@@ -32,14 +32,20 @@ struct ElementLocator {
       low = min_of(low, elements.back().low);
       high = max_of(high, elements.back().high);
     }
-    // the directions in which a sheet or a string has no extent do not count
-    const Eigen::Vector3d extent = max_of(high - low, Eigen::Vector3d(1e-300, 1e-300, 1e-300));
+    // the directions in which a sheet or a string has no extent do not count; where all points are at one
+    // place, none does
+    const double most = (high - low).maxCoeff();
+    const bool spread = most > 0 && std::isfinite(most);
+    const Eigen::Vector3d extent = spread ? Eigen::Vector3d((high - low) / most) : Eigen::Vector3d(0, 0, 0);
     double measure = 1;
     int directions = 0;
     for (int c = 0; c < 3; ++c)
-      if (extent[c] > 1e-3 * extent.maxCoeff()) measure *= extent[c], ++directions;
-    cell = std::max(std::pow(measure / double(elements.size()), 1.0 / directions), extent.maxCoeff() / 512);
-    for (std::size_t c = 0; c < 3; ++c) count[c] = std::clamp(int(extent[Index(c)] / cell) + 1, 1, 513);
+      if (extent[c] > 1e-3) measure *= extent[c], ++directions;
+    if (directions == 0) directions = 1;
+    const double relative =
+        std::max(std::pow(measure / double(elements.size()), 1.0 / directions), 1.0 / 512);
+    if (spread) cell = relative * most;
+    for (std::size_t c = 0; c < 3; ++c) count[c] = std::clamp(int(extent[Index(c)] / relative) + 1, 1, 513);
 
     // two passes: count, then fill, so that cell c holds members[start[c]] ... in the order of the elements
     start.assign(std::size_t(count[0]) * std::size_t(count[1]) * std::size_t(count[2]) + 1, 0);

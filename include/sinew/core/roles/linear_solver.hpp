@@ -48,6 +48,11 @@ concept LinearSolver =
 template <class C>
 inline constexpr bool needs_pattern = !requires { requires !C::needsPattern; };
 
+/// Solves once more with the matrix of the last solve, at the same positions: solveAgain(operations, x, b). What the
+/// responses of bodies to constraints need; where it is not there, the matrix is made again.
+template <class C>
+concept HasSolveAgain = named::solveAgain<C>;
+
 template <>
 struct Promise<role::LinearSolver> : NoPromise {
   template <class C>

@@ -48,10 +48,47 @@ inline constexpr bool stands_beside = requires { requires C::beside; };
 template <class C>
 concept SolvesMass = requires { C::solvesMass; };
 
+/// How multipliers f [N] act in a step: A u = impulse J' f with the matrix A = m M + b B + k K of the step and the
+/// Jacobian J of the constraints; positions move by position u, velocities change by velocity u.
+struct ConstraintFactors {
+  MatrixFactors matrix{};
+  double impulse = 0, position = 0, velocity = 0;
+};
+/// An implicit solver says it for a step of length h, for scenes with an animation loop that solves constraints. It
+/// may have `corrected(operations, u)`, which is called when positions and velocities have taken u.
+template <class C>
+concept HasConstraintFactors = requires(C const c) {
+  { c.constraintFactors(0.01) } -> std::same_as<ConstraintFactors>;
+};
+
+/// What an ODE solver makes of multipliers in a step of length h, and which of the auxiliary vectors are free
+/// then.
+struct MultiplierResponse {
+  ConstraintFactors factors{};
+  bool bySystem = false;  // by the system that the solver has solved, else by the masses
+  int derivs = 0;
+
+  template <class Ode>
+  static MultiplierResponse of(Ode const& ode, double h) {
+    ConstraintFactors factors{{.m = 1}, h, h, 1};
+    if constexpr (HasConstraintFactors<Ode>) factors = ode.constraintFactors(h);
+    const bool ofForces = factors.matrix.b != 0 || factors.matrix.k != 0;
+    return {factors, (Ode::implicit && ofForces) || SolvesMass<Ode>, Ode::auxiliary.derivs};
+  }
+  /// Vectors that it takes beside those of the solvers.
+  static constexpr Auxiliary auxiliary{.derivs = 2};
+  DerivId force() const { return {DerivId::reserved + derivs}; }
+  DerivId motion() const { return {DerivId::reserved + derivs + 1}; }
+};
+/// Whether an ODE solver takes part in a scene with constraints by multipliers.
+template <class Ode>
+inline constexpr bool takes_multipliers = !Ode::implicit || HasConstraintFactors<Ode> || stands_beside<Ode>;
+
 template <>
 struct Promise<role::OdeSolver> : NoPromise {
   template <class C>
-  static constexpr bool kept = OdeSolver<C>;
+  static constexpr bool kept =
+      OdeSolver<C> && is_called(named::constraintFactors<C>, HasConstraintFactors<C>);
   template <class C>
   struct Broken {
     static_assert(
@@ -66,6 +103,9 @@ struct Promise<role::OdeSolver> : NoPromise {
         Integrates<C>,
         "Sinew: an ODE solver has no 'template <class Operations> void solve(Operations& operations, "
         "double dt)', which makes a step.");
+    static_assert(is_called(named::constraintFactors<C>, HasConstraintFactors<C>),
+                  "Sinew: an ODE solver has a constraintFactors that nothing calls; write 'ConstraintFactors "
+                  "constraintFactors(double h) const'.");
   };
 };
 

@@ -121,11 +121,15 @@ class SceneClasses {
             if (info->dataTypes == wanted) return info;
         return &first;
       }
+      case RoleKind::constraintCorrection:
+        if (first.dataTypes.empty()) return &first;
+        [[fallthrough]];
       case RoleKind::mass:
       case RoleKind::forceField:
       case RoleKind::interactionForceField:
       case RoleKind::stepCallback:
       case RoleKind::collisionModel:
+      case RoleKind::lagrangianConstraint:
       case RoleKind::projectiveConstraint: {
         ScenePlace const* acted = owner;
         const bool joins = endsDiffer(item);

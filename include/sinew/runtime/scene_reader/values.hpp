@@ -64,8 +64,10 @@ class SceneValues {
       component(item).template visit<role::Topology>([&](auto& topology) {
         if constexpr (requires { topology.generate(""); }) topology.generate(item.info->cppName);
       });
-      component(item).template visit<role::InteractionForceField, role::ProjectiveConstraint>(
-          [&](auto& joint) {
+      component(item)
+          .template visit<role::InteractionForceField,
+                          role::ProjectiveConstraint,
+                          role::LagrangianConstraint>([&](auto& joint) {
             if constexpr (requires { joint.ends.object1; })
               joint.ends.object1 = item.ends[0], joint.ends.object2 = item.ends[1];
           });
@@ -253,11 +255,6 @@ class SceneValues {
     // a picture has neither forces nor masses
     if (a.name.starts_with("map") && item.info->role == RoleKind::mapping && item.place->state.empty())
       return;
-    // parameters of the response that is named: only friction has some
-    if (a.name == "responseParams")
-      if (auto const* response = item.element->attribute("response");
-          !response || response->value != "FrictionContact")
-        return;
     if (dialect::another_method(item.tag))
       return void(messages_.warnings.insert(text(item.element->place(a),
                                                  ": <",

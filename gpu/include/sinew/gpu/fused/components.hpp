@@ -47,11 +47,13 @@ struct IsFused : std::disjunction<IsState<C>, IsMass<C>, IsForceField<C>, IsCons
 /// What takes part in mechanics and has no place in a fused step, such as a force field that steps change. (A
 /// mapping has one, where it leads to no state.)
 template <class C>
-struct IsForeign : std::bool_constant<HasRole<C, role::InteractionForceField> ||
-                                      HasRole<C, role::CollisionModel> || HasRole<C, role::Carving> ||
-                                      ActsBeforeStep<C> || (HasRole<C, role::ForceField> && Resettable<C>) ||
-                                      (HasRole<C, role::OdeSolver> && !IsOdeSolver<C>::value) ||
-                                      (HasRole<C, role::LinearSolver> && !IsLinearSolver<C>::value)> {};
+struct IsForeign
+    : std::bool_constant<HasRole<C, role::InteractionForceField> || HasRole<C, role::CollisionModel> ||
+                         HasRole<C, role::Carving> || HasRole<C, role::LagrangianConstraint> ||
+                         HasRole<C, role::AnimationLoop> || ActsBeforeStep<C> ||
+                         (HasRole<C, role::ForceField> && Resettable<C>) ||
+                         (HasRole<C, role::OdeSolver> && !IsOdeSolver<C>::value) ||
+                         (HasRole<C, role::LinearSolver> && !IsLinearSolver<C>::value)> {};
 
 }  // namespace detail
 

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/collision/contact.hpp>
+#include <sinew/lagrangian/constraint_rows.hpp>
+
+#include <Eigen/Core>
+
+namespace sinew {
+
+/// What is left of the gap of a contact at a displacement u: n.u - thickness - limit.
+inline double gap_of(Contact const& c, Eigen::Vector3d const& u) {
+  return c.normal.dot(u) - c.thickness - c.limit;
+}
+
+/// The part of a step behind the impact of a contact that is apart at its start and would not be at its end;
+/// all of the step for what touches at its start.
+inline double part_after_impact(Contact const& c, ContactMotion const& m) {
+  const double before = gap_of(c, m.start), after = gap_of(c, m.free);
+  return before > 0 && after < 0 ? after / (after - before) : 1;
+}
+
+/// The directions of the equations of a contact: its normal and two tangents, of length 1 and at right
+/// angles.
+inline Eigen::Matrix3d contact_axes(Eigen::Vector3d const& normal) {
+  int least = 0;
+  normal.cwiseAbs().minCoeff(&least);
+  Eigen::Matrix3d axes;
+  axes.col(0) = normal;
+  axes.col(1) = normal.cross(Eigen::Vector3d::Unit(least)).normalized();
+  axes.col(2) = normal.cross(axes.col(1));
+  return axes;
+}
+
+/// A response to contacts by multipliers: addRows(rows, contact, motion) adds nothing, or one block of rows
+/// with their violations, along the axes of the contact (contact_axes) in their order. Forces on b along the
+/// axes are its multipliers.
+template <class R>
+concept ContactConstraint = requires(R const r, ConstraintRows rows, Contact c, ContactMotion const m) {
+  { R::className } -> std::convertible_to<std::string_view>;
+  r.addRows(rows, c, m);
+};
+
+}  // namespace sinew

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/lagrangian/constraint_terms.hpp>
+#include <sinew/linalg/block_inverse.hpp>
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace sinew {
+
+/// Block Jacobi of A + J' G J: z = D^-1 r with the B x B diagonal blocks D of the sum, one of each point.
+template <int B>
+class ConstrainedBlockJacobi {
+ public:
+  using Block = Eigen::Matrix<double, B, B>;
+
+  /// Diagonal blocks of A, positive definite; set before each solution.
+  std::vector<Block> system{};
+
+  int dofs() const { return B * int(system.size()); }
+
+  /// Takes rows for one solution. `compliance`: an estimate of the diagonal of W, that of J D_A^-1 J'.
+  void begin(ConstraintTerms const& terms, Eigen::VectorXd& compliance) {
+    gather(terms);
+    inverse_.resize(system.size());
+    for (std::size_t i = 0; i < system.size(); ++i) invert(system[i], inverse_[i]);
+    ConstraintTerms::clear(terms.rows().rows(), compliance);
+    for (std::size_t k = 0; k < terms.blocks().size(); ++k) {
+      ConstraintBlock const& b = terms.blocks()[k];
+      for (std::size_t e = ends_[k]; e < ends_[k + 1]; ++e) {
+        Block const& inverse = inverse_[std::size_t(point_[e])];
+        for (int i = 0; i < b.rows; ++i) {
+          const Eigen::Map<Eigen::Matrix<double, B, 1> const> row(rows_.data() + slot_[e] + B * i);
+          compliance[b.first + i] += row.dot(inverse * row);
+        }
+      }
+    }
+  }
+
+  /// Takes G as it is now.
+  void update(ConstraintTerms const& terms) {
+    sum_ = system;
+    for (std::size_t k = 0; k < terms.blocks().size(); ++k) {
+      ConstraintBlock const& b = terms.blocks()[k];
+      double const* G = terms.curvature(b);
+      for (std::size_t e = ends_[k]; e < ends_[k + 1]; ++e) {
+        Block& of = sum_[std::size_t(point_[e])];
+        const Eigen::Map<Eigen::Matrix<double, B, Eigen::Dynamic> const> rows(
+            rows_.data() + slot_[e], B, b.rows);
+        if (b.kind == ConstraintBlock::Kind::friction) {
+          const Eigen::Map<contact_potential::Curvature const> curvature(G, 3, 3);
+          if (!curvature.isZero(0)) {
+            const Eigen::Matrix<double, B, 3> J = rows.template leftCols<3>();
+            of.noalias() += (J * curvature).eval() * J.transpose();
+          }
+        } else {
+          for (int i = 0; i < b.rows; ++i)
+            if (G[i] != 0) of.noalias() += (rows.col(i) * G[i]) * rows.col(i).transpose();
+        }
+      }
+    }
+    for (std::size_t i = 0; i < sum_.size(); ++i) invert(sum_[i], inverse_[i]);
+  }
+
+  void apply(Eigen::VectorXd const& r, Eigen::VectorXd& z) const {
+    for (std::size_t i = 0; i < inverse_.size(); ++i) {
+      const auto at = Eigen::Index(i) * B;
+      z.template segment<B>(at).noalias() = inverse_[i] * r.template segment<B>(at);
+    }
+  }
+
+ private:
+  std::vector<Block> sum_{}, inverse_{};
+  // the rows of each block of constraints, as blocks of B columns of the points that they have
+  std::vector<std::size_t> ends_{}, slot_{};
+  std::vector<int> point_{};
+  std::vector<double> rows_{};
+  std::vector<int> entry_{};  // of each point in the block at hand
+
+  static void invert(Block const& a, Block& inverse) {
+    if (!invert_definite(a, inverse)) invert_diagonal(a, inverse);
+  }
+  void gather(ConstraintTerms const& terms) {
+    ends_.assign(1, 0);
+    slot_.clear();
+    point_.clear();
+    rows_.clear();
+    entry_.assign(system.size(), -1);
+    for (ConstraintBlock const& b : terms.blocks()) {
+      const std::size_t begin = point_.size();
+      for (int i = 0; i < b.rows; ++i)
+        terms.rows().forEachInRow(b.first + i, [&](int dof, double value) {
+          int& entry = entry_[std::size_t(dof / B)];
+          if (entry < 0) {
+            entry = int(point_.size());
+            point_.push_back(dof / B);
+            slot_.push_back(rows_.size());
+            rows_.resize(rows_.size() + std::size_t(B * b.rows), 0.);
+          }
+          rows_[slot_[std::size_t(entry)] + std::size_t(B * i + dof % B)] += value;
+        });
+      for (std::size_t e = begin; e < point_.size(); ++e) entry_[std::size_t(point_[e])] = -1;
+      ends_.push_back(point_.size());
+    }
+  }
+};
+
+}  // namespace sinew

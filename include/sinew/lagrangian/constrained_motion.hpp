@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/lagrangian/constraint_problem.hpp>
+#include <sinew/lagrangian/constraint_rows.hpp>
+#include <sinew/lagrangian/jacobian_rows.hpp>
+#include <sinew/linalg/block_matrix.hpp>
+#include <sinew/linalg/factored_rows.hpp>
+
+#include <vector>
+
+namespace sinew {
+
+/// The rows that act on the bodies of one ODE solver, over the degrees of freedom of its system.
+struct ConstrainedSystem {
+  std::vector<int> rows{};            // which of all they are, rising
+  JacobianRows jacobian{};            // of those, without what projective constraints take away
+  JacobianRows whole{};               // with that, where forces are kept
+  Eigen::VectorXd force{}, motion{};  // of all degrees of freedom, and one number more
+
+  // for solvers that need no compliance (scene/motion_problem.hpp)
+  CompressedRowSparseMatrixMat3x3d matrix{};  // A
+  bool hasPattern = false;
+  double scale = 1;  // S = scale A
+  int begin = 0;     // of its degrees of freedom among those of all systems
+
+  int dofs() const { return int(force.size()) - 1; }
+  Eigen::Matrix3d block(int row) const {
+    return Eigen::Map<CompressedRowSparseMatrixMat3x3d::Block const>(
+        matrix.block(matrix.rowStart[std::size_t(row)]));
+  }
+
+  void clear() {
+    rows.clear();
+    jacobian.clear();
+  }
+  /// Adds to a row, which is the last or one behind it.
+  void add(int row, int dof, double value) {
+    if (rows.empty() || rows.back() != row) {
+      rows.push_back(row);
+      jacobian.addRow();
+    }
+    jacobian.addToLast(dof, value);
+  }
+};
+
+/// The rows of all systems together, of blocks that something can part.
+struct MotionRows {
+  std::vector<int> rows{};  // which of all they are
+  std::vector<ConstraintBlock> blocks{};
+  JacobianRows jacobian{};
+  int dofs = 0;
+  std::vector<double> slack{};  // S of the degrees of freedom that rows have for themselves
+  Eigen::VectorXd start{}, multipliers{}, motion{};
+  std::vector<std::size_t> next{};  // of each system the row that comes next
+
+  void clear() {
+    rows.clear();
+    blocks.clear();
+    jacobian.clear();
+  }
+  void dropFrom(int row) {
+    const auto r = std::size_t(row);
+    jacobian.dofs.resize(std::size_t(jacobian.first[r]));
+    jacobian.values.resize(std::size_t(jacobian.first[r]));
+    jacobian.first.resize(r + 1);
+    rows.resize(r);
+  }
+};
+
+/// What a scene with constraints by multipliers keeps from step to step: the rows of the last step, their
+/// multipliers, and room.
+struct ConstrainedMotion {
+  ConstraintRows rows{};
+  ConstraintProblem problem{};  // of the last step; multipliers in N
+  std::vector<ConstrainedSystem> systems{};
+  std::vector<int> rowsOf{};  // how many each constraint has, in the order of the scene
+  int contactRows = 0;        // the first row behind them: those of contacts
+  MotionRows motionRows{};
+  FactoredRows factored{};
+  bool hasMotion = false;  // the solver has found the motion of systems with the multipliers
+};
+
+}  // namespace sinew

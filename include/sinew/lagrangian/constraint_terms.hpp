@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/lagrangian/contact_potential.hpp>
+#include <sinew/lagrangian/jacobian_rows.hpp>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace sinew {
+
+/// What of Coulomb's law with friction is kept from the solution before, so that the rest derives from a
+/// convex potential:
+///   bound  the limit mu f_n of the friction (Haslinger 1983): friction as Tresca has it, no gap opens
+///   gap    the distance mu |d_t| by which the cone of friction lifts what slides (De Saxce 1992)
+///   none   nothing: what slides is lifted by mu |d_t| (Anitescu 2006)
+enum class FrictionLag { bound, gap, none };
+
+/// The constraints of a step as terms of a convex function of the velocity v: sum_b l_b(d_b + s_b) with the
+/// violation d = J v + d_0, the potentials l of contact_potential.hpp, and the lagged gap s along the normal
+/// of contacts, or the lagged bound c of their friction. Vectors over the rows are never made shorter, so
+/// that contacts may come and go; what is behind the last row is 0.
+class ConstraintTerms {
+ public:
+  Eigen::VectorXd regularisation{};  // r of each row, in the unit of the compliance W = J A^-1 J'
+  Eigen::VectorXd violation{};       // d
+  Eigen::VectorXd multipliers{};     // f
+  Eigen::VectorXd before{};          // g
+
+  /// The rows and blocks are referred to until the next solution. `start`: d_0, the violation at v = 0.
+  void begin(JacobianRows const& J, std::vector<ConstraintBlock> const& blocks, Eigen::VectorXd const& start,
+             Eigen::VectorXd const& guess, FrictionLag lag) {
+    J_ = &J;
+    blocks_ = &blocks;
+    kind_ = lag;
+    const Eigen::Index n = start.size();
+    for (Eigen::VectorXd* of :
+         {&start_, &lag_, &product_, &regularisation, &violation, &multipliers, &before})
+      clear(n, *of);
+    clear(3 * n, curvature_);
+    start_.head(n) = start;
+    regularisation.head(n).setOnes();
+    setBefore(guess);
+  }
+  /// At least n zeros.
+  static void clear(Eigen::Index n, Eigen::VectorXd& of) {
+    if (of.size() < n) of.resize(n);
+    of.setZero();
+  }
+
+  JacobianRows const& rows() const { return *J_; }
+  std::vector<ConstraintBlock> const& blocks() const { return *blocks_; }
+  double const* curvature(ConstraintBlock const& b) const { return curvature_.data() + 3 * b.first; }
+
+  /// d and f at the velocity v.
+  void evaluate(Eigen::VectorXd const& v) {
+    J_->multiply(v, violation);
+    violation += start_;
+    evaluateMultipliers();
+  }
+  /// d += t w, for a change of v by t times what J makes w of.
+  void advance(double t, Eigen::VectorXd const& w) {
+    violation += t * w;
+    evaluateMultipliers();
+  }
+  void evaluateCurvature() {
+    for (ConstraintBlock const& b : *blocks_)
+      contact_potential::curvature(b, of(b), at(b, 0, violation).data(), curvature_.data() + 3 * b.first);
+  }
+  /// q += J' G J p
+  void addProduct(Eigen::VectorXd const& p, Eigen::VectorXd& q) {
+    J_->multiply(p, product_);
+    for (ConstraintBlock const& b : *blocks_)
+      contact_potential::multiply(b, curvature(b), product_.data() + b.first);
+    J_->addTransposed(product_, q);
+  }
+
+  struct Slope {
+    double first = 0, second = 0;  // derivatives
+  };
+  /// Of t -> sum l(d + t w + s).
+  Slope slope(double t, Eigen::VectorXd const& w) const {
+    Slope sum;
+    for (ConstraintBlock const& b : *blocks_) {
+      const Values d = at(b, t, w);
+      Values f, change;
+      contact_potential::multipliers(b, of(b), d.data(), f.data());
+      std::copy_n(w.data() + b.first, b.rows, change.begin());
+      double G[3 * ConstraintBlock::maxRows];
+      contact_potential::curvature(b, of(b), d.data(), G);
+      contact_potential::multiply(b, G, change.data());
+      for (int i = 0; i < b.rows; ++i) {
+        sum.first -= f[std::size_t(i)] * w[b.first + i];
+        sum.second += change[std::size_t(i)] * w[b.first + i];
+      }
+    }
+    return sum;
+  }
+  /// sum l(d + s)
+  double value() const {
+    double sum = 0;
+    for (ConstraintBlock const& b : *blocks_)
+      sum += contact_potential::value(b, of(b), at(b, 0, violation).data());
+    return sum;
+  }
+
+  /// g, inside the cones, and what is lagged: c = mu g_n, or s of the contacts that slide or are open at d.
+  /// In a contact alone s changes mu |d_t| by k / (1 + k) of its own change, k = mu^2 W_tt / W_nn ~ mu^2, so
+  /// that 1 + k times the difference is Newton's step.
+  void update(Eigen::VectorXd const& multipliersBefore) {
+    for (ConstraintBlock const& b : *blocks_) {
+      if (b.kind != ConstraintBlock::Kind::friction || kind_ != FrictionLag::gap) continue;
+      const double mu = std::min(b.friction, contact_potential::largestFriction),
+                   most = mu * multipliers[b.first], sliding = mu * violation.segment<2>(b.first + 1).norm();
+      double& s = lag_[b.first];
+      if (!(most > 0))
+        s = sliding;
+      else if (multipliers.segment<2>(b.first + 1).norm() < most * (1 - 1e-9))
+        s = 0;
+      else
+        s = std::max(0., s + (1 + mu * mu) * (sliding - s));
+    }
+    setBefore(multipliersBefore);
+    evaluateMultipliers();
+  }
+
+  FrictionLag lag() const { return kind_; }
+  /// The same problem, of which something else is lagged; from d and f as they are.
+  void change(FrictionLag lag) {
+    kind_ = lag;
+    lag_.setZero();
+    if (lag == FrictionLag::gap)
+      for (ConstraintBlock const& b : *blocks_)
+        if (b.kind == ConstraintBlock::Kind::friction)
+          lag_[b.first] = std::min(b.friction, contact_potential::largestFriction) *
+                          violation.segment<2>(b.first + 1).norm();
+    setBefore(multipliers);
+    evaluateMultipliers();
+  }
+
+  /// ConstraintProblem::residual, with an estimate of the diagonal of W; where nothing is lagged, without the
+  /// term of De Saxce. Above a friction of 10, that term is mostly mu times the error of what sticks; the map
+  /// is then that of Alart and Curnier (1991), the projection on the normal and on the disk of mu f_n.
+  double residual(Eigen::VectorXd const& compliance) const;
+
+  /// How far the potentials are from the conditions, in the unit of d: by the regularisation, r |f - g|, and
+  /// by what is lagged.
+  struct Rest {
+    double regularisation = 0, lag = 0;
+  };
+  Rest rest(Eigen::VectorXd const& compliance) const;
+
+ private:
+  static constexpr double steepCone = 10;
+
+  using Values = std::array<double, ConstraintBlock::maxRows>;
+
+  JacobianRows const* J_ = nullptr;
+  std::vector<ConstraintBlock> const* blocks_ = nullptr;
+  FrictionLag kind_ = FrictionLag::bound;
+  Eigen::VectorXd start_{}, lag_{};  // d_0; c or s at the row of the normal
+  Eigen::VectorXd curvature_{}, product_{};
+
+  contact_potential::Rows of(ConstraintBlock const& b) const {
+    return {regularisation.data() + b.first,
+            before.data() + b.first,
+            kind_ == FrictionLag::bound ? lag_[b.first] : contact_potential::cone};
+  }
+  // d + t w + s of a block
+  Values at(ConstraintBlock const& b, double t, Eigen::VectorXd const& w) const {
+    Values sum;
+    for (int i = 0; i < b.rows; ++i) sum[std::size_t(i)] = violation[b.first + i] + t * w[b.first + i];
+    if (kind_ == FrictionLag::gap) sum[0] += lag_[b.first];
+    return sum;
+  }
+  void setBefore(Eigen::VectorXd const& f) {
+    before.head(J_->rows()) = f.head(J_->rows());
+    for (ConstraintBlock const& b : *blocks_) {
+      if (b.kind != ConstraintBlock::Kind::friction) continue;
+      before.segment<3>(b.first) = project_on_cone(f.segment<3>(b.first), b.friction);
+      if (kind_ == FrictionLag::bound) lag_[b.first] = b.friction * before[b.first];
+    }
+  }
+  void evaluateMultipliers() {
+    for (ConstraintBlock const& b : *blocks_)
+      contact_potential::multipliers(b, of(b), at(b, 0, violation).data(), multipliers.data() + b.first);
+  }
+};
+
+inline double ConstraintTerms::residual(Eigen::VectorXd const& compliance) const {
+  double worst = 0;
+  for (ConstraintBlock const& b : *blocks_) {
+    const double w = compliance.segment(b.first, b.rows).mean();
+    switch (b.kind) {
+      case ConstraintBlock::Kind::equality:
+        worst = std::max(worst, violation.segment(b.first, b.rows).norm());
+        break;
+      case ConstraintBlock::Kind::interval: {
+        const double d = violation[b.first];
+        worst = std::max(worst, std::abs(d - std::clamp(d - multipliers[b.first] * w, b.lower, b.upper)));
+        break;
+      }
+      case ConstraintBlock::Kind::friction: {
+        const Eigen::Vector3d f = multipliers.segment<3>(b.first);
+        Eigen::Vector3d d = violation.segment<3>(b.first);
+        if (kind_ != FrictionLag::none && b.friction > steepCone) {
+          const Eigen::Vector3d y = f - d / w;
+          worst = std::max(worst, (f - contact_potential::bounded(b.friction * f[0], y)).norm() * w);
+          break;
+        }
+        if (kind_ != FrictionLag::none) d[0] += b.friction * d.tail<2>().norm();
+        worst = std::max(worst, (f - project_on_cone(f - d / w, b.friction)).norm() * w);
+        break;
+      }
+    }
+  }
+  return worst;
+}
+
+inline ConstraintTerms::Rest ConstraintTerms::rest(Eigen::VectorXd const& compliance) const {
+  Rest rest;
+  for (ConstraintBlock const& b : *blocks_) {
+    for (int i = b.first; i < b.first + b.rows; ++i)
+      rest.regularisation =
+          std::max(rest.regularisation, regularisation[i] * std::abs(multipliers[i] - before[i]));
+    if (b.kind != ConstraintBlock::Kind::friction) continue;
+    if (kind_ == FrictionLag::bound)
+      rest.lag = std::max(rest.lag,
+                          compliance[b.first] * std::abs(b.friction * multipliers[b.first] - lag_[b.first]));
+    else if (kind_ == FrictionLag::gap && multipliers[b.first] > 0)
+      rest.lag =
+          std::max(rest.lag, std::abs(b.friction * violation.segment<2>(b.first + 1).norm() - lag_[b.first]));
+  }
+  return rest;
+}
+
+}  // namespace sinew

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/lagrangian/constraint_problem.hpp>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sinew {
+
+/// The regularised potential l(d) of a block of constraints, its multipliers f = -dl/dd and its curvature
+/// G = d2l/dd2 = -df/dd. g are the multipliers found before (augmented Lagrangian), r > 0 the regularisation
+/// of each row, which both tangents of a contact share. With y = g - d / r,
+///   equality   l = 1/2 sum r y^2                                                            f = y
+///   interval   l = 1/2 r y^2, -r y the signed distance of d - r g from [lower, upper]       f = y
+///   contact    l = 1/2 f' r f                                                               f = P(y)
+/// where P is the projection on the cone |f_t| <= mu f_n, nearest in the metric r (Castro, Permenter, Han
+/// 2022), with a = mu r_t / r_n and t = y_t / |y_t|:
+///   sticking   |y_t| <= mu y_n               f = y
+///   sliding    -a |y_t| < y_n < |y_t| / mu   f_n = (y_n + a |y_t|) / (1 + mu a),  f_t = mu f_n t
+///   open       else                          f = 0
+/// or, where a bound c >= 0 of the friction is given (Tresca), with m = min(|y_t|, c),
+///              l = 1/2 r_n max(0, y_n)^2 + r_t (m |y_t| - 1/2 m^2)     f_n = max(0, y_n),  f_t = m t
+/// All are convex with continuous gradients.
+namespace contact_potential {
+
+inline constexpr double cone = -1;  // for a bound, where there is none
+
+using Vector3 = Eigen::Vector3d;
+using Curvature = Eigen::Matrix3d;
+
+/// Larger coefficients of friction act as this one: its square and that of ratios of r stay finite.
+inline constexpr double largestFriction = 1e8;
+
+struct Projection {
+  enum class Region { sticking, sliding, open };
+
+  Vector3 f{0, 0, 0};
+  Region region = Region::open;
+  double tangential = 0, a = 0, mu = 0;  // |y_t|
+};
+inline Projection project(double friction, Vector3 const& r, Vector3 const& y) {
+  Projection p;
+  p.mu = std::min(friction, largestFriction);
+  p.tangential = std::hypot(y[1], y[2]);
+  p.a = p.mu * r[1] / r[0];
+  if (p.tangential <= p.mu * y[0]) {
+    p.region = Projection::Region::sticking;
+    p.f = y;
+  } else if (const double n = (y[0] + p.a * p.tangential) / (1 + p.mu * p.a); n > 0) {
+    p.region = Projection::Region::sliding;
+    const double t = p.mu * n / p.tangential;
+    p.f = {n, t * y[1], t * y[2]};
+  }
+  return p;
+}
+inline Curvature curvature_of(Projection const& p, Vector3 const& r, Vector3 const& y) {
+  Curvature G = Curvature::Zero();
+  if (p.region == Projection::Region::sticking) {
+    G.diagonal() = r.cwiseInverse();
+  } else if (p.region == Projection::Region::sliding) {
+    const Eigen::Vector2d t(y[1] / p.tangential, y[2] / p.tangential);
+    const double share = 1 / (1 + p.mu * p.a);
+    const double along = p.mu * p.a * share / r[1], across = p.mu * p.f[0] / (p.tangential * r[1]);
+    G(0, 0) = share / r[0];
+    G.block<1, 2>(0, 1) = (p.mu * share / r[0]) * t.transpose();
+    G.block<2, 1>(1, 0) = G.block<1, 2>(0, 1).transpose();
+    G.block<2, 2>(1, 1) = (along - across) * (t * t.transpose()).eval();  // symmetric to the last bit
+    G(1, 1) += across;
+    G(2, 2) += across;
+  }
+  return G;
+}
+
+inline Vector3 bounded(double bound, Vector3 const& y) {
+  const double t = std::hypot(y[1], y[2]), scale = t <= bound ? 1 : bound / t;
+  return {std::max(0., y[0]), scale * y[1], scale * y[2]};
+}
+inline Curvature bounded_curvature(double bound, Vector3 const& r, Vector3 const& y) {
+  Curvature G = Curvature::Zero();
+  if (y[0] >= 0) G(0, 0) = 1 / r[0];
+  const double t = std::hypot(y[1], y[2]);
+  if (t > bound) {
+    const Eigen::Vector2d across(-y[2] / t, y[1] / t);
+    G.block<2, 2>(1, 1) = (bound / (t * r[1])) * (across * across.transpose()).eval();
+  } else if (bound > 0) {
+    G(1, 1) = G(2, 2) = 1 / r[1];
+  }
+  return G;
+}
+
+/// What a block has: pointers to its rows, and the bound of its friction.
+struct Rows {
+  double const *r, *g;
+  double bound;
+
+  Vector3 regularisation() const { return {r[0], r[1], r[2]}; }
+  Vector3 y(double const* d) const { return {g[0] - d[0] / r[0], g[1] - d[1] / r[1], g[2] - d[2] / r[2]}; }
+};
+
+inline void multipliers(ConstraintBlock const& b, Rows const& rows, double const* d, double* f) {
+  switch (b.kind) {
+    case ConstraintBlock::Kind::equality:
+      for (int i = 0; i < b.rows; ++i) f[i] = rows.g[i] - d[i] / rows.r[i];
+      break;
+    case ConstraintBlock::Kind::interval: {
+      const double shifted = d[0] - rows.r[0] * rows.g[0];
+      f[0] = (std::clamp(shifted, b.lower, b.upper) - shifted) / rows.r[0];
+      break;
+    }
+    case ConstraintBlock::Kind::friction: {
+      const Vector3 y = rows.y(d);
+      Eigen::Map<Vector3>(f, 3) =
+          rows.bound >= 0 ? bounded(rows.bound, y) : project(b.friction, rows.regularisation(), y).f;
+      break;
+    }
+  }
+}
+
+inline double value(ConstraintBlock const& b, Rows const& rows, double const* d) {
+  double f[ConstraintBlock::maxRows];
+  multipliers(b, rows, d, f);
+  double sum = 0;
+  for (int i = 0; i < b.rows; ++i) sum += rows.r[i] * f[i] * f[i] / 2;
+  if (b.kind == ConstraintBlock::Kind::friction && rows.bound >= 0) {
+    const Vector3 y = rows.y(d);
+    if (const double t = std::hypot(y[1], y[2]); t > rows.bound)
+      sum += rows.r[1] * rows.bound * (t - rows.bound);
+  }
+  return sum;
+}
+
+/// G of a block into 3 times its rows numbers: by columns for a contact, else its diagonal comes first. On
+/// the border of two regions, that of the one with more forces.
+inline void curvature(ConstraintBlock const& b, Rows const& rows, double const* d, double* G) {
+  switch (b.kind) {
+    case ConstraintBlock::Kind::equality:
+      for (int i = 0; i < b.rows; ++i) G[i] = 1 / rows.r[i];
+      break;
+    case ConstraintBlock::Kind::interval: {
+      const double shifted = d[0] - rows.r[0] * rows.g[0];
+      G[0] = shifted <= b.lower || shifted >= b.upper ? 1 / rows.r[0] : 0;
+      break;
+    }
+    case ConstraintBlock::Kind::friction: {
+      const Vector3 y = rows.y(d), r = rows.regularisation();
+      Eigen::Map<Curvature>(G, 3, 3) = rows.bound >= 0 ? bounded_curvature(rows.bound, r, y)
+                                                       : curvature_of(project(b.friction, r, y), r, y);
+      break;
+    }
+  }
+}
+
+/// w <- G w
+inline void multiply(ConstraintBlock const& b, double const* G, double* w) {
+  if (b.kind == ConstraintBlock::Kind::friction)
+    Eigen::Map<Vector3>(w, 3) = (Eigen::Map<Curvature const>(G, 3, 3) * Eigen::Map<Vector3>(w, 3)).eval();
+  else
+    for (int i = 0; i < b.rows; ++i) w[i] *= G[i];
+}
+
+}  // namespace contact_potential
+}  // namespace sinew

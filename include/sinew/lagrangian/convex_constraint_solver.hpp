@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/component.hpp>
+#include <sinew/lagrangian/constrained_block_jacobi.hpp>
+#include <sinew/lagrangian/constrained_motion.hpp>
+#include <sinew/lagrangian/convex_step.hpp>
+
+#include <string_view>
+
+namespace sinew {
+
+/// The step with its constraints as a sequence of convex problems for the motion of the bodies (Castro,
+/// Permenter, Han 2022; Todorov 2014), each solved by Newton's method with matrix-free conjugate gradients,
+/// in which a contact is one more element. The compliance W = J A^-1 J' is never formed, so that the cost
+/// hardly grows with the number of constraints. The multipliers fulfil the same conditions as those of the
+/// other solvers, Coulomb's law among them, to the tolerance.
+struct ConvexConstraintSolver {
+  using Role = role::ConstraintSolver;
+  static constexpr std::string_view className = "ConvexConstraintSolver";
+
+  double tolerance = 1e-6, momentumTolerance = 1e-6;
+  int maxUpdates = 50, maxIterations = 10000;
+  bool stopsUnsolved = false;
+
+  static constexpr auto fields() {
+    using S = ConvexConstraintSolver;
+    return field_list(field("tolerance",
+                            &S::tolerance,
+                            "m",
+                            "largest violation of a condition of a constraint at which to stop (natural map)",
+                            range::positive),
+                      field("momentumTolerance",
+                            &S::momentumTolerance,
+                            "",
+                            "difference of the momentum of the bodies and the impulse of the multipliers at "
+                            "which to stop, relative",
+                            range::positive),
+                      field("maxUpdates",
+                            &S::maxUpdates,
+                            "",
+                            "largest number of convex problems in a step",
+                            range::atLeast(1)),
+                      field("maxIterations",
+                            &S::maxIterations,
+                            "",
+                            "largest number of iterations of conjugate gradients in a step",
+                            range::atLeast(1)),
+                      field("stopsUnsolved",
+                            &S::stopsUnsolved,
+                            "",
+                            "an Error where the iterations end above the tolerances; else the step goes on "
+                            "with what they have found"));
+  }
+
+  ConvexStepResult result{};  // of the last step
+  ConstrainedBlockJacobi<3> preconditioner{};
+  ConvexStep step{};
+  Eigen::VectorXd none{};
+
+  template <class Multiply>
+  void solveMotion(Multiply&& multiply, MotionRows& rows, std::string_view where) {
+    ConvexStepSettings settings;
+    settings.tolerance = tolerance;
+    settings.momentumTolerance = momentumTolerance;
+    settings.maxUpdates = maxUpdates;
+    settings.maxConjugateGradients = maxIterations;
+    none.setZero(rows.dofs);
+    result = step.solve(multiply,
+                        preconditioner,
+                        none,
+                        rows.jacobian,
+                        rows.blocks,
+                        rows.start,
+                        rows.motion,
+                        rows.multipliers,
+                        settings,
+                        where);
+    if (stopsUnsolved && !result.converged)
+      throw Error(
+          where,
+          text(className,
+               ": the constraints are not solved after ",
+               result.conjugateGradients,
+               " iterations: the residual is ",
+               result.residual,
+               " m, the tolerance ",
+               tolerance,
+               "; allow more iterations (maxIterations, maxUpdates), or look for constraints that contradict "
+               "each other"));
+  }
+};
+
+}  // namespace sinew

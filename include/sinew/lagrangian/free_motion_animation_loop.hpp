@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/component.hpp>
+#include <sinew/lagrangian/constrained_motion.hpp>
+
+namespace sinew {
+
+/// A step with constraints by Lagrange multipliers (Faure et al. 2012, SOFA): all bodies move freely; the
+/// constraints at the end of that motion are d = d_free + W f with the compliance W = J A^-1 J' of the
+/// bodies; a constraint solver finds the multipliers f [N]; and positions and velocities are corrected by
+/// A^-1 J' f. It stands in the root.
+struct FreeMotionAnimationLoop {
+  using Role = role::AnimationLoop;
+  static constexpr std::string_view className = "FreeMotionAnimationLoop";
+  static constexpr std::string_view aliases = "FreeMotionMasterSolver ConstraintAnimationLoop";
+
+  bool solveVelocityConstraintFirst = false;
+
+  static constexpr auto fields() {
+    return field_list(
+        field("solveVelocityConstraintFirst",
+              &FreeMotionAnimationLoop::solveVelocityConstraintFirst,
+              "",
+              "solve constraints for velocities, with which positions then move, in place of positions"));
+  }
+
+  ConstrainedMotion motion{};
+};
+
+}  // namespace sinew

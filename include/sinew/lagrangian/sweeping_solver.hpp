@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/component.hpp>
+#include <sinew/lagrangian/constraint_sweeps.hpp>
+
+#include <string_view>
+
+namespace sinew {
+
+// What constraint solvers share that iterate over the blocks of a problem: settings with SOFA's names and
+// defaults, and what is said when the iterations end.
+
+/// The fields of such a solver S, and more.
+template <class S, class... More>
+constexpr auto sweeping_fields(More... more) {
+  return field_list(
+      field("maxIterations", &S::maxIterations, "", "largest number of iterations", range::atLeast(1))
+          .also("maxIt"),
+      field("tolerance",
+            &S::tolerance,
+            "m",
+            "change of the violations in an iteration at which to stop: the sum over all equations",
+            range::nonNegative),
+      field("regularizationTerm",
+            &S::regularizationTerm,
+            "m/N",
+            "added to the compliance of each equation, so that those that depend on each other can be solved",
+            range::nonNegative),
+      field("scaleTolerance", &S::scaleTolerance, "", "the tolerance is one for each equation"),
+      field(
+          "allVerified", &S::allVerified, "", "each equation is below the tolerance, in place of their sum"),
+      field("stopsUnsolved",
+            &S::stopsUnsolved,
+            "",
+            "an Error where the iterations end above the tolerance; else the step goes on with what they "
+            "have found"),
+      more...);
+}
+
+template <class S>
+SweepSettings sweep_settings(S const& solver) {
+  return {.maxIterations = solver.maxIterations,
+          .tolerance = solver.tolerance,
+          .scaleTolerance = solver.scaleTolerance,
+          .allVerified = solver.allVerified};
+}
+
+/// Solves a problem by solve(problem) of a solver S, which keeps the result.
+template <class S, class F>
+void sweep(S& solver, ConstraintProblem& problem, std::string_view where, F&& solve) {
+  problem.compliance.diagonal().array() += solver.regularizationTerm;
+  solver.result = solve(problem);
+  if (solver.stopsUnsolved && !solver.result.converged)
+    throw Error(
+        where,
+        text(component_name<S>(),
+             ": the constraints are not solved after ",
+             solver.result.iterations,
+             " iterations: the error is ",
+             solver.result.error,
+             ", the tolerance ",
+             solver.tolerance,
+             solver.scaleTolerance && !solver.allVerified ? " times the number of equations" : "",
+             "; allow more iterations (maxIterations), or look for constraints that contradict each other"));
+}
+
+}  // namespace sinew

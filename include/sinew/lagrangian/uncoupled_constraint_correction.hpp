@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/constraint/constrained_points.hpp>
+
+#include <array>
+#include <vector>
+
+namespace sinew {
+
+/// Each point answers to the forces of multipliers on it alone, by a compliance c:
+///   u = c h J' f,
+/// in the place of A^-1 of its solver. With c = 1/m it is what an explicit solver gives. Rigid bodies have
+/// seven numbers, for all of them: the compliance of their centres [1/kg], and the upper triangle of that of
+/// their rotations, xx xy xz yy yz zz, in world axes [1/(kg m^2)].
+template <class D>
+struct UncoupledConstraintCorrection {
+  using Role = role::ConstraintCorrection;
+  using DataTypes = D;
+  using Real = typename D::Real;
+  static constexpr std::string_view className = "UncoupledConstraintCorrection";
+  static constexpr bool rotates = D::rigid && D::spatial == 3;
+
+  double defaultCompliance = 1e-5;
+  std::vector<double> compliance{};
+  bool useOdeSolverIntegrationFactors = true;
+
+  static constexpr auto fields() {
+    using C = UncoupledConstraintCorrection;
+    return field_list(field("defaultCompliance",
+                            &C::defaultCompliance,
+                            "1/kg",
+                            "velocity for an impulse of 1 N s, of points without a compliance of their own",
+                            range::positive),
+                      field("compliance",
+                            &C::compliance,
+                            rotates ? "1/kg, 1/(kg m^2)" : "1/kg",
+                            rotates ? "of all bodies: one number for their centres, and six for their "
+                                      "rotations, xx xy xz yy yz zz"
+                                    : "one for all points, or one for each"),
+                      field("useOdeSolverIntegrationFactors",
+                            &C::useOdeSolverIntegrationFactors,
+                            "",
+                            "else compliances are of positions, the displacement in a step for a force [m/N, "
+                            "rad/(N m)], and velocities change by that over the length of the step"));
+  }
+
+  void init(InitContext<D> const& context) {
+    const std::string where = place_of<UncoupledConstraintCorrection>(context);
+    if (compliance.empty()) return;
+    auto positive = [&](std::size_t k) {
+      if (!(compliance[k] > 0))
+        throw Error(
+            where,
+            text("compliance[", k, "] is ", compliance[k], ", so that nothing moves; give a number above 0"));
+    };
+    if constexpr (rotates) {
+      if (compliance.size() != 7)
+        throw Error(where,
+                    text("compliance has ",
+                         compliance.size(),
+                         " numbers; give 7: one for the centres and six for rotations, xx xy xz yy yz zz"));
+      for (const int k : {0, 1, 4, 6}) positive(std::size_t(k));
+    } else {
+      check_one_or_each(where, "compliance", compliance.size(), context.rest.size(), "points");
+      for (std::size_t k = 0; k < compliance.size(); ++k) positive(k);
+    }
+  }
+
+  void addCorrection(typename D::VecDeriv& u, typename D::VecDeriv const& f, typename D::VecCoord const&,
+                     ConstraintFactors const& factors) const {
+    for (std::size_t i = 0; i < u.size(); ++i) u[i] += answer(i, f[i], factors);
+  }
+  typename D::Deriv answer(std::size_t i, typename D::Deriv const& f,
+                           ConstraintFactors const& factors) const {
+    const Real by = Real(useOdeSolverIntegrationFactors ? factors.impulse : 1 / factors.position);
+    return by * answer(i, f);
+  }
+
+ private:
+  typename D::Deriv answer(std::size_t i, typename D::Deriv const& f) const {
+    if (compliance.empty()) return Real(defaultCompliance) * f;
+    if constexpr (rotates) {
+      std::array<Real, 7> c;
+      for (std::size_t k = 0; k < 7; ++k) c[k] = Real(compliance[k]);
+      Mat<Real, 3> rotation;
+      rotation << c[1], c[2], c[3], c[2], c[4], c[5], c[3], c[5], c[6];
+      typename D::Deriv u;
+      u.template head<3>() = c[0] * f.template head<3>();
+      u.template tail<3>() = rotation * f.template tail<3>();
+      return u;
+    } else {
+      return Real(one_or_each(compliance, i)) * f;
+    }
+  }
+};
+
+}  // namespace sinew

@@ -1,0 +1,515 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/lagrangian/constrained_motion.hpp>
+#include <sinew/scene/contact_rows.hpp>
+#include <sinew/scene/mechanical_operations.hpp>
+#include <sinew/scene/motion_problem.hpp>
+#include <sinew/scene/solvers.hpp>
+#include <sinew/solver/multi_vec.hpp>
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+namespace sinew {
+
+/// A linear solver that keeps a factor, by which rows have their compliance (linalg/factored_rows.hpp).
+template <class Linear>
+concept HasBlockFactor = requires(Linear const& linear) {
+  linear.factor.lower;
+  linear.factor.newIndex;
+};
+
+/// A step of a scene whose root has an animation loop: bodies move freely, the constraints of the scene are
+/// solved together, and bodies are corrected. While constraints are solved `position` is that at the start of
+/// the step, at which mappings and masses stand, and `freePosition` that of the free motion, for a mapped
+/// state as its velocity says.
+template <class RootScope>
+struct ConstrainedStep {
+  RootScope const& root;
+  double time, dt;
+
+  void integrate(ConstrainedMotion& motion, bool velocityFirst, bool keepsForces) const;
+
+ private:
+  // The forces of the multipliers of the last step on mapped states, where these are now: mappings that are
+  // not linear turn them in this step, which their geometric stiffness tells the system of the free motion.
+  void forceMapped(ConstrainedMotion& m, bool ofVelocity) const {
+    [[maybe_unused]] const auto span = root.span(Phase::constraint);
+    traverse(root, on<role::State>([](auto& s, auto const&) {
+               if constexpr (requires { s.multiplierForce; })
+                 if (!s.multiplierForce.empty()) s.multiplierForce.clear(), forceOf(s);
+             }));
+    m.rows.ofVelocity = ofVelocity;
+    traverse(root, on<role::LagrangianConstraint>([&](auto& c, auto const& scope) {
+               if constexpr (KeepsMultipliers<std::decay_t<decltype(c)>>)
+                 if (!c.multipliers.empty()) forceMapped(c, scope, m.rows);
+             }));
+    traverse_back(root, on<role::Mapping>([&](auto& mapping, auto const& scope) {
+                    scope.withMapped(mapping, [&](auto& it, auto& child, auto& parent) {
+                      if constexpr (requires { child.multiplierForce, parent.multiplierForce; })
+                        if (!child.multiplierForce.empty() && scope.parentScope().stateScope().mapped())
+                          it.applyJT(forceOf(parent), child.multiplierForce);
+                    });
+                  }));
+  }
+  template <class C, class S>
+  void forceMapped(C& c, S const& scope, ConstraintRows& rows) const {
+    using D = typename C::DataTypes;
+    auto now = [&](auto const& at) {
+      auto& s = at.template state<D>();
+      return ConstrainedState<D>{s.position, s.position, s.velocity, s.restPosition, dt};
+    };
+    auto add = [&](auto const& at, int side) {
+      if (!at.stateScope().mapped() || c.multipliers.size() != std::size_t(rows.count())) return;
+      auto& f = forceOf(at.template state<D>());
+      for (ConstraintRows::Entry const& e : rows.entries)
+        for (int i = 0; e.side == side && i < e.size; ++i)
+          f[std::size_t(e.point)][i] +=
+              typename D::Real(c.multipliers[std::size_t(e.row)] * e.values[std::size_t(i)]);
+    };
+    rows.clear();
+    if constexpr (JoinsTwo<C>) {
+      scope.withEnds(c, [&](auto const& a, auto const& b) {
+        if (!a.stateScope().mapped() && !b.stateScope().mapped()) return;
+        c.addRows(rows, now(a), now(b));
+        add(a, 0);
+        add(b, 1);
+      });
+    } else if (scope.stateScope().mapped()) {
+      c.addRows(rows, now(scope));
+      add(scope, 0);
+    }
+  }
+  template <class State>
+  static auto& forceOf(State& s) {
+    s.multiplierForce.resize(s.position.size(), State::DataTypes::Deriv::Zero());
+    return s.multiplierForce;
+  }
+
+  template <class Ode, class S>
+  void moveFreely(Ode& ode, S const& scope, bool keepsForces) const {
+    MechanicalOperations<S> operations(scope, time, dt);
+    if constexpr (!stands_beside<Ode>) {
+      operations.eq(vec_id::freePosition, vec_id::position);  // the start, for now
+      operations.acted.begin(keepsForces);
+    }
+    ode.solve(operations, dt);
+    operations.projectPositionAndVelocity(time + dt, vec_id::position, vec_id::velocity);
+    if constexpr (!stands_beside<Ode>)
+      if (!operations.acted.end(vec_id::force))
+        throw Error(
+            scope.path(),
+            text(component_name<Ode>(),
+                 ": forces cannot be kept, since this solver does not say which acted over its step; let it "
+                 "call operations.acted.add(), or leave out Simulation::keepForces"));
+  }
+  // states as they were, mappings as they were, and where all would come to be by the velocities that they
+  // have now
+  template <class S>
+  void lookFromStart(S const& scope) const {
+    MechanicalOperations<S> operations(scope, time, dt);
+    operations.forEachIndependent([](auto& s) { s.position.swap(s.freePosition); });
+    operations.propagate(vec_id::position, vec_id::velocity);
+    operations.forEachMapped([&](auto& s) {
+      using V = VectorOperations<typename std::decay_t<decltype(s)>::DataTypes>;
+      s.freePosition = s.position;
+      V::move(s.freePosition, s.velocity, typename std::decay_t<decltype(s)>::DataTypes::Real(dt));
+    });
+  }
+
+  void collectRows(ConstrainedMotion& m, bool ofVelocity, bool keepsForces) const {
+    [[maybe_unused]] const auto span = root.span(Phase::constraint);
+    m.rows.clear();
+    m.rows.ofVelocity = ofVelocity;
+    m.rowsOf.clear();
+    for (auto& system : m.systems) system.clear();
+    traverse(root,
+             on<role::LagrangianConstraint>([&](auto& c, auto const& scope) { addRowsOf(c, scope, m); }));
+    m.contactRows = m.rows.count();
+    ContactRows<RootScope>{root, dt}.add(m);
+    std::size_t number = 0;
+    for_each_integrator(root, [&](auto& ode, auto const& scope) {
+      ConstrainedSystem& system = m.systems[number++];
+      if (keepsForces) system.whole = system.jacobian;
+      project(scope, MultiplierResponse::of(ode, dt), m.motionRows.jacobian, system);
+    });
+  }
+  template <class D, class S>
+  ConstrainedState<D> stateAt(S const& scope) const {
+    auto& s = scope.template state<D>();
+    return {s.position, s.freePosition, s.velocity, s.restPosition, dt};
+  }
+  template <class C, class S>
+  void addRowsOf(C& c, S const& scope, ConstrainedMotion& m) const {
+    using D = typename C::DataTypes;
+    const int before = m.rows.count();
+    m.rows.entries.clear();
+    if constexpr (JoinsTwo<C>) {
+      scope.withEnds(c, [&](auto const& a, auto const& b) {
+        c.addRows(m.rows, stateAt<D>(a), stateAt<D>(b));
+        withSystem<D>(a, m, [&](auto const& first) {
+          withSystem<D>(b, m, [&](auto const& second) {
+            for (ConstraintRows::Entry const& e : m.rows.entries) e.side == 0 ? first.add(e) : second.add(e);
+          });
+        });
+      });
+    } else {
+      c.addRows(m.rows, stateAt<D>(scope));
+      withSystem<D>(scope, m, [&](auto const& only) {
+        for (ConstraintRows::Entry const& e : m.rows.entries) only.add(e);
+      });
+    }
+    const auto count = std::size_t(m.rows.count() - before);
+    m.rowsOf.push_back(int(count));
+    if constexpr (KeepsMultipliers<C>)
+      if (c.multipliers.size() == count)
+        std::copy(c.multipliers.begin(), c.multipliers.end(), m.rows.multipliers.begin() + before);
+  }
+
+  // adds entries of rows over the points of a state to the system of its solver
+  template <class Dofs>
+  struct Expansion {
+    ConstrainedSystem* system;  // null: no solver moves the state
+    Dofs const& dofs;
+
+    void add(ConstraintRows::Entry const& e) const {
+      if (!system) return;
+      expand_point(dofs, e.point, [&](int dof, int columns, double const* j) {
+        for (int i = 0; columns == 0 && i < e.size; ++i)
+          system->add(e.row, dof + i, e.values[std::size_t(i)]);
+        for (int c = 0; c < columns; ++c) {
+          double value = 0;
+          for (int i = 0; i < e.size; ++i) value += e.values[std::size_t(i)] * j[e.size * c + i];
+          system->add(e.row, dof + c, value);
+        }
+      });
+    }
+  };
+  template <class D, class S, class F>
+  static void withSystem(S const& scope, ConstrainedMotion& m, F&& f) {
+    const int solver = scope.template state<D>().solver;
+    ConstrainedSystem* system = solver < 0 ? nullptr : &m.systems[std::size_t(solver)];
+    scope.template withDofs<D>([&](auto const& dofs) {
+      f(Expansion<std::decay_t<decltype(dofs)>>{system, dofs});
+    });
+  }
+
+  // J P, where P is what projective constraints leave of a motion
+  template <class S>
+  void project(S const& scope, MultiplierResponse const& how, JacobianRows& left,
+               ConstrainedSystem& system) const {
+    if (system.rows.empty()) return;
+    bool some = false;
+    traverse(scope, on<role::ProjectiveConstraint>([&](auto&, auto const&) { some = true; }));
+    if (!some) return;
+    MechanicalOperations<S> operations(scope, time, dt);
+    auto projected = [&] {
+      operations.scatter(how.force(), system.force);
+      operations.projectResponse(how.force());
+      operations.gather(system.motion, how.force());
+    };
+    // numbers that no two neighbours share, exact in single precision: what stays as it is is free, what
+    // becomes 0 fixed
+    for (int i = 0; i < system.dofs(); ++i) system.force[i] = 1 + (i * 619 % 1024) / 1024.0;
+    projected();
+    bool mixes = false;
+    for (int i = 0; i < system.dofs(); ++i)
+      mixes = mixes || (system.motion[i] != 0 && system.motion[i] != system.force[i]);
+    left.clear();
+    if (!mixes) {
+      system.force = system.motion;  // 0 where fixed
+      for (int k = 0; k < system.jacobian.rows(); ++k) {
+        system.jacobian.forEachInRow(k, [&](int dof, double value) {
+          if (system.force[dof] != 0) left.add(dof, value);
+        });
+        left.endRow();
+      }
+    } else {
+      for (int k = 0; k < system.jacobian.rows(); ++k) {
+        system.force.setZero();
+        system.jacobian.addTransposed(k, 1, system.force);
+        projected();
+        for (int i = 0; i < system.dofs(); ++i)
+          if (system.motion[i] != 0) left.add(i, system.motion[i]);
+        left.endRow();
+      }
+    }
+    std::swap(left, system.jacobian);
+  }
+
+  // W = J A^-1 J', and d_free
+  void findCompliance(ConstrainedMotion& m) const;
+  template <class S>
+  void addCompliance(S const& scope, MultiplierResponse const& how, ConstrainedSystem& system,
+                     ConstrainedMotion& m) const {
+    const double reached = m.rows.ofVelocity ? how.factors.velocity : how.factors.position;
+    auto add = [&](int k, int l, double w) {
+      const int i = system.rows[std::size_t(k)], j = system.rows[std::size_t(l)];
+      m.problem.compliance(i, j) += w;
+      if (i != j) m.problem.compliance(j, i) += w;
+    };
+    bool found = false;
+    if (how.bySystem && !hasCorrections(scope))
+      scope.withLinearSolverIfAny([&](auto& linear) {
+        if constexpr (HasBlockFactor<std::decay_t<decltype(linear)>>) {
+          m.factored.compliance(linear.factor, system.jacobian, [&](int k, int l, double w) {
+            add(k, l, reached * how.factors.impulse * w);
+          });
+          found = true;
+        }
+      });
+    if (found) return;
+    if (answersByPoint(scope)) return addByPoints(scope, how, system, m, add, reached);
+    for (int k = 0; k < system.jacobian.rows(); ++k) {
+      system.force.setZero();
+      system.jacobian.addTransposed(k, 1, system.force);
+      respond(scope, how, system);
+      for (int l = k; l < system.jacobian.rows(); ++l)
+        add(k, l, reached * system.jacobian.times(l, system.motion));
+    }
+  }
+  void checkCompliance(ConstrainedMotion const& m) const {
+    int row = 0;
+    std::size_t number = 0;
+    traverse(
+        root, on<role::LagrangianConstraint>([&](auto& c, auto const& scope) {
+          for (int end = row + m.rowsOf[number++]; row < end; ++row)
+            if (!(m.problem.compliance(row, row) > 0))
+              throw Error(
+                  text(scope.path(), ": ", component_name<std::decay_t<decltype(c)>>()),
+                  text("nothing that its equation ",
+                       row + m.rowsOf[number - 1] - end,
+                       " holds can move: its points are fixed, or no solver moves them, or its direction "
+                       "is zero; leave it out, or free a point"));
+        }));
+  }
+
+  // motion = A^-1 (impulse J' f) of a system for its force; the vector of states how.motion() has it too
+  template <class S>
+  void respond(S const& scope, MultiplierResponse const& how, ConstrainedSystem& system) const {
+    using Operations = MechanicalOperations<S>;
+    Operations operations(scope, time, dt);
+    operations.derivsTaken = how.derivs;  // what a solver keeps from step to step is in these
+    MultiVecDeriv<Operations> b(operations), u(operations);
+    operations.scatter(b.id, system.force);
+    operations.projectResponse(b.id);
+    u.clear();
+    if (!respondByCorrections(scope, how.factors, u.id, b.id)) {
+      b.teq(how.factors.impulse);
+      auto linearly = [&](auto& linear) { solveAgain(linear, operations, how.factors.matrix, u, b); };
+      const bool ofForces = how.factors.matrix.b != 0 || how.factors.matrix.k != 0;
+      if (how.bySystem && (ofForces || !operations.massIsDiagonal()))
+        scope.withLinearSolverIfAny(linearly);
+      else
+        operations.accFromF(u.id, b.id, vec_id::position);
+    }
+    operations.projectResponse(u.id);
+    operations.gather(system.motion, u.id);
+  }
+  template <class Linear, class Operations>
+  static void solveAgain(Linear& linear, Operations& operations, MatrixFactors factors,
+                         MultiVecDeriv<Operations>& u, MultiVecDeriv<Operations>& b) {
+    if constexpr (HasSolveAgain<Linear>)
+      linear.solveAgain(operations, u, b);
+    else
+      linear.solve(operations, factors, u, b);
+  }
+  template <class S>
+  static bool hasCorrections(S const& scope) {
+    bool some = false;
+    traverse(scope, on<role::ConstraintCorrection>([&](auto& c, auto const&) {
+               if constexpr (CorrectsState<std::decay_t<decltype(c)>>) some = true;
+             }));
+    return some;
+  }
+  template <class S>
+  static bool answersByPoint(S const& scope) {
+    bool some = false, all = true;
+    traverse(scope, on<role::ConstraintCorrection>([&](auto& c, auto const&) {
+               using C = std::decay_t<decltype(c)>;
+               some = some || AnswersByPoint<C>;
+               if constexpr (CorrectsState<C> && !AnswersByPoint<C>) all = false;
+             }));
+    return some && all;
+  }
+  // the same where points answer alone: a row moves its own points only
+  template <class S, class Add>
+  static void addByPoints(S const& scope, MultiplierResponse const& how, ConstrainedSystem& system,
+                          ConstrainedMotion& m, Add&& add, double reached) {
+    // J C of all rows, then its products with J
+    JacobianRows& answers = m.motionRows.jacobian;
+    answers.clear();
+    system.force.setZero();
+    for (int k = 0; k < system.jacobian.rows(); ++k) {
+      system.jacobian.addTransposed(k, 1, system.force);
+      traverse(scope, on<role::ConstraintCorrection>([&](auto& c, auto const& at) {
+                 using C = std::decay_t<decltype(c)>;
+                 if constexpr (AnswersByPoint<C>) {
+                   using D = typename C::DataTypes;
+                   auto const& s = at.template state<D>();
+                   const int end = s.dofOffset + int(s.size()) * D::size;
+                   system.jacobian.forEachInRow(k, [&](int dof, double) {
+                     if (dof < s.dofOffset || dof >= end) return;
+                     const int point = (dof - s.dofOffset) / D::size, first = s.dofOffset + point * D::size;
+                     auto f = system.force.template segment<D::size>(first);
+                     if (f.isZero(0)) return;  // looked at already
+                     const typename D::Deriv u =
+                         c.answer(std::size_t(point), f.template cast<typename D::Real>(), how.factors);
+                     for (int i = 0; i < D::size; ++i) answers.add(first + i, double(u[i]));
+                     f.setZero();
+                   });
+                 }
+               }));
+      system.jacobian.forEachInRow(k, [&](int dof, double) { system.force[dof] = 0; });
+      answers.endRow();
+    }
+    system.motion.setZero();
+    for (int k = 0; k < answers.rows(); ++k) {
+      answers.addTransposed(k, 1, system.motion);
+      for (int l = k; l < answers.rows(); ++l)
+        if (const double w = system.jacobian.times(l, system.motion); w != 0 || l == k)
+          add(k, l, reached * w);
+      answers.forEachInRow(k, [&](int dof, double) { system.motion[dof] = 0; });
+    }
+  }
+  // by components that say what forces do to their states; false where there is none
+  template <class S>
+  static bool respondByCorrections(S const& scope, ConstraintFactors const& factors, DerivId u, DerivId f) {
+    bool some = false;
+    traverse(scope, on<role::ConstraintCorrection>([&](auto& c, auto const& at) {
+               using C = std::decay_t<decltype(c)>;
+               if constexpr (CorrectsState<C>) {
+                 auto& s = at.template state<typename C::DataTypes>();
+                 c.addCorrection(s[u], s[f], s.position, factors);
+                 some = true;
+               }
+             }));
+    return some;
+  }
+
+  void solve(ConstrainedMotion& m) const {
+    [[maybe_unused]] const auto span = root.span(Phase::constraint);
+    bool solved = false;
+    traverse(root, on<role::ConstraintSolver>([&](auto& solver, auto const& scope) {
+               if (std::exchange(solved, true)) return;
+               if constexpr (SolvesMotion<std::decay_t<decltype(solver)>>) {
+                 MotionProblem<RootScope>{root, time, dt}.solve(m, solver, scope.path());
+                 m.hasMotion = true;
+               } else {
+                 findCompliance(m);
+                 solver.solve(m.problem, scope.path());
+               }
+             }));
+  }
+  // constraints keep their multipliers
+  void giveBack(ConstrainedMotion& m) const {
+    std::size_t number = 0;
+    double const* f = m.problem.multipliers.data();
+    traverse(root, on<role::LagrangianConstraint>([&](auto& c, auto const&) {
+               double const* const end = f + m.rowsOf[number++];
+               if constexpr (KeepsMultipliers<std::decay_t<decltype(c)>>) c.multipliers.assign(f, end);
+               f = end;
+             }));
+  }
+
+  template <class S>
+  void correct(S const& scope, MultiplierResponse const& how, ConstrainedMotion const& m,
+               ConstrainedSystem& system, bool keepsForces) const {
+    MechanicalOperations<S> operations(scope, time, dt);
+    auto takeFree = [&] { operations.forEachIndependent([](auto& s) { s.position.swap(s.freePosition); }); };
+    if (system.rows.empty()) return takeFree();
+    if (m.hasMotion) {
+      operations.scatter(how.motion(), system.motion);
+    } else {
+      system.force.setZero();
+      for (int k = 0; k < system.jacobian.rows(); ++k)
+        system.jacobian.addTransposed(k, m.problem.multipliers[system.rows[std::size_t(k)]], system.force);
+      respond(scope, how, system);
+    }
+    if (keepsForces) keep(operations, how, m, system);
+    operations.peq(vec_id::velocity, how.motion(), how.factors.velocity);
+    if (m.rows.ofVelocity) {
+      operations.peq(vec_id::position, vec_id::velocity, dt);
+    } else {
+      takeFree();
+      operations.peq(vec_id::position, how.motion(), how.factors.position);
+    }
+  }
+  // What multipliers and what they move have done over the step. With A u = impulse J' f the forces of the
+  // system change by -(A - M) u / impulse, and those of contacts are forces too; the reaction of points is
+  // that of the multipliers of constraints, and what holds points that do not follow, (1 - P) (A u / impulse
+  // - J' f).
+  template <class Operations>
+  static void keep(Operations& operations, MultiplierResponse const& how, ConstrainedMotion const& m,
+                   ConstrainedSystem& system) {
+    constexpr DerivId held = vec_id::marked, follows = vec_id::startVelocity;
+    const double s = 1 / how.factors.impulse;
+    const MatrixFactors a = how.factors.matrix;
+    operations.addMBKdx(
+        vec_id::applied, how.motion(), {.m = a.m == 0 ? 0 : (1 - a.m) * s, .b = -a.b * s, .k = -a.k * s});
+    operations.clear(held);
+    operations.addMBKdx(held, how.motion(), {.m = a.m * s, .b = a.b * s, .k = a.k * s});
+    for (const bool ofContacts : {false, true}) {
+      system.force.setZero();
+      for (int k = 0; k < system.whole.rows(); ++k)
+        if (const int row = system.rows[std::size_t(k)]; (row >= m.contactRows) == ofContacts)
+          system.whole.addTransposed(k, m.problem.multipliers[row], system.force);
+      operations.scatter(how.force(), system.force);
+      operations.peq(held, how.force(), -1);
+      operations.peq(ofContacts ? vec_id::applied : vec_id::reaction, how.force(), 1);
+    }
+    operations.eq(follows, held);
+    operations.projectResponse(follows);
+    operations.peq(vec_id::reaction, held, 1);
+    operations.peq(vec_id::reaction, follows, -1);
+  }
+};
+
+// Outside the class, so that a program may have them instantiated in one place: runtime/precompiled.hpp.
+
+template <class RootScope>
+void ConstrainedStep<RootScope>::integrate(ConstrainedMotion& m, bool velocityFirst, bool keepsForces) const {
+  forceMapped(m, velocityFirst);
+  for_each_solver(root, [&](auto& ode, auto const& scope) { moveFreely(ode, scope, keepsForces); });
+  for_each_integrator(root, [&](auto&, auto const& scope) { lookFromStart(scope); });
+  collectRows(m, velocityFirst, keepsForces);
+  m.hasMotion = false;
+  if (m.rows.count() > 0) {
+    solve(m);
+    giveBack(m);
+  }
+  ContactRows<RootScope>{root, dt}.giveBack(m);
+  std::size_t number = 0;
+  for_each_integrator(root, [&](auto& ode, auto const& scope) {
+    const auto how = MultiplierResponse::of(ode, dt);
+    ConstrainedSystem& system = m.systems[number++];
+    correct(scope, how, m, system, keepsForces);
+    MechanicalOperations<std::decay_t<decltype(scope)>> operations(scope, time, dt);
+    if constexpr (requires { ode.corrected(operations, how.motion()); })
+      if (!system.rows.empty()) ode.corrected(operations, how.motion());
+    operations.projectPositionAndVelocity(time + dt, vec_id::position, vec_id::velocity);
+    operations.propagate(vec_id::position, vec_id::velocity);
+  });
+}
+
+template <class RootScope>
+void ConstrainedStep<RootScope>::findCompliance(ConstrainedMotion& m) const {
+  [[maybe_unused]] const auto span = root.span(Phase::constraint);
+  ConstraintProblem& problem = m.problem;
+  const int n = m.rows.count();
+  problem.blocks = m.rows.blocks;
+  problem.freeViolation = Eigen::Map<Eigen::VectorXd const>(m.rows.violation.data(), n);
+  problem.multipliers = Eigen::Map<Eigen::VectorXd const>(m.rows.multipliers.data(), n);
+  problem.compliance.setZero(n, n);
+  std::size_t number = 0;
+  for_each_integrator(root, [&](auto& ode, auto const& scope) {
+    addCompliance(scope, MultiplierResponse::of(ode, dt), m.systems[number++], m);
+  });
+  ContactRows<RootScope>::leaveOutFixed(m);
+  checkCompliance(m);
+  problem.compliance.diagonal() += Eigen::Map<Eigen::VectorXd const>(m.rows.compliance.data(), n);
+}
+
+}  // namespace sinew

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/lagrangian/constrained_motion.hpp>
+#include <sinew/scene/contact_rows.hpp>
+#include <sinew/scene/mechanical_operations.hpp>
+#include <sinew/scene/solvers.hpp>
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+namespace sinew {
+
+/// The constraints of a step as a problem for the motion v = position u that multipliers add to the free one,
+/// for constraint solvers that need no compliance W (SolvesMotion):
+///   S v = J' f,   d = d_free + J v,   S = A / (impulse position)
+/// over the degrees of freedom of all systems that have rows, one after the other. A row that is soft, C, or
+/// of a contact and along which nothing can move, has a degree of freedom of its own behind them, of which S
+/// is 1/C.
+template <class RootScope>
+struct MotionProblem {
+  RootScope const& root;
+  double time, dt;
+
+  template <class Solver>
+  void solve(ConstrainedMotion& m, Solver& solver, std::string_view where) const {
+    MotionRows& all = m.motionRows;
+    int dofs = 0;
+    std::size_t number = 0;
+    for_each_integrator(root, [&](auto& ode, auto const& scope) {
+      ConstrainedSystem& system = m.systems[number++];
+      system.begin = dofs;
+      if (system.rows.empty()) return;
+      const auto how = MultiplierResponse::of(ode, dt);
+      system.scale =
+          1 / (how.factors.impulse * (m.rows.ofVelocity ? how.factors.velocity : how.factors.position));
+      assemble(scope, how, system);
+      dofs += system.dofs();
+    });
+    joinRows(m, dofs);
+    blocksOf(m, all, solver.preconditioner.system);
+    all.motion.setZero(all.dofs);
+    solver.solveMotion([&](Eigen::VectorXd const& p, Eigen::VectorXd& q) { multiply(m, p, q); }, all, where);
+    m.problem.multipliers.setZero(m.rows.count());
+    for (std::size_t i = 0; i < all.rows.size(); ++i)
+      m.problem.multipliers[all.rows[i]] = all.multipliers[Eigen::Index(i)];
+    number = 0;
+    for_each_integrator(root, [&](auto& ode, auto const&) {
+      ConstrainedSystem& system = m.systems[number++];
+      if (system.rows.empty()) return;
+      const auto factors = MultiplierResponse::of(ode, dt).factors;
+      system.motion.head(system.dofs()) = all.motion.segment(system.begin, system.dofs()) /
+                                          (m.rows.ofVelocity ? factors.velocity : factors.position);
+    });
+  }
+
+ private:
+  template <class S>
+  void assemble(S const& scope, MultiplierResponse const& how, ConstrainedSystem& system) const {
+    MechanicalOperations<S> operations(scope, time, dt);
+    if (!system.hasPattern) {
+      operations.forEachIndependent([&](auto& s) {
+        using D = typename std::decay_t<decltype(s)>::DataTypes;
+        if (D::size % 3 != 0)
+          throw Error(
+              scope.path(),
+              text(component_name<std::decay_t<decltype(s)>>(),
+                   ": a constraint solver without a compliance matrix moves points and rigid bodies in space "
+                   "only; take BlockGaussSeidelConstraintSolver"));
+      });
+      operations.initMatrix(system.matrix);
+      system.hasPattern = true;
+    }
+    operations.assemble(system.matrix, how.factors.matrix);
+  }
+
+  // the rows of all systems together, without contacts that nothing can part
+  static void joinRows(ConstrainedMotion& m, int dofs) {
+    MotionRows& all = m.motionRows;
+    all.clear();
+    all.next.assign(m.systems.size(), 0);
+    all.slack.clear();
+    const double stiffest = largestDiagonal(m);
+    for (ConstraintBlock const& block : m.rows.blocks) {
+      const int first = int(all.rows.size());
+      const std::size_t slack = all.slack.size();
+      bool free = true;
+      for (int row = block.first; row < block.first + block.rows; ++row) {
+        const std::size_t before = all.jacobian.dofs.size();
+        for (std::size_t s = 0; s < m.systems.size(); ++s) {
+          ConstrainedSystem const& system = m.systems[s];
+          std::size_t& k = all.next[s];
+          if (k == system.rows.size() || system.rows[k] != row) continue;
+          system.jacobian.forEachInRow(
+              int(k), [&](int dof, double value) { all.jacobian.add(system.begin + dof, value); });
+          ++k;
+        }
+        const bool held = all.jacobian.dofs.size() == before;
+        const double softness = m.rows.compliance[std::size_t(row)];
+        if (held && row == block.first && block.first >= m.contactRows) free = false;
+        if (softness > 0 || (held && block.first >= m.contactRows)) {
+          all.jacobian.add(dofs + 3 * int(all.slack.size()), 1);
+          all.slack.push_back(softness > 0 ? 1 / softness : stiffest);
+        }
+        all.jacobian.endRow();
+        all.rows.push_back(row);
+      }
+      if (!free) {
+        all.dropFrom(first);
+        all.slack.resize(slack);
+        continue;
+      }
+      all.blocks.push_back(block);
+      all.blocks.back().first = first;
+    }
+    const auto n = Eigen::Index(all.rows.size());
+    all.dofs = dofs + 3 * int(all.slack.size());
+    all.start.resize(n);
+    all.multipliers.resize(n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      all.start[i] = m.rows.violation[std::size_t(all.rows[std::size_t(i)])];
+      all.multipliers[i] = m.rows.multipliers[std::size_t(all.rows[std::size_t(i)])];
+    }
+  }
+  static double largestDiagonal(ConstrainedMotion const& m) {
+    double largest = 0;
+    for (ConstrainedSystem const& system : m.systems)
+      if (!system.rows.empty())
+        for (int i = 0; i < system.matrix.rows(); ++i)
+          largest = std::max(largest, system.scale * system.block(i).diagonal().maxCoeff());
+    return largest > 0 ? largest : 1;
+  }
+  template <class Block>
+  static void blocksOf(ConstrainedMotion const& m, MotionRows const& all, std::vector<Block>& blocks) {
+    blocks.clear();
+    for (ConstrainedSystem const& system : m.systems)
+      if (!system.rows.empty())
+        for (int i = 0; i < system.matrix.rows(); ++i) blocks.push_back(system.scale * system.block(i));
+    for (const double s : all.slack) blocks.push_back(Eigen::Vector3d(s, 1, 1).asDiagonal());
+  }
+  static void multiply(ConstrainedMotion& m, Eigen::VectorXd const& p, Eigen::VectorXd& q) {
+    q.resize(p.size());
+    Eigen::Index behind = 0;
+    for (ConstrainedSystem& system : m.systems) {
+      if (system.rows.empty()) continue;
+      const int n = system.dofs();
+      system.force.head(n) = p.segment(system.begin, n);
+      system.force[n] = 0;  // products read it
+      system.matrix.multiply(system.force.data(), system.motion.data());
+      q.segment(system.begin, n) = system.scale * system.motion.head(n);
+      behind = system.begin + n;
+    }
+    for (const double s : m.motionRows.slack) {
+      q[behind] = s * p[behind];
+      q.segment<2>(behind + 1) = p.segment<2>(behind + 1);
+      behind += 3;
+    }
+  }
+};
+
+}  // namespace sinew

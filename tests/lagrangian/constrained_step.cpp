@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSL-1.0
+// A typed scene with constraints by multipliers, against closed forms.
+#include "catch.hpp"
+
+#include <sinew/lagrangian.hpp>
+#include <sinew/mechanics.hpp>
+
+namespace test_constrained_step {
+
+using namespace sinew;
+
+namespace {
+
+const Eigen::Vector3d g(0, 0, -10);
+
+template <class ConstraintSolver = BlockGaussSeidelConstraintSolver, class Ode, class... Linear>
+auto hanging(Ode ode, Linear... linear) {
+  ConstraintSolver solver;
+  solver.tolerance = 1e-13;
+  if constexpr (requires { solver.momentumTolerance; }) solver.momentumTolerance = 1e-13;
+  return Simulation{node<"root">(Gravity{g},
+                                 FreeMotionAnimationLoop{},
+                                 solver,
+                                 ode,
+                                 linear...,
+                                 node<"body">(MechanicalObject<Vec3d>{.position = {{0, 0, 0}, {0, 0, -1}}},
+                                              UniformMass<Vec3d>{.totalMass = 4},
+                                              FixedLagrangianConstraint<Vec3d>{.indices = {0}}))};
+}
+
+}  // namespace
+
+TEST_CASE("a point that a multiplier holds stays, and the multiplier is its weight") {
+  auto holds = [](auto sim) {
+    sim.init();
+    for (int i = 0; i < 10; ++i) sim.animate(0.01);
+    auto& body = sim.template at<"body">();
+    const double before = body.template get<FixedLagrangianConstraint<Vec3d>>().multipliers[2];
+    sim.animate(0.01);
+    CHECK(body.state().position[0].norm() < 1e-12);
+    CHECK(body.state().velocity[0].norm() < 1e-11);
+    auto const& f = body.template get<FixedLagrangianConstraint<Vec3d>>().multipliers;
+    REQUIRE(f.size() == 3);
+    // Newmark's method begins with the acceleration of the free point, and so alternates about the weight
+    CHECK((before + f[2]) / 2 == Approx(20).epsilon(1e-9));
+    CHECK(std::abs(f[0]) + std::abs(f[1]) < 1e-9);
+  };
+  holds(hanging(EulerExplicitSolver{}));
+  holds(hanging(EulerImplicitSolver{}, SparseLDLSolver<>{}));
+  holds(hanging(EulerImplicitSolver{}, CGLinearSolver<>{.tolerance = 1e-14}));
+  holds(hanging(NewmarkImplicitSolver{}, SparseLDLSolver<>{}));
+  holds(hanging<ConvexConstraintSolver>(EulerExplicitSolver{}));
+  holds(hanging<ConvexConstraintSolver>(EulerImplicitSolver{}, CGLinearSolver<>{.tolerance = 1e-14}));
+  holds(hanging(VariationalSymplecticSolver{}, SparseLDLSolver<>{}));
+}
+
+TEST_CASE("bodies of different solvers that are joined fall as one, and keep their momentum") {
+  Simulation sim{node<"root">(
+      FreeMotionAnimationLoop{},
+      BlockGaussSeidelConstraintSolver{.tolerance = 1e-14},
+      BilateralLagrangianConstraint<Vec3d, Between<"a", "b">>{.first_point = {0}, .second_point = {0}},
+      node<"a">(EulerExplicitSolver{},
+                MechanicalObject<Vec3d>{.position = {{0, 0, 0}}, .velocity = {{3, 0, 0}}},
+                UniformMass<Vec3d>{.totalMass = 1}),
+      node<"b">(EulerImplicitSolver{},
+                SparseLDLSolver<>{},
+                MechanicalObject<Vec3d>{.position = {{0, 0, 0}}},
+                UniformMass<Vec3d>{.totalMass = 2}))};
+  sim.init();
+  for (int i = 1; i <= 10; ++i) {
+    sim.animate(0.01);
+    auto const& a = sim.at<"a">().state();
+    auto const& b = sim.at<"b">().state();
+    CHECK((a.position[0] - b.position[0]).norm() < 1e-12);
+    CHECK((a.velocity[0] - Eigen::Vector3d(1, 0, 0)).norm() < 1e-9);
+    CHECK((b.velocity[0] - Eigen::Vector3d(1, 0, 0)).norm() < 1e-9);
+  }
+}
+
+}  // namespace test_constrained_step
