@@ -194,7 +194,7 @@ struct ContactManager {
   /// contacts of two models are found together: forces need where bodies touch first, multipliers all that
   /// will.
   double coneOf(int a, int b) const {
-    return All::isConstraint(answers.find(a, b).place) ? 0.1 : CollisionSurface::leastCone;
+    return All::isConstraint(answers.find(a, b).place) ? 0.02 : CollisionSurface::leastCone;
   }
   void add(Contact const& c) {
     if (found.size() == found.capacity()) ++grown;
