@@ -162,7 +162,9 @@ using StandardMultipliers =
 /// Every component that Sinew brings, over the DataTypes that scenes use.
 struct Standard : Registry<Gravity, Threads, StandardTopologies, MadeMeshes, VisualModel, StandardEngines,
                            StandardForces, StandardMappings, StandardSolvers, StandardCollision,
-                           StandardMultipliers, Playback<Vec3d>, Playback<Rigid3d>> {};
+                           StandardMultipliers, Playback<Vec3d>, Playback<Rigid3d>> {
+  static constexpr bool proved = true;  // tests/runtime/promises.cpp
+};
 
 /// The same over the rarer DataTypes too: what the law suites prove.
 struct Extended
@@ -173,6 +175,8 @@ struct Extended
                RigidMapping<Rigid2f, Vec2f>, RigidMapping<Rigid2f, Vec2d>, DistanceMapping<Vec3f, Vec1f>,
                VolumeMapping<Vec3f, Vec1f>, CenterOfMassMapping<Vec3d, Vec3f>,
                SkinningMapping<Rigid3f, Vec3f>, Playback<Vec1d>, Playback<Vec2d>, Playback<Vec6d>,
-               Playback<Vec3f>, Playback<Rigid2d>, Playback<Rigid3f>> {};
+               Playback<Vec3f>, Playback<Rigid2d>, Playback<Rigid3f>> {
+  static constexpr bool proved = true;
+};
 
 }  // namespace sinew

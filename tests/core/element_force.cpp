@@ -117,7 +117,7 @@ struct Halved : ThreadForceField<Vec3d> {
   void addForce(MechanicalParams const& p, Vec3d::VecDeriv& f, Vec3d::VecCoord const& x,
                 Vec3d::VecDeriv const& v) {
     Vec3d::VecDeriv whole(f.size(), Vector3d::Zero());
-    driver.addForce(law_of(*this), whole, x, v, p.part);
+    driver.addForce(law_of(*this), whole, x, v, p.share);
     for (std::size_t i = 0; i < f.size(); ++i) f[i] += 0.5 * whole[i];
   }
 };

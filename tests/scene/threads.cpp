@@ -57,29 +57,29 @@ TEST_CASE("the number of threads has bounds", "[threads]") {
 TEST_CASE("what a worker throws reaches the caller, and the threads go on", "[threads]") {
   Workers workers(4);
   for (int round = 0; round < 3; ++round) {
-    // of several, the one of the first part
-    CHECK_THROWS_WITH(workers.run([](WorkShare part) {
-      if (part.index >= 2) throw Error("part", text(part.index));
+    // of several, the one of the first share
+    CHECK_THROWS_WITH(workers.run([](WorkShare share) {
+      if (share.index >= 2) throw Error("part", text(share.index));
     }),
                       Catch::Matchers::Contains("2") && !Catch::Matchers::Contains("3"));
-    CHECK_THROWS_AS(workers.run([](WorkShare part) {
-      if (part.index == 0) throw Error("part", "0");
+    CHECK_THROWS_AS(workers.run([](WorkShare share) {
+      if (share.index == 0) throw Error("part", "0");
     }),
                     Error);
     std::atomic<int> sum{0};
-    workers.run([&](WorkShare part) { sum += part.index + 1; });
+    workers.run([&](WorkShare share) { sum += share.index + 1; });
     CHECK(sum == 10);
   }
 }
 
-TEST_CASE("parts cover a whole once", "[threads]") {
+TEST_CASE("shares cover a whole once", "[threads]") {
   for (const std::size_t n : {0u, 1u, 7u, 100u})
     for (const int count : {1, 2, 3, 8, 64}) {
       std::size_t next = 0;
       for (int k = 0; k < count; ++k) {
-        const WorkShare part{k, count};
-        CHECK(part.begin(n) == next);
-        next = part.end(n);
+        const WorkShare share{k, count};
+        CHECK(share.begin(n) == next);
+        next = share.end(n);
       }
       CHECK(next == n);
     }

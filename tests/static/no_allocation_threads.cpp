@@ -35,7 +35,7 @@ TEST_CASE("no step of several threads allocates, in any of them") {
                                 TetrahedronFEMForceField<D>{},
                                 FixedConstraint<D>{.indices = {0, 1, 2}})};
     sim.init();
-    CHECK(sim.root().template first<role::ForceField>().driver.parts == 2);
+    CHECK(sim.root().template first<role::ForceField>().driver.shares == 2);
     const long before = allocations;
     for (int i = 0; i < 20; ++i) sim.animate(0.001);
     return allocations - before;

@@ -3,6 +3,7 @@
 #include <sinew/runtime/read_scene.hpp>
 
 namespace sinew {
-template ReadScene<Standard> read_scene<Standard>(std::string const&, ReadSceneOptions const&);
-template ReadScene<Standard> parse_scene<Standard>(std::string const&, std::string, ReadSceneOptions const&);
+template ReadScene<Standard> read_scene<Standard>(std::string const&, ReadSceneOptions const&, checks::Right);
+template ReadScene<Standard> parse_scene<Standard>(std::string const&, std::string, ReadSceneOptions const&,
+                                                   checks::Right);
 }  // namespace sinew

@@ -45,7 +45,7 @@ struct MechanicalParams {
   double time = 0, dt = 0;
   Eigen::Vector3d gravity{0, 0, 0};
   double m = 0, b = 0, k = 0;
-  WorkShare part{};  // for a component that shares_work
+  WorkShare share{};  // for a component that shares_work
   // not 0: forces are for a step v += h M^-1 f, x += h v of this length h, and gyroscopic ones those at its
   // end
   double gyroscopicStep = 0;

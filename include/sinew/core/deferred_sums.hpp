@@ -22,15 +22,15 @@ struct DeferredSums {
   /// forEachSummand(piece, f) calls f(place) for each summand of a piece of work, in the order of addition;
   /// each piece has `each` summands, a place of -1 is none.
   template <class ForEachSummand>
-  void plan(int parts, std::size_t pieces, std::size_t each, std::size_t placeCount,
+  void plan(int shares, std::size_t pieces, std::size_t each, std::size_t placeCount,
             ForEachSummand&& forEachSummand) {
     std::vector<int> first(placeCount, -1), count(placeCount + 1, 0);
-    auto isDeferred = [&](int place, int part) { return place >= 0 && first[std::size_t(place)] != part; };
+    auto isDeferred = [&](int place, int share) { return place >= 0 && first[std::size_t(place)] != share; };
     firstOf.assign(pieces, -1);
     int used = 0;
-    for (int k = 0; k < parts; ++k) {
-      const WorkShare part{k, parts};
-      for (std::size_t p = part.begin(pieces); p < part.end(pieces); ++p)
+    for (int k = 0; k < shares; ++k) {
+      const WorkShare share{k, shares};
+      for (std::size_t p = share.begin(pieces); p < share.end(pieces); ++p)
         forEachSummand(p, [&](int place) {
           if (place >= 0 && first[std::size_t(place)] < 0) first[std::size_t(place)] = k;
           if (!isDeferred(place, k)) return;
@@ -48,9 +48,9 @@ struct DeferredSums {
       next[place] = startOf[startOf.size() - 2];
     }
     entries.assign(each * std::size_t(used), -1);
-    for (int k = 0; k < parts; ++k) {
-      const WorkShare part{k, parts};
-      for (std::size_t p = part.begin(pieces); p < part.end(pieces); ++p) {
+    for (int k = 0; k < shares; ++k) {
+      const WorkShare share{k, shares};
+      for (std::size_t p = share.begin(pieces); p < share.end(pieces); ++p) {
         std::size_t entry = std::size_t(firstOf[p]);
         if (firstOf[p] >= 0)
           forEachSummand(p, [&](int place) {
@@ -62,8 +62,8 @@ struct DeferredSums {
 
   /// add(place, entry) for the deferred summands of the places of a share.
   template <class Add>
-  void addDeferred(WorkShare part, Add&& add) const {
-    for (std::size_t i = part.begin(places.size()); i < part.end(places.size()); ++i)
+  void addDeferred(WorkShare share, Add&& add) const {
+    for (std::size_t i = share.begin(places.size()); i < share.end(places.size()); ++i)
       for (int entry = startOf[i]; entry < startOf[i + 1]; ++entry) add(places[i], std::size_t(entry));
   }
 };

@@ -46,7 +46,7 @@ struct ElementDriver {
 
   std::vector<Pack> packs{};
   std::vector<Slots> slots{};
-  int parts = 1;  // that run at once
+  int shares = 1;  // that run at once
   KeptSums<Real, Pack::template realsOf<Deriv>> keptForces{};
   KeptSums<Real, blockSize> keptBlocks{};
 
@@ -60,19 +60,19 @@ struct ElementDriver {
     for (std::size_t p = 0; p < packs.size(); ++p) packs[p].fill(elements, rest, p * W, last);
   }
 
-  /// Prepares for so many parts at once, with at least so many elements each; where there are too few, there
-  /// are fewer parts. Elements that are taken one by one are not split: there the compiler may make one
+  /// Prepares for so many shares at once, with at least so many elements each; where there are too few, there
+  /// are fewer shares. Elements that are taken one by one are not split: there the compiler may make one
   /// operation of the last product and the sum, which has other bits.
   void split(int threads, std::size_t minimum = 256) {
     const int maximum = int(std::min(std::size_t(threads), size() / minimum));
     forget();
     if (W == 1 || maximum < 2 || threads < 2) return;
-    parts = maximum;
-    keptForces.plan(parts, packs.size(), arity * W, [&](std::size_t p, auto&& f) {
+    shares = maximum;
+    keptForces.plan(shares, packs.size(), arity * W, [&](std::size_t p, auto&& f) {
       for (auto const& ends : packs[p].index)
         for (int l = 0; l < W; ++l) f(l < packs[p].active ? ends[l] : -1);
     });
-    keptBlocks.plan(parts, slots.size(), pairs * W, [&](std::size_t p, auto&& f) {
+    keptBlocks.plan(shares, slots.size(), pairs * W, [&](std::size_t p, auto&& f) {
       for (auto const& all : slots[p].slot)
         for (int l = 0; l < W; ++l) f(l < packs[p].active ? all[l] : -1);
     });
@@ -114,13 +114,13 @@ struct ElementDriver {
     return ends;
   }
   template <class VecDeriv, class VecCoord>
-  void addForce(Law const& law, VecDeriv& f, VecCoord const& x, VecDeriv const& v, WorkShare part = {}) {
-    addForce(law, oneBody(f.data()), oneBody(x.data()), oneBody(v.data()), part);
+  void addForce(Law const& law, VecDeriv& f, VecCoord const& x, VecDeriv const& v, WorkShare share = {}) {
+    addForce(law, oneBody(f.data()), oneBody(x.data()), oneBody(v.data()), share);
   }
   template <class VecDeriv>
   void addDForce(Law const& law, VecDeriv& df, VecDeriv const& dx, Real k, Real b,
-                 WorkShare part = {}) const {
-    addDForce(law, oneBody(df.data()), oneBody(dx.data()), k, b, part);
+                 WorkShare share = {}) const {
+    addDForce(law, oneBody(df.data()), oneBody(dx.data()), k, b, share);
   }
   double energy(Law const& law, std::vector<Coord> const& x) const { return energy(law, oneBody(x.data())); }
 
@@ -128,8 +128,8 @@ struct ElementDriver {
   /// shares once more as deferred ones. All shares, and the whole, run the same compiled loop: of two copies
   /// of a law the compiler may join other products and sums to one operation, and their last bits differ.
   [[gnu::flatten]] void addForce(Law const& law, Derivs f, Coords x, ConstDerivs v,
-                                 [[maybe_unused]] WorkShare part = {}) {
-    if constexpr (W > 1) return forceInParts(law, f, x, v, part);
+                                 [[maybe_unused]] WorkShare share = {}) {
+    if constexpr (W > 1) return forceOfShare(law, f, x, v, share);
     for (Pack& pack : packs) {
       OfPoints<typename DL::Coord> xs;
       OfPoints<typename DL::Deriv> vs, fs;
@@ -141,8 +141,8 @@ struct ElementDriver {
   }
 
   [[gnu::flatten]] void addDForce(Law const& law, Derivs df, ConstDerivs dx, Real k, Real b,
-                                  [[maybe_unused]] WorkShare part = {}) const {
-    if constexpr (W > 1) return dforceInParts(law, df, dx, k, b, part);
+                                  [[maybe_unused]] WorkShare share = {}) const {
+    if constexpr (W > 1) return dforceOfShare(law, df, dx, k, b, share);
     for (Pack const& pack : packs) {
       OfPoints<typename DL::Deriv> dxs, dfs;
       pack.gather(dx, dxs);
@@ -165,7 +165,7 @@ struct ElementDriver {
   /// Adds k K + b B to the matrix behind the sink. SideOf[i]: on which end of an interaction point i of an
   /// element is.
   template <int... SideOf, class Sink>
-  void addToMatrix(Law const& law, Sink const& sink, Real k, Real b, WorkShare part = {}) {
+  void addToMatrix(Law const& law, Sink const& sink, Real k, Real b, WorkShare share = {}) {
     using Matrix = typename Sink::MatrixType;
     constexpr bool within = ((SideOf == 0) && ...);
     if constexpr (Sink::direct && within && Matrix::blockSize == D::size &&
@@ -174,12 +174,12 @@ struct ElementDriver {
         bind(sink);
       } else {
         if constexpr (W > 1)
-          blocksInParts(law, sink.matrix, k, b, part);
+          blocksOfShare(law, sink.matrix, k, b, share);
         else
           addOneByOne(law, sink.matrix, k, b);
       }
     } else if constexpr (Sink::phase != AssemblyPhase::bind) {
-      if (part.index > 0 || part.deferred) return;
+      if (share.index > 0 || share.deferred) return;
       if constexpr (within) {
         for (Pack const& pack : packs)
           for (int i = 0; i < arity; ++i)
@@ -193,15 +193,15 @@ struct ElementDriver {
 
  private:
   void forget() {
-    parts = 1;
+    shares = 1;
     keptForces = {};
     keptBlocks = {};
   }
 
-  [[gnu::noinline, gnu::flatten]] void forceInParts(Law const& law, Derivs f, Coords x, ConstDerivs v,
-                                                    WorkShare part) {
+  [[gnu::noinline, gnu::flatten]] void forceOfShare(Law const& law, Derivs f, Coords x, ConstDerivs v,
+                                                    WorkShare share) {
     forEachPack(
-        *this, part, f, [&](Pack & pack, OfPoints<typename DL::Deriv> & fs) __attribute__((always_inline)) {
+        *this, share, f, [&](Pack & pack, OfPoints<typename DL::Deriv> & fs) __attribute__((always_inline)) {
           OfPoints<typename DL::Coord> xs;
           OfPoints<typename DL::Deriv> vs;
           pack.gather(x, xs);
@@ -210,11 +210,11 @@ struct ElementDriver {
         });
   }
 
-  [[gnu::noinline, gnu::flatten]] void dforceInParts(Law const& law, Derivs df, ConstDerivs dx, Real k,
-                                                     Real b, WorkShare part) const {
+  [[gnu::noinline, gnu::flatten]] void dforceOfShare(Law const& law, Derivs df, ConstDerivs dx, Real k,
+                                                     Real b, WorkShare share) const {
     forEachPack(
         *this,
-        part,
+        share,
         df,
         [&](Pack const& pack, OfPoints<typename DL::Deriv>& dfs) __attribute__((always_inline)) {
           OfPoints<typename DL::Deriv> dxs;
@@ -225,19 +225,19 @@ struct ElementDriver {
 
   // Calls law(pack, forces) for the packs of a share, and adds the forces
   template <class Self, class OfPack>
-  SINEW_INLINE static void forEachPack(Self& self, WorkShare part, Derivs const& to, OfPack&& law) {
-    if (part.count > 1) part.count = self.parts;
-    if (part.index >= part.count) return;
-    const bool whole = part.count == 1;
-    if (part.deferred) {
+  SINEW_INLINE static void forEachPack(Self& self, WorkShare share, Derivs const& to, OfPack&& law) {
+    if (share.count > 1) share.count = self.shares;
+    if (share.index >= share.count) return;
+    const bool whole = share.count == 1;
+    if (share.deferred) {
       constexpr int n = Pack::template realsOf<Deriv>;
-      self.keptForces.addDeferred(part, [&](int place, Real const* kept) {
+      self.keptForces.addDeferred(share, [&](int place, Real const* kept) {
         for (int c = 0; c < n; ++c) reinterpret_cast<Real*>(to[0] + place)[c] += kept[c];
       });
       return;
     }
-    const std::size_t end = part.end(self.packs.size());
-    for (std::size_t p = part.begin(self.packs.size()); p < end; ++p) {
+    const std::size_t end = share.end(self.packs.size());
+    for (std::size_t p = share.begin(self.packs.size()); p < end; ++p) {
       auto& pack = self.packs[p];
       OfPoints<typename DL::Deriv> fs;
       law(pack, fs);
@@ -287,21 +287,21 @@ struct ElementDriver {
   }
 
   template <class Matrix>
-  [[gnu::noinline, gnu::flatten]] void blocksInParts(Law const& law, Matrix& matrix, Real k, Real b,
-                                                     WorkShare part) {
+  [[gnu::noinline, gnu::flatten]] void blocksOfShare(Law const& law, Matrix& matrix, Real k, Real b,
+                                                     WorkShare share) {
     constexpr int n = D::size;
-    if (part.count > 1) part.count = parts;
-    if (part.index >= part.count) return;
-    if (part.deferred) {
+    if (share.count > 1) share.count = shares;
+    if (share.index >= share.count) return;
+    if (share.deferred) {
       keptBlocks.addDeferred(
-          part, [&](int slot, Real const* kept) { detail::add_to<n * n>(matrix.block(slot), kept); });
+          share, [&](int slot, Real const* kept) { detail::add_to<n * n>(matrix.block(slot), kept); });
       return;
     }
-    const std::size_t end = part.end(packs.size());
+    const std::size_t end = share.end(packs.size());
     auto* const values = matrix.block(0);
-    for (std::size_t p = part.begin(packs.size()); p < end; ++p) {
+    for (std::size_t p = share.begin(packs.size()); p < end; ++p) {
       Pack const& pack = packs[p];
-      int const* const entries = part.count > 1 ? keptBlocks.entriesOf(p) : nullptr;
+      int const* const entries = share.count > 1 ? keptBlocks.entriesOf(p) : nullptr;
       detail::for_each_pair<arity>([&]<int I, int J>() {
         constexpr int pair = detail::pair_number<arity>(I, J);
         const Mat<L, n> block = law.block(pack.rest, pack.tangent, I, J, L(k), L(b));

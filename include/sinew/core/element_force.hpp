@@ -31,7 +31,7 @@ template <class C>
 void add_force(C& c, MechanicalParams const& p, VecDerivOf<C>& f, VecCoordOf<C> const& x,
                VecDerivOf<C> const& v) {
   if constexpr (ElementForce<C> && !requires { c.addForce(p, f, x, v); })
-    c.driver.addForce(law_of(c), f, x, v, p.part);
+    c.driver.addForce(law_of(c), f, x, v, p.share);
   else
     c.addForce(p, f, x, v);
 }
@@ -40,7 +40,7 @@ template <class C>
 void add_dforce(C& c, MechanicalParams const& p, VecDerivOf<C>& df, VecDerivOf<C> const& dx) {
   using Real = typename C::DataTypes::Real;
   if constexpr (ElementForce<C> && !requires { c.addDForce(p, df, dx); })
-    c.driver.addDForce(law_of(c), df, dx, Real(p.k), Real(p.b), p.part);
+    c.driver.addDForce(law_of(c), df, dx, Real(p.k), Real(p.b), p.share);
   else
     c.addDForce(p, df, dx);
 }
@@ -92,7 +92,7 @@ void add_to_matrix(C& c, MechanicalParams const& p, Sink const& sink) {
   else if constexpr (JoinsTwo<C>)
     c.driver.template addToMatrix<0, 1>(law_of(c), sink, Real(p.k), Real(p.b));
   else
-    c.driver.addToMatrix(law_of(c), sink, Real(p.k), Real(p.b), p.part);
+    c.driver.addToMatrix(law_of(c), sink, Real(p.k), Real(p.b), p.share);
 }
 
 }  // namespace sinew

@@ -29,7 +29,9 @@ class Workers {
   /// thrown is thrown.
   template <class F>
   void run(F&& f) {
-    call_ = [](void* context, WorkShare part) { (*static_cast<std::remove_reference_t<F>*>(context))(part); };
+    call_ = [](void* context, WorkShare share) {
+      (*static_cast<std::remove_reference_t<F>*>(context))(share);
+    };
     context_ = const_cast<void*>(static_cast<void const*>(std::addressof(f)));
     busy_.store(int(threads_.size()), std::memory_order_relaxed);
     begin();
@@ -40,7 +42,7 @@ class Workers {
       raise();
   }
 
-  /// Room for sums of parts, which run() may fill.
+  /// Room for sums of shares, which run() may fill.
   void reserveSums(std::size_t n) {
     if (sums_.size() < n) sums_.resize(n);
   }
@@ -50,7 +52,7 @@ class Workers {
  private:
   std::vector<std::thread> threads_{};
   std::vector<std::exception_ptr> errors_;
-  // the round in which a part was taken last
+  // the round in which a share was taken last
   struct alignas(64) Taken {
     std::atomic<int> round{0};
   };
@@ -76,7 +78,7 @@ class Workers {
       failed_.store(true, std::memory_order_relaxed);
     }
   }
-  // Does a part, unless another thread does. A round lasts until all its parts are done, so that what a
+  // Does a share, unless another thread does. A round lasts until all its shares are done, so that what a
   // thread that comes late takes for the work of its round is that.
   void take(int index, int round);
   void work(int index);

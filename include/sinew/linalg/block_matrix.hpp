@@ -143,9 +143,9 @@ struct CompressedRowSparseMatrix {
   void setZero() { setZero(OneThread{}); }
   template <class Run>
   void setZero(Run const& workers) {
-    auto zero = [&](WorkShare part) {
-      const std::size_t begin = part.begin(values.size());
-      std::memset(values.data() + begin, 0, (part.end(values.size()) - begin) * sizeof(Real));
+    auto zero = [&](WorkShare share) {
+      const std::size_t begin = share.begin(values.size());
+      std::memset(values.data() + begin, 0, (share.end(values.size()) - begin) * sizeof(Real));
     };
     if (chunks.empty())
       zero(WorkShare{});
@@ -295,8 +295,8 @@ struct CompressedRowSparseMatrix {
       bool done = false;
       if constexpr (!std::is_same_v<Run, OneThread>)
         if (!chunks.empty()) {
-          workers.run([&](WorkShare part) {
-            for (std::size_t k = part.begin(chunks.size()); k < part.end(chunks.size()); ++k)
+          workers.run([&](WorkShare share) {
+            for (std::size_t k = share.begin(chunks.size()); k < share.end(chunks.size()); ++k)
               multiplyChunk(chunks[k], x, y);
           });
           done = true;

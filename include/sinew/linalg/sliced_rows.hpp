@@ -111,8 +111,8 @@ struct SlicedRows {
   /// The blocks anew, from those of the matrix, row-major one behind the other.
   template <class Run>
   void pack(Run const& workers, Real const* values) {
-    workers.run([&](WorkShare part) {
-      for (std::size_t s = part.begin(sources.size()); s < part.end(sources.size()); ++s)
+    workers.run([&](WorkShare share) {
+      for (std::size_t s = share.begin(sources.size()); s < share.end(sources.size()); ++s)
         for (std::size_t r = 0; r < 3; ++r) gather3(values + 3 * r, sources[s].of, &blocks[s][3 * r]);
     });
   }
@@ -121,11 +121,11 @@ struct SlicedRows {
   /// are.
   template <class Run>
   double multiply(Run const& workers, Real const* in, Real* out) {
-    workers.run([&](WorkShare part) {
-      for (std::size_t k = part.begin(slices()); k < part.end(slices()); ++k) begin(in, int(k) * W);
+    workers.run([&](WorkShare share) {
+      for (std::size_t k = share.begin(slices()); k < share.end(slices()); ++k) begin(in, int(k) * W);
     });
-    workers.run([&](WorkShare part) {
-      for (std::size_t k = part.begin(chunks.size()); k < part.end(chunks.size()); ++k)
+    workers.run([&](WorkShare share) {
+      for (std::size_t k = share.begin(chunks.size()); k < share.end(chunks.size()); ++k)
         multiplyChunk(chunks[k], out);
     });
     double total = 0;

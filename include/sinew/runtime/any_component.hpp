@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <sinew/core/registry.hpp>
+#include <sinew/runtime/registry_checks.hpp>
 #include <sinew/scene/node.hpp>
 
 #include <algorithm>
@@ -14,26 +14,6 @@ namespace sinew {
 
 namespace detail {
 
-/// What the classes of a list have to have, and one of them lacks.
-enum class Lack { nothing, role, className, fields };
-// A member of this name, found without looking at what it is: fields() of all classes would cost a third of
-// the time of a registry.
-struct FieldsName {
-  int fields;
-};
-template <class C>
-struct BesideFieldsName : C, FieldsName {};
-template <class C>
-concept NamesFields = std::is_final_v<C> || !requires { &BesideFieldsName<C>::fields; };
-template <class C>
-constexpr Lack lack_of() {
-  if constexpr (!HasKnownRole<C>)
-    return Lack::role;
-  else if constexpr (!HasClassName<C>)
-    return Lack::className;
-  else
-    return NamesFields<C> ? Lack::nothing : Lack::fields;
-}
 /// What can be done with a component of whatever class in a registry, by its place in it.
 struct ComponentOperations {
   void* (*make)();
@@ -44,26 +24,16 @@ struct ComponentOperations {
 };
 template <class C>
 constexpr ComponentOperations component_operations() {
-  if constexpr (lack_of<C>() != Lack::nothing)
-    return {};  // RuntimeNode says so
-  else
-    return {[]() -> void* { return new C{}; },
-            [](void const* c) -> void* { return new C(*static_cast<C const*>(c)); },
-            [](void* c) { delete static_cast<C*>(c); },
-            [] { return component_name<C>(); },
-            [](void const* c, std::string_view where) { check_fields(*static_cast<C const*>(c), where); }};
+  return {[]() -> void* { return new C{}; },
+          [](void const* c) -> void* { return new C(*static_cast<C const*>(c)); },
+          [](void* c) { delete static_cast<C*>(c); },
+          [] { return component_name<C>(); },
+          [](void const* c, std::string_view where) { check_fields(*static_cast<C const*>(c), where); }};
 }
 template <class... Cs>
 constexpr auto all_component_operations(TypeList<Cs...>) {
   // the type in words: the compiler would deduce it by a fold, which clang nests 256 deep at most
   return std::array<ComponentOperations, sizeof...(Cs)>{component_operations<Cs>()...};
-}
-
-template <class... Cs>
-constexpr Lack first_lack(TypeList<Cs...>) {
-  for (const Lack lack : {lack_of<Cs>()..., Lack::nothing})
-    if (lack != Lack::nothing) return lack;
-  return Lack::nothing;
 }
 
 // the class at a place of a list, by the base that has its number
@@ -124,7 +94,10 @@ struct VisitTable {
 template <class R>
 class AnyComponent {
  public:
-  using List = typename detail::Flat<R>::type;
+  /// Where a class of the registry is wrong, RuntimeNode says so, and nothing is made of any.
+  using Verdict = checks::RegistryVerdict<R>;
+  using List = std::conditional_t<std::is_same_v<Verdict, checks::Right>, typename detail::Flat<R>::type,
+                                  detail::TypeList<>>;
 
   template <class C>
   static AnyComponent of(C component) {

@@ -52,28 +52,16 @@ struct RuntimeEntry {
 /// Simulation runs it as it runs typed nodes.
 template <class R>
 class RuntimeNode {
-  static constexpr detail::Lack lack = detail::first_lack(typename detail::Flat<R>::type{});
-  static_assert(
-      lack != detail::Lack::role,
-      "Sinew: a class of a registry has no Role; write 'using Role = role::ForceField;', or another "
-      "role of core/roles.");
-  static_assert(lack != detail::Lack::className,
-                "Sinew: a class of a registry has no className, by which scene files know it; write 'static "
-                "constexpr std::string_view className = \"MyForce\";'.");
-  static_assert(lack != detail::Lack::fields,
-                "Sinew: a class of a registry has no fields(); write 'static constexpr auto fields() "
-                "{ return field_list(field(\"stiffness\", &MyForce::stiffness, \"N/m\", \"of a spring\")); "
-                "}'.");
-
  public:
   using Entry = RuntimeEntry<R>;
+  using Verdict = typename AnyComponent<R>::Verdict;
   std::string name;
   Mount mount{};
   std::vector<std::string> errors{};    // of the top node: what init has found wrong so far
   std::vector<std::string> warnings{};  // of the top node: what the last init has noticed
   Profile* profile = nullptr;           // of the top node: what times its steps; copies are not timed
 
-  explicit RuntimeNode(std::string n = "root") : name(std::move(n)) {}
+  explicit RuntimeNode(std::string n = "root", Verdict = {}) : name(std::move(n)) {}
   RuntimeNode(RuntimeNode const& other) : name(other.name), mount(other.mount), entries_(other.entries_) {
     for (auto const& child : other.children_) children_.push_back(std::make_unique<RuntimeNode>(*child));
     adopt();

@@ -78,9 +78,10 @@ extern template double Simulation<RuntimeNode<Standard>>::kineticEnergy();
 extern template double Simulation<RuntimeNode<Standard>>::potentialEnergy();
 
 extern template std::vector<ClassInfo> make_class_table<Standard>();
-extern template ReadScene<Standard> read_scene<Standard>(std::string const&, ReadSceneOptions const&);
+extern template ReadScene<Standard> read_scene<Standard>(std::string const&, ReadSceneOptions const&,
+                                                         checks::Right);
 extern template ReadScene<Standard> parse_scene<Standard>(std::string const&, std::string,
-                                                          ReadSceneOptions const&);
+                                                          ReadSceneOptions const&, checks::Right);
 extern template std::string scene_text<Standard>(Simulation<RuntimeNode<Standard>>&, double);
 extern template std::string bake_text<Standard>(ReadScene<Standard>, std::string const&, BakeOptions const&);
 

@@ -4,6 +4,8 @@
 #include <sinew/context/gravity.hpp>
 #include <sinew/runtime/scene_files.hpp>
 #include <sinew/runtime/scene_reader/classes.hpp>
+#include <sinew/runtime/scene_reader/collect.hpp>
+#include <sinew/runtime/scene_reader/set_attribute.hpp>
 #include <sinew/runtime/scene_reader/values.hpp>
 #include <sinew/runtime/scope.hpp>
 #include <sinew/scene/solvers.hpp>
@@ -28,19 +30,20 @@ class SceneReader {
   XmlReader xml_;
   SceneMessages messages_{};
   std::vector<ClassInfo> table_ = make_class_table<R>();
-  SceneCollector collector_{table_, options_.lenient, messages_};
+  SceneItems items_{table_, options_.lenient, messages_};
   SceneClasses classes_{table_, messages_};
-  SceneValues<R> values_{collector_, xml_, messages_};
+  SceneValues<R> values_{items_, xml_, messages_};
   std::vector<SceneItem*> moved_{};
 
   ReadScene<R> build(XmlElement root) {
     if (root.tag != "Node")
       throw SceneError(
           {text(root.place(), ": <", root.tag, ">: the outermost element of a scene is <Node>")});
-    xml_.expandObjects(root, [this](XmlElement const& e) { return collector_.knows(tag_of(e)); });
+    xml_.expandObjects(
+        root, [this](XmlElement const& e) { return items_.names().kindOf(e) != ElementKind::unknown; });
     for (auto const& [path, value] : options_.set) set_attribute(root, path, value);
     ScenePlace top{&root, name_of(root, "root"), nullptr};
-    collector_.collectAll(top);
+    SceneCollector(items_, messages_).collectAll(top);
     classes_.decideAll(top);
     values_.readAll(top);
     for_each_item(top, [&](SceneItem& item) {
@@ -162,11 +165,13 @@ auto as_scene_error(F&& f) {
 }  // namespace detail
 
 template <class R>
-ReadScene<R> read_scene(std::string const& path, ReadSceneOptions const& options) {
+ReadScene<R> read_scene(std::string const& path, ReadSceneOptions const& options,
+                        checks::RegistryVerdict<R>) {
   return detail::as_scene_error([&] { return detail::SceneReader<R>(options).read(path); });
 }
 template <class R>
-ReadScene<R> parse_scene(std::string const& path, std::string content, ReadSceneOptions const& options) {
+ReadScene<R> parse_scene(std::string const& path, std::string content, ReadSceneOptions const& options,
+                         checks::RegistryVerdict<R>) {
   return detail::as_scene_error(
       [&] { return detail::SceneReader<R>(options).parse(path, std::move(content)); });
 }

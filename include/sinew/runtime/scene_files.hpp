@@ -45,12 +45,15 @@ struct SceneError : Error {
 };
 
 /// Reads a scene in SOFA's XML dialect, of the classes of the registry R. Throws SceneError with all that is
-/// wrong with the file; nothing is returned then.
+/// wrong with the file; nothing is returned then. What is wrong with a class of the registry, the compiler
+/// says by the last argument.
 template <class R>
-ReadScene<R> read_scene(std::string const& path, ReadSceneOptions const& options = {});
+ReadScene<R> read_scene(std::string const& path, ReadSceneOptions const& options = {},
+                        checks::RegistryVerdict<R> = {});
 /// The same from the content of a file.
 template <class R>
-ReadScene<R> parse_scene(std::string const& path, std::string content, ReadSceneOptions const& options = {});
+ReadScene<R> parse_scene(std::string const& path, std::string content, ReadSceneOptions const& options = {},
+                         checks::RegistryVerdict<R> = {});
 
 /// An initialised simulation of a scene that was read, at the time at which it was saved. Throws Error.
 template <class R>

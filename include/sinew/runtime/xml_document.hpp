@@ -164,7 +164,7 @@ class XmlReader {
       }
       for (XmlAttribute& a : child.attributes)
         if (!a.file) a.file = child.file;
-      include(child, href, child.attributes, in, depth, [&](XmlElement& root) {
+      include(child, href, path, child.attributes, in, depth, [&](XmlElement& root) {
         expandObjects(root, isClass, depth + 1);
       });
     }
@@ -264,23 +264,27 @@ class XmlReader {
     for (auto const& a : node.attributes())
       if (std::string_view(a.name()) != "href")
         attributes.push_back({a.name(), a.value(), std::size_t(a.name() - buffer), file});
-    include(here, node.attribute("href").value(), attributes, to, depth, [](XmlElement&) {});
-  }
-  // `with(root)` is what is done to the other file's elements first
-  template <class F>
-  void include(XmlElement const& here, std::string const& href, std::vector<XmlAttribute> const& attributes,
-               XmlElement& to, int depth, F&& with) {
+    const std::string href = node.attribute("href").value();
+    if (href.empty()) refuse(here, "has no href; name the file to include");
     std::string path;
     try {
-      if (href.empty()) throw Error("", "has no href; name the file to include");
-      path = find(href, here.file->folder);
-      if (std::find(including_.begin(), including_.end(), path) != including_.end())
-        throw Error("", text(detail::shown(href), " includes itself; break the circle"));
-      if (int(including_.size()) > maxIncludes)
-        throw Error("", text("is an include more than ", maxIncludes, " deep; flatten the files"));
+      path = find(href, file->folder);
     } catch (Error const& error) {
-      throw Error(here.place(), text('<', here.tag, ">: ", error.what()));
+      refuse(here, error.what());
     }
+    include(here, href, path, attributes, to, depth, [](XmlElement&) {});
+  }
+  [[noreturn]] static void refuse(XmlElement const& here, std::string_view why) {
+    throw Error(here.place(), text('<', here.tag, ">: ", why));
+  }
+  // The file at `path`, which `href` names; `with(root)` is what is done to its elements first.
+  template <class F>
+  void include(XmlElement const& here, std::string const& href, std::string const& path,
+               std::vector<XmlAttribute> const& attributes, XmlElement& to, int depth, F&& with) {
+    if (std::find(including_.begin(), including_.end(), path) != including_.end())
+      refuse(here, text(detail::shown(href), " includes itself; break the circle"));
+    if (int(including_.size()) > maxIncludes)
+      refuse(here, text("is an include more than ", maxIncludes, " deep; flatten the files"));
     XmlElement root = read(path);
     including_.push_back(path);
     with(root);

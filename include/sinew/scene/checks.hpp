@@ -323,7 +323,7 @@ constexpr auto parts(std::type_identity<Node<Name, hana::tuple<Cs...>, hana::tup
 template <class S>
 constexpr auto scene() {
   if constexpr (requires { S::provedAtInit; }) {
-    return std::type_identity<Right>{};
+    return std::type_identity<typename S::NodeType::Verdict>{};
   } else {
     constexpr auto node = too_many<typename S::NodeType>();
     if constexpr (node != Rule::none)
@@ -333,8 +333,8 @@ constexpr auto scene() {
   }
 }
 
-/// Whether all components of a node and below keep their promises. Of runtime nodes nothing is asked here:
-/// their registry checks roles, names and fields (runtime/node.hpp).
+/// Whether all components of a node and below keep their promises. Runtime nodes have the verdict on their
+/// registry (runtime/registry_checks.hpp).
 template <class N>
 inline constexpr bool all_kept = true;
 template <class Name, class... Cs, class... Ns>

@@ -232,15 +232,15 @@ struct MechanicalOperations {
   // f(params) for a component as a whole, or for each share of it, and again for the deferred sums of all
   // shares
   template <class C, class F>
-  void inParts([[maybe_unused]] C const& c, MechanicalParams const& p, F&& f) {
+  void inShares([[maybe_unused]] C const& c, MechanicalParams const& p, F&& f) {
     if constexpr (Root::threaded && shares_work<C>)
-      if (c.driver.parts > 1) {
+      if (c.driver.shares > 1) {
         const auto threads = workers();
         for (const bool deferred : {false, true})
-          threads.run([&](WorkShare part) {
+          threads.run([&](WorkShare share) {
             MechanicalParams own = p;
-            own.part = part;
-            own.part.deferred = deferred;
+            own.share = share;
+            own.share.deferred = deferred;
             f(own);
           });
         return;
@@ -387,7 +387,7 @@ void MechanicalOperations<Root>::computeForce(DerivId f, CoordId x, DerivId v, d
           auto& s = stateOf(c, scope);
           MechanicalParams params = p;
           if constexpr (HasRole<C, role::Mass>) params.gravity = scope.gravity();
-          inParts(c, params, [&](MechanicalParams const& part) { add_force(c, part, s[f], s[x], s[v]); });
+          inShares(c, params, [&](MechanicalParams const& part) { add_force(c, part, s[f], s[x], s[v]); });
         }
       }));
   contacts().addForces(f, x, v);
@@ -446,7 +446,7 @@ void MechanicalOperations<Root>::addMBKdx(DerivId r, DerivId dx, MatrixFactors f
                  forEnds(c, scope, [&](auto& a, auto& b) { add_dforce(c, p, a[r], b[r], a[dx], b[dx]); });
                } else {
                  auto& s = stateOf(c, scope);
-                 inParts(c, p, [&](MechanicalParams const& part) { add_dforce(c, part, s[r], s[dx]); });
+                 inShares(c, p, [&](MechanicalParams const& part) { add_dforce(c, part, s[r], s[dx]); });
                }
              }
            }));
@@ -531,7 +531,7 @@ void MechanicalOperations<Root>::assemblePhase(Matrix& matrix, MatrixFactors fac
               if constexpr (HasRole<C, role::Mass>)
                 c.addToMatrix(p, stateOf(c, scope)[vec_id::position], sink);
               else if constexpr (Phase == AssemblyPhase::add)
-                inParts(c, p, [&](MechanicalParams const& part) { add_to_matrix(c, part, sink); });
+                inShares(c, p, [&](MechanicalParams const& part) { add_to_matrix(c, part, sink); });
               else
                 add_to_matrix(c, p, sink);
             });

@@ -83,8 +83,8 @@ double sum_pieces(Run const& workers, Eigen::Index size, F&& f) {
     if (workers.count() > 1 && size >= 16 * piece) {
       const std::size_t pieces = std::size_t((size + piece - 1) / piece);
       double* const sums = workers.sums();
-      workers.run([&](WorkShare part) {
-        for (std::size_t k = part.begin(pieces); k < part.end(pieces); ++k)
+      workers.run([&](WorkShare share) {
+        for (std::size_t k = share.begin(pieces); k < share.end(pieces); ++k)
           sums[k] = f(Eigen::Index(k) * piece, length(Eigen::Index(k) * piece));
       });
       for (std::size_t k = 0; k < pieces; ++k) sum += sums[k];
@@ -98,9 +98,9 @@ template <class Run, class F>
 void each_piece(Run const& workers, Eigen::Index size, F&& f) {
   if constexpr (!std::is_same_v<Run, OneThread>)
     if (workers.count() > 1 && size >= 16 * piece) {
-      workers.run([&](WorkShare part) {
-        const auto begin = Eigen::Index(part.begin(std::size_t(size)));
-        f(begin, Eigen::Index(part.end(std::size_t(size))) - begin);
+      workers.run([&](WorkShare share) {
+        const auto begin = Eigen::Index(share.begin(std::size_t(size)));
+        f(begin, Eigen::Index(share.end(std::size_t(size))) - begin);
       });
       return;
     }

@@ -43,7 +43,7 @@ struct ElementDriver<LawOf, CudaTypes<H>, W> {
 
   std::vector<Indices> elements{};
   gpu::DeviceVector<Rest> rest{};
-  int parts = 1;
+  int shares = 1;
 
   /// Takes the elements. Throws Error on more than 2^31 - 1 ends of elements.
   void init(std::vector<Indices> const& all, std::vector<Rest> const& restOf) {

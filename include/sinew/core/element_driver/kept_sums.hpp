@@ -17,11 +17,11 @@ struct KeptSums {
 
   /// forEachPlace(piece, f) calls f(place) for each of the `each` summands of a piece; -1 is none.
   template <class ForEachPlace>
-  void plan(int parts, std::size_t pieces, std::size_t each, ForEachPlace&& forEachPlace) {
+  void plan(int shares, std::size_t pieces, std::size_t each, ForEachPlace&& forEachPlace) {
     int last = 0;
     for (std::size_t p = 0; p < pieces; ++p)
       forEachPlace(p, [&](int place) { last = std::max(last, place); });
-    deferred.plan(parts, pieces, each, std::size_t(last) + 1, forEachPlace);
+    deferred.plan(shares, pieces, each, std::size_t(last) + 1, forEachPlace);
     values.resize(deferred.entryCount() * N);
   }
 
@@ -33,8 +33,8 @@ struct KeptSums {
 
   /// add(place, summand) for the deferred summands of the places of a share.
   template <class Add>
-  void addDeferred(WorkShare part, Add&& add) const {
-    deferred.addDeferred(part, [&](int place, std::size_t number) { add(place, entry(int(number))); });
+  void addDeferred(WorkShare share, Add&& add) const {
+    deferred.addDeferred(share, [&](int place, std::size_t number) { add(place, entry(int(number))); });
   }
 };
 

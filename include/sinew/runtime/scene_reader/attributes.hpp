@@ -94,6 +94,50 @@ inline std::string in_space(SceneItem const& item, std::string value) {
   return every(value, given, given, given == 2 ? "0 " : "0 0 ");
 }
 
+/// The fields of a state that are points.
+inline constexpr auto fields_of_points = std::to_array<std::string_view>({"position", "rest_position"});
+
+/// Positions as they are written: as in SOFA numbers at the end that are no whole point are left out; an
+/// orientation of zeros is none.
+inline std::string whole_points(SceneItem const& item, std::string const& value, XmlAttribute const& a,
+                                SceneMessages& messages) {
+  const std::string_view types = item.info->dataTypes;
+  const std::size_t each = types.find("Rigid3") != types.npos   ? 7
+                           : types.find("Rigid2") != types.npos ? 3
+                           : types.find("Vec") != types.npos ? std::size_t(types[types.find("Vec") + 3] - '0')
+                                                             : 1;
+  std::vector<std::string> numbers;
+  for (Words words(value); !words.end();) numbers.emplace_back(words.next());
+  auto note = [&](auto const&... what) {
+    messages.warnings.insert(text(item.element->place(a), ": <", item.tag, ">: ", a.name, ": ", what...));
+  };
+  const std::size_t left = numbers.size() % each;
+  bool changed = left > 0 && numbers.size() > each;
+  if (changed) {
+    numbers.resize(numbers.size() - left);
+    note("goes on with ",
+         left,
+         " of the ",
+         each,
+         " numbers of a point, which are left out; give all, or none");
+  }
+  auto zero = [](std::string const& word) {
+    double number = 1;
+    return io::parse_number(word, number) && number == 0;
+  };
+  for (std::size_t i = 0; each == 7 && i + each <= numbers.size(); i += each)
+    if (std::all_of(
+            numbers.begin() + std::ptrdiff_t(i) + 3, numbers.begin() + std::ptrdiff_t(i + each), zero)) {
+      numbers[i + 6] = "1";
+      note("the orientation of point ", i / each, " is zero; it is taken for none, 0 0 0 1");
+      changed = true;
+    }
+  if (!changed) return value;
+  std::string all;
+  for (auto const& number : numbers) all += text(number, ' ');
+  return all;
+}
+
 }  // namespace detail
 
 }  // namespace sinew

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/runtime/scene_reader/parts.hpp>
+
+#include <algorithm>
+#include <set>
+
+namespace sinew {
+
+namespace detail {
+
+/// Elements that are settings of others: each goes to that which links to it, or stands nearest.
+class ElementSettings {
+ public:
+  explicit ElementSettings(SceneMessages& messages) : messages_(messages) {}
+
+  /// All in and below a node.
+  void giveAll(ScenePlace& top) {
+    setNewton(top);
+    warnOfLooseNewton(top);
+    setPreconditioners(top);
+    setDensities(top);
+  }
+
+ private:
+  SceneMessages& messages_;
+  std::set<XmlElement const*> takenNewton_{}, takenPreconditioners_{};
+
+  // NewtonRaphsonSolver holds settings of the ODE solver that links to it; where that names none, of one in
+  // its node or above
+  void setNewton(ScenePlace& place) {
+    for (auto& item : place.items)
+      if (item->candidates[0]->role == RoleKind::odeSolver) {
+        std::string name;
+        std::erase_if(item->element->attributes, [&](XmlAttribute const& a) {
+          if (a.name != "newtonSolver") return false;
+          name = a.value.substr(a.value.find_last_of("@/") + 1);
+          std::replace(name.begin(), name.end(), ' ', '_');
+          return true;
+        });
+        XmlElement const* newton = nullptr;
+        for (ScenePlace* at = &place; at && !newton && !name.empty(); at = at->parent)
+          newton = newtonIn(*at, name);
+        if (!newton) newton = newtonIn(place, "");
+        if (newton) takeNewton(*item, *newton);
+      }
+    for (auto& child : place.children) setNewton(*child);
+  }
+  static XmlElement const* newtonIn(ScenePlace const& place, std::string_view name) {
+    for (XmlElement const* element : place.newton)
+      if (name.empty() || name_of(*element, element->tag) == name) return element;
+    for (auto const& child : place.children)
+      if (XmlElement const* found = newtonIn(*child, name)) return found;
+    return nullptr;
+  }
+  void warnOfLooseNewton(ScenePlace const& place) {
+    for (XmlElement const* element : place.newton)
+      if (!takenNewton_.count(element))
+        messages_.warnings.insert(
+            text(element->place(),
+                 ": <NewtonRaphsonSolver>: no ODE solver links to it, stands beside it or "
+                 "above; it has no effect"));
+    for (auto const& child : place.children) warnOfLooseNewton(*child);
+  }
+  void takeNewton(SceneItem& item, XmlElement const& newton) {
+    takenNewton_.insert(&newton);
+    if (!item.candidates[0]->field("maxNbIterationsNewton"))
+      return void(messages_.warnings.insert(text(newton.place(),
+                                                 ": <NewtonRaphsonSolver>: ",
+                                                 item.tag,
+                                                 " has no iterations of Newton's method; it has no effect")));
+    for (XmlAttribute a : newton.attributes) {
+      if (a.name == "name" || a.name == "type") continue;
+      if (!a.file) a.file = newton.file;
+      if (!item.element->attribute(a.name)) item.element->take(a, true);
+    }
+    for (auto const& [name, value] : dialect::newtonDefaults) item.element->set(name, value, false);
+  }
+
+  // FEMMass takes its density from the NodalMassDensity that it links to, or the nearest in its node or above
+  void setDensities(ScenePlace& place) {
+    for (auto& item : place.items) {
+      if (item->tag != "FEMMass") continue;
+      std::string name;
+      std::erase_if(item->element->attributes, [&](XmlAttribute const& a) {
+        if (a.name != "nodalMassDensity") return false;
+        name = a.value.substr(a.value.find_last_of("@/") + 1);
+        return true;
+      });
+      XmlElement const* found = nullptr;
+      for (ScenePlace* at = &place; at && !found; at = at->parent)
+        for (XmlElement const* density : at->densities)
+          if (!found && (name.empty() || name_of(*density, density->tag) == name)) found = density;
+      if (!found) {
+        messages_.addError(*item->element, "finds no NodalMassDensity; put one into its node, or above");
+        continue;
+      }
+      auto const* given = found->attribute("property");
+      const std::string property = given ? given->value : "1";
+      Words words(property);
+      const std::string density(words.end() ? "1" : words.next());
+      if (!words.end() || is_link(density))
+        messages_.addError(
+            found->place(*given),
+            "<NodalMassDensity>: property: only one density for all points is simulated; give one number");
+      item->element->set("massDensity", density);
+    }
+    for (auto& child : place.children) setDensities(*child);
+  }
+
+  // A preconditioner, or the linear solver that is one, is a setting of the solver that links to it.
+  void setPreconditioners(ScenePlace& place) {
+    for (std::size_t i = 0; i < place.items.size(); ++i)
+      if (SceneItem& item = *place.items[i]; item.candidates[0]->field("precondition")) {
+        std::string link;
+        std::erase_if(item.element->attributes, [&](XmlAttribute const& a) {
+          if (a.name != "preconditioner" && a.name != "preconditioners") return false;
+          link = a.value;
+          return true;
+        });
+        if (!link.empty()) takePreconditioner(item, link);
+      }
+    for (auto& child : place.children) setPreconditioners(*child);
+    std::erase_if(place.items,
+                  [&](auto const& item) { return takenPreconditioners_.count(item->element) > 0; });
+    for (XmlElement const* element : place.preconditioners)
+      if (!takenPreconditioners_.count(element))
+        messages_.warnings.insert(
+            text(element->place(), ": <", tag_of(*element), ">: no solver links to it; it has no effect"));
+  }
+  void takePreconditioner(SceneItem& item, std::string const& link, int depth = 0) {
+    XmlElement const* const element = solverNamed(*item.place, link);
+    if (!element || element == item.element || depth > 2)
+      return messages_.addError(*item.element,
+                                text("there is no preconditioner ", shown(link), "; correct the link"));
+    takenPreconditioners_.insert(element);
+    auto const* means = dialect::preconditioner_named(tag_of(*element));
+    if (means && means->warp) item.element->set("warp", "1", false);
+    if (means && !means->updateStep.empty()) item.element->set("update_step", means->updateStep);
+    for (XmlAttribute const& a : element->attributes) {
+      if (a.name == "omega") item.element->set(a.name, a.value, false);
+      if (a.name == "update_step") item.element->set(a.name, a.value);
+      // what is warped
+      if (means && means->warp && (a.name == "linearSolver" || a.name == "solverName") && !a.value.empty())
+        takePreconditioner(item, a.value, depth + 1);
+    }
+    item.element->set("precondition", means ? means->precondition : "ldl", false);
+  }
+  // by the last step of the link, in the node or above
+  static XmlElement const* solverNamed(ScenePlace const& place, std::string const& link) {
+    std::string name = link.substr(link.find_last_of("@/") + 1);
+    for (ScenePlace const* at = &place; at; at = at->parent) {
+      for (XmlElement const* element : at->preconditioners)
+        if (name_of(*element, tag_of(*element)) == name) return element;
+      for (auto const& item : at->items)
+        if (item->name == name && item->candidates[0]->role == RoleKind::linearSolver) return item->element;
+    }
+    return nullptr;
+  }
+};
+
+}  // namespace detail
+
+}  // namespace sinew

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/runtime/dialect.hpp>
+#include <sinew/runtime/scene_reader/links.hpp>
+
+#include <algorithm>
+#include <array>
+
+namespace sinew {
+
+namespace detail {
+
+/// Whether what is in a node moves.
+inline bool moves(ScenePlace const& place) {
+  ScenePlace const* const owner = place.owner();
+  for (ScenePlace const* at = owner; at; at = at->parent)
+    if (at->ofRole(RoleKind::odeSolver)) return true;
+  if (!owner) return false;
+  return owner->ofRole(RoleKind::mapping) ||
+         std::any_of(owner->items.begin(), owner->items.end(), [](auto const& item) {
+           return item->info && item->info->traits.movesState;
+         });
+}
+/// Whether a field chooses the elements that bear a load: a link to none is meant, or a mistake that
+/// SOFA lets pass.
+inline bool chooses_loaded(FieldInfo const& field) {
+  static constexpr std::array lists =
+      std::to_array<std::string_view>({"triangleList", "quadList", "edgeIndices"});
+  return dialect::has(lists, field.name);
+}
+/// No element bears the load.
+inline void press_none(SceneItem& item, XmlAttribute const& a, std::string_view why,
+                       SceneMessages& messages) {
+  if (auto const* none = item.info->field("none")) none->read(item.address, "1");
+  messages.warnings.insert(text(item.element->place(a),
+                                ": <",
+                                item.tag,
+                                ">: ",
+                                a.name,
+                                ": ",
+                                why,
+                                "; no element bears the load by its number, as in SOFA"));
+}
+
+/// Where the link of a field leads; false where an element does without.
+inline bool follow_field(SceneItem& item, FieldInfo const& field, XmlAttribute const& a, LinkTarget& target,
+                         SceneMessages& messages) {
+  try {
+    target = follow_link(item, a.value);
+  } catch (Error const& error) {
+    if (!chooses_loaded(field)) throw;
+    press_none(item, a, error.what(), messages);
+    return false;
+  }
+  if (field.name == "external_rest_shape") {
+    if (target.data.empty()) target.data = "position";
+    if (moves(target.item ? *target.item->place : *target.place))
+      throw Error("",
+                  text(shown(a.value),
+                       " moves, but springs are to a place that stays; join the two bodies by a "
+                       "StiffSpringForceField"));
+  }
+  return true;
+}
+
+/// Input and output of a mapping say what the tree says: the state above, and that of its node.
+inline void check_ends(SceneItem& item, SceneMessages& messages) {
+  for (std::string_view name : {"input", "output"}) {
+    auto const* a = item.element->attribute(name);
+    if (!a || !is_link(a->value) || (item.info->severalParents && name == "input")) continue;
+    try {
+      const LinkTarget target = follow_link(item, a->value);
+      ScenePlace const* const place = target.item ? target.item->place : target.place;
+      if (name == "output") {
+        if (place != item.place && !(place->parent == item.place || item.place->parent == place))
+          throw Error("",
+                      text("leads to the node '",
+                           place->name,
+                           "', but a mapping moves what is in its own node; move it there"));
+      } else if (place->owner() != (item.place->parent ? item.place->parent->owner() : nullptr) &&
+                 place != item.place) {
+        throw Error("",
+                    text("leads to '",
+                         place->name,
+                         "', but a mapping follows the nearest state above its node; put the node below '",
+                         place->name,
+                         "'"));
+      }
+    } catch (Error const& error) {
+      messages.addError(item.element->place(*a), text('<', item.tag, ">: ", a->name, ": ", error.what()));
+    }
+  }
+}
+
+}  // namespace detail
+
+}  // namespace sinew

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/runtime/scene_reader/component_values.hpp>
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sinew {
+
+namespace detail {
+
+/// What a component is not given and takes from others around it.
+template <class R>
+class ImpliedValues {
+ public:
+  ImpliedValues(ComponentValues<R>& values, SceneMessages& messages) : values_(values), messages_(messages) {}
+
+  /// src="@loader": all that the loader offers under the name of a field that is not given.
+  void source(SceneItem& item, XmlAttribute const& src, std::set<std::string_view>& given) {
+    try {
+      const LinkTarget target = follow_link(item, src.value);
+      if (!target.item || !target.item->info)
+        throw Error("", text(shown(src.value), " leads to no loader; link to a component"));
+      for (auto const& field : item.info->fields) {
+        if (!field.isInput || given.count(field.name)) continue;
+        bool offered = false;
+        if (!dialect::container_holds(item.tag, field.name)) continue;
+        for (auto const& other : target.item->info->fields)
+          if (other.known(field.name) && (!other.isInput || target.item->info->role != RoleKind::engine))
+            offered = true;
+        if (!offered) continue;
+        const std::string words =
+            values_.linkedValue(item, field, {target.item, nullptr, std::string(field.name)});
+        if (words.empty()) continue;
+        field.read(item.address, words);
+        item.links[std::string(field.name)] = text(src.value, '.', field.name);
+        given.insert(field.name);
+      }
+    } catch (Error const& error) {
+      const std::string message = text('<', item.tag, ">: src: ", error.what());
+      if (item.info->role == RoleKind::visualModel)  // nothing moves otherwise for a picture that is missing
+        return void(messages_.warnings.insert(text(item.element->place(src), ": ", message)));
+      item.failed = true;
+      messages_.addError(item.element->place(src), message);
+    }
+  }
+
+  /// What a selection is not told, it takes from the state and the topology around it.
+  void surroundings(SceneItem& item, std::set<std::string_view>& given) {
+    for (auto const& field : item.info->fields) {
+      if (!field.isInput || given.count(field.name)) continue;
+      for (ScenePlace* at = item.place; at; at = at->parent) {
+        SceneItem* from = nullptr;
+        std::string data(field.name);
+        if (field.name == "position" && !item.info->dataTypes.empty()) {
+          from = at->ofRole(RoleKind::state);
+          data = "rest_position";
+          if (!from) from = at->ofRole(RoleKind::topology), data = "position";
+        } else if (dialect::has(topologyLists, field.name)) {
+          from = at->ofRole(RoleKind::topology);
+        }
+        if (!from || !offered(*from->info, data)) continue;
+        messages_.locate(item, [&] {
+          field.read(item.address, values_.valueOf({from, nullptr, data}));
+          item.links[std::string(field.name)] = text('@', from->name, '.', data);
+        });
+        break;
+      }
+    }
+  }
+
+  /// A state that is given no points takes, at init, those of the topology of its node; here it takes those
+  /// of another where that has none. One of its own without any topology has one point, at the origin.
+  void statePoints(SceneItem& item, std::set<std::string_view> const& given) {
+    if (given.count("position")) return movedPoints(item);
+    SceneItem const* const used = item.place->ofRole(RoleKind::topology);
+    if (SceneItem* topology = values_.withPoints(*item.place)) {
+      if (topology != used) values_.takeFrom(item, "position", *topology, "position");
+    } else if (!used && !item.place->ofRole(RoleKind::mapping)) {
+      values_.component(item).template visit<role::State>(
+          [&](auto& state) { state.position.push_back(std::decay_t<decltype(state)>::DataTypes::zero()); });
+    }
+  }
+
+  /// A visual model without vertices has, below a mapping of the same points, those of the state above,
+  /// otherwise those of the nearest topology; and its elements, where it has none of its own.
+  void fillVisualModel(SceneItem& item, std::set<std::string_view> const& given) {
+    if (given.count("position")) return;
+    SceneItem* topology = nullptr;
+    for (ScenePlace* at = item.place; at && !topology; at = at->parent) {
+      topology = at->ofRole(RoleKind::topology);
+      if (!at->state.empty()) break;
+    }
+    if (isIdentity(*item.place))
+      messages_.locate(item, [&] {
+        std::string words;
+        ScenePlace* at = item.place;
+        do {
+          at = at->parent;
+          while (at->state.empty()) at = at->parent;
+          words = values_.valueOf({at->ofRole(RoleKind::state), nullptr, "position"});
+        } while (words.empty() && isIdentity(*at));
+        if (at->state.find("Rigid3") != at->state.npos) words = every(words, 7, 3, "");
+        item.info->field("position")->read(item.address, words);
+      });
+    else if (topology && offered(*topology->info, "position"))
+      values_.takeFrom(item, "position", *topology, "position");
+    std::size_t points = 0;
+    values_.component(item).template visit<role::VisualModel>(
+        [&](auto const& v) { points = v.mesh.positions.size(); });
+    static constexpr std::array lists = std::to_array<std::string_view>({"edges", "triangles", "quads"});
+    if (!topology || item.failed ||
+        std::any_of(lists.begin(), lists.end(), [&](std::string_view list) { return given.count(list); }))
+      return;
+    for (const std::string_view list : lists) {
+      if (!offered(*topology->info, list)) continue;
+      std::vector<int> corners;
+      messages_.locate(item, [&] {
+        read_value(values_.valueOf({topology, nullptr, std::string(list)}), corners);
+      });
+      if (std::all_of(corners.begin(), corners.end(), [&](int i) { return i >= 0 && i < int(points); }))
+        values_.takeFrom(item, list, *topology, list);
+    }
+  }
+
+ private:
+  ComponentValues<R>& values_;
+  SceneMessages& messages_;
+
+  static constexpr auto topologyLists =
+      std::to_array<std::string_view>({"edges", "triangles", "quads", "tetrahedra", "hexahedra"});
+
+  // those that an engine has moved, from its input_position, are the points of the topology all the same
+  void movedPoints(SceneItem& item) {
+    SceneItem* from = &item;
+    for (std::string_view name : {"position", "input_position"}) {
+      FieldInfo const* const field = from->info->field(name);
+      const auto link = field ? from->links.find(field->name) : from->links.end();
+      if (link == from->links.end()) return;
+      from = follow_link(*from, link->second).item;
+      if (!from || !from->info) return;
+    }
+    if (from == item.place->ofRole(RoleKind::topology))
+      if (FieldInfo const* const same = item.info->field("points_of_topology")) same->read(item.address, "1");
+  }
+  static bool isIdentity(ScenePlace const& place) {
+    SceneItem const* const mapping = place.ofRole(RoleKind::mapping);
+    return mapping && mapping->info->traits.samePoints;
+  }
+};
+
+}  // namespace detail
+
+}  // namespace sinew

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSL-1.0
+// expect: Sinew: fields() of a class of a registry lists a member of another class
+#include <sinew/mass/uniform_mass.hpp>
+#include <sinew/runtime/checks.hpp>
+#include <sinew/runtime/scope.hpp>
+#include <sinew/scene/simulation.hpp>
+#include <sinew/solver/euler_explicit.hpp>
+#include <sinew/state/mechanical_object.hpp>
+
+using namespace sinew;
+
+struct Other {
+  double stiffness = 1;
+};
+struct Pull {
+  using Role = role::ForceField;
+  using DataTypes = Vec3d;
+  using V = Vec3d::VecDeriv;
+  using X = Vec3d::VecCoord;
+  static constexpr std::string_view className = "Pull";
+  static constexpr auto fields() {
+    return field_list(field("stiffness", &Other::stiffness, "N/m", "of each point"));
+  }
+  void init(InitContext<Vec3d> const&) {}
+  void addForce(MechanicalParams const&, V&, X const&, V const&) {}
+  void addDForce(MechanicalParams const&, V&, V const&) const {}
+  double potentialEnergy(X const&) const { return 0; }
+  template <class Sink>
+  void addToMatrix(MechanicalParams const&, Sink const&) const {}
+};
+struct Mine : Registry<EulerExplicitSolver, MechanicalObject<Vec3d>, UniformMass<Vec3d>, Pull> {};
+
+int main() {
+  RuntimeNode<Mine> root;
+  root.add(EulerExplicitSolver{});
+  root.add(MechanicalObject<Vec3d>{});
+  root.add(UniformMass<Vec3d>{});
+  root.add(Pull{});
+  Simulation sim{std::move(root)};
+  sim.init();
+  sim.animate(0.1);
+}
