@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 
 constexpr ConvexStepSettings tight{.tolerance = 1e-11, .momentumTolerance = 1e-13};
 
-TEST_CASE("a mass of 2 kg on a rail is stopped, held, or let go") {
+TEST_CASE("a mass of 2 kg on a rail is stopped, held, or let go by a convex step") {
   auto f = [&](double free, ConstraintBlock const& block) {
     Bodies<1> p;
     p.mass = {Eigen::Matrix<double, 1, 1>(2)};
