@@ -3,8 +3,6 @@
 
 #include <sinew/lagrangian/constraint_problem.hpp>
 
-#include <Eigen/Cholesky>
-
 #include <algorithm>
 #include <cmath>
 #include <string_view>
@@ -20,22 +18,7 @@ using BlockMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, Con
 using BlockVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, ConstraintBlock::maxRows, 1>;
 
 /// W_bb^-1 of a block of equalities; an Error where they depend on each other.
-inline BlockMatrix inverse_compliance(BlockMatrix const& w, ConstraintBlock const& b,
-                                      std::string_view where) {
-  const Eigen::LDLT<BlockMatrix> factor(w);
-  const BlockVector pivots = factor.vectorD();
-  if (!(pivots.minCoeff() > 1e-13 * pivots.maxCoeff()))
-    throw Error(where,
-                text("the equalities in rows ",
-                     b.first,
-                     " to ",
-                     b.first + b.rows - 1,
-                     " depend on each other, so that their multipliers are not determined; leave one out"));
-  // column by column, since nvcc takes Eigen's solution for a matrix for a function of the device
-  BlockMatrix inverse(b.rows, b.rows);
-  for (int c = 0; c < b.rows; ++c) inverse.col(c) = factor.solve(BlockVector(BlockVector::Unit(b.rows, c)));
-  return inverse;
-}
+BlockMatrix inverse_compliance(BlockMatrix const& w, ConstraintBlock const& b, std::string_view where);
 
 /// The multipliers f of a block, from their last value and the violation d that it has with this. w is W_bb,
 /// `inverse` its inverse for equalities. With a weight, d is the violation times that: ends of intervals are
@@ -109,8 +92,35 @@ double size_of_block(ConstraintBlock const& b, W const& w, BlockVector const& d,
 }
 
 /// One block of Gauss-Seidel over W: solved for its own multipliers, those of the others as they are.
-inline void relax_block(ConstraintProblem& problem, ConstraintBlock const& b, BlockMatrix const& inverse,
-                        SweepChange& change) {
+void relax_block(ConstraintProblem& problem, ConstraintBlock const& b, BlockMatrix const& inverse,
+                 SweepChange& change);
+
+}  // namespace sinew
+
+#if SINEW_DEFINES
+#include <Eigen/Cholesky>
+
+namespace sinew {
+
+SINEW_ONCE BlockMatrix inverse_compliance(BlockMatrix const& w, ConstraintBlock const& b,
+                                          std::string_view where) {
+  const Eigen::LDLT<BlockMatrix> factor(w);
+  const BlockVector pivots = factor.vectorD();
+  if (!(pivots.minCoeff() > 1e-13 * pivots.maxCoeff()))
+    throw Error(where,
+                text("the equalities in rows ",
+                     b.first,
+                     " to ",
+                     b.first + b.rows - 1,
+                     " depend on each other, so that their multipliers are not determined; leave one out"));
+  // column by column, since nvcc takes Eigen's solution for a matrix for a function of the device
+  BlockMatrix inverse(b.rows, b.rows);
+  for (int c = 0; c < b.rows; ++c) inverse.col(c) = factor.solve(BlockVector(BlockVector::Unit(b.rows, c)));
+  return inverse;
+}
+
+SINEW_ONCE void relax_block(ConstraintProblem& problem, ConstraintBlock const& b, BlockMatrix const& inverse,
+                            SweepChange& change) {
   auto const w = problem.compliance.block(b.first, b.first, b.rows, b.rows);
   BlockVector d = problem.freeViolation.segment(b.first, b.rows);
   d.noalias() += problem.compliance.middleRows(b.first, b.rows) * problem.multipliers;
@@ -122,3 +132,4 @@ inline void relax_block(ConstraintProblem& problem, ConstraintBlock const& b, Bl
 }
 
 }  // namespace sinew
+#endif

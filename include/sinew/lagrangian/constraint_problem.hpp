@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/compiled.hpp>
 #include <sinew/core/error.hpp>
 #include <sinew/linalg/reserved.hpp>
 
@@ -50,12 +51,15 @@ struct ConstraintProblem {
   double timeStep = 1;  // [s]; SOFA's multipliers are impulses, f times that, and its compliance W over that
 
   int rows() const { return int(freeViolation.size()); }
-  Eigen::VectorXd violation() const { return compliance * multipliers + freeViolation; }
+  Eigen::VectorXd violation() const;
 
   /// Throws Error where sizes do not fit, a number is not one, blocks do not cover each row once, mu is
   /// negative, or no multiplier of a block changes its violation.
   void check(std::string_view where) const;
   void checkSizes(std::string_view where) const;  // and numbers, of that
+
+  /// Adds a term to the compliance of each row.
+  void regularise(double term);
 
   /// How far f is from a solution, in the unit of d: the largest |f - P(f - r (d + c))| / r over the blocks,
   /// with the projection P on what f may be, r = 1 / mean diagonal of W in the block, and c = mu |d_t| along
@@ -74,7 +78,19 @@ inline Eigen::Vector3d project_on_cone(Eigen::Vector3d const& f, double mu) {
 
 /// Throws Error where blocks do not cover each of so many rows once, have a wrong number of them, a friction
 /// that is negative or not finite, or ends of an interval in the wrong order.
-inline void check_blocks(std::vector<ConstraintBlock> const& blocks, int rows, std::string_view where) {
+void check_blocks(std::vector<ConstraintBlock> const& blocks, int rows, std::string_view where);
+
+/// Throws Error where the diagonal of W, from a row on, has an entry that is not positive.
+void check_movable(Eigen::Ref<Eigen::VectorXd const, 0, Eigen::InnerStride<>> const& compliance,
+                   std::string_view where, int first = 0);
+
+}  // namespace sinew
+
+#if SINEW_DEFINES
+
+namespace sinew {
+
+SINEW_ONCE void check_blocks(std::vector<ConstraintBlock> const& blocks, int rows, std::string_view where) {
   int next = 0;
   for (ConstraintBlock const& b : blocks) {
     if (b.first != next || b.rows < 1 || b.rows > ConstraintBlock::maxRows || b.rows > rows - next)
@@ -116,9 +132,8 @@ inline void check_blocks(std::vector<ConstraintBlock> const& blocks, int rows, s
   if (next != rows) throw Error(where, text("blocks of constraints cover ", next, " rows of ", rows));
 }
 
-/// Throws Error where the diagonal of W, from a row on, has an entry that is not positive.
-template <class Diagonal>
-void check_movable(Diagonal const& compliance, std::string_view where, int first = 0) {
+SINEW_ONCE void check_movable(Eigen::Ref<Eigen::VectorXd const, 0, Eigen::InnerStride<>> const& compliance,
+                              std::string_view where, int first) {
   for (int i = 0; i < int(compliance.size()); ++i)
     if (!(compliance[i] > 0))
       throw Error(where,
@@ -129,7 +144,7 @@ void check_movable(Diagonal const& compliance, std::string_view where, int first
                        "): it is between fixed points, or its direction is zero"));
 }
 
-inline void ConstraintProblem::checkSizes(std::string_view where) const {
+SINEW_ONCE void ConstraintProblem::checkSizes(std::string_view where) const {
   const auto n = freeViolation.size();
   if (compliance.rows() != n || compliance.cols() != n || multipliers.size() != n)
     throw Error(where,
@@ -147,12 +162,18 @@ inline void ConstraintProblem::checkSizes(std::string_view where) const {
   check_blocks(blocks, int(n), where);
 }
 
-inline void ConstraintProblem::check(std::string_view where) const {
+SINEW_ONCE void ConstraintProblem::check(std::string_view where) const {
   checkSizes(where);
   check_movable(compliance.diagonal(), where);
 }
 
-inline double ConstraintProblem::residual() const {
+SINEW_ONCE Eigen::VectorXd ConstraintProblem::violation() const {
+  return compliance * multipliers + freeViolation;
+}
+
+SINEW_ONCE void ConstraintProblem::regularise(double term) { compliance.diagonal().array() += term; }
+
+SINEW_ONCE double ConstraintProblem::residual() const {
   double worst = 0;
   for (ConstraintBlock const& b : blocks) {
     Eigen::Matrix<double, Eigen::Dynamic, 1, 0, ConstraintBlock::maxRows, 1> d =
@@ -160,9 +181,12 @@ inline double ConstraintProblem::residual() const {
     d.noalias() += compliance.middleRows(b.first, b.rows) * multipliers;
     const double r = b.rows / compliance.block(b.first, b.first, b.rows, b.rows).trace();
     switch (b.kind) {
-      case ConstraintBlock::Kind::equality:
-        worst = std::max(worst, d.norm());
+      case ConstraintBlock::Kind::equality: {
+        double squared = 0;
+        for (int i = 0; i < b.rows; ++i) squared += d[i] * d[i];
+        worst = std::max(worst, std::sqrt(squared));
         break;
+      }
       case ConstraintBlock::Kind::interval: {
         // d may be anywhere in the interval; the nearest d that f permits
         const double f = multipliers[b.first];
@@ -182,3 +206,4 @@ inline double ConstraintProblem::residual() const {
 }
 
 }  // namespace sinew
+#endif

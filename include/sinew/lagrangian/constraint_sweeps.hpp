@@ -41,14 +41,7 @@ struct JacobiSettings {
 
 /// Whether the iterations diverge: a block changes by so much more than what there is to correct. Then the
 /// multipliers are set to zero, which all conditions but equalities permit, and the error to infinity.
-inline bool runs_away(SweepResult& result, double change, double scale,
-                      Eigen::Ref<Eigen::VectorXd> multipliers) {
-  if (change <= 1e9 * scale && multipliers.allFinite()) return false;
-  multipliers.setZero();
-  result.error = std::numeric_limits<double>::infinity();
-  result.converged = false;
-  return true;
-}
+bool runs_away(SweepResult& result, double change, double scale, Eigen::Ref<Eigen::VectorXd> multipliers);
 
 /// Largest eigenvalue of D^-1 W by power iterations, from below to about 1e-3 of it; W and D are symmetric
 /// and positive, and `solve` is D^-1.
@@ -79,31 +72,12 @@ class LargestEigenvalue {
 
 /// SOFA's weight of Jacobi (useSpectralCorrection): factor min(1, 1.8 / the largest eigenvalue of W), which
 /// depends on the unit of W: it is SOFA's, in which multipliers are impulses.
-inline double spectral_weight(ConstraintProblem const& problem, double factor, LargestEigenvalue& largest) {
-  const double radius = largest(problem.compliance, [](auto&) {}) / problem.timeStep;
-  return factor * (radius > 0 ? std::min(1., 1.8 / radius) : 1);
-}
-inline double spectral_weight(ConstraintProblem const& problem, double factor) {
-  LargestEigenvalue largest;
-  return spectral_weight(problem, factor, largest);
-}
+double spectral_weight(ConstraintProblem const& problem, double factor, LargestEigenvalue& largest);
+double spectral_weight(ConstraintProblem const& problem, double factor);
 
 /// A weight with which Jacobi converges on equalities and contacts that stick, whatever the unit of W: min(1,
 /// 1.8 / the largest eigenvalue of D^-1 W), where D is what a block divides by.
-inline double stable_weight(ConstraintProblem const& problem) {
-  const double radius = LargestEigenvalue()(problem.compliance, [&](auto& y) {
-    for (ConstraintBlock const& b : problem.blocks) {
-      auto const w = problem.compliance.block(b.first, b.first, b.rows, b.rows);
-      if (b.kind == ConstraintBlock::Kind::equality)
-        y.segment(b.first, b.rows) = BlockMatrix(w).ldlt().solve(BlockVector(y.segment(b.first, b.rows)));
-      else
-        y[b.first] /= w(0, 0);
-      if (b.kind == ConstraintBlock::Kind::friction)
-        y.template segment<2>(b.first + 1) *= 2 / (w(1, 1) + w(2, 2));
-    }
-  });
-  return radius > 0 ? std::min(1., 1.8 / radius) : 1;
-}
+double stable_weight(ConstraintProblem const& problem);
 
 /// Iterations over the blocks of a problem. Between them nothing is kept but room, so that one object serves
 /// a scene for all its steps.
@@ -138,12 +112,7 @@ class ConstraintSweeps {
   void begin(ConstraintProblem const& problem, std::string_view where);
   // what is left of the problem by this change, into the result; whether to go on
   bool judge(SweepResult& result, SweepChange const& change, ConstraintProblem& problem,
-             SweepSettings const& settings) const {
-    if (runs_away(result, change.rows, scale_, problem.multipliers)) return false;
-    result.error = settings.allVerified ? change.largest : change.rows;
-    result.converged = result.error <= settings.limit(problem.rows());
-    return !result.converged && result.iterations < settings.maxIterations;
-  }
+             SweepSettings const& settings) const;
   SweepChange sweep(ConstraintProblem& problem) const {
     SweepChange change;
     for (std::size_t k = 0; k < problem.blocks.size(); ++k)
@@ -153,7 +122,56 @@ class ConstraintSweeps {
   SweepChange product(ConstraintProblem const& problem);
 };
 
-inline void ConstraintSweeps::begin(ConstraintProblem const& problem, std::string_view where) {
+}  // namespace sinew
+
+#if SINEW_DEFINES
+
+namespace sinew {
+
+SINEW_ONCE bool runs_away(SweepResult& result, double change, double scale,
+                          Eigen::Ref<Eigen::VectorXd> multipliers) {
+  if (change <= 1e9 * scale && multipliers.allFinite()) return false;
+  multipliers.setZero();
+  result.error = std::numeric_limits<double>::infinity();
+  result.converged = false;
+  return true;
+}
+
+SINEW_ONCE double spectral_weight(ConstraintProblem const& problem, double factor,
+                                  LargestEigenvalue& largest) {
+  const double radius = largest(problem.compliance, [](auto&) {}) / problem.timeStep;
+  return factor * (radius > 0 ? std::min(1., 1.8 / radius) : 1);
+}
+
+SINEW_ONCE double spectral_weight(ConstraintProblem const& problem, double factor) {
+  LargestEigenvalue largest;
+  return spectral_weight(problem, factor, largest);
+}
+
+SINEW_ONCE double stable_weight(ConstraintProblem const& problem) {
+  const double radius = LargestEigenvalue()(problem.compliance, [&](auto& y) {
+    for (ConstraintBlock const& b : problem.blocks) {
+      auto const w = problem.compliance.block(b.first, b.first, b.rows, b.rows);
+      if (b.kind == ConstraintBlock::Kind::equality)
+        y.segment(b.first, b.rows) = BlockMatrix(w).ldlt().solve(BlockVector(y.segment(b.first, b.rows)));
+      else
+        y[b.first] /= w(0, 0);
+      if (b.kind == ConstraintBlock::Kind::friction)
+        y.template segment<2>(b.first + 1) *= 2 / (w(1, 1) + w(2, 2));
+    }
+  });
+  return radius > 0 ? std::min(1., 1.8 / radius) : 1;
+}
+
+SINEW_ONCE bool ConstraintSweeps::judge(SweepResult& result, SweepChange const& change,
+                                        ConstraintProblem& problem, SweepSettings const& settings) const {
+  if (runs_away(result, change.rows, scale_, problem.multipliers)) return false;
+  result.error = settings.allVerified ? change.largest : change.rows;
+  result.converged = result.error <= settings.limit(problem.rows());
+  return !result.converged && result.iterations < settings.maxIterations;
+}
+
+SINEW_ONCE void ConstraintSweeps::begin(ConstraintProblem const& problem, std::string_view where) {
   problem.check(where);
   inverses_.resize(problem.blocks.size());
   scale_ = std::numeric_limits<double>::min();
@@ -166,8 +184,8 @@ inline void ConstraintSweeps::begin(ConstraintProblem const& problem, std::strin
   }
 }
 
-inline SweepResult ConstraintSweeps::gaussSeidel(ConstraintProblem& problem, SweepSettings const& settings,
-                                                 std::string_view where) {
+SINEW_ONCE SweepResult ConstraintSweeps::gaussSeidel(ConstraintProblem& problem,
+                                                     SweepSettings const& settings, std::string_view where) {
   begin(problem, where);
   SweepResult result;
   if (problem.rows() == 0) return result;
@@ -184,9 +202,9 @@ inline SweepResult ConstraintSweeps::gaussSeidel(ConstraintProblem& problem, Swe
   return result;
 }
 
-inline SweepResult ConstraintSweeps::nonsmoothConjugateGradients(ConstraintProblem& problem,
-                                                                 SweepSettings const& settings,
-                                                                 std::string_view where) {
+SINEW_ONCE SweepResult ConstraintSweeps::nonsmoothConjugateGradients(ConstraintProblem& problem,
+                                                                     SweepSettings const& settings,
+                                                                     std::string_view where) {
   begin(problem, where);
   SweepResult result;
   if (problem.rows() == 0) return result;
@@ -214,7 +232,7 @@ inline SweepResult ConstraintSweeps::nonsmoothConjugateGradients(ConstraintProbl
 }
 
 // d += W steps, and how much that is
-inline SweepChange ConstraintSweeps::product(ConstraintProblem const& problem) {
+SINEW_ONCE SweepChange ConstraintSweeps::product(ConstraintProblem const& problem) {
   SweepChange change;
   for (std::size_t k = 0; k < problem.blocks.size(); ++k) {
     ConstraintBlock const& b = problem.blocks[k];
@@ -233,8 +251,9 @@ inline SweepChange ConstraintSweeps::product(ConstraintProblem const& problem) {
   return change;
 }
 
-inline SweepResult ConstraintSweeps::jacobi(ConstraintProblem& problem, SweepSettings const& settings,
-                                            JacobiSettings const& jacobiSettings, std::string_view where) {
+SINEW_ONCE SweepResult ConstraintSweeps::jacobi(ConstraintProblem& problem, SweepSettings const& settings,
+                                                JacobiSettings const& jacobiSettings,
+                                                std::string_view where) {
   begin(problem, where);
   if (!(jacobiSettings.weight > 0) || !std::isfinite(jacobiSettings.weight) || !(jacobiSettings.delay >= 0))
     throw Error(where,
@@ -283,7 +302,10 @@ inline SweepResult ConstraintSweeps::jacobi(ConstraintProblem& problem, SweepSet
   if (momentum > 0)  // it may have led out of what is permitted
     for (ConstraintBlock const& b : problem.blocks) {
       auto f = problem.multipliers.segment(b.first, b.rows);
-      if (b.kind == ConstraintBlock::Kind::friction) f = project_on_cone(f, b.friction);
+      if (b.kind == ConstraintBlock::Kind::friction) {
+        auto contact = problem.multipliers.segment<3>(b.first);
+        contact = project_on_cone(contact, b.friction);
+      }
       if (b.kind != ConstraintBlock::Kind::interval) continue;
       if (!std::isfinite(b.upper)) f[0] = std::max(0., f[0]);
       if (!std::isfinite(b.lower)) f[0] = std::min(0., f[0]);
@@ -292,3 +314,4 @@ inline SweepResult ConstraintSweeps::jacobi(ConstraintProblem& problem, SweepSet
 }
 
 }  // namespace sinew
+#endif

@@ -33,114 +33,38 @@ class ConstraintTerms {
 
   /// The rows and blocks are referred to until the next solution. `start`: d_0, the violation at v = 0.
   void begin(JacobianRows const& J, std::vector<ConstraintBlock> const& blocks, Eigen::VectorXd const& start,
-             Eigen::VectorXd const& guess, FrictionLag lag) {
-    J_ = &J;
-    blocks_ = &blocks;
-    kind_ = lag;
-    const Eigen::Index n = start.size();
-    for (Eigen::VectorXd* of :
-         {&start_, &lag_, &product_, &regularisation, &violation, &multipliers, &before})
-      clear(n, *of);
-    clear(3 * n, curvature_);
-    start_.head(n) = start;
-    regularisation.head(n).setOnes();
-    setBefore(guess);
-  }
+             Eigen::VectorXd const& guess, FrictionLag lag);
   /// At least n zeros.
-  static void clear(Eigen::Index n, Eigen::VectorXd& of) {
-    if (of.size() < n) of.resize(n);
-    of.setZero();
-  }
+  static void clear(Eigen::Index n, Eigen::VectorXd& of);
 
   JacobianRows const& rows() const { return *J_; }
   std::vector<ConstraintBlock> const& blocks() const { return *blocks_; }
   double const* curvature(ConstraintBlock const& b) const { return curvature_.data() + 3 * b.first; }
 
   /// d and f at the velocity v.
-  void evaluate(Eigen::VectorXd const& v) {
-    J_->multiply(v, violation);
-    violation += start_;
-    evaluateMultipliers();
-  }
+  void evaluate(Eigen::VectorXd const& v);
   /// d += t w, for a change of v by t times what J makes w of.
-  void advance(double t, Eigen::VectorXd const& w) {
-    violation += t * w;
-    evaluateMultipliers();
-  }
-  void evaluateCurvature() {
-    for (ConstraintBlock const& b : *blocks_)
-      contact_potential::curvature(b, of(b), at(b, 0, violation).data(), curvature_.data() + 3 * b.first);
-  }
+  void advance(double t, Eigen::VectorXd const& w);
+  void evaluateCurvature();
   /// q += J' G J p
-  void addProduct(Eigen::VectorXd const& p, Eigen::VectorXd& q) {
-    J_->multiply(p, product_);
-    for (ConstraintBlock const& b : *blocks_)
-      contact_potential::multiply(b, curvature(b), product_.data() + b.first);
-    J_->addTransposed(product_, q);
-  }
+  void addProduct(Eigen::VectorXd const& p, Eigen::VectorXd& q);
 
   struct Slope {
     double first = 0, second = 0;  // derivatives
   };
   /// Of t -> sum l(d + t w + s).
-  Slope slope(double t, Eigen::VectorXd const& w) const {
-    Slope sum;
-    for (ConstraintBlock const& b : *blocks_) {
-      const Values d = at(b, t, w);
-      Values f, change;
-      contact_potential::multipliers(b, of(b), d.data(), f.data());
-      std::copy_n(w.data() + b.first, b.rows, change.begin());
-      double G[3 * ConstraintBlock::maxRows];
-      contact_potential::curvature(b, of(b), d.data(), G);
-      contact_potential::multiply(b, G, change.data());
-      for (int i = 0; i < b.rows; ++i) {
-        sum.first -= f[std::size_t(i)] * w[b.first + i];
-        sum.second += change[std::size_t(i)] * w[b.first + i];
-      }
-    }
-    return sum;
-  }
+  Slope slope(double t, Eigen::VectorXd const& w) const;
   /// sum l(d + s)
-  double value() const {
-    double sum = 0;
-    for (ConstraintBlock const& b : *blocks_)
-      sum += contact_potential::value(b, of(b), at(b, 0, violation).data());
-    return sum;
-  }
+  double value() const;
 
   /// g, inside the cones, and what is lagged: c = mu g_n, or s of the contacts that slide or are open at d.
   /// In a contact alone s changes mu |d_t| by k / (1 + k) of its own change, k = mu^2 W_tt / W_nn ~ mu^2, so
   /// that 1 + k times the difference is Newton's step.
-  void update(Eigen::VectorXd const& multipliersBefore) {
-    for (ConstraintBlock const& b : *blocks_) {
-      if (b.kind != ConstraintBlock::Kind::friction || kind_ != FrictionLag::gap) continue;
-      const double mu = std::min(b.friction, contact_potential::largestFriction),
-                   most = mu * multipliers[b.first], sliding = mu * violation.segment<2>(b.first + 1).norm();
-      double& s = lag_[b.first];
-      if (!(most > 0))
-        s = sliding;
-      else if (multipliers.segment<2>(b.first + 1).norm() < most * (1 - 1e-9))
-        s = 0;
-      else
-        s = std::max(0., s + (1 + mu * mu) * (sliding - s));
-    }
-    setBefore(multipliersBefore);
-    evaluateMultipliers();
-  }
+  void update(Eigen::VectorXd const& multipliersBefore);
 
   FrictionLag lag() const { return kind_; }
   /// The same problem, of which something else is lagged; from d and f as they are.
-  void change(FrictionLag lag) {
-    kind_ = lag;
-    lag_.setZero();
-    if (lag == FrictionLag::gap)
-      for (ConstraintBlock const& b : *blocks_)
-        if (b.kind == ConstraintBlock::Kind::friction)
-          lag_[b.first] = std::min(b.friction, contact_potential::largestFriction) *
-                          violation.segment<2>(b.first + 1).norm();
-    setBefore(multipliers);
-    evaluateMultipliers();
-  }
+  void change(FrictionLag lag);
 
   /// ConstraintProblem::residual, with an estimate of the diagonal of W; where nothing is lagged, without the
   /// term of De Saxce. Above a friction of 10, that term is mostly mu times the error of what sticks; the map
@@ -171,27 +95,137 @@ class ConstraintTerms {
             kind_ == FrictionLag::bound ? lag_[b.first] : contact_potential::cone};
   }
   // d + t w + s of a block
-  Values at(ConstraintBlock const& b, double t, Eigen::VectorXd const& w) const {
-    Values sum;
-    for (int i = 0; i < b.rows; ++i) sum[std::size_t(i)] = violation[b.first + i] + t * w[b.first + i];
-    if (kind_ == FrictionLag::gap) sum[0] += lag_[b.first];
-    return sum;
-  }
-  void setBefore(Eigen::VectorXd const& f) {
-    before.head(J_->rows()) = f.head(J_->rows());
-    for (ConstraintBlock const& b : *blocks_) {
-      if (b.kind != ConstraintBlock::Kind::friction) continue;
-      before.segment<3>(b.first) = project_on_cone(f.segment<3>(b.first), b.friction);
-      if (kind_ == FrictionLag::bound) lag_[b.first] = b.friction * before[b.first];
-    }
-  }
-  void evaluateMultipliers() {
-    for (ConstraintBlock const& b : *blocks_)
-      contact_potential::multipliers(b, of(b), at(b, 0, violation).data(), multipliers.data() + b.first);
-  }
+  Values at(ConstraintBlock const& b, double t, Eigen::VectorXd const& w) const;
+  void setBefore(Eigen::VectorXd const& f);
+  void evaluateMultipliers();
 };
 
-inline double ConstraintTerms::residual(Eigen::VectorXd const& compliance) const {
+}  // namespace sinew
+
+#if SINEW_DEFINES
+
+namespace sinew {
+
+SINEW_ONCE void ConstraintTerms::begin(JacobianRows const& J, std::vector<ConstraintBlock> const& blocks,
+                                       Eigen::VectorXd const& start, Eigen::VectorXd const& guess,
+                                       FrictionLag lag) {
+  J_ = &J;
+  blocks_ = &blocks;
+  kind_ = lag;
+  const Eigen::Index n = start.size();
+  for (Eigen::VectorXd* of : {&start_, &lag_, &product_, &regularisation, &violation, &multipliers, &before})
+    clear(n, *of);
+  clear(3 * n, curvature_);
+  start_.head(n) = start;
+  regularisation.head(n).setOnes();
+  setBefore(guess);
+}
+
+SINEW_ONCE void ConstraintTerms::clear(Eigen::Index n, Eigen::VectorXd& of) {
+  if (of.size() < n) of.resize(n);
+  of.setZero();
+}
+
+SINEW_ONCE void ConstraintTerms::evaluate(Eigen::VectorXd const& v) {
+  J_->multiply(v, violation);
+  violation += start_;
+  evaluateMultipliers();
+}
+
+SINEW_ONCE void ConstraintTerms::advance(double t, Eigen::VectorXd const& w) {
+  violation += t * w;
+  evaluateMultipliers();
+}
+
+SINEW_ONCE void ConstraintTerms::evaluateCurvature() {
+  for (ConstraintBlock const& b : *blocks_)
+    contact_potential::curvature(b, of(b), at(b, 0, violation).data(), curvature_.data() + 3 * b.first);
+}
+
+SINEW_ONCE void ConstraintTerms::addProduct(Eigen::VectorXd const& p, Eigen::VectorXd& q) {
+  J_->multiply(p, product_);
+  for (ConstraintBlock const& b : *blocks_)
+    contact_potential::multiply(b, curvature(b), product_.data() + b.first);
+  J_->addTransposed(product_, q);
+}
+
+SINEW_ONCE ConstraintTerms::Slope ConstraintTerms::slope(double t, Eigen::VectorXd const& w) const {
+  Slope sum;
+  for (ConstraintBlock const& b : *blocks_) {
+    const Values d = at(b, t, w);
+    Values f, change;
+    contact_potential::multipliers(b, of(b), d.data(), f.data());
+    std::copy_n(w.data() + b.first, b.rows, change.begin());
+    double G[3 * ConstraintBlock::maxRows];
+    contact_potential::curvature(b, of(b), d.data(), G);
+    contact_potential::multiply(b, G, change.data());
+    for (int i = 0; i < b.rows; ++i) {
+      sum.first -= f[std::size_t(i)] * w[b.first + i];
+      sum.second += change[std::size_t(i)] * w[b.first + i];
+    }
+  }
+  return sum;
+}
+
+SINEW_ONCE double ConstraintTerms::value() const {
+  double sum = 0;
+  for (ConstraintBlock const& b : *blocks_)
+    sum += contact_potential::value(b, of(b), at(b, 0, violation).data());
+  return sum;
+}
+
+SINEW_ONCE void ConstraintTerms::update(Eigen::VectorXd const& multipliersBefore) {
+  for (ConstraintBlock const& b : *blocks_) {
+    if (b.kind != ConstraintBlock::Kind::friction || kind_ != FrictionLag::gap) continue;
+    const double mu = std::min(b.friction, contact_potential::largestFriction),
+                 most = mu * multipliers[b.first], sliding = mu * violation.segment<2>(b.first + 1).norm();
+    double& s = lag_[b.first];
+    if (!(most > 0))
+      s = sliding;
+    else if (multipliers.segment<2>(b.first + 1).norm() < most * (1 - 1e-9))
+      s = 0;
+    else
+      s = std::max(0., s + (1 + mu * mu) * (sliding - s));
+  }
+  setBefore(multipliersBefore);
+  evaluateMultipliers();
+}
+
+SINEW_ONCE void ConstraintTerms::change(FrictionLag lag) {
+  kind_ = lag;
+  lag_.setZero();
+  if (lag == FrictionLag::gap)
+    for (ConstraintBlock const& b : *blocks_)
+      if (b.kind == ConstraintBlock::Kind::friction)
+        lag_[b.first] = std::min(b.friction, contact_potential::largestFriction) *
+                        violation.segment<2>(b.first + 1).norm();
+  setBefore(multipliers);
+  evaluateMultipliers();
+}
+
+SINEW_ONCE ConstraintTerms::Values ConstraintTerms::at(ConstraintBlock const& b, double t,
+                                                       Eigen::VectorXd const& w) const {
+  Values sum;
+  for (int i = 0; i < b.rows; ++i) sum[std::size_t(i)] = violation[b.first + i] + t * w[b.first + i];
+  if (kind_ == FrictionLag::gap) sum[0] += lag_[b.first];
+  return sum;
+}
+
+SINEW_ONCE void ConstraintTerms::setBefore(Eigen::VectorXd const& f) {
+  before.head(J_->rows()) = f.head(J_->rows());
+  for (ConstraintBlock const& b : *blocks_) {
+    if (b.kind != ConstraintBlock::Kind::friction) continue;
+    before.segment<3>(b.first) = project_on_cone(f.segment<3>(b.first), b.friction);
+    if (kind_ == FrictionLag::bound) lag_[b.first] = b.friction * before[b.first];
+  }
+}
+
+SINEW_ONCE void ConstraintTerms::evaluateMultipliers() {
+  for (ConstraintBlock const& b : *blocks_)
+    contact_potential::multipliers(b, of(b), at(b, 0, violation).data(), multipliers.data() + b.first);
+}
+
+SINEW_ONCE double ConstraintTerms::residual(Eigen::VectorXd const& compliance) const {
   double worst = 0;
   for (ConstraintBlock const& b : *blocks_) {
     const double w = compliance.segment(b.first, b.rows).mean();
@@ -221,7 +255,7 @@ inline double ConstraintTerms::residual(Eigen::VectorXd const& compliance) const
   return worst;
 }
 
-inline ConstraintTerms::Rest ConstraintTerms::rest(Eigen::VectorXd const& compliance) const {
+SINEW_ONCE ConstraintTerms::Rest ConstraintTerms::rest(Eigen::VectorXd const& compliance) const {
   Rest rest;
   for (ConstraintBlock const& b : *blocks_) {
     for (int i = b.first; i < b.first + b.rows; ++i)
@@ -239,3 +273,4 @@ inline ConstraintTerms::Rest ConstraintTerms::rest(Eigen::VectorXd const& compli
 }
 
 }  // namespace sinew
+#endif

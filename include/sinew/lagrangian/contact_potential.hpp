@@ -41,7 +41,41 @@ struct Projection {
   Region region = Region::open;
   double tangential = 0, a = 0, mu = 0;  // |y_t|
 };
-inline Projection project(double friction, Vector3 const& r, Vector3 const& y) {
+Projection project(double friction, Vector3 const& r, Vector3 const& y);
+Curvature curvature_of(Projection const& p, Vector3 const& r, Vector3 const& y);
+
+Vector3 bounded(double bound, Vector3 const& y);
+Curvature bounded_curvature(double bound, Vector3 const& r, Vector3 const& y);
+
+/// What a block has: pointers to its rows, and the bound of its friction.
+struct Rows {
+  double const *r, *g;
+  double bound;
+
+  Vector3 regularisation() const { return {r[0], r[1], r[2]}; }
+  Vector3 y(double const* d) const { return {g[0] - d[0] / r[0], g[1] - d[1] / r[1], g[2] - d[2] / r[2]}; }
+};
+
+void multipliers(ConstraintBlock const& b, Rows const& rows, double const* d, double* f);
+
+double value(ConstraintBlock const& b, Rows const& rows, double const* d);
+
+/// G of a block into 3 times its rows numbers: by columns for a contact, else its diagonal comes first. On
+/// the border of two regions, that of the one with more forces.
+void curvature(ConstraintBlock const& b, Rows const& rows, double const* d, double* G);
+
+/// w <- G w
+void multiply(ConstraintBlock const& b, double const* G, double* w);
+
+}  // namespace contact_potential
+}  // namespace sinew
+
+#if SINEW_DEFINES
+
+namespace sinew {
+namespace contact_potential {
+
+SINEW_ONCE Projection project(double friction, Vector3 const& r, Vector3 const& y) {
   Projection p;
   p.mu = std::min(friction, largestFriction);
   p.tangential = std::hypot(y[1], y[2]);
@@ -56,7 +90,8 @@ inline Projection project(double friction, Vector3 const& r, Vector3 const& y) {
   }
   return p;
 }
-inline Curvature curvature_of(Projection const& p, Vector3 const& r, Vector3 const& y) {
+
+SINEW_ONCE Curvature curvature_of(Projection const& p, Vector3 const& r, Vector3 const& y) {
   Curvature G = Curvature::Zero();
   if (p.region == Projection::Region::sticking) {
     G.diagonal() = r.cwiseInverse();
@@ -74,11 +109,12 @@ inline Curvature curvature_of(Projection const& p, Vector3 const& r, Vector3 con
   return G;
 }
 
-inline Vector3 bounded(double bound, Vector3 const& y) {
+SINEW_ONCE Vector3 bounded(double bound, Vector3 const& y) {
   const double t = std::hypot(y[1], y[2]), scale = t <= bound ? 1 : bound / t;
   return {std::max(0., y[0]), scale * y[1], scale * y[2]};
 }
-inline Curvature bounded_curvature(double bound, Vector3 const& r, Vector3 const& y) {
+
+SINEW_ONCE Curvature bounded_curvature(double bound, Vector3 const& r, Vector3 const& y) {
   Curvature G = Curvature::Zero();
   if (y[0] >= 0) G(0, 0) = 1 / r[0];
   const double t = std::hypot(y[1], y[2]);
@@ -91,16 +127,7 @@ inline Curvature bounded_curvature(double bound, Vector3 const& r, Vector3 const
   return G;
 }
 
-/// What a block has: pointers to its rows, and the bound of its friction.
-struct Rows {
-  double const *r, *g;
-  double bound;
-
-  Vector3 regularisation() const { return {r[0], r[1], r[2]}; }
-  Vector3 y(double const* d) const { return {g[0] - d[0] / r[0], g[1] - d[1] / r[1], g[2] - d[2] / r[2]}; }
-};
-
-inline void multipliers(ConstraintBlock const& b, Rows const& rows, double const* d, double* f) {
+SINEW_ONCE void multipliers(ConstraintBlock const& b, Rows const& rows, double const* d, double* f) {
   switch (b.kind) {
     case ConstraintBlock::Kind::equality:
       for (int i = 0; i < b.rows; ++i) f[i] = rows.g[i] - d[i] / rows.r[i];
@@ -119,7 +146,7 @@ inline void multipliers(ConstraintBlock const& b, Rows const& rows, double const
   }
 }
 
-inline double value(ConstraintBlock const& b, Rows const& rows, double const* d) {
+SINEW_ONCE double value(ConstraintBlock const& b, Rows const& rows, double const* d) {
   double f[ConstraintBlock::maxRows];
   multipliers(b, rows, d, f);
   double sum = 0;
@@ -132,9 +159,7 @@ inline double value(ConstraintBlock const& b, Rows const& rows, double const* d)
   return sum;
 }
 
-/// G of a block into 3 times its rows numbers: by columns for a contact, else its diagonal comes first. On
-/// the border of two regions, that of the one with more forces.
-inline void curvature(ConstraintBlock const& b, Rows const& rows, double const* d, double* G) {
+SINEW_ONCE void curvature(ConstraintBlock const& b, Rows const& rows, double const* d, double* G) {
   switch (b.kind) {
     case ConstraintBlock::Kind::equality:
       for (int i = 0; i < b.rows; ++i) G[i] = 1 / rows.r[i];
@@ -153,8 +178,7 @@ inline void curvature(ConstraintBlock const& b, Rows const& rows, double const* 
   }
 }
 
-/// w <- G w
-inline void multiply(ConstraintBlock const& b, double const* G, double* w) {
+SINEW_ONCE void multiply(ConstraintBlock const& b, double const* G, double* w) {
   if (b.kind == ConstraintBlock::Kind::friction)
     Eigen::Map<Vector3>(w, 3) = (Eigen::Map<Curvature const>(G, 3, 3) * Eigen::Map<Vector3>(w, 3)).eval();
   else
@@ -163,3 +187,4 @@ inline void multiply(ConstraintBlock const& b, double const* G, double* w) {
 
 }  // namespace contact_potential
 }  // namespace sinew
+#endif

@@ -70,54 +70,6 @@ class ConvexStep {
   double lineSearch(double slope, double curvature, ConvexStepResult& result) const;
 };
 
-inline void ConvexStep::regularise(double relative) {
-  relative_ = relative;
-  for (ConstraintBlock const& b : terms_.blocks())
-    if (b.kind == ConstraintBlock::Kind::friction)
-      terms_.regularisation.segment<3>(b.first).setConstant(relative *
-                                                            compliance_.segment<3>(b.first).mean());
-    else
-      terms_.regularisation.segment(b.first, b.rows) = relative * compliance_.segment(b.first, b.rows);
-}
-
-inline void ConvexStep::begin(ConvexStepSettings const& settings) {
-  acceleration_.reset(terms_.rows().rows());
-  accelerating_ = false;
-  since_ = 0;
-  last_ = best_ = std::numeric_limits<double>::infinity();
-  regularise(std::max(settings.regularisation, settings.firstRegularisation));
-}
-
-inline void ConvexStep::update(ConvexStepSettings const& settings, double residual) {
-  if (residual < 0.5 * best_) {
-    best_ = residual;
-    since_ = 0;
-  } else if (++since_ == settings.patience && terms_.lag() != FrictionLag::none) {
-    begin(settings);
-    terms_.change(terms_.lag() == FrictionLag::gap ? FrictionLag::bound : FrictionLag::gap);
-    return;
-  }
-  const double contraction = residual / last_;
-  last_ = residual;
-  next_ = terms_.multipliers;
-  if (relative_ > settings.regularisation) {
-    regularise(std::max(settings.regularisation, settings.decrease * relative_));
-  } else if (contraction > 0.3) {
-    const auto rest = terms_.rest(compliance_);
-    if (rest.regularisation > rest.lag && relative_ > settings.leastRegularisation) {
-      regularise(std::max(settings.leastRegularisation, settings.decrease * relative_));
-      acceleration_.reset(terms_.rows().rows());
-    } else {
-      accelerating_ = true;
-    }
-  }
-  if (accelerating_ && terms_.lag() == FrictionLag::bound) {
-    next_ = terms_.before;
-    acceleration_.next(terms_.multipliers, compliance_, next_);
-  }
-  terms_.update(next_);
-}
-
 template <class Preconditioner>
 double ConvexStep::evaluate(Preconditioner& preconditioner, Eigen::VectorXd const& b,
                             Eigen::VectorXd const& velocity, ConvexStepResult& result) {
@@ -229,9 +181,63 @@ bool ConvexStep::newton(System& multiply, Preconditioner& preconditioner, Eigen:
   return true;
 }
 
+}  // namespace sinew
+
+#if SINEW_DEFINES
+
+namespace sinew {
+
+SINEW_ONCE void ConvexStep::regularise(double relative) {
+  relative_ = relative;
+  for (ConstraintBlock const& b : terms_.blocks())
+    if (b.kind == ConstraintBlock::Kind::friction)
+      terms_.regularisation.segment<3>(b.first).setConstant(relative *
+                                                            compliance_.segment<3>(b.first).mean());
+    else
+      terms_.regularisation.segment(b.first, b.rows) = relative * compliance_.segment(b.first, b.rows);
+}
+
+SINEW_ONCE void ConvexStep::begin(ConvexStepSettings const& settings) {
+  acceleration_.reset(terms_.rows().rows());
+  accelerating_ = false;
+  since_ = 0;
+  last_ = best_ = std::numeric_limits<double>::infinity();
+  regularise(std::max(settings.regularisation, settings.firstRegularisation));
+}
+
+SINEW_ONCE void ConvexStep::update(ConvexStepSettings const& settings, double residual) {
+  if (residual < 0.5 * best_) {
+    best_ = residual;
+    since_ = 0;
+  } else if (++since_ == settings.patience && terms_.lag() != FrictionLag::none) {
+    begin(settings);
+    terms_.change(terms_.lag() == FrictionLag::gap ? FrictionLag::bound : FrictionLag::gap);
+    return;
+  }
+  const double contraction = residual / last_;
+  last_ = residual;
+  next_ = terms_.multipliers;
+  if (relative_ > settings.regularisation) {
+    regularise(std::max(settings.regularisation, settings.decrease * relative_));
+  } else if (contraction > 0.3) {
+    const auto rest = terms_.rest(compliance_);
+    if (rest.regularisation > rest.lag && relative_ > settings.leastRegularisation) {
+      regularise(std::max(settings.leastRegularisation, settings.decrease * relative_));
+      acceleration_.reset(terms_.rows().rows());
+    } else {
+      accelerating_ = true;
+    }
+  }
+  if (accelerating_ && terms_.lag() == FrictionLag::bound) {
+    next_ = terms_.before;
+    acceleration_.next(terms_.multipliers, compliance_, next_);
+  }
+  terms_.update(next_);
+}
+
 // The t where the derivative of the convex function 1/2 t^2 curvature + t slope + sum l(d + t J dv) vanishes:
 // Newton's method inside the interval in which it changes its sign.
-inline double ConvexStep::lineSearch(double slope, double curvature, ConvexStepResult& result) const {
+SINEW_ONCE double ConvexStep::lineSearch(double slope, double curvature, ConvexStepResult& result) const {
   const double first = std::abs(slope + terms_.slope(0, rate_).first);
   double low = 0, high = std::numeric_limits<double>::infinity(), t = 1;
   for (int i = 0; i < 50; ++i) {
@@ -249,3 +255,4 @@ inline double ConvexStep::lineSearch(double slope, double curvature, ConvexStepR
 }
 
 }  // namespace sinew
+#endif

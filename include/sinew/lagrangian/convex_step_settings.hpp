@@ -40,10 +40,24 @@ struct ConvexStepResult {
 };
 
 /// Throws Error where sizes do not fit, or a number is not finite.
-inline void check_convex_step(Eigen::VectorXd const& b, JacobianRows const& J,
-                              std::vector<ConstraintBlock> const& blocks, Eigen::VectorXd const& start,
-                              Eigen::VectorXd const& velocity, Eigen::VectorXd const& multipliers,
-                              std::string_view where) {
+void check_convex_step(Eigen::VectorXd const& b, JacobianRows const& J,
+                       std::vector<ConstraintBlock> const& blocks, Eigen::VectorXd const& start,
+                       Eigen::VectorXd const& velocity, Eigen::VectorXd const& multipliers,
+                       std::string_view where);
+
+/// Throws Error where a setting is out of its range.
+void check_convex_step(ConvexStepSettings const& s, std::string_view where);
+
+}  // namespace sinew
+
+#if SINEW_DEFINES
+
+namespace sinew {
+
+SINEW_ONCE void check_convex_step(Eigen::VectorXd const& b, JacobianRows const& J,
+                                  std::vector<ConstraintBlock> const& blocks, Eigen::VectorXd const& start,
+                                  Eigen::VectorXd const& velocity, Eigen::VectorXd const& multipliers,
+                                  std::string_view where) {
   if (velocity.size() != b.size())
     throw Error(where,
                 text("a step of ", b.size(), " dofs has ", velocity.size(), " velocities; give each one"));
@@ -65,8 +79,7 @@ inline void check_convex_step(Eigen::VectorXd const& b, JacobianRows const& J,
   check_blocks(blocks, J.rows(), where);
 }
 
-/// Throws Error where a setting is out of its range.
-inline void check_convex_step(ConvexStepSettings const& s, std::string_view where) {
+SINEW_ONCE void check_convex_step(ConvexStepSettings const& s, std::string_view where) {
   for (const double positive : {s.firstRegularisation, s.regularisation, s.leastRegularisation, s.decrease})
     if (!(positive > 0) || !std::isfinite(positive))
       throw Error(where,
@@ -84,3 +97,4 @@ inline void check_convex_step(ConvexStepSettings const& s, std::string_view wher
 }
 
 }  // namespace sinew
+#endif

@@ -69,7 +69,7 @@ struct LCPConstraintSolver {
     checkLemke(where);
     for (ConstraintBlock& block : problem.blocks)
       if (block.kind == ConstraintBlock::Kind::friction) block.friction = mu;
-    problem.compliance.diagonal().array() += regularizationTerm;
+    problem.regularise(regularizationTerm);
     result = lemke ? pivots.solve(problem, where)
                    : sweeps.solve(problem,
                                   {.maxIterations = maxIterations,

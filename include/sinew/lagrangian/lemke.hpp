@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/compiled.hpp>
 #include <sinew/linalg/reserved.hpp>
 
 #include <Eigen/Core>
@@ -37,47 +38,59 @@ class Lemke {
   std::vector<int> basic_{};  // i: w_i, n + i: z_i, 2 n: z0
   static constexpr double zero = 1e-11;
 
-  void setColumn(int variable, Eigen::Ref<Eigen::VectorXd> column) const {
-    const int n = int(q_.size());
-    if (variable < n)
-      column = Eigen::VectorXd::Unit(n, variable);
-    else if (variable < 2 * n)
-      column = -scaled_.col(variable - n);
-    else
-      column.setConstant(-1);
-  }
+  void setColumn(int variable, Eigen::Ref<Eigen::VectorXd> column) const;
   // x and B^-1 of the basis as it is, by elimination with a pivot in each column
-  void refactor() {
-    const auto n = q_.size();
-    for (std::size_t i = 0; i < basic_.size(); ++i) setColumn(basic_[i], basis_.col(Eigen::Index(i)));
-    inverse_.setIdentity();
-    for (Eigen::Index c = 0; c < n; ++c) {
-      Eigen::Index below = 0;
-      basis_.col(c).tail(n - c).cwiseAbs().maxCoeff(&below);
-      for (auto* matrix : {&basis_, &inverse_}) matrix->row(c).swap(matrix->row(c + below));
-      column_ = basis_.col(c);
-      const double pivot = column_[c];
-      column_[c] = 0;
-      for (auto* matrix : {&basis_, &inverse_}) {
-        row_ = matrix->row(c).transpose() / pivot;
-        matrix->noalias() -= column_ * row_.transpose();
-        matrix->row(c) = row_.transpose();
-      }
-    }
-    x_.noalias() = inverse_ * q_;
-  }
+  void refactor();
   // whether (x, row of B^-1) / column of i comes before that of j
-  bool comesBefore(int i, int j) const {
-    double difference = x_[i] / column_[i] - x_[j] / column_[j];
-    for (int k = 0; std::abs(difference) <= zero && k < q_.size(); ++k)
-      difference = inverse_(i, k) / column_[i] - inverse_(j, k) / column_[j];
-    return difference < 0;
-  }
+  bool comesBefore(int i, int j) const;
   int leavingRow() const;
   void pivot(int row, int variable);
 };
 
-inline int Lemke::leavingRow() const {
+}  // namespace sinew
+
+#if SINEW_DEFINES
+
+namespace sinew {
+
+SINEW_ONCE void Lemke::setColumn(int variable, Eigen::Ref<Eigen::VectorXd> column) const {
+  const int n = int(q_.size());
+  if (variable < n)
+    column = Eigen::VectorXd::Unit(n, variable);
+  else if (variable < 2 * n)
+    column = -scaled_.col(variable - n);
+  else
+    column.setConstant(-1);
+}
+
+SINEW_ONCE void Lemke::refactor() {
+  const auto n = q_.size();
+  for (std::size_t i = 0; i < basic_.size(); ++i) setColumn(basic_[i], basis_.col(Eigen::Index(i)));
+  inverse_.setIdentity();
+  for (Eigen::Index c = 0; c < n; ++c) {
+    Eigen::Index below = 0;
+    basis_.col(c).tail(n - c).cwiseAbs().maxCoeff(&below);
+    for (auto* matrix : {&basis_, &inverse_}) matrix->row(c).swap(matrix->row(c + below));
+    column_ = basis_.col(c);
+    const double pivot = column_[c];
+    column_[c] = 0;
+    for (auto* matrix : {&basis_, &inverse_}) {
+      row_ = matrix->row(c).transpose() / pivot;
+      matrix->noalias() -= column_ * row_.transpose();
+      matrix->row(c) = row_.transpose();
+    }
+  }
+  x_.noalias() = inverse_ * q_;
+}
+
+SINEW_ONCE bool Lemke::comesBefore(int i, int j) const {
+  double difference = x_[i] / column_[i] - x_[j] / column_[j];
+  for (int k = 0; std::abs(difference) <= zero && k < q_.size(); ++k)
+    difference = inverse_(i, k) / column_[i] - inverse_(j, k) / column_[j];
+  return difference < 0;
+}
+
+SINEW_ONCE int Lemke::leavingRow() const {
   const int n = int(q_.size());
   int row = -1;
   for (int i = 0; i < n; ++i)
@@ -91,7 +104,7 @@ inline int Lemke::leavingRow() const {
   return row;
 }
 
-inline void Lemke::pivot(int row, int variable) {
+SINEW_ONCE void Lemke::pivot(int row, int variable) {
   const double pivot = column_[row];
   row_ = inverse_.row(row).transpose() / pivot;
   const double value = x_[row] / pivot;
@@ -103,8 +116,9 @@ inline void Lemke::pivot(int row, int variable) {
   if (++pivots % 50 == 0) refactor();  // so that errors do not add up
 }
 
-inline Lemke::End Lemke::solve(Eigen::Ref<Eigen::MatrixXd const> const& M,
-                               Eigen::Ref<Eigen::VectorXd const> const& q, ReservedVector& z, int maxPivots) {
+SINEW_ONCE Lemke::End Lemke::solve(Eigen::Ref<Eigen::MatrixXd const> const& M,
+                                   Eigen::Ref<Eigen::VectorXd const> const& q, ReservedVector& z,
+                                   int maxPivots) {
   const int n = int(q.size());
   pivots = 0;
   z.setZero(n);
@@ -149,3 +163,4 @@ inline Lemke::End Lemke::solve(Eigen::Ref<Eigen::MatrixXd const> const& M,
 }
 
 }  // namespace sinew
+#endif

@@ -4,8 +4,6 @@
 #include <sinew/lagrangian/constraint_sweeps.hpp>
 #include <sinew/lagrangian/lemke.hpp>
 
-#include <Eigen/LU>
-
 #include <cmath>
 #include <string_view>
 #include <vector>
@@ -58,7 +56,14 @@ class ComplementaritySweeps {
   std::vector<char> ignored_{};
 };
 
-inline SweepResult LinearComplementarity::solve(ConstraintProblem& problem, std::string_view where) {
+}  // namespace sinew
+
+#if SINEW_DEFINES
+#include <Eigen/LU>
+
+namespace sinew {
+
+SINEW_ONCE SweepResult LinearComplementarity::solve(ConstraintProblem& problem, std::string_view where) {
   problem.check(where);
   ends_.clear();
   equalities_.clear();
@@ -133,9 +138,9 @@ inline SweepResult LinearComplementarity::solve(ConstraintProblem& problem, std:
   return result;
 }
 
-inline SweepResult ComplementaritySweeps::solve(ConstraintProblem& problem,
-                                                ComplementaritySettings const& settings,
-                                                std::string_view where) {
+SINEW_ONCE SweepResult ComplementaritySweeps::solve(ConstraintProblem& problem,
+                                                    ComplementaritySettings const& settings,
+                                                    std::string_view where) {
   problem.checkSizes(where);
   SweepResult result;
   auto& f = problem.multipliers;
@@ -179,3 +184,4 @@ inline SweepResult ComplementaritySweeps::solve(ConstraintProblem& problem,
 }
 
 }  // namespace sinew
+#endif

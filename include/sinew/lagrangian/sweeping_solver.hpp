@@ -49,7 +49,7 @@ SweepSettings sweep_settings(S const& solver) {
 /// Solves a problem by solve(problem) of a solver S, which keeps the result.
 template <class S, class F>
 void sweep(S& solver, ConstraintProblem& problem, std::string_view where, F&& solve) {
-  problem.compliance.diagonal().array() += solver.regularizationTerm;
+  problem.regularise(solver.regularizationTerm);
   solver.result = solve(problem);
   if (solver.stopsUnsolved && !solver.result.converged)
     throw Error(
