@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // Of sinew::compiled: components and the scene.
 #include "base.hpp"
+#include "constraints.hpp"
 
 #undef SINEW_DEFINES
 #define SINEW_DEFINES 1
@@ -26,17 +27,7 @@
 #include <sinew/force/element_pressure.hpp>
 #include <sinew/force/hyperelastic_material.hpp>
 #include <sinew/force/viscoelastic_material.hpp>
-#include <sinew/lagrangian/anderson_acceleration.hpp>
-#include <sinew/lagrangian/block_solve.hpp>
 #include <sinew/lagrangian/compliance_file.hpp>
-#include <sinew/lagrangian/constraint_problem.hpp>
-#include <sinew/lagrangian/constraint_sweeps.hpp>
-#include <sinew/lagrangian/constraint_terms.hpp>
-#include <sinew/lagrangian/contact_potential.hpp>
-#include <sinew/lagrangian/convex_step.hpp>
-#include <sinew/lagrangian/convex_step_settings.hpp>
-#include <sinew/lagrangian/lemke.hpp>
-#include <sinew/lagrangian/linear_complementarity.hpp>
 #include <sinew/scene/path.hpp>
 #include <sinew/scene/profile_report.hpp>
 #include <sinew/scene/removed_border.hpp>

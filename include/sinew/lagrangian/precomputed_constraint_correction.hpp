@@ -79,24 +79,24 @@ struct PrecomputedConstraintCorrection {
       if (rotations) joinNeighbours(context.topology, n);
   }
 
-  bool needsCompliance(double step) const { return dt != step; }
-  template <class Solve>
-  void keepCompliance(double step, Solve&& solve) {
-    const ComplianceFile file{path(step), step, fingerprint()};
-    if (!file.path.empty() && !recompute && file.exists()) {
-      file.read(compliance, where);
-    } else {
-      for (int dof = 0; dof < int(compliance.cols()); ++dof)
-        solve(dof, [&](typename D::VecDeriv const& u) {
-          for (std::size_t i = 0; i < u.size(); ++i)
-            compliance.col(dof).template segment<D::size>(Eigen::Index(i) * D::size) =
-                u[i].template cast<double>();
-        });
-      if (!compliance.allFinite())
-        throw Error(where, "the compliance is not finite: nothing holds the body, or the scene has diverged");
-      compliance = (compliance + compliance.transpose()).eval() / 2;  // what rounding leaves
-      if (!file.path.empty()) file.write(compliance, where);
-    }
+  /// Not where there is a file that has it.
+  bool needsCompliance(double step) {
+    if (dt == step) return false;
+    const ComplianceFile file = fileOf(step);
+    if (file.path.empty() || recompute || !file.exists()) return true;
+    file.read(compliance, where);
+    dt = step;
+    return false;
+  }
+  void setColumn(int dof, typename D::VecDeriv const& u) {
+    for (std::size_t i = 0; i < u.size(); ++i)
+      compliance.col(dof).template segment<D::size>(Eigen::Index(i) * D::size) = u[i].template cast<double>();
+  }
+  void keepCompliance(double step) {
+    if (!compliance.allFinite())
+      throw Error(where, "the compliance is not finite: nothing holds the body, or the scene has diverged");
+    compliance = (compliance + compliance.transpose()).eval() / 2;  // what rounding leaves
+    if (const ComplianceFile file = fileOf(step); !file.path.empty()) file.write(compliance, where);
     dt = step;
   }
 
@@ -144,10 +144,10 @@ struct PrecomputedConstraintCorrection {
                : Eigen::Vector3d(rotation[i] * v.template segment<3>(part));
     return v;
   }
-  std::string path(double step) const {
+  ComplianceFile fileOf(double step) const {
     std::string name = fileCompliance;
     if (name.empty() && !fileDir.empty()) name = text("compliance-", compliance.rows(), "-", step, ".comp");
-    return name.empty() || fileDir.empty() ? name : text(fileDir, '/', name);
+    return {name.empty() || fileDir.empty() ? name : text(fileDir, '/', name), step, fingerprint()};
   }
   // of the bits of the rest positions (FNV-1a)
   std::uint64_t fingerprint() const {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <type_traits>
+#include <utility>
 
 namespace sinew {
 
@@ -252,6 +253,25 @@ struct ConstraintResponse {
     else
       linear.solve(operations, factors, u, b);
   }
+  template <class Linear>
+  void solveToRounding(Linear& linear, Operations& operations, MultiVecDeriv<Operations>& u,
+                       MultiVecDeriv<Operations>& b, bool first) const {
+    auto solve = [&] {
+      if (first)
+        linear.solve(operations, how.factors.matrix, u, b);
+      else
+        solveAgain(linear, operations, how.factors.matrix, u, b);
+    };
+    if constexpr (requires { linear.iterations, linear.tolerance; }) {
+      const auto iterations = std::exchange(linear.iterations, std::max(linear.iterations, 5000));
+      const double tolerance = std::exchange(linear.tolerance, 1e-14);
+      solve();
+      linear.iterations = iterations;
+      linear.tolerance = tolerance;
+    } else {
+      solve();
+    }
+  }
   // by components that say what forces do to their states, in the place of what the system says
   void respondByCorrections(DerivId u, DerivId f) const {
     forEachCorrection([&](auto& c, auto const& at) {
@@ -326,46 +346,23 @@ void ConstraintResponse<S>::keepCompliance(C& c, At const& at) const {
   operations.clear(vec_id::velocity);
   operations.propagate(vec_id::position, vec_id::velocity);
   operations.computeForce(vec_id::force, vec_id::position, vec_id::velocity);
-  auto column = [&](auto&& solve, int dof, auto&& f) {
+  const bool masses = byMasses(operations);
+  for (int dof = 0; dof < int(state.size()) * C::DataTypes::size; ++dof) {
     system.force.setZero();
     system.force[state.dofOffset + dof] = 1;
     operations.scatter(b.id, system.force);
     operations.projectResponse(b.id);
     u.clear();
-    solve(dof == 0);
+    if (masses)
+      operations.accFromF(u.id, b.id, vec_id::position);
+    else
+      scope.withLinearSolverIfAny([&](auto& linear) { solveToRounding(linear, operations, u, b, dof == 0); });
     operations.projectResponse(u.id);
-    f(state[u.id]);
-  };
-  if (byMasses(operations))
-    c.keepCompliance(dt, [&](int dof, auto&& f) {
-      column([&](bool) { operations.accFromF(u.id, b.id, vec_id::position); }, dof, f);
-    });
-  else
-    scope.withLinearSolverIfAny([&](auto& linear) {
-      auto columns = [&] {
-        c.keepCompliance(dt, [&](int dof, auto&& f) {
-          column(
-              [&](bool first) {
-                if (first)
-                  linear.solve(operations, how.factors.matrix, u, b);
-                else
-                  solveAgain(linear, operations, how.factors.matrix, u, b);
-              },
-              dof,
-              f);
-        });
-      };
-      if constexpr (requires { linear.iterations, linear.tolerance; }) {
-        const auto iterations = linear.iterations;
-        const double tolerance = linear.tolerance;
-        linear.iterations = std::max(iterations, 5000);
-        linear.tolerance = 1e-14;
-        columns();
-        linear.iterations = iterations;
-        linear.tolerance = tolerance;
-      } else {
-        columns();
-      }
+    c.setColumn(dof, state[u.id]);
+  }
+  c.keepCompliance(dt);
+  if (!masses)
+    scope.withLinearSolverIfAny([](auto& linear) {
       if constexpr (requires { linear.reset(); }) linear.reset();
     });
   operations.eq(vec_id::position, vec_id::freePosition);

@@ -53,13 +53,14 @@ concept MovesByOwnFactors = requires(C const c, ConstraintFactors const factors)
 };
 /// Is called before rows are answered, with positions at the start of the step: beginCorrections(x).
 template <class C>
-concept BeginsCorrections =
-    requires(C c, typename C::DataTypes::VecCoord const x) { c.beginCorrections(x); };
-/// Keeps the A^-1 of the system of its solver at rest: where needsCompliance(dt), keepCompliance(dt, solve) is called
-/// before the step, and solve(dof, f) calls f(the column of A^-1 on the points of the state).
+concept BeginsCorrections = requires(C c, typename C::DataTypes::VecCoord const x) { c.beginCorrections(x); };
+/// Keeps the A^-1 of the system of its solver at rest: where needsCompliance(dt), setColumn(dof, u) is called before the
+/// step for each column of it, with what it has on the points of the state, and then keepCompliance(dt).
 template <class C>
-concept KeepsCompliance = requires(C c) {
+concept KeepsCompliance = requires(C c, typename C::DataTypes::VecDeriv const u) {
   { c.needsCompliance(0.01) } -> std::convertible_to<bool>;
+  c.setColumn(0, u);
+  c.keepCompliance(0.01);
 };
 /// `regularizationTerm`, of all corrections: what is added to the compliance of each row that acts on the state, or, of
 /// one that stands for the system, on states at and below its node [m/(N s)]. `complianceFactor`, of those that stand for
