@@ -112,4 +112,31 @@ TEST_CASE("points that are not there, or that cannot move, are refused, and none
   CHECK(says({.indices = {0}}, FixedLagrangianConstraint<Vec3d>{.indices = {0}}).empty());  // twice
 }
 
+TEST_CASE(
+    "constraints and corrections of one state follow when elements are removed, as the free points do") {
+  // two tetrahedra at a face whose points are held; the first point goes with the first of them
+  Simulation sim{node<"root">(
+      Gravity{{0, 0, -10}},
+      FreeMotionAnimationLoop{},
+      gaussSeidel,
+      node<"body">(
+          EulerExplicitSolver{},
+          TetrahedronTopology{{{1, 2, 3, 0}, {1, 3, 2, 4}}},
+          MechanicalObject<Vec3d>{.position = {{0, 0, 1}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, -1}}},
+          UniformMass<Vec3d>{.vertexMass = 1},
+          FixedLagrangianConstraint<Vec3d>{.indices = {1, 2, 3}},
+          UncoupledConstraintCorrection<Vec3d>{.compliance = {1, 2, 3, 4, 5}}))};
+  sim.init();
+  sim.animate(dt);
+  sim.removeElements("body", {.tetrahedra = {0}});
+  auto& body = sim.at<"body">();
+  CHECK(body.get<FixedLagrangianConstraint<Vec3d>>().indices == std::vector<int>{0, 1, 2});
+  CHECK(body.get<UncoupledConstraintCorrection<Vec3d>>().compliance == std::vector<double>{2, 3, 4, 5});
+  for (int i = 0; i < 10; ++i) sim.animate(dt);
+  auto const& x = body.state().position;
+  REQUIRE(x.size() == 4);
+  for (std::size_t i = 0; i < 3; ++i) CHECK(x[i][2] == Approx(0).margin(1e-12));
+  CHECK(body.state().velocity[3][2] == Approx(-10 * 11 * dt));
+}
+
 }  // namespace test_fixed_lagrangian_constraint

@@ -2,5 +2,5 @@
 #include <sinew/runtime/precompiled.hpp>
 
 namespace sinew {
-template void MechanicalOperations<RuntimeScope<Standard>>::fill(AnyMatrix&, MatrixFactors);
+template void SystemMatrix<RuntimeScope<Standard>>::fill(AnyMatrix&, MechanicalParams const&) const;
 }  // namespace sinew

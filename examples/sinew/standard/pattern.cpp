@@ -8,7 +8,6 @@ template detail::BlockTarget detail::block_target(CompressedRowSparseMatrixd&);
 template detail::ProjectionTarget detail::projection_target<CompressedRowSparseMatrixMat3x3d>();
 template detail::ProjectionTarget detail::projection_target<CompressedRowSparseMatrixMat3x3f>();
 template detail::ProjectionTarget detail::projection_target<CompressedRowSparseMatrixd>();
-template void MechanicalOperations<RuntimeScope<Standard>>::preallocate(AnyMatrix&);
-template void MechanicalOperations<RuntimeScope<Standard>>::assemblePhase<AssemblyPhase::bind>(AnyMatrix&,
-                                                                                               MatrixFactors);
+template void SystemMatrix<RuntimeScope<Standard>>::preallocate(AnyMatrix&, MechanicalParams const&) const;
+template void SystemMatrix<RuntimeScope<Standard>>::bind(AnyMatrix&, MechanicalParams const&) const;
 }  // namespace sinew

@@ -23,11 +23,11 @@ inline double part_after_impact(Contact const& c, ContactMotion const& m) {
 /// The directions of the equations of a contact: its normal and two tangents, of length 1 and at right
 /// angles.
 inline Eigen::Matrix3d contact_axes(Eigen::Vector3d const& normal) {
-  int least = 0;
-  normal.cwiseAbs().minCoeff(&least);
+  int smallest = 0;
+  normal.cwiseAbs().minCoeff(&smallest);
   Eigen::Matrix3d axes;
   axes.col(0) = normal;
-  axes.col(1) = normal.cross(Eigen::Vector3d::Unit(least)).normalized();
+  axes.col(1) = normal.cross(Eigen::Vector3d::Unit(smallest)).normalized();
   axes.col(2) = normal.cross(axes.col(1));
   return axes;
 }

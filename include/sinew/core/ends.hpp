@@ -53,6 +53,8 @@ struct Linked {
   std::string object1{}, object2{};
   static std::string name() { return "Linked"; }
 };
+template <class C>
+concept HasLinkedEnds = requires(C c) { c.ends.object1; };
 
 /// The parents of a mapping that has several: paths from its node to nodes before it, up by ".." and down by
 /// names ("../left", "../right/corner").
@@ -71,5 +73,7 @@ struct LinkedParents {
   std::vector<std::string> paths{};
   static std::string name() { return "LinkedParents"; }
 };
+template <class C>
+concept HasLinkedParents = requires(C c) { c.parents.paths; };
 
 }  // namespace sinew

@@ -178,11 +178,11 @@ SINEW_ONCE void ConstraintTerms::update(Eigen::VectorXd const& multipliersBefore
   for (ConstraintBlock const& b : *blocks_) {
     if (b.kind != ConstraintBlock::Kind::friction || kind_ != FrictionLag::gap) continue;
     const double mu = std::min(b.friction, contact_potential::largestFriction),
-                 most = mu * multipliers[b.first], sliding = mu * violation.segment<2>(b.first + 1).norm();
+                 bound = mu * multipliers[b.first], sliding = mu * violation.segment<2>(b.first + 1).norm();
     double& s = lag_[b.first];
-    if (!(most > 0))
+    if (!(bound > 0))
       s = sliding;
-    else if (multipliers.segment<2>(b.first + 1).norm() < most * (1 - 1e-9))
+    else if (multipliers.segment<2>(b.first + 1).norm() < bound * (1 - 1e-9))
       s = 0;
     else
       s = std::max(0., s + (1 + mu * mu) * (sliding - s));

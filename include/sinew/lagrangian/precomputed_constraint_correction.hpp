@@ -125,18 +125,18 @@ struct PrecomputedConstraintCorrection {
     room.setZero();
     for (std::size_t i = 0; i < f.size(); ++i) {
       if (f[i].isZero(0)) continue;
-      const Few own = turned(i, f[i].template cast<double>(), true);
+      const Few own = rotated(i, f[i].template cast<double>(), true);
       for (int c = 0; c < D::size; ++c)
         if (own[c] != 0) room += own[c] * compliance.col(Eigen::Index(i) * D::size + c);
     }
     for (std::size_t i = 0; i < u.size(); ++i)
-      u[i] +=
-          (factors.impulse * turned(i, Few(room.template segment<D::size>(Eigen::Index(i) * D::size)), false))
-              .template cast<Real>();
+      u[i] += (factors.impulse *
+               rotated(i, Few(room.template segment<D::size>(Eigen::Index(i) * D::size)), false))
+                  .template cast<Real>();
   }
 
  private:
-  Few turned(std::size_t i, Few v, bool back) const {
+  Few rotated(std::size_t i, Few v, bool back) const {
     if (!rotations) return v;
     for (int part = 0; part < D::size; part += 3)
       v.template segment<3>(part) =

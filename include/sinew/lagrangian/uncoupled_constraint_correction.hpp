@@ -43,7 +43,8 @@ struct UncoupledConstraintCorrection {
               rotates ? "1/kg, 1/(kg m^2)" : "1/kg",
               rotates ? "of all bodies: one number for their centres, and six for their "
                         "rotations, xx xy xz yy yz zz"
-                      : "one for all points, or one for each"),
+                      : "one for all points, or one for each")
+            .oneEach(rotates ? Of::nothing : Of::points),
         field("useOdeSolverIntegrationFactors",
               &C::useOdeSolverIntegrationFactors,
               "",

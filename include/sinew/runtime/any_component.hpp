@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/ends.hpp>
 #include <sinew/runtime/registry_checks.hpp>
 #include <sinew/scene/node.hpp>
 
@@ -9,6 +10,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace sinew {
 
@@ -21,14 +23,32 @@ struct ComponentOperations {
   void (*destroy)(void*);
   std::string (*name)();
   void (*checkFields)(void const*, std::string_view where);
+  Linked* (*ends)(void*);
+  std::vector<std::string>* (*parents)(void*);
 };
+template <class C>
+Linked* linked_ends(void* c) {
+  if constexpr (HasLinkedEnds<C>)
+    return &static_cast<C*>(c)->ends;
+  else
+    return nullptr;
+}
+template <class C>
+std::vector<std::string>* linked_parents(void* c) {
+  if constexpr (HasLinkedParents<C>)
+    return &static_cast<C*>(c)->parents.paths;
+  else
+    return nullptr;
+}
 template <class C>
 constexpr ComponentOperations component_operations() {
   return {[]() -> void* { return new C{}; },
           [](void const* c) -> void* { return new C(*static_cast<C const*>(c)); },
           [](void* c) { delete static_cast<C*>(c); },
           [] { return component_name<C>(); },
-          [](void const* c, std::string_view where) { check_fields(*static_cast<C const*>(c), where); }};
+          [](void const* c, std::string_view where) { check_fields(*static_cast<C const*>(c), where); },
+          &linked_ends<C>,
+          &linked_parents<C>};
 }
 template <class... Cs>
 constexpr auto all_component_operations(TypeList<Cs...>) {
@@ -129,6 +149,11 @@ class AnyComponent {
 
   /// Throws Error unless every field is finite and in its declared range.
   void checkFields(std::string_view where) const { operations(type_).checkFields(value_, where); }
+
+  /// The paths of the two states that it joins; null where it joins none.
+  Linked* ends() const { return operations(type_).ends(value_); }
+  /// The paths of the parents of a mapping with several; null of all others.
+  std::vector<std::string>* parents() const { return operations(type_).parents(value_); }
 
   template <class C>
   C* getIf() const {

@@ -207,17 +207,15 @@ struct RuntimeChecker {
       facts.out = data_types_name<typename C::Out>::value;
     }
     if constexpr (kind.joins) {
-      static_assert(
-          requires { c.ends.object1; },
-          "Sinew: a component of a registry names its ends in its type, which are unknown to a "
-          "runtime tree; use ends of type Linked.");
+      static_assert(HasLinkedEnds<C>,
+                    "Sinew: a component of a registry names its ends in its type, which are unknown to a "
+                    "runtime tree; use ends of type Linked.");
       facts.paths = {c.ends.object1, c.ends.object2};
     }
     if constexpr (kind.severalParents) {
-      static_assert(
-          requires { c.parents.paths; },
-          "Sinew: a mapping of a registry names its parents in its type, which are unknown to a "
-          "runtime tree; use LinkedParents.");
+      static_assert(HasLinkedParents<C>,
+                    "Sinew: a mapping of a registry names its parents in its type, which are unknown to a "
+                    "runtime tree; use LinkedParents.");
       facts.paths = c.parents.paths;
       if (facts.paths.empty()) facts.wrongNames = rules::Rule::noParents;
     }

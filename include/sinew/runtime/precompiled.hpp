@@ -53,10 +53,9 @@ extern template void MechanicalOperations<RuntimeScope<Standard>>::projectPositi
 extern template void MechanicalOperations<RuntimeScope<Standard>>::addMBKdx(DerivId, DerivId, MatrixFactors);
 extern template double MechanicalOperations<RuntimeScope<Standard>>::kineticEnergy();
 extern template double MechanicalOperations<RuntimeScope<Standard>>::potentialEnergy();
-extern template void MechanicalOperations<RuntimeScope<Standard>>::preallocate(AnyMatrix&);
-extern template void MechanicalOperations<RuntimeScope<Standard>>::assemblePhase<AssemblyPhase::bind>(
-    AnyMatrix&, MatrixFactors);
-extern template void MechanicalOperations<RuntimeScope<Standard>>::fill(AnyMatrix&, MatrixFactors);
+extern template void SystemMatrix<RuntimeScope<Standard>>::preallocate(AnyMatrix&, MechanicalParams const&) const;
+extern template void SystemMatrix<RuntimeScope<Standard>>::bind(AnyMatrix&, MechanicalParams const&) const;
+extern template void SystemMatrix<RuntimeScope<Standard>>::fill(AnyMatrix&, MechanicalParams const&) const;
 
 extern template void Simulation<RuntimeNode<Standard>>::init(double, long);
 extern template void Initialisation<RuntimeScope<Standard>>::run();

@@ -75,23 +75,15 @@ class SceneWriter {
             field.isFile ? absolute(field.write(component.address())) : field.write(component.address());
         if (value != field.defaultValue) set(element, field.name, value);
       }
-      if (info.severalParents)
-        component.template visit<role::Mapping>([&](auto const& mapping) {
-          if constexpr (requires { mapping.parents.paths; }) {
-            std::string input;
-            for (auto const& path : mapping.parents.paths) input += text(input.empty() ? "@" : " @", path);
-            set(element, "input", input);
-          }
-        });
-      if (info.joins)
-        component.template visit<role::InteractionForceField,
-                                 role::ProjectiveConstraint,
-                                 role::LagrangianConstraint>([&](auto const& joint) {
-          if constexpr (requires { joint.ends.object1; }) {
-            set(element, "object1", text('@', joint.ends.object1));
-            set(element, "object2", text('@', joint.ends.object2));
-          }
-        });
+      if (auto const* parents = component.parents()) {
+        std::string input;
+        for (auto const& path : *parents) input += text(input.empty() ? "@" : " @", path);
+        set(element, "input", input);
+      }
+      if (Linked const* ends = component.ends()) {
+        set(element, "object1", text('@', ends->object1));
+        set(element, "object2", text('@', ends->object2));
+      }
     }
     for (auto const& child : node.children()) {
       pugi::xml_node element = to.append_child("Node");

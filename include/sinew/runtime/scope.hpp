@@ -287,16 +287,11 @@ struct RuntimeScope {
   /// The nodes that an interaction joins, or that a mapping with several parents follows; nulls where there
   /// is none at a path.
   std::vector<RuntimeNode<R>*> const& endsOf(RuntimeEntry<R>& entry) const {
-    if (entry.ends.empty())
-      entry.component.template visit<role::InteractionForceField,
-                                     role::ProjectiveConstraint,
-                                     role::LagrangianConstraint,
-                                     role::Mapping>([&](auto const& c) {
-        if constexpr (requires { c.ends.object1; })
-          entry.ends = {node.resolve(c.ends.object1), node.resolve(c.ends.object2)};
-        if constexpr (requires { c.parents.paths; })
-          for (auto const& path : c.parents.paths) entry.ends.push_back(node.resolve(path));
-      });
+    if (!entry.ends.empty()) return entry.ends;
+    if (Linked const* ends = entry.component.ends())
+      entry.ends = {node.resolve(ends->object1), node.resolve(ends->object2)};
+    else if (auto const* parents = entry.component.parents())
+      for (auto const& path : *parents) entry.ends.push_back(node.resolve(path));
     return entry.ends;
   }
 

@@ -5,7 +5,9 @@
 #include <sinew/core/assembly.hpp>
 #include <sinew/core/component.hpp>
 #include <sinew/core/vec_id.hpp>
+#include <sinew/scene/collision_models.hpp>
 #include <sinew/scene/scope.hpp>
+#include <sinew/scene/solver_contacts.hpp>
 
 namespace sinew {
 
@@ -64,10 +66,10 @@ class ActedForces {
     if (factors.k == 0 && factors.b == 0) return;
     withContacts([&](auto& manager, auto&& mine) {
       if (!kept_ && !follows) operations_.propagate(dx);
-      traverse(operations_.root, on<role::CollisionModel>([&](auto& model, auto const& scope) {
-                 using D = typename std::decay_t<decltype(model)>::DataTypes;
-                 update_touched_vertices<D>(model.surface, scope.template state<D>()[dx]);
-               }));
+      for_each_collision_model(operations_.root,
+                               [&]<class D>(auto& model, auto& s, auto const&, std::type_identity<D>) {
+                                 update_touched_vertices<D>(model.surface, s[dx]);
+                               });
       manager.addActed(factors.k, factors.b, mine);
     });
   }
@@ -128,7 +130,8 @@ class ActedForces {
   // f(contact manager, which of its contacts this solver sees)
   template <class F>
   void withContacts(F&& f) {
-    operations_.contacts().with([&](auto& manager, int solver) {
+    using Root = std::decay_t<decltype(operations_.root)>;
+    SolverContacts<Root>{operations_.root}.with([&](auto& manager, int solver) {
       f(manager, [solver](auto const& contact) { return contact.solver == solver; });
     });
   }

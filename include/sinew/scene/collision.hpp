@@ -5,6 +5,7 @@
 #include <sinew/collision/contact.hpp>
 #include <sinew/core/error.hpp>
 #include <sinew/core/registry.hpp>
+#include <sinew/scene/collision_models.hpp>
 #include <sinew/scene/solvers.hpp>
 
 #include <utility>
@@ -138,15 +139,14 @@ struct Collision {
   template <class Pipeline, class S>
   static void collect(Pipeline& pipeline, S const& scope) {
     pipeline.surfaces.clear();
-    traverse(scope, on<role::CollisionModel>([&](auto& model, auto const& s) {
-               using D = typename std::decay_t<decltype(model)>::DataTypes;
-               auto const& state = s.template state<D>();
-               update_vertices<D>(model.surface, state.position, state.velocity);
-               model.surface.state = &state;
-               if (model.surface.solver >= 0) model.surface.gravity = s.gravity();
-               model.surface.number = int(pipeline.surfaces.size());
-               pipeline.surfaces.push_back(&model.surface);
-             }));
+    for_each_collision_model(scope,
+                             [&]<class D>(auto& model, auto const& s, auto const& at, std::type_identity<D>) {
+                               update_vertices<D>(model.surface, s.position, s.velocity);
+                               model.surface.state = &s;
+                               if (model.surface.solver >= 0) model.surface.gravity = at.gravity();
+                               model.surface.number = int(pipeline.surfaces.size());
+                               pipeline.surfaces.push_back(&model.surface);
+                             });
   }
 
   template <class S>

@@ -7,9 +7,11 @@
 #include <sinew/scene/mechanical_operations.hpp>
 #include <sinew/scene/motion_problem.hpp>
 #include <sinew/scene/solvers.hpp>
+#include <sinew/scene/states_of.hpp>
 #include <sinew/solver/multi_vec.hpp>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace sinew {
@@ -63,17 +65,12 @@ struct ConstrainedStep {
               typename D::Real(c.multipliers[std::size_t(e.row)] * e.values[std::size_t(i)]);
     };
     rows.clear();
-    if constexpr (JoinsTwo<C>) {
-      scope.withEnds(c, [&](auto const& a, auto const& b) {
-        if (!a.stateScope().mapped() && !b.stateScope().mapped()) return;
-        c.addRows(rows, now(a), now(b));
-        add(a, 0);
-        add(b, 1);
-      });
-    } else if (scope.stateScope().mapped()) {
-      c.addRows(rows, now(scope));
-      add(scope, 0);
-    }
+    with_scopes_of(c, scope, [&](auto const&... at) {
+      if (!(at.stateScope().mapped() || ...)) return;
+      c.addRows(rows, now(at)...);
+      int side = 0;
+      (add(at, side++), ...);
+    });
   }
   template <class State>
   static auto& forceOf(State& s) {
@@ -123,9 +120,8 @@ struct ConstrainedStep {
       project(scope, MultiplierResponse::of(ode, dt), m.motionRows.jacobian, system);
     });
   }
-  template <class D, class S>
-  ConstrainedState<D> stateAt(S const& scope) const {
-    auto& s = scope.template state<D>();
+  template <class D, class State>
+  ConstrainedState<D> seen(State const& s) const {
     return {s.position, s.freePosition, s.velocity, s.restPosition, dt};
   }
   template <class C, class S>
@@ -133,21 +129,15 @@ struct ConstrainedStep {
     using D = typename C::DataTypes;
     const int before = m.rows.count();
     m.rows.entries.clear();
-    if constexpr (JoinsTwo<C>) {
-      scope.withEnds(c, [&](auto const& a, auto const& b) {
-        c.addRows(m.rows, stateAt<D>(a), stateAt<D>(b));
-        withSystem<D>(a, m, [&](auto const& first) {
-          withSystem<D>(b, m, [&](auto const& second) {
-            for (ConstraintRows::Entry const& e : m.rows.entries) e.side == 0 ? first.add(e) : second.add(e);
-          });
-        });
-      });
-    } else {
-      c.addRows(m.rows, stateAt<D>(scope));
-      withSystem<D>(scope, m, [&](auto const& only) {
-        for (ConstraintRows::Entry const& e : m.rows.entries) only.add(e);
-      });
-    }
+    std::array<ConstrainedSystem*, 2> systems{};
+    with_states_of(c, scope, [&](auto const&... s) {
+      c.addRows(m.rows, seen<D>(s)...);
+      systems = {systemOf(s, m)...};
+    });
+    with_dofs_of(c, scope, [&](auto const& first, auto const& second) {
+      for (ConstraintRows::Entry const& e : m.rows.entries)
+        e.side == 0 ? expand(e, first, systems[0]) : expand(e, second, systems[1]);
+    });
     const auto count = std::size_t(m.rows.count() - before);
     m.rowsOf.push_back(int(count));
     if constexpr (KeepsMultipliers<C>)
@@ -155,31 +145,22 @@ struct ConstrainedStep {
         std::copy(c.multipliers.begin(), c.multipliers.end(), m.rows.multipliers.begin() + before);
   }
 
-  // adds entries of rows over the points of a state to the system of its solver
+  // of the solver that moves a state; null where there is none
+  template <class State>
+  static ConstrainedSystem* systemOf(State const& s, ConstrainedMotion& m) {
+    return s.solver < 0 ? nullptr : &m.systems[std::size_t(s.solver)];
+  }
+  // adds an entry of a row over the points of a state to that system
   template <class Dofs>
-  struct Expansion {
-    ConstrainedSystem* system;  // null: no solver moves the state
-    Dofs const& dofs;
-
-    void add(ConstraintRows::Entry const& e) const {
-      if (!system) return;
-      expand_point(dofs, e.point, [&](int dof, int columns, double const* j) {
-        for (int i = 0; columns == 0 && i < e.size; ++i)
-          system->add(e.row, dof + i, e.values[std::size_t(i)]);
-        for (int c = 0; c < columns; ++c) {
-          double value = 0;
-          for (int i = 0; i < e.size; ++i) value += e.values[std::size_t(i)] * j[e.size * c + i];
-          system->add(e.row, dof + c, value);
-        }
-      });
-    }
-  };
-  template <class D, class S, class F>
-  static void withSystem(S const& scope, ConstrainedMotion& m, F&& f) {
-    const int solver = scope.template state<D>().solver;
-    ConstrainedSystem* system = solver < 0 ? nullptr : &m.systems[std::size_t(solver)];
-    scope.template withDofs<D>([&](auto const& dofs) {
-      f(Expansion<std::decay_t<decltype(dofs)>>{system, dofs});
+  static void expand(ConstraintRows::Entry const& e, Dofs const& dofs, ConstrainedSystem* system) {
+    if (!system) return;
+    expand_point(dofs, e.point, [&](int dof, int columns, double const* j) {
+      for (int i = 0; columns == 0 && i < e.size; ++i) system->add(e.row, dof + i, e.values[std::size_t(i)]);
+      for (int c = 0; c < columns; ++c) {
+        double value = 0;
+        for (int i = 0; i < e.size; ++i) value += e.values[std::size_t(i)] * j[e.size * c + i];
+        system->add(e.row, dof + c, value);
+      }
     });
   }
 

@@ -4,7 +4,7 @@
 #include <sinew/collision/collision_surface.hpp>
 #include <sinew/collision/contact_constraint.hpp>
 #include <sinew/lagrangian/constrained_motion.hpp>
-#include <sinew/scene/scope.hpp>
+#include <sinew/scene/collision_models.hpp>
 
 #include <Eigen/Eigenvalues>
 
@@ -46,20 +46,20 @@ struct ContactRows {
   static void leaveOutFixed(ConstrainedMotion& m) {
     ConstraintProblem& p = m.problem;
     auto diagonal = p.compliance.diagonal();
-    const double least =
+    const double negligible =
         1e-24 * diagonal.maxCoeff();  // that of rounding, where what moves is the same on both sides
     for (ConstraintBlock const& b : p.blocks) {
       if (b.first < m.contactRows) continue;
-      const double most = diagonal.segment(b.first, b.rows).maxCoeff();
-      if (b.kind == ConstraintBlock::Kind::equality && most > least) {
+      const double largest = diagonal.segment(b.first, b.rows).maxCoeff();
+      if (b.kind == ConstraintBlock::Kind::equality && largest > negligible) {
         fillRank(p, b.first);
         continue;
       }
       for (int i = b.first; i < b.first + b.rows; ++i) {
-        if (diagonal[i] > least) continue;
+        if (diagonal[i] > negligible) continue;
         p.compliance.row(i).setZero();
         p.compliance.col(i).setZero();
-        p.compliance(i, i) = most > least ? most : 1;
+        p.compliance(i, i) = largest > negligible ? largest : 1;
         p.freeViolation[i] = 0;
         p.multipliers[i] = 0;
       }
@@ -84,24 +84,18 @@ struct ContactRows {
   void forEachManager(F&& f) const {
     traverse(root, on<role::ContactManager>([&](auto& manager, auto const& scope) { f(manager, scope); }));
   }
-  template <class S, class F>
-  static void forEachModel(S const& scope, F&& f) {
-    traverse(scope, on<role::CollisionModel>([&](auto& model, auto const& at) {
-               using D = typename std::decay_t<decltype(model)>::DataTypes;
-               f(model, at.template state<D>(), at, std::type_identity<D>{});
-             }));
-  }
 
   template <class Manager, class S>
   void addOf(Manager& manager, S const& scope, ConstrainedMotion& m) const {
     manager.assembly.entries.clear();
-    forEachModel(scope, [&]<class D>(auto& model, auto& s, auto const& at, std::type_identity<D>) {
-      update_touched_vertices<D>(model.surface, s.position, s.velocity);
-      setMotion<D>(model.surface, s);
-      if (model.simulated && model.surface.solver >= 0)
-        at.template withDofs<D>(
-            [&](auto const& dofs) { manager.assembly.template addVertices<D>(model.surface, dofs); });
-    });
+    for_each_collision_model(
+        scope, [&]<class D>(auto& model, auto& s, auto const& at, std::type_identity<D>) {
+          update_touched_vertices<D>(model.surface, s.position, s.velocity);
+          setMotion<D>(model.surface, s);
+          if (model.simulated && model.surface.solver >= 0)
+            at.template withDofs<D>(
+                [&](auto const& dofs) { manager.assembly.template addVertices<D>(model.surface, dofs); });
+        });
     manager.assembly.sort();
     manager.forEachConstrained([&](auto const& response, Contact& c) {
       const int row = m.rows.count();

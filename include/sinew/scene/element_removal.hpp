@@ -4,6 +4,7 @@
 #include <sinew/core/follow.hpp>
 #include <sinew/scene/removed_border.hpp>
 #include <sinew/scene/scope.hpp>
+#include <sinew/scene/states_of.hpp>
 #include <sinew/topology/removal_plan.hpp>
 
 #include <map>
@@ -278,8 +279,7 @@ class ElementRemoval {
         if (ofState(a.stateAddress()).changes() || ofState(b.stateAddress()).changes())
           follow_fields(c, {ofState(a.stateAddress()), ofState(b.stateAddress()), {}, ofTopology(nullptr)});
       });
-    } else if constexpr (HasRole<C, role::ForceField> || HasRole<C, role::Mass> ||
-                         HasRole<C, role::ProjectiveConstraint>) {
+    } else if constexpr (ActsOnState<C>) {
       if (touchedStates_.contains(scope.stateAddress()))
         follow_fields(c,
                       {ofState(scope.stateAddress()),
@@ -302,21 +302,15 @@ class ElementRemoval {
   bool isTouched(C const& c, S const& scope) const {
     if constexpr (HasRole<C, role::VisualModel>) {
       return touchedStates_.contains(&c);
-    } else if constexpr (JoinsTwo<C>) {
-      bool any = false;
-      scope.withEnds(c, [&](auto const& a, auto const& b) {
-        any = touchedStates_.contains(a.stateAddress()) || touchedStates_.contains(b.stateAddress());
-      });
-      return any;
     } else if constexpr (HasRole<C, role::Mapping>) {
       bool any = false;
       scope.withMapped(c, [&](auto&, auto& child, auto&) { any = touchedStates_.contains(&child); });
       return any;
-    } else if constexpr (HasRole<C, role::Topology> || HasRole<C, role::State> ||
-                         HasRole<C, role::ForceField> || HasRole<C, role::Mass> ||
-                         HasRole<C, role::ProjectiveConstraint> || HasRole<C, role::CollisionModel> ||
-                         WatchesState<C>) {
-      return scope.stateAddress() && touchedStates_.contains(scope.stateAddress());
+    } else if constexpr (HasRole<C, role::Topology> || HasRole<C, role::State> || ActsOnState<C>) {
+      bool any = false;
+      with_scopes_of(
+          c, scope, [&](auto const&... at) { any = (touchedStates_.contains(at.stateAddress()) || ...); });
+      return any;
     } else {
       return false;
     }

@@ -6,6 +6,7 @@
 #include <sinew/scene/loose_interactions.hpp>
 #include <sinew/scene/mechanical_operations.hpp>
 #include <sinew/scene/solvers.hpp>
+#include <sinew/scene/states_of.hpp>
 
 #include <algorithm>
 #include <string>
@@ -82,7 +83,7 @@ class Initialisation {
           c, [&](std::size_t, auto const& parent) { parents.push_back(parent.template context<In>()); });
       c.init(parents, own, positions);
     } else {
-      withContext<C, In>(scope.parentScope(), [&](auto const& parent) { c.init(parent, own, positions); });
+      c.init(Given<C, In>(scope.parentScope()).context, own, positions);
     }
   }
 
@@ -90,24 +91,14 @@ class Initialisation {
   void initComponent(C& c, S const& scope) {
     if constexpr (HasRole<C, role::Execution>) {
       c.init();
-    } else if constexpr (HasRole<C, role::CollisionModel>) {
-      c.init(scope.template context<typename C::DataTypes>());
-    } else if constexpr (JoinsTwo<C>) {
-      using D = typename C::DataTypes;
-      scope.withEnds(c, [&](auto const& a, auto const& b) {
-        withContext<C, D>(a, [&](auto const& first) {
-          withContext<C, D>(b, [&](auto const& second) { c.init(first, second); });
-        });
-      });
-    } else if constexpr (HasRole<C, role::ForceField> || HasRole<C, role::Mass> ||
-                         HasRole<C, role::ProjectiveConstraint> || HasRole<C, role::LagrangianConstraint> ||
-                         CorrectsState<C> || WatchesState<C>) {
+    } else if constexpr (ActsOnState<C>) {
       if constexpr (CorrectsState<C>)
         if (scope.stateScope().mapped())
           throw Error(text(scope.path(), ": ", component_name<C>()),
                       "the state follows another by a mapping, so that it is that one which answers to "
                       "multipliers; put the correction into its node");
-      withContext<C, typename C::DataTypes>(scope, [&](auto const& context) { c.init(context); });
+      with_scopes_of(
+          c, scope, [&](auto const&... at) { c.init(Given<C, typename C::DataTypes>(at).context...); });
     }
     if constexpr (requires { c.warning(); }) warn(c, scope);
   }
@@ -123,15 +114,17 @@ class Initialisation {
       throw Error(text(scope.path(), ": ", component_name<C>()), warning);
   }
 
-  // f(what a component of class C is given at init of the state of a scope)
-  template <class C, class D, class S, class F>
-  static void withContext(S const& scope, F&& f) {
-    auto context = scope.template context<D>();
-    std::vector<double> masses;
-    if constexpr (needs_masses<C>) masses = massesOf(scope, context);
-    context.masses = masses;
-    f(context);
-  }
+  // what a component of class C is given at init of the state of a scope
+  template <class C, class D>
+  struct Given {
+    InitContext<D> context;
+    std::vector<double> masses{};
+
+    template <class S>
+    explicit Given(S const& scope) : context(scope.template context<D>()) {
+      if constexpr (needs_masses<C>) context.masses = masses = massesOf(scope, context);
+    }
+  };
   // of the points of a state: the sums of the rows of M; empty where there is no mass
   template <class S, class D>
   static std::vector<double> massesOf(S const& scope, InitContext<D> const& context) {

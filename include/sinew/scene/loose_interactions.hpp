@@ -4,7 +4,9 @@
 #include <sinew/collision/collision_surface.hpp>
 #include <sinew/core/element_force.hpp>
 #include <sinew/scene/collision.hpp>
+#include <sinew/scene/collision_models.hpp>
 #include <sinew/scene/scope.hpp>
+#include <sinew/scene/states_of.hpp>
 #include <sinew/state/vector_operations.hpp>
 
 #include <algorithm>
@@ -48,11 +50,8 @@ struct LooseInteractions {
   static void forEach(S const& scope, F&& f) {
     if constexpr (!S::template always<role::OdeSolver>) {
       if (scope.template has<role::OdeSolver>()) return;
-      auto visit = on<role::InteractionForceField>([&](auto& c) {
-        using D = typename std::decay_t<decltype(c)>::DataTypes;
-        scope.withEnds(
-            c, [&](auto const& a, auto const& b) { f(c, a.template state<D>(), b.template state<D>()); });
-      });
+      auto visit = on<role::InteractionForceField>(
+          [&](auto& c) { with_states_of(c, scope, [&](auto& a, auto& b) { f(c, a, b); }); });
       scope.forEachComponent(visit);
       scope.template forEachChild<role::InteractionForceField>([&](auto const& child) { forEach(child, f); });
     }
@@ -65,19 +64,15 @@ struct LooseInteractions {
                solvers = std::max(solvers, model.surface.solver + 1);
              }));
     if (solvers > 1)
-      traverse(root, on<role::CollisionModel>([](auto& model, auto const& s) {
-                 using D = typename std::decay_t<decltype(model)>::DataTypes;
-                 auto& state = s.template state<D>();
-                 if (model.surface.solver >= 0) state.externalForce.assign(state.size(), D::Deriv::Zero());
-               }));
+      for_each_collision_model(root, []<class D>(auto& model, auto& s, auto const&, std::type_identity<D>) {
+        if (model.surface.solver >= 0) s.externalForce.assign(s.size(), D::Deriv::Zero());
+      });
   }
   void addContacts() const {
     auto withModels = [&](auto&& f) {
-      traverse(root, on<role::CollisionModel>([&](auto& model, auto const& s) {
-                 using D = typename std::decay_t<decltype(model)>::DataTypes;
-                 auto& state = s.template state<D>();
-                 if (!state.externalForce.empty()) f(model, state, std::type_identity<D>{});
-               }));
+      for_each_collision_model(root, [&](auto& model, auto& s, auto const&, auto dataTypes) {
+        if (!s.externalForce.empty()) f(model, s, dataTypes);
+      });
     };
     traverse(root, on<role::ContactManager>([&](auto& manager, auto const&) {
                withModels([]<class D>(auto& model, auto& state, std::type_identity<D>) {

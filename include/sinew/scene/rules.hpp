@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/core/component.hpp>
+#include <sinew/scene/states_of.hpp>
 
 #include <array>
 #include <string_view>
@@ -105,8 +106,7 @@ constexpr Kind kind_of() {
   kind.byMultipliers = HasRole<C, role::LagrangianConstraint>;
   kind.loop = HasRole<C, role::AnimationLoop>;
   kind.collides = HasRole<C, role::CollisionModel>;
-  kind.acts = !JoinsTwo<C> && (HasRole<C, role::ForceField> || HasRole<C, role::Mass> || kind.constrains ||
-                               kind.byMultipliers || CorrectsState<C> || kind.collides || kind.watches);
+  kind.acts = ActsOnState<C> && !JoinsTwo<C>;
   kind.maps = HasRole<C, role::Mapping>;
   kind.severalParents = HasParents<C>;
   kind.stage = HasRole<C, role::BroadPhase> || HasRole<C, role::NarrowPhase> ||

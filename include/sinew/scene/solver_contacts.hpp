@@ -4,7 +4,7 @@
 #include <sinew/collision/collision_surface.hpp>
 #include <sinew/core/assembly.hpp>
 #include <sinew/core/vec_id.hpp>
-#include <sinew/scene/scope.hpp>
+#include <sinew/scene/collision_models.hpp>
 
 #include <type_traits>
 
@@ -30,7 +30,7 @@ struct SolverContacts {
   /// f += forces at (x, v)
   void addForces(DerivId f, CoordId x, DerivId v) const {
     with([&](auto& manager, int solver) {
-      forEachModel([&]<class D>(auto& model, auto& s, std::type_identity<D>) {
+      for_each_collision_model(root, [&]<class D>(auto& model, auto& s, auto const&, std::type_identity<D>) {
         update_touched_vertices<D>(model.surface, s[x], s[v]);
       });
       manager.addForces([=](auto const& contact) { return contact.solver == solver; });
@@ -40,7 +40,7 @@ struct SolverContacts {
   /// r += (b B + k K) dx
   void addDForces(DerivId r, DerivId dx, MechanicalParams const& p) const {
     with([&](auto& manager, int solver) {
-      forEachModel([&]<class D>(auto& model, auto& s, std::type_identity<D>) {
+      for_each_collision_model(root, [&]<class D>(auto& model, auto& s, auto const&, std::type_identity<D>) {
         update_touched_vertices<D>(model.surface, s[dx]);
       });
       manager.addDForces(p.k, p.b, [=](auto const& contact) { return contact.solver == solver; });
@@ -53,28 +53,20 @@ struct SolverContacts {
     if constexpr (Phase != AssemblyPhase::bind)
       with([&](auto& manager, int solver) {
         manager.assembly.entries.clear();
-        traverse(root, on<role::CollisionModel>([&](auto& model, auto const& scope) {
-                   using D = typename std::decay_t<decltype(model)>::DataTypes;
-                   if (model.simulated)
-                     scope.template withDofs<D>([&](auto const& dofs) {
-                       manager.assembly.template addVertices<D>(model.surface, dofs);
-                     });
-                 }));
+        for_each_collision_model(
+            root, [&]<class D>(auto& model, auto&, auto const& at, std::type_identity<D>) {
+              if (model.simulated)
+                at.template withDofs<D>(
+                    [&](auto const& dofs) { manager.assembly.template addVertices<D>(model.surface, dofs); });
+            });
         manager.template assemble<Phase>(
             matrix, p.k, p.b, [=](auto const& contact) { return contact.solver == solver; });
       });
   }
 
  private:
-  template <class F>
-  void forEachModel(F&& f) const {
-    traverse(root, on<role::CollisionModel>([&](auto& model, auto const& scope) {
-               using D = typename std::decay_t<decltype(model)>::DataTypes;
-               f(model, scope.template state<D>(), std::type_identity<D>{});
-             }));
-  }
   void scatter(DerivId f) const {
-    forEachModel([&]<class D>(auto& model, auto& s, std::type_identity<D>) {
+    for_each_collision_model(root, [&]<class D>(auto& model, auto& s, auto const&, std::type_identity<D>) {
       if (model.simulated) add_forces<D>(s[f], model.surface);
     });
   }

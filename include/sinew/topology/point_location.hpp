@@ -34,9 +34,10 @@ struct ElementLocator {
     }
     // the directions in which a sheet or a string has no extent do not count; where all points are at one
     // place, none does
-    const double most = (high - low).maxCoeff();
-    const bool spread = most > 0 && std::isfinite(most);
-    const Eigen::Vector3d extent = spread ? Eigen::Vector3d((high - low) / most) : Eigen::Vector3d(0, 0, 0);
+    const double longest = (high - low).maxCoeff();
+    const bool spread = longest > 0 && std::isfinite(longest);
+    const Eigen::Vector3d extent =
+        spread ? Eigen::Vector3d((high - low) / longest) : Eigen::Vector3d(0, 0, 0);
     double measure = 1;
     int directions = 0;
     for (int c = 0; c < 3; ++c)
@@ -44,7 +45,7 @@ struct ElementLocator {
     if (directions == 0) directions = 1;
     const double relative =
         std::max(std::pow(measure / double(elements.size()), 1.0 / directions), 1.0 / 512);
-    if (spread) cell = relative * most;
+    if (spread) cell = relative * longest;
     for (std::size_t c = 0; c < 3; ++c) count[c] = std::clamp(int(extent[Index(c)] / relative) + 1, 1, 513);
 
     // two passes: count, then fill, so that cell c holds members[start[c]] ... in the order of the elements

@@ -31,23 +31,16 @@ class BakeLinks {
 
   /// The nodes that an interaction joins; null of what joins none.
   std::array<Node*, 2> endsOf(Node& node, Entry const& entry) const {
-    std::array<Node*, 2> ends{nullptr, nullptr};
-    entry.component
-        .template visit<role::InteractionForceField, role::ProjectiveConstraint, role::LagrangianConstraint>(
-            [&](auto const& joint) {
-              if constexpr (requires { joint.ends.object1; })
-                ends = {node.resolve(joint.ends.object1), node.resolve(joint.ends.object2)};
-            });
-    return ends;
+    Linked const* const ends = entry.component.ends();
+    if (!ends) return {};
+    return {node.resolve(ends->object1), node.resolve(ends->object2)};
   }
   /// The paths of the parents of a mapping with several, as C++ has them: "\"../left\", \"../right\"".
   std::string parentsOf(Node& node, Entry const& entry) const {
     std::string all;
-    entry.component.template visit<role::Mapping>([&](auto const& mapping) {
-      if constexpr (requires { mapping.parents.paths; })
-        for (auto const& path : mapping.parents.paths)
-          all += text(all.empty() ? "" : ", ", cpp_literal(relativePath(node, *node.resolve(path))));
-    });
+    if (auto const* parents = entry.component.parents())
+      for (auto const& path : *parents)
+        all += text(all.empty() ? "" : ", ", cpp_literal(relativePath(node, *node.resolve(path))));
     return all;
   }
   /// The path from a node to one below it.

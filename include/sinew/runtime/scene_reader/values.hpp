@@ -70,19 +70,10 @@ class SceneValues {
       component(item).template visit<role::Topology>([&](auto& topology) {
         if constexpr (requires { topology.generate(""); }) topology.generate(item.info->cppName);
       });
-      component(item)
-          .template visit<role::InteractionForceField,
-                          role::ProjectiveConstraint,
-                          role::LagrangianConstraint>([&](auto& joint) {
-            if constexpr (requires { joint.ends.object1; })
-              joint.ends.object1 = item.ends[0], joint.ends.object2 = item.ends[1];
-          });
     });
+    if (Linked* ends = component(item).ends()) *ends = {item.ends[0], item.ends[1]};
     if (item.info->role == RoleKind::mapping) check_ends(item, messages_);
-    if (item.info->severalParents)
-      component(item).template visit<role::Mapping>([&](auto& mapping) {
-        if constexpr (requires { mapping.parents.paths; }) mapping.parents.paths = item.parents;
-      });
+    if (auto* parents = component(item).parents()) *parents = item.parents;
     item.progress = SceneItem::Progress::done;
   }
 

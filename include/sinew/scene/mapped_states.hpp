@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/assembly.hpp>
+#include <sinew/core/roles/mapping.hpp>
+#include <sinew/core/vec_id.hpp>
+#include <sinew/scene/scope.hpp>
+#include <sinew/state/vector_operations.hpp>
+
+#include <type_traits>
+
+namespace sinew {
+
+/// The mechanical states at and below a scope, `root`, that mappings move: motions go down to them, forces
+/// back up.
+template <class Root>
+struct MappedStates {
+  Root const& root;
+
+  void propagate(CoordId x, DerivId v) const {
+    [[maybe_unused]] const auto span = root.span(Phase::mapping);
+    forEach([&](auto& mapping, auto& child, auto& parent) {
+      mapping.apply(child[x], parent[x]);
+      mapping.applyJ(child[v], parent[v]);
+    });
+  }
+  void propagate(DerivId v) const {
+    [[maybe_unused]] const auto span = root.span(Phase::mapping);
+    forEach([&](auto& mapping, auto& child, auto& parent) { mapping.applyJ(child[v], parent[v]); });
+  }
+
+  /// f of mapped states, then complete, is added to that of their parents; mappings keep it for their
+  /// geometric stiffness.
+  void accumulate(DerivId f) const {
+    forEachBack([&](auto& mapping, auto& child, auto& parent) {
+      mapping.applyJT(parent[f], child[f]);
+      if constexpr (HasGeometricStiffness<std::decay_t<decltype(mapping)>>)
+        mapping.updateK(withMultipliers(child, f));
+    });
+  }
+  /// The same with the product r of a matrix of k K and dx, to which the geometric stiffness belongs.
+  void accumulate(DerivId r, DerivId dx, double k) const {
+    forEachBack([&](auto& mapping, auto& child, auto& parent) {
+      mapping.applyJT(parent[r], child[r]);
+      if constexpr (HasGeometricStiffness<std::decay_t<decltype(mapping)>>)
+        if (k != 0) mapping.addKx(parent[r], parent[dx], k);
+    });
+  }
+  /// matrix += the geometric stiffness, or its pattern
+  template <AssemblyPhase Phase, class Matrix>
+  void assemble(Matrix& matrix, MechanicalParams const& p) const {
+    traverse(root, on<role::Mapping>([&](auto& mapping, auto const& scope) {
+               using M = std::decay_t<decltype(mapping)>;
+               if constexpr (HasGeometricStiffness<M>)
+                 withMechanicalChild(mapping, scope, [&](auto& m, auto&, auto&) {
+                   scope.parentScope().template withDofs<typename M::In>([&](auto const& dofs) {
+                     with_sink<Phase>(matrix, dofs, dofs, [&](auto const& sink) { m.addToMatrix(p, sink); });
+                   });
+                 });
+             }));
+  }
+
+ private:
+  // f(mapping, child state, parent state), parents first, visual models left out
+  template <class F>
+  void forEach(F&& f) const {
+    traverse(root, on<role::Mapping>([&](auto& mapping, auto const& scope) {
+               withMechanicalChild(mapping, scope, f);
+             }));
+  }
+  // the same on the way back
+  template <class F>
+  void forEachBack(F&& f) const {
+    [[maybe_unused]] const auto span = root.span(Phase::mappingBack);
+    traverse_back(root, on<role::Mapping>([&](auto& mapping, auto const& scope) {
+                    withMechanicalChild(mapping, scope, f);
+                  }));
+  }
+  template <class M, class S, class F>
+  static void withMechanicalChild(M& mapping, S const& scope, F&& f) {
+    scope.withMapped(mapping, [&](auto& m, auto& child, auto& parent) {
+      if constexpr (HasRole<std::decay_t<decltype(child)>, role::State>) f(m, child, parent);
+    });
+  }
+  // the force f on a mapped state with that of multipliers; its dx holds the sum
+  template <class Child>
+  static auto& withMultipliers(Child& child, DerivId f) {
+    if constexpr (requires { child.multiplierForce; })
+      if (!child.multiplierForce.empty()) {
+        using D = typename Child::DataTypes;
+        auto& sum = child[vec_id::dx];
+        VectorOperations<D>::eq(OneThread{}, sum, child[f]);
+        VectorOperations<D>::peq(OneThread{}, sum, child.multiplierForce, typename D::Real(1));
+        return sum;
+      }
+    return child[f];
+  }
+};
+
+}  // namespace sinew

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/vec_id.hpp>
+#include <sinew/scene/scope.hpp>
+#include <sinew/state/vector_operations.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <type_traits>
+
+namespace sinew {
+
+/// The vectors of the states at and below a scope, `root`, as one: operations act on independent states;
+/// mapped ones follow by propagation.
+template <class Root>
+struct StateVectors {
+  Root const& root;
+
+  // iteration over states
+
+  template <class F>
+  void forEachState(F&& f) const {
+    traverse(root, on<role::State>([&](auto& c, auto const&) { f(c); }));
+  }
+  template <class F>
+  void forEachIndependent(F&& f) const {
+    traverse(root, on<role::State>([&](auto& c, auto const& scope) {
+               if (!scope.mapped()) f(c);
+             }));
+  }
+  template <class F>
+  void forEachMapped(F&& f) const {
+    traverse(root, on<role::State>([&](auto& c, auto const& scope) {
+               if (scope.mapped()) f(c);
+             }));
+  }
+
+  // room
+
+  void reserve(Auxiliary needed) const {
+    std::size_t scalars = 0;
+    forEachState([&](auto& state) {
+      state.reserve(needed);
+      scalars = std::max(scalars, state.size() * std::size_t(DataTypesOf<decltype(state)>::size));
+    });
+    reserveSums(scalars);
+  }
+  /// Room for sums over vectors of so many scalars.
+  void reserveSums(std::size_t scalars) const {
+    workers().reserveSums(scalars / std::size_t(vec::piece) + 1);
+  }
+  /// The threads by which the solver of this scope works.
+  auto workers() const { return root.workers(); }
+
+  // vector mathematics
+
+  void clear(DerivId r) const {
+    forEachIndependent([&](auto& s) { Vectors<decltype(s)>::clear(workers(), s[r]); });
+  }
+  template <class Id>
+  void eq(Id r, Id a) const {
+    forEachIndependent([&](auto& s) { Vectors<decltype(s)>::eq(workers(), s[r], s[a]); });
+  }
+  void eq(DerivId r, DerivId a, double f) const {
+    forEachIndependent([&](auto& s) { Vectors<decltype(s)>::eq(s[r], s[a], real(s, f)); });
+  }
+  void peq(DerivId r, DerivId a, double f) const {
+    forEachIndependent([&](auto& s) { Vectors<decltype(s)>::peq(workers(), s[r], s[a], real(s, f)); });
+  }
+  void peq(CoordId r, DerivId a, double f) const {
+    forEachIndependent([&](auto& s) { Vectors<decltype(s)>::move(s[r], s[a], real(s, f)); });
+  }
+  void teq(DerivId r, double f) const {
+    forEachIndependent([&](auto& s) { Vectors<decltype(s)>::teq(s[r], real(s, f)); });
+  }
+  double dot(DerivId a, DerivId b) const {
+    double sum = 0;
+    forEachIndependent([&](auto& s) { sum += Vectors<decltype(s)>::dot(workers(), s[a], s[b]); });
+    return sum;
+  }
+  /// r = a + f r
+  void xpay(DerivId r, DerivId a, double f) const {
+    forEachIndependent([&](auto& s) { Vectors<decltype(s)>::xpay(workers(), s[r], s[a], real(s, f)); });
+  }
+  /// x += f p, r -= f q; returns r.r.
+  double advance(DerivId x, DerivId p, DerivId r, DerivId q, double f) const {
+    double sum = 0;
+    forEachIndependent([&](auto& s) {
+      sum += Vectors<decltype(s)>::advance(workers(), s[x], s[p], s[r], s[q], real(s, f));
+    });
+    return sum;
+  }
+  /// rate = time derivative of theta, where a position moved by theta has velocity v; v itself but for rigid
+  /// bodies.
+  void chartRate(DerivId rate, DerivId theta, DerivId v) const {
+    forEachIndependent([&](auto& s) { Vectors<decltype(s)>::chartRate(s[rate], s[theta], s[v]); });
+  }
+
+  // one vector of all degrees of freedom
+
+  /// Numbers the degrees of freedom of the independent states, each from a block of so many on, and returns
+  /// how many there are with what fills the last blocks.
+  int numberDofs(int block) const {
+    int dofs = 0;
+    forEachIndependent([&](auto& s) {
+      s.dofOffset = dofs;
+      dofs += int(s.size()) * DataTypesOf<decltype(s)>::size;
+      dofs = (dofs + block - 1) / block * block;
+    });
+    return dofs;
+  }
+  /// Copies between state vectors and one vector of all independent degrees of freedom.
+  template <class Vector>
+  void gather(Vector& to, DerivId from) const {
+    forEachIndependent([&](auto& s) {
+      to.segment(s.dofOffset, vec::flat(s[from]).size()) =
+          vec::flat(s[from]).template cast<typename Vector::Scalar>();
+    });
+  }
+  template <class Vector>
+  void scatter(DerivId to, Vector const& from) const {
+    forEachIndependent([&](auto& s) {
+      auto flat = vec::flat(s[to]);
+      flat = from.segment(s.dofOffset, flat.size()).template cast<typename DataTypesOf<decltype(s)>::Real>();
+    });
+  }
+
+ private:
+  template <class State>
+  using DataTypesOf = typename std::decay_t<State>::DataTypes;
+  template <class State>
+  using Vectors = VectorOperations<DataTypesOf<State>>;
+  template <class State>
+  static auto real(State const&, double f) {
+    return typename State::DataTypes::Real(f);
+  }
+};
+
+}  // namespace sinew
