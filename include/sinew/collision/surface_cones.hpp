@@ -21,12 +21,13 @@ struct ConeWidth {
 /// length 1 is in the cone
 ///   of a triangle with the normal n:                          n.d >= 0;
 ///   of an edge with the mean normal n of its two triangles, and the directions l in them, away from the edge
-///   and from the triangle, across it:                         n.d >= 0,   l.d >= -(k max(0, n.l) + a);
+///   and from the triangle, across it:                         n.d >= 0,   l.d > -(k max(0, n.l) + a);
 ///   of a point with the mean normal n of its triangles, or, where it has none, of its edges, and the
-///   directions l along its edges, away from them:             n.d >= -a,  l.d >= -(k max(0, n.l) + a).
-/// (each to 1e-9, so that rounding leaves no gap between what is beside each other in a plane).
-/// Models of which both sides are outside (bothSide) have no condition on n.d. Edges with one triangle, or
-/// more than two, take every direction, and so do points where their body has no model of lines.
+///   directions l along its edges, away from them:             n.d >= -a,  l.d > -(k max(0, n.l) + a).
+/// (By more than 1e-9, so that what lies in a plane with its neighbours has no direction, unless a > 0; faces
+/// have what is there.) Models of which both sides are outside (bothSide) have no condition on n.d. Edges
+/// with one triangle, or more than two, take every direction, and so do points where their body has no model
+/// of lines.
 class SurfaceCones {
  public:
   /// `all`: the models of the scene; those on the state of `s` are of its body.
@@ -60,7 +61,7 @@ inline Eigen::Vector3d unit_normal(CollisionSurface const& s, std::array<int, 3>
 inline bool keeps_away(Eigen::Vector3d const& away, Eigen::Vector3d const& normal, Eigen::Vector3d const& d,
                        ConeWidth width) {
   const double sine = width.factor * std::max(0.0, normal.dot(away)) + width.angle;
-  return away.dot(d) >= -(sine + CollisionSurface::leastCone) * d.norm();
+  return away.dot(d) > (CollisionSurface::leastCone - sine) * d.norm();
 }
 
 }  // namespace sinew::detail
