@@ -15,6 +15,7 @@
 #include <sinew/collision/penalty_contact.hpp>
 #include <sinew/collision/ray_hits.hpp>
 #include <sinew/collision/stick_contact.hpp>
+#include <sinew/collision/surface_cones.hpp>
 #include <sinew/collision/surface_elements.hpp>
 #include <sinew/collision/vertex_contacts.hpp>
 #include <sinew/constraint/constrained_points.hpp>

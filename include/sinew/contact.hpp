@@ -12,6 +12,7 @@
 #include <sinew/collision/default_pipeline.hpp>
 #include <sinew/collision/discrete_intersection.hpp>
 #include <sinew/collision/line_collision_model.hpp>
+#include <sinew/collision/local_min_distance.hpp>
 #include <sinew/collision/min_proximity_intersection.hpp>
 #include <sinew/collision/point_collision_model.hpp>
 #include <sinew/collision/sphere_collision_model.hpp>

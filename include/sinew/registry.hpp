@@ -135,9 +135,10 @@ using ConvexCollisionModels = Registry<ConvexCollisionModel<Rigid3d>>;
 using ConvexCollisionModels = Registry<>;
 #endif
 using StandardCollision =
-    Registry<DefaultPipeline, BruteForceBroadPhase, TreeBroadPhase, BVHNarrowPhase, MinProximityIntersection,
-             DiscreteIntersection, ContinuousIntersection, DefaultContactManager, CarvingManager,
-             PointCollisionModels<Vec3d>, SphereCollisionModel<Rigid3d>, ConvexCollisionModels>;
+    Registry<DefaultPipeline, BruteForceBroadPhase, TreeBroadPhase, BVHNarrowPhase, LocalMinDistance,
+             MinProximityIntersection, DiscreteIntersection, ContinuousIntersection, DefaultContactManager,
+             CarvingManager, PointCollisionModels<Vec3d>, SphereCollisionModel<Rigid3d>,
+             ConvexCollisionModels>;
 
 template <class D>
 using LagrangianJoints = Registry<FixedLagrangianConstraint<D>, BilateralLagrangianConstraint<D>,

@@ -84,11 +84,15 @@ TEST_CASE("a file of the folder Objects stands for a class that is not there, an
   CHECK(in<UniformMass<Vec3d>>(scene).totalMass == 3.0);
 }
 
-TEST_CASE("what is of a method that another stands for is said, and so is a picture that is missing") {
-  auto scene =
-      node("<LocalMinDistance coneFactor='0.3'/><MechanicalObject/><Node><OglModel src='@gone'/></Node>");
-  CHECK(has(scene.warnings, "<LocalMinDistance>: coneFactor is of SOFA's method"));
+TEST_CASE("LocalMinDistance has its cones, and no other method; a picture that is missing is said") {
+  auto scene = node(
+      "<LocalMinDistance coneFactor='0.3' angleCone='0.1' filterIntersection='0'/><MechanicalObject/>"
+      "<Node><OglModel src='@gone'/></Node>");
+  CHECK(in<LocalMinDistance>(scene).coneFactor == 0.3);
+  CHECK(in<LocalMinDistance>(scene).angleCone == 0.1);
+  CHECK(!in<LocalMinDistance>(scene).filterIntersection);
   CHECK(has(scene.warnings, "<OglModel>: src: '@gone' leads nowhere"));
+  CHECK_THAT(wrong("<LocalMinDistance coneFactor='-1'/>"), Catch::Contains("coneFactor"));
   CHECK_THAT(wrong("<MinProximityIntersection coneFactor='0.3'/>"), Catch::Contains("coneFactor"));
 }
 

@@ -44,7 +44,9 @@ def frames_of(file):
 
 
 def node_of(path):
-    return (path.rsplit("/", 1)[0] or "/").replace(" ", "_")
+    """The node of a state in SOFA, by its path here, where a node without a name is called Node."""
+    parts = path.split("/")[1:-1]
+    return "/" + "/".join(part.replace(" ", "_") or "Node" for part in parts)
 
 
 def made_by_contact(node):

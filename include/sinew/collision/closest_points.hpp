@@ -3,6 +3,8 @@
 
 #include <sinew/collision/closest_search.hpp>
 
+#include <optional>
+
 namespace sinew {
 
 /// Where two simplices are nearest. Weights are barycentric, not negative, of sum 1; those of points that a
@@ -43,6 +45,47 @@ ClosestPoints<Real> closest_points(std::array<Vec<Real, 3>, NA> const& a,
           detail::weighted_point<Real, NA>(a, search.weightsA),
           detail::weighted_point<Real, NB>(b, search.weightsB),
           search.minimum};
+}
+
+/// Where two simplices with no more than four points together are nearest, each place inside its simplex;
+/// none where they are nearest elsewhere. Weights may be negative by 1e-9, and are 0 then, so that rounding
+/// leaves no gap between neighbours. Segments that are parallel (to 1e-6) meet at their middles, where the
+/// line between these is across them.
+///   (J'J) z = J'(b0 - a0),  the columns of J being the edges of a from a0, and those of b from b0 backwards
+template <class Real, std::size_t NA, std::size_t NB>
+std::optional<ClosestPoints<Real>> inner_closest_points(std::array<Vec<Real, 3>, NA> const& a,
+                                                        std::array<Vec<Real, 3>, NB> const& b) {
+  static_assert(NA + NB <= 4, "Sinew: inner_closest_points takes two segments, or a point and a simplex.");
+  constexpr int unknowns = int(NA + NB) - 2;
+  ClosestPoints<Real> closest{{1, 0, 0}, {1, 0, 0}, a[0], b[0], 0};
+  if constexpr (unknowns > 0) {
+    using Unknowns = Eigen::Matrix<Real, unknowns, 1>;
+    Eigen::Matrix<Real, 3, unknowns> edges;
+    for (std::size_t i = 1; i < NA; ++i) edges.col(Eigen::Index(i - 1)) = a[i] - a[0];
+    for (std::size_t j = 1; j < NB; ++j) edges.col(Eigen::Index(NA + j - 2)) = b[0] - b[j];
+    const Eigen::Matrix<Real, unknowns, unknowns> square = edges.transpose() * edges;
+    const Unknowns lengths = square.diagonal();
+    const bool parallel = !(square.determinant() > Real(1e-12) * lengths.prod());
+    if (parallel && (NA != 2 || NB != 2 || !(lengths.minCoeff() > 0))) return std::nullopt;
+    const Unknowns z = parallel ? Unknowns(Unknowns::Constant(Real(0.5)))
+                                : Unknowns(square.inverse() * (edges.transpose() * (b[0] - a[0])));
+    auto inside = [&z](Vec<Real, 3>& weights, std::size_t first, std::size_t corners) {
+      for (std::size_t i = 1; i < corners; ++i) weights[Eigen::Index(i)] = z[Eigen::Index(first + i - 1)];
+      weights[0] -= weights.template tail<2>().sum();
+      if (!(weights.minCoeff() >= Real(-1e-9))) return false;
+      weights = weights.cwiseMax(Real(0)).eval();
+      weights /= weights.sum();
+      return true;
+    };
+    if (!inside(closest.weightsA, 0, NA) || !inside(closest.weightsB, NA - 1, NB)) return std::nullopt;
+    closest.pointA = detail::weighted_point<Real, NA>(a, closest.weightsA);
+    closest.pointB = detail::weighted_point<Real, NB>(b, closest.weightsB);
+    const Vec<Real, 3> d = closest.pointB - closest.pointA;
+    if (parallel && (edges.transpose() * d).norm() > Real(1e-4) * std::sqrt(lengths.sum()) * d.norm())
+      return std::nullopt;
+  }
+  closest.squaredDistance = (closest.pointB - closest.pointA).squaredNorm();
+  return closest;
 }
 
 namespace detail {

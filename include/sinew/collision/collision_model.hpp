@@ -34,7 +34,7 @@ struct MeshCollisionModel {
   static constexpr std::string_view aliases = Kind::aliases;
   static constexpr Shape shape = Kind::shape;
 
-  bool active = true, moving = true, simulated = true, selfCollision = false, bothSide = Kind::bothSide;
+  bool active = true, moving = true, simulated = true, selfCollision = false, bothSide = false;
   std::vector<int> group{};
   double proximity = 0, contactStiffness = 10, contactFriction = 0, contactDamping = 0;
   std::string contactResponse{};

@@ -23,7 +23,7 @@ constexpr auto collision_model_fields(More... more) {
             &M::bothSide,
             "",
             "both sides of a triangle are outside; else only the one from which its corners go round "
-            "counterclockwise"),
+            "counterclockwise; LocalMinDistance asks that of the lines and points of triangles, too"),
       field("group", &M::group, "", "models that have a group in common do not collide with each other"),
       field("proximity", &M::proximity, "m", "thickness around the primitives", range::nonNegative)
           .also("contactDistance"),

@@ -48,6 +48,14 @@ struct DefaultPipeline {
   }
 
  private:
+  template <class Intersection>
+  static bool compares(Intersection const& intersection, CollisionSurface const& a,
+                       CollisionSurface const& b) {
+    if constexpr (ChoosesModels<Intersection>)
+      return intersection.compares(a, b);
+    else
+      return has_pairs(a, b);
+  }
   template <Shape A, Shape... Known, class Narrow, class Intersection, class Manager>
   void withShape(ShapeList<Known...>, Narrow& narrow, Intersection const& intersection, Manager& manager,
                  int i, int j, double dt) {
@@ -57,7 +65,7 @@ struct DefaultPipeline {
   template <Shape A, Shape B, class Narrow, class Intersection, class Manager>
   void detect(Narrow& narrow, Intersection const& intersection, Manager& manager, int i, int j, double dt) {
     CollisionSurface const &a = *surfaces[std::size_t(i)], &b = *surfaces[std::size_t(j)];
-    if (skeleton(b.shape) != B) return;
+    if (skeleton(b.shape) != B || !compares(intersection, a, b)) return;
     const double cone = manager.coneOf(i, j);
     narrow.pairs(a, b, [&](int elementA, int elementB) {
       ++boxTests;
@@ -91,9 +99,6 @@ SINEW_ONCE bool DefaultPipeline::compare(CollisionSurface const& a, CollisionSur
   CollisionSettings const &ofA = a.settings, &ofB = b.settings;
   if (!ofA.active || !ofB.active || (!ofA.moving && !ofB.moving)) return false;
   if ((a.solver < 0 || !ofA.simulated) && (b.solver < 0 || !ofB.simulated)) return false;
-  // points against triangles and lines against lines are all there is between two surfaces that have the
-  // three
-  if (a.hasAllSimplices() && b.hasAllSimplices() && a.corners() + b.corners() != 4) return false;
   if (&a == &b) return ofA.selfCollision;
   if (a.state == b.state && !(ofA.selfCollision && ofB.selfCollision)) return false;
   return std::find_first_of(ofA.group.begin(), ofA.group.end(), ofB.group.begin(), ofB.group.end()) ==

@@ -11,7 +11,6 @@ struct CollisionLines {
   static constexpr std::string_view aliases = "Line LineModel LineMeshModel LineSetModel TLineModel";
   static constexpr std::string_view noun = "line";
   static constexpr Shape shape = Shape::line;
-  static constexpr bool bothSide = true;
 
   template <class D>
   static std::vector<PrimitiveCorners> elements(InitContext<D> const& context) {

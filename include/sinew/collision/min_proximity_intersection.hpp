@@ -12,7 +12,7 @@ namespace sinew {
 struct MinProximityIntersection {
   using Role = role::Intersection;
   static constexpr std::string_view className = "MinProximityIntersection";
-  static constexpr std::string_view aliases = "NewProximityIntersection LocalMinDistance";
+  static constexpr std::string_view aliases = "NewProximityIntersection";
   static constexpr bool continuous = false;
 
   double alarmDistance = 1;

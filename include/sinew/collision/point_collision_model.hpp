@@ -11,7 +11,6 @@ struct CollisionPoints {
   static constexpr std::string_view aliases = "Point PointModel PointMeshModel PointSetModel TPointModel";
   static constexpr std::string_view noun = "point";
   static constexpr Shape shape = Shape::point;
-  static constexpr bool bothSide = true;
 
   template <class D>
   static std::vector<PrimitiveCorners> elements(InitContext<D> const& context) {

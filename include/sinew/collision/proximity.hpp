@@ -80,9 +80,15 @@ bool is_of_pair(PrimitivePair<A, B> const& pair, Contact const& contact) {
   return pair.a.smallestAround(ofA) == A && pair.b.smallestAround(ofB) == B;
 }
 
-/// The fields of an intersection method that looks for what is near.
-template <class I>
-constexpr auto proximity_fields() {
+/// Whether two models have contacts that those beside them on their states do not have: of bodies with
+/// points, lines and triangles, points with triangles and lines with lines have all.
+inline bool has_pairs(CollisionSurface const& a, CollisionSurface const& b) {
+  return !a.hasAllSimplices() || !b.hasAllSimplices() || a.corners() + b.corners() == 4;
+}
+
+/// The fields of an intersection method that looks for what is near, and more.
+template <class I, class... More>
+constexpr auto proximity_fields(More... more) {
   return field_list(field("alarmDistance",
                           &I::alarmDistance,
                           "m",
@@ -92,7 +98,8 @@ constexpr auto proximity_fields() {
                           &I::contactDistance,
                           "m",
                           "distance below which the response acts",
-                          range::nonNegative));
+                          range::nonNegative),
+                    more...);
 }
 
 /// Finds the contacts of pairs with a hull: find(pair, intersection method, add). Declared here only:
@@ -134,6 +141,31 @@ bool are_apart(std::array<Eigen::Vector3d, NA> const& a, std::array<Eigen::Vecto
   return parted(between);
 }
 
+/// A contact at closest points of two primitives: its places, and u there.
+template <Shape A, Shape B>
+Contact places_of(PrimitivePair<A, B> const& pair, ClosestPoints<double> const& closest) {
+  Contact contact;
+  contact.start = closest.pointB - closest.pointA;
+  detail::set_side<A>(contact.a, pair.a, pair.elementA, closest.weightsA);
+  detail::set_side<B>(contact.b, pair.b, pair.elementB, closest.weightsB);
+  return contact;
+}
+/// Its normal, and with that the distance between surfaces: what touches a sphere or a thick rigid does so on
+/// its skin.
+template <Shape A, Shape B>
+void set_normal(Contact& contact, PrimitivePair<A, B> const& pair, Eigen::Vector3d const& normal) {
+  contact.normal = normal;
+  contact.thickness = pair.thickness();
+  contact.distance = normal.dot(contact.start) - contact.thickness;
+  auto toSkin = [&](ContactSide& side, CollisionSurface const& s, double along) {
+    if (s.rigid) side.lever = s.orientation[std::size_t(side.vertices[0])].conjugate() * (along * normal);
+  };
+  toSkin(contact.a, pair.a, pair.a.radiusOf(pair.elementA));
+  toSkin(contact.b, pair.b, -pair.b.radiusOf(pair.elementB));
+  if (pair.a.rigid) contact.thickness -= pair.a.radiusOf(pair.elementA);
+  if (pair.b.rigid) contact.thickness -= pair.b.radiusOf(pair.elementB);
+}
+
 /// The contact of two primitives at their closest points, the corners being at `a` and `b`; none where a
 /// neighbour of one of them is nearer there, unless that is not asked (`onlyLocalMinima`). Where a corner or
 /// the inside of an edge is nearest to the inside of a triangle of a one-sided surface (bothSide = false),
@@ -142,10 +174,7 @@ template <Shape A, Shape B>
 std::optional<Contact> contact_at(PrimitivePair<A, B> const& pair, ShapeCorners<A> const& a,
                                   ShapeCorners<B> const& b, bool onlyLocalMinima = true) {
   const auto closest = closest_points(a, b);
-  Contact contact;
-  contact.start = closest.pointB - closest.pointA;
-  detail::set_side<A>(contact.a, pair.a, pair.elementA, closest.weightsA);
-  detail::set_side<B>(contact.b, pair.b, pair.elementB, closest.weightsB);
+  Contact contact = places_of(pair, closest);
   const Eigen::Vector3d between = contact.start;
   // a point has one nearest place, and would be stopped by the edges inside a floor that it slides on
   constexpr bool ofPoint = std::tuple_size_v<ShapeCorners<A>> == 1 || std::tuple_size_v<ShapeCorners<B>> == 1;
@@ -156,20 +185,11 @@ std::optional<Contact> contact_at(PrimitivePair<A, B> const& pair, ShapeCorners<
   const Eigen::Vector3d outOfA = detail::outer_normal(pair.a, a, closest.weightsA),
                         outOfB = detail::outer_normal(pair.b, b, closest.weightsB);
   const bool faceA = outOfA.squaredNorm() > 0, faceB = outOfB.squaredNorm() > 0;
-  contact.normal = faceA == faceB ? Eigen::Vector3d(contact_direction(a, b, closest))
-                   : faceA        ? outOfA
-                                  : Eigen::Vector3d(-outOfB);
-  contact.thickness = pair.thickness();
-  contact.distance = contact.normal.dot(between) - contact.thickness;
-  // what touches a sphere or a thick rigid does so on its skin
-  auto toSkin = [&](ContactSide& side, CollisionSurface const& s, double along) {
-    if (s.rigid)
-      side.lever = s.orientation[std::size_t(side.vertices[0])].conjugate() * (along * contact.normal);
-  };
-  toSkin(contact.a, pair.a, pair.a.radiusOf(pair.elementA));
-  toSkin(contact.b, pair.b, -pair.b.radiusOf(pair.elementB));
-  if (pair.a.rigid) contact.thickness -= pair.a.radiusOf(pair.elementA);
-  if (pair.b.rigid) contact.thickness -= pair.b.radiusOf(pair.elementB);
+  set_normal(contact,
+             pair,
+             faceA == faceB ? Eigen::Vector3d(contact_direction(a, b, closest))
+             : faceA        ? outOfA
+                            : Eigen::Vector3d(-outOfB));
   return contact;
 }
 

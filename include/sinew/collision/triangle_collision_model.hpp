@@ -12,7 +12,6 @@ struct CollisionTriangles {
       "Triangle TriangleModel TriangleMeshModel TriangleSetModel TTriangleModel";
   static constexpr std::string_view noun = "triangle";
   static constexpr Shape shape = Shape::triangle;
-  static constexpr bool bothSide = false;
 
   template <class D>
   static std::vector<PrimitiveCorners> elements(InitContext<D> const& context) {

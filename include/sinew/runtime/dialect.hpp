@@ -198,10 +198,7 @@ struct AnotherMethod {
   std::string_view name, difference;
 };
 inline constexpr std::array anotherMethod = std::to_array<AnotherMethod>(
-    {{"LocalMinDistance",
-      "all pairs of elements within the distance are contacts, as with MinProximityIntersection; SOFA leaves "
-      "out those that are no local minima of the distance"},
-     {"AsyncSparseLDLSolver",
+    {{"AsyncSparseLDLSolver",
       "the matrix of each step is factorised before it is solved, as with SparseLDLSolver; SOFA goes on with "
       "the factorisation of an earlier step while a thread makes the next"},
      {"EigenSparseQR",

@@ -90,15 +90,15 @@ struct NotSimulated {
   std::string_view className, attribute, standard;
 };
 inline constexpr std::array notSimulated = std::to_array<NotSimulated>({
-    {"", "angleCone", "0"}, {"", "AnisotropyDirections", ""}, {"", "box", ""},
+    {"", "AnisotropyDirections", ""}, {"", "box", ""},
     {"", "cauchyStress", "[ 0 0 0 , 0 0 0 , 0 0 0]"}, {"", "clamp", "0"},
     {"", "compute_mapping_inertia", "0"}, {"", "computePointList", "1"},
-    {"", "computeWeightsFromPosition", "0"}, {"", "coneFactor", "0.5"}, {"", "contactRestitution", "0"},
+    {"", "computeWeightsFromPosition", "0"}, {"", "contactRestitution", "0"},
     {"", "convolutionSize", "0"}, {"", "damping", "0"}, {"", "dataResolution", "0 0 0"},
     {"", "defaultVolume", "-1"}, {"", "direction", ""}, {"", "edgeAngle", "0"}, {"", "edgeMass", ""},
     {"", "elongationOnly", "0"}, {"", "enabled", "1"}, {"", "endTime", "-1"},
     {"", "facets", ""},
-    {"", "filterIntersection", "1"}, {"", "first", "4294967295"}, {"", "flipNormals", "0"},
+    {"", "first", "4294967295"}, {"", "flipNormals", "0"},
     {"", "geometricStiffness", "Exact|1"}, {"", "ignoreNotFound", "0"}, {"", "indexFromEnd", "0"},
     {"", "indices", ""}, {"", "initialPoints", ""}, {"", "isCompliance", "0"}, {"", "last", "4294967295"},
     {"", "lastDir", ""}, {"", "lastFreeRotation", "0"}, {"", "lastPos", ""}, {"", "lengths", ""},
@@ -123,7 +123,7 @@ inline constexpr std::array notSimulated = std::to_array<NotSimulated>({
     {"", "springsIndices2", ""},     {"", "transformation", "[1 0 0 0,0 1 0 0,0 0 1 0,0 0 0 1]"}, {"", "translation2", "0 0 0"},
     {"", "triAngle", "0"}, {"", "triangulate", "0"}, {"", "updateStateWhenDiverged", "1"}, {"", "updateStiffnessMatrix", "0"},
     {"", "svdSingularValueNullSpaceCriteriaFactor", "0.01"}, {"", "svdSingularVectorNullSpaceCriteriaFactor", "0.001"},
-    {"", "useLineLine", "1"}, {"", "useSVDForRegularization", "0"}, {"", "useLinePoint", "1"}, {"", "useLMDFilters", "0"},
+    {"", "useLineLine", "1"}, {"", "useSVDForRegularization", "0"}, {"", "useLinePoint", "1"},
     {"", "usePointPoint", "1"}, {"BarycentricMapping", "useRestPosition", "0"},
     {"NearestPointROI", "useRestPosition", "1"}, {"", "useSphereTriangle", "1"},
     {"", "useSurfaceNormals", "0"}, {"", "useTangentStiffness", "1"}, {"", "useTopology", "1"},

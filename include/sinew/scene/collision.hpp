@@ -76,6 +76,10 @@ struct Collision {
                  manager.init(scope.path(), pipeline.surfaces, again);
                  checkMultipliers(manager, scope);
                });
+               with_first<role::Intersection>(scope, [&](auto& intersection) {
+                 if constexpr (LooksAround<std::decay_t<decltype(intersection)>>)
+                   intersection.lookAround(pipeline.surfaces);
+               });
                pipeline.near.reserve(pipeline.surfaces.size() * (pipeline.surfaces.size() + 1) / 2);
                for (auto* s : pipeline.surfaces) s->enclose(0, 0);  // the trees are built
                traverse(scope, on<role::CollisionModel>([](auto& model, auto const& s) {

@@ -12,11 +12,12 @@
 
 namespace sinew {
 
-/// A linear solver that keeps a factor, by which rows have their compliance (linalg/factored_rows.hpp).
+/// A linear solver that may have a factor of the matrix of its last solve, by which rows have their
+/// compliance (linalg/factored_rows.hpp): blockFactor() is that, or null.
 template <class Linear>
 concept HasBlockFactor = requires(Linear const& linear) {
-  linear.factor.lower;
-  linear.factor.newIndex;
+  linear.blockFactor()->lower;
+  linear.blockFactor()->newIndex;
 };
 
 /// What the bodies of one ODE solver, at and below a scope, do when multipliers act on them: the system of
@@ -143,9 +144,10 @@ struct ConstraintResponse {
     if (!byMasses(operations) && noneCorrected())
       scope.withLinearSolverIfAny([&](auto& linear) {
         if constexpr (HasBlockFactor<std::decay_t<decltype(linear)>>) {
-          factored.compliance(linear.factor, system.jacobian, [&](int k, int l, double w) {
-            add(k, l, how.factors.impulse * w);
-          });
+          auto const* factor = linear.blockFactor();
+          if (!factor) return;
+          factored.compliance(
+              *factor, system.jacobian, [&](int k, int l, double w) { add(k, l, how.factors.impulse * w); });
           found = true;
         }
       });

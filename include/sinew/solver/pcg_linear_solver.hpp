@@ -91,6 +91,11 @@ struct ShewchukPCGLinearSolver {
 
   /// The preconditioner is made anew.
   void reset() { age = -1; }
+  /// That of the preconditioner, where it is the inverse of the matrix of the last solve.
+  BlockLdl<Formed> const* blockFactor() const {
+    const bool isInverse = preconditioner.method == PreconditionerMethod::ldl && preconditioner.shift == 0;
+    return isInverse && age == 0 ? &preconditioner.factor : nullptr;
+  }
 
   template <class Operations>
   void solve(Operations& operations, MatrixFactors factors, MultiVecDeriv<Operations>& solution,

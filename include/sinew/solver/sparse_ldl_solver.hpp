@@ -67,6 +67,7 @@ struct SparseLDLSolver {
     factor.solve(b, x);
     operations.scatter(solution.id, x);
   }
+  BlockLdl<Matrix> const* blockFactor() const { return &factor; }
 };
 
 }  // namespace sinew

@@ -3,6 +3,8 @@
 
 #include <sinew/core/role.hpp>
 
+#include <span>
+
 namespace sinew {
 
 // Where two primitives meet. The shortest:
@@ -28,8 +30,9 @@ namespace sinew {
 //     }
 //   };
 
-enum class Shape;  // of primitives: hull, point, line, triangle, sphere (collision/shape.hpp)
-struct Contact;    // collision/contact.hpp
+enum class Shape;         // of primitives: hull, point, line, triangle, sphere (collision/shape.hpp)
+struct Contact;           // collision/contact.hpp
+struct CollisionSurface;  // collision/collision_surface.hpp
 template <Shape A, Shape B>
 struct PrimitivePair;  // collision/proximity.hpp
 
@@ -63,8 +66,17 @@ template <class C>
 concept IntersectionMethod =
     HasRole<C, role::Intersection> && SaysContinuous<C> && HasReach<C> && IntersectsSome<C>;
 
-// Hook:
+// Hooks:
 
+/// It says which models it compares; else these are all that complement each other (has_pairs in
+/// collision/proximity.hpp).
+template <class C>
+concept ChoosesModels = requires(C const c, CollisionSurface const& s) {
+  { c.compares(s, s) } -> std::convertible_to<bool>;
+};
+/// It is shown all models of the scene, when they are initialised.
+template <class C>
+concept LooksAround = requires(C c, std::span<CollisionSurface* const> surfaces) { c.lookAround(surfaces); };
 /// Its contacts with hulls, whose geometry is the library's (HullContacts), act below limit() [m].
 template <class C>
 concept MeetsHulls = requires(C const c) {

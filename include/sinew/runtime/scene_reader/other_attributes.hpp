@@ -65,13 +65,6 @@ class OtherAttributes {
     // a picture has neither forces nor masses
     if (a.name.starts_with("map") && item.info->role == RoleKind::mapping && item.place->state.empty())
       return;
-    if (dialect::another_method(item.tag))
-      return void(messages_.warnings.insert(text(item.element->place(a),
-                                                 ": <",
-                                                 item.tag,
-                                                 ">: ",
-                                                 a.name,
-                                                 " is of SOFA's method and has no effect here")));
     for (auto const& other : dialect::anotherLaw)
       if (other.className == item.info->name && other.attribute == a.name)
         return void(messages_.warnings.insert(
