@@ -174,6 +174,7 @@ struct MechanicalOperations {
       reserveSums(std::size_t(dofs));
     }
     assemblePhase<AssemblyPhase::bind>(assembled, {});
+    split();  // by places in the matrix
   }
   /// matrix = P (m M + b B + k K) P + (I - P)
   template <class Matrix>
