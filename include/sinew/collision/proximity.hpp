@@ -54,15 +54,17 @@ void set_side(ContactSide& side, CollisionSurface const& s, int element, Eigen::
   if (n == 0) refuse_place(s, element);
 }
 
-// the outer normal of a triangle whose inside is meant by the point; zero where it is not
+// the outer normal of a triangle whose inside is meant by the point, or whose border where what is between it
+// and the other place stands upright on it, as on the edges inside a plane; zero where it is not
 template <std::size_t N>
 Eigen::Vector3d outer_normal(CollisionSurface const& s, std::array<Eigen::Vector3d, N> const& p,
-                             Eigen::Vector3d const& weights) {
+                             Eigen::Vector3d const& weights, Eigen::Vector3d const& between) {
   if constexpr (N == 3)
-    if (!s.settings.bothSide && weights.minCoeff() > 0) {
+    if (!s.settings.bothSide) {
       const Eigen::Vector3d n = (p[1] - p[0]).cross(p[2] - p[0]);
       const double length = n.norm();
-      if (length > 0) return n / length;
+      if (length > 0 && (weights.minCoeff() > 0 || n.cross(between).norm() <= 1e-9 * length * between.norm()))
+        return n / length;
     }
   return {0, 0, 0};
 }
@@ -168,8 +170,9 @@ void set_normal(Contact& contact, PrimitivePair<A, B> const& pair, Eigen::Vector
 
 /// The contact of two primitives at their closest points, the corners being at `a` and `b`; none where a
 /// neighbour of one of them is nearer there, unless that is not asked (`onlyLocalMinima`). Where a corner or
-/// the inside of an edge is nearest to the inside of a triangle of a one-sided surface (bothSide = false),
-/// the normal is that of the triangle, and the distance is negative behind it.
+/// the inside of an edge is nearest to the inside of a triangle of a one-sided surface (bothSide = false), or
+/// to an edge or a corner of it in a plane, the normal is that of the triangle, and the distance is negative
+/// behind it.
 template <Shape A, Shape B>
 std::optional<Contact> contact_at(PrimitivePair<A, B> const& pair, ShapeCorners<A> const& a,
                                   ShapeCorners<B> const& b, bool onlyLocalMinima = true) {
@@ -182,8 +185,8 @@ std::optional<Contact> contact_at(PrimitivePair<A, B> const& pair, ShapeCorners<
   if (onlyLocalMinima && (!pair.a.isLocalMinimum(pair.elementA, contact.a.vertices, between, cone) ||
                           !pair.b.isLocalMinimum(pair.elementB, contact.b.vertices, -between, cone)))
     return std::nullopt;
-  const Eigen::Vector3d outOfA = detail::outer_normal(pair.a, a, closest.weightsA),
-                        outOfB = detail::outer_normal(pair.b, b, closest.weightsB);
+  const Eigen::Vector3d outOfA = detail::outer_normal(pair.a, a, closest.weightsA, between),
+                        outOfB = detail::outer_normal(pair.b, b, closest.weightsB, between);
   const bool faceA = outOfA.squaredNorm() > 0, faceB = outOfB.squaredNorm() > 0;
   set_normal(contact,
              pair,

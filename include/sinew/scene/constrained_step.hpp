@@ -6,12 +6,14 @@
 #include <sinew/scene/contact_rows.hpp>
 #include <sinew/scene/mechanical_operations.hpp>
 #include <sinew/scene/motion_problem.hpp>
+#include <sinew/scene/row_names.hpp>
 #include <sinew/scene/solvers.hpp>
 #include <sinew/scene/states_of.hpp>
 #include <sinew/solver/multi_vec.hpp>
 
 #include <algorithm>
 #include <array>
+#include <string_view>
 #include <utility>
 
 namespace sinew {
@@ -86,6 +88,7 @@ struct ConstrainedStep {
       operations.acted.begin(keepsForces);
     }
     ode.solve(operations, dt);
+    if constexpr (requires { ode.prepareCorrection(operations); }) ode.prepareCorrection(operations);
     operations.projectPositionAndVelocity(time + dt, vec_id::position, vec_id::velocity);
     end_acted_forces<Ode>(operations);
   }
@@ -209,19 +212,8 @@ struct ConstrainedStep {
   // W = J A^-1 J', and d_free
   void findCompliance(ConstrainedMotion& m) const;
   void checkCompliance(ConstrainedMotion const& m) const {
-    int row = 0;
-    std::size_t number = 0;
-    traverse(
-        root, on<role::LagrangianConstraint>([&](auto& c, auto const& scope) {
-          for (int end = row + m.rowsOf[number++]; row < end; ++row)
-            if (!(m.problem.compliance(row, row) > 0))
-              throw Error(
-                  text(scope.path(), ": ", component_name<std::decay_t<decltype(c)>>()),
-                  text("nothing that its equation ",
-                       row + m.rowsOf[number - 1] - end,
-                       " holds can move: its points are fixed, or no solver moves them, or its direction "
-                       "is zero; leave it out, or free a point"));
-        }));
+    for (int row = 0; row < m.contactRows; ++row)
+      if (!(m.problem.compliance(row, row) > 0)) RowNames<RootScope>{root, m}.refuseFixed(row);
   }
 
   void solve(ConstrainedMotion& m) const {
@@ -234,9 +226,22 @@ struct ConstrainedStep {
                  m.hasMotion = true;
                } else {
                  findCompliance(m);
-                 solver.solve(m.problem, scope.path());
+                 solveProblem(m, solver, scope.path());
                }
              }));
+  }
+  template <class Solver>
+  void solveProblem(ConstrainedMotion& m, Solver& solver, std::string_view where) const {
+    try {
+      solver.solve(m.problem, where);
+    } catch (Error const& error) {
+      const RowNames<RootScope> names{root, m};
+      ConstraintProblem const& p = m.problem;
+      if constexpr (requires { solver.result.converged; })
+        if (!solver.result.converged)
+          names.explain(error, "furthest from its condition", names.furthest(p.blocks, p.violation()));
+      names.explain(error, "the first that depends on others", names.dependent(p));
+    }
   }
   // constraints keep their multipliers
   void giveBack(ConstrainedMotion& m) const {

@@ -83,6 +83,7 @@ struct MechanicalOperations : StateVectors<Root> {
   template <class Matrix>
   void initMatrix(Matrix& matrix) {
     SystemMatrix<Root>{root}.init(matrix, paramsOf({}));
+    split();  // by places in the matrix
   }
   /// matrix = P (m M + b B + k K) P + (I - P)
   template <class Matrix>

@@ -4,9 +4,11 @@
 #include <sinew/lagrangian/constrained_motion.hpp>
 #include <sinew/scene/contact_rows.hpp>
 #include <sinew/scene/mechanical_operations.hpp>
+#include <sinew/scene/row_names.hpp>
 #include <sinew/scene/solvers.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 #include <vector>
 
@@ -41,7 +43,12 @@ struct MotionProblem {
     joinRows(m, dofs);
     blocksOf(m, all, solver.preconditioner.system);
     all.motion.setZero(all.dofs);
-    solver.solveMotion([&](Eigen::VectorXd const& p, Eigen::VectorXd& q) { multiply(m, p, q); }, all, where);
+    try {
+      solver.solveMotion(
+          [&](Eigen::VectorXd const& p, Eigen::VectorXd& q) { multiply(m, p, q); }, all, where);
+    } catch (Error const& error) {
+      explain(m, solver, error);
+    }
     m.problem.multipliers.setZero(m.rows.count());
     for (std::size_t i = 0; i < all.rows.size(); ++i)
       m.problem.multipliers[all.rows[i]] = all.multipliers[Eigen::Index(i)];
@@ -92,9 +99,11 @@ struct MotionProblem {
   }
 
   // the rows of all systems together, without contacts that nothing can part
-  static void joinRows(ConstrainedMotion& m, int dofs) {
+  void joinRows(ConstrainedMotion& m, int dofs) const {
     MotionRows& all = m.motionRows;
     all.clear();
+    if (all.motion.size() < dofs) all.motion.resize(dofs);
+    all.motion.setZero();
     all.next.assign(m.systems.size(), 0);
     all.slack.clear();
     const double stiffest = largestDiagonal(m);
@@ -112,8 +121,10 @@ struct MotionProblem {
               int(k), [&](int dof, double value) { all.jacobian.add(system.begin + dof, value); });
           ++k;
         }
-        const bool held = all.jacobian.dofs.size() == before;
+        const bool held = cancels(all, before);
         const double softness = m.rows.compliance[std::size_t(row)];
+        if (held && softness == 0 && block.first < m.contactRows)
+          RowNames<RootScope>{root, m}.refuseFixed(row);
         if (held && row == block.first && block.first >= m.contactRows) free = false;
         if (softness > 0 || (held && block.first >= m.contactRows)) {
           all.jacobian.add(dofs + 3 * int(all.slack.size()), 1);
@@ -138,6 +149,36 @@ struct MotionProblem {
       all.start[i] = m.rows.violation[std::size_t(all.rows[std::size_t(i)])];
       all.multipliers[i] = m.rows.multipliers[std::size_t(all.rows[std::size_t(i)])];
     }
+  }
+  // Whether the entries from one on, which are left out then, move nothing: there are none, or both sides are
+  // of one rigid body. The motion is zero before and after.
+  static bool cancels(MotionRows& all, std::size_t begin) {
+    double most = 0, left = 0;
+    for (auto k = begin; k < all.jacobian.dofs.size(); ++k) {
+      all.motion[all.jacobian.dofs[k]] += all.jacobian.values[k];
+      most = std::max(most, std::abs(all.jacobian.values[k]));
+    }
+    for (auto k = begin; k < all.jacobian.dofs.size(); ++k) {
+      left = std::max(left, std::abs(all.motion[all.jacobian.dofs[k]]));
+      all.motion[all.jacobian.dofs[k]] = 0;
+    }
+    if (left > 1e-12 * most) return false;
+    all.jacobian.dofs.resize(begin);
+    all.jacobian.values.resize(begin);
+    return true;
+  }
+  template <class Solver>
+  [[noreturn]] void explain(ConstrainedMotion const& m, Solver const& solver, Error const& error) const {
+    const RowNames<RootScope> names{root, m};
+    MotionRows const& all = m.motionRows;
+    if constexpr (requires { solver.result.converged; })
+      if (!solver.result.converged) {
+        Eigen::VectorXd d = all.start;
+        for (int i = 0; i < all.jacobian.rows(); ++i) d[i] += all.jacobian.times(i, all.motion);
+        const int row = names.furthest(all.blocks, d);
+        names.explain(error, "furthest from its condition", row < 0 ? row : all.rows[std::size_t(row)]);
+      }
+    throw;
   }
   static double largestDiagonal(ConstrainedMotion const& m) {
     double largest = 0;

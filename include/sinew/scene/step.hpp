@@ -163,6 +163,11 @@ void Step<RootScope>::detectContacts() const {
       });
     });
     solved.forEachComponent(visit);
+    // a constraint solver that has the matrices of all systems
+    with_first<role::AnimationLoop>(root, [](auto& loop) {
+      if constexpr (requires { loop.motion.systems; })
+        for (auto& system : loop.motion.systems) system.hasPattern = false;
+    });
   });
 }
 

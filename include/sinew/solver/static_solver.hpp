@@ -54,6 +54,17 @@ struct StaticSolver {
                   {.factors = {.k = -1}, .dx = dx, .b = force, .increment = increment, .equilibrium = true},
                   NewtonCallbacks{evaluate, [&](double s) { pos.peq(dx, s); }});
   }
+
+  /// Solves the system where the search was at its end at its start, and has not: multipliers ask it for what
+  /// they move.
+  template <class Operations>
+  void prepareCorrection(Operations& operations) {
+    if (newton.status != NewtonStatus::alreadyInEquilibrium) return;
+    MultiVecDeriv force(operations, vec_id::force), dx(operations, vec_id::dx);
+    force.clear();
+    dx.clear();
+    operations.root.withLinearSolver([&](auto& linear) { linear.solve(operations, {.k = -1}, dx, force); });
+  }
 };
 
 }  // namespace sinew

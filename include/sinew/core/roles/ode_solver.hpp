@@ -55,7 +55,8 @@ struct ConstraintFactors {
   double impulse = 0, position = 0, velocity = 0;
 };
 /// An implicit solver says it for a step of length h, for scenes with an animation loop that solves constraints. It
-/// may have `corrected(operations, u)`, which is called when positions and velocities have taken u.
+/// may have `prepareCorrection(operations)`, which is called after the step without multipliers and before its linear solver
+/// is asked for u, and `corrected(operations, u)`, which is called when positions and velocities have taken u.
 template <class C>
 concept HasConstraintFactors = requires(C const c) {
   { c.constraintFactors(0.01) } -> std::same_as<ConstraintFactors>;

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/lagrangian/constrained_motion.hpp>
+#include <sinew/scene/scope.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace sinew {
+
+/// Says in errors which components the equations of a constrained step are of. `root` is the scope of the
+/// scene.
+template <class RootScope>
+struct RowNames {
+  RootScope const& root;
+  ConstrainedMotion const& m;
+
+  /// Where a row is from, a component or the two bodies of a contact, and which of its equations it is.
+  struct Name {
+    std::string where{};
+    int equation = 0;
+  };
+  Name of(int row) const {
+    Name name;
+    int begin = 0;
+    std::size_t number = 0;
+    traverse(root, on<role::LagrangianConstraint>([&](auto& c, auto const& scope) {
+               const int end = begin + m.rowsOf[number++];
+               if (row >= begin && row < end)
+                 name = {text(scope.path(), ": ", component_name<std::decay_t<decltype(c)>>()), row - begin};
+               begin = end;
+             }));
+    traverse(root, on<role::ContactManager>([&](auto& manager, auto const&) {
+               manager.forEachConstrained([&](auto const&, auto& c) {
+                 if (c.row >= 0 && row >= c.row && row < c.row + c.rows)
+                   name = {text("the contact of ",
+                                manager.surfaces[std::size_t(c.a.surface)]->path,
+                                " and ",
+                                manager.surfaces[std::size_t(c.b.surface)]->path),
+                           row - c.row};
+               });
+             }));
+    return name;
+  }
+
+  /// Throws Error for the row of a constraint along which nothing can move.
+  [[noreturn]] void refuseFixed(int row) const {
+    const Name name = of(row);
+    throw Error(
+        name.where,
+        text("nothing that its equation ",
+             name.equation,
+             " holds can move: its points are fixed, or no solver moves them, or its direction is zero; "
+             "leave it out, or free a point"));
+  }
+  /// Throws what a constraint solver has thrown over the rows, with what it is about.
+  [[noreturn]] void explain(Error const& error, std::string_view what, int row) const {
+    if (row < 0) throw;
+    const Name name = of(row);
+    throw Error({}, text(error.what(), "; ", what, " is equation ", name.equation, " of ", name.where));
+  }
+
+  /// Which equality depends on those before it; -1: none. The compliance is that of all rows.
+  static int dependent(ConstraintProblem const& problem) {
+    std::vector<int> rows;
+    if (!problem.compliance.allFinite()) return -1;
+    for (ConstraintBlock const& b : problem.blocks)
+      for (int i = b.first; i < b.first + b.rows && b.kind == ConstraintBlock::Kind::equality; ++i)
+        rows.push_back(i);
+    // Cholesky's method row by row: a pivot that is rounding
+    const auto n = Eigen::Index(rows.size());
+    Eigen::MatrixXd L = Eigen::MatrixXd::Zero(n, n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      for (Eigen::Index j = 0; j <= i; ++j) {
+        const double w = problem.compliance(rows[std::size_t(i)], rows[std::size_t(j)]);
+        const double rest = w - L.row(i).head(j).dot(L.row(j).head(j));
+        if (i > j)
+          L(i, j) = rest / L(j, j);
+        else if (!(rest > 1e-12 * w))
+          return rows[std::size_t(i)];
+        else
+          L(i, i) = std::sqrt(rest);
+      }
+    }
+    return -1;
+  }
+
+  /// The row that is furthest from its condition, by their violations; -1: none.
+  static int furthest(std::vector<ConstraintBlock> const& blocks, Eigen::VectorXd const& violation) {
+    int worst = -1;
+    double most = 0;
+    for (ConstraintBlock const& b : blocks)
+      for (int i = b.first; i < b.first + b.rows; ++i) {
+        double d = 0;
+        if (b.kind == ConstraintBlock::Kind::equality)
+          d = std::abs(violation[i]);
+        else if (b.kind == ConstraintBlock::Kind::interval)
+          d = std::max(b.lower - violation[i], violation[i] - b.upper);
+        else if (i == b.first)
+          d = -violation[i];
+        if (d > most) most = d, worst = i;
+      }
+    return worst;
+  }
+};
+
+}  // namespace sinew
