@@ -5,6 +5,7 @@
 #include <sinew/lagrangian.hpp>
 #include <sinew/mechanics.hpp>
 
+#include <array>
 #include <cmath>
 
 namespace test_sliding_lagrangian_constraint {
@@ -144,6 +145,34 @@ TEST_CASE("points that are not there are refused") {
              Catch::Contains("sliding_point has 2") && Catch::Contains("SlidingLagrangian"));
   CHECK_THAT(says({.axis_1 = 3}), Catch::Contains("axis_1 or axis_2 has 3"));
   CHECK_THAT(says({.axis_2 = -1}), Catch::Contains("axis_2"));
+}
+
+TEST_CASE("the points of a rail follow when elements are removed, and without one it holds nothing") {
+  using Own = SlidingLagrangianConstraint<Vec3d>;
+  Simulation sim{node<"root">(
+      Gravity{gravity},
+      FreeMotionAnimationLoop{},
+      gaussSeidel,
+      node<"body">(EulerExplicitSolver{},
+                   TetrahedronTopology{{{1, 2, 3, 0}, {1, 3, 2, 4}, {5, 2, 3, 4}}},
+                   MechanicalObject<Vec3d>{
+                       .position = {{0, 0, 1}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, -1}, {2, 1, -1}}},
+                   UniformMass<Vec3d>{.vertexMass = mass},
+                   Own{.sliding_point = 1, .axis_1 = 2, .axis_2 = 3}))};
+  sim.init();
+  sim.removeElements("body", {.tetrahedra = {0}});
+  auto& own = sim.at<"body">().get<Own>();
+  CHECK(std::array{own.sliding_point, own.axis_1, own.axis_2} == std::array{0, 1, 2});
+  sim.animate(dt);
+  CHECK(own.multipliers.size() == 4);
+  sim.removeElements("body", {.tetrahedra = {0}});  // with it goes point 0
+  CHECK(own.none);
+  auto const& v = sim.at<"body">().state().velocity;
+  const Vec3d::VecDeriv before = v;
+  sim.animate(dt);
+  CHECK(own.multipliers.empty());
+  REQUIRE(v.size() == 4);
+  for (std::size_t i = 0; i < 4; ++i) CHECK((v[i] - before[i] - dt * gravity).norm() < 1e-12);
 }
 
 }  // namespace test_sliding_lagrangian_constraint

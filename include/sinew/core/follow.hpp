@@ -9,8 +9,8 @@ namespace sinew {
 
 /// What becomes of all that a component may refer to, when points and elements are removed. A component whose
 /// values do not follow by Field::numbersOf and Field::oneEach alone offers follow(Followed const&), called
-/// before its fields are changed. One for which an empty list of points means all of them has a member
-/// `none`, set where the last point of the list goes.
+/// before its fields are changed. One for which an empty list of points means all of them, or that has the
+/// number of a single point, has a member `none`, set where the last of its points goes.
 struct Followed {
   Renumbering const& points;
   Renumbering const& secondPoints;
@@ -74,6 +74,7 @@ struct ListsThatFollow {
       for_each_number(item, [&](Of what, int& i) { change.numbered(what).renumber(i); });
   }
   void changeNumbers(std::vector<int>& list, Of what);
+  void changeNumber(int& number, Of what);
   template <class T>
   void changeValues(std::vector<T>& list, Of what) const {
     if (list.size() > 1) ofValues(what, list.size()).filter(list);
@@ -102,6 +103,8 @@ void follow_fields(C& component, Followed const& change) {
       if constexpr (std::is_same_v<List, std::vector<int>>)
         if (fd.numbers) return lists.changeNumbers(list, fd.entries);
       lists.changeValues(list, fd.entries);
+    } else if constexpr (std::is_same_v<List, int> && requires { component.none; }) {
+      if (fd.numbers) lists.changeNumber(list, fd.entries);
     }
   });
   if constexpr (requires { component.none; })
@@ -150,6 +153,13 @@ SINEW_ONCE void ListsThatFollow::changeNumbers(std::vector<int>& list, Of what) 
     std::erase_if(list, [&](int i) { return !numbered.stays(i); });
   for (int& i : list) numbered.renumber(i);
   emptied = emptied || (before && list.empty());
+}
+
+SINEW_ONCE void ListsThatFollow::changeNumber(int& number, Of what) {
+  if (change.numbered(what).stays(number))
+    change.numbered(what).renumber(number);
+  else
+    emptied = true;
 }
 
 SINEW_ONCE Renumbering ListsThatFollow::ofValues(Of what, std::size_t size) const {

@@ -46,13 +46,20 @@ struct SlidingLagrangianConstraint {
 
   std::vector<double> multipliers{};  // across the line, then along it at each of its ends
 
+  bool none = false;  // the point or an end of the line has been removed
+
   static constexpr auto state() {
     return field_list(
-        field("multipliers", &SlidingLagrangianConstraint::multipliers, "N", "of the last step"));
+        field("multipliers", &SlidingLagrangianConstraint::multipliers, "N", "of the last step"),
+        field("none",
+              &SlidingLagrangianConstraint::none,
+              "",
+              "the point or an end of the line has been removed"));
   }
 
   void init(InitContext<D> const& context) { init(context, context); }
   void init(InitContext<D> const& first, InitContext<D> const& second) {
+    if (none) return;
     const std::string where = place_of<SlidingLagrangianConstraint>(first);
     check_points(where, "sliding_point", std::vector{sliding_point}, first.rest.size());
     check_points(where, "axis_1 or axis_2", std::vector{axis_1, axis_2}, second.rest.size());
@@ -61,6 +68,7 @@ struct SlidingLagrangianConstraint {
   void addRows(ConstraintRows& rows, ConstrainedState<D> const& state) const { addRows(rows, state, state); }
   void addRows(ConstraintRows& rows, ConstrainedState<D> const& first,
                ConstrainedState<D> const& second) const {
+    if (none) return;
     const Motion p = motion(rows, first, sliding_point), a = motion(rows, second, axis_1),
                  b = motion(rows, second, axis_2);
     const Place line = b.start - a.start;

@@ -30,17 +30,21 @@ struct StopperLagrangianConstraint {
 
   std::vector<double> multipliers{};
 
+  bool none = false;  // the point has been removed
+
   static constexpr auto state() {
     return field_list(
-        field("multipliers", &StopperLagrangianConstraint::multipliers, "N", "of the last step"));
+        field("multipliers", &StopperLagrangianConstraint::multipliers, "N", "of the last step"),
+        field("none", &StopperLagrangianConstraint::none, "", "the point has been removed"));
   }
 
   void init(InitContext<D> const& context) {
-    check_points<StopperLagrangianConstraint>(context, {index});
+    if (!none) check_points<StopperLagrangianConstraint>(context, {index});
     checkStops(place_of<StopperLagrangianConstraint>(context));
   }
 
   void addRows(ConstraintRows& rows, ConstrainedState<D> const& state) const {
+    if (none) return;
     const auto p = std::size_t(index);
     const double start = double(state.position[p][0]);
     const int row = rows.ofVelocity ? rows.addInterval((min - start) / state.dt, (max - start) / state.dt)
