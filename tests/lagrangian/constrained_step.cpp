@@ -48,6 +48,12 @@ TEST_CASE("a point that a multiplier holds stays, and the multiplier is its weig
   holds(hanging(EulerExplicitSolver{}));
   holds(hanging(EulerImplicitSolver{}, SparseLDLSolver<>{}));
   holds(hanging(EulerImplicitSolver{}, CGLinearSolver<>{.tolerance = 1e-14}));
+  // by its factor, and where that is older than the matrix, by iterations
+  for (const int updateStep : {1, 3})
+    holds(hanging(
+        EulerImplicitSolver{},
+        ShewchukPCGLinearSolver<>{
+            .tolerance = 1e-14, .updateStep = updateStep, .precondition = PreconditionerMethod::ldl}));
   holds(hanging(NewmarkImplicitSolver{}, SparseLDLSolver<>{}));
   holds(hanging<ConvexConstraintSolver>(EulerExplicitSolver{}));
   holds(hanging<ConvexConstraintSolver>(EulerImplicitSolver{}, CGLinearSolver<>{.tolerance = 1e-14}));

@@ -47,6 +47,8 @@ struct LocalMinDistance {
         field("useLMDFilters", &L::useLMDFilters, "", "cones are left to other components: no filter here"));
   }
 
+  std::vector<SurfaceCones> cones{};  // of each surface
+
   double reach() const { return std::max(alarmDistance, contactDistance); }
   double limit() const { return contactDistance; }
 
@@ -78,8 +80,6 @@ struct LocalMinDistance {
     }
     return std::nullopt;
   }
-
-  std::vector<SurfaceCones> cones{};  // of each surface
 
  private:
   bool isLocalMinimum(CollisionSurface const& s, int element, Eigen::Vector3d const& d) const {
