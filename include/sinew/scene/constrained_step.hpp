@@ -317,10 +317,8 @@ void ConstrainedStep<RootScope>::integrate(ConstrainedMotion& m, bool velocityFi
   for_each_integrator(root, [&](auto&, auto const& scope) { lookFromStart(scope); });
   collectRows(m, velocityFirst, keepsForces);
   m.hasMotion = false;
-  if (m.rows.count() > 0) {
-    solve(m);
-    giveBack(m);
-  }
+  if (m.rows.count() > 0) solve(m);
+  giveBack(m);
   ContactRows<RootScope>{root, dt}.giveBack(m);
   std::size_t number = 0;
   for_each_integrator(root, [&](auto& ode, auto const& scope) {
