@@ -64,7 +64,8 @@ class ConstraintTerms {
   }
   /// d += t w, for a change of v by t times what J makes w of.
   void advance(double t, Eigen::VectorXd const& w) {
-    violation += t * w;
+    const Eigen::Index n = J_->rows();  // both may have room for more
+    violation.head(n) += t * w.head(n);
     evaluateMultipliers();
   }
   void evaluateCurvature() {
