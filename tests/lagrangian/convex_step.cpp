@@ -324,6 +324,18 @@ TEST_CASE("settings out of their range are refused") {
   CHECK_THAT(says({.tolerance = -1}), Contains("negative"));
 }
 
+TEST_CASE("a step with fewer rows follows one with more in which nothing touches") {
+  Bodies<3> apart = tree_of_points(20, 0.4, 5), touching = tree_of_points(6, 0.4, 6);
+  for (int c = 0; c < 20; ++c) apart.start[3 * c] = 1;
+  ConvexStep step;
+  Solution none = apart.cold(), after = touching.cold();
+  CHECK(solve(step, apart, none, {}).newtonIterations == 0);
+  solve(step, touching, after, {});
+  const Solution alone = solve(touching, {});
+  CHECK(after.velocity == alone.velocity);
+  CHECK(after.multipliers == alone.multipliers);
+}
+
 TEST_CASE("a system that is not positive definite ends without a crash, and is not called solved") {
   Bodies<3> p = tree_of_points(2, 0.4, 1);
   for (Eigen::Matrix3d& m : p.mass) m = -m;

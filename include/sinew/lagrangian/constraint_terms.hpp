@@ -133,7 +133,8 @@ SINEW_ONCE void ConstraintTerms::evaluate(Eigen::VectorXd const& v) {
 }
 
 SINEW_ONCE void ConstraintTerms::advance(double t, Eigen::VectorXd const& w) {
-  violation += t * w;
+  const Eigen::Index n = J_->rows();  // both may have room for more
+  violation.head(n) += t * w.head(n);
   evaluateMultipliers();
 }
 

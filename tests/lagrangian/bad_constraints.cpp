@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: BSL-1.0
+// Constraints that cannot be fulfilled, or do not say how: each solver says which component it is about, or
+// goes on with finite numbers.
+#include "error_of.hpp"
+#include "lagrangian/contact_scenes.hpp"
+
+namespace test_bad_constraints {
+
+using namespace sinew;
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double dt = 0.01;
+
+using Fixed = FixedLagrangianConstraint<Vec3d>;
+using Joint = BilateralLagrangianConstraint<Vec3d>;
+
+// two points, 1 m above each other, of 2 kg each
+template <class Solver, class... Components>
+auto two_points(Solver solver, Components... components) {
+  return Simulation{node<"root">(Gravity{{0, 0, -g}},
+                                 FreeMotionAnimationLoop{},
+                                 solver,
+                                 node<"body">(EulerExplicitSolver{},
+                                              MechanicalObject<Vec3d>{.position = {{0, 0, 0}, {0, 0, -1}}},
+                                              UniformMass<Vec3d>{.totalMass = 4},
+                                              components...))};
+}
+template <class Sim>
+std::string run(Sim& sim, int steps = 20) {
+  return error_of([&] {
+    sim.init();
+    for (int i = 0; i < steps; ++i) sim.animate(dt);
+  });
+}
+template <class State>
+bool finite(State const& s) {
+  bool all = true;
+  for (auto const& x : s.position) all = all && x.allFinite();
+  for (auto const& v : s.velocity) all = all && v.allFinite();
+  return all;
+}
+
+// f(solver) for each, by a list of calls, which a loop cannot be
+template <class F>
+void each_solver(F&& f) {
+  f(BlockGaussSeidelConstraintSolver{});
+  f(NNCGConstraintSolver{});
+  f(ImprovedJacobiConstraintSolver{});
+  f(LCPConstraintSolver{});
+  f(LCPConstraintSolver{.mu = 0, .lemke = true});
+  f(ConvexConstraintSolver{});
+}
+template <class Solver>
+bool pivots(Solver const& solver) {
+  if constexpr (requires { solver.lemke; }) return solver.lemke;
+  return false;
+}
+
+}  // namespace
+
+TEST_CASE("a constraint between what cannot move names itself, whatever the solver") {
+  each_solver([](auto solver) {
+    using Solver = decltype(solver);
+    INFO(Solver::className);
+    auto says = [&](auto... components) {
+      auto sim = two_points(solver, components...);
+      return run(sim);
+    };
+    auto names = [](std::string const& message, std::string const& component, std::string const& equation) {
+      CHECK_THAT(message,
+                 Catch::Contains("/root/body: " + component) && Catch::Contains("equation " + equation) &&
+                     Catch::Contains("leave it out"));
+    };
+    names(says(FixedConstraint<Vec3d>{.indices = {0, 1}}, Joint{.first_point = {0}, .second_point = {1}}),
+          "BilateralLagrangianConstraint",
+          "0");
+    names(says(Joint{.first_point = {1}, .second_point = {1}}), "BilateralLagrangianConstraint", "0");
+    // along some of its directions
+    names(says(Fixed{.indices = {1}},
+               PartialFixedConstraint<Vec3d>{.indices = {0}, .fixedDirections = {0, 1, 0}},
+               Fixed{.indices = {0}}),
+          "FixedLagrangianConstraint",
+          "1");
+  });
+}
+
+TEST_CASE("a constraint between a body that is held and one that nothing moves names itself") {
+  using Contacts = UnilateralLagrangianConstraint<Vec3d, Between<"a", "b">>;
+  each_solver([](auto solver) {
+    INFO(decltype(solver)::className);
+    Simulation sim{node<"root">(FreeMotionAnimationLoop{},
+                                solver,
+                                Contacts{.first_point = {0}, .second_point = {0}, .normal = {{0, 0, 1}}},
+                                node<"a">(EulerExplicitSolver{},
+                                          MechanicalObject<Vec3d>{.position = {{0, 0, 0}}},
+                                          UniformMass<Vec3d>{},
+                                          FixedConstraint<Vec3d>{.indices = {0}}),
+                                node<"b">(MechanicalObject<Vec3d>{.position = {{0, 0, -1}}}))};
+    CHECK_THAT(run(sim),
+               Catch::Contains("UnilateralLagrangianConstraint") && Catch::Contains("equation 0") &&
+                   Catch::Contains("free a point"));
+  });
+}
+
+TEST_CASE("equalities that say the same twice hold, or the solver says which are too many") {
+  each_solver([](auto solver) {
+    INFO(decltype(solver)::className);
+    auto sim = two_points(solver, Fixed{.indices = {0}}, Fixed{.indices = {0}});
+    const std::string message = run(sim);
+    auto const& body = sim.template at<"body">().state();
+    REQUIRE(finite(body));
+    if (pivots(solver)) {
+      CHECK_THAT(message,
+                 Catch::Contains("3 of the 6 equalities") &&
+                     Catch::Contains("the first that depends on others is equation 0 of /root/body: Fixed"));
+    } else {
+      CHECK(message.empty());
+      // Jacobi corrects twice what it should, and leaves the point to itself rather than run away
+      if (sim.root().template get<decltype(solver)>().result.converged)
+        CHECK(body.position[0].norm() < 1e-5);
+      else
+        CHECK(body.position[0][2] == Approx(body.position[1][2] + 1));
+    }
+  });
+}
+
+TEST_CASE("equalities that contradict each other: who is told to stop names one of them, others go on") {
+  const Joint joint{.first_point = {0}, .second_point = {1}, .rest_vector = {{1, 0, 0}}},
+      other{.first_point = {0}, .second_point = {1}, .rest_vector = {{2, 0, 0}}};
+  each_solver([&](auto solver) {
+    INFO(decltype(solver)::className);
+    auto sim = two_points(solver, joint, other);
+    auto strict = solver;
+    strict.stopsUnsolved = true;
+    auto stops = two_points(strict, joint, other);
+    if (!pivots(solver)) {
+      CHECK(run(sim).empty());
+      CHECK_FALSE(sim.root().template get<decltype(solver)>().result.converged);
+    }
+    REQUIRE(finite(sim.template at<"body">().state()));
+    CHECK_THAT(run(stops),
+               Catch::Contains("/root: ") && Catch::Contains("/root/body: BilateralLagrangianConstraint"));
+  });
+}
+
+TEST_CASE(
+    "a point in an inclined plane that is fixed by multipliers, too, is named where W needs its inverse") {
+  each_solver([](auto solver) {
+    INFO(decltype(solver)::className);
+    auto sim =
+        two_points(solver,
+                   ProjectToPlaneConstraint<Vec3d>{.indices = {0}, .origin = {0, 0, 0}, .normal = {1, 1, 1}},
+                   Fixed{.indices = {0}});
+    const std::string message = run(sim);
+    REQUIRE(finite(sim.template at<"body">().state()));
+    if constexpr (std::is_same_v<decltype(solver), ConvexConstraintSolver>)
+      CHECK(message.empty());
+    else
+      CHECK_THAT(message, Catch::Contains("equation 2 of /root/body: FixedLagrangianConstraint"));
+  });
+}
+
+TEST_CASE("friction of constraints that is negative or not a number is refused at init") {
+  for (const double mu : {-0.1, std::nan("")}) {
+    auto says = [&](auto constraint) {
+      constraint.mu = {mu};
+      auto sim = two_points(BlockGaussSeidelConstraintSolver{}, constraint);
+      return error_of([&] { sim.init(); });
+    };
+    CHECK_THAT(says(UnilateralLagrangianConstraint<Vec3d>{
+                   .first_point = {1}, .second_point = {0}, .normal = {{0, 0, 1}}}),
+               Catch::Contains("/root/body: UnilateralLagrangianConstraint") && Catch::Contains("mu"));
+    CHECK_THAT(says(AugmentedLagrangianConstraint<Vec3d>{
+                   .first_point = {1}, .second_point = {0}, .normal = {{0, 0, 1}}}),
+               Catch::Contains("/root/body: AugmentedLagrangianConstraint") && Catch::Contains("mu"));
+  }
+}
+
+TEST_CASE("bodies that start in each other are parted, and stay finite") {
+  // balls of 0.2 m in the same place but for 1 mm, and one all below the floor
+  each_solver([](auto solver) {
+    INFO(decltype(solver)::className);
+    auto sim = constrained_scene_by(
+        solver,
+        near_by(),
+        0,
+        fixed_floor(),
+        node<"balls">(EulerExplicitSolver{},
+                      MechanicalObject<Vec3d>{
+                          .position = {{0, 0, 0.25}, {0, 0.001, 0.25}, {0, 0, 0.251}, {2, 0, -0.05}}},
+                      UniformMass<Vec3d>{.vertexMass = 1},
+                      SphereCollisionModel<Vec3d>{.selfCollision = true, .radius = 0.2}));
+    CHECK(run(sim, 100).empty());
+    auto const& x = sim.template at<"balls">().state();
+    REQUIRE(finite(x));
+    // to the contact distance of 0.01 m and beyond
+    for (std::size_t i = 0; i < 3; ++i) {
+      CHECK(x.position[i][2] > 0.2);
+      for (std::size_t k = i + 1; k < 3; ++k) CHECK((x.position[i] - x.position[k]).norm() > 0.41);
+    }
+    CHECK(x.position[3][2] > 0.2);
+  });
+}
+
+TEST_CASE("who does not converge on contacts, and is told to stop, names the bodies") {
+  auto heap = [](auto solver) {
+    solver.stopsUnsolved = true;
+    auto sim = constrained_scene_by(
+        solver,
+        near_by(),
+        0.5,
+        fixed_floor(),
+        node<"balls">(
+            EulerExplicitSolver{},
+            MechanicalObject<Vec3d>{.position = {{0, 0, 0.2}, {0, 0, 0.59}, {0, 0, 0.98}, {0, 0, 1.37}}},
+            UniformMass<Vec3d>{.vertexMass = 1},
+            SphereCollisionModel<Vec3d>{.selfCollision = true, .radius = 0.2}));
+    return run(sim, 3);
+  };
+  const auto names = [](std::string const& message) {
+    CHECK_THAT(message, Catch::Contains("not solved after") && Catch::Contains("of the contact of /root/"));
+  };
+  names(heap(BlockGaussSeidelConstraintSolver{.maxIterations = 1, .tolerance = 1e-12}));
+  names(heap(NNCGConstraintSolver{.maxIterations = 1, .tolerance = 1e-12}));
+  names(heap(ImprovedJacobiConstraintSolver{.maxIterations = 1, .tolerance = 1e-12}));
+  names(heap(LCPConstraintSolver{.maxIterations = 1, .tolerance = 1e-12}));
+  names(heap(ConvexConstraintSolver{.maxUpdates = 1, .maxIterations = 1}));
+}
+
+}  // namespace test_bad_constraints
