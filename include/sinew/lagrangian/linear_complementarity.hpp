@@ -118,7 +118,10 @@ SINEW_ONCE SweepResult LinearComplementarity::solve(ConstraintProblem& problem, 
                m,
                " equalities depend on the others, so that their multipliers are not determined; leave "
                "them out, or add to their compliance (regularizationTerm)"));
-    eliminated_ = factor.solve(coupling_);
+    // column by column, since nvcc takes Eigen's solution for a matrix for a function of the device
+    eliminated_.resize(m, n + 1);
+    for (Eigen::Index c = 0; c <= n; ++c)
+      eliminated_.col(c) = factor.solve(Eigen::VectorXd(coupling_.col(c)));
     M_.noalias() -= coupling_.leftCols(n).transpose() * eliminated_.leftCols(n);
     q_.noalias() -= coupling_.leftCols(n).transpose() * eliminated_.col(n);
   }

@@ -117,11 +117,11 @@ template <class Root>
 void MechanicalOperations<Root>::computeForce(DerivId f, CoordId x, DerivId v, double gyroscopicStep) {
   [[maybe_unused]] const auto span = root.span(Phase::force);
   this->forEachState([&](auto& s) {
-    using Vectors = VectorOperations<typename std::decay_t<decltype(s)>::DataTypes>;
+    using V = VectorOperations<typename std::decay_t<decltype(s)>::DataTypes>;
     if (s[vec_id::externalForce].empty())
-      Vectors::clear(OneThread{}, s[f]);
+      V::clear(OneThread{}, s[f]);
     else
-      Vectors::eq(OneThread{}, s[f], s[vec_id::externalForce]);
+      V::eq(OneThread{}, s[f], s[vec_id::externalForce]);
   });
   forces().add(f, x, v, {.time = time, .dt = dt, .gyroscopicStep = gyroscopicStep});
   contacts().addForces(f, x, v);
