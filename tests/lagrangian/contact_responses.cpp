@@ -45,6 +45,7 @@ TEST_CASE("a point sticks where it touches, and hangs there by its weight") {
   const Vector3d start(0, 0, -0.03), velocity(1, 0.5, 4);
   auto sim =
       constrained_scene(near_by(), 0.5, fixed_floor(), point_at(start, velocity, "StickContactConstraint"));
+  sim.at<"floor">().get<TriangleCollisionModel<Vec3d>>().bothSide = true;
   sim.init();
   auto const& point = sim.at<"point">().state();
   sim.animate(dt);
