@@ -7,8 +7,9 @@
 namespace sinew {
 extern template detail::ComponentOperations const& AnyComponent<CudaScenes>::operations(int);
 template std::vector<ClassInfo> make_class_table<CudaScenes>();
-template ReadScene<CudaScenes> read_scene<CudaScenes>(std::string const&, ReadSceneOptions const&);
+template ReadScene<CudaScenes> read_scene<CudaScenes>(std::string const&, ReadSceneOptions const&,
+                                                      checks::Right);
 template ReadScene<CudaScenes> parse_scene<CudaScenes>(std::string const&, std::string,
-                                                       ReadSceneOptions const&);
+                                                       ReadSceneOptions const&, checks::Right);
 template std::string scene_text<CudaScenes>(Simulation<RuntimeNode<CudaScenes>>&, double);
 }  // namespace sinew

@@ -24,9 +24,10 @@ extern template void Simulation<RuntimeNode<CudaScenes>>::propagate();
 extern template void Simulation<RuntimeNode<CudaScenes>>::updateVisual();
 
 extern template std::vector<ClassInfo> make_class_table<CudaScenes>();
-extern template ReadScene<CudaScenes> read_scene<CudaScenes>(std::string const&, ReadSceneOptions const&);
+extern template ReadScene<CudaScenes> read_scene<CudaScenes>(std::string const&, ReadSceneOptions const&,
+                                                             checks::Right);
 extern template ReadScene<CudaScenes> parse_scene<CudaScenes>(std::string const&, std::string,
-                                                              ReadSceneOptions const&);
+                                                              ReadSceneOptions const&, checks::Right);
 extern template std::string scene_text<CudaScenes>(CudaSimulation&, double);
 
 }  // namespace sinew
