@@ -52,6 +52,34 @@ inline auto fixed_floor(double angle = 0) {
                        TriangleCollisionModel<Vec3d>{.moving = false, .simulated = false});
 }
 
+/// The surface of a block by its eight corners: the first four go round the lower face, seen from below.
+inline const std::vector<Triangle> blockSurface{{0, 2, 1},
+                                                {0, 3, 2},
+                                                {4, 5, 6},
+                                                {4, 6, 7},
+                                                {0, 1, 5},
+                                                {0, 5, 4},
+                                                {1, 2, 6},
+                                                {1, 6, 5},
+                                                {2, 3, 7},
+                                                {2, 7, 6},
+                                                {3, 0, 4},
+                                                {3, 4, 7}};
+
+/// A soft block of 2 kg, whose points collide, in static equilibrium with what holds it.
+template <class Held>
+auto static_block(Mesh const& mesh, Held held) {
+  return node<"block">(StaticSolver{},
+                       SparseLDLSolver<>{},
+                       TetrahedronTopology{mesh.tetrahedra},
+                       MechanicalObject<Vec3d>{mesh.positions},
+                       UniformMass<Vec3d>{.totalMass = 2},
+                       TetrahedronFEMForceField<Vec3d>{
+                           .youngModulus = {1e5}, .poissonRatio = 0.3, .method = RotationMethod::small},
+                       held,
+                       PointCollisionModel<Vec3d>{});
+}
+
 /// A rigid of 2 kg in the frame of the slope, with spheres that touch there.
 inline Rigid3d::Coord on_slope(double angle, Eigen::Vector3d const& place) {
   const Eigen::Quaterniond turn(Eigen::AngleAxisd(-angle, Eigen::Vector3d::UnitY()));

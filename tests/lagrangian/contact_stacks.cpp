@@ -24,18 +24,7 @@ const std::vector<Vector3d> corners{{-0.5, -0.5, -0.5},
                                     {-0.5, 0.5, 0.5}};
 MeshTopology box_surface() {
   MeshTopology t;
-  t.triangles = {{0, 2, 1},
-                 {0, 3, 2},
-                 {4, 5, 6},
-                 {4, 6, 7},
-                 {0, 1, 5},
-                 {0, 5, 4},
-                 {1, 2, 6},
-                 {1, 6, 5},
-                 {2, 3, 7},
-                 {2, 7, 6},
-                 {3, 0, 4},
-                 {3, 4, 7}};
+  t.triangles = blockSurface;
   return t;
 }
 // a cube of 1 m and 3 kg, on its n-th place in a stack

@@ -70,19 +70,7 @@ TEST_CASE(
   for (const double weight : {0., 1.}) {
     INFO(weight);
     auto sim = constrained_scene_by(
-        gaussSeidel,
-        near_by(),
-        0,
-        fixed_floor(),
-        node<"block">(StaticSolver{},
-                      SparseLDLSolver<>{},
-                      TetrahedronTopology{mesh.tetrahedra},
-                      MechanicalObject<Vec3d>{mesh.positions},
-                      UniformMass<Vec3d>{.totalMass = 2},
-                      TetrahedronFEMForceField<Vec3d>{
-                          .youngModulus = {1e5}, .poissonRatio = 0.3, .method = RotationMethod::small},
-                      FixedConstraint<Vec3d>{.indices = top},
-                      PointCollisionModel<Vec3d>{}));
+        gaussSeidel, near_by(), 0, fixed_floor(), static_block(mesh, FixedConstraint<Vec3d>{.indices = top}));
     sim.root().get<Gravity>().gravity *= weight;
     sim.init();
     double force = 0;

@@ -22,23 +22,11 @@ struct Blocks {
   std::vector<int> blockOf{};
   std::vector<Triangle> triangles{};
 
-  /// A block by its eight corners around its centre: the first four go round the lower face, seen from below.
+  /// A block by its eight corners around its centre, in the order of blockSurface.
   void add(Rigid3d::Coord const& place, std::array<Vector3d, 8> const& at, double mass,
            Vector3d const& inertia) {
     const int first = int(corners.size());
-    for (Triangle const t : {Triangle{0, 2, 1},
-                             {0, 3, 2},
-                             {4, 5, 6},
-                             {4, 6, 7},
-                             {0, 1, 5},
-                             {0, 5, 4},
-                             {1, 2, 6},
-                             {1, 6, 5},
-                             {2, 3, 7},
-                             {2, 7, 6},
-                             {3, 0, 4},
-                             {3, 4, 7}})
-      triangles.push_back({first + t[0], first + t[1], first + t[2]});
+    for (Triangle const& t : blockSurface) triangles.push_back({first + t[0], first + t[1], first + t[2]});
     for (Vector3d const& x : at) corners.push_back(x), blockOf.push_back(int(places.size()));
     places.push_back(place);
     masses.push_back({mass, inertia.asDiagonal()});

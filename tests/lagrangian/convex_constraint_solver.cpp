@@ -209,20 +209,11 @@ TEST_CASE("statics: a block that is pressed on a floor lies with its weight, by 
     const Mesh mesh = regular_grid_tetrahedra(4, 4, 3, {-0.15, -0.15, 0.005}, {0.15, 0.15, 0.205});
     std::vector<int> top;
     for (int i = 32; i < 48; ++i) top.push_back(i);
-    auto sim = constrained_scene_by(
-        solver,
-        near_by(),
-        0.3,
-        fixed_floor(),
-        node<"block">(StaticSolver{},
-                      SparseLDLSolver<>{},
-                      TetrahedronTopology{mesh.tetrahedra},
-                      MechanicalObject<Vec3d>{mesh.positions},
-                      UniformMass<Vec3d>{.totalMass = 2},
-                      TetrahedronFEMForceField<Vec3d>{
-                          .youngModulus = {1e5}, .poissonRatio = 0.3, .method = RotationMethod::small},
-                      PartialFixedConstraint<Vec3d>{.indices = top},
-                      PointCollisionModel<Vec3d>{}));
+    auto sim = constrained_scene_by(solver,
+                                    near_by(),
+                                    0.3,
+                                    fixed_floor(),
+                                    static_block(mesh, PartialFixedConstraint<Vec3d>{.indices = top}));
     sim.init();
     for (int i = 0; i < 3; ++i) sim.animate(dt);
     const double force = force_on(sim.root().template get<DefaultContactManager>(), "/root/block")[2];

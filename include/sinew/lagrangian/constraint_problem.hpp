@@ -84,6 +84,13 @@ void check_blocks(std::vector<ConstraintBlock> const& blocks, int rows, std::str
 void check_movable(Eigen::Ref<Eigen::VectorXd const, 0, Eigen::InnerStride<>> const& compliance,
                    std::string_view where, int first = 0);
 
+/// The first row of an equality that depends on equalities before it; -1: none, or W is not finite.
+int dependent_equality(ConstraintProblem const& problem);
+
+/// The row that is furthest from the condition of its block, by the violations of all rows, friction left
+/// aside; -1: none is off.
+int furthest_row(std::vector<ConstraintBlock> const& blocks, Eigen::VectorXd const& violation);
+
 }  // namespace sinew
 
 #if SINEW_DEFINES
@@ -203,6 +210,47 @@ SINEW_ONCE double ConstraintProblem::residual() const {
     }
   }
   return worst;
+}
+
+SINEW_ONCE int dependent_equality(ConstraintProblem const& problem) {
+  if (!problem.compliance.allFinite()) return -1;
+  std::vector<int> rows;
+  for (ConstraintBlock const& b : problem.blocks)
+    for (int i = b.first; i < b.first + b.rows && b.kind == ConstraintBlock::Kind::equality; ++i)
+      rows.push_back(i);
+  // Cholesky's method row by row: a pivot that is rounding
+  const auto n = Eigen::Index(rows.size());
+  Eigen::MatrixXd L = Eigen::MatrixXd::Zero(n, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index j = 0; j <= i; ++j) {
+      const double w = problem.compliance(rows[std::size_t(i)], rows[std::size_t(j)]);
+      const double rest = w - L.row(i).head(j).dot(L.row(j).head(j));
+      if (i > j)
+        L(i, j) = rest / L(j, j);
+      else if (!(rest > 1e-12 * w))
+        return rows[std::size_t(i)];
+      else
+        L(i, i) = std::sqrt(rest);
+    }
+  }
+  return -1;
+}
+
+SINEW_ONCE int furthest_row(std::vector<ConstraintBlock> const& blocks, Eigen::VectorXd const& violation) {
+  int furthest = -1;
+  double largest = 0;
+  for (ConstraintBlock const& b : blocks)
+    for (int i = b.first; i < b.first + b.rows; ++i) {
+      double d = 0;
+      if (b.kind == ConstraintBlock::Kind::equality)
+        d = std::abs(violation[i]);
+      else if (b.kind == ConstraintBlock::Kind::interval)
+        d = std::max(b.lower - violation[i], violation[i] - b.upper);
+      else if (i == b.first)
+        d = -violation[i];
+      if (d > largest) largest = d, furthest = i;
+    }
+  return furthest;
 }
 
 }  // namespace sinew

@@ -239,8 +239,8 @@ struct ConstrainedStep {
       ConstraintProblem const& p = m.problem;
       if constexpr (requires { solver.result.converged; })
         if (!solver.result.converged)
-          names.explain(error, "furthest from its condition", names.furthest(p.blocks, p.violation()));
-      names.explain(error, "the first that depends on others", names.dependent(p));
+          names.explain(error, "furthest from its condition", furthest_row(p.blocks, p.violation()));
+      names.explain(error, "the first that depends on others", dependent_equality(p));
     }
   }
   // constraints keep their multipliers

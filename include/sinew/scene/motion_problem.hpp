@@ -153,16 +153,16 @@ struct MotionProblem {
   // Whether the entries from one on, which are left out then, move nothing: there are none, or both sides are
   // of one rigid body. The motion is zero before and after.
   static bool cancels(MotionRows& all, std::size_t begin) {
-    double most = 0, left = 0;
+    double largest = 0, left = 0;
     for (auto k = begin; k < all.jacobian.dofs.size(); ++k) {
       all.motion[all.jacobian.dofs[k]] += all.jacobian.values[k];
-      most = std::max(most, std::abs(all.jacobian.values[k]));
+      largest = std::max(largest, std::abs(all.jacobian.values[k]));
     }
     for (auto k = begin; k < all.jacobian.dofs.size(); ++k) {
       left = std::max(left, std::abs(all.motion[all.jacobian.dofs[k]]));
       all.motion[all.jacobian.dofs[k]] = 0;
     }
-    if (left > 1e-12 * most) return false;
+    if (left > 1e-12 * largest) return false;
     all.jacobian.dofs.resize(begin);
     all.jacobian.values.resize(begin);
     return true;
@@ -175,7 +175,7 @@ struct MotionProblem {
       if (!solver.result.converged) {
         Eigen::VectorXd d = all.start;
         for (int i = 0; i < all.jacobian.rows(); ++i) d[i] += all.jacobian.times(i, all.motion);
-        const int row = names.furthest(all.blocks, d);
+        const int row = furthest_row(all.blocks, d);
         names.explain(error, "furthest from its condition", row < 0 ? row : all.rows[std::size_t(row)]);
       }
     throw;

@@ -4,11 +4,9 @@
 #include <sinew/lagrangian/constrained_motion.hpp>
 #include <sinew/scene/scope.hpp>
 
-#include <algorithm>
-#include <cmath>
 #include <string>
+#include <string_view>
 #include <type_traits>
-#include <vector>
 
 namespace sinew {
 
@@ -62,49 +60,6 @@ struct RowNames {
     if (row < 0) throw;
     const Name name = of(row);
     throw Error({}, text(error.what(), "; ", what, " is equation ", name.equation, " of ", name.where));
-  }
-
-  /// Which equality depends on those before it; -1: none. The compliance is that of all rows.
-  static int dependent(ConstraintProblem const& problem) {
-    std::vector<int> rows;
-    if (!problem.compliance.allFinite()) return -1;
-    for (ConstraintBlock const& b : problem.blocks)
-      for (int i = b.first; i < b.first + b.rows && b.kind == ConstraintBlock::Kind::equality; ++i)
-        rows.push_back(i);
-    // Cholesky's method row by row: a pivot that is rounding
-    const auto n = Eigen::Index(rows.size());
-    Eigen::MatrixXd L = Eigen::MatrixXd::Zero(n, n);
-    for (Eigen::Index i = 0; i < n; ++i) {
-      for (Eigen::Index j = 0; j <= i; ++j) {
-        const double w = problem.compliance(rows[std::size_t(i)], rows[std::size_t(j)]);
-        const double rest = w - L.row(i).head(j).dot(L.row(j).head(j));
-        if (i > j)
-          L(i, j) = rest / L(j, j);
-        else if (!(rest > 1e-12 * w))
-          return rows[std::size_t(i)];
-        else
-          L(i, i) = std::sqrt(rest);
-      }
-    }
-    return -1;
-  }
-
-  /// The row that is furthest from its condition, by their violations; -1: none.
-  static int furthest(std::vector<ConstraintBlock> const& blocks, Eigen::VectorXd const& violation) {
-    int worst = -1;
-    double most = 0;
-    for (ConstraintBlock const& b : blocks)
-      for (int i = b.first; i < b.first + b.rows; ++i) {
-        double d = 0;
-        if (b.kind == ConstraintBlock::Kind::equality)
-          d = std::abs(violation[i]);
-        else if (b.kind == ConstraintBlock::Kind::interval)
-          d = std::max(b.lower - violation[i], violation[i] - b.upper);
-        else if (i == b.first)
-          d = -violation[i];
-        if (d > most) most = d, worst = i;
-      }
-    return worst;
   }
 };
 
