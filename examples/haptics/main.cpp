@@ -82,10 +82,10 @@ int main(int argc, char** argv) try {
       "%-34s %9ld of %ld, largest force %.3f N\n", "steps in which the tip touches", touching, done, pushed);
   std::printf("%-34s %9ld of %ld\n\n", "steps longer than dt", s.lateSteps, long(s.step.count()));
   std::printf("%-34s %9s %9s %9s %9s\n", "", "mean", "99 %", "99.9 %", "worst");
-  row("wake after the deadline", s.late);
+  row("wake after the deadline", s.wakeLatency);
   row("tick", s.work);
   row("step of the simulation", s.step);
-  chart("wake after the deadline", s.late);
+  chart("wake after the deadline", s.wakeLatency);
   chart("step of the simulation", s.step);
   return 0;
 } catch (sinew::Error const& error) {

@@ -90,12 +90,12 @@ TEST_CASE("a timer wakes at absolute deadlines, never early, and counts those it
   long deadline = -1;
   for (int i = 0; i < 100; ++i) {
     if (i == 50) sleep(0.0105);  // ten deadlines pass
-    const auto [late, missed] = timer.wait();
+    const auto [latency, missed] = timer.wait();
     const auto now = Clock::now();
     ++deadline;
-    REQUIRE(late >= 0);
-    REQUIRE(late / 1'000'000 == missed);
-    REQUIRE(now >= start + std::chrono::milliseconds(deadline) + std::chrono::nanoseconds(late));
+    REQUIRE(latency >= 0);
+    REQUIRE(latency / 1'000'000 == missed);
+    REQUIRE(now >= start + std::chrono::milliseconds(deadline) + std::chrono::nanoseconds(latency));
     if (i == 50) CHECK(missed >= 9);
     deadline += missed;
   }
@@ -132,7 +132,7 @@ TEST_CASE("a loop reads, couples and writes at its rate, and ends with a force o
     const HapticStatistics s = loop.statistics();
     CHECK(s.ticks > 1);
     CHECK(double(s.ticks + s.missed - 1) == Approx(s.elapsed / 1e-3).margin(1.001));
-    CHECK(s.late.count() == s.ticks);
+    CHECK(s.wakeLatency.count() == s.ticks);
     CHECK(s.work.count() == s.ticks);
     CHECK(s.step.count() == 30);
     CHECK(s.rate() <= 1001);

@@ -106,7 +106,7 @@ TEST_CASE("a checkpoint goes on bit by bit from the last solution, and in a puls
       <SurfacePressureForceField pressure="3" pulseMode="1" pressureSpeed="8"/></Node>)")));
     for (int i = 0; i < 7; ++i) sim.animate(0.1);
     auto const& pressure = *sim.root().get<SurfacePressureForceField<Vec3d>>();
-    CHECK((pressure.turned && pressure.pulse > 0.1 && pressure.pulse < 2.9));
+    CHECK((pressure.returning && pressure.pulse > 0.1 && pressure.pulse < 2.9));
     auto again = start(parse_scene<Standard>("saved.scn", scene_text(sim, 0.1)));
     for (int i = 0; i < 7; ++i) sim.animate(0.1), again.animate(0.1);
     CHECK(again.root().get<MechanicalObject<Vec3d>>()->position ==

@@ -22,8 +22,9 @@ struct DefaultPipeline {
 
   static constexpr auto fields() { return field_list(); }
 
-  std::vector<CollisionSurface*> surfaces{};  // of the step, in the order of the scene
-  std::vector<std::pair<int, int>> near{};    // pairs of them
+  std::vector<CollisionSurface*> surfaces{};      // of the step, in the order of the scene
+  std::vector<std::pair<int, int>> near{};        // pairs of them
+  std::vector<std::pair<int, int>> candidates{};  // primitives of one such pair whose boxes meet
   long boxTests = 0;  // pairs of primitives that the narrow phase found in the last step
 
   /// Whether two models may collide at all.
@@ -44,7 +45,16 @@ struct DefaultPipeline {
   void findContacts(ShapeList<Known...> known, Narrow& narrow, Intersection const& intersection,
                     Manager& manager, double dt) {
     boxTests = 0;
-    for (auto [i, j] : near) (withShape<Known>(known, narrow, intersection, manager, i, j, dt), ...);
+    for (auto [i, j] : near) {
+      CollisionSurface const &a = *surfaces[std::size_t(i)], &b = *surfaces[std::size_t(j)];
+      if (!compares(intersection, a, b)) continue;
+      candidates.clear();
+      narrow.pairs(a, b, [&](int elementA, int elementB) {
+        ++boxTests;
+        if (!adjacent(a, elementA, b, elementB)) candidates.emplace_back(elementA, elementB);
+      });
+      if (!candidates.empty()) (withShape<Known>(known, intersection, manager, i, j, dt), ...);
+    }
   }
 
  private:
@@ -56,26 +66,31 @@ struct DefaultPipeline {
     else
       return has_pairs(a, b);
   }
-  template <Shape A, Shape... Known, class Narrow, class Intersection, class Manager>
-  void withShape(ShapeList<Known...>, Narrow& narrow, Intersection const& intersection, Manager& manager,
-                 int i, int j, double dt) {
+  template <class Manager>
+  struct AddTo {
+    Manager& manager;
+    int i, j;
+    void operator()(Contact& contact) const {
+      contact.a.surface = i;
+      contact.b.surface = j;
+      manager.add(contact);
+    }
+  };
+
+  template <Shape A, Shape... Known, class Intersection, class Manager>
+  void withShape(ShapeList<Known...>, Intersection const& intersection, Manager& manager, int i, int j,
+                 double dt) const {
     if (skeleton(surfaces[std::size_t(i)]->shape) == A)
-      (detect<A, Known>(narrow, intersection, manager, i, j, dt), ...);
+      (intersect<A, Known>(intersection, manager, i, j, dt), ...);
   }
-  template <Shape A, Shape B, class Narrow, class Intersection, class Manager>
-  void detect(Narrow& narrow, Intersection const& intersection, Manager& manager, int i, int j, double dt) {
+  template <Shape A, Shape B, class Intersection, class Manager>
+  void intersect(Intersection const& intersection, Manager& manager, int i, int j, double dt) const {
     CollisionSurface const &a = *surfaces[std::size_t(i)], &b = *surfaces[std::size_t(j)];
-    if (skeleton(b.shape) != B || !compares(intersection, a, b)) return;
+    if (skeleton(b.shape) != B) return;
     const double cone = manager.coneOf(i, j);
-    narrow.pairs(a, b, [&](int elementA, int elementB) {
-      ++boxTests;
-      if (adjacent(a, elementA, b, elementB)) return;
+    const AddTo<Manager> add{manager, i, j};
+    for (auto [elementA, elementB] : candidates) {
       const PrimitivePair<A, B> pair{a, b, elementA, elementB, dt, cone};
-      auto add = [&](Contact& contact) {
-        contact.a.surface = i;
-        contact.b.surface = j;
-        manager.add(contact);
-      };
       if constexpr (A == Shape::hull || B == Shape::hull) {
         HullContacts<A, B>::find(pair, intersection, add);
       } else {
@@ -84,7 +99,7 @@ struct DefaultPipeline {
                       "intersect(PrimitivePair<A, B> const& pair) const' for two shapes of the scene.");
         if (auto contact = intersection.intersect(pair)) add(*contact);
       }
-    });
+    }
   }
 };
 

@@ -32,7 +32,7 @@ struct HullContacts {
   using V = Eigen::Vector3d;
 
   template <class Intersection, class Add>
-  static void find(PrimitivePair<A, B> const& pair, Intersection const& method, Add&& add) {
+  static void find(PrimitivePair<A, B> const& pair, Intersection const& method, Add const& add) {
     static_assert(MeetsHulls<Intersection>,
                   "Sinew: an intersection method that meets hulls has limit(), the distance below which the "
                   "response acts.");
@@ -48,7 +48,7 @@ struct HullContacts {
  private:
   template <class Add>
   static void contacts(PrimitivePair<A, B> const& pair, bool swept, double time, double limit, double reach,
-                       Add&& add) {
+                       Add const& add) {
     const detail::MovedPair<A, B> at(pair, swept, time);
     V const& origin = at.origin;
     const detail::ConvexView viewA = at.a.view(origin), viewB = at.b.view(origin);

@@ -51,7 +51,7 @@ bool is_inside_out(std::array<Index, N> const& e, std::span<Eigen::Vector3d cons
   return sides.determinant() < 0;
 }
 template <std::size_t N>
-std::vector<std::array<Index, N>> turned_outwards(std::span<std::array<Index, N> const> elements,
+std::vector<std::array<Index, N>> oriented_outwards(std::span<std::array<Index, N> const> elements,
                                                   std::span<Eigen::Vector3d const> positions) {
   std::vector<std::array<Index, N>> all(elements.begin(), elements.end());
   for (auto& e : all)
@@ -80,8 +80,8 @@ SINEW_ONCE std::vector<PrimitiveCorners> triangles_of(TopologyView const& t,
   auto quad = [](Quad const& q) {
     return std::array<PrimitiveCorners, 2>{{{q[0], q[1], q[2]}, {q[0], q[2], q[3]}}};
   };
-  const auto tetrahedra = detail::turned_outwards<4>(t.tetrahedra, positions);
-  const auto hexahedra = detail::turned_outwards<8>(t.hexahedra, positions);
+  const auto tetrahedra = detail::oriented_outwards<4>(t.tetrahedra, positions);
+  const auto hexahedra = detail::oriented_outwards<8>(t.hexahedra, positions);
   const Border border = border_of(tetrahedra, hexahedra);
   all.assign(border.triangles.begin(), border.triangles.end());
   for (PrimitiveCorners const& c : all) known.push_back(sorted_corners(c));

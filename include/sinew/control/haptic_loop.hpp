@@ -16,7 +16,7 @@ namespace sinew {
 struct HapticStatistics {
   long ticks = 0, missed = 0;                       // deadlines that were met, and that passed without a tick
   double elapsed = 0;                               // s, from the first tick to the last
-  LatencyHistogram late{};                          // of the wake after its deadline
+  LatencyHistogram wakeLatency{};                   // of the wake after its deadline
   LatencyHistogram work{};                          // of a tick
   LatencyHistogram step{};                          // of the simulation, in run()
   long lateSteps = 0;                               // of those, longer than dt
@@ -191,7 +191,7 @@ class HapticLoop {
     PeriodicTimer timer(period, begin);
     Wrench last{};
     while (!quit_.load(std::memory_order_relaxed)) {
-      const auto [late, missed] = timer.wait();
+      const auto [latency, missed] = timer.wait();
       const Clock::time_point woken = Clock::now();
       const double now = std::chrono::duration<double>(woken - epoch_).count();
       controller_.observe(now, device_.read(now));
@@ -202,7 +202,7 @@ class HapticLoop {
 
       ++s.ticks;
       s.missed += long(missed);
-      s.late.add(late);
+      s.wakeLatency.add(latency);
       s.largestForce = std::max(s.largestForce, wrench.force.norm());
       s.largestJump = std::max(s.largestJump, (wrench.force - last.force).norm());
       s.largestTorque = std::max(s.largestTorque, wrench.torque.norm());

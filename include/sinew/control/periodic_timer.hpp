@@ -28,16 +28,16 @@ class PeriodicTimer {
       : period_(periodNanoseconds), next_(start) {}
 
   struct Wake {
-    std::int64_t late;    // after the deadline that it was to meet [ns]
+    std::int64_t latency;    // after the deadline that it was to meet [ns]
     std::int64_t missed;  // deadlines that have passed since then
   };
   /// Sleeps to the next deadline; the first one is the start.
   Wake wait() {
     if (Clock::now() < next_) sleepTo(next_);
-    const std::int64_t late = (Clock::now() - next_) / std::chrono::nanoseconds(1);
-    const std::int64_t missed = late / period_.count();
+    const std::int64_t latency = (Clock::now() - next_) / std::chrono::nanoseconds(1);
+    const std::int64_t missed = latency / period_.count();
     next_ += (missed + 1) * period_;
-    return {late, missed};
+    return {latency, missed};
   }
 
   static void sleepTo(Clock::time_point deadline) {

@@ -127,14 +127,14 @@ struct SurfacePressureForceField {
 
   bool none = false;  // all of them have been removed
   double pulse = 0;   // pressure of the pulse [Pa]
-  bool turned = false;
+  bool returning = false;
 
   static constexpr auto state() {
     using F = SurfacePressureForceField;
     return field_list(
         field("none", &F::none, "", "all of the elements with an index have been removed"),
         field("pulse", &F::pulse, "Pa", "pressure of the pulse"),
-        field("turned", &F::turned, "", "whether the pulse goes from pressure to its other bound"));
+        field("returning", &F::returning, "", "whether the pulse goes from pressure to its other bound"));
   }
 
   double currentPressure() const { return pulseMode ? pulse : pressure; }
@@ -143,15 +143,15 @@ struct SurfacePressureForceField {
   bool beginStep(StepAhead const& step, State const&) {
     if (!pulseMode) return false;
     const double speed = pressureSpeed > 0 ? pressureSpeed : std::abs(pressure);
-    const double to = turned ? pressureLowerBound : pressure;
-    const bool rises = turned != (pressure > 0);
+    const double to = returning ? pressureLowerBound : pressure;
+    const bool rises = returning != (pressure > 0);
     pulse += rises ? speed * step.dt : -speed * step.dt;
-    if (rises ? pulse >= to : pulse <= to) pulse = to, turned = !turned;
+    if (rises ? pulse >= to : pulse <= to) pulse = to, returning = !returning;
     return false;
   }
   void reset() {
     pulse = 0;
-    turned = false;
+    returning = false;
   }
 
   using Driver = ElementDriver<TrianglePressure, D>;

@@ -50,6 +50,20 @@ struct ConstrainedSystem {
   }
 };
 
+/// Where a system adds the compliance of pairs of its rows, once for each pair: W of all rows is symmetric.
+struct SystemCompliance {
+  std::vector<int> const& rows;  // of the system: which of all they are
+  Reserved<ConstraintProblem::Matrix>& whole;
+  double factor = 1;
+
+  SystemCompliance times(double by) const { return {rows, whole, factor * by}; }
+  void operator()(int k, int l, double w) const {
+    const int i = rows[std::size_t(k)], j = rows[std::size_t(l)];
+    whole(i, j) += factor * w;
+    if (i != j) whole(j, i) += factor * w;
+  }
+};
+
 /// The rows of all systems together, of blocks that something can part.
 struct MotionRows {
   std::vector<int> rows{};  // which of all they are

@@ -42,6 +42,11 @@ extern template void detail::place_block<AssemblyPhase::add>(
     detail::BlockTarget const&, int, int, int, double const*, int, double const*, Mat<float, 6> const&);
 extern template void RuntimeScope<Standard>::expand(int, JacobianVisitor const&) const;
 
+extern template struct StateVectors<RuntimeScope<Standard>>;
+extern template void StateVectors<RuntimeScope<Standard>>::eq(CoordId, CoordId) const;
+extern template void StateVectors<RuntimeScope<Standard>>::eq(DerivId, DerivId) const;
+extern template void StateVectors<RuntimeScope<Standard>>::gather(Eigen::VectorXd&, DerivId) const;
+extern template void StateVectors<RuntimeScope<Standard>>::scatter(DerivId, Eigen::VectorXd const&) const;
 extern template void MechanicalOperations<RuntimeScope<Standard>>::propagate(CoordId, DerivId);
 extern template void MechanicalOperations<RuntimeScope<Standard>>::propagate(DerivId);
 extern template void MechanicalOperations<RuntimeScope<Standard>>::computeForce(DerivId, CoordId, DerivId,
@@ -51,6 +56,14 @@ extern template void MechanicalOperations<RuntimeScope<Standard>>::projectRespon
 extern template void MechanicalOperations<RuntimeScope<Standard>>::projectPositionAndVelocity(double, CoordId,
                                                                                               DerivId);
 extern template void MechanicalOperations<RuntimeScope<Standard>>::addMBKdx(DerivId, DerivId, MatrixFactors);
+extern template void MechanicalOperations<RuntimeScope<Standard>>::split();
+extern template void MechanicalOperations<RuntimeScope<Standard>>::formPattern();
+extern template void MechanicalOperations<RuntimeScope<Standard>>::solveSystem(MatrixFactors, MultiVecDeriv&,
+                                                                               MultiVecDeriv&);
+extern template bool MechanicalOperations<RuntimeScope<Standard>>::solveSystemIfAny(MatrixFactors, MultiVecDeriv&,
+                                                                                    MultiVecDeriv&);
+extern template bool MechanicalOperations<RuntimeScope<Standard>>::solveSystemAgain(MatrixFactors, MultiVecDeriv&,
+                                                                                    MultiVecDeriv&);
 extern template double MechanicalOperations<RuntimeScope<Standard>>::kineticEnergy();
 extern template double MechanicalOperations<RuntimeScope<Standard>>::potentialEnergy();
 extern template void SystemMatrix<RuntimeScope<Standard>>::preallocate(AnyMatrix&, MechanicalParams const&) const;

@@ -347,11 +347,8 @@ void ConstrainedStep<RootScope>::findCompliance(ConstrainedMotion& m) const {
   for_each_integrator(root, [&](auto& ode, auto const& scope) {
     ConstrainedSystem& system = m.systems[number++];
     const ConstraintResponse<std::decay_t<decltype(scope)>> response(scope, ode, time, dt, system);
-    response.addCompliance(m.factored, m.motionRows.jacobian, m.rows.ofVelocity, [&](int k, int l, double w) {
-      const int i = system.rows[std::size_t(k)], j = system.rows[std::size_t(l)];
-      problem.compliance(i, j) += w;
-      if (i != j) problem.compliance(j, i) += w;
-    });
+    response.addCompliance(
+        m.factored, m.motionRows.jacobian, m.rows.ofVelocity, {system.rows, problem.compliance});
   });
   ContactRows<RootScope>::leaveOutFixed(m);
   checkCompliance(m);

@@ -44,24 +44,21 @@ struct ConstraintResponse {
   /// What corrections have to know of the system at rest, before the step.
   void prepare() const;
 
-  /// add(k, l, w) for pairs k <= l of rows of the system: J A^-1 J' times what a multiplier is and what of it
-  /// is reached.
-  template <class Add>
-  void addCompliance(FactoredRows& factored, JacobianRows& room, bool ofVelocity, Add&& add) const {
+  /// Adds J A^-1 J' times what a multiplier is and what of it is reached.
+  void addCompliance(FactoredRows& factored, JacobianRows& room, bool ofVelocity, SystemCompliance to) const {
     forEachCorrection([&](auto& c, auto const& at) {
       using C = std::decay_t<decltype(c)>;
       if constexpr (CorrectsState<C> && BeginsCorrections<C>)
         c.beginCorrections(at.template state<typename C::DataTypes>().position);
     });
-    const double reached = ofVelocity ? how.factors.velocity : how.factors.position;
-    auto to = [&](int k, int l, double w) { add(k, l, reached * w); };
-    if (!addByFactor(factored, to)) {
+    const SystemCompliance reached = to.times(ofVelocity ? how.factors.velocity : how.factors.position);
+    if (!addByFactor(factored, reached)) {
       if (answersByPoint())
-        addByPoints(room, to);
+        addByPoints(room, reached);
       else
-        addByRows(to);
+        addByRows(reached);
     }
-    regularize(add);
+    regularize(to);
   }
 
   /// motion = A^-1 (impulse J' f) of the system for its force; the vector of states how.motion() has it too.
@@ -137,8 +134,7 @@ struct ConstraintResponse {
     return !(how.bySystem && (ofForces || !operations.massIsDiagonal()));
   }
 
-  template <class Add>
-  bool addByFactor(FactoredRows& factored, Add&& add) const {
+  bool addByFactor(FactoredRows& factored, SystemCompliance const& add) const {
     bool found = false;
     Operations operations(scope, time, dt);
     if (!byMasses(operations) && noneCorrected())
@@ -146,15 +142,13 @@ struct ConstraintResponse {
         if constexpr (HasBlockFactor<std::decay_t<decltype(linear)>>) {
           auto const* factor = linear.blockFactor();
           if (!factor) return;
-          factored.compliance(
-              *factor, system.jacobian, [&](int k, int l, double w) { add(k, l, how.factors.impulse * w); });
+          factored.compliance(*factor, system.jacobian, add.times(how.factors.impulse));
           found = true;
         }
       });
     return found;
   }
-  template <class Add>
-  void addByRows(Add&& add) const {
+  void addByRows(SystemCompliance const& add) const {
     for (int k = 0; k < system.jacobian.rows(); ++k) {
       system.force.setZero();
       system.jacobian.addTransposed(k, 1, system.force);
@@ -171,8 +165,7 @@ struct ConstraintResponse {
     });
   }
   // each row moves its own points only: J C of all rows, then its products with J
-  template <class Add>
-  void addByPoints(JacobianRows& room, Add&& add) const {
+  void addByPoints(JacobianRows& room, SystemCompliance const& add) const {
     findAnswers();
     room.clear();
     room.reserve(system.jacobian.rows(), 6 * int(system.jacobian.values.size()));
@@ -240,39 +233,31 @@ struct ConstraintResponse {
     if (byMasses(operations))
       operations.accFromF(u.id, b.id, vec_id::position);
     else
-      scope.withLinearSolverIfAny(
-          [&](auto& linear) { solveAgain(linear, operations, how.factors.matrix, u, b); });
+      operations.solveSystemAgain(how.factors.matrix, u, b);
     if (mixed) {
       operations.scatter(b.id, system.force);
       operations.projectResponse(b.id);
     }
   }
-  template <class Linear>
-  static void solveAgain(Linear& linear, Operations& operations, MatrixFactors factors,
-                         MultiVecDeriv<Operations>& u, MultiVecDeriv<Operations>& b) {
-    if constexpr (HasSolveAgain<Linear>)
-      linear.solveAgain(operations, u, b);
-    else
-      linear.solve(operations, factors, u, b);
-  }
-  template <class Linear>
-  void solveToRounding(Linear& linear, Operations& operations, MultiVecDeriv<Operations>& u,
-                       MultiVecDeriv<Operations>& b, bool first) const {
-    auto solve = [&] {
-      if (first)
-        linear.solve(operations, how.factors.matrix, u, b);
-      else
-        solveAgain(linear, operations, how.factors.matrix, u, b);
+  // the first time with a matrix formed anew; an iterative solver goes on to rounding
+  void solveToRounding(Operations& operations, MultiVecDeriv<Operations>& u, MultiVecDeriv<Operations>& b,
+                       bool first) const {
+    int iterations = 0;
+    double tolerance = 0;
+    auto exchange = [&](int i, double t) {
+      scope.withLinearSolverIfAny([&](auto& linear) {
+        if constexpr (requires { linear.iterations, linear.tolerance; }) {
+          iterations = std::exchange(linear.iterations, i);
+          tolerance = std::exchange(linear.tolerance, t);
+        }
+      });
     };
-    if constexpr (requires { linear.iterations, linear.tolerance; }) {
-      const auto iterations = std::exchange(linear.iterations, std::max(linear.iterations, 5000));
-      const double tolerance = std::exchange(linear.tolerance, 1e-14);
-      solve();
-      linear.iterations = iterations;
-      linear.tolerance = tolerance;
-    } else {
-      solve();
-    }
+    exchange(5000, 1e-14);
+    if (first)
+      operations.solveSystemIfAny(how.factors.matrix, u, b);
+    else
+      operations.solveSystemAgain(how.factors.matrix, u, b);
+    exchange(iterations, tolerance);
   }
   // by components that say what forces do to their states, in the place of what the system says
   void respondByCorrections(DerivId u, DerivId f) const {
@@ -296,8 +281,7 @@ struct ConstraintResponse {
   }
 
   // rows that act on the states of a correction
-  template <class Add>
-  void regularize(Add&& add) const {
+  void regularize(SystemCompliance const& add) const {
     forEachCorrection([&](auto& c, auto const& at) {
       using C = std::decay_t<decltype(c)>;
       if constexpr (Regularizes<C>) {
@@ -358,7 +342,7 @@ void ConstraintResponse<S>::keepCompliance(C& c, At const& at) const {
     if (masses)
       operations.accFromF(u.id, b.id, vec_id::position);
     else
-      scope.withLinearSolverIfAny([&](auto& linear) { solveToRounding(linear, operations, u, b, dof == 0); });
+      solveToRounding(operations, u, b, dof == 0);
     operations.projectResponse(u.id);
     c.setColumn(dof, state[u.id]);
   }

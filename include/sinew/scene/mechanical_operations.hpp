@@ -8,6 +8,7 @@
 #include <sinew/scene/solver_contacts.hpp>
 #include <sinew/scene/state_vectors.hpp>
 #include <sinew/scene/system_matrix.hpp>
+#include <sinew/solver/multi_vec.hpp>
 
 namespace sinew {
 
@@ -69,16 +70,34 @@ struct MechanicalOperations : StateVectors<Root> {
 
   // linear solvers
 
+  using MultiVecDeriv = sinew::MultiVecDeriv<MechanicalOperations>;
+  /// x = (m M + b B + k K)^-1 b by the linear solver of this scope, with the matrix projected. What is in x
+  /// is a first guess.
+  void solveSystem(MatrixFactors factors, MultiVecDeriv& x, MultiVecDeriv& b);
+  /// The same where a scope may have no linear solver; says whether there is one.
+  bool solveSystemIfAny(MatrixFactors factors, MultiVecDeriv& x, MultiVecDeriv& b);
+  /// The same with the matrix of the last solve, which had these factors, and without a first guess.
+  bool solveSystemAgain(MatrixFactors factors, MultiVecDeriv& x, MultiVecDeriv& b);
   /// Prepares what takes part in forces and matrices for the threads of this solver.
-  void split() { forces().split(); }
+  void split();
+  /// Whether an ODE solver has systems to be solved here: one that is explicit has the masses.
+  template <class Ode>
+  bool hasSystem() {
+    if constexpr (requires { Ode::solvesMass; })
+      return Ode::implicit || !massIsDiagonal();
+    else
+      return Ode::implicit;
+  }
   /// f(linear solver) of the systems that an ODE solver has solved, if there are some.
   template <class Ode, class F>
   void withLinearSolverOf([[maybe_unused]] F&& f) {
     if constexpr (Ode::implicit)
       root.withLinearSolver(f);
-    else if constexpr (requires { Ode::solvesMass; })
-      if (!massIsDiagonal()) root.withLinearSolverIfAny(f);
+    else if (hasSystem<Ode>())
+      root.withLinearSolverIfAny(f);
   }
+  /// The linear solver of this scope forms the pattern of its matrix, where it has one, anew.
+  void formPattern();
   /// Numbers degrees of freedom from blocks of `matrix` on, and fixes its pattern.
   template <class Matrix>
   void initMatrix(Matrix& matrix) {
@@ -156,6 +175,46 @@ void MechanicalOperations<Root>::addMBKdx(DerivId r, DerivId dx, MatrixFactors f
   forces().addProducts(r, dx, p);
   if (p.k != 0 || p.b != 0) contacts().addDForces(r, dx, p);
   mapped().accumulate(r, dx, p.k);
+}
+
+template <class Root>
+void MechanicalOperations<Root>::split() {
+  forces().split();
+}
+
+template <class Root>
+void MechanicalOperations<Root>::formPattern() {
+  root.withLinearSolverIfAny([&](auto& linear) {
+    if constexpr (needs_pattern<std::decay_t<decltype(linear)>>) linear.init(*this);
+  });
+}
+
+template <class Root>
+void MechanicalOperations<Root>::solveSystem(MatrixFactors factors, MultiVecDeriv& x, MultiVecDeriv& b) {
+  root.withLinearSolver([&](auto& linear) { linear.solve(*this, factors, x, b); });
+}
+
+template <class Root>
+bool MechanicalOperations<Root>::solveSystemIfAny(MatrixFactors factors, MultiVecDeriv& x, MultiVecDeriv& b) {
+  bool found = false;
+  root.withLinearSolverIfAny([&](auto& linear) {
+    linear.solve(*this, factors, x, b);
+    found = true;
+  });
+  return found;
+}
+
+template <class Root>
+bool MechanicalOperations<Root>::solveSystemAgain(MatrixFactors factors, MultiVecDeriv& x, MultiVecDeriv& b) {
+  bool found = false;
+  root.withLinearSolverIfAny([&](auto& linear) {
+    if constexpr (HasSolveAgain<std::decay_t<decltype(linear)>>)
+      linear.solveAgain(*this, x, b);
+    else
+      linear.solve(*this, factors, x, b);
+    found = true;
+  });
+  return found;
 }
 
 template <class Root>

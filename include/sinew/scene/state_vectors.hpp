@@ -55,47 +55,21 @@ struct StateVectors {
 
   // vector mathematics
 
-  void clear(DerivId r) const {
-    forEachIndependent([&](auto& s) { Vectors<decltype(s)>::clear(workers(), s[r]); });
-  }
+  void clear(DerivId r) const;
   template <class Id>
-  void eq(Id r, Id a) const {
-    forEachIndependent([&](auto& s) { Vectors<decltype(s)>::eq(workers(), s[r], s[a]); });
-  }
-  void eq(DerivId r, DerivId a, double f) const {
-    forEachIndependent([&](auto& s) { Vectors<decltype(s)>::eq(s[r], s[a], real(s, f)); });
-  }
-  void peq(DerivId r, DerivId a, double f) const {
-    forEachIndependent([&](auto& s) { Vectors<decltype(s)>::peq(workers(), s[r], s[a], real(s, f)); });
-  }
-  void peq(CoordId r, DerivId a, double f) const {
-    forEachIndependent([&](auto& s) { Vectors<decltype(s)>::move(s[r], s[a], real(s, f)); });
-  }
-  void teq(DerivId r, double f) const {
-    forEachIndependent([&](auto& s) { Vectors<decltype(s)>::teq(s[r], real(s, f)); });
-  }
-  double dot(DerivId a, DerivId b) const {
-    double sum = 0;
-    forEachIndependent([&](auto& s) { sum += Vectors<decltype(s)>::dot(workers(), s[a], s[b]); });
-    return sum;
-  }
+  void eq(Id r, Id a) const;
+  void eq(DerivId r, DerivId a, double f) const;
+  void peq(DerivId r, DerivId a, double f) const;
+  void peq(CoordId r, DerivId a, double f) const;
+  void teq(DerivId r, double f) const;
+  double dot(DerivId a, DerivId b) const;
   /// r = a + f r
-  void xpay(DerivId r, DerivId a, double f) const {
-    forEachIndependent([&](auto& s) { Vectors<decltype(s)>::xpay(workers(), s[r], s[a], real(s, f)); });
-  }
+  void xpay(DerivId r, DerivId a, double f) const;
   /// x += f p, r -= f q; returns r.r.
-  double advance(DerivId x, DerivId p, DerivId r, DerivId q, double f) const {
-    double sum = 0;
-    forEachIndependent([&](auto& s) {
-      sum += Vectors<decltype(s)>::advance(workers(), s[x], s[p], s[r], s[q], real(s, f));
-    });
-    return sum;
-  }
+  double advance(DerivId x, DerivId p, DerivId r, DerivId q, double f) const;
   /// rate = time derivative of theta, where a position moved by theta has velocity v; v itself but for rigid
   /// bodies.
-  void chartRate(DerivId rate, DerivId theta, DerivId v) const {
-    forEachIndependent([&](auto& s) { Vectors<decltype(s)>::chartRate(s[rate], s[theta], s[v]); });
-  }
+  void chartRate(DerivId rate, DerivId theta, DerivId v) const;
 
   // one vector of all degrees of freedom
 
@@ -136,5 +110,63 @@ struct StateVectors {
     return typename State::DataTypes::Real(f);
   }
 };
+
+// Outside the class, so that a program may have them instantiated in one place: runtime/precompiled.hpp.
+
+template <class Root>
+void StateVectors<Root>::clear(DerivId r) const {
+  forEachIndependent([&](auto& s) { Vectors<decltype(s)>::clear(workers(), s[r]); });
+}
+
+template <class Root>
+template <class Id>
+void StateVectors<Root>::eq(Id r, Id a) const {
+  forEachIndependent([&](auto& s) { Vectors<decltype(s)>::eq(workers(), s[r], s[a]); });
+}
+
+template <class Root>
+void StateVectors<Root>::eq(DerivId r, DerivId a, double f) const {
+  forEachIndependent([&](auto& s) { Vectors<decltype(s)>::eq(s[r], s[a], real(s, f)); });
+}
+
+template <class Root>
+void StateVectors<Root>::peq(DerivId r, DerivId a, double f) const {
+  forEachIndependent([&](auto& s) { Vectors<decltype(s)>::peq(workers(), s[r], s[a], real(s, f)); });
+}
+
+template <class Root>
+void StateVectors<Root>::peq(CoordId r, DerivId a, double f) const {
+  forEachIndependent([&](auto& s) { Vectors<decltype(s)>::move(s[r], s[a], real(s, f)); });
+}
+
+template <class Root>
+void StateVectors<Root>::teq(DerivId r, double f) const {
+  forEachIndependent([&](auto& s) { Vectors<decltype(s)>::teq(s[r], real(s, f)); });
+}
+
+template <class Root>
+double StateVectors<Root>::dot(DerivId a, DerivId b) const {
+  double sum = 0;
+  forEachIndependent([&](auto& s) { sum += Vectors<decltype(s)>::dot(workers(), s[a], s[b]); });
+  return sum;
+}
+
+template <class Root>
+void StateVectors<Root>::xpay(DerivId r, DerivId a, double f) const {
+  forEachIndependent([&](auto& s) { Vectors<decltype(s)>::xpay(workers(), s[r], s[a], real(s, f)); });
+}
+
+template <class Root>
+double StateVectors<Root>::advance(DerivId x, DerivId p, DerivId r, DerivId q, double f) const {
+  double sum = 0;
+  forEachIndependent(
+      [&](auto& s) { sum += Vectors<decltype(s)>::advance(workers(), s[x], s[p], s[r], s[q], real(s, f)); });
+  return sum;
+}
+
+template <class Root>
+void StateVectors<Root>::chartRate(DerivId rate, DerivId theta, DerivId v) const {
+  forEachIndependent([&](auto& s) { Vectors<decltype(s)>::chartRate(s[rate], s[theta], s[v]); });
+}
 
 }  // namespace sinew

@@ -158,9 +158,7 @@ void Step<RootScope>::detectContacts() const {
   Collision<RootScope>{root}.detect(dt, [&](auto const& solved, bool) {
     auto visit = on<role::OdeSolver>([&](auto& ode) {
       MechanicalOperations<std::decay_t<decltype(solved)>> operations(solved, time, dt);
-      operations.template withLinearSolverOf<std::decay_t<decltype(ode)>>([&](auto& linear) {
-        if constexpr (needs_pattern<std::decay_t<decltype(linear)>>) linear.init(operations);
-      });
+      if (operations.template hasSystem<std::decay_t<decltype(ode)>>()) operations.formPattern();
     });
     solved.forEachComponent(visit);
     // a constraint solver that has the matrices of all systems

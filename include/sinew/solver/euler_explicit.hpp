@@ -48,16 +48,12 @@ struct EulerExplicitSolver {
   template <class Operations>
   static bool solveMass(Operations& operations, MultiVecDeriv<Operations>& acc,
                         MultiVecDeriv<Operations> const& force) {
-    bool solved = false;
-    if (operations.massIsDiagonal()) return solved;
-    operations.root.withLinearSolverIfAny([&](auto& linear) {
-      MultiVecDeriv a(operations, vec_id::dx);  // from which the next solution may start
-      acc.eq(force);
-      operations.projectResponse(acc.id);
-      linear.solve(operations, {.m = 1}, a, acc);
-      acc.eq(a);
-      solved = true;
-    });
+    if (operations.massIsDiagonal()) return false;
+    MultiVecDeriv a(operations, vec_id::dx);  // from which the next solution may start
+    acc.eq(force);
+    operations.projectResponse(acc.id);
+    const bool solved = operations.solveSystemIfAny({.m = 1}, a, acc);
+    if (solved) acc.eq(a);
     return solved;
   }
 };

@@ -74,7 +74,7 @@ struct NewmarkImplicitSolver {
     if (rM != 0 || rK != 0) operations.addMBKdx(b.id, vel.id, {.m = -rM, .k = rK});
     auto solveFor = [&](auto& x, MatrixFactors factors) {
       operations.projectResponse(b.id);
-      operations.root.withLinearSolver([&](auto& linear) { linear.solve(operations, factors, x, b); });
+      operations.solveSystem(factors, x, b);
     };
     if (lastEnd != operations.time) solveFor(a, {.m = 1});
 

@@ -201,10 +201,7 @@ struct NewtonSearch {
     report.status = judge(size, correction, last);
   }
 
-  void solve() {
-    operations.root.withLinearSolver(
-        [&](auto& linear) { linear.solve(operations, system.factors, system.dx, system.b); });
-  }
+  void solve() { operations.solveSystem(system.factors, system.dx, system.b); }
   void move(double s) {
     system.increment.peq(system.dx, s);
     callbacks.advance(s);

@@ -63,7 +63,7 @@ struct StaticSolver {
     MultiVecDeriv force(operations, vec_id::force), dx(operations, vec_id::dx);
     force.clear();
     dx.clear();
-    operations.root.withLinearSolver([&](auto& linear) { linear.solve(operations, {.k = -1}, dx, force); });
+    operations.solveSystem({.k = -1}, dx, force);
   }
 };
 

@@ -84,8 +84,7 @@ struct VariationalSymplecticSolver {
       operations.addMBKdx(b.id, change.id, {.m = 1});
       if (rM != 0 || rK != 0) operations.addMBKdx(b.id, w.id, {.m = -rM, .k = rK});
       operations.projectResponse(b.id);
-      operations.root.withLinearSolver(
-          [&](auto& linear) { linear.solve(operations, constraintFactors(h).matrix, dx, b); });
+      operations.solveSystem(constraintFactors(h).matrix, dx, b);
       d.peq(dx);
       if (iterations >= steps || !(dx.norm() > newtonError * d.norm())) break;
     }
