@@ -14,6 +14,7 @@
 #include <sinew/collision/default_pipeline.hpp>
 #include <sinew/collision/penalty_contact.hpp>
 #include <sinew/collision/ray_hits.hpp>
+#include <sinew/collision/starting_overlaps.hpp>
 #include <sinew/collision/stick_contact.hpp>
 #include <sinew/collision/surface_cones.hpp>
 #include <sinew/collision/surface_elements.hpp>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/step_warnings.hpp>
 #include <sinew/lagrangian/constrained_motion.hpp>
 #include <sinew/scene/constraint_response.hpp>
 #include <sinew/scene/contact_rows.hpp>
@@ -13,6 +14,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -26,6 +28,7 @@ template <class RootScope>
 struct ConstrainedStep {
   RootScope const& root;
   double time, dt;
+  StepNotes notes;
 
   void integrate(ConstrainedMotion& motion, bool velocityFirst, bool keepsForces) const;
 
@@ -222,7 +225,7 @@ struct ConstrainedStep {
     traverse(root, on<role::ConstraintSolver>([&](auto& solver, auto const& scope) {
                if (std::exchange(solved, true)) return;
                if constexpr (SolvesMotion<std::decay_t<decltype(solver)>>) {
-                 MotionProblem<RootScope>{root, time, dt}.solve(m, solver, scope.path());
+                 MotionProblem<RootScope>{root, time, dt, notes}.solve(m, solver, scope.path());
                  m.hasMotion = true;
                } else {
                  findCompliance(m);
@@ -237,11 +240,21 @@ struct ConstrainedStep {
     } catch (Error const& error) {
       const RowNames<RootScope> names{root, m};
       ConstraintProblem const& p = m.problem;
-      if constexpr (requires { solver.result.converged; })
-        if (!solver.result.converged)
-          names.explain(error, "furthest from its condition", furthest_row(p.blocks, p.violation()));
+      if constexpr (SaysUnsolved<Solver>)
+        if (!solver.result.converged) throw Error({}, text(error.what(), unsolved(m)));
       names.explain(error, "the first that depends on others", dependent_equality(p));
     }
+    if constexpr (SaysUnsolved<Solver>)
+      if (!solver.result.converged)
+        notes.warn(
+            where, "the constraints are not solved", [&] { return text(solver.unsolved(), unsolved(m)); });
+  }
+  std::string unsolved(ConstrainedMotion const& m) const {
+    ConstraintProblem const& p = m.problem;
+    return RowNames<RootScope>{root, m}.unsolved(
+        p.residual(),
+        furthest_row(p.blocks, p.violation()),
+        contradicting_equality(p.blocks, p.compliance, p.freeViolation));
   }
   // constraints keep their multipliers
   void giveBack(ConstrainedMotion& m) const {

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/collision/collision_surface.hpp>
+#include <sinew/collision/contact.hpp>
+
+#include <utility>
+#include <vector>
+
+namespace sinew {
+
+/// Two models whose bodies are in each other, and how deep, as far as their contacts say [m].
+struct Overlap {
+  int a, b;  // surfaces
+  double depth;
+};
+
+/// The pairs of models that are in each other by more than 1e-4 of the diagonal of the smaller one, each two
+/// nodes once: with contacts at negative distances (spheres, hulls, one-sided triangles), or, of two states,
+/// with an edge of a triangle that passes through a triangle of the other, whichever side is its outside.
+/// `near`: the pairs whose boxes overlap; boxes and trees are those of where the surfaces are. What is whole
+/// inside of two-sided triangles is not seen. Allocates only for what it finds.
+std::vector<Overlap> starting_overlaps(std::vector<CollisionSurface*> const& surfaces,
+                                       std::vector<std::pair<int, int>> const& near,
+                                       std::vector<Contact> const& contacts);
+
+}  // namespace sinew
+
+#if SINEW_DEFINES
+#include <algorithm>
+#include <cmath>
+
+namespace sinew {
+namespace detail {
+
+// whether an edge of one triangle passes through the other, its ends farther than `least` from its plane
+inline bool passes_through(std::array<Eigen::Vector3d, 3> const& of, std::array<Eigen::Vector3d, 3> const& t,
+                           double least) {
+  const Eigen::Vector3d normal = (t[1] - t[0]).cross(t[2] - t[0]);
+  const double twiceArea = normal.norm();
+  if (!(twiceArea > 0)) return false;
+  const Eigen::Vector3d n = normal / twiceArea;
+  for (std::size_t c = 0; c < 3; ++c) {
+    Eigen::Vector3d const &p = of[c], &q = of[(c + 1) % 3];
+    const double hp = n.dot(p - t[0]), hq = n.dot(q - t[0]);
+    if (!(std::min(hp, hq) < -least && std::max(hp, hq) > least)) continue;
+    const Eigen::Vector3d x = p + hp / (hp - hq) * (q - p);
+    bool inside = true;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Eigen::Vector3d edge = t[(k + 1) % 3] - t[k];
+      inside = inside && n.dot(edge.cross(x - t[k])) > least * edge.norm();
+    }
+    if (inside) return true;
+  }
+  return false;
+}
+
+}  // namespace detail
+
+SINEW_ONCE std::vector<Overlap> starting_overlaps(std::vector<CollisionSurface*> const& surfaces,
+                                                  std::vector<std::pair<int, int>> const& near,
+                                                  std::vector<Contact> const& contacts) {
+  std::vector<Overlap> all;
+  auto at = [&](int i) -> CollisionSurface const& { return *surfaces[std::size_t(i)]; };
+  auto least = [&](int i, int j) {
+    auto diagonal = [](AxisBox const& box) { return (box.max - box.min).norm(); };
+    return 1e-4 * std::min(diagonal(at(i).box), diagonal(at(j).box));
+  };
+  auto add = [&](int i, int j, double depth) {
+    for (Overlap& o : all)
+      if (at(o.a).path == at(i).path && at(o.b).path == at(j).path) {
+        o.depth = std::max(o.depth, depth);
+        return;
+      }
+    all.push_back({i, j, depth});
+  };
+  for (Contact const& c : contacts)
+    if (-c.distance > least(c.a.surface, c.b.surface)) add(c.a.surface, c.b.surface, -c.distance);
+  for (auto [i, j] : near) {
+    CollisionSurface const &a = at(i), &b = at(j);
+    if (a.shape != Shape::triangle || b.shape != Shape::triangle || a.state == b.state) continue;
+    bool found = false;
+    const double depth = least(i, j);
+    a.tree.pairs(b.tree, 0, [&](int m, int n) {
+      if (found) return;
+      const auto s = a.corner<3>(a.position, m), t = b.corner<3>(b.position, n);
+      found = detail::passes_through(s, t, depth) || detail::passes_through(t, s, depth);
+    });
+    if (found) add(i, j, 0);
+  }
+  return all;
+}
+
+}  // namespace sinew
+#endif
