@@ -12,9 +12,9 @@
 #include <sinew/collision/contact_rules.hpp>
 #include <sinew/collision/convex_hull.hpp>
 #include <sinew/collision/default_pipeline.hpp>
+#include <sinew/collision/overlaps.hpp>
 #include <sinew/collision/penalty_contact.hpp>
 #include <sinew/collision/ray_hits.hpp>
-#include <sinew/collision/starting_overlaps.hpp>
 #include <sinew/collision/stick_contact.hpp>
 #include <sinew/collision/surface_cones.hpp>
 #include <sinew/collision/surface_elements.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <sinew/collision/starting_overlaps.hpp>
+#include <sinew/collision/overlaps.hpp>
 #include <sinew/core/step_warnings.hpp>
 #include <sinew/scene/carving.hpp>
 #include <sinew/scene/collision.hpp>
@@ -42,8 +42,8 @@ struct Step {
     if (moved) MechanicalOperations(root, time, dt).propagate(vec_id::position, vec_id::velocity);
   }
 
-  /// Finds the contacts of the step; a matrix in which other points are joined is formed anew. In the first
-  /// step bodies are warned of that are in each other.
+  /// Finds the contacts of the step; a matrix in which other points are joined is formed anew. It warns of
+  /// bodies that start in each other, or come there before a contact is seen.
   void detectContacts() const;
 
   /// Removes what tools touch, by remove(path, elements); says whether something went.
@@ -98,15 +98,22 @@ struct Step {
   }
   template <class Pipeline, class Manager>
   void warnOfOverlaps(Pipeline const& pipeline, Manager const& manager) const {
-    for (Overlap const& o : starting_overlaps(pipeline.surfaces, pipeline.near, manager.contacts)) {
-      std::string const &a = pipeline.surfaces[std::size_t(o.a)]->path,
-                        &b = pipeline.surfaces[std::size_t(o.b)]->path;
-      notes().warn(a == b ? text("parts of ", a) : text(a, " and ", b), "they start in each other", [&] {
-        return text("they start in each other",
-                    o.depth > 0 ? text(", by ", o.depth, " m") : std::string(),
-                    ", and will be driven apart at once; move one of them away");
+    auto const& surfaces = pipeline.surfaces;
+    auto warn = [&](Overlap const& o, std::string_view what, std::string_view advice) {
+      std::string const &a = surfaces[std::size_t(o.a)]->path, &b = surfaces[std::size_t(o.b)]->path;
+      notes().warn(a == b ? text("parts of ", a) : text(a, " and ", b), what, [&] {
+        return text(what, o.depth > 0 ? text(", by ", o.depth, " m") : std::string(), advice);
       });
-    }
+    };
+    if (number == 1)
+      for (Overlap const& o : overlaps(surfaces, pipeline.near, manager.contacts))
+        warn(o, "they start in each other", ", and will be driven apart at once; move one of them away");
+    else
+      for (Overlap const& o : unseen_overlaps(surfaces, manager.contacts))
+        warn(o,
+             "they come into each other before a contact is seen",
+             "; make alarmDistance longer than what they move in a step, or take smaller steps, or a "
+             "ContinuousIntersection");
   }
 
   // (a function, since the body of a generic lambda is looked at where there is no loop)
@@ -193,7 +200,7 @@ void Step<RootScope>::detectContacts() const {
         for (auto& system : loop.motion.systems) system.hasPattern = false;
     });
   });
-  if (number == 1) warnOfOverlaps();
+  warnOfOverlaps();
 }
 
 }  // namespace sinew
