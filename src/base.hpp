@@ -9,6 +9,7 @@
 #include <sinew/core/mesh.hpp>
 #include <sinew/core/placement.hpp>
 #include <sinew/core/renumbering.hpp>
+#include <sinew/core/step_warnings.hpp>
 #include <sinew/core/workers.hpp>
 #include <sinew/io/base64.hpp>
 #include <sinew/io/cells.hpp>

@@ -12,6 +12,7 @@
 #include <sinew/collision/contact_rules.hpp>
 #include <sinew/collision/convex_hull.hpp>
 #include <sinew/collision/default_pipeline.hpp>
+#include <sinew/collision/overlaps.hpp>
 #include <sinew/collision/penalty_contact.hpp>
 #include <sinew/collision/ray_hits.hpp>
 #include <sinew/collision/stick_contact.hpp>
@@ -23,6 +24,7 @@
 #include <sinew/engine/mesh_loader.hpp>
 #include <sinew/engine/mesh_subdivision.hpp>
 #include <sinew/engine/roi.hpp>
+#include <sinew/engine/string_mesh_creator.hpp>
 #include <sinew/engine/sphere_loader.hpp>
 #include <sinew/engine/topological_mapping.hpp>
 #include <sinew/force/element_pressure.hpp>

@@ -4,6 +4,7 @@
 // What has functions in constraints.cpp.
 #include <sinew/lagrangian/anderson_acceleration.hpp>
 #include <sinew/lagrangian/block_solve.hpp>
+#include <sinew/lagrangian/conjugate_residuals.hpp>
 #include <sinew/lagrangian/constraint_problem.hpp>
 #include <sinew/lagrangian/constraint_sweeps.hpp>
 #include <sinew/lagrangian/constraint_terms.hpp>

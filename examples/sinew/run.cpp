@@ -111,6 +111,46 @@ class Outputs {
   }
 };
 
+// what the steps of a scene warn of
+class RunWarnings {
+ public:
+  explicit RunWarnings(Scene const& scene) : scene_(scene) {}
+  /// Those that are new, as they come.
+  void printNew() {
+    auto const& list = warnings().list();
+    for (; printed_ < list.size(); ++printed_) {
+      if (isatty(2)) std::fprintf(stderr, "\n");
+      std::fprintf(stderr, "warning: %s\n", located(scene_.path, list[printed_].text()).c_str());
+    }
+  }
+  /// How often those were so that came again.
+  void printCounts() const {
+    for (auto const& w : warnings().list())
+      if (w.count > 1) std::fprintf(stderr, "warning: %s\n", located(scene_.path, w.summary()).c_str());
+    if (warnings().leftOut() > 0) std::fprintf(stderr, "warning: %s\n", leftOut().c_str());
+  }
+  /// Each once, with its count.
+  std::vector<std::string> all() const {
+    std::vector<std::string> lines;
+    for (auto const& w : warnings().list())
+      lines.push_back(
+          located(scene_.path,
+                  w.count == 1 ? w.text()
+                               : sinew::text(w.text(), " (in ", w.count, " steps, to step ", w.last, ")")));
+    if (warnings().leftOut() > 0) lines.push_back(leftOut());
+    return lines;
+  }
+
+ private:
+  Scene const& scene_;
+  std::size_t printed_ = 0;
+
+  sinew::StepWarnings const& warnings() const { return scene_.simulation.warnings(); }
+  std::string leftOut() const {
+    return sinew::text(scene_.path, ": ", warnings().leftOut(), " warnings more of other places");
+  }
+};
+
 // all Threads of a scene have so many; the root has some
 void use_threads(Node& node, int count) {
   bool found = node.parent() != nullptr;
@@ -195,6 +235,7 @@ int run(RunOptions const& options) {
   }
 
   Outputs outputs(options, scene);
+  RunWarnings warnings(scene);
   outputs.add();
   examples::Progress progress(std::max(steps, 1L));
   examples::Stopwatch stepping;
@@ -209,12 +250,14 @@ int run(RunOptions const& options) {
       failure = f;
     }
     stepping.stop();
+    if (words) warnings.printNew();
     if (failure) break;
     ++done;
     outputs.addStep();
     if (done % options.every == 0) outputs.add();
     if (words) progress.at(done);
   }
+  if (words) warnings.printCounts();
   const bool stopped = done < steps && !failure;
   if (words && done < steps && isatty(2)) std::fprintf(stderr, "\n");
   const auto files = outputs.finish(!failure);
@@ -224,6 +267,7 @@ int run(RunOptions const& options) {
   double kinetic = std::nan(""), potential = kinetic;
   if (!failure) kinetic = simulation.kineticEnergy(), potential = simulation.potentialEnergy();
   if (options.output == Output::json) {
+    for (auto const& warning : warnings.all()) scene.warnings.push_back(warning);
     Json json = Summary{.scene = options.scene.path,
                         .size = size,
                         .dt = scene.dt,

@@ -13,6 +13,7 @@
 #include <sinew/engine/plane_roi.hpp>
 #include <sinew/engine/sphere_loader.hpp>
 #include <sinew/engine/sphere_roi.hpp>
+#include <sinew/engine/string_mesh_creator.hpp>
 #include <sinew/engine/topological_mapping.hpp>
 #include <sinew/engine/transform_engine.hpp>
 #include <sinew/topology/cube_topology.hpp>

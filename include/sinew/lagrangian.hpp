@@ -17,6 +17,7 @@
 #include <sinew/lagrangian/linear_solver_constraint_correction.hpp>
 #include <sinew/lagrangian/nncg_constraint_solver.hpp>
 #include <sinew/lagrangian/precomputed_constraint_correction.hpp>
+#include <sinew/lagrangian/preconditioned_conjugate_residual.hpp>
 #include <sinew/lagrangian/sliding_lagrangian_constraint.hpp>
 #include <sinew/lagrangian/stopper_lagrangian_constraint.hpp>
 #include <sinew/lagrangian/uncoupled_constraint_correction.hpp>

@@ -123,8 +123,8 @@ using StandardEngines =
 using StandardTopologies =
     Registry<TetrahedronTopology, MeshTopology, RegularGridTopology, SparseGridTopology>;
 // meshes that need no file
-using MadeMeshes =
-    Registry<CubeTopology, CylinderGridTopology, SphereGridTopology, GridMeshCreator, MeshSubdivision>;
+using MadeMeshes = Registry<CubeTopology, CylinderGridTopology, SphereGridTopology, GridMeshCreator,
+                            StringMeshCreator, MeshSubdivision>;
 
 template <class D>
 using PointCollisionModels = Registry<PointCollisionModel<D>, LineCollisionModel<D>,
@@ -155,8 +155,8 @@ using LagrangianConstraints =
              StopperLagrangianConstraint<Vec1d>>;
 using StandardMultipliers =
     Registry<FreeMotionAnimationLoop, BlockGaussSeidelConstraintSolver, NNCGConstraintSolver,
-             ImprovedJacobiConstraintSolver, LCPConstraintSolver, ConvexConstraintSolver,
-             LinearSolverConstraintCorrection, UncoupledConstraintCorrection<Vec3d>,
+             ImprovedJacobiConstraintSolver, LCPConstraintSolver, PreconditionedConjugateResidual,
+             ConvexConstraintSolver, LinearSolverConstraintCorrection, UncoupledConstraintCorrection<Vec3d>,
              UncoupledConstraintCorrection<Rigid3d>, PrecomputedConstraintCorrection<Vec3d>,
              PrecomputedConstraintCorrection<Rigid3d>, LagrangianConstraints>;
 

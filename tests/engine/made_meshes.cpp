@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <sinew/engine/grid_mesh_creator.hpp>
 #include <sinew/engine/mesh_subdivision.hpp>
+#include <sinew/engine/string_mesh_creator.hpp>
 #include <sinew/topology/quality.hpp>
 #include <sinew/topology/regular_grid.hpp>
 #include <sinew/topology/subdivision.hpp>
@@ -11,6 +12,23 @@
 namespace test_made_meshes {
 
 using namespace sinew;
+
+TEST_CASE("StringMeshCreator makes points along x with edges between neighbours, and places them") {
+  StringMeshCreator string{.resolution = 5};
+  string.update("e");
+  REQUIRE(string.position.size() == 5);
+  for (int i = 0; i < 5; ++i) CHECK(string.position[std::size_t(i)] == Eigen::Vector3d(i / 4., 0, 0));
+  CHECK(string.edges == std::vector<Edge>{{0, 1}, {1, 2}, {2, 3}, {3, 4}});
+  StringMeshCreator placed{.translation = {0, 0, 5}, .rotation = {0, 0, 90}, .scale3d = {2, 3, 4}};
+  placed.update("e");
+  placed.update("e");  // once more, as where a link asks again
+  REQUIRE(placed.position.size() == 2);
+  CHECK((placed.position[1] - Eigen::Vector3d(0, 2, 5)).norm() < 1e-15);
+  CHECK(placed.edges.size() == 1);
+  CHECK(contains(error_of([] { StringMeshCreator{.resolution = 1}.update("e"); }), "resolution is 1"));
+  CHECK(contains(error_of([] { StringMeshCreator{.resolution = 1 << 25}.update("/root"); }),
+                 "/root: StringMeshCreator: resolution is 33554432"));
+}
 
 TEST_CASE("GridMeshCreator makes a sheet of squares, or of triangles with the diagonals that are wanted") {
   GridMeshCreator sheet{.resolution = {4, 3}, .trianglePattern = 0};

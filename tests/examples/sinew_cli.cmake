@@ -246,6 +246,46 @@ elseif(CASE STREQUAL "run-wrong")
   expect_error("one.scn: cannot be created")
   expect_files()
 
+elseif(CASE STREQUAL "run-warnings")
+  # two rods of 1 and 2 m between the same points, and balls that start in each other
+  file(WRITE ${WORK}/warned.scn "<Node dt='0.01'>
+  <FreeMotionAnimationLoop/>
+  <BlockGaussSeidelConstraintSolver maxIterations='20'/>
+  <DefaultPipeline/><BruteForceBroadPhase/><BVHNarrowPhase/><DefaultContactManager response='FrictionContactConstraint'/>
+  <MinProximityIntersection alarmDistance='0.1' contactDistance='0.01'/>
+  <Node name='rods'>
+    <EulerExplicitSolver/>
+    <MechanicalObject position='0 0 0  0 0 1'/>
+    <UniformMass totalMass='4'/>
+    <BilateralLagrangianConstraint first_point='0' second_point='1' rest_vector='1 0 0'/>
+    <BilateralLagrangianConstraint first_point='0' second_point='1' rest_vector='2 0 0'/>
+  </Node>
+  <Node name='balls'>
+    <EulerExplicitSolver/>
+    <MechanicalObject position='5 0 0  5.5 0 0'/>
+    <UniformMass totalMass='4'/>
+    <SphereCollisionModel radius='0.3' selfCollision='true'/>
+  </Node>
+</Node>")
+  set(overlap "warned.scn: step 1 .time 0.01 s., parts of /root/balls: they start in each other, by 0.1 m, ")
+  set(unsolved "warned.scn: step 1 .time 0.01 s., /root: BlockGaussSeidelConstraintSolver: .* not solved after 20 iterations: ")
+  set(contradiction "the residual is 1 m.* equation 0 of /root/rods: Bilateral[A-Za-z<>0-9]+ contradicts other equalities by 1 m")
+  sinew(0 run warned.scn --steps 30)
+  # each once, and a count
+  expect_error("^warning: ${overlap}[^\n]*\nwarning: ${unsolved}[^\n]*${contradiction}[^\n]*\nwarning: [^\n]*\n$")
+  expect_error("warning: warned.scn: /root: the constraints are not solved in 30 steps, from step 1 to 30\n$")
+  sinew(0 run warned.scn --steps 30 --json)
+  expect_equal("${errors}" "")
+  json(count warnings 1)
+  if(NOT count MATCHES "${unsolved}.*${contradiction}.*in 30 steps, to step 30.$")
+    fail("the warning is '${count}'")
+  endif()
+  sinew(0 run warned.scn --steps 30 --quiet)
+  expect_silence()
+  # who is told to stop does
+  sinew(3 run warned.scn --set BlockGaussSeidelConstraintSolver.stopsUnsolved=true --steps 30)
+  expect_error("not solved after 20 iterations.*contradicts other equalities by 1 m")
+
 elseif(CASE STREQUAL "run-diverges")
   # explicit Euler far above its stable step
   file(WRITE ${WORK}/stiff.scn "<Node dt='1'><EulerExplicitSolver/><Node name='body'>

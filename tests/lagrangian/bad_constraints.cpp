@@ -52,6 +52,11 @@ void each_solver(F&& f) {
   f(LCPConstraintSolver{.mu = 0, .lemke = true});
   f(ConvexConstraintSolver{});
 }
+// the name of a node as an argument
+template <FixedString Name>
+struct Named {
+  static constexpr FixedString value = Name;
+};
 template <class Solver>
 bool pivots(Solver const& solver) {
   if constexpr (requires { solver.lemke; }) return solver.lemke;
@@ -138,6 +143,21 @@ TEST_CASE("equalities that contradict each other: who is told to stop names one 
     if (!pivots(solver)) {
       CHECK(run(sim).empty());
       CHECK_FALSE(sim.root().template get<decltype(solver)>().result.converged);
+      // the second asks for 2 - 1 m more in x than the first
+      auto const& warnings = sim.warnings().list();
+      REQUIRE(warnings.size() == 1);
+      CHECK(warnings[0].count == 20);
+      CHECK(warnings[0].step == 1);
+      CHECK(warnings[0].last == 20);
+      CHECK_THAT(warnings[0].text(),
+                 Catch::StartsWith("step 1 (time 0.01 s), /root: " +
+                                   std::string(component_name<decltype(solver)>())) &&
+                     Catch::Contains("the residual is ") &&
+                     Catch::Contains(
+                         "equation 0 of /root/body: BilateralLagrangianConstraint<Vec3d> contradicts other "
+                         "equalities by 1 m"));
+      sim.reset();
+      CHECK(sim.warnings().list().empty());
     }
     REQUIRE(finite(sim.template at<"body">().state()));
     CHECK_THAT(run(stops),
@@ -201,7 +221,79 @@ TEST_CASE("bodies that start in each other are parted, and stay finite") {
       for (std::size_t k = i + 1; k < 3; ++k) CHECK((x.position[i] - x.position[k]).norm() > 0.41);
     }
     CHECK(x.position[3][2] > 0.2);
+    // balls 1 mm apart are in each other by their diameter less that
+    std::string all;
+    for (auto const& w : sim.warnings().list())
+      if (w.what == "they start in each other") all += w.text() + "\n";
+    CHECK(
+        all ==
+        "step 1 (time 0.01 s), /root/floor and /root/balls: they start in each other, by 0.25 m, and will be "
+        "driven apart at once; move one of them away\n"
+        "step 1 (time 0.01 s), parts of /root/balls: they start in each other, by 0.399 m, and will be "
+        "driven "
+        "apart at once; move one of them away\n");
   });
+}
+
+TEST_CASE("boxes of triangles that start in each other are named, those that touch are not") {
+  const std::vector<Vector3d> corners{
+      {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+  // two-sided surfaces: points do not say how deep they are
+  auto warnings = [&](Vector3d const& apart, long step) {
+    std::vector<Vector3d> moved = corners;
+    for (auto& x : moved) x += apart;
+    MeshTopology surface;
+    surface.triangles = blockSurface;
+    auto box = [&]<class Name>(Name, std::vector<Vector3d> const& at) {
+      return node<Name::value>(EulerExplicitSolver{},
+                               surface,
+                               MechanicalObject<Vec3d>{at},
+                               UniformMass<Vec3d>{.vertexMass = 1},
+                               TriangleCollisionModel<Vec3d>{});
+    };
+    auto sim = constrained_scene_by(BlockGaussSeidelConstraintSolver{},
+                                    near_by(),
+                                    0,
+                                    box(Named<"left">{}, corners),
+                                    box(Named<"right">{}, moved));
+    sim.init(0.1, step);
+    sim.animate(dt);
+    std::string all;
+    for (auto const& w : sim.warnings().list()) all += w.text();
+    return all;
+  };
+  CHECK(warnings({0.9, 0.3, 0.2}, 0) ==
+        "step 1 (time 0.11 s), /root/left and /root/right: they start in each other, and will be driven "
+        "apart at "
+        "once; move one of them away");
+  CHECK(warnings({1, 0.3, 0.2}, 0).empty());
+  CHECK(warnings({1, 0, 0}, 0).empty());
+  // what goes on from a checkpoint does not start
+  CHECK(warnings({0.9, 0.3, 0.2}, 7).empty());
+}
+
+TEST_CASE(
+    "a scene whose constraints are solved warns of nothing, and one that is not solved once of each thing") {
+  each_solver([](auto solver) {
+    INFO(decltype(solver)::className);
+    auto sim = two_points(solver, Fixed{.indices = {0}}, Joint{.first_point = {0}, .second_point = {1}});
+    CHECK(run(sim).empty());
+    CHECK(sim.warnings().list().empty());
+  });
+  StepWarnings warnings;
+  int made = 0;
+  auto warn = [&](long step, std::string const& where) {
+    warnings.add(step, double(step), where, "it is so", [&] { return ++made, std::string("it is so by 3"); });
+  };
+  for (const long step : {1, 2, 2, 5}) warn(step, "here");
+  warn(5, "there");
+  REQUIRE(warnings.list().size() == 2);
+  CHECK(made == 2);
+  CHECK(warnings.list()[0].text() == "step 1 (time 1 s), here: it is so by 3");
+  CHECK(warnings.list()[0].summary() == "here: it is so in 3 steps, from step 1 to 5");
+  for (std::size_t i = 2; i < StepWarnings::capacity + 3; ++i) warn(6, text("place ", i));
+  CHECK(warnings.list().size() == StepWarnings::capacity);
+  CHECK(warnings.leftOut() == 3);
 }
 
 TEST_CASE("who does not converge on contacts, and is told to stop, names the bodies") {

@@ -55,6 +55,7 @@ TEST_CASE("a point that a multiplier holds stays, and the multiplier is its weig
         ShewchukPCGLinearSolver<>{
             .tolerance = 1e-14, .updateStep = updateStep, .precondition = PreconditionerMethod::ldl}));
   holds(hanging(NewmarkImplicitSolver{}, SparseLDLSolver<>{}));
+  for (const int order : {1, 2, 3}) holds(hanging(BDFOdeSolver{.order = order}, SparseLDLSolver<>{}));
   holds(hanging<ConvexConstraintSolver>(EulerExplicitSolver{}));
   holds(hanging<ConvexConstraintSolver>(EulerImplicitSolver{}, CGLinearSolver<>{.tolerance = 1e-14}));
   holds(hanging(VariationalSymplecticSolver{}, SparseLDLSolver<>{}));

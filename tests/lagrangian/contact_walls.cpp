@@ -50,10 +50,10 @@ struct Blocks {
 // surfaces are 2 mm apart where they touch
 constexpr double skin = 0.002;
 template <class Solver>
-auto scene(Solver solver, Blocks const& blocks, double mu) {
+auto scene(Solver solver, Blocks const& blocks, double mu, double alarm = 0.01) {
   auto sim = constrained_scene_by(
       solver,
-      MinProximityIntersection{.alarmDistance = 0.01, .contactDistance = skin},
+      MinProximityIntersection{.alarmDistance = alarm, .contactDistance = skin},
       mu,
       fixed_floor(),
       node<"blocks">(EulerExplicitSolver{},
@@ -91,6 +91,34 @@ Blocks wall() {
           {{0.26 * (i + 0.5 * row), 0, skin + 0.035 + (0.07 + skin) * row}, Quaterniond::Identity()},
           size,
           3);
+  return blocks;
+}
+
+// A semicircle of nine voussoirs, of a mean radius of 1 m and this thickness [m].
+Blocks arch(double thick) {
+  Blocks blocks;
+  const int n = 9;
+  const double each = M_PI / n, half = each / 2;
+  for (int i = 0; i < n; ++i) {
+    // every second one is a little narrower and thinner, so that corners meet faces
+    const double less = i % 2 ? 0.98 : 1, at = -M_PI / 2 + (i + 0.5) * each;
+    std::array<Vector3d, 8> corners;
+    for (std::size_t k = 0; k < 8; ++k) {
+      const double right = k % 4 == 1 || k % 4 == 2 ? 1 : -1, back = k % 4 >= 2 ? 1 : -1,
+                   outer = k >= 4 ? 1 : -1;
+      const double r = 1 + outer / 2 * thick * less;
+      corners[k] = {right * (r * std::sin(half) - skin / 2 / std::cos(half)),
+                    back / 2 * 0.3 * less,
+                    r * std::cos(half) - 1};
+    }
+    const double mass = thick * each * 0.3 * 1000;
+    const Vector3d s = Vector3d(each, 0.3, thick).cwiseAbs2();
+    const Quaterniond turn(Eigen::AngleAxisd(at, Vector3d::UnitY()));
+    blocks.add({turn * Vector3d::UnitZ() + Vector3d(0, 0, skin / 2), turn},
+               corners,
+               mass,
+               mass / 12 * Vector3d(s[1] + s[2], s[0] + s[2], s[0] + s[1]));
+  }
   return blocks;
 }
 
@@ -152,29 +180,7 @@ TEST_CASE("a round arch stands where it is thick enough for a line of thrust, an
   // A semicircle needs 0.107 of its mean radius (Milankovitch 1907; Heyman 1969); of nine voussoirs, whose
   // joints are where it may open, a little less. The radius is 1 m here.
   auto goes = [](double thick, auto solver) {
-    Blocks blocks;
-    const int n = 9;
-    const double each = M_PI / n, half = each / 2;
-    for (int i = 0; i < n; ++i) {
-      // every second one is a little narrower and thinner, so that corners meet faces
-      const double less = i % 2 ? 0.98 : 1, at = -M_PI / 2 + (i + 0.5) * each;
-      std::array<Vector3d, 8> corners;
-      for (std::size_t k = 0; k < 8; ++k) {
-        const double right = k % 4 == 1 || k % 4 == 2 ? 1 : -1, back = k % 4 >= 2 ? 1 : -1,
-                     outer = k >= 4 ? 1 : -1;
-        const double r = 1 + outer / 2 * thick * less;
-        corners[k] = {right * (r * std::sin(half) - skin / 2 / std::cos(half)),
-                      back / 2 * 0.3 * less,
-                      r * std::cos(half) - 1};
-      }
-      const double mass = thick * each * 0.3 * 1000;
-      const Vector3d s = Vector3d(each, 0.3, thick).cwiseAbs2();
-      const Quaterniond turn(Eigen::AngleAxisd(at, Vector3d::UnitY()));
-      blocks.add({turn * Vector3d::UnitZ() + Vector3d(0, 0, skin / 2), turn},
-                 corners,
-                 mass,
-                 mass / 12 * Vector3d(s[1] + s[2], s[0] + s[2], s[0] + s[1]));
-    }
+    const Blocks blocks = arch(thick);
     auto sim = scene(solver, blocks, 0.8);
     for (int i = 0; i < 50; ++i) sim.animate(0.01);
     return moved(sim, blocks);
@@ -185,6 +191,58 @@ TEST_CASE("a round arch stands where it is thick enough for a line of thrust, an
   };
   check(gaussSeidel);
   check(convex);
+}
+
+TEST_CASE("an arch that falls comes to rest, and none of its parts is thrown") {
+  const Blocks blocks = arch(0.05);
+  auto falls = [&](auto solver, double alarm, int steps, auto&& look) {
+    auto sim = scene(solver, blocks, 0.8, alarm);
+    auto const& s = sim.template at<"blocks">().state();
+    auto energy = [&] {
+      double e = sim.kineticEnergy();
+      for (auto const& x : s.position) e += blocks.masses[0].mass * g * x.center[2];
+      return e;
+    };
+    double before = energy();
+    for (int i = 0; i < steps; ++i) {
+      sim.animate(0.01);
+      look(sim.root().template get<decltype(solver)>().result, energy() - before, s);
+      before = energy();
+    }
+    std::string all;
+    for (auto const& w : sim.warnings().list()) all += w.text() + "\n";
+    return all;
+  };
+  // parts fall 4 cm in a step, and contacts are looked for as far
+  auto rests = [&](auto solver) {
+    double speed = 0;
+    const std::string warning =
+        falls(solver, 0.05, 120, [&](auto const& result, double gained, auto const& s) {
+          REQUIRE(result.converged);
+          // positions hold to the tolerances, some 1e-6 m of 27 N each
+          REQUIRE(gained < 1e-3);
+          speed = 0;
+          for (auto const& v : s.velocity) speed = std::max(speed, v.norm());
+        });
+    CHECK(warning.empty());
+    CHECK(speed < 1e-3);
+  };
+  auto patient = gaussSeidel;  // when it hits the floor
+  patient.maxIterations = 20000, patient.tolerance = 1e-7;
+  rests(patient);
+  rests(convex);
+  // Contacts that are not looked for as far find corners inside of their neighbours, between two faces that
+  // both drive them out: nothing fulfils that, and the multipliers of the convex problems grow. What is
+  // driven out of a depth of at most 1 cm in a step gets 1 m/s by each, not 7e4 m/s.
+  double speed = 0;
+  const std::string warning = falls(convex, 0.01, 130, [&](auto const&, double, auto const& s) {
+    for (auto const& v : s.velocity) speed = std::max(speed, v.template head<3>().norm());
+  });
+  CHECK(speed < 20);
+  CHECK_THAT(
+      warning,
+      Catch::Contains("/root/blocks/skin: they come into each other before a contact is seen, by 0.0") &&
+          Catch::Contains("alarmDistance"));
 }
 
 }  // namespace test_contact_walls

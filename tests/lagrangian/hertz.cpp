@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // Contact of an elastic cylinder with a rigid plane (Hertz 1882; Johnson, Contact Mechanics, 1985).
 #include "lagrangian/contact_scenes.hpp"
+#include "lagrangian/graded.hpp"
 
 #include <algorithm>
 
@@ -22,16 +23,6 @@ struct Quarter {
   std::vector<int> middle{}, axis{};
   int angles, radii;
 
-  static std::vector<double> graded(double cell, double fine, double growth, double end) {
-    std::vector<double> at{0};
-    while (at.back() < end) {
-      if (at.back() >= fine) cell *= growth;
-      at.push_back(at.back() + cell);
-    }
-    // the last one ends where it should
-    for (double& a : at) a *= end / at.back();
-    return at;
-  }
   Quarter(double cell, double fine, double growth) {
     const auto turned = graded(cell, fine, growth, M_PI / 2), deep = graded(cell, fine, growth, radius);
     angles = int(turned.size());

@@ -100,6 +100,7 @@ struct Contact {
 
   // of a response by multipliers, in this step: its first equation, and how many it has
   int row = -1, rows = 0;
+  bool isNew = false;  // there was none of these vertices in the last step
   ContactMotion motion{};
 
   static constexpr auto fields() {

@@ -228,10 +228,12 @@ struct ContactManager {
       describe(c, *surfaces[std::size_t(c.a.surface)], *surfaces[std::size_t(c.b.surface)]);
       couplingChanged = couplingChanged || (!again && !All::isConstraint(c.response));
       c.start = displacement(c);
+      const int other = again ? -1 : ofVertices.find(key, bodies);
       if (again)
         remember(c, *old);
-      else if (const int other = ofVertices.find(key, bodies); other >= 0)
+      else if (other >= 0)
         remember(c, contacts[std::size_t(other)]);
+      c.isNew = !again && other < 0 && All::isConstraint(c.response);
     }
     listed = std::erase_if(found, [](Contact const& c) { return c.response < 0; }) == 0;
     couplingChanged = couplingChanged || coupling(contacts) != coupling(found);

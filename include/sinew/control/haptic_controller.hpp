@@ -6,14 +6,49 @@
 #include <sinew/core/error.hpp>
 #include <sinew/core/fields.hpp>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
 namespace sinew {
 
-/// The simulated tool, as the simulation tells it to the loop: pose and velocity in the scene, and the time
-/// of the loop at which they are true [s].
+/// What a constraint of the simulation leaves a tool: a motion u from its pose, of the centre and rotated,
+/// with direction.u >= -distance.
+struct ToolLimit {
+  Rigid3d::Deriv direction =
+      Rigid3d::Deriv::Zero();  // of a place at r from the centre and a normal n: n, r x n
+  double distance = 0;         // m
+};
+
+/// The simulated tool, as the simulation tells it to the loop: pose and velocity in the scene, the time of
+/// the loop at which they are true [s], and what keeps it from going on (control/tool_limits.hpp).
 struct ToolState {
+  static constexpr std::size_t maxLimits = 16;
+
   Rigid3d::Coord pose{};
   Rigid3d::Deriv velocity = Rigid3d::Deriv::Zero();
   double time = 0;
+  std::array<ToolLimit, maxLimits> limits{};
+  std::size_t limitCount = 0;
+
+  /// Where there is no room, the one that is farthest goes.
+  void add(ToolLimit const& limit) {
+    if (limitCount < maxLimits) {
+      limits[limitCount++] = limit;
+      return;
+    }
+    auto const farthest = std::max_element(
+        limits.begin(), limits.end(), [](auto const& a, auto const& b) { return a.distance < b.distance; });
+    if (limit.distance < farthest->distance) *farthest = limit;
+  }
+  bool finite() const {
+    bool all =
+        Rigid3d::finite(pose) && velocity.allFinite() && std::isfinite(time) && limitCount <= maxLimits;
+    for (std::size_t i = 0; all && i < limitCount; ++i)
+      all = limits[i].direction.allFinite() && std::isfinite(limits[i].distance);
+    return all;
+  }
 };
 
 /// The device, as the loop tells it to the simulation: pose and velocity in the scene, where the tool should
@@ -39,9 +74,10 @@ struct ToolTarget {
 ///   F = K (x_tool - x) + B (v_tool - v),  torque = K_a t + B_a (w_tool - w),  t the rotation from device to
 ///   tool
 /// where v is the difference of the last two poses over the time between, and the tool is where its last
-/// state and velocity say. Force and torque are clamped. They rise from zero, and fall to zero when the
-/// simulation has said nothing new for `staleTime`; a pose or tool that is not finite counts as none.
-/// check() refuses settings beyond stable_stiffness.
+/// state and velocity say, as far as its limits let it go: the motion that they permit and that is nearest by
+/// the energy of the coupling, by projected Gauss-Seidel in each tick. Force and torque are clamped. They
+/// rise from zero, and fall to zero when the simulation has said nothing new for `staleTime`; a pose or tool
+/// that is not finite counts as none. check() refuses settings beyond stable_stiffness.
 struct HapticController {
   static constexpr std::string_view className = "HapticController";
 
@@ -175,7 +211,7 @@ struct HapticController {
 
   /// A new state of the tool, at a time [s].
   void accept(double time, ToolState const& state) {
-    if (!Rigid3d::finite(state.pose) || !state.velocity.allFinite() || !std::isfinite(state.time)) {
+    if (!state.finite()) {
       ++badTools;
       return;
     }
@@ -193,9 +229,11 @@ struct HapticController {
     if (!hasReading) gain = 0;  // where the device is not known, there is no safe force
     if (gain == 0) return {};
     Rigid3d::Coord place = tool.pose;
-    Rigid3d::increment(place,
-                       std::clamp(time - tool.time, -maxExtrapolation, maxExtrapolation) * tool.velocity);
-    const Rigid3d::Deriv d = Rigid3d::difference(reading.pose, place), v = tool.velocity - reading.velocity;
+    Rigid3d::Deriv way = std::clamp(time - tool.time, -maxExtrapolation, maxExtrapolation) * tool.velocity,
+                   motion = tool.velocity;
+    if (tool.limitCount > 0) keepWithinLimits(way, motion);
+    Rigid3d::increment(place, way);
+    const Rigid3d::Deriv d = Rigid3d::difference(reading.pose, place), v = motion - reading.velocity;
     const Eigen::Vector3d force = d.head<3>() * stiffness + v.head<3>() * damping;
     const Eigen::Vector3d torque = d.tail<3>() * angularStiffness + v.tail<3>() * angularDamping;
     const Quat<double> toDevice = orientationBase.conjugate();
@@ -204,6 +242,35 @@ struct HapticController {
   }
 
  private:
+  // The nearest way that all limits permit, and of velocities the nearest that leads on from there.
+  void keepWithinLimits(Rigid3d::Deriv& way, Rigid3d::Deriv& motion) const {
+    std::array<double, ToolState::maxLimits> pushed{}, held{};
+    project(way, pushed, [&](std::size_t i) { return tool.limits[i].distance; });
+    project(motion, held, [&](std::size_t i) {
+      return pushed[i] > 0 ? 0 : std::numeric_limits<double>::infinity();
+    });
+  }
+  template <class Distance>
+  void project(Rigid3d::Deriv& u, std::array<double, ToolState::maxLimits>& f, Distance&& distance) const {
+    Rigid3d::Deriv inverse;
+    for (int c = 0; c < 6; ++c) {
+      const double k = c < 3 ? stiffness : angularStiffness;
+      inverse[c] = k > 0 ? 1 / k : 0;
+    }
+    for (int sweep = 0; sweep < 30; ++sweep) {
+      double change = 0;
+      for (std::size_t i = 0; i < tool.limitCount; ++i) {
+        auto const& n = tool.limits[i].direction;
+        const double answer = n.dot(inverse.cwiseProduct(n)), room = distance(i);
+        if (!(answer > 0) || !std::isfinite(room)) continue;
+        const double next = std::max(0.0, f[i] - (n.dot(u) + room) / answer);
+        u += (next - f[i]) * inverse.cwiseProduct(n);
+        change = std::max(change, std::abs(next - f[i]) * answer);
+        f[i] = next;
+      }
+      if (change < 1e-9) return;
+    }
+  }
   // of the scene, as the hand feels it
   double felt(double value) const { return forceCoef * scale * value; }
   static Eigen::Vector3d clamped(Eigen::Vector3d const& v, double maximum) {

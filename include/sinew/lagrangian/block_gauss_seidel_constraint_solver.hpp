@@ -30,6 +30,7 @@ struct BlockGaussSeidelConstraintSolver {
   SweepResult result{};  // of the last step
   ConstraintSweeps sweeps{};
 
+  std::string unsolved() const { return unsolved_by_sweeps(*this); }
   void solve(ConstraintProblem& problem, std::string_view where) {
     SweepSettings settings = sweep_settings(*this);
     settings.relaxation = sor;

@@ -87,6 +87,16 @@ void check_movable(Eigen::Ref<Eigen::VectorXd const, 0, Eigen::InnerStride<>> co
 /// The first row of an equality that depends on equalities before it; -1: none, or W is not finite.
 int dependent_equality(ConstraintProblem const& problem);
 
+/// An equality that depends on equalities before it and asks for something else; row -1: none.
+struct Contradiction {
+  int row = -1;
+  double by = 0;  // how far d of that row stays from 0 where d of the others is 0
+};
+/// The one that is furthest from what the others leave it. `products`: W, or J J' of the same rows.
+Contradiction contradicting_equality(std::vector<ConstraintBlock> const& blocks,
+                                     ConstraintProblem::Matrix const& products,
+                                     Eigen::VectorXd const& freeViolation);
+
 /// The row that is furthest from the condition of its block, by the violations of all rows, friction left
 /// aside; -1: none is off.
 int furthest_row(std::vector<ConstraintBlock> const& blocks, Eigen::VectorXd const& violation);
@@ -212,28 +222,59 @@ SINEW_ONCE double ConstraintProblem::residual() const {
   return worst;
 }
 
-SINEW_ONCE int dependent_equality(ConstraintProblem const& problem) {
-  if (!problem.compliance.allFinite()) return -1;
-  std::vector<int> rows;
-  for (ConstraintBlock const& b : problem.blocks)
-    for (int i = b.first; i < b.first + b.rows && b.kind == ConstraintBlock::Kind::equality; ++i)
-      rows.push_back(i);
-  // Cholesky's method row by row: a pivot that is rounding
-  const auto n = Eigen::Index(rows.size());
-  Eigen::MatrixXd L = Eigen::MatrixXd::Zero(n, n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    for (Eigen::Index j = 0; j <= i; ++j) {
-      const double w = problem.compliance(rows[std::size_t(i)], rows[std::size_t(j)]);
-      const double rest = w - L.row(i).head(j).dot(L.row(j).head(j));
-      if (i > j)
-        L(i, j) = rest / L(j, j);
-      else if (!(rest > 1e-12 * w))
-        return rows[std::size_t(i)];
-      else
-        L(i, i) = std::sqrt(rest);
+namespace detail {
+
+// f(row, d) for each row of an equality that depends on others before it, until f returns false: Cholesky's
+// method row by row meets a pivot that is rounding, and leaves the row out. d is what the others, fulfilled,
+// leave of the violation of the row.
+template <class F>
+void each_dependent(std::vector<ConstraintBlock> const& blocks, ConstraintProblem::Matrix const& products,
+                    Eigen::VectorXd const& violation, F&& f) {
+  std::vector<int> rows;  // that are independent
+  const auto most = products.rows();
+  Eigen::MatrixXd L = Eigen::MatrixXd::Zero(most, most);
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(most);
+  for (ConstraintBlock const& b : blocks)
+    for (int i = b.first; i < b.first + b.rows && b.kind == ConstraintBlock::Kind::equality; ++i) {
+      const auto n = Eigen::Index(rows.size());
+      for (Eigen::Index j = 0; j < n; ++j)
+        L(n, j) = (products(i, rows[std::size_t(j)]) - L.row(n).head(j).dot(L.row(j).head(j))) / L(j, j);
+      const double pivot = products(i, i) - L.row(n).head(n).squaredNorm();
+      const double left = violation[i] - L.row(n).head(n).dot(y.head(n));
+      if (pivot > 1e-12 * products(i, i)) {
+        L(n, n) = std::sqrt(pivot);
+        y[n] = left / L(n, n);
+        rows.push_back(i);
+      } else if (!f(i, left)) {
+        return;
+      }
     }
-  }
-  return -1;
+}
+
+}  // namespace detail
+
+SINEW_ONCE int dependent_equality(ConstraintProblem const& problem) {
+  int first = -1;
+  if (problem.compliance.allFinite())
+    detail::each_dependent(problem.blocks, problem.compliance, problem.freeViolation, [&](int row, double) {
+      first = row;
+      return false;
+    });
+  return first;
+}
+
+SINEW_ONCE Contradiction contradicting_equality(std::vector<ConstraintBlock> const& blocks,
+                                                ConstraintProblem::Matrix const& products,
+                                                Eigen::VectorXd const& freeViolation) {
+  Contradiction worst;
+  if (!products.allFinite() || freeViolation.size() == 0) return worst;
+  // what rounding leaves
+  worst.by = 1e-9 * freeViolation.lpNorm<Eigen::Infinity>();
+  detail::each_dependent(blocks, products, freeViolation, [&](int row, double left) {
+    if (std::abs(left) > worst.by) worst = {row, std::abs(left)};
+    return true;
+  });
+  return worst;
 }
 
 SINEW_ONCE int furthest_row(std::vector<ConstraintBlock> const& blocks, Eigen::VectorXd const& violation) {

@@ -6,6 +6,7 @@
 #include <sinew/lagrangian/constrained_motion.hpp>
 #include <sinew/lagrangian/convex_step.hpp>
 
+#include <string>
 #include <string_view>
 
 namespace sinew {
@@ -49,8 +50,8 @@ struct ConvexConstraintSolver {
                       field("stopsUnsolved",
                             &S::stopsUnsolved,
                             "",
-                            "an Error where the iterations end above the tolerances; else the step goes on "
-                            "with what they have found"));
+                            "an Error where the iterations end above the tolerances; else a warning, and the "
+                            "step goes on with what they have found"));
   }
 
   ConvexStepResult result{};  // of the last step
@@ -76,18 +77,22 @@ struct ConvexConstraintSolver {
                         rows.multipliers,
                         settings,
                         where);
-    if (stopsUnsolved && !result.converged)
-      throw Error(
-          where,
-          text(className,
-               ": the constraints are not solved after ",
-               result.conjugateGradients,
-               " iterations: the residual is ",
-               result.residual,
-               " m, the tolerance ",
-               tolerance,
-               "; allow more iterations (maxIterations, maxUpdates), or look for constraints that contradict "
-               "each other"));
+    if (stopsUnsolved && !result.converged) throw Error(where, unsolved());
+  }
+  std::string unsolved() const {
+    const bool isMomentum = result.residual <= tolerance;
+    return text(
+        className,
+        ": the constraints are not solved after ",
+        result.conjugateGradients,
+        " iterations in ",
+        result.updates,
+        result.updates == 1 ? " convex problem: " : " convex problems: ",
+        isMomentum ? "the momentum is off by " : "a condition is off by ",
+        isMomentum ? result.momentum : result.residual,
+        isMomentum ? " (relative), the tolerance " : " m, the tolerance ",
+        isMomentum ? momentumTolerance : tolerance,
+        "; allow more (maxUpdates, maxIterations), or look for constraints that contradict each other");
   }
 };
 

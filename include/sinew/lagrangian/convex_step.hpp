@@ -53,8 +53,14 @@ class ConvexStep {
   bool accelerating_ = false;
   double last_ = 0, best_ = 0;  // residuals
   int since_ = 0;               // updates since the best
+  // the last solution of a problem that is about as good as any
+  ReservedVector goodVelocity_{}, goodMultipliers_{};
+  double good_ = 0, goodMomentum_ = 0;
 
   void begin(ConvexStepSettings const& settings);
+  /// Constraints that contradict each other have multipliers that grow with each problem, until rounding has
+  /// the motion: keeps the solution of a problem, or says that it is far worse than an earlier one.
+  bool keeps(Eigen::VectorXd const& velocity, ConvexStepResult const& result);
   void regularise(double relative);
   /// What changes between two problems: r, g and what is lagged.
   void update(ConvexStepSettings const& settings, double residual);
@@ -110,8 +116,11 @@ ConvexStepResult ConvexStep::solve(System&& multiply, Preconditioner& preconditi
   for (Eigen::VectorXd* v :
        {&momentum_, &reaction_, &gradient_, &step_, &residual_, &scaled_, &direction_, &product_})
     v->resize(b.size());
+  goodVelocity_.setZero(b.size());
+  goodMultipliers_.setZero(J.rows());
 
   terms_.evaluate(velocity);
+  good_ = std::numeric_limits<double>::infinity();
   while (true) {
     multiply(velocity, momentum_);
     momentum_ -= b;
@@ -133,9 +142,17 @@ ConvexStepResult ConvexStep::solve(System&& multiply, Preconditioner& preconditi
     }
     result.residual = terms_.residual(compliance_);
     result.converged = result.residual <= settings.tolerance && result.momentum <= settings.momentumTolerance;
-    if (result.converged || stuck || result.updates == settings.maxUpdates) break;
+    if (result.converged) break;
+    if (!keeps(velocity, result)) break;
+    if (stuck || result.updates == settings.maxUpdates) break;
     ++result.updates;
     update(settings, result.residual);
+  }
+  if (!result.converged) {
+    velocity = goodVelocity_;
+    terms_.multipliers.head(J.rows()) = goodMultipliers_;
+    result.residual = good_;
+    result.momentum = goodMomentum_;
   }
   multipliers = terms_.multipliers.head(J.rows());
   return result;
@@ -203,6 +220,16 @@ SINEW_ONCE void ConvexStep::begin(ConvexStepSettings const& settings) {
   since_ = 0;
   last_ = best_ = std::numeric_limits<double>::infinity();
   regularise(std::max(settings.regularisation, settings.firstRegularisation));
+}
+
+SINEW_ONCE bool ConvexStep::keeps(Eigen::VectorXd const& velocity, ConvexStepResult const& result) {
+  if (result.residual > 1000 * good_) return false;
+  if (result.residual > 1.1 * good_) return true;
+  good_ = result.residual;
+  goodMomentum_ = result.momentum;
+  goodVelocity_ = velocity;
+  goodMultipliers_ = terms_.multipliers.head(terms_.rows().rows());
+  return true;
 }
 
 SINEW_ONCE void ConvexStep::update(ConvexStepSettings const& settings, double residual) {

@@ -52,6 +52,7 @@ struct ImprovedJacobiConstraintSolver {
   ConstraintSweeps sweeps{};
   LargestEigenvalue largest{};
 
+  std::string unsolved() const { return unsolved_by_sweeps(*this); }
   void solve(ConstraintProblem& problem, std::string_view where) {
     sweep(*this, problem, where, [&](auto& p) {
       JacobiSettings jacobi;

@@ -58,7 +58,7 @@ struct LCPConstraintSolver {
             &S::stopsUnsolved,
             "",
             "an Error where the iterations end above the tolerance, or Lemke's method finds that there is no "
-            "solution; else the step goes on with what they have found"));
+            "solution; else a warning, and the step goes on with what they have found"));
   }
 
   SweepResult result{};  // of the last step
@@ -81,20 +81,6 @@ struct LCPConstraintSolver {
     if (stopsUnsolved && !result.converged) throw Error(where, unsolved());
   }
 
- private:
-  void checkLemke(std::string_view where) const {
-    if (lemke && (mu > 0 || minW > 0 || maxF > 0))
-      throw Error(
-          where,
-          text("LCPConstraintSolver: Lemke's method is for contacts without friction or bounds, and mu "
-               "is ",
-               mu,
-               ", minW ",
-               minW,
-               ", maxF ",
-               maxF,
-               "; set these to 0, or lemke to false"));
-  }
   std::string unsolved() const {
     if (lemke)
       return text("LCPConstraintSolver: Lemke's method found no solution in ",
@@ -110,6 +96,21 @@ struct LCPConstraintSolver {
                 tolerance,
                 mu > 0 ? " times the number of constraints and one more" : "",
                 "; allow more iterations (maxIt), or look for constraints that contradict each other");
+  }
+
+ private:
+  void checkLemke(std::string_view where) const {
+    if (lemke && (mu > 0 || minW > 0 || maxF > 0))
+      throw Error(
+          where,
+          text("LCPConstraintSolver: Lemke's method is for contacts without friction or bounds, and mu "
+               "is ",
+               mu,
+               ", minW ",
+               minW,
+               ", maxF ",
+               maxF,
+               "; set these to 0, or lemke to false"));
   }
 };
 

@@ -21,6 +21,7 @@ struct NNCGConstraintSolver {
   SweepResult result{};  // of the last step
   ConstraintSweeps sweeps{};
 
+  std::string unsolved() const { return unsolved_by_sweeps(*this); }
   void solve(ConstraintProblem& problem, std::string_view where) {
     sweep(*this, problem, where, [&](auto& p) {
       return sweeps.nonsmoothConjugateGradients(p, sweep_settings(*this), where);

@@ -4,6 +4,7 @@
 #include <sinew/core/component.hpp>
 #include <sinew/lagrangian/constraint_sweeps.hpp>
 
+#include <string>
 #include <string_view>
 
 namespace sinew {
@@ -33,8 +34,8 @@ constexpr auto sweeping_fields(More... more) {
       field("stopsUnsolved",
             &S::stopsUnsolved,
             "",
-            "an Error where the iterations end above the tolerance; else the step goes on with what they "
-            "have found"),
+            "an Error where the iterations end above the tolerance; else a warning, and the step goes on "
+            "with what they have found"),
       more...);
 }
 
@@ -46,23 +47,26 @@ SweepSettings sweep_settings(S const& solver) {
           .allVerified = solver.allVerified};
 }
 
+/// What such a solver says whose iterations have not ended.
+template <class S>
+std::string unsolved_by_sweeps(S const& solver) {
+  return text(component_name<S>(),
+              ": the constraints are not solved after ",
+              solver.result.iterations,
+              " iterations: the error is ",
+              solver.result.error,
+              ", the tolerance ",
+              solver.tolerance,
+              solver.scaleTolerance && !solver.allVerified ? " times the number of equations" : "",
+              "; allow more iterations (maxIterations), or look for constraints that contradict each other");
+}
+
 /// Solves a problem by solve(problem) of a solver S, which keeps the result.
 template <class S, class F>
 void sweep(S& solver, ConstraintProblem& problem, std::string_view where, F&& solve) {
   problem.regularise(solver.regularizationTerm);
   solver.result = solve(problem);
-  if (solver.stopsUnsolved && !solver.result.converged)
-    throw Error(
-        where,
-        text(component_name<S>(),
-             ": the constraints are not solved after ",
-             solver.result.iterations,
-             " iterations: the error is ",
-             solver.result.error,
-             ", the tolerance ",
-             solver.tolerance,
-             solver.scaleTolerance && !solver.allVerified ? " times the number of equations" : "",
-             "; allow more iterations (maxIterations), or look for constraints that contradict each other"));
+  if (solver.stopsUnsolved && !solver.result.converged) throw Error(where, solver.unsolved());
 }
 
 }  // namespace sinew

@@ -316,7 +316,8 @@ inline std::string canonical_template(std::string_view name) {
     const bool blocks = name.find("3x3") != name.npos || name.find("Mat3") != name.npos;
     return text("CompressedRowSparseMatrix", blocks ? "Mat3x3" : "", isFloat ? "f" : "d");
   }
-  if (name.starts_with("FullMatrix") || name.starts_with("SparseMatrix") || name.starts_with("FullVector"))
+  if (name.starts_with("FullMatrix") || name.starts_with("SparseMatrix") || name.starts_with("FullVector") ||
+      name.starts_with("BTDMatrix"))
     return "CompressedRowSparseMatrixd";
   if (name == "CudaVec3" || name == "CudaRigid3") return text(name, 'f');
   if (!name.empty() && name.back() >= '0' && name.back() <= '9' &&

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/step_warnings.hpp>
 #include <sinew/lagrangian/constrained_motion.hpp>
 #include <sinew/scene/constraint_response.hpp>
 #include <sinew/scene/contact_rows.hpp>
@@ -13,6 +14,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -21,11 +23,12 @@ namespace sinew {
 /// A step of a scene whose root has an animation loop: bodies move freely, the constraints of the scene are
 /// solved together, and bodies are corrected. While constraints are solved `position` is that at the start of
 /// the step, at which mappings and masses stand, and `freePosition` that of the free motion, for a mapped
-/// state as its velocity says.
+/// state as the way of its parents says.
 template <class RootScope>
 struct ConstrainedStep {
   RootScope const& root;
   double time, dt;
+  StepNotes notes;
 
   void integrate(ConstrainedMotion& motion, bool velocityFirst, bool keepsForces) const;
 
@@ -92,17 +95,23 @@ struct ConstrainedStep {
     operations.projectPositionAndVelocity(time + dt, vec_id::position, vec_id::velocity);
     end_acted_forces<Ode>(operations);
   }
-  // states as they were, mappings as they were, and where all would come to be by the velocities that they
-  // have now
+  // states as they were, mappings as they were, and where all would come to be: what a mapping moves goes by
+  // its Jacobian as far as its parents do
   template <class S>
   void lookFromStart(S const& scope) const {
     MechanicalOperations<S> operations(scope, time, dt);
-    operations.forEachIndependent([](auto& s) { s.position.swap(s.freePosition); });
+    operations.forEachIndependent([](auto& s) {
+      using D = typename std::decay_t<decltype(s)>::DataTypes;
+      s.position.swap(s.freePosition);
+      auto& way = s[vec_id::dx];
+      for (std::size_t i = 0; i < way.size(); ++i) way[i] = D::difference(s.position[i], s.freePosition[i]);
+    });
     operations.propagate(vec_id::position, vec_id::velocity);
+    operations.propagate(vec_id::dx);
     operations.forEachMapped([&](auto& s) {
-      using V = VectorOperations<typename std::decay_t<decltype(s)>::DataTypes>;
+      using D = typename std::decay_t<decltype(s)>::DataTypes;
       s.freePosition = s.position;
-      V::move(s.freePosition, s.velocity, typename std::decay_t<decltype(s)>::DataTypes::Real(dt));
+      VectorOperations<D>::move(s.freePosition, s[vec_id::dx], typename D::Real(1));
     });
   }
 
@@ -222,7 +231,7 @@ struct ConstrainedStep {
     traverse(root, on<role::ConstraintSolver>([&](auto& solver, auto const& scope) {
                if (std::exchange(solved, true)) return;
                if constexpr (SolvesMotion<std::decay_t<decltype(solver)>>) {
-                 MotionProblem<RootScope>{root, time, dt}.solve(m, solver, scope.path());
+                 MotionProblem<RootScope>{root, time, dt, notes}.solve(m, solver, scope.path());
                  m.hasMotion = true;
                } else {
                  findCompliance(m);
@@ -237,11 +246,23 @@ struct ConstrainedStep {
     } catch (Error const& error) {
       const RowNames<RootScope> names{root, m};
       ConstraintProblem const& p = m.problem;
-      if constexpr (requires { solver.result.converged; })
-        if (!solver.result.converged)
-          names.explain(error, "furthest from its condition", furthest_row(p.blocks, p.violation()));
+      if constexpr (SaysUnsolved<Solver>)
+        if (!solver.result.converged) throw Error({}, text(error.what(), unsolved(m)));
+      if constexpr (requires { solver.refusedRow; })
+        if (solver.refusedRow >= 0) names.explain(error, "the first", solver.refusedRow);
       names.explain(error, "the first that depends on others", dependent_equality(p));
     }
+    if constexpr (SaysUnsolved<Solver>)
+      if (!solver.result.converged)
+        notes.warn(
+            where, "the constraints are not solved", [&] { return text(solver.unsolved(), unsolved(m)); });
+  }
+  std::string unsolved(ConstrainedMotion const& m) const {
+    ConstraintProblem const& p = m.problem;
+    return RowNames<RootScope>{root, m}.unsolved(
+        p.residual(),
+        furthest_row(p.blocks, p.violation()),
+        contradicting_equality(p.blocks, p.compliance, p.freeViolation));
   }
   // constraints keep their multipliers
   void giveBack(ConstrainedMotion& m) const {
@@ -326,8 +347,8 @@ void ConstrainedStep<RootScope>::integrate(ConstrainedMotion& m, bool velocityFi
     const ConstraintResponse<S> response(scope, ode, time, dt, m.systems[number++]);
     correct(response, m, keepsForces);
     MechanicalOperations<S> operations(scope, time, dt);
-    if constexpr (requires { ode.corrected(operations, response.how.motion()); })
-      if (!response.system.rows.empty()) ode.corrected(operations, response.how.motion());
+    if constexpr (requires { ode.corrected(operations, response.how.motion(), m.rows.ofVelocity); })
+      if (!response.system.rows.empty()) ode.corrected(operations, response.how.motion(), m.rows.ofVelocity);
     operations.projectPositionAndVelocity(time + dt, vec_id::position, vec_id::velocity);
     operations.propagate(vec_id::position, vec_id::velocity);
   });

@@ -161,14 +161,16 @@ class Initialisation {
   }
   // what a scene needs that solves constraints by multipliers
   template <class Ode, class S, class Motion>
-  static void initConstrained(Ode&, S const& scope, Motion& motion) {
+  static void initConstrained([[maybe_unused]] Ode& ode, S const& scope, Motion& motion) {
     if constexpr (!takes_multipliers<Ode>) {
       throw Error(
           text(scope.path(), ": ", component_name<Ode>()),
           "this solver does not say what multipliers do in its step, and the scene solves constraints by "
-          "them; take EulerImplicitSolver, NewmarkImplicitSolver, StaticSolver, "
+          "them; take EulerImplicitSolver, NewmarkImplicitSolver, BDFOdeSolver, StaticSolver, "
           "VariationalSymplecticSolver or an explicit one, or leave out the FreeMotionAnimationLoop");
     } else {
+      if constexpr (requires { ode.changesFactors(); })
+        if (ode.changesFactors()) refuseKeptCompliance(scope, component_name<Ode>());
       MechanicalOperations<S> operations(scope);
       const int number = int(motion.systems.size());
       int dofs = 0;
@@ -184,6 +186,19 @@ class Initialisation {
       system.force.setZero(dofs + 1);
       system.motion.setZero(dofs + 1);
     }
+  }
+  // a correction that makes its compliance once
+  template <class S>
+  static void refuseKeptCompliance(S const& scope, std::string_view solver) {
+    traverse(scope, on<role::ConstraintCorrection>([&](auto& c, auto const& at) {
+               using C = std::decay_t<decltype(c)>;
+               if constexpr (KeepsCompliance<C>)
+                 throw Error(text(at.path(), ": ", component_name<C>()),
+                             text("the compliance is made once, and that of ",
+                                  solver,
+                                  " is another one in the first steps than behind them; give it order=1, or "
+                                  "leave out the correction"));
+             }));
   }
   template <class Ode, class Linear, class S>
   void serveOne(Linear const& linear, S const& scope) {

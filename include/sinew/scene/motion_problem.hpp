@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/step_warnings.hpp>
 #include <sinew/lagrangian/constrained_motion.hpp>
 #include <sinew/scene/contact_rows.hpp>
 #include <sinew/scene/mechanical_operations.hpp>
@@ -24,6 +25,7 @@ template <class RootScope>
 struct MotionProblem {
   RootScope const& root;
   double time, dt;
+  StepNotes const& notes;
 
   template <class Solver>
   void solve(ConstrainedMotion& m, Solver& solver, std::string_view where) const {
@@ -47,8 +49,15 @@ struct MotionProblem {
       solver.solveMotion(
           [&](Eigen::VectorXd const& p, Eigen::VectorXd& q) { multiply(m, p, q); }, all, where);
     } catch (Error const& error) {
-      explain(m, solver, error);
+      if constexpr (SaysUnsolved<Solver>)
+        if (!solver.result.converged) throw Error({}, text(error.what(), unsolved(m, solver)));
+      throw;
     }
+    if constexpr (SaysUnsolved<Solver>)
+      if (!solver.result.converged)
+        notes.warn(where, "the constraints are not solved", [&] {
+          return text(solver.unsolved(), unsolved(m, solver));
+        });
     m.problem.multipliers.setZero(m.rows.count());
     for (std::size_t i = 0; i < all.rows.size(); ++i)
       m.problem.multipliers[all.rows[i]] = all.multipliers[Eigen::Index(i)];
@@ -167,18 +176,24 @@ struct MotionProblem {
     all.jacobian.values.resize(begin);
     return true;
   }
+  // Equalities depend on each other in J J' as they do in W.
   template <class Solver>
-  [[noreturn]] void explain(ConstrainedMotion const& m, Solver const& solver, Error const& error) const {
-    const RowNames<RootScope> names{root, m};
+  std::string unsolved(ConstrainedMotion const& m, Solver const& solver) const {
     MotionRows const& all = m.motionRows;
-    if constexpr (requires { solver.result.converged; })
-      if (!solver.result.converged) {
-        Eigen::VectorXd d = all.start;
-        for (int i = 0; i < all.jacobian.rows(); ++i) d[i] += all.jacobian.times(i, all.motion);
-        const int row = furthest_row(all.blocks, d);
-        names.explain(error, "furthest from its condition", row < 0 ? row : all.rows[std::size_t(row)]);
-      }
-    throw;
+    const int n = all.jacobian.rows();
+    Eigen::VectorXd d = all.start, motion = Eigen::VectorXd::Zero(all.dofs);
+    ConstraintProblem::Matrix products = ConstraintProblem::Matrix::Zero(n, n);
+    for (int i = 0; i < n; ++i) {
+      d[i] += all.jacobian.times(i, all.motion);
+      all.jacobian.addTransposed(i, 1, motion);
+      for (int k = 0; k < n; ++k) products(k, i) = all.jacobian.times(k, motion);
+      all.jacobian.forEachInRow(i, [&](int dof, double) { motion[dof] = 0; });
+    }
+    auto ofAll = [&](int row) { return row < 0 ? row : all.rows[std::size_t(row)]; };
+    Contradiction contradiction = contradicting_equality(all.blocks, products, all.start);
+    contradiction.row = ofAll(contradiction.row);
+    return RowNames<RootScope>{root, m}.unsolved(
+        solver.result.residual, ofAll(furthest_row(all.blocks, d)), contradiction);
   }
   static double largestDiagonal(ConstrainedMotion const& m) {
     double largest = 0;

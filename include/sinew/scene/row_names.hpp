@@ -55,6 +55,23 @@ struct RowNames {
              " holds can move: its points are fixed, or no solver moves them, or its direction is zero; "
              "leave it out, or free a point"));
   }
+  /// What is known of a problem that is not solved: its residual, and rows, which are -1 where there is none.
+  std::string unsolved(double residual, int furthest, Contradiction const& contradiction) const {
+    auto of = [&](int row) {
+      const Name name = this->of(row);
+      return text("equation ", name.equation, " of ", name.where);
+    };
+    return text("; the residual is ",
+                residual,
+                " m",
+                furthest < 0 ? "" : text("; furthest from its condition is ", of(furthest)),
+                contradiction.row < 0 ? std::string()
+                                      : text("; ",
+                                             of(contradiction.row),
+                                             " contradicts other equalities by ",
+                                             contradiction.by,
+                                             " m, and cannot be fulfilled"));
+  }
   /// Throws what a constraint solver has thrown over the rows, with what it is about.
   [[noreturn]] void explain(Error const& error, std::string_view what, int row) const {
     if (row < 0) throw;

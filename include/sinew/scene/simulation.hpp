@@ -6,6 +6,7 @@
 
 #include <sinew/scene/mistakes.hpp>
 
+#include <sinew/core/step_warnings.hpp>
 #include <sinew/scene/element_removal.hpp>
 #include <sinew/scene/force_report.hpp>
 #include <sinew/scene/initialise.hpp>
@@ -68,6 +69,9 @@ class Simulation {
     time_ = time;
     step_ = step;
   }
+  /// What the steps since init or reset have noticed, each thing once with its count: bodies that started in
+  /// each other, constraints that were not solved.
+  StepWarnings const& warnings() const { return warnings_; }
   double kineticEnergy();
   /// Energy of the force fields at the current positions, gravity left out [J].
   double potentialEnergy();
@@ -178,6 +182,7 @@ class Simulation {
   double time_ = 0;
   long step_ = 0;
   bool initialised_ = false, visualsAreCurrent_ = false, keepsForces_ = false;
+  StepWarnings warnings_{};
   static constexpr NoScope above_{};
 
   static RootScope scopeOf(Root& root) {
@@ -216,6 +221,7 @@ void Simulation<Root>::init(double time, long step) {
     Initialisation<RootScope>(rootScope()).run();
     time_ = time;
     step_ = step;
+    warnings_.clear();
     propagate();
     initialised_ = true;
   }
@@ -247,7 +253,7 @@ void Simulation<Root>::animate(double dt) {
   if constexpr (proved) {
     const auto scope = rootScope();
     [[maybe_unused]] const auto span = scope.span(Phase::step);
-    const Step<RootScope> step{scope, step_ + 1, time_, dt};
+    const Step<RootScope> step{scope, step_ + 1, time_, dt, warnings_};
     step.begin();
     if constexpr (collides<RootScope>) step.detectContacts();
     if constexpr (collides<RootScope> && holds<Root, role::Carving>())
@@ -279,6 +285,7 @@ void Simulation<Root>::reset() {
     if (regained) Initialisation<RootScope>(rootScope(), {.again = true}).initSolvers();
   time_ = 0;
   step_ = 0;
+  warnings_.clear();
   propagate();
 }
 

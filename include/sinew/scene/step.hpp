@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/collision/overlaps.hpp>
+#include <sinew/core/step_warnings.hpp>
 #include <sinew/scene/carving.hpp>
 #include <sinew/scene/collision.hpp>
 #include <sinew/scene/loose_interactions.hpp>
@@ -24,6 +26,7 @@ struct Step {
   RootScope const& root;
   long number;      // of the step, from 1
   double time, dt;  // at its start, and its length [s]
+  StepWarnings& warnings;
 
   /// What acts before a step: all may look at the scene, then they may move it.
   void begin() const {
@@ -39,7 +42,8 @@ struct Step {
     if (moved) MechanicalOperations(root, time, dt).propagate(vec_id::position, vec_id::velocity);
   }
 
-  /// Finds the contacts of the step; a matrix in which other points are joined is formed anew.
+  /// Finds the contacts of the step; a matrix in which other points are joined is formed anew. It warns of
+  /// bodies that start in each other, or come there before a contact is seen.
   void detectContacts() const;
 
   /// Removes what tools touch, by remove(path, elements); says whether something went.
@@ -85,6 +89,33 @@ struct Step {
   }
 
  private:
+  StepNotes notes() const { return {warnings, number, time + dt}; }
+  void warnOfOverlaps() const {
+    traverse(root, on<role::CollisionPipeline>([&](auto& pipeline, auto const& scope) {
+               with_first<role::ContactManager>(scope,
+                                                [&](auto& manager) { warnOfOverlaps(pipeline, manager); });
+             }));
+  }
+  template <class Pipeline, class Manager>
+  void warnOfOverlaps(Pipeline const& pipeline, Manager const& manager) const {
+    auto const& surfaces = pipeline.surfaces;
+    auto warn = [&](Overlap const& o, std::string_view what, std::string_view advice) {
+      std::string const &a = surfaces[std::size_t(o.a)]->path, &b = surfaces[std::size_t(o.b)]->path;
+      notes().warn(a == b ? text("parts of ", a) : text(a, " and ", b), what, [&] {
+        return text(what, o.depth > 0 ? text(", by ", o.depth, " m") : std::string(), advice);
+      });
+    };
+    if (number == 1)
+      for (Overlap const& o : overlaps(surfaces, pipeline.near, manager.contacts))
+        warn(o, "they start in each other", ", and will be driven apart at once; move one of them away");
+    else
+      for (Overlap const& o : unseen_overlaps(surfaces, manager.contacts))
+        warn(o,
+             "they come into each other before a contact is seen",
+             "; make alarmDistance longer than what they move in a step, or take smaller steps, or a "
+             "ContinuousIntersection");
+  }
+
   // (a function, since the body of a generic lambda is looked at where there is no loop)
   template <class Loop>
   void integrateConstrained(Loop& loop, bool keepsForces) const {
@@ -92,7 +123,7 @@ struct Step {
                   "Sinew: a scene with an animation loop needs what solves constraints; include "
                   "<sinew/lagrangian.hpp>, or <sinew/scene/constrained_step.hpp>.");
     if constexpr (IsComplete<ConstrainedStep<RootScope>>)
-      ConstrainedStep<RootScope>{root, time, dt}.integrate(
+      ConstrainedStep<RootScope>{root, time, dt, notes()}.integrate(
           loop.motion, loop.solveVelocityConstraintFirst, keepsForces);
   }
 
@@ -167,6 +198,7 @@ void Step<RootScope>::detectContacts() const {
         for (auto& system : loop.motion.systems) system.hasPattern = false;
     });
   });
+  warnOfOverlaps();
 }
 
 }  // namespace sinew

@@ -14,7 +14,8 @@ namespace sinew {
 /// For order 2, as in the second step, 1/s is 0; for order 1, as in the first step, so is 1/p. That would
 /// cost order 3 its order: its first step is the trapezoidal rule. Newton's method solves for v1; its first
 /// iteration alone already has the order for points, the second for rigid bodies too up to order 2, whose
-/// gyroscopic forces have no part in the tangent.
+/// gyroscopic forces have no part in the tangent. Multipliers act as f(x1, v1) does, and the history has what
+/// they move.
 struct BDFOdeSolver {
   using Role = role::OdeSolver;
   static constexpr std::string_view className = "BDFOdeSolver";
@@ -57,9 +58,29 @@ struct BDFOdeSolver {
                       field("lastEnd", &S::lastEnd, "s", "time at the end of the last step"));
   }
 
-  void reset() { lastDt = olderDt = lastEnd = 0; }
+  void reset() { lastDt = olderDt = lastEnd = weight = 0; }
 
   NewtonReport newton{};
+  double weight = 0;  // B of the last step; 0: there was none
+
+  ConstraintFactors constraintFactors(double h) const {
+    const double b = weight > 0 ? weight : h;
+    return {{.m = 1 + b * rayleighMass, .b = -b, .k = -b * (b + rayleighStiffness)}, b, b, 1};
+  }
+  /// Whether the first steps have others than those behind them.
+  bool changesFactors() const { return order > 1; }
+  /// dx- and dv- of the next step have the part of the multipliers.
+  template <class Operations>
+  void corrected(Operations& operations, DerivId u, bool ofVelocity) const {
+    const DerivId dxOld{DerivId::reserved}, dvOld{DerivId::reserved + 1};
+    operations.peq(dvOld, u, 1);
+    if (ofVelocity) {
+      operations.clear(dxOld);
+      operations.peq(dxOld, vec_id::velocity, lastDt);
+    } else {
+      operations.peq(dxOld, u, weight);
+    }
+  }
 
   template <class Operations>
   void init(Operations&) {
@@ -91,6 +112,7 @@ struct BDFOdeSolver {
     const bool trapezoid = order > 2 && lastDt == 0;
     const double bh = trapezoid ? h / 2 : 1 / inverse;
     c *= bh, d *= bh;
+    weight = bh;
     // what acts are the forces at the end of the step, but for the mean of the trapezoidal rule
     const double part = trapezoid ? 0.5 : 1;
     auto rate = [&] {
@@ -137,10 +159,7 @@ struct BDFOdeSolver {
     };
     sinew::newton(*this,
                   operations,
-                  {.factors = {.m = 1 + bh * rM, .b = -bh, .k = -bh * (bh + rK)},
-                   .dx = dv,
-                   .b = b,
-                   .increment = increment},
+                  {.factors = constraintFactors(h).matrix, .dx = dv, .b = b, .increment = increment},
                   NewtonCallbacks{evaluate, [&](double s) { vel.peq(dv, s); }});
     if (!newton_goes_on(*this)) operations.acted.add(dv.id, {.b = part, .k = part * bh});
     damp();

@@ -59,7 +59,7 @@ struct NewmarkImplicitSolver {
   }
   /// The acceleration that the next step begins with has the part of the multipliers.
   template <class Operations>
-  void corrected(Operations& operations, DerivId u) const {
+  void corrected(Operations& operations, DerivId u, bool /*ofVelocity*/) const {
     operations.peq(DerivId{DerivId::reserved}, u, 1);
   }
 

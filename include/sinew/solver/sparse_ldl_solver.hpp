@@ -13,7 +13,9 @@ namespace sinew {
 /// values in each solve, which allocates nothing. (Eigen's SimplicialLDLT orders and works as BlockLdl does,
 /// on scalars, and takes heap memory in factorize: a permuted copy of the matrix, and work space above 128
 /// KiB.) Indefinite systems are solved where the factorisation exists; `negativePivots` of the factor counts
-/// their negative eigenvalues. Throws Error where a pivot vanishes.
+/// their negative eigenvalues. Throws Error where a pivot vanishes. SOFA's BTDLinearSolver, for matrices of
+/// blocks of which only neighbours in a row are joined, and blind to others, is this one: a chain of beams
+/// has no more blocks in L than in its matrix.
 template <class Matrix = CompressedRowSparseMatrixMat3x3d>
 struct SparseLDLSolver {
   using Role = role::LinearSolver;
@@ -23,7 +25,7 @@ struct SparseLDLSolver {
   static constexpr std::string_view aliases =
       "EigenSimplicialLDLT EigenSimplicialLLT AsyncSparseLDLSolver SparseCholeskySolver SparseLUSolver "
       "EigenSparseLU EigenSparseQR EigenCholmodSupernodalLLT SparsePARDISOSolver SparseTAUCSSolver "
-      "SparseXXTSolver";
+      "SparseXXTSolver BTDLinearSolver";
   static constexpr Auxiliary auxiliary{};
 
   static constexpr auto fields() { return field_list(); }

@@ -3,6 +3,8 @@
 
 #include <sinew/core/role.hpp>
 
+#include <concepts>
+#include <string>
 #include <string_view>
 
 namespace sinew {
@@ -25,7 +27,8 @@ struct ConstraintProblem;
 //     }
 //   };
 
-/// Leaves the multipliers in the problem. The second argument says in messages where the solver stands.
+/// Leaves the multipliers in the problem; where its iterations do not end, a result that is not `converged`
+/// makes a warning of the step (SaysUnsolved). The second argument says in messages where the solver stands.
 template <class C>
 concept SolvesConstraintProblem =
     requires(C c, ConstraintProblem& problem, std::string_view where) { c.solve(problem, where); };
@@ -35,6 +38,13 @@ concept SolvesConstraintProblem =
 /// blocks of S.
 template <class C>
 concept SolvesMotion = named::solveMotion<C> && requires(C c) { c.preconditioner.system; };
+
+/// It says whether the last problem is solved, and what to do where it is not.
+template <class C>
+concept SaysUnsolved = requires(C const c) {
+  { c.result.converged } -> std::convertible_to<bool>;
+  { c.unsolved() } -> std::convertible_to<std::string>;
+};
 
 template <class C>
 concept ConstraintSolver =
