@@ -32,6 +32,8 @@ class ConstraintTerms {
 
   JacobianRows const& rows() const { return *J_; }
   std::vector<ConstraintBlock> const& blocks() const { return *blocks_; }
+  /// The lagged bound or gap, at the row of the normal of each contact.
+  Eigen::VectorXd const& lagged() const { return lag_; }
   double const* curvature(ConstraintBlock const& b) const { return curvature_.data() + 3 * b.first; }
 
   /// d and f at the velocity v.

@@ -40,6 +40,7 @@ struct VectorOperations<CudaTypes<H>> {
   using D = CudaTypes<H>;
   using Real = typename D::Real;
   static constexpr bool solvesSystems = true;
+  static constexpr bool solvesMotions = !D::rigid && D::size == 3;
   using Coord = typename D::Coord;
   using Deriv = typename D::Deriv;
   using VecCoord = typename D::VecCoord;

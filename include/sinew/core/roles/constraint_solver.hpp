@@ -36,6 +36,11 @@ concept SolvesConstraintProblem =
 template <class C>
 concept SolvesMotion = named::solveMotion<C> && requires(C c) { c.preconditioner.system; };
 
+/// And lets others find it, where states are not in the host's memory: solveMotionBy(solve, where) calls
+/// solve(ConvexStepSettings), which is ConvexStep::solve for them.
+template <class C>
+concept LetsMotionBeSolved = SolvesMotion<C> && named::solveMotionBy<C>;
+
 template <class C>
 concept ConstraintSolver =
     HasRole<C, role::ConstraintSolver> && (SolvesConstraintProblem<C> || SolvesMotion<C>);
