@@ -116,7 +116,7 @@ struct MotionProblem {
       operations.forEachIndependent([&](auto& s) {
         using D = typename std::decay_t<decltype(s)>::DataTypes;
         if constexpr (SolvesMotions<D>)
-          can = can && (!types || *types == typeid(D)) && VectorOperations<D>::assembles(operations);
+          can = can && (!types || *types == typeid(D)) && VectorOperations<D>::assemblesMotion(operations);
         else
           can = false;
         types = &typeid(D);

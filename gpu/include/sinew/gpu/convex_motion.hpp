@@ -122,6 +122,20 @@ class ConvexMotion {
     return result;
   }
 
+  // what threads do
+  struct LargestOfRow {
+    MotionBody<D> b;
+    double* to;
+    SINEW_HD void operator()(int i) const {
+      double largest = 0;
+      for (int c = 0; c < 3; ++c) {
+        const double d = b.scale * double(BlockRows<D>::at(b.product.values, b.diagonal[i], 4 * c));
+        largest = d > largest ? d : largest;
+      }
+      to[i] = largest;
+    }
+  };
+
  private:
   ConvexUpdates updates_{};
   std::vector<MotionBody<D>> bodies_{};
@@ -135,20 +149,8 @@ class ConvexMotion {
   DeviceArray<MotionBody<D>> bodiesThere_{};
   DeviceArray<ConstraintBlock> blocksThere_{};
   DeviceArray<unsigned char> held_{};
+  Arrival<double> arrival_{};
   TeamMemory team_{};
-
-  struct LargestOfRow {
-    MotionBody<D> b;
-    double* to;
-    SINEW_HD void operator()(int i) const {
-      double largest = 0;
-      for (int c = 0; c < 3; ++c) {
-        const double d = b.scale * double(BlockRows<D>::at(b.product.values, b.diagonal[i], 4 * c));
-        largest = d > largest ? d : largest;
-      }
-      to[i] = largest;
-    }
-  };
 
   template <class T>
   static T* upload(DeviceArray<T>& to, std::vector<T> const& from) {
@@ -259,7 +261,8 @@ class ConvexMotion {
     run_whole_team(std::size_t(q_.all), q_, team_);
     constexpr std::size_t head = ConvexProblemResult::size + 1;
     received_.resize(head + 2 * n);
-    copy_to_host(received_.data(), receivedThere_.data(), received_.size());
+    arrival_.begin(receivedThere_.data(), received_.size());
+    arrival_.take(received_.data(), received_.size());
     std::copy_n(received_.data() + head, n, terms.violation.data());
     std::copy_n(received_.data() + head + n, n, terms.multipliers.data());
     double const* const f = received_.data();

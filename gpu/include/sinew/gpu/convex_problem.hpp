@@ -144,11 +144,15 @@ struct ConvexProblem {
 
   // what a team does
 
-  SINEW_HD void operator()(WholeTeam& team) const { Solution{team, *this}.run(); }
+  template <class Team>
+  SINEW_HD void operator()(Team& team) const {
+    Solution<Team>{team, *this}.run();
+  }
 
  private:
+  template <class Team>
   struct Solution {
-    WholeTeam& team;
+    Team& team;
     ConvexProblem const& q;
     ConvexProblemResult found{0, 0, 0, 0, 0, 0, 1};
     double rho = 0;
@@ -202,7 +206,7 @@ struct ConvexProblem {
       const int row = i - b.begin, slice = row / Rows::slice, end = b.product.sliceFirst[slice + 1];
       double own[3] = {0, 0, 0};
       for (int place = b.product.sliceFirst[slice] + row % Rows::slice + lane * Rows::slice; place < end;
-           place += WholeTeam::lanes * Rows::slice) {
+           place += Team::lanes * Rows::slice) {
         const Vector v = p(b.begin + b.product.column[place]);
         for (int r = 0; r < 3; ++r)
           for (int c = 0; c < 3; ++c) own[r] += double(Rows::at(b.product.values, place, 3 * r + c)) * v[c];
@@ -336,7 +340,7 @@ struct ConvexProblem {
         team.eachRow(q.all, [&](int i, int lane) {
           double sum[3] = {0, 0, 0};
           addRow(i, lane, p, sum);
-          addTerms(i, lane, WholeTeam::lanes, p, sum);
+          addTerms(i, lane, Team::lanes, p, sum);
           team.sumOfRow(sum);
           if (lane != 0) return;
           const Vector own = p(i);
