@@ -8,6 +8,5 @@ template Course on_host<SlidingBlock, Vec3d>();
 template Course on_host<SlidingBlock, Vec3f>();
 template Course on_host<HeldBlock, Vec3d>();
 template Course on_host<StackedBlocks, Vec3d>();
-template Course on_host<FoundContacts, Vec3d>();
 
 }  // namespace gpu_test

@@ -50,10 +50,6 @@ TEST_CASE("contacts of a block that is held on the device stick, slide and open 
 TEST_CASE("blocks on the device slide on each other as on the host") {
   same_as_host<StackedBlocks, Vec3d>(1e-8);
 }
-TEST_CASE("contacts that the host finds for a block on the device hold it as on the host") {
-  same_as_host<FoundContacts, Vec3d>(1e-8);
-}
-
 TEST_CASE("the motion with contacts of bodies on the device is found there") {
   auto on_device = [](auto sim) {
     sim.init();
@@ -65,7 +61,6 @@ TEST_CASE("the motion with contacts of bodies on the device is found there") {
   CHECK(on_device(SlidingBlock::make<CudaVec3f>()));
   CHECK(on_device(HeldBlock::make<CudaVec3d>()));
   CHECK(on_device(StackedBlocks::make<CudaVec3d>()));
-  CHECK(on_device(FoundContacts::make<CudaVec3d>()));
 }
 
 TEST_CASE("multipliers on the device sum to the weight of a block at rest") {

@@ -5,10 +5,8 @@
 
 #include <sinew/constraint/fixed_constraint.hpp>
 #include <sinew/constraint/partial_fixed.hpp>
-#include <sinew/contact.hpp>
 #include <sinew/force/tetrahedron_fem.hpp>
 #include <sinew/lagrangian.hpp>
-#include <sinew/mapping/identity_mapping.hpp>
 #include <sinew/solver/cg_linear_solver.hpp>
 #include <sinew/solver/euler_implicit.hpp>
 #include <sinew/topology/mesh_topology.hpp>
@@ -116,45 +114,6 @@ struct HeldBlock : OneBody {
                      PartialFixedConstraint<D>{
                          .indices = b.points(m, [](auto const& x) { return x[1] > 0.99 && x[2] > 0.1; }),
                          .fixedDirections = {true, false, false}}))};
-  }
-};
-
-/// Contacts that the host finds, of points that a mapping brings to it; some of them cannot move along a
-/// tangent.
-struct FoundContacts : OneBody {
-  static constexpr double dt = 0.01;
-  static constexpr int steps = 40;
-  static constexpr bool onDevice = false;
-  template <class D>
-  static auto make() {
-    const BlockOnPlane b{.slope = 0.3};
-    const Mesh m = b.mesh();
-    MeshTopology floor;
-    floor.triangles = {{0, 1, 2}, {0, 2, 3}};
-    return Simulation{node<"root">(
-        FreeMotionAnimationLoop{},
-        b.solver(),
-        b.gravity(),
-        DefaultPipeline{},
-        BruteForceBroadPhase{},
-        BVHNarrowPhase{},
-        MinProximityIntersection{.alarmDistance = 0.02, .contactDistance = 0.01},
-        DefaultContactManager{.response = "FrictionContactConstraint", .responseParams = "mu=0.2"},
-        node<"floor">(floor,
-                      MechanicalObject<Vec3d>{
-                          .position = {{-5, -5, -0.01}, {5, -5, -0.01}, {5, 5, -0.01}, {-5, 5, -0.01}}},
-                      TriangleCollisionModel<Vec3d>{.moving = false, .simulated = false}),
-        node<"body">(
-            b.ode(),
-            b.linear(),
-            MeshTopology{.position = m.positions, .tetrahedra = m.tetrahedra},
-            MechanicalObject<D>{},
-            UniformMass<D>{.totalMass = b.mass},
-            b.material<D>(),
-            PartialFixedConstraint<D>{.indices = b.points(m, [](auto const& x) { return x[1] > 0.99; }),
-                                      .fixedDirections = {true, false, false}},
-            node<"skin">(
-                MechanicalObject<Vec3d>{}, IdentityMapping<D, Vec3d>{}, PointCollisionModel<Vec3d>{})))};
   }
 };
 
