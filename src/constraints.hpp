@@ -11,5 +11,6 @@
 #include <sinew/lagrangian/contact_potential.hpp>
 #include <sinew/lagrangian/convex_step.hpp>
 #include <sinew/lagrangian/convex_step_settings.hpp>
+#include <sinew/lagrangian/convex_updates.hpp>
 #include <sinew/lagrangian/lemke.hpp>
 #include <sinew/lagrangian/linear_complementarity.hpp>

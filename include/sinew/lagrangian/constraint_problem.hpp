@@ -68,7 +68,7 @@ struct ConstraintProblem {
 };
 
 /// The point of the cone |t| <= mu n that is nearest to (n, t).
-inline Eigen::Vector3d project_on_cone(Eigen::Vector3d const& f, double mu) {
+SINEW_HD inline Eigen::Vector3d project_on_cone(Eigen::Vector3d const& f, double mu) {
   const double n = f[0], t = f.tail<2>().norm();
   if (t <= mu * n) return f;
   if (mu * t <= -n) return {0, 0, 0};

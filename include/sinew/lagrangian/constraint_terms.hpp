@@ -13,13 +13,6 @@
 
 namespace sinew {
 
-/// What of Coulomb's law with friction is kept from the solution before, so that the rest derives from a
-/// convex potential:
-///   bound  the limit mu f_n of the friction (Haslinger 1983): friction as Tresca has it, no gap opens
-///   gap    the distance mu |d_t| by which the cone of friction lifts what slides (De Saxce 1992)
-///   none   nothing: what slides is lifted by mu |d_t| (Anitescu 2006)
-enum class FrictionLag { bound, gap, none };
-
 /// The constraints of a step as terms of a convex function of the velocity v: sum_b l_b(d_b + s_b) with the
 /// violation d = J v + d_0, the potentials l of contact_potential.hpp, and the lagged gap s along the normal
 /// of contacts, or the lagged bound c of their friction. Vectors over the rows are never made shorter, so
@@ -39,6 +32,8 @@ class ConstraintTerms {
 
   JacobianRows const& rows() const { return *J_; }
   std::vector<ConstraintBlock> const& blocks() const { return *blocks_; }
+  /// The lagged bound or gap, at the row of the normal of each contact.
+  Eigen::VectorXd const& lagged() const { return lag_; }
   double const* curvature(ConstraintBlock const& b) const { return curvature_.data() + 3 * b.first; }
 
   /// d and f at the velocity v.
@@ -49,9 +44,7 @@ class ConstraintTerms {
   /// q += J' G J p
   void addProduct(Eigen::VectorXd const& p, Eigen::VectorXd& q);
 
-  struct Slope {
-    double first = 0, second = 0;  // derivatives
-  };
+  using Slope = contact_potential::Slope;
   /// Of t -> sum l(d + t w + s).
   Slope slope(double t, Eigen::VectorXd const& w) const;
   /// sum l(d + s)
@@ -66,9 +59,7 @@ class ConstraintTerms {
   /// The same problem, of which something else is lagged; from d and f as they are.
   void change(FrictionLag lag);
 
-  /// ConstraintProblem::residual, with an estimate of the diagonal of W; where nothing is lagged, without the
-  /// term of De Saxce. Above a friction of 10, that term is mostly mu times the error of what sticks; the map
-  /// is then that of Alart and Curnier (1991), the projection on the normal and on the disk of mu f_n.
+  /// The largest natural map of the blocks (contact_potential.hpp), with an estimate of the diagonal of W.
   double residual(Eigen::VectorXd const& compliance) const;
 
   /// How far the potentials are from the conditions, in the unit of d: by the regularisation, r |f - g|, and
@@ -79,8 +70,6 @@ class ConstraintTerms {
   Rest rest(Eigen::VectorXd const& compliance) const;
 
  private:
-  static constexpr double steepCone = 10;
-
   using Values = std::array<double, ConstraintBlock::maxRows>;
 
   JacobianRows const* J_ = nullptr;
@@ -153,17 +142,9 @@ SINEW_ONCE void ConstraintTerms::addProduct(Eigen::VectorXd const& p, Eigen::Vec
 SINEW_ONCE ConstraintTerms::Slope ConstraintTerms::slope(double t, Eigen::VectorXd const& w) const {
   Slope sum;
   for (ConstraintBlock const& b : *blocks_) {
-    const Values d = at(b, t, w);
-    Values f, change;
-    contact_potential::multipliers(b, of(b), d.data(), f.data());
-    std::copy_n(w.data() + b.first, b.rows, change.begin());
-    double G[3 * ConstraintBlock::maxRows];
-    contact_potential::curvature(b, of(b), d.data(), G);
-    contact_potential::multiply(b, G, change.data());
-    for (int i = 0; i < b.rows; ++i) {
-      sum.first -= f[std::size_t(i)] * w[b.first + i];
-      sum.second += change[std::size_t(i)] * w[b.first + i];
-    }
+    const Slope one = contact_potential::slope(b, of(b), at(b, t, w).data(), w.data() + b.first);
+    sum.first += one.first;
+    sum.second += one.second;
   }
   return sum;
 }
@@ -228,31 +209,13 @@ SINEW_ONCE void ConstraintTerms::evaluateMultipliers() {
 
 SINEW_ONCE double ConstraintTerms::residual(Eigen::VectorXd const& compliance) const {
   double worst = 0;
-  for (ConstraintBlock const& b : *blocks_) {
-    const double w = compliance.segment(b.first, b.rows).mean();
-    switch (b.kind) {
-      case ConstraintBlock::Kind::equality:
-        worst = std::max(worst, violation.segment(b.first, b.rows).norm());
-        break;
-      case ConstraintBlock::Kind::interval: {
-        const double d = violation[b.first];
-        worst = std::max(worst, std::abs(d - std::clamp(d - multipliers[b.first] * w, b.lower, b.upper)));
-        break;
-      }
-      case ConstraintBlock::Kind::friction: {
-        const Eigen::Vector3d f = multipliers.segment<3>(b.first);
-        Eigen::Vector3d d = violation.segment<3>(b.first);
-        if (kind_ != FrictionLag::none && b.friction > steepCone) {
-          const Eigen::Vector3d y = f - d / w;
-          worst = std::max(worst, (f - contact_potential::bounded(b.friction * f[0], y)).norm() * w);
-          break;
-        }
-        if (kind_ != FrictionLag::none) d[0] += b.friction * d.tail<2>().norm();
-        worst = std::max(worst, (f - project_on_cone(f - d / w, b.friction)).norm() * w);
-        break;
-      }
-    }
-  }
+  for (ConstraintBlock const& b : *blocks_)
+    worst = std::max(worst,
+                     contact_potential::natural_map(b,
+                                                    kind_,
+                                                    compliance.segment(b.first, b.rows).mean(),
+                                                    violation.data() + b.first,
+                                                    multipliers.data() + b.first));
   return worst;
 }
 

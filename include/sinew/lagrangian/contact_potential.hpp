@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/platform.hpp>
 #include <sinew/lagrangian/constraint_problem.hpp>
 
 #include <Eigen/Core>
@@ -9,6 +10,13 @@
 #include <cmath>
 
 namespace sinew {
+
+/// What of Coulomb's law with friction is kept from the solution before, so that the rest derives from a
+/// convex potential:
+///   bound  the limit mu f_n of the friction (Haslinger 1983): friction as Tresca has it, no gap opens
+///   gap    the distance mu |d_t| by which the cone of friction lifts what slides (De Saxce 1992)
+///   none   nothing: what slides is lifted by mu |d_t| (Anitescu 2006)
+enum class FrictionLag { bound, gap, none };
 
 /// The regularised potential l(d) of a block of constraints, its multipliers f = -dl/dd and its curvature
 /// G = d2l/dd2 = -df/dd. g are the multipliers found before (augmented Lagrangian), r > 0 the regularisation
@@ -23,7 +31,7 @@ namespace sinew {
 ///   open       else                          f = 0
 /// or, where a bound c >= 0 of the friction is given (Tresca), with m = min(|y_t|, c),
 ///              l = 1/2 r_n max(0, y_n)^2 + r_t (m |y_t| - 1/2 m^2)     f_n = max(0, y_n),  f_t = m t
-/// All are convex with continuous gradients.
+/// All are convex with continuous gradients. A GPU evaluates them by the same functions.
 namespace contact_potential {
 
 inline constexpr double cone = -1;  // for a bound, where there is none
@@ -33,6 +41,8 @@ using Curvature = Eigen::Matrix3d;
 
 /// Larger coefficients of friction act as this one: its square and that of ratios of r stay finite.
 inline constexpr double largestFriction = 1e8;
+/// The friction above which the residual of a contact is another (natural_map).
+inline constexpr double steepCone = 10;
 
 struct Projection {
   enum class Region { sticking, sliding, open };
@@ -41,43 +51,9 @@ struct Projection {
   Region region = Region::open;
   double tangential = 0, a = 0, mu = 0;  // |y_t|
 };
-Projection project(double friction, Vector3 const& r, Vector3 const& y);
-Curvature curvature_of(Projection const& p, Vector3 const& r, Vector3 const& y);
-
-Vector3 bounded(double bound, Vector3 const& y);
-Curvature bounded_curvature(double bound, Vector3 const& r, Vector3 const& y);
-
-/// What a block has: pointers to its rows, and the bound of its friction.
-struct Rows {
-  double const *r, *g;
-  double bound;
-
-  Vector3 regularisation() const { return {r[0], r[1], r[2]}; }
-  Vector3 y(double const* d) const { return {g[0] - d[0] / r[0], g[1] - d[1] / r[1], g[2] - d[2] / r[2]}; }
-};
-
-void multipliers(ConstraintBlock const& b, Rows const& rows, double const* d, double* f);
-
-double value(ConstraintBlock const& b, Rows const& rows, double const* d);
-
-/// G of a block into 3 times its rows numbers: by columns for a contact, else its diagonal comes first. On
-/// the border of two regions, that of the one with more forces.
-void curvature(ConstraintBlock const& b, Rows const& rows, double const* d, double* G);
-
-/// w <- G w
-void multiply(ConstraintBlock const& b, double const* G, double* w);
-
-}  // namespace contact_potential
-}  // namespace sinew
-
-#if SINEW_DEFINES
-
-namespace sinew {
-namespace contact_potential {
-
-SINEW_ONCE Projection project(double friction, Vector3 const& r, Vector3 const& y) {
+SINEW_HD inline Projection project(double friction, Vector3 const& r, Vector3 const& y) {
   Projection p;
-  p.mu = std::min(friction, largestFriction);
+  p.mu = friction < largestFriction ? friction : largestFriction;
   p.tangential = std::hypot(y[1], y[2]);
   p.a = p.mu * r[1] / r[0];
   if (p.tangential <= p.mu * y[0]) {
@@ -91,7 +67,7 @@ SINEW_ONCE Projection project(double friction, Vector3 const& r, Vector3 const& 
   return p;
 }
 
-SINEW_ONCE Curvature curvature_of(Projection const& p, Vector3 const& r, Vector3 const& y) {
+SINEW_HD inline Curvature curvature_of(Projection const& p, Vector3 const& r, Vector3 const& y) {
   Curvature G = Curvature::Zero();
   if (p.region == Projection::Region::sticking) {
     G.diagonal() = r.cwiseInverse();
@@ -109,12 +85,12 @@ SINEW_ONCE Curvature curvature_of(Projection const& p, Vector3 const& r, Vector3
   return G;
 }
 
-SINEW_ONCE Vector3 bounded(double bound, Vector3 const& y) {
+SINEW_HD inline Vector3 bounded(double bound, Vector3 const& y) {
   const double t = std::hypot(y[1], y[2]), scale = t <= bound ? 1 : bound / t;
   return {std::max(0., y[0]), scale * y[1], scale * y[2]};
 }
 
-SINEW_ONCE Curvature bounded_curvature(double bound, Vector3 const& r, Vector3 const& y) {
+SINEW_HD inline Curvature bounded_curvature(double bound, Vector3 const& r, Vector3 const& y) {
   Curvature G = Curvature::Zero();
   if (y[0] >= 0) G(0, 0) = 1 / r[0];
   const double t = std::hypot(y[1], y[2]);
@@ -127,7 +103,18 @@ SINEW_ONCE Curvature bounded_curvature(double bound, Vector3 const& r, Vector3 c
   return G;
 }
 
-SINEW_ONCE void multipliers(ConstraintBlock const& b, Rows const& rows, double const* d, double* f) {
+/// What a block has: pointers to its rows, and the bound of its friction.
+struct Rows {
+  double const *r, *g;
+  double bound;
+
+  SINEW_HD Vector3 regularisation() const { return {r[0], r[1], r[2]}; }
+  SINEW_HD Vector3 y(double const* d) const {
+    return {g[0] - d[0] / r[0], g[1] - d[1] / r[1], g[2] - d[2] / r[2]};
+  }
+};
+
+SINEW_HD inline void multipliers(ConstraintBlock const& b, Rows const& rows, double const* d, double* f) {
   switch (b.kind) {
     case ConstraintBlock::Kind::equality:
       for (int i = 0; i < b.rows; ++i) f[i] = rows.g[i] - d[i] / rows.r[i];
@@ -146,20 +133,11 @@ SINEW_ONCE void multipliers(ConstraintBlock const& b, Rows const& rows, double c
   }
 }
 
-SINEW_ONCE double value(ConstraintBlock const& b, Rows const& rows, double const* d) {
-  double f[ConstraintBlock::maxRows];
-  multipliers(b, rows, d, f);
-  double sum = 0;
-  for (int i = 0; i < b.rows; ++i) sum += rows.r[i] * f[i] * f[i] / 2;
-  if (b.kind == ConstraintBlock::Kind::friction && rows.bound >= 0) {
-    const Vector3 y = rows.y(d);
-    if (const double t = std::hypot(y[1], y[2]); t > rows.bound)
-      sum += rows.r[1] * rows.bound * (t - rows.bound);
-  }
-  return sum;
-}
+double value(ConstraintBlock const& b, Rows const& rows, double const* d);
 
-SINEW_ONCE void curvature(ConstraintBlock const& b, Rows const& rows, double const* d, double* G) {
+/// G of a block into 3 times its rows numbers: by columns for a contact, else its diagonal comes first. On
+/// the border of two regions, that of the one with more forces.
+SINEW_HD inline void curvature(ConstraintBlock const& b, Rows const& rows, double const* d, double* G) {
   switch (b.kind) {
     case ConstraintBlock::Kind::equality:
       for (int i = 0; i < b.rows; ++i) G[i] = 1 / rows.r[i];
@@ -178,11 +156,76 @@ SINEW_ONCE void curvature(ConstraintBlock const& b, Rows const& rows, double con
   }
 }
 
-SINEW_ONCE void multiply(ConstraintBlock const& b, double const* G, double* w) {
+/// w <- G w
+SINEW_HD inline void multiply(ConstraintBlock const& b, double const* G, double* w) {
   if (b.kind == ConstraintBlock::Kind::friction)
     Eigen::Map<Vector3>(w, 3) = (Eigen::Map<Curvature const>(G, 3, 3) * Eigen::Map<Vector3>(w, 3)).eval();
   else
     for (int i = 0; i < b.rows; ++i) w[i] *= G[i];
+}
+
+/// The derivatives of t -> l(d + t w) at t = 0.
+struct Slope {
+  double first = 0, second = 0;
+};
+SINEW_HD inline Slope slope(ConstraintBlock const& b, Rows const& rows, double const* d, double const* w) {
+  double f[ConstraintBlock::maxRows], change[ConstraintBlock::maxRows], G[3 * ConstraintBlock::maxRows];
+  multipliers(b, rows, d, f);
+  curvature(b, rows, d, G);
+  for (int i = 0; i < b.rows; ++i) change[i] = w[i];
+  multiply(b, G, change);
+  Slope sum;
+  for (int i = 0; i < b.rows; ++i) {
+    sum.first -= f[i] * w[i];
+    sum.second += change[i] * w[i];
+  }
+  return sum;
+}
+
+/// ConstraintProblem::residual of a block with the mean w of its estimated W; where nothing is lagged,
+/// without the term of De Saxce. Above the friction steepCone, that term is mostly mu times the error of what
+/// sticks; the map is then that of Alart and Curnier (1991), the projection on the normal and on the disk of
+/// mu f_n.
+SINEW_HD inline double natural_map(ConstraintBlock const& b, FrictionLag lag, double w, double const* d,
+                                   double const* f) {
+  switch (b.kind) {
+    case ConstraintBlock::Kind::equality: {
+      double squared = 0;
+      for (int i = 0; i < b.rows; ++i) squared += d[i] * d[i];
+      return std::sqrt(squared);
+    }
+    case ConstraintBlock::Kind::interval:
+      return std::abs(d[0] - std::clamp(d[0] - f[0] * w, b.lower, b.upper));
+    case ConstraintBlock::Kind::friction:
+      break;
+  }
+  const Vector3 force(f[0], f[1], f[2]);
+  Vector3 away(d[0], d[1], d[2]);
+  if (lag != FrictionLag::none && b.friction > steepCone)
+    return (force - bounded(b.friction * f[0], force - away / w)).norm() * w;
+  if (lag != FrictionLag::none) away[0] += b.friction * away.tail<2>().norm();
+  return (force - project_on_cone(force - away / w, b.friction)).norm() * w;
+}
+
+}  // namespace contact_potential
+}  // namespace sinew
+
+#if SINEW_DEFINES
+
+namespace sinew {
+namespace contact_potential {
+
+SINEW_ONCE double value(ConstraintBlock const& b, Rows const& rows, double const* d) {
+  double f[ConstraintBlock::maxRows];
+  multipliers(b, rows, d, f);
+  double sum = 0;
+  for (int i = 0; i < b.rows; ++i) sum += rows.r[i] * f[i] * f[i] / 2;
+  if (b.kind == ConstraintBlock::Kind::friction && rows.bound >= 0) {
+    const Vector3 y = rows.y(d);
+    if (const double t = std::hypot(y[1], y[2]); t > rows.bound)
+      sum += rows.r[1] * rows.bound * (t - rows.bound);
+  }
+  return sum;
 }
 
 }  // namespace contact_potential

@@ -61,22 +61,32 @@ struct ConvexConstraintSolver {
 
   template <class Multiply>
   void solveMotion(Multiply&& multiply, MotionRows& rows, std::string_view where) {
+    none.setZero(rows.dofs);
+    solveMotionBy(
+        [&](ConvexStepSettings const& settings) {
+          return step.solve(multiply,
+                            preconditioner,
+                            none,
+                            rows.jacobian,
+                            rows.blocks,
+                            rows.start,
+                            rows.motion,
+                            rows.multipliers,
+                            settings,
+                            where);
+        },
+        where);
+  }
+  /// The same by a method of other states: solve(settings) leaves motion and multipliers in their rows, and
+  /// returns what has come of it.
+  template <class Solve>
+  void solveMotionBy(Solve&& solve, std::string_view where) {
     ConvexStepSettings settings;
     settings.tolerance = tolerance;
     settings.momentumTolerance = momentumTolerance;
     settings.maxUpdates = maxUpdates;
     settings.maxConjugateGradients = maxIterations;
-    none.setZero(rows.dofs);
-    result = step.solve(multiply,
-                        preconditioner,
-                        none,
-                        rows.jacobian,
-                        rows.blocks,
-                        rows.start,
-                        rows.motion,
-                        rows.multipliers,
-                        settings,
-                        where);
+    result = solve(settings);
     if (stopsUnsolved && !result.converged) throw Error(where, unsolved());
   }
   std::string unsolved() const {

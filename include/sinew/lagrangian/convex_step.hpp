@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <sinew/lagrangian/anderson_acceleration.hpp>
 #include <sinew/lagrangian/constraint_terms.hpp>
 #include <sinew/lagrangian/convex_step_settings.hpp>
+#include <sinew/lagrangian/convex_updates.hpp>
+#include <sinew/lagrangian/exact_line_search.hpp>
 
 #include <Eigen/Core>
 
@@ -43,27 +44,18 @@ class ConvexStep {
                          std::string_view where);
 
  private:
-  ConstraintTerms terms_{};
-  AndersonAcceleration acceleration_{};
-  Eigen::VectorXd compliance_{};             // estimate of the diagonal of W
+  ConvexUpdates updates_{};
+  ConstraintTerms& terms() { return updates_.terms; }
   Eigen::VectorXd momentum_{}, reaction_{};  // A v - b, J' f
   Eigen::VectorXd gradient_{}, step_{}, residual_{}, scaled_{}, direction_{}, product_{};
-  Eigen::VectorXd rate_{}, next_{};  // J dv; g of the next update
-  double relative_ = 0;              // of r, the regularisation
-  bool accelerating_ = false;
-  double last_ = 0, best_ = 0;  // residuals
-  int since_ = 0;               // updates since the best
+  Eigen::VectorXd rate_{};  // J dv
   // the last solution of a problem that is about as good as any
   ReservedVector goodVelocity_{}, goodMultipliers_{};
   double good_ = 0, goodMomentum_ = 0;
 
-  void begin(ConvexStepSettings const& settings);
   /// Constraints that contradict each other have multipliers that grow with each problem, until rounding has
   /// the motion: keeps the solution of a problem, or says that it is far worse than an earlier one.
   bool keeps(Eigen::VectorXd const& velocity, ConvexStepResult const& result);
-  void regularise(double relative);
-  /// What changes between two problems: r, g and what is lagged.
-  void update(ConvexStepSettings const& settings, double residual);
 
   /// The size of the gradient.
   template <class Preconditioner>
@@ -73,17 +65,16 @@ class ConvexStep {
   template <class System, class Preconditioner>
   bool newton(System& multiply, Preconditioner& preconditioner, Eigen::VectorXd& velocity,
               ConvexStepSettings const& settings, ConvexStepResult& result);
-  double lineSearch(double slope, double curvature, ConvexStepResult& result) const;
 };
 
 template <class Preconditioner>
 double ConvexStep::evaluate(Preconditioner& preconditioner, Eigen::VectorXd const& b,
                             Eigen::VectorXd const& velocity, ConvexStepResult& result) {
   reaction_.setZero();
-  terms_.rows().addTransposed(terms_.multipliers, reaction_);
+  terms().rows().addTransposed(terms().multipliers, reaction_);
   gradient_ = momentum_ - reaction_;
-  terms_.evaluateCurvature();
-  preconditioner.update(terms_);
+  terms().evaluateCurvature();
+  preconditioner.update(terms());
   preconditioner.apply(reaction_, scaled_);
   const double energy = velocity.dot(momentum_) + velocity.dot(b);  // v' A v
   const double whole = std::sqrt(std::max({0., energy, reaction_.dot(scaled_)}));
@@ -109,17 +100,17 @@ ConvexStepResult ConvexStep::solve(System&& multiply, Preconditioner& preconditi
                      preconditioner.dofs(),
                      "; give it the blocks of each point"));
   ConvexStepResult result;
-  terms_.begin(J, blocks, start, multipliers, settings.friction);
-  preconditioner.begin(terms_, compliance_);
-  check_movable(compliance_.head(J.rows()), where);
-  begin(settings);
+  terms().begin(J, blocks, start, multipliers, settings.friction);
+  preconditioner.begin(terms(), updates_.compliance);
+  check_movable(updates_.compliance.head(J.rows()), where);
+  updates_.begin(settings);
   for (Eigen::VectorXd* v :
        {&momentum_, &reaction_, &gradient_, &step_, &residual_, &scaled_, &direction_, &product_})
     v->resize(b.size());
   goodVelocity_.setZero(b.size());
   goodMultipliers_.setZero(J.rows());
 
-  terms_.evaluate(velocity);
+  terms().evaluate(velocity);
   good_ = std::numeric_limits<double>::infinity();
   while (true) {
     multiply(velocity, momentum_);
@@ -132,7 +123,7 @@ ConvexStepResult ConvexStep::solve(System&& multiply, Preconditioner& preconditi
         throw Error(where,
                     "the system of a step with constraints is not finite; see whether the time step is too "
                     "large for the forces before it");
-      result.residual = terms_.residual(compliance_);
+      result.residual = updates_.residual();
       if (result.momentum <= settings.momentumTolerance) break;
       // the last problem is solved to the end
       if (size <= settings.reduction * first && result.residual > settings.tolerance) break;
@@ -140,21 +131,21 @@ ConvexStepResult ConvexStep::solve(System&& multiply, Preconditioner& preconditi
               !newton(multiply, preconditioner, velocity, settings, result);
       size = evaluate(preconditioner, b, velocity, result);
     }
-    result.residual = terms_.residual(compliance_);
+    result.residual = updates_.residual();
     result.converged = result.residual <= settings.tolerance && result.momentum <= settings.momentumTolerance;
     if (result.converged) break;
     if (!keeps(velocity, result)) break;
     if (stuck || result.updates == settings.maxUpdates) break;
     ++result.updates;
-    update(settings, result.residual);
+    updates_.update(settings, result.residual);
   }
   if (!result.converged) {
     velocity = goodVelocity_;
-    terms_.multipliers.head(J.rows()) = goodMultipliers_;
+    terms().multipliers.head(J.rows()) = goodMultipliers_;
     result.residual = good_;
     result.momentum = goodMomentum_;
   }
-  multipliers = terms_.multipliers.head(J.rows());
+  multipliers = terms().multipliers.head(J.rows());
   return result;
 }
 
@@ -172,7 +163,7 @@ bool ConvexStep::newton(System& multiply, Preconditioner& preconditioner, Eigen:
   while (rho > end && result.conjugateGradients < settings.maxConjugateGradients) {
     ++result.conjugateGradients;
     multiply(direction_, product_);
-    terms_.addProduct(direction_, product_);
+    terms().addProduct(direction_, product_);
     const double curvature = direction_.dot(product_);
     if (!(curvature > 0)) break;
     found = true;
@@ -187,14 +178,18 @@ bool ConvexStep::newton(System& multiply, Preconditioner& preconditioner, Eigen:
   if (!found) return false;
   // A dv = -grad - residual - J' G J dv
   product_.setZero();
-  terms_.addProduct(step_, product_);
+  terms().addProduct(step_, product_);
   product_ += gradient_ + residual_;
   product_ = -product_;
-  terms_.rows().multiply(step_, rate_);
-  const double t = lineSearch(step_.dot(momentum_), step_.dot(product_), result);
+  terms().rows().multiply(step_, rate_);
+  const double t = exact_line_search(
+      step_.dot(momentum_),
+      step_.dot(product_),
+      [&](double at) { return terms().slope(at, rate_); },
+      result.lineSearches);
   velocity += t * step_;
   momentum_ += t * product_;
-  terms_.advance(t, rate_);
+  terms().advance(t, rate_);
   return true;
 }
 
@@ -204,81 +199,14 @@ bool ConvexStep::newton(System& multiply, Preconditioner& preconditioner, Eigen:
 
 namespace sinew {
 
-SINEW_ONCE void ConvexStep::regularise(double relative) {
-  relative_ = relative;
-  for (ConstraintBlock const& b : terms_.blocks())
-    if (b.kind == ConstraintBlock::Kind::friction)
-      terms_.regularisation.segment<3>(b.first).setConstant(relative *
-                                                            compliance_.segment<3>(b.first).mean());
-    else
-      terms_.regularisation.segment(b.first, b.rows) = relative * compliance_.segment(b.first, b.rows);
-}
-
-SINEW_ONCE void ConvexStep::begin(ConvexStepSettings const& settings) {
-  acceleration_.reset(terms_.rows().rows());
-  accelerating_ = false;
-  since_ = 0;
-  last_ = best_ = std::numeric_limits<double>::infinity();
-  regularise(std::max(settings.regularisation, settings.firstRegularisation));
-}
-
 SINEW_ONCE bool ConvexStep::keeps(Eigen::VectorXd const& velocity, ConvexStepResult const& result) {
   if (result.residual > 1000 * good_) return false;
   if (result.residual > 1.1 * good_) return true;
   good_ = result.residual;
   goodMomentum_ = result.momentum;
   goodVelocity_ = velocity;
-  goodMultipliers_ = terms_.multipliers.head(terms_.rows().rows());
+  goodMultipliers_ = terms().multipliers.head(terms().rows().rows());
   return true;
-}
-
-SINEW_ONCE void ConvexStep::update(ConvexStepSettings const& settings, double residual) {
-  if (residual < 0.5 * best_) {
-    best_ = residual;
-    since_ = 0;
-  } else if (++since_ == settings.patience && terms_.lag() != FrictionLag::none) {
-    begin(settings);
-    terms_.change(terms_.lag() == FrictionLag::gap ? FrictionLag::bound : FrictionLag::gap);
-    return;
-  }
-  const double contraction = residual / last_;
-  last_ = residual;
-  next_ = terms_.multipliers;
-  if (relative_ > settings.regularisation) {
-    regularise(std::max(settings.regularisation, settings.decrease * relative_));
-  } else if (contraction > 0.3) {
-    const auto rest = terms_.rest(compliance_);
-    if (rest.regularisation > rest.lag && relative_ > settings.leastRegularisation) {
-      regularise(std::max(settings.leastRegularisation, settings.decrease * relative_));
-      acceleration_.reset(terms_.rows().rows());
-    } else {
-      accelerating_ = true;
-    }
-  }
-  if (accelerating_ && terms_.lag() == FrictionLag::bound) {
-    next_ = terms_.before;
-    acceleration_.next(terms_.multipliers, compliance_, next_);
-  }
-  terms_.update(next_);
-}
-
-// The t where the derivative of the convex function 1/2 t^2 curvature + t slope + sum l(d + t J dv) vanishes:
-// Newton's method inside the interval in which it changes its sign.
-SINEW_ONCE double ConvexStep::lineSearch(double slope, double curvature, ConvexStepResult& result) const {
-  const double first = std::abs(slope + terms_.slope(0, rate_).first);
-  double low = 0, high = std::numeric_limits<double>::infinity(), t = 1;
-  for (int i = 0; i < 50; ++i) {
-    ++result.lineSearches;
-    const ConstraintTerms::Slope terms = terms_.slope(t, rate_);
-    const double at = slope + t * curvature + terms.first;
-    if (!(std::abs(at) > 1e-3 * first)) break;
-    (at < 0 ? low : high) = t;
-    double next = t - at / (curvature + terms.second);
-    if (!(next > low && next < high)) next = std::isinf(high) ? 2 * low : (low + high) / 2;
-    if (next == t) break;
-    t = next;
-  }
-  return t;
 }
 
 }  // namespace sinew

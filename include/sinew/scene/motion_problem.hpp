@@ -7,10 +7,14 @@
 #include <sinew/scene/mechanical_operations.hpp>
 #include <sinew/scene/row_names.hpp>
 #include <sinew/scene/solvers.hpp>
+#include <sinew/solver/linear_system.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <string_view>
+#include <type_traits>
+#include <typeinfo>
+#include <utility>
 #include <vector>
 
 namespace sinew {
@@ -31,27 +35,22 @@ struct MotionProblem {
   void solve(ConstrainedMotion& m, Solver& solver, std::string_view where) const {
     MotionRows& all = m.motionRows;
     int dofs = 0;
-    std::size_t number = 0;
-    for_each_integrator(root, [&](auto& ode, auto const& scope) {
-      ConstrainedSystem& system = m.systems[number++];
+    forEachSystem(m, [&](auto& ode, auto const&, ConstrainedSystem& system) {
       system.begin = dofs;
-      if (system.rows.empty()) return;
-      const auto how = MultiplierResponse::of(ode, dt);
-      system.scale =
-          1 / (how.factors.impulse * (m.rows.ofVelocity ? how.factors.velocity : how.factors.position));
-      assemble(scope, how, system);
+      const auto factors = MultiplierResponse::of(ode, dt).factors;
+      system.scale = 1 / (factors.impulse * (m.rows.ofVelocity ? factors.velocity : factors.position));
       dofs += system.dofs();
     });
-    joinRows(m, dofs);
-    blocksOf(m, all, solver.preconditioner.system);
-    all.motion.setZero(all.dofs);
-    try {
-      solver.solveMotion(
-          [&](Eigen::VectorXd const& p, Eigen::VectorXd& q) { multiply(m, p, q); }, all, where);
-    } catch (Error const& error) {
-      if constexpr (SaysUnsolved<Solver>)
-        if (!solver.result.converged) throw Error({}, text(error.what(), unsolved(m, solver)));
-      throw;
+    if (!solveByStates(m, solver, dofs, where)) {
+      forEachSystem(m, [&](auto& ode, auto const& scope, ConstrainedSystem& system) {
+        assemble(scope, MultiplierResponse::of(ode, dt), system);
+      });
+      joinRows(m, dofs, [&] { return largestDiagonal(m); });
+      blocksOf(m, all, solver.preconditioner.system);
+      explained(m, solver, [&] {
+        solver.solveMotion(
+            [&](Eigen::VectorXd const& p, Eigen::VectorXd& q) { multiply(m, p, q); }, all, where);
+      });
     }
     if constexpr (SaysUnsolved<Solver>)
       if (!solver.result.converged)
@@ -61,10 +60,7 @@ struct MotionProblem {
     m.problem.multipliers.setZero(m.rows.count());
     for (std::size_t i = 0; i < all.rows.size(); ++i)
       m.problem.multipliers[all.rows[i]] = all.multipliers[Eigen::Index(i)];
-    number = 0;
-    for_each_integrator(root, [&](auto& ode, auto const&) {
-      ConstrainedSystem& system = m.systems[number++];
-      if (system.rows.empty()) return;
+    forEachSystem(m, [&](auto& ode, auto const&, ConstrainedSystem& system) {
       const auto factors = MultiplierResponse::of(ode, dt).factors;
       system.motion.head(system.dofs()) = all.motion.segment(system.begin, system.dofs()) /
                                           (m.rows.ofVelocity ? factors.velocity : factors.position);
@@ -72,6 +68,83 @@ struct MotionProblem {
   }
 
  private:
+  // f(ODE solver, its scope, its system) for those that have rows
+  template <class F>
+  void forEachSystem(ConstrainedMotion& m, F&& f) const {
+    std::size_t number = 0;
+    for_each_integrator(root, [&](auto& ode, auto const& scope) {
+      ConstrainedSystem& system = m.systems[number++];
+      if (!system.rows.empty()) f(ode, scope, system);
+    });
+  }
+  // An Error of a solver, thrown again with what it is about.
+  template <class Solver, class F>
+  void explained(ConstrainedMotion& m, Solver& solver, F&& solve) const {
+    m.motionRows.motion.setZero(m.motionRows.dofs);
+    try {
+      solve();
+    } catch (Error const& error) {
+      if constexpr (SaysUnsolved<Solver>)
+        if (!solver.result.converged) throw Error({}, text(error.what(), unsolved(m, solver)));
+      throw;
+    }
+  }
+
+  // Where all states are over the same DataTypes that can do it, they solve it; says whether.
+  template <class Solver>
+  bool solveByStates(ConstrainedMotion& m, Solver& solver, int dofs, std::string_view where) const {
+    bool done = false;
+    if constexpr (LetsMotionBeSolved<Solver>) {
+      if (!canBeSolvedByStates(m)) return false;
+      withFirstMotion(m, [&](auto& motion) {
+        motion.begin(dofs / 3);
+        forEachSystem(m, [&](auto& ode, auto const& scope, ConstrainedSystem& system) {
+          MechanicalOperations<std::decay_t<decltype(scope)>> operations(scope, time, dt);
+          refuseCorrections(scope);
+          const auto how = MultiplierResponse::of(ode, dt);
+          operations.derivsTaken = how.derivs;
+          operations.reserve({.derivs = how.derivs + 2});
+          motion.addSystem(operations, how.factors.matrix, system.scale, system.begin / 3);
+        });
+        joinRows(m, dofs, [&] { return motion.largestDiagonal(); });
+        explained(m, solver, [&] {
+          solver.solveMotionBy(
+              [&](auto const& settings) { return motion.solve(m.motionRows, settings, where); }, where);
+        });
+      });
+      done = true;
+    }
+    return done;
+  }
+  bool canBeSolvedByStates(ConstrainedMotion& m) const {
+    bool can = true;
+    std::type_info const* types = nullptr;
+    forEachSystem(m, [&](auto&, auto const& scope, ConstrainedSystem& system) {
+      MechanicalOperations<std::decay_t<decltype(scope)>> operations(scope);
+      can = can && !system.joined;
+      operations.forEachIndependent([&](auto& s) {
+        using D = typename std::decay_t<decltype(s)>::DataTypes;
+        if constexpr (SolvesMotions<D>)
+          can = can && (!types || *types == typeid(D)) && VectorOperations<D>::assemblesMotion(operations);
+        else
+          can = false;
+        types = &typeid(D);
+      });
+    });
+    return can && types;
+  }
+  // f(what the workspace of the first state has for it)
+  template <class F>
+  void withFirstMotion(ConstrainedMotion& m, F&& f) const {
+    bool found = false;
+    forEachSystem(m, [&](auto&, auto const& scope, ConstrainedSystem&) {
+      MechanicalOperations<std::decay_t<decltype(scope)>>(scope).forEachIndependent([&](auto& s) {
+        if constexpr (SolvesMotions<typename std::decay_t<decltype(s)>::DataTypes>)
+          if (!std::exchange(found, true)) f(s.solverWorkspace.motion);
+      });
+    });
+  }
+
   // what bodies answer is their system here
   template <class S>
   static void refuseCorrections(S const& scope) {
@@ -107,15 +180,16 @@ struct MotionProblem {
     operations.assemble(system.matrix, how.factors.matrix);
   }
 
-  // the rows of all systems together, without contacts that nothing can part
-  void joinRows(ConstrainedMotion& m, int dofs) const {
+  // the rows of all systems together, without contacts that nothing can part; stiffest() is the largest
+  // number on the diagonal of S
+  template <class Stiffest>
+  void joinRows(ConstrainedMotion& m, int dofs, Stiffest&& stiffest) const {
     MotionRows& all = m.motionRows;
     all.clear();
     if (all.motion.size() < dofs) all.motion.resize(dofs);
     all.motion.setZero();
     all.next.assign(m.systems.size(), 0);
     all.slack.clear();
-    const double stiffest = largestDiagonal(m);
     for (ConstraintBlock const& block : m.rows.blocks) {
       const int first = int(all.rows.size());
       const std::size_t slack = all.slack.size();
@@ -137,7 +211,7 @@ struct MotionProblem {
         if (held && row == block.first && block.first >= m.contactRows) free = false;
         if (softness > 0 || (held && block.first >= m.contactRows)) {
           all.jacobian.add(dofs + 3 * int(all.slack.size()), 1);
-          all.slack.push_back(softness > 0 ? 1 / softness : stiffest);
+          all.slack.push_back(softness > 0 ? 1 / softness : 0);
         }
         all.jacobian.endRow();
         all.rows.push_back(row);
@@ -150,6 +224,8 @@ struct MotionProblem {
       all.blocks.push_back(block);
       all.blocks.back().first = first;
     }
+    if (std::find(all.slack.begin(), all.slack.end(), 0) != all.slack.end())
+      std::replace(all.slack.begin(), all.slack.end(), 0., double(stiffest()));
     const auto n = Eigen::Index(all.rows.size());
     all.dofs = dofs + 3 * int(all.slack.size());
     all.start.resize(n);

@@ -26,6 +26,11 @@ struct GraphScattered {
 template <class D>
 concept SolvesSystems = requires { requires VectorOperations<D>::solvesSystems; };
 
+/// Those that also find the motion with multipliers, for constraint solvers that need no compliance matrix
+/// (scene/motion_problem.hpp): the workspace of their states has what does it, `motion`.
+template <class D>
+concept SolvesMotions = SolvesSystems<D> && requires { requires VectorOperations<D>::solvesMotions; };
+
 /// Whether all states of a solver are over such; with `restart` their workspace is cleared.
 /// `assembled`: the solver forms a matrix.
 template <class Operations>

@@ -56,10 +56,27 @@ void for_each_mass_column(Operations& operations, State& state, double m, MultiV
 
 }  // namespace detail
 
-/// Whether all that a solver's matrix consists of can be summed up on the device: elements there and masses,
-/// on states that are no mapped ones; nothing between two states.
+namespace detail {
+
+// whether none of the contacts of a solver is a force: multipliers answer all
 template <class Operations>
-bool can_assemble(Operations& operations) {
+bool only_multipliers_answer(Operations& operations) {
+  bool only = true;
+  operations.root.withContacts([&](auto& manager) {
+    std::size_t answered = 0;
+    manager.forEachConstrained([&](auto const&, auto&) { ++answered; });
+    only = answered == manager.contacts.size() && manager.attachments.empty();
+  });
+  return only;
+}
+
+}  // namespace detail
+
+/// Whether all that a solver's matrix consists of can be summed up on the device: elements there and masses,
+/// on states that are no mapped ones; nothing between two states. `now`: mapped states that add nothing may
+/// be there, and collision models as long as their contacts add nothing, too.
+template <class Operations>
+bool can_assemble(Operations& operations, bool now) {
   bool can = true;
   traverse(operations.root,
            on<role::ForceField, role::InteractionForceField, role::Mapping, role::CollisionModel, role::Mass>(
@@ -67,12 +84,16 @@ bool can_assemble(Operations& operations) {
                  using C = std::decay_t<decltype(c)>;
                  if constexpr (HasRole<C, role::Mapping>)
                    scope.withChild(c, [&](auto& child) {
-                     if constexpr (HasRole<std::decay_t<decltype(child)>, role::State>) can = false;
+                     if constexpr (HasRole<std::decay_t<decltype(child)>, role::State>)
+                       can = can && now && !HasGeometricStiffness<C>;
                    });
-                 else if constexpr (HasRole<C, role::ForceField>)
-                   can = can && (detail::HasDeviceElements<C> || Load<C>);
-                 else if constexpr (!HasRole<C, role::Mass>)
+                 else if constexpr (HasRole<C, role::CollisionModel>)
+                   can = can && now && detail::only_multipliers_answer(operations);
+                 else if constexpr (HasRole<C, role::InteractionForceField>)
                    can = false;
+                 else
+                   can = can && !scope.stateScope().mapped() &&
+                         (HasRole<C, role::Mass> || detail::HasDeviceElements<C> || Load<C>);
                }));
   return can;
 }

@@ -163,6 +163,7 @@ class DeviceVector {
     size_ = 0;
     newest_ = Side::host;
   }
+  void swap(DeviceVector& other) noexcept { std::swap(*this, other); }
   bool operator==(DeviceVector const& other) const { return host() == other.host(); }
 
  private:

@@ -63,11 +63,19 @@ class RecordedStep {
   void finish() { wait(); }
 
  private:
-  // a body that a mapping carries to the host is looked at there in every step
+  // rows of constraints are made by the host in every step; and a body that a mapping carries to the host is
+  // looked at there
   void refuseAcross() const {
     const NoScope above;
-    traverse(typename Simulation<Root>::RootScope{simulation_.root(), above},
-             on<role::Mapping>([](auto& mapping, auto const& scope) {
+    const typename Simulation<Root>::RootScope root{simulation_.root(), above};
+    traverse(root, on<role::AnimationLoop>([](auto& loop, auto const& scope) {
+               throw Error(
+                   scope.path(),
+                   text(component_name<std::decay_t<decltype(loop)>>(),
+                        " solves constraints in every step, with rows from the host, which a recorded "
+                        "step cannot; animate() the simulation"));
+             }));
+    traverse(root, on<role::Mapping>([](auto& mapping, auto const& scope) {
                using M = std::decay_t<decltype(mapping)>;
                if constexpr (OnDevice<typename M::In> != OnDevice<typename M::Out>)
                  scope.withChild(mapping, [&](auto& child) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/gpu/block_rows.hpp>
+#include <sinew/gpu/convex_motion.hpp>
 #include <sinew/state/vector_operations.hpp>
 
 namespace sinew {
@@ -11,6 +12,7 @@ struct SolverWorkspace<CudaTypes<H>> {
   gpu::DeviceVector<double> numbers{};             // of conjugate gradients (CgScalars)
   gpu::DeviceVector<typename H::Real> diagonal{};  // blocks of a preconditioner (PointBlocks), two a point
   gpu::BlockRows<CudaTypes<H>> rows{};             // the assembled system
+  gpu::ConvexMotion<CudaTypes<H>> motion{};        // of a scene with constraints by multipliers
 };
 
 }  // namespace sinew

@@ -30,7 +30,7 @@ struct CgScalars {
 template <class Operations, class Solver, class MultiVec>
 void conjugate_gradients(Operations&, Solver&, MatrixFactors, MultiVec&, MultiVec&, DeviceVector<double>&);
 template <class Operations>
-bool can_assemble(Operations&);
+bool can_assemble(Operations&, bool);
 
 }  // namespace gpu
 
@@ -40,6 +40,7 @@ struct VectorOperations<CudaTypes<H>> {
   using D = CudaTypes<H>;
   using Real = typename D::Real;
   static constexpr bool solvesSystems = true;
+  static constexpr bool solvesMotions = !D::rigid && D::size == 3;
   using Coord = typename D::Coord;
   using Deriv = typename D::Deriv;
   using VecCoord = typename D::VecCoord;
@@ -109,7 +110,12 @@ struct VectorOperations<CudaTypes<H>> {
   /// Whether the matrix of a solver can be assembled on the device.
   template <class Operations>
   static bool assembles(Operations& operations) {
-    return gpu::can_assemble(operations);
+    return gpu::can_assemble(operations, false);
+  }
+  /// The same in this step, for the motion with multipliers.
+  template <class Operations>
+  static bool assemblesMotion(Operations& operations) {
+    return gpu::can_assemble(operations, true);
   }
   /// Solves with conjugate gradients for states that are all on the device.
   template <class Solver, class Operations, class MultiVec>

@@ -46,6 +46,11 @@ concept SaysUnsolved = requires(C const c) {
   { c.unsolved() } -> std::convertible_to<std::string>;
 };
 
+/// And lets others find it, where states are not in the host's memory: solveMotionBy(solve, where) calls
+/// solve(ConvexStepSettings), which is ConvexStep::solve for them.
+template <class C>
+concept LetsMotionBeSolved = SolvesMotion<C> && named::solveMotionBy<C>;
+
 template <class C>
 concept ConstraintSolver =
     HasRole<C, role::ConstraintSolver> && (SolvesConstraintProblem<C> || SolvesMotion<C>);

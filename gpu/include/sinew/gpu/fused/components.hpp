@@ -50,7 +50,8 @@ template <class C>
 struct IsForeign
     : std::bool_constant<HasRole<C, role::InteractionForceField> || HasRole<C, role::CollisionModel> ||
                          HasRole<C, role::Carving> || HasRole<C, role::LagrangianConstraint> ||
-                         HasRole<C, role::AnimationLoop> || ActsBeforeStep<C> ||
+                         HasRole<C, role::AnimationLoop> || HasRole<C, role::ConstraintSolver> ||
+                         HasRole<C, role::ConstraintCorrection> || ActsBeforeStep<C> ||
                          (HasRole<C, role::ForceField> && Resettable<C>) ||
                          (HasRole<C, role::OdeSolver> && !IsOdeSolver<C>::value) ||
                          (HasRole<C, role::LinearSolver> && !IsLinearSolver<C>::value)> {};

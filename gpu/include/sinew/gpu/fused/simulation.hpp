@@ -58,8 +58,9 @@ class FusedSimulation {
     const All all = components_of(simulation.root());
     static_assert(
         std::tuple_size_v<decltype(components_that<detail::IsForeign>(all))> == 0,
-        "Sinew: a fused step has no place for interactions, collision, further solvers, forces that steps "
-        "change, and what acts before a step; such a scene is stepped by Simulation.");
+        "Sinew: a fused step has no place for constraints by multipliers and their loop, interactions, "
+        "collision, further solvers, forces that steps change, and what acts before a step; such a scene is "
+        "stepped by Simulation.");
     nodes_ = only<detail::IsState>(all)->size();
     ode_ = *only<detail::IsOdeSolver>(all);
     cg_ = *only<detail::IsLinearSolver>(all);
