@@ -24,8 +24,8 @@
 #include <sinew/engine/mesh_loader.hpp>
 #include <sinew/engine/mesh_subdivision.hpp>
 #include <sinew/engine/roi.hpp>
-#include <sinew/engine/string_mesh_creator.hpp>
 #include <sinew/engine/sphere_loader.hpp>
+#include <sinew/engine/string_mesh_creator.hpp>
 #include <sinew/engine/topological_mapping.hpp>
 #include <sinew/force/element_pressure.hpp>
 #include <sinew/force/hyperelastic_material.hpp>
