@@ -7,6 +7,8 @@
 
 #include <sinew/gpu/recorded_step.hpp>
 
+#include <limits>
+
 namespace test_scenes_contact {
 
 using namespace gpu_test;
@@ -109,6 +111,15 @@ TEST_CASE("a step with constraints on the device that is not solved says which c
   const std::string said = error_of([&] { sim.animate(dt); });
   CHECK(said.find("ConvexConstraintSolver: the constraints are not solved after ") != std::string::npos);
   CHECK(said.find("UnilateralLagrangianConstraint<CudaVec3d") != std::string::npos);
+}
+
+TEST_CASE("a body on the device that is not finite stops a step with constraints by an error") {
+  auto sim = SlidingBlock::make<CudaVec3d>();
+  sim.init();
+  sim.animate(dt);
+  sim.at<"body">().state().velocity[0][2] = std::numeric_limits<double>::quiet_NaN();
+  const std::string said = error_of([&] { sim.animate(dt); });
+  CHECK(said.find("not a finite number") != std::string::npos);
 }
 
 TEST_CASE("a step with constraints by multipliers is not recorded") {

@@ -80,7 +80,8 @@ void same_as_host(std::string const& name, double rounding) {
 }  // namespace
 
 TEST_CASE("scene files on a device move as over the processor's DataTypes") {
-  for (const char* name : {"tetrahedra", "hexahedra", "hyperelastic", "rigid"}) same_as_host(name, 1e-10);
+  for (const char* name : {"tetrahedra", "hexahedra", "hyperelastic", "rigid", "contact"})
+    same_as_host(name, 1e-10);
 }
 
 TEST_CASE("scene files on a device in float move as in double, to rounding") {

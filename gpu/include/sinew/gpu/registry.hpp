@@ -16,7 +16,8 @@ using CudaBodies = Registry<MechanicalObject<D>, UniformMass<D>, RestShapeSpring
 template <class D>
 using CudaPoints = Registry<CudaBodies<D>, DiagonalMass<D>, PointSprings<D>, PlaneForceField<D>,
                             SphereForceField<D>, TriangleFEMForceField<D>, TetrahedronFEMForceField<D>,
-                            HexahedronFEMForceField<D>, TetrahedronHyperelasticityFEMForceField<D>>;
+                            HexahedronFEMForceField<D>, TetrahedronHyperelasticityFEMForceField<D>,
+                            UnilateralLagrangianConstraint<D>, UnilateralLagrangianConstraint<D, Linked>>;
 template <class D>
 using CudaRigids = Registry<CudaBodies<D>, AngularSpringForceField<D>>;
 // to states of the device, and to models of the host: collision models are there over Vec3d
@@ -34,8 +35,8 @@ struct CudaStandard
                CudaPointMappings<CudaVec3f>, CudaPointMappings<CudaVec3d>,
                CudaRigidMappings<CudaRigid3f, CudaVec3f>, CudaRigidMappings<CudaRigid3d, CudaVec3d>> {};
 
-/// And what stands around that in a scene: meshes, selections, solvers, collision models and obstacles of the
-/// host.
+/// And what stands around that in a scene: meshes, selections, solvers, those of constraints by multipliers,
+/// collision models and obstacles of the host.
 struct CudaScenes
     : Registry<Gravity, MeshTopology, RegularGridTopology, VisualModel, MeshGmshLoader, MeshOBJLoader,
                BoxROI<Vec3d>, BoxROI<Vec3f>, EulerExplicitSolver, EulerImplicitSolver, CGLinearSolver<>,
@@ -43,7 +44,8 @@ struct CudaScenes
                CGLinearSolver<CompressedRowSparseMatrixMat3x3f>, ShewchukPCGLinearSolver<>,
                ShewchukPCGLinearSolver<CompressedRowSparseMatrixMat3x3d>, DefaultPipeline,
                BruteForceBroadPhase, BVHNarrowPhase, MinProximityIntersection, DefaultContactManager,
-               PointCollisionModel<Vec3d>, TriangleCollisionModel<Vec3d>, SphereCollisionModel<Vec3d>,
-               MechanicalObject<Vec3d>, MechanicalObject<Vec3f>, CudaStandard> {};
+               FreeMotionAnimationLoop, ConvexConstraintSolver, PointCollisionModel<Vec3d>,
+               TriangleCollisionModel<Vec3d>, SphereCollisionModel<Vec3d>, MechanicalObject<Vec3d>,
+               MechanicalObject<Vec3f>, CudaStandard> {};
 
 }  // namespace sinew

@@ -30,10 +30,12 @@ class WholeTeam {
   /// `parts`: two lists of mostNumbers for each block.
   __device__ explicit WholeTeam(double* parts) : parts_(parts) {}
 
-  /// f(i) for i = 0 .. n - 1, always in the same thread for the same i.
+  /// f(i) for i = 0 .. n - 1, always in the same thread for the same i. Warps of all blocks take turns, so
+  /// that a short loop is spread over the GPU.
   template <class F>
   __device__ void each(int n, F&& f) const {
-    for (int i = int(blockIdx.x * blockDim.x + threadIdx.x); i < n; i += int(gridDim.x * blockDim.x)) f(i);
+    const unsigned warp = threadIdx.x / 32 * gridDim.x + blockIdx.x;
+    for (int i = int(32 * warp + threadIdx.x % 32); i < n; i += int(gridDim.x * blockDim.x)) f(i);
   }
   /// f(i, lane) by the threads that share row i.
   template <class F>

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: BSL-1.0
+// Steps a second on a GPU of a soft block that lies on a plane and slides there, its contacts solved by
+// multipliers (ConvexConstraintSolver):
+//   contact NX NY NZ [--double] [--steps N] [--tolerance METRES] [--profile] [--host]
+// The block has NX x NY points that touch, and NZ layers of them: 32 32 6 are 1,024 contacts and 28,830
+// tetrahedra. Prints tetrahedra; points; contacts; real; steps a second, the median; of each step the updates
+// of the potentials, iterations of Newton's method and of conjugate gradients, and looks of the line search;
+// the largest residuals, of the constraints [m] and of the momentum; steps that were not solved; and how far
+// the sum of the normal forces is from the weight, relative. --profile prints how long the host was in each
+// part of a step (work of the GPU counts where the host waits for it); --host how far points are from where
+// the processor has them after the first 20 steps.
+#include <sinew/gpu/gpu.hpp>
+
+#include <sinew/context/gravity.hpp>
+#include <sinew/force/tetrahedron_fem.hpp>
+#include <sinew/lagrangian.hpp>
+#include <sinew/mass/uniform_mass.hpp>
+#include <sinew/scene/profile_report.hpp>
+#include <sinew/scene/profiled.hpp>
+#include <sinew/scene/simulation.hpp>
+#include <sinew/solver/cg_linear_solver.hpp>
+#include <sinew/solver/euler_implicit.hpp>
+#include <sinew/state/mechanical_object.hpp>
+#include <sinew/topology/mesh_topology.hpp>
+#include <sinew/topology/regular_grid.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <utility>
+#include <vector>
+
+using namespace sinew;
+
+namespace {
+
+constexpr double dt = 0.01, edge = 0.05, density = 1000;
+constexpr int settling = 20;  // until all points bear
+
+struct Options {
+  std::array<int, 3> n{};
+  int steps = 200;
+  double tolerance = 1e-6;
+  bool inDouble = false, profile = false, host = false;
+};
+
+int whole_number(std::string const& text) {
+  char* end = nullptr;
+  const long value = std::strtol(text.c_str(), &end, 10);
+  if (end == text.c_str() || *end || value < 1 || value > 1000000)
+    throw Error("arguments", sinew::text("'", text, "' is not a whole number of at least 1"));
+  return int(value);
+}
+
+template <class D>
+auto scene(Options const& o) {
+  const auto [nx, ny, nz] = o.n;
+  const Mesh mesh =
+      regular_grid_tetrahedra(nx, ny, nz, {0, 0, 0}, edge * Eigen::Vector3d(nx - 1, ny - 1, nz - 1));
+  std::vector<int> bottom;
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+    if (mesh.positions[i][2] < 1e-9) bottom.push_back(int(i));
+  const double volume = edge * edge * edge * (nx - 1) * (ny - 1) * (nz - 1);
+  return node<"root">(
+      FreeMotionAnimationLoop{},
+      ConvexConstraintSolver{.tolerance = o.tolerance},
+      Gravity{{0, 0, -9.81}},
+      UnilateralLagrangianConstraint<D, Between<"ground", "block">>{
+          .first_point = std::vector<int>(bottom.size(), 0),
+          .second_point = bottom,
+          .normal = {{0, 0, 1}},
+          .mu = {0.5}},
+      node<"ground">(MechanicalObject<D>{.position = {{0, 0, 0}}}),
+      node<"block">(EulerImplicitSolver{.rayleighStiffness = 0.01, .rayleighMass = 0.01},
+                    CGLinearSolver<CompressedRowSparseMatrixMat3x3d>{.iterations = 200, .tolerance = 1e-8},
+                    MeshTopology{.position = mesh.positions, .tetrahedra = mesh.tetrahedra},
+                    MechanicalObject<D>{.velocity = {{1, 0, 0}}},
+                    UniformMass<D>{.totalMass = density * volume},
+                    TetrahedronFEMForceField<D>{.youngModulus = {1e5}, .poissonRatio = 0.4}));
+}
+
+double now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+template <class H>
+void measure(Options const& o) {
+  using D = CudaTypes<H>;
+  Simulation sim{scene<D>(o)};
+  sim.init();
+  auto const& solver = sim.root().template first<role::ConstraintSolver>();
+  auto const& contacts = sim.root().template first<role::LagrangianConstraint>();
+  auto& block = sim.template at<"block">();
+  for (int i = 0; i < settling; ++i) sim.animate(dt);
+  auto const& x = std::as_const(block.state().position);
+  if (o.host) {
+    Simulation reference{scene<H>(o)};
+    reference.init();
+    for (int i = 0; i < settling; ++i) reference.animate(dt);
+    auto const& y = reference.template at<"block">().state().position;
+    double far = 0;
+    for (std::size_t i = 0; i < y.size(); ++i)
+      for (int c = 0; c < 3; ++c) far = std::max(far, std::abs(double(x[i][c]) - double(y[i][c])));
+    std::printf("# %.2e m from the processor after %d steps\n", far, settling);
+  }
+  std::vector<double> seconds;
+  double updates = 0, newton = 0, cg = 0, looks = 0, residual = 0, momentum = 0;
+  int unsolved = 0;
+  for (int i = 0; i < o.steps; ++i) {
+    gpu::wait();
+    const double begin = now();
+    sim.animate(dt);
+    gpu::wait();
+    seconds.push_back(now() - begin);
+    ConvexStepResult const& r = solver.result;
+    updates += r.updates;
+    newton += r.newtonIterations;
+    cg += r.conjugateGradients;
+    looks += r.lineSearches;
+    residual = std::max(residual, r.residual);
+    momentum = std::max(momentum, r.momentum);
+    unsolved += !r.converged;
+  }
+  std::sort(seconds.begin(), seconds.end());
+  double normal = 0;
+  for (std::size_t i = 0; i < contacts.multipliers.size(); i += 3) normal += contacts.multipliers[i];
+  const auto [nx, ny, nz] = o.n;
+  const double weight = 9.81 * density * edge * edge * edge * (nx - 1) * (ny - 1) * (nz - 1), n = o.steps;
+  std::printf(
+      "%zu; %zu; %zu; %s; %.1f; %.1f updates, %.1f Newton, %.1f conjugate gradients, %.1f looks; %.1e m, "
+      "%.1e; %d unsolved; forces %.1e\n",
+      block.template first<role::ForceField>().driver.size(),
+      x.size(),
+      contacts.first_point.size(),
+      sizeof(typename H::Real) == 8 ? "double" : "float",
+      1 / seconds[seconds.size() / 2],
+      updates / n,
+      newton / n,
+      cg / n,
+      looks / n,
+      residual,
+      momentum,
+      unsolved,
+      std::abs(normal / weight - 1));
+  std::fflush(stdout);
+  if (!o.profile) return;
+  Simulation timed{profiled(scene<D>(o))};
+  timed.init();
+  for (int i = 0; i < settling + o.steps; ++i) timed.animate(dt);
+  std::printf("%s\n", profile_table(timed.root().profile()).c_str());
+}
+
+Options options(int argc, char** argv) {
+  Options o;
+  std::size_t given = 0;
+  for (int i = 1; i < argc; ++i) {
+    const std::string a = argv[i];
+    auto next = [&]() -> std::string {
+      if (++i == argc) throw Error("arguments", text(a, " needs a number behind it"));
+      return argv[i];
+    };
+    if (a == "--double")
+      o.inDouble = true;
+    else if (a == "--profile")
+      o.profile = true;
+    else if (a == "--host")
+      o.host = true;
+    else if (a == "--steps")
+      o.steps = whole_number(next());
+    else if (a == "--tolerance")
+      o.tolerance = std::strtod(next().c_str(), nullptr);
+    else if (given < 3)
+      o.n[given++] = std::max(2, whole_number(a));
+    else
+      throw Error("arguments", text("'", a, "' is not known"));
+  }
+  if (given < 3)
+    throw Error("arguments",
+                "contact NX NY NZ [--double] [--steps N] [--tolerance METRES] [--profile] [--host]");
+  return o;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  const Options o = options(argc, argv);
+  if (o.inDouble)
+    measure<Vec3d>(o);
+  else
+    measure<Vec3f>(o);
+  return 0;
+} catch (Error const& error) {
+  std::fprintf(stderr, "contact: %s\n", error.what());
+  return 1;
+}
