@@ -56,6 +56,9 @@ struct Rows {
   Vector3 y(double const* d) const { return {g[0] - d[0] / r[0], g[1] - d[1] / r[1], g[2] - d[2] / r[2]}; }
 };
 
+/// |y_t|
+inline double tangential(Vector3 const& y) { return std::sqrt(y[1] * y[1] + y[2] * y[2]); }
+
 void multipliers(ConstraintBlock const& b, Rows const& rows, double const* d, double* f);
 
 double value(ConstraintBlock const& b, Rows const& rows, double const* d);
@@ -78,7 +81,7 @@ namespace contact_potential {
 SINEW_ONCE Projection project(double friction, Vector3 const& r, Vector3 const& y) {
   Projection p;
   p.mu = std::min(friction, largestFriction);
-  p.tangential = std::hypot(y[1], y[2]);
+  p.tangential = tangential(y);
   p.a = p.mu * r[1] / r[0];
   if (p.tangential <= p.mu * y[0]) {
     p.region = Projection::Region::sticking;
@@ -110,14 +113,14 @@ SINEW_ONCE Curvature curvature_of(Projection const& p, Vector3 const& r, Vector3
 }
 
 SINEW_ONCE Vector3 bounded(double bound, Vector3 const& y) {
-  const double t = std::hypot(y[1], y[2]), scale = t <= bound ? 1 : bound / t;
+  const double t = tangential(y), scale = t <= bound ? 1 : bound / t;
   return {std::max(0., y[0]), scale * y[1], scale * y[2]};
 }
 
 SINEW_ONCE Curvature bounded_curvature(double bound, Vector3 const& r, Vector3 const& y) {
   Curvature G = Curvature::Zero();
   if (y[0] >= 0) G(0, 0) = 1 / r[0];
-  const double t = std::hypot(y[1], y[2]);
+  const double t = tangential(y);
   if (t > bound) {
     const Eigen::Vector2d across(-y[2] / t, y[1] / t);
     G.block<2, 2>(1, 1) = (bound / (t * r[1])) * (across * across.transpose()).eval();
@@ -153,8 +156,7 @@ SINEW_ONCE double value(ConstraintBlock const& b, Rows const& rows, double const
   for (int i = 0; i < b.rows; ++i) sum += rows.r[i] * f[i] * f[i] / 2;
   if (b.kind == ConstraintBlock::Kind::friction && rows.bound >= 0) {
     const Vector3 y = rows.y(d);
-    if (const double t = std::hypot(y[1], y[2]); t > rows.bound)
-      sum += rows.r[1] * rows.bound * (t - rows.bound);
+    if (const double t = tangential(y); t > rows.bound) sum += rows.r[1] * rows.bound * (t - rows.bound);
   }
   return sum;
 }
