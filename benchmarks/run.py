@@ -16,6 +16,7 @@ import sys
 import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent / "compile"))
+import contact_table  # noqa: E402
 import measure  # noqa: E402
 import picture  # noqa: E402
 import table  # noqa: E402
@@ -90,6 +91,7 @@ def main():
     parser.add_argument("--threads", type=int, nargs="+", metavar="N", help="numbers of threads in it (default: 1, 2, 4, ... all)")
     parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument("--only", choices=TABLES, action="append", help="this table instead of all; may be repeated")
+    parser.add_argument("--long", action="store_true", help="contact: also what takes minutes for one line")
     parser.add_argument("--json", type=pathlib.Path, default=pathlib.Path("out/bench.json"))
     arguments = parser.parse_args()
     if arguments.rounds < 1:
@@ -125,7 +127,7 @@ def main():
         if wanted("threads"):
             results["threads"] = table.threads(build, arguments.cells, arguments.threads)
         if wanted("contact"):
-            results["contact"] = table.contact(build)
+            results["contact"] = contact_table.contact(build, arguments.long)
         if wanted("portability"):
             results["portability"] = table.portability(build, rounds)
         if wanted("by-hand"):

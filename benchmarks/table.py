@@ -173,20 +173,6 @@ def roofline(build, rounds, sizes=(17, 55)):
     return rows
 
 
-def contact(build):
-    """A soft block that slides on a plane, by each constraint solver."""
-    rows, lines = [], []
-    for points in [(8, 8, 3), (16, 16, 3), (22, 22, 2), (32, 32, 6)]:
-        head, *found = output(build / "bench_contact", *points, 40 if points[0] < 30 else 10).splitlines()
-        for solver, contacts, speed, iterations, residual in map(str.split, found):
-            tetrahedra = int(head.split()[1])
-            lines.append([f"{tetrahedra:,}", contacts, solver, speed, iterations, residual])
-            rows.append({"solver": solver, "tetrahedra": tetrahedra, "contacts": int(contacts), "steps_per_second": float(speed),
-                         "iterations": float(iterations), "residual": float(residual)})
-    print_table("a soft block that slides on a plane, mu = 0.5, dt = 0.01 s", ["tetrahedra", "contacts", "solver", "steps/s", "iterations", "residual [m]"], lines)
-    return rows
-
-
 def growth(build, rounds, sizes=(6, 12, 26, 55)):
     rows, lines = [], []
     for cells in sizes:

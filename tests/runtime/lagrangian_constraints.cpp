@@ -32,11 +32,11 @@ template <template <class, class> class C, class D>
 using Either = Registry<C<D, Within>, C<D, Linked>>;
 
 struct Mine
-    : Registry<Gravity, FreeMotionAnimationLoop, BlockGaussSeidelConstraintSolver, EulerExplicitSolver,
-               EulerImplicitSolver, SparseLDLSolver<>, MeshTopology, MechanicalObject<Vec1d>,
-               MechanicalObject<Vec3d>, MechanicalObject<Rigid3d>, UniformMass<Vec1d>, UniformMass<Vec3d>,
-               UniformMass<Rigid3d>, ConstantForceField<Vec1d>, FixedConstraint<Vec3d>,
-               DistanceMapping<Vec3d, Vec1d>, RigidMapping<Rigid3d, Vec3d>,
+    : Registry<Gravity, FreeMotionAnimationLoop, BlockGaussSeidelConstraintSolver, ConvexConstraintSolver,
+               EulerExplicitSolver, EulerImplicitSolver, SparseLDLSolver<>, MeshTopology,
+               MechanicalObject<Vec1d>, MechanicalObject<Vec3d>, MechanicalObject<Rigid3d>,
+               UniformMass<Vec1d>, UniformMass<Vec3d>, UniformMass<Rigid3d>, ConstantForceField<Vec1d>,
+               FixedConstraint<Vec3d>, DistanceMapping<Vec3d, Vec1d>, RigidMapping<Rigid3d, Vec3d>,
                FixedLagrangianConstraint<Rigid3d>, UniformLagrangianConstraint<Vec1d>,
                StopperLagrangianConstraint<Vec1d>, Either<BilateralLagrangianConstraint, Vec3d>,
                Either<BilateralLagrangianConstraint, Rigid3d>, Either<SlidingLagrangianConstraint, Vec3d>,
@@ -104,6 +104,15 @@ const std::string xml = R"(<Node name="root" gravity="0 -10 0" dt="0.01">
                                  second_point="0" rest_vector="0 0.14 0.48" load="0.5"/>
 </Node>)";
 
+// the same by the convex solver, but for the cart, whose points are on a line
+std::string by_convex_steps() {
+  std::string text = xml;
+  const auto cart = text.find("  <Node name=\"cart\">"), end = text.find("  <Node name=\"rail\">");
+  text.erase(cart, end - cart);
+  const auto solver = text.find("  <BlockGaussSeidel"), next = text.find("  <Node name=\"chain\">");
+  return text.replace(solver, next - solver, "  <ConvexConstraintSolver tolerance=\"1e-9\"/>\n");
+}
+
 using Scene = Simulation<RuntimeNode<Mine>>;
 Scene started(std::string const& text) {
   auto read = parse_scene<Mine>("constraints.scn", text);
@@ -130,7 +139,8 @@ std::vector<double> motion(Scene& sim) {
   };
   for (auto name : {"chain", "bead", "hard", "soft", "first/arm"}) add(state<Vec3d>(sim, name));
   for (auto name : {"first", "second"}) add(state<Rigid3d>(sim, name));
-  for (auto name : {"cart", "chain/edges"}) add(state<Vec1d>(sim, name));
+  add(state<Vec1d>(sim, "chain/edges"));
+  if (sim.root().find_node("cart")) add(state<Vec1d>(sim, "cart"));
   return all;
 }
 void run(Scene& sim, int steps) {
@@ -157,21 +167,23 @@ TEST_CASE("each constraint of a scene file holds") {
 }
 
 TEST_CASE("a scene goes on from its checkpoint, and from its start, with the same bits") {
-  Scene sim = started(xml);
-  run(sim, 20);
-  const auto early = motion(sim);
-  const std::string saved = scene_text(sim, 0.01);
-  Scene again = started(saved);
-  CHECK(motion(again) == early);
-  run(sim, 20);
-  run(again, 20);
-  const auto late = motion(sim);
-  CHECK(motion(again) == late);
-  sim.reset();
-  run(sim, 20);
-  CHECK(motion(sim) == early);
-  run(sim, 20);
-  CHECK(motion(sim) == late);
+  for (auto const& text : {xml, by_convex_steps()}) {
+    Scene sim = started(text);
+    run(sim, 20);
+    const auto early = motion(sim);
+    const std::string saved = scene_text(sim, 0.01);
+    Scene again = started(saved);
+    CHECK(motion(again) == early);
+    run(sim, 20);
+    run(again, 20);
+    const auto late = motion(sim);
+    CHECK(motion(again) == late);
+    sim.reset();
+    run(sim, 20);
+    CHECK(motion(sim) == early);
+    run(sim, 20);
+    CHECK(motion(sim) == late);
+  }
 }
 
 TEST_CASE("constraints are baked between the nodes that they join") {

@@ -6,11 +6,14 @@
 
 #include <Eigen/Core>
 
+#include <array>
+#include <utility>
 #include <vector>
 
 namespace sinew {
 
-/// Block Jacobi of A + J' G J: z = D^-1 r with the B x B diagonal blocks D of the sum, one of each point.
+/// Block Jacobi of A + J' G J: z = D^-1 r with the B x B diagonal blocks D of the sum, one of each point. It
+/// has J in blocks of B columns, and so the products with J' G J, too.
 template <int B>
 class ConstrainedBlockJacobi {
  public:
@@ -24,6 +27,7 @@ class ConstrainedBlockJacobi {
   /// Takes rows for one solution. `compliance`: an estimate of the diagonal of W, that of J D_A^-1 J'.
   void begin(ConstraintTerms const& terms, Eigen::VectorXd& compliance) {
     gather(terms);
+    sum_.resize(system.size());
     inverse_.resize(system.size());
     for (std::size_t i = 0; i < system.size(); ++i) invert(system[i], inverse_[i]);
     ConstraintTerms::clear(terms.rows().rows(), compliance);
@@ -41,27 +45,53 @@ class ConstrainedBlockJacobi {
 
   /// Takes G as it is now.
   void update(ConstraintTerms const& terms) {
-    sum_ = system;
+    for (const int i : touched_) sum_[std::size_t(i)] = system[std::size_t(i)];
     for (std::size_t k = 0; k < terms.blocks().size(); ++k) {
       ConstraintBlock const& b = terms.blocks()[k];
       double const* G = terms.curvature(b);
-      for (std::size_t e = ends_[k]; e < ends_[k + 1]; ++e) {
+      acts_[k] = false;
+      for (int i = 0; i < (b.kind == ConstraintBlock::Kind::friction ? 9 : b.rows); ++i)
+        if (G[i] != 0) acts_[k] = true;
+      for (std::size_t e = ends_[k]; e < ends_[k + 1] && acts_[k]; ++e) {
         Block& of = sum_[std::size_t(point_[e])];
-        const Eigen::Map<Eigen::Matrix<double, B, Eigen::Dynamic> const> rows(
-            rows_.data() + slot_[e], B, b.rows);
         if (b.kind == ConstraintBlock::Kind::friction) {
-          const Eigen::Map<contact_potential::Curvature const> curvature(G, 3, 3);
-          if (!curvature.isZero(0)) {
-            const Eigen::Matrix<double, B, 3> J = rows.template leftCols<3>();
-            of.noalias() += (J * curvature).eval() * J.transpose();
-          }
+          const Contact J(rows_.data() + slot_[e]);
+          of.noalias() += (J * Eigen::Map<contact_potential::Curvature const>(G)).eval() * J.transpose();
         } else {
+          const Rows rows(rows_.data() + slot_[e], B, b.rows);
           for (int i = 0; i < b.rows; ++i)
             if (G[i] != 0) of.noalias() += (rows.col(i) * G[i]) * rows.col(i).transpose();
         }
       }
     }
-    for (std::size_t i = 0; i < sum_.size(); ++i) invert(sum_[i], inverse_[i]);
+    for (const int i : touched_) invert(sum_[std::size_t(i)], inverse_[std::size_t(i)]);
+  }
+
+  /// q += J' G J p, with G as of the last update.
+  void addProduct(ConstraintTerms const& terms, Eigen::VectorXd const& p, Eigen::VectorXd& q) const {
+    for (std::size_t k = 0; k < terms.blocks().size(); ++k) {
+      if (!acts_[k]) continue;
+      ConstraintBlock const& b = terms.blocks()[k];
+      if (b.kind == ConstraintBlock::Kind::friction) {
+        Eigen::Vector3d w(0, 0, 0);
+        for (std::size_t e = ends_[k]; e < ends_[k + 1]; ++e)
+          w.noalias() += Contact(rows_.data() + slot_[e]).transpose() * p.template segment<B>(B * point_[e]);
+        w = (Eigen::Map<contact_potential::Curvature const>(terms.curvature(b)) * w).eval();
+        for (std::size_t e = ends_[k]; e < ends_[k + 1]; ++e)
+          q.template segment<B>(B * point_[e]).noalias() += Contact(rows_.data() + slot_[e]) * w;
+      } else {
+        std::array<double, ConstraintBlock::maxRows> w{};
+        for (std::size_t e = ends_[k]; e < ends_[k + 1]; ++e)
+          for (int i = 0; i < b.rows; ++i)
+            w[std::size_t(i)] +=
+                Rows(rows_.data() + slot_[e], B, b.rows).col(i).dot(p.template segment<B>(B * point_[e]));
+        contact_potential::multiply(b, terms.curvature(b), w.data());
+        for (std::size_t e = ends_[k]; e < ends_[k + 1]; ++e)
+          for (int i = 0; i < b.rows; ++i)
+            q.template segment<B>(B * point_[e]) +=
+                w[std::size_t(i)] * Rows(rows_.data() + slot_[e], B, b.rows).col(i);
+      }
+    }
   }
 
   void apply(Eigen::VectorXd const& r, Eigen::VectorXd& z) const {
@@ -72,12 +102,18 @@ class ConstrainedBlockJacobi {
   }
 
  private:
+  // rows of J over one point, transposed: those of a contact, and any
+  using Contact = Eigen::Map<Eigen::Matrix<double, B, 3> const>;
+  using Rows = Eigen::Map<Eigen::Matrix<double, B, Eigen::Dynamic> const>;
+
   std::vector<Block> sum_{}, inverse_{};
   // the rows of each block of constraints, as blocks of B columns of the points that they have
   std::vector<std::size_t> ends_{}, slot_{};
   std::vector<int> point_{};
   std::vector<double> rows_{};
-  std::vector<int> entry_{};  // of each point in the block at hand
+  std::vector<int> entry_{};                // of each point in the block at hand
+  std::vector<int> touched_{};              // points that have rows
+  std::vector<char> isTouched_{}, acts_{};  // acts: G is not 0
 
   static void invert(Block const& a, Block& inverse) {
     if (!invert_definite(a, inverse)) invert_diagonal(a, inverse);
@@ -88,6 +124,9 @@ class ConstrainedBlockJacobi {
     point_.clear();
     rows_.clear();
     entry_.assign(system.size(), -1);
+    touched_.clear();
+    isTouched_.assign(system.size(), false);
+    acts_.assign(terms.blocks().size(), false);
     for (ConstraintBlock const& b : terms.blocks()) {
       const std::size_t begin = point_.size();
       for (int i = 0; i < b.rows; ++i)
@@ -101,7 +140,10 @@ class ConstrainedBlockJacobi {
           }
           rows_[slot_[std::size_t(entry)] + std::size_t(B * i + dof % B)] += value;
         });
-      for (std::size_t e = begin; e < point_.size(); ++e) entry_[std::size_t(point_[e])] = -1;
+      for (std::size_t e = begin; e < point_.size(); ++e) {
+        entry_[std::size_t(point_[e])] = -1;
+        if (!std::exchange(isTouched_[std::size_t(point_[e])], true)) touched_.push_back(point_[e]);
+      }
       ends_.push_back(point_.size());
     }
   }

@@ -41,8 +41,6 @@ class ConstraintTerms {
   /// d += t w, for a change of v by t times what J makes w of.
   void advance(double t, Eigen::VectorXd const& w);
   void evaluateCurvature();
-  /// q += J' G J p
-  void addProduct(Eigen::VectorXd const& p, Eigen::VectorXd& q);
 
   using Slope = contact_potential::Slope;
   /// Of t -> sum l(d + t w + s).
@@ -76,7 +74,7 @@ class ConstraintTerms {
   std::vector<ConstraintBlock> const* blocks_ = nullptr;
   FrictionLag kind_ = FrictionLag::bound;
   Eigen::VectorXd start_{}, lag_{};  // d_0; c or s at the row of the normal
-  Eigen::VectorXd curvature_{}, product_{};
+  Eigen::VectorXd curvature_{};
 
   contact_potential::Rows of(ConstraintBlock const& b) const {
     return {regularisation.data() + b.first,
@@ -102,7 +100,7 @@ SINEW_ONCE void ConstraintTerms::begin(JacobianRows const& J, std::vector<Constr
   blocks_ = &blocks;
   kind_ = lag;
   const Eigen::Index n = start.size();
-  for (Eigen::VectorXd* of : {&start_, &lag_, &product_, &regularisation, &violation, &multipliers, &before})
+  for (Eigen::VectorXd* of : {&start_, &lag_, &regularisation, &violation, &multipliers, &before})
     clear(n, *of);
   clear(3 * n, curvature_);
   start_.head(n) = start;
@@ -130,13 +128,6 @@ SINEW_ONCE void ConstraintTerms::advance(double t, Eigen::VectorXd const& w) {
 SINEW_ONCE void ConstraintTerms::evaluateCurvature() {
   for (ConstraintBlock const& b : *blocks_)
     contact_potential::curvature(b, of(b), at(b, 0, violation).data(), curvature_.data() + 3 * b.first);
-}
-
-SINEW_ONCE void ConstraintTerms::addProduct(Eigen::VectorXd const& p, Eigen::VectorXd& q) {
-  J_->multiply(p, product_);
-  for (ConstraintBlock const& b : *blocks_)
-    contact_potential::multiply(b, curvature(b), product_.data() + b.first);
-  J_->addTransposed(product_, q);
 }
 
 SINEW_ONCE ConstraintTerms::Slope ConstraintTerms::slope(double t, Eigen::VectorXd const& w) const {

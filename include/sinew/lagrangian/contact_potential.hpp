@@ -51,10 +51,13 @@ struct Projection {
   Region region = Region::open;
   double tangential = 0, a = 0, mu = 0;  // |y_t|
 };
+/// |y_t|
+SINEW_HD inline double tangential(Vector3 const& y) { return std::sqrt(y[1] * y[1] + y[2] * y[2]); }
+
 SINEW_HD inline Projection project(double friction, Vector3 const& r, Vector3 const& y) {
   Projection p;
   p.mu = friction < largestFriction ? friction : largestFriction;
-  p.tangential = std::hypot(y[1], y[2]);
+  p.tangential = tangential(y);
   p.a = p.mu * r[1] / r[0];
   if (p.tangential <= p.mu * y[0]) {
     p.region = Projection::Region::sticking;
@@ -86,14 +89,14 @@ SINEW_HD inline Curvature curvature_of(Projection const& p, Vector3 const& r, Ve
 }
 
 SINEW_HD inline Vector3 bounded(double bound, Vector3 const& y) {
-  const double t = std::hypot(y[1], y[2]), scale = t <= bound ? 1 : bound / t;
+  const double t = tangential(y), scale = t <= bound ? 1 : bound / t;
   return {std::max(0., y[0]), scale * y[1], scale * y[2]};
 }
 
 SINEW_HD inline Curvature bounded_curvature(double bound, Vector3 const& r, Vector3 const& y) {
   Curvature G = Curvature::Zero();
   if (y[0] >= 0) G(0, 0) = 1 / r[0];
-  const double t = std::hypot(y[1], y[2]);
+  const double t = tangential(y);
   if (t > bound) {
     const Eigen::Vector2d across(-y[2] / t, y[1] / t);
     G.block<2, 2>(1, 1) = (bound / (t * r[1])) * (across * across.transpose()).eval();
@@ -222,8 +225,7 @@ SINEW_ONCE double value(ConstraintBlock const& b, Rows const& rows, double const
   for (int i = 0; i < b.rows; ++i) sum += rows.r[i] * f[i] * f[i] / 2;
   if (b.kind == ConstraintBlock::Kind::friction && rows.bound >= 0) {
     const Vector3 y = rows.y(d);
-    if (const double t = std::hypot(y[1], y[2]); t > rows.bound)
-      sum += rows.r[1] * rows.bound * (t - rows.bound);
+    if (const double t = tangential(y); t > rows.bound) sum += rows.r[1] * rows.bound * (t - rows.bound);
   }
   return sum;
 }

@@ -8,6 +8,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace sinew {
 
@@ -15,7 +16,8 @@ namespace sinew {
 /// Permenter, Han 2022; Todorov 2014), each solved by Newton's method with matrix-free conjugate gradients,
 /// in which a contact is one more element. The compliance W = J A^-1 J' is never formed, so that the cost
 /// hardly grows with the number of constraints. The multipliers fulfil the same conditions as those of the
-/// other solvers, Coulomb's law among them, to the tolerance.
+/// other solvers, Coulomb's law among them, to the tolerance. A step starts from the multipliers of the one
+/// before, and from its motion, scaled to what these would do.
 struct ConvexConstraintSolver {
   using Role = role::ConstraintSolver;
   static constexpr std::string_view className = "ConvexConstraintSolver";
@@ -54,26 +56,39 @@ struct ConvexConstraintSolver {
                             "step goes on with what they have found"));
   }
 
+  std::vector<double> lastMotion{};
+
+  static constexpr auto state() {
+    return field_list(field("lastMotion",
+                            &ConvexConstraintSolver::lastMotion,
+                            "m",
+                            "what the multipliers of the last step added to the motion of the bodies"));
+  }
+  void reset() { lastMotion.clear(); }
+
   ConvexStepResult result{};  // of the last step
   ConstrainedBlockJacobi<3> preconditioner{};
   ConvexStep step{};
-  Eigen::VectorXd none{};
+  Eigen::VectorXd none{}, impulse{}, product{};
 
   template <class Multiply>
   void solveMotion(Multiply&& multiply, MotionRows& rows, std::string_view where) {
     none.setZero(rows.dofs);
+    guess(multiply, rows);
     solveMotionBy(
         [&](ConvexStepSettings const& settings) {
-          return step.solve(multiply,
-                            preconditioner,
-                            none,
-                            rows.jacobian,
-                            rows.blocks,
-                            rows.start,
-                            rows.motion,
-                            rows.multipliers,
-                            settings,
-                            where);
+          const ConvexStepResult found = step.solve(multiply,
+                                                    preconditioner,
+                                                    none,
+                                                    rows.jacobian,
+                                                    rows.blocks,
+                                                    rows.start,
+                                                    rows.motion,
+                                                    rows.multipliers,
+                                                    settings,
+                                                    where);
+          lastMotion.assign(rows.motion.begin(), rows.motion.end());
+          return found;
         },
         where);
   }
@@ -103,6 +118,22 @@ struct ConvexConstraintSolver {
         isMomentum ? " (relative), the tolerance " : " m, the tolerance ",
         isMomentum ? momentumTolerance : tolerance,
         "; allow more (maxUpdates, maxIterations), or look for constraints that contradict each other");
+  }
+
+ private:
+  // v = a v_last that is nearest to S^-1 J' f in the energy, by the multipliers f of the last step; where
+  // degrees of freedom came or went, and where it would not help, 0
+  template <class Multiply>
+  void guess(Multiply& multiply, MotionRows& rows) {
+    rows.motion.setZero(rows.dofs);
+    if (lastMotion.size() != std::size_t(rows.dofs)) return;
+    const Eigen::Map<Eigen::VectorXd const> last(lastMotion.data(), rows.dofs);
+    rows.motion = last;
+    impulse.setZero(rows.dofs);
+    rows.jacobian.addTransposed(rows.multipliers, impulse);
+    multiply(rows.motion, product);
+    const double energy = last.dot(product), work = last.dot(impulse);
+    rows.motion *= energy > 0 && work > 0 ? work / energy : 0.;
   }
 };
 

@@ -32,10 +32,10 @@ class ConvexStep {
  public:
   /// `multiply(p, q)`: q = A p, A symmetric and positive definite. `preconditioner`: what has the functions
   /// of ConstrainedBlockJacobi: dofs; begin, which estimates the diagonal of W; update, for
-  /// A + J' G J; apply, which is symmetric and positive definite. `start`: d_0, the violation at v = 0,
-  /// as g / h. `velocity` and `multipliers`: the first guess, then the solution; with zero multipliers the
-  /// start is cold. Throws Error for sizes that do not fit, numbers that are not finite, blocks that
-  /// check_blocks refuses, and rows that nothing can move.
+  /// A + J' G J; addProduct, of J' G J; apply, which is symmetric and positive definite. `start`: d_0, the
+  /// violation at v = 0, as g / h. `velocity` and `multipliers`: the first guess, then the solution; with
+  /// zero multipliers the start is cold. Throws Error for sizes that do not fit, numbers that are not finite,
+  /// blocks that check_blocks refuses, and rows that nothing can move.
   template <class System, class Preconditioner>
   ConvexStepResult solve(System&& multiply, Preconditioner& preconditioner, Eigen::VectorXd const& b,
                          JacobianRows const& J, std::vector<ConstraintBlock> const& blocks,
@@ -163,7 +163,7 @@ bool ConvexStep::newton(System& multiply, Preconditioner& preconditioner, Eigen:
   while (rho > end && result.conjugateGradients < settings.maxConjugateGradients) {
     ++result.conjugateGradients;
     multiply(direction_, product_);
-    terms().addProduct(direction_, product_);
+    preconditioner.addProduct(terms(), direction_, product_);
     const double curvature = direction_.dot(product_);
     if (!(curvature > 0)) break;
     found = true;
@@ -178,7 +178,7 @@ bool ConvexStep::newton(System& multiply, Preconditioner& preconditioner, Eigen:
   if (!found) return false;
   // A dv = -grad - residual - J' G J dv
   product_.setZero();
-  terms().addProduct(step_, product_);
+  preconditioner.addProduct(terms(), step_, product_);
   product_ += gradient_ + residual_;
   product_ = -product_;
   terms().rows().multiply(step_, rate_);
