@@ -43,7 +43,9 @@ auto scene(std::vector<BoxAt> const& boxes, Solver solver) {
     state.position.push_back({apart * Eigen::Vector3d(b.center[0], b.center[1], b.center[2] + skin / 2),
                               Eigen::Quaterniond(b.turn[3], b.turn[0], b.turn[1], b.turn[2])});
   std::vector<Eigen::Vector3d> corners;
-  for (int k = 0; k < 8; ++k) corners.push_back({k & 1 ? 0.5 : -0.5, k & 2 ? 0.5 : -0.5, k & 4 ? 0.5 : -0.5});
+  const double half = 0.5 - skin / 2;
+  for (int k = 0; k < 8; ++k)
+    corners.push_back({k & 1 ? half : -half, k & 2 ? half : -half, k & 4 ? half : -half});
   return profiled(node<"root">(
       FreeMotionAnimationLoop{},
       solver,
