@@ -19,9 +19,10 @@ endif()
 set(quick_topology adjacency hexahedra mesh_topology regular_grid regular_grid_topology removal_plan round_grids surface_mesh)
 set(quick_collision axis_box bounding_tree broad_phase closest_points contact_laws contact_scenes friction overlap ray_hits surface_elements
     time_of_impact)
-set(quick_scene bad_input element_removal picking place replay reset simulation)
+set(quick_scene bad_input element_removal picking place reset simulation)
 set(quick_components constraint/constraints control/trajectory mapping/measuring_mappings solver/direct_solvers solver/solver_fields)
-set(quick_lagrangian constrained_step contact_friction corrections)
+set(quick_core data_types dual element_driver element_force error lanes block_ldl block_matrix factored_rows preconditioner convex_step)
+set(quick_lagrangian constrained_step contact_friction)
 # each component over the DataTypes that most scenes have
 set(quick_laws constraints_vec3 elements_vec3d force_rigid3d force_vec3d hyperelastic_vec3d loads_vec3d mappings_points
     mappings_rigid masses spatial_springs_vec3d)

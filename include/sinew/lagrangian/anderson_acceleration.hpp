@@ -68,7 +68,7 @@ SINEW_ONCE void AndersonAcceleration::next(Eigen::VectorXd const& value, Eigen::
   z.head(n_) = value.head(n_);
   const int n = std::min(count_, depth);
   if (n == 0) return;
-  Small products(n, n);
+  Small products = Small::Zero(n, n);
   Few right(n);
   for (int i = 0; i < n; ++i) {
     weighted_.head(n_) = residuals_[std::size_t(i)].head(n_).cwiseProduct(weights.head(n_));
