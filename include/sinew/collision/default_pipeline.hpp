@@ -5,6 +5,7 @@
 #include <sinew/core/compiled.hpp>
 #include <sinew/core/component.hpp>
 
+#include <array>
 #include <span>
 #include <utility>
 #include <vector>
@@ -22,10 +23,12 @@ struct DefaultPipeline {
 
   static constexpr auto fields() { return field_list(); }
 
-  std::vector<CollisionSurface*> surfaces{};      // of the step, in the order of the scene
-  std::vector<std::pair<int, int>> near{};        // pairs of them
-  std::vector<std::pair<int, int>> candidates{};  // primitives of one such pair whose boxes meet
+  std::vector<CollisionSurface*> surfaces{};  // of the step, in the order of the scene
+  std::vector<std::pair<int, int>> near{};    // pairs of them
   long boxTests = 0;  // pairs of primitives that the narrow phase found in the last step
+  // primitives of two models whose boxes meet: those that are found one after the other are met together
+  std::array<std::pair<int, int>, 256> candidates{};
+  std::size_t count = 0;
 
   /// Whether two models may collide at all.
   static bool compare(CollisionSurface const& a, CollisionSurface const& b);
@@ -45,15 +48,17 @@ struct DefaultPipeline {
   void findContacts(ShapeList<Known...> known, Narrow& narrow, Intersection const& intersection,
                     Manager& manager, double dt) {
     boxTests = 0;
+    count = 0;
     for (auto [i, j] : near) {
       CollisionSurface const &a = *surfaces[std::size_t(i)], &b = *surfaces[std::size_t(j)];
       if (!compares(intersection, a, b)) continue;
-      candidates.clear();
       narrow.pairs(a, b, [&](int elementA, int elementB) {
         ++boxTests;
-        if (!adjacent(a, elementA, b, elementB)) candidates.emplace_back(elementA, elementB);
+        if (adjacent(a, elementA, b, elementB)) return;
+        candidates[count++] = {elementA, elementB};
+        if (count == candidates.size()) meet(known, intersection, manager, i, j, dt);
       });
-      if (!candidates.empty()) (withShape<Known>(known, intersection, manager, i, j, dt), ...);
+      meet(known, intersection, manager, i, j, dt);
     }
   }
 
@@ -66,6 +71,13 @@ struct DefaultPipeline {
     else
       return has_pairs(a, b);
   }
+  template <Shape... Known, class Intersection, class Manager>
+  void meet(ShapeList<Known...> known, Intersection const& intersection, Manager& manager, int i, int j,
+            double dt) {
+    if (count > 0) (withShape<Known>(known, intersection, manager, i, j, dt), ...);
+    count = 0;
+  }
+
   template <class Manager>
   struct AddTo {
     Manager& manager;
@@ -89,7 +101,7 @@ struct DefaultPipeline {
     if (skeleton(b.shape) != B) return;
     const double cone = manager.coneOf(i, j);
     const AddTo<Manager> add{manager, i, j};
-    for (auto [elementA, elementB] : candidates) {
+    for (auto [elementA, elementB] : std::span(candidates.data(), count)) {
       const PrimitivePair<A, B> pair{a, b, elementA, elementB, dt, cone};
       if constexpr (A == Shape::hull || B == Shape::hull) {
         HullContacts<A, B>::find(pair, intersection, add);
