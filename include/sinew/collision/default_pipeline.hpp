@@ -49,7 +49,8 @@ struct DefaultPipeline {
                     Manager& manager, double dt) {
     boxTests = 0;
     count = 0;
-    for (auto [i, j] : near) {
+    for (auto const& pair : near) {
+      const int i = pair.first, j = pair.second;
       CollisionSurface const &a = *surfaces[std::size_t(i)], &b = *surfaces[std::size_t(j)];
       if (!compares(intersection, a, b)) continue;
       narrow.pairs(a, b, [&](int elementA, int elementB) {
