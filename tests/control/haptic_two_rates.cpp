@@ -2,6 +2,7 @@
 // Both sides of the coupling at their two rates, without threads: ticks of 1 ms, steps of 10 ms whose result
 // is there 5 ms after they began.
 #include "catch.hpp"
+#include "control/two_rates.hpp"
 
 #include <sinew/control/hand_device.hpp>
 #include <sinew/control/haptic_controller.hpp>
@@ -40,29 +41,19 @@ Rigid3d::Deriv six(double a, double b) {
 /// Runs for a time; each(time, wrench) after each tick.
 template <class Hand, class Each>
 void run(Hand& hand, HapticController c, double wall, double dt, double seconds, Each&& each) {
-  c.rampTime = 0, c.maxForce = c.maxTorque = 1e9;
   auto sim = tool(wall);
-  auto& coupling = sim.root().template get<VirtualCoupling<Rigid3d>>();
-  coupling.stiffness = c.stiffness, coupling.damping = c.damping;
-  coupling.angularStiffness = c.angularStiffness, coupling.angularDamping = c.angularDamping;
-  sim.init();
-  const double T = 1e-3;
-  const long perStep = std::lround(dt / T), ticks = std::lround(seconds / T);
-  ToolState result;
-  c.accept(0, result);
-  for (long i = 0; i < ticks; ++i) {
-    const double time = double(i) * T;
-    c.observe(time, hand.read(time));
-    if (i % perStep == 0) {
-      const ToolTarget target = c.reading.ahead(dt);
-      coupling.setTarget(target.pose, target.velocity);
-      sim.animate(dt);
-      result = {sim.root().state().position[0], sim.root().state().velocity[0], time + dt};
-    }
-    if (i % perStep == perStep / 2) c.accept(time, result);
-    hand.write(c.wrench(time));
-    each(time, hand.felt);
-  }
+  at_two_rates(
+      sim,
+      sim.root().template get<VirtualCoupling<Rigid3d>>(),
+      hand,
+      c,
+      dt,
+      seconds,
+      [](auto& scene) {
+        auto const& s = scene.root().state();
+        return ToolState{s.position[0], s.velocity[0]};
+      },
+      [&](double time, Wrench const&) { each(time, hand.felt); });
 }
 
 Rigid3d::Coord origin(double) { return {}; }

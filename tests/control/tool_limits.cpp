@@ -2,6 +2,7 @@
 // A haptic loop on a tool whose contacts are answered by multipliers, at two rates without threads: ticks of
 // 1 ms, steps of 20 ms whose result is there 10 ms after they began.
 #include "catch.hpp"
+#include "control/two_rates.hpp"
 #include "lagrangian/contact_scenes.hpp"
 
 #include <sinew/control/hand_device.hpp>
@@ -55,38 +56,29 @@ struct Felt {
 /// Runs for a time with a controller, with or without the limits of the tool.
 template <class Hand>
 Felt run(Hand& hand, HapticController c, double seconds, bool limited) {
-  c.rampTime = 0, c.maxForce = c.maxTorque = 1e9;
   auto sim = tool();
-  auto& coupling = sim.template at<"tool">().template get<VirtualCoupling<Rigid3d>>();
-  coupling.stiffness = c.stiffness, coupling.damping = c.damping;
-  coupling.angularStiffness = c.angularStiffness, coupling.angularDamping = c.angularDamping;
-  sim.init();
-  const double T = 1e-3, dt = 0.02;
-  const long perStep = std::lround(dt / T), ticks = std::lround(seconds / T);
   Felt felt;
-  ToolState result;
-  c.accept(0, result);
-  for (long i = 0; i < ticks; ++i) {
-    const double time = double(i) * T;
-    c.observe(time, hand.read(time));
-    if (i % perStep == 0) {
-      const ToolTarget target = c.reading.ahead(dt);
-      coupling.setTarget(target.pose, target.velocity);
-      sim.animate(dt);
-      auto const& s = sim.template at<"tool">().state();
-      result = {s.position[0], s.velocity[0], time + dt};
-      auto const& manager = sim.root().template get<DefaultContactManager>();
-      if (limited) add_tool_limits(result, manager, "/root/tool");
-      REQUIRE(s.position[0].center[0] < free_way + 1e-9);
-      felt.tool = s.position[0].center[0];
-    }
-    if (i % perStep == perStep / 2) c.accept(time, result);
-    const Wrench w = c.wrench(time);
-    hand.write(w);
-    felt.end = w.force[0];
-    if (time < 1) felt.early = std::max(felt.early, hand.energy());
-    if (time > seconds - 1) felt.late = std::max(felt.late, hand.energy());
-  }
+  at_two_rates(
+      sim,
+      sim.template at<"tool">().template get<VirtualCoupling<Rigid3d>>(),
+      hand,
+      c,
+      0.02,
+      seconds,
+      [&](auto& scene) {
+        auto const& s = scene.template at<"tool">().state();
+        ToolState result{s.position[0], s.velocity[0]};
+        if (limited)
+          add_tool_limits(result, scene.root().template get<DefaultContactManager>(), "/root/tool");
+        REQUIRE(s.position[0].center[0] < free_way + 1e-9);
+        felt.tool = s.position[0].center[0];
+        return result;
+      },
+      [&](double time, Wrench const& w) {
+        felt.end = w.force[0];
+        if (time < 1) felt.early = std::max(felt.early, hand.energy());
+        if (time > seconds - 1) felt.late = std::max(felt.late, hand.energy());
+      });
   return felt;
 }
 

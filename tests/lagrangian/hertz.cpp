@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // Contact of an elastic cylinder with a rigid plane (Hertz 1882; Johnson, Contact Mechanics, 1985).
+#include "lagrangian/hertz.hpp"
 #include "lagrangian/contact_scenes.hpp"
-#include "lagrangian/graded.hpp"
 
 #include <algorithm>
 
@@ -116,11 +116,8 @@ Pressed pressed(Solver solver, double depth, double cell, double fine, double gr
   sim.init();
   sim.animate(0.01);
   Pressed result;
-  std::vector<double> force(body.points.size(), 0);
-  for (Contact const& c : sim.root().template get<DefaultContactManager>().contacts) {
-    const bool first = c.a.corners() == 1;
-    force[std::size_t(skin[std::size_t((first ? c.a : c.b).vertices[0])])] += std::abs(c.force[2]);
-  }
+  const std::vector<double> force =
+      pressed_points(sim.root().template get<DefaultContactManager>().contacts, skin, body.points.size());
   // both ends of the length together; the point of the axis bears half of what it would in the whole cylinder
   auto x = [&](int a) { return body.points[std::size_t(a)][0]; };
   std::vector<double> line(std::size_t(body.angles), 0);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // Contact of an elastic sphere with a rigid plane (Hertz 1882; Johnson, Contact Mechanics, 1985).
 #include "lagrangian/contact_scenes.hpp"
-#include "lagrangian/graded.hpp"
+#include "lagrangian/hertz.hpp"
 
 #include <algorithm>
 #include <array>
@@ -135,11 +135,8 @@ Pressed pressed(double depth, double cell, double fine, double growth) {
   sim.root().template get<Gravity>().gravity.setZero();
   sim.init();
   sim.animate(0.01);
-  std::vector<double> force(body.points.size(), 0);
-  for (Contact const& c : sim.root().template get<DefaultContactManager>().contacts) {
-    const bool first = c.a.corners() == 1;
-    force[std::size_t(skin[std::size_t((first ? c.a : c.b).vertices[0])])] += std::abs(c.force[2]);
-  }
+  const std::vector<double> force =
+      pressed_points(sim.root().template get<DefaultContactManager>().contacts, skin, body.points.size());
   // rings of the surface, each with the area that its two triangles give its points; between the planes they
   // are flat, so that all of them are 2 pi / sin(wedge) of one
   Pressed result;

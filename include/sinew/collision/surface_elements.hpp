@@ -52,7 +52,7 @@ bool is_inside_out(std::array<Index, N> const& e, std::span<Eigen::Vector3d cons
 }
 template <std::size_t N>
 std::vector<std::array<Index, N>> oriented_outwards(std::span<std::array<Index, N> const> elements,
-                                                  std::span<Eigen::Vector3d const> positions) {
+                                                    std::span<Eigen::Vector3d const> positions) {
   std::vector<std::array<Index, N>> all(elements.begin(), elements.end());
   for (auto& e : all)
     if (is_inside_out(e, positions)) {

@@ -119,10 +119,7 @@ ConvexStepResult ConvexStep::solve(System&& multiply, Preconditioner& preconditi
     const double first = size;
     bool stuck = false;
     for (int i = 0; i < settings.maxNewtonIterations && !stuck; ++i) {
-      if (!std::isfinite(size))
-        throw Error(where,
-                    "the system of a step with constraints is not finite; see whether the time step is too "
-                    "large for the forces before it");
+      if (!std::isfinite(size)) refuse_unbounded_step(where);
       result.residual = updates_.residual();
       if (result.momentum <= settings.momentumTolerance) break;
       // the last problem is solved to the end

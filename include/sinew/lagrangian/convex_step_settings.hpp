@@ -45,6 +45,9 @@ void check_convex_step(Eigen::VectorXd const& b, JacobianRows const& J,
                        Eigen::VectorXd const& velocity, Eigen::VectorXd const& multipliers,
                        std::string_view where);
 
+/// Throws the Error of a step whose momentum, as it is solved, is not finite.
+[[noreturn]] void refuse_unbounded_step(std::string_view where);
+
 /// Throws Error where a setting is out of its range.
 void check_convex_step(ConvexStepSettings const& s, std::string_view where);
 
@@ -77,6 +80,12 @@ SINEW_ONCE void check_convex_step(Eigen::VectorXd const& b, JacobianRows const& 
         "number");
   J.check(int(b.size()), where);
   check_blocks(blocks, J.rows(), where);
+}
+
+SINEW_ONCE void refuse_unbounded_step(std::string_view where) {
+  throw Error(where,
+              "the system of a step with constraints is not finite; see whether the time step is too large "
+              "for the forces before it");
 }
 
 SINEW_ONCE void check_convex_step(ConvexStepSettings const& s, std::string_view where) {

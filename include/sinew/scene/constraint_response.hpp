@@ -242,22 +242,25 @@ struct ConstraintResponse {
   // the first time with a matrix formed anew; an iterative solver goes on to rounding
   void solveToRounding(Operations& operations, MultiVecDeriv<Operations>& u, MultiVecDeriv<Operations>& b,
                        bool first) const {
-    int iterations = 0;
-    double tolerance = 0;
-    auto exchange = [&](int i, double t) {
+    int iterations = 5000;
+    double tolerance = 1e-14;
+    auto withIterations = [&](auto&& f) {
       scope.withLinearSolverIfAny([&](auto& linear) {
-        if constexpr (requires { linear.iterations, linear.tolerance; }) {
-          iterations = std::exchange(linear.iterations, i);
-          tolerance = std::exchange(linear.tolerance, t);
-        }
+        if constexpr (requires { linear.iterations, linear.tolerance; }) f(linear);
       });
     };
-    exchange(5000, 1e-14);
+    withIterations([&](auto& linear) {
+      iterations = std::exchange(linear.iterations, std::max(linear.iterations, iterations));
+      tolerance = std::exchange(linear.tolerance, tolerance);
+    });
     if (first)
       operations.solveSystemIfAny(how.factors.matrix, u, b);
     else
       operations.solveSystemAgain(how.factors.matrix, u, b);
-    exchange(iterations, tolerance);
+    withIterations([&](auto& linear) {
+      linear.iterations = iterations;
+      linear.tolerance = tolerance;
+    });
   }
   // by components that say what forces do to their states, in the place of what the system says
   void respondByCorrections(DerivId u, DerivId f) const {

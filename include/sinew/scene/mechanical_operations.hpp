@@ -93,8 +93,8 @@ struct MechanicalOperations : StateVectors<Root> {
   void withLinearSolverOf([[maybe_unused]] F&& f) {
     if constexpr (Ode::implicit)
       root.withLinearSolver(f);
-    else if (hasSystem<Ode>())
-      root.withLinearSolverIfAny(f);
+    else if constexpr (requires { Ode::solvesMass; })
+      if (hasSystem<Ode>()) root.withLinearSolverIfAny(f);
   }
   /// The linear solver of this scope forms the pattern of its matrix, where it has one, anew.
   void formPattern();

@@ -54,10 +54,6 @@ void for_each_mass_column(Operations& operations, State& state, double m, MultiV
   }
 }
 
-}  // namespace detail
-
-namespace detail {
-
 // whether none of the contacts of a solver is a force: multipliers answer all
 template <class Operations>
 bool only_multipliers_answer(Operations& operations) {

@@ -102,10 +102,7 @@ class ConvexMotion {
     ConvexStepResult result;
     while (true) {
       const ConvexProblemResult found = solveProblem(settings, result, n);
-      if (found.finite == 0)
-        throw Error(where,
-                    "the system of a step with constraints is not finite; see whether the time step is too "
-                    "large for the forces before it");
+      if (found.finite == 0) refuse_unbounded_step(where);
       result.momentum = found.momentum;
       result.residual = found.residual;
       result.newtonIterations += int(found.newtonIterations);
