@@ -6,6 +6,8 @@
 #include <CLI/CLI.hpp>
 
 #include <cmath>
+#include <cstdio>
+#include <tuple>
 
 namespace cli {
 
@@ -29,6 +31,15 @@ Settings settings_of(std::vector<std::string> const& words, std::string const& o
     settings.emplace_back(word.substr(0, equals), word.substr(equals + 1));
   }
   return settings;
+}
+
+// "1280x960"
+std::pair<int, int> size_of(std::string const& word) {
+  int width = 0, height = 0, end = 0;
+  if (std::sscanf(word.c_str(), "%5dx%5d%n", &width, &height, &end) != 2 || std::size_t(end) != word.size() ||
+      width < 1 || height < 1)
+    throw CLI::ValidationError("--size", "'" + word + "' is not of the form WIDTHxHEIGHT, as in 1280x960");
+  return {width, height};
 }
 
 std::string seconds(std::string const& word) {
@@ -103,6 +114,7 @@ Options read_options(int argc, char** argv, int& status) {
 
   SceneWords runWords, checkWords, bakeWords, bothWords;
   bool quiet = false, json = false, compareQuiet = false, compareJson = false;
+  std::string size;
 
   auto* run = app.add_subcommand("run", "Simulate a scene");
   run->footer(
@@ -116,6 +128,12 @@ Options read_options(int argc, char** argv, int& status) {
                   "Folder for pictures: a .pvd series, which ParaView opens, of each visual model and of "
                   "each body without one")
       ->type_name("DIR");
+  run->add_option("--png", o.run.png, "Folder for pictures as PNG files: 000000.png, 000001.png and so on")
+      ->type_name("DIR");
+  run->add_option("--film", o.run.film, "File for the pictures as a film (.mp4), which ffmpeg makes")
+      ->type_name("FILE");
+  run->add_option("--size", size, "Width and height of these pictures in pixels (default 1280x960)")
+      ->type_name("WxH");
   run->add_option(
          "--record", o.run.record, "File for positions and velocities of all bodies over time, as text")
       ->type_name("FILE");
@@ -203,6 +221,7 @@ Options read_options(int argc, char** argv, int& status) {
   try {
     app.parse(argc, argv);
     o.run.scene.set = settings_of(runWords.set, "--set");
+    if (!size.empty()) std::tie(o.run.width, o.run.height) = size_of(size);
     o.check.scene.set = settings_of(checkWords.set, "--set");
     o.bake.scene.set = settings_of(bakeWords.set, "--set");
     CompareOptions& c = o.compare;

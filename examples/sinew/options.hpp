@@ -35,7 +35,8 @@ enum class Output { words, quiet, json };
 struct RunOptions {
   SceneOptions scene{};
   Duration duration{};
-  std::string vtk{}, record{}, forces{}, save{};
+  std::string vtk{}, png{}, film{}, record{}, forces{}, save{};
+  int width = 1280, height = 960;  // of pictures [pixels]
   long every = 1;
   int threads = 0;  // as the scene says
   bool profile = false;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "forces.hpp"
+#include "frames.hpp"
 #include "json.hpp"
 #include "pictures.hpp"
 
@@ -28,6 +29,8 @@ class Outputs {
         sinew::io::make_folders(options.vtk);
         pictures_.emplace(options.vtk, scene.simulation.root());
       }
+      if (!options.png.empty() || !options.film.empty())
+        frames_.emplace(options, 1 / (scene.dt * double(options.every)));
       if (!options.record.empty()) record_.emplace(options.record);
       if (!options.forces.empty()) forces_.emplace(options.forces);
       if (!options.save.empty()) mayWrite(options.save);
@@ -43,6 +46,7 @@ class Outputs {
     auto& simulation = scene_.simulation;
     writing([&] {
       if (pictures_) pictures_->add(simulation);
+      if (frames_) frames_->add(simulation);
       if (record_) record_->add(sinew::capture(simulation.root(), simulation.step(), simulation.time()));
     });
   }
@@ -59,6 +63,8 @@ class Outputs {
     std::vector<std::string> files;
     writing([&] {
       if (pictures_) files = pictures_->paths();
+      if (frames_)
+        for (auto& file : frames_->finish()) files.push_back(std::move(file));
       if (record_) record_->finish(), files.push_back(options_.record);
       if (forces_) forces_->finish(), files.push_back(options_.forces);
       scene_.simulation.finish();
@@ -80,6 +86,7 @@ class Outputs {
   RunOptions const& options_;
   Scene& scene_;
   std::optional<Pictures> pictures_{};
+  std::optional<Frames> frames_{};
   std::optional<sinew::RecordWriter> record_{};
   std::optional<ForcesFile> forces_{};
   std::optional<sinew::Profile> profile_{};

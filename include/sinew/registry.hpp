@@ -3,6 +3,7 @@
 
 #include <sinew/core/registry.hpp>
 #include <sinew/engine/mesh_vtk_loader.hpp>
+#include <sinew/lagrangian.hpp>
 #include <sinew/sinew.hpp>
 
 // a program that links libccd may have hulls in scene files; CMake's sinew::standard says so, where it has

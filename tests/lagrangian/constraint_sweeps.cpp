@@ -13,6 +13,23 @@ namespace test_constraint_sweeps {
 
 using namespace sinew;
 
+// a weight with which Jacobi converges on equalities and contacts that stick, whatever the unit of W: min(1,
+// 1.8 / the largest eigenvalue of D^-1 W), where D is what a block divides by
+double stable_weight(ConstraintProblem const& problem) {
+  const double radius = LargestEigenvalue()(problem.compliance, [&](auto& y) {
+    for (ConstraintBlock const& b : problem.blocks) {
+      auto const w = problem.compliance.block(b.first, b.first, b.rows, b.rows);
+      if (b.kind == ConstraintBlock::Kind::equality)
+        y.segment(b.first, b.rows) =
+            inverse_compliance(w, b, "test") * BlockVector(y.segment(b.first, b.rows));
+      else
+        y[b.first] /= w(0, 0);
+      if (b.kind == ConstraintBlock::Kind::friction)
+        y.template segment<2>(b.first + 1) *= 2 / (w(1, 1) + w(2, 2));
+    }
+  });
+  return radius > 0 ? std::min(1., 1.8 / radius) : 1;
+}
 ConstraintProblem problem_of(ConstraintProblem::Matrix const& W, Eigen::VectorXd const& free,
                              std::vector<ConstraintBlock> blocks) {
   return {W, free, Eigen::VectorXd::Zero(free.size()), std::move(blocks)};

@@ -3,5 +3,4 @@
 
 namespace sinew {
 template void ConstrainedStep<RuntimeScope<Standard>>::integrate(ConstrainedMotion&, bool, bool) const;
-template void ConstrainedStep<RuntimeScope<Standard>>::findCompliance(ConstrainedMotion&) const;
 }  // namespace sinew

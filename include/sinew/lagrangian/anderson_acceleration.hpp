@@ -23,8 +23,9 @@ class AndersonAcceleration {
   void next(Eigen::VectorXd const& value, Eigen::VectorXd const& weights, Eigen::VectorXd& z);
 
  private:
-  using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, depth, depth>;
-  using Few = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, depth, 1>;
+  // with room for as many as blocks of constraints have, so that Eigen's decomposition is compiled once
+  using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
+  using Few = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
 
   void forget() { count_ = 0, size_ = -1; }
   void room(Eigen::VectorXd& of) const;

@@ -115,7 +115,11 @@ SINEW_ONCE BlockMatrix inverse_compliance(BlockMatrix const& w, ConstraintBlock 
                      " depend on each other, so that their multipliers are not determined; leave one out"));
   // column by column, since nvcc takes Eigen's solution for a matrix for a function of the device
   BlockMatrix inverse(b.rows, b.rows);
-  for (int c = 0; c < b.rows; ++c) inverse.col(c) = factor.solve(BlockVector(BlockVector::Unit(b.rows, c)));
+  for (int c = 0; c < b.rows; ++c) {
+    const BlockVector unit = BlockVector::Unit(b.rows, c);
+    const BlockVector column = factor.solve(unit);
+    inverse.col(c) = column;
+  }
   return inverse;
 }
 

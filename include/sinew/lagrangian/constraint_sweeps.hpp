@@ -75,10 +75,6 @@ class LargestEigenvalue {
 double spectral_weight(ConstraintProblem const& problem, double factor, LargestEigenvalue& largest);
 double spectral_weight(ConstraintProblem const& problem, double factor);
 
-/// A weight with which Jacobi converges on equalities and contacts that stick, whatever the unit of W: min(1,
-/// 1.8 / the largest eigenvalue of D^-1 W), where D is what a block divides by.
-double stable_weight(ConstraintProblem const& problem);
-
 /// Iterations over the blocks of a problem. Between them nothing is kept but room, so that one object serves
 /// a scene for all its steps.
 class ConstraintSweeps {
@@ -146,21 +142,6 @@ SINEW_ONCE double spectral_weight(ConstraintProblem const& problem, double facto
 SINEW_ONCE double spectral_weight(ConstraintProblem const& problem, double factor) {
   LargestEigenvalue largest;
   return spectral_weight(problem, factor, largest);
-}
-
-SINEW_ONCE double stable_weight(ConstraintProblem const& problem) {
-  const double radius = LargestEigenvalue()(problem.compliance, [&](auto& y) {
-    for (ConstraintBlock const& b : problem.blocks) {
-      auto const w = problem.compliance.block(b.first, b.first, b.rows, b.rows);
-      if (b.kind == ConstraintBlock::Kind::equality)
-        y.segment(b.first, b.rows) = BlockMatrix(w).ldlt().solve(BlockVector(y.segment(b.first, b.rows)));
-      else
-        y[b.first] /= w(0, 0);
-      if (b.kind == ConstraintBlock::Kind::friction)
-        y.template segment<2>(b.first + 1) *= 2 / (w(1, 1) + w(2, 2));
-    }
-  });
-  return radius > 0 ? std::min(1., 1.8 / radius) : 1;
 }
 
 SINEW_ONCE bool ConstraintSweeps::judge(SweepResult& result, SweepChange const& change,

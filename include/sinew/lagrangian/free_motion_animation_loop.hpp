@@ -14,6 +14,8 @@ struct FreeMotionAnimationLoop {
   using Role = role::AnimationLoop;
   static constexpr std::string_view className = "FreeMotionAnimationLoop";
   static constexpr std::string_view aliases = "FreeMotionMasterSolver ConstraintAnimationLoop";
+  // beside sinew.hpp: every scene with constraints has this component, and needs all of that
+  static constexpr std::string_view header = "sinew/lagrangian.hpp";
 
   bool solveVelocityConstraintFirst = false;
 

@@ -120,10 +120,15 @@ SINEW_ONCE SweepResult LinearComplementarity::solve(ConstraintProblem& problem, 
                "them out, or add to their compliance (regularizationTerm)"));
     // column by column, since nvcc takes Eigen's solution for a matrix for a function of the device
     eliminated_.resize(m, n + 1);
-    for (Eigen::Index c = 0; c <= n; ++c)
-      eliminated_.col(c) = factor.solve(Eigen::VectorXd(coupling_.col(c)));
-    M_.noalias() -= coupling_.leftCols(n).transpose() * eliminated_.leftCols(n);
-    q_.noalias() -= coupling_.leftCols(n).transpose() * eliminated_.col(n);
+    Eigen::VectorXd column(m);
+    for (Eigen::Index c = 0; c <= n; ++c) {
+      column = factor.solve(Eigen::VectorXd(coupling_.col(c)));
+      eliminated_.col(c) = column;
+      if (c < n)
+        M_.col(c).noalias() -= coupling_.leftCols(n).transpose() * column;
+      else
+        q_.noalias() -= coupling_.leftCols(n).transpose() * column;
+    }
   }
 
   SweepResult result;

@@ -105,6 +105,12 @@ class Simulation {
   /// Visual models follow their mappings.
   void updateVisual();
 
+  /// f(component, scope) for each component with one of the roles, from the root on.
+  template <class... Roles, class F>
+  void visit(F&& f) {
+    traverse(rootScope(), on<Roles...>(std::forward<F>(f)));
+  }
+
   /// Changes the scene in the middle of the simulation: edit(root) is given a copy, in which runtime nodes
   /// come, go and move. What is new is initialised, and the copy takes the place of the scene; where edit or
   /// the new scene is wrong, Error is thrown and nothing has changed.

@@ -1,0 +1,6 @@
+// SPDX-License-Identifier: BSL-1.0
+#include <sinew/runtime/precompiled.hpp>
+
+namespace sinew {
+template void ConstrainedStep<RuntimeScope<Standard>>::findCompliance(ConstrainedMotion&) const;
+}  // namespace sinew

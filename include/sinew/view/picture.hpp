@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/view/camera.hpp>
+#include <sinew/view/image.hpp>
+#include <sinew/view/offscreen.hpp>
+#include <sinew/view/renderer.hpp>
+#include <sinew/view/seen_scene.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+
+namespace sinew::view {
+
+struct PictureSettings {
+  int width = 1280, height = 960;  // [pixels]
+  std::optional<Camera>
+      camera{};  // without one the first picture shows all of the scene, and later ones the same place
+};
+
+/// The camera that sees all of a scene: from the front, the right and above.
+inline Camera camera_of(SeenScene const& scene, int width, int height) {
+  Camera camera;
+  camera.up = scene.up;
+  const Eigen::Vector3d other =
+      std::abs(scene.up[2]) > 0.7 ? Eigen::Vector3d(0, -1, 0) : Eigen::Vector3d(0, 0, 1);
+  const Eigen::Vector3d right = scene.up.cross(other).normalized(), front = right.cross(scene.up);
+  camera.toEye = (front + 0.6 * right + 0.5 * scene.up).normalized();
+  const auto [low, high] = scene.box();
+  const double radius = (high - low).norm() / 2;
+  camera.fit((low + high) / 2, radius > 0 ? radius : 1, double(width) / height);
+  return camera;
+}
+
+/// Pictures of scenes without a window, on a graphics card or by Mesa's software.
+class Painter {
+ public:
+  /// Throws Error where the size is none, and where there is no OpenGL 3.3.
+  explicit Painter(PictureSettings const& settings = {}) : settings_(checked(settings)) {
+    glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest_);
+    if (settings_.width > largest_ || settings_.height > largest_)
+      throw Error("pictures",
+                  text("a picture of ",
+                       settings_.width,
+                       " x ",
+                       settings_.height,
+                       " pixels is larger than the ",
+                       largest_,
+                       " that OpenGL has room for here; ask for a smaller one"));
+    GLint samples = 0;
+    glGetIntegerv(GL_MAX_SAMPLES, &samples);
+    attach(smooth_, std::min(samples, 8));
+    attach(plain_, 0);
+  }
+
+  Image paint(SeenScene const& scene) {
+    if (!settings_.camera) settings_.camera = camera_of(scene, settings_.width, settings_.height);
+    renderer_.show(scene);
+    glBindFramebuffer(GL_FRAMEBUFFER, smooth_.frame);
+    renderer_.draw(*settings_.camera, settings_.width, settings_.height);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, smooth_.frame);
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, plain_.frame);
+    const int w = settings_.width, h = settings_.height;
+    glBlitFramebuffer(0, 0, w, h, 0, 0, w, h, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, plain_.frame);
+    Image image{w, h, std::vector<unsigned char>(std::size_t(w) * std::size_t(h) * 3)};
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadPixels(0, 0, w, h, GL_RGB, GL_UNSIGNED_BYTE, image.rgb.data());
+    if (const GLenum wrong = glGetError(); wrong != GL_NO_ERROR)
+      throw Error("pictures", text("OpenGL says error ", wrong, "; is there enough memory?"));
+    for (int y = 0; y < h / 2; ++y)  // OpenGL begins with the lowest row
+      std::swap_ranges(image.rgb.begin() + 3 * w * y,
+                       image.rgb.begin() + 3 * w * (y + 1),
+                       image.rgb.begin() + 3 * w * (h - 1 - y));
+    return image;
+  }
+  /// The camera of the pictures; none before the first, where none was given.
+  std::optional<Camera> const& camera() const { return settings_.camera; }
+
+ private:
+  struct Target {
+    GlFrame frame = detail::made<GlFrame>([](auto n, auto* id) { glGenFramebuffers(n, id); });
+    GlStore colour = detail::made<GlStore>([](auto n, auto* id) { glGenRenderbuffers(n, id); });
+    GlStore depth = detail::made<GlStore>([](auto n, auto* id) { glGenRenderbuffers(n, id); });
+  };
+  PictureSettings settings_;
+  OffscreenContext context_{};  // before what is made in it
+  Renderer renderer_{};
+  Target smooth_{}, plain_{};
+  GLint largest_ = 0;
+
+  static PictureSettings const& checked(PictureSettings const& settings) {
+    if (settings.width < 1 || settings.height < 1)
+      throw Error("pictures",
+                  text("a picture of ",
+                       settings.width,
+                       " x ",
+                       settings.height,
+                       " pixels has none; width and height are at least 1"));
+    return settings;
+  }
+  void attach(Target const& to, GLint samples) {
+    glBindFramebuffer(GL_FRAMEBUFFER, to.frame);
+    auto store = [&](GLuint id, GLenum format, GLenum place) {
+      glBindRenderbuffer(GL_RENDERBUFFER, id);
+      glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, format, settings_.width, settings_.height);
+      glFramebufferRenderbuffer(GL_FRAMEBUFFER, place, GL_RENDERBUFFER, id);
+    };
+    store(to.colour, GL_RGB8, GL_COLOR_ATTACHMENT0);
+    store(to.depth, GL_DEPTH_COMPONENT24, GL_DEPTH_ATTACHMENT);
+    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+      throw Error("pictures",
+                  text("OpenGL has no room for a picture of ",
+                       settings_.width,
+                       " x ",
+                       settings_.height,
+                       " pixels; ask for a smaller one"));
+  }
+};
+
+/// A picture of a simulation as it is now: Picture(sim).write("a.png").
+class Picture {
+ public:
+  template <class Simulation>
+  explicit Picture(Simulation& simulation, PictureSettings const& settings = {})
+      : image_(Painter(settings).paint(seen_scene(simulation))) {}
+  Image const& image() const { return image_; }
+  void write(std::string const& path) const { write_png(image_, path); }
+
+ private:
+  Image image_;
+};
+
+}  // namespace sinew::view
