@@ -31,6 +31,7 @@ set(quick_runtime bad_places bake_text change contact dialect dialect_run every_
     step_forces)
 set(quick_baked tetrahedra)
 set(quick_ccd collision/hull_pairs)
+set(quick_view picture)
 set(quick_examples liver one_tetrahedron string_on_rigid)
 # the mistakes that beginners make
 set(quick_mistakes collision_without_pipeline force_misspelt force_no_add_force force_not_assembled force_of_other_types

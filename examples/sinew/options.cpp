@@ -112,7 +112,7 @@ Options read_options(int argc, char** argv, int& status) {
   app.footer(exitCodes);
   app.failure_message(CLI::FailureMessage::simple);
 
-  SceneWords runWords, checkWords, bakeWords, bothWords;
+  SceneWords runWords, viewWords, checkWords, bakeWords, bothWords;
   bool quiet = false, json = false, compareQuiet = false, compareJson = false;
   std::string size;
 
@@ -161,6 +161,11 @@ Options read_options(int argc, char** argv, int& status) {
       ->type_name("FILE");
   add_output(*run, quiet, json);
   profile->excludes("--quiet");
+
+  auto* view = app.add_subcommand("view", "Show a scene in a window, run it there and pull its bodies");
+  view->footer("Example:  sinew view liver.scn");
+  view->add_option("scene", o.view.scene.path, "Scene file")->type_name("FILE")->required();
+  viewWords.addTo(*view, o.view.scene, true);
 
   auto* check = app.add_subcommand("check", "Find all mistakes in a scene, without simulating it");
   check->footer("Example:  sinew check liver.scn");
@@ -222,6 +227,7 @@ Options read_options(int argc, char** argv, int& status) {
     app.parse(argc, argv);
     o.run.scene.set = settings_of(runWords.set, "--set");
     if (!size.empty()) std::tie(o.run.width, o.run.height) = size_of(size);
+    o.view.scene.set = settings_of(viewWords.set, "--set");
     o.check.scene.set = settings_of(checkWords.set, "--set");
     o.bake.scene.set = settings_of(bakeWords.set, "--set");
     CompareOptions& c = o.compare;
@@ -248,6 +254,7 @@ Options read_options(int argc, char** argv, int& status) {
   o.run.duration.given = given(run);
   o.compare.duration.given = given(compare);
   o.command = run->parsed()     ? Command::run
+              : view->parsed()  ? Command::view
               : check->parsed() ? Command::check
               : list->parsed()  ? Command::list
               : bake->parsed()  ? Command::bake

@@ -43,6 +43,9 @@ struct RunOptions {
   std::string trace{};
   Output output = Output::words;
 };
+struct ViewOptions {
+  SceneOptions scene{};
+};
 struct CheckOptions {
   SceneOptions scene{};
   bool quiet = false;
@@ -63,10 +66,11 @@ struct CompareOptions {
   Output output = Output::words;
 };
 
-enum class Command { none, run, check, list, bake, compare };
+enum class Command { none, run, view, check, list, bake, compare };
 struct Options {
   Command command = Command::none;
   RunOptions run{};
+  ViewOptions view{};
   CheckOptions check{};
   ListOptions list{};
   BakeOptions bake{};
@@ -79,6 +83,7 @@ Options read_options(int argc, char** argv, int& status);
 
 // the commands; each returns the exit status, or throws Failure (scene.hpp)
 int run(RunOptions const& options);
+int view(ViewOptions const& options);
 int check(CheckOptions const& options);
 int list(ListOptions const& options);
 int bake(BakeOptions const& options);

@@ -11,6 +11,8 @@ int cli::program(int argc, char** argv) try {
   switch (options.command) {
     case cli::Command::run:
       return cli::run(options.run);
+    case cli::Command::view:
+      return cli::view(options.view);
     case cli::Command::check:
       return cli::check(options.check);
     case cli::Command::list:

@@ -34,6 +34,19 @@ inline Camera camera_of(SeenScene const& scene, int width, int height) {
   return camera;
 }
 
+/// The pixels of the frame buffer that is bound for reading.
+inline Image read_image(int width, int height) {
+  Image image{width, height, std::vector<unsigned char>(std::size_t(width) * std::size_t(height) * 3)};
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, image.rgb.data());
+  const auto row = std::ptrdiff_t(width) * 3;
+  for (std::ptrdiff_t y = 0; y < height / 2; ++y)  // OpenGL begins with the lowest row
+    std::swap_ranges(image.rgb.begin() + row * y,
+                     image.rgb.begin() + row * (y + 1),
+                     image.rgb.begin() + row * (height - 1 - y));
+  return image;
+}
+
 /// Pictures of scenes without a window, on a graphics card or by Mesa's software.
 class Painter {
  public:
@@ -65,15 +78,9 @@ class Painter {
     const int w = settings_.width, h = settings_.height;
     glBlitFramebuffer(0, 0, w, h, 0, 0, w, h, GL_COLOR_BUFFER_BIT, GL_NEAREST);
     glBindFramebuffer(GL_READ_FRAMEBUFFER, plain_.frame);
-    Image image{w, h, std::vector<unsigned char>(std::size_t(w) * std::size_t(h) * 3)};
-    glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    glReadPixels(0, 0, w, h, GL_RGB, GL_UNSIGNED_BYTE, image.rgb.data());
+    Image image = read_image(w, h);
     if (const GLenum wrong = glGetError(); wrong != GL_NO_ERROR)
       throw Error("pictures", text("OpenGL says error ", wrong, "; is there enough memory?"));
-    for (int y = 0; y < h / 2; ++y)  // OpenGL begins with the lowest row
-      std::swap_ranges(image.rgb.begin() + 3 * w * y,
-                       image.rgb.begin() + 3 * w * (y + 1),
-                       image.rgb.begin() + 3 * w * (h - 1 - y));
     return image;
   }
   /// The camera of the pictures; none before the first, where none was given.

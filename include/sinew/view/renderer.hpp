@@ -102,7 +102,8 @@ class Renderer {
     radius_ = std::max((high - low).norm() / 2, 1e-9);
   }
 
-  void draw(Camera const& camera, int width, int height) {
+  /// `left`: the pixels that are left free beside the picture.
+  void draw(Camera const& camera, int width, int height, int left = 0) {
     const Eigen::Matrix4d toView = camera.toView(), toClip = camera.toClip(double(width) / height);
     // from the left above the eye
     const Eigen::Vector3d light =
@@ -113,7 +114,7 @@ class Renderer {
     drawShadow(toLight);
     glBindFramebuffer(GL_FRAMEBUFFER, GLuint(target));
 
-    glViewport(0, 0, width, height);
+    glViewport(left, 0, width, height);
     glEnable(GL_DEPTH_TEST);
     glEnable(GL_MULTISAMPLE);
     glEnable(GL_PROGRAM_POINT_SIZE);

@@ -115,4 +115,24 @@ SeenScene seen_scene(Simulation& simulation) {
   return seen;
 }
 
+/// Whether a ray meets a face of a scene.
+inline bool meets(SeenScene const& scene, Eigen::Vector3d const& origin, Eigen::Vector3d const& direction) {
+  // Moeller, Trumbore (1997)
+  auto meetsFace = [&](Eigen::Vector3d const& a, Eigen::Vector3d const& b, Eigen::Vector3d const& c) {
+    const Eigen::Vector3d ab = b - a, ac = c - a, p = direction.cross(ac), from = origin - a;
+    const double volume = ab.dot(p), u = from.dot(p) / volume;
+    const Eigen::Vector3d q = from.cross(ab);
+    const double v = direction.dot(q) / volume, t = ac.dot(q) / volume;
+    return u >= 0 && v >= 0 && u + v <= 1 && t > 0;
+  };
+  for (SeenBody const& body : scene.bodies) {
+    auto at = [&](Index i) -> Eigen::Vector3d const& { return body.points[std::size_t(i)]; };
+    for (auto const& [a, b, c] : body.triangles)
+      if (meetsFace(at(a), at(b), at(c))) return true;
+    for (auto const& [a, b, c, d] : body.quads)
+      if (meetsFace(at(a), at(b), at(c)) || meetsFace(at(a), at(c), at(d))) return true;
+  }
+  return false;
+}
+
 }  // namespace sinew::view

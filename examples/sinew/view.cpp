@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "scene.hpp"
+
+#ifdef SINEW_WINDOW
+#include <sinew/view/window.hpp>
+
+namespace cli {
+
+int view(ViewOptions const& options) {
+  Scene scene = load(options.scene);
+  print_notes(scene.ignored, scene.warnings);
+  try {
+    sinew::view::view(scene.simulation, scene.dt, {.title = options.scene.path + " - Sinew"});
+  } catch (sinew::Error const& error) {
+    throw Failure{notWritten, {error.what()}};
+  }
+  return ok;
+}
+
+}  // namespace cli
+
+#else
+
+namespace cli {
+
+int view(ViewOptions const&) {
+  throw Failure{
+      badUsage,
+      {"view: this program was built without a window; install what it needs (Debian: libepoxy-dev, "
+       "libegl-dev, libstb-dev, libglfw3-dev, libimgui-dev), configure and build again"}};
+}
+
+}  // namespace cli
+
+#endif

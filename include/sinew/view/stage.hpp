@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/error.hpp>
+#include <sinew/scene/mouse_interactor.hpp>
+#include <sinew/view/scene_tree.hpp>
+#include <sinew/view/seen_scene.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace sinew::view {
+
+/// What the pointer holds: the place on the body, where the pointer is, and the force between them [N].
+struct Held {
+  std::string path{};
+  Eigen::Vector3d point{0, 0, 0}, target{0, 0, 0}, force{0, 0, 0};
+};
+
+/// How a simulation is getting on.
+struct StageState {
+  double time = 0, stepsPerSecond = 0;
+  long step = 0;
+  bool playing = false;
+  std::optional<Held> held{};
+  std::string error{};  // of the last thing that went wrong; empty where nothing has
+};
+
+/// A simulation in a thread of its own, and what others see of it and tell it to do. Nobody waits for a step:
+/// what is asked for is done before the next one, and what is seen is the scene as it was after the last. A
+/// scene that nobody looks at makes no pictures.
+class Stage {
+ public:
+  using Scene = std::shared_ptr<SeenScene const>;
+
+  /// The simulation is initialised and stays with this thread until the stage is gone. Its steps are dt
+  /// seconds long and, where it is fast enough, go at `speed` times the time of the clock; 0: as fast as they
+  /// can.
+  template <class Simulation>
+  Stage(Simulation& simulation, double dt, double speed = 1)
+      : tree(scene_tree(simulation)),
+        dt_(dt),
+        speed_(speed),
+        actor_(new ActorOf<Simulation>(simulation)),
+        scene_(std::make_shared<SeenScene>(actor_->see())),
+        thread_([this] { go(); }) {}
+  Stage(Stage const&) = delete;
+  Stage& operator=(Stage const&) = delete;
+  ~Stage() {
+    {
+      const std::lock_guard lock(mutex_);
+      ends_ = true;
+    }
+    wake_.notify_all();
+    thread_.join();
+  }
+
+  /// The components of the scene.
+  const std::vector<TreeLine> tree;
+
+  /// The latest scene; the next one is made after the step that is going on.
+  Scene scene() {
+    const std::lock_guard lock(mutex_);
+    wanted_ = true;
+    wake_.notify_all();
+    return scene_;
+  }
+  StageState state() const {
+    const std::lock_guard lock(mutex_);
+    return state_;
+  }
+  double dt() const { return dt_; }
+
+  void play(bool on) {
+    ask([on](Stage& s) { s.playing_ = on; });
+  }
+  /// One step, after which it stands.
+  void step() {
+    ask([](Stage& s) {
+      s.playing_ = false;
+      s.actor_->animate(s.dt_);
+    });
+  }
+  /// Back to the start.
+  void reset() {
+    ask([](Stage& s) { s.actor_->reset(); });
+  }
+  void setSpeed(double speed) {
+    ask([speed](Stage& s) { s.speed_ = speed; });
+  }
+  /// Takes hold of what a ray meets first, by a spring [N/m].
+  void press(Eigen::Vector3d const& origin, Eigen::Vector3d const& direction, double stiffness) {
+    ask([=](Stage& s) { s.actor_->press(origin, direction, stiffness); });
+  }
+  /// The end of the spring comes under another ray.
+  void move(Eigen::Vector3d const& origin, Eigen::Vector3d const& direction) {
+    ask([=](Stage& s) { s.actor_->move(origin, direction); });
+  }
+  void release() {
+    ask([](Stage& s) { s.actor_->release(); });
+  }
+  /// Waits until all that was asked for is done.
+  void settle() {
+    std::unique_lock lock(mutex_);
+    idle_.wait(lock, [this] { return asked_.empty() && !busy_; });
+  }
+
+ private:
+  struct Actor {
+    virtual ~Actor() = default;
+    virtual void animate(double dt) = 0;
+    virtual void reset() = 0;
+    virtual void press(Eigen::Vector3d const& origin, Eigen::Vector3d const& direction, double stiffness) = 0;
+    virtual void move(Eigen::Vector3d const& origin, Eigen::Vector3d const& direction) = 0;
+    virtual void release() = 0;
+    virtual SeenScene see() = 0;
+    virtual void tell(StageState& state) = 0;
+  };
+  template <class Simulation>
+  struct ActorOf final : Actor {
+    Simulation& simulation;
+    MouseInteractor mouse{};
+
+    explicit ActorOf(Simulation& s) : simulation(s) {}
+    void animate(double dt) override { simulation.animate(dt); }
+    void reset() override {
+      mouse.release(simulation);
+      simulation.reset();
+    }
+    void press(Eigen::Vector3d const& origin, Eigen::Vector3d const& direction, double stiffness) override {
+      mouse.spring.stiffness = stiffness;
+      mouse.press(simulation, origin, direction);
+    }
+    void move(Eigen::Vector3d const& origin, Eigen::Vector3d const& direction) override {
+      mouse.move(simulation, origin, direction);
+    }
+    void release() override { mouse.release(simulation); }
+    SeenScene see() override { return seen_scene(simulation); }
+    void tell(StageState& state) override {
+      state.time = simulation.time();
+      state.step = simulation.step();
+      state.held.reset();
+      if (!mouse.held) return;
+      if (Attachment const* a = simulation.attachment(mouse.attachment))
+        state.held = Held{.path = mouse.held->path,
+                          .point = a->target - a->contact.evaluated / a->stiffness,
+                          .target = a->target,
+                          .force = a->contact.force};
+    }
+  };
+  using Clock = std::chrono::steady_clock;
+
+  double dt_, speed_;
+  std::unique_ptr<Actor> actor_;
+  mutable std::mutex mutex_{};
+  std::condition_variable wake_{}, idle_{};
+  std::vector<std::function<void(Stage&)>> asked_{};
+  Scene scene_;
+  StageState state_{};
+  bool ends_ = false, wanted_ = true, busy_ = false, playing_ = false;
+  std::thread thread_;  // the last, since it uses all of them
+
+  void ask(std::function<void(Stage&)> what) {
+    {
+      const std::lock_guard lock(mutex_);
+      asked_.push_back(std::move(what));
+    }
+    wake_.notify_all();
+  }
+
+  void go() {
+    std::string error;
+    auto careful = [&](auto&& act) {
+      try {
+        act();
+      } catch (Error const& e) {
+        error = e.what();
+        playing_ = false;
+      }
+    };
+    Clock::time_point next = Clock::now(), measured = next;
+    long steps = 0;
+    double rate = 0;
+    std::vector<std::function<void(Stage&)>> mine;
+    while (true) {
+      bool look = false;
+      {
+        std::unique_lock lock(mutex_);
+        auto called = [this] { return ends_ || !asked_.empty() || wanted_; };
+        if (playing_)
+          wake_.wait_until(lock, next, [this] { return ends_ || !asked_.empty(); });
+        else
+          wake_.wait(lock, called);
+        if (ends_) return;
+        mine.swap(asked_);
+        busy_ = true;
+        look = std::exchange(wanted_, false);
+      }
+      const bool stood = !playing_, told = !mine.empty();
+      if (told) error.clear();
+      for (auto const& what : mine) careful([&] { what(*this); });
+      mine.clear();
+      if (stood) next = measured = Clock::now(), steps = 0;
+      if (playing_ && Clock::now() >= next) {
+        careful([&] { actor_->animate(dt_); });
+        ++steps;
+        // after a slow step the time that is lost is not made up for
+        const auto pause = std::chrono::duration_cast<Clock::duration>(
+            std::chrono::duration<double>(speed_ > 0 ? dt_ / speed_ : 0));
+        next = std::max(next + pause, Clock::now() - pause);
+        const double since = std::chrono::duration<double>(Clock::now() - measured).count();
+        if (since > 0.5) rate = double(steps) / since, steps = 0, measured = Clock::now();
+      }
+      Scene seen;
+      if (look || told) careful([&] { seen = std::make_shared<SeenScene>(actor_->see()); });
+      const std::lock_guard lock(mutex_);
+      if (seen) scene_ = std::move(seen);
+      actor_->tell(state_);
+      state_.playing = playing_;
+      state_.stepsPerSecond = playing_ ? rate : 0;
+      state_.error = error;
+      busy_ = false;
+      idle_.notify_all();
+    }
+  }
+};
+
+}  // namespace sinew::view
