@@ -91,7 +91,6 @@ struct ConstrainedStep {
       operations.acted.begin(keepsForces);
     }
     ode.solve(operations, dt);
-    if constexpr (requires { ode.prepareCorrection(operations); }) ode.prepareCorrection(operations);
     operations.projectPositionAndVelocity(time + dt, vec_id::position, vec_id::velocity);
     end_acted_forces<Ode>(operations);
   }
@@ -367,7 +366,9 @@ void ConstrainedStep<RootScope>::findCompliance(ConstrainedMotion& m) const {
   std::size_t number = 0;
   for_each_integrator(root, [&](auto& ode, auto const& scope) {
     ConstrainedSystem& system = m.systems[number++];
+    if (system.rows.empty()) return;
     const ConstraintResponse<std::decay_t<decltype(scope)>> response(scope, ode, time, dt, system);
+    response.prepareSystem(ode);
     response.addCompliance(
         m.factored, m.motionRows.jacobian, m.rows.ofVelocity, {system.rows, problem.compliance});
   });
