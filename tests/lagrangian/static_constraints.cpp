@@ -34,7 +34,7 @@ auto ball(Solver solver, double height) {
                                 FixedConstraint<Vec3d>{.indices = {0}},
                                 // along the floor
                                 PartialFixedConstraint<Vec3d>{.indices = {1}, .fixedDirections = {1, 1, 0}},
-                                SphereCollisionModel<Vec3d>{.indices = {1}, .radius = radius})),
+                                SphereCollisionModel<Vec3d>{.radius = radius})),
       Profile(500))};
 }
 
