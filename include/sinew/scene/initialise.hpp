@@ -226,6 +226,7 @@ void Initialisation<RootScope>::run() {
     if (again_.touched.empty()) Carving<RootScope>{root_}.check();
   initSolvers();
   root_.raise();
+  if constexpr (collides<RootScope>) Collision<RootScope>{root_}.findCarriers();
   LooseInteractions<RootScope>{root_}.init();
   root_.settled();
 }
