@@ -249,19 +249,26 @@ struct ConstrainedStep {
         if (!solver.result.converged) throw Error({}, text(error.what(), unsolved(m)));
       if constexpr (requires { solver.refusedRow; })
         if (solver.refusedRow >= 0) names.explain(error, "the first", solver.refusedRow);
-      names.explain(error, "the first that depends on others", dependent_equality(p));
+      names.explain(error,
+                    "the first that depends on others",
+                    dependent_equalities(p.blocks, p.compliance, p.rows()).first);
     }
-    if constexpr (SaysUnsolved<Solver>)
-      if (!solver.result.converged)
-        notes.warn(
-            where, "the constraints are not solved", [&] { return text(solver.unsolved(), unsolved(m)); });
+    if (has_solved(solver))
+      warn_of_dependent(root, m, notes, where, [&](int end) {
+        return dependent_equalities(m.problem.blocks, m.problem.compliance, end);
+      });
+    else if constexpr (SaysUnsolved<Solver>)
+      notes.warn(
+          where, "the constraints are not solved", [&] { return text(solver.unsolved(), unsolved(m)); });
   }
   std::string unsolved(ConstrainedMotion const& m) const {
     ConstraintProblem const& p = m.problem;
-    return RowNames<RootScope>{root, m}.unsolved(
-        p.residual(),
-        furthest_row(p.blocks, p.violation()),
-        contradicting_equality(p.blocks, p.compliance, p.freeViolation));
+    return text("; the residual is ",
+                p.residual(),
+                " m",
+                RowNames<RootScope>{root, m}.unsolved(
+                    furthest_row(p.blocks, p.violation()),
+                    contradicting_equality(p.blocks, p.compliance, p.freeViolation)));
   }
   // constraints keep their multipliers
   void giveBack(ConstrainedMotion& m) const {

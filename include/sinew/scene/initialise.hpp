@@ -193,7 +193,7 @@ class Initialisation {
     traverse(scope, on<role::ConstraintCorrection>([&](auto& c, auto const& at) {
                using C = std::decay_t<decltype(c)>;
                if constexpr (KeepsCompliance<C>)
-                 throw Error(text(at.path(), ": ", component_name<C>()),
+                 throw Error(text(at.path(), ": ", at.node.labelOf(c)),
                              text("the compliance is made once, and that of ",
                                   solver,
                                   " is another one in the first steps than behind them; give it order=1, or "
