@@ -109,6 +109,31 @@ TEST_CASE("a constraint between a body that is held and one that nothing moves n
   });
 }
 
+TEST_CASE("a joint between two bodies that are both fixed names itself") {
+  auto says = [](auto solver) {
+    auto fixed = [&]<class Name>(Name) {
+      return node<Name::value>(EulerExplicitSolver{},
+                               MechanicalObject<Vec3d>{.position = {{0, 0, 0}}},
+                               UniformMass<Vec3d>{},
+                               FixedConstraint<Vec3d>{.indices = {0}});
+    };
+    Simulation sim{node<"root">(FreeMotionAnimationLoop{},
+                                solver,
+                                BilateralLagrangianConstraint<Vec3d, Between<"left", "right">>{
+                                    .first_point = {0}, .second_point = {0}},
+                                fixed(Named<"left">{}),
+                                fixed(Named<"right">{}))};
+    return run(sim, 1);
+  };
+  auto names = [](std::string const& message) {
+    CHECK_THAT(message,
+               Catch::StartsWith("/root: BilateralLagrangianConstraint<Vec3d") &&
+                   Catch::Contains("its points are fixed") && Catch::Contains("leave it out"));
+  };
+  names(says(BlockGaussSeidelConstraintSolver{}));
+  names(says(ConvexConstraintSolver{}));
+}
+
 TEST_CASE("equalities that say the same twice hold, or the solver says which are too many") {
   each_solver([](auto solver) {
     INFO(decltype(solver)::className);
@@ -191,6 +216,19 @@ TEST_CASE(
       CHECK(message.empty());
     else
       CHECK_THAT(message, Catch::Contains("equation 2 of /root/body: FixedLagrangianConstraint"));
+  });
+}
+
+TEST_CASE("a constraint on what has diverged names itself") {
+  each_solver([](auto solver) {
+    INFO(decltype(solver)::className);
+    auto sim = two_points(solver, Joint{.first_point = {0}, .second_point = {1}}, Fixed{.indices = {0}});
+    sim.init();
+    sim.template at<"body">().state().velocity[0][1] = 1e308;
+    CHECK_THAT(
+        error_of([&] { sim.animate(100); }),
+        Catch::StartsWith("/root/body: BilateralLagrangianConstraint<Vec3d>: its equation 1 is not finite") &&
+            Catch::Contains("smaller dt"));
   });
 }
 

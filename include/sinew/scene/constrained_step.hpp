@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -219,6 +220,12 @@ struct ConstrainedStep {
 
   // W = J A^-1 J', and d_free
   void findCompliance(ConstrainedMotion& m) const;
+  void checkFinite(ConstrainedMotion const& m) const {
+    ConstraintProblem const& p = m.problem;
+    for (int row = 0; row < p.rows(); ++row)
+      if (!std::isfinite(p.compliance(row, row)) || !std::isfinite(p.freeViolation[row]))
+        RowNames<RootScope>{root, m}.refuseNotFinite(row);
+  }
   void checkCompliance(ConstrainedMotion const& m) const {
     for (int row = 0; row < m.contactRows; ++row)
       if (!(m.problem.compliance(row, row) > 0)) RowNames<RootScope>{root, m}.refuseFixed(row);
@@ -379,6 +386,7 @@ void ConstrainedStep<RootScope>::findCompliance(ConstrainedMotion& m) const {
     response.addCompliance(
         m.factored, m.motionRows.jacobian, m.rows.ofVelocity, {system.rows, problem.compliance});
   });
+  checkFinite(m);
   ContactRows<RootScope>::leaveOutFixed(m);
   checkCompliance(m);
   problem.compliance.diagonal() += Eigen::Map<Eigen::VectorXd const>(m.rows.compliance.data(), n);

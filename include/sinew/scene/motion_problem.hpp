@@ -239,6 +239,8 @@ struct MotionProblem {
     all.multipliers.resize(n);
     for (Eigen::Index i = 0; i < n; ++i) {
       all.start[i] = m.rows.violation[std::size_t(all.rows[std::size_t(i)])];
+      if (!std::isfinite(all.start[i]))
+        RowNames<RootScope>{root, m}.refuseNotFinite(all.rows[std::size_t(i)]);
       all.multipliers[i] = m.rows.multipliers[std::size_t(all.rows[std::size_t(i)])];
     }
   }

@@ -57,6 +57,17 @@ struct RowNames {
              " holds can move: its points are fixed, or no solver moves them, or its direction is zero; "
              "leave it out, or free a point"));
   }
+  /// Throws Error for a row whose violation after the motion without multipliers, or compliance, is not
+  /// finite.
+  [[noreturn]] void refuseNotFinite(int row) const {
+    const Name name = of(row);
+    throw Error(
+        name.where,
+        text("its equation ",
+             name.equation,
+             " is not finite after the motion without multipliers: the simulation diverged, or what it holds "
+             "has no mass; take a smaller dt, an implicit solver or a softer material, or give it mass"));
+  }
   /// What is known of the rows of a problem that is not solved; -1: there is none.
   std::string unsolved(int furthest, Contradiction const& contradiction) const {
     auto of = [&](int row) {
