@@ -14,3 +14,4 @@
 #include <sinew/lagrangian/convex_updates.hpp>
 #include <sinew/lagrangian/lemke.hpp>
 #include <sinew/lagrangian/linear_complementarity.hpp>
+#include <sinew/lagrangian/null_space_rows.hpp>

@@ -13,6 +13,13 @@ TEST_CASE("text joins words, numbers and characters") {
   CHECK(std::string(Error("", "wrong").what()) == "wrong");
 }
 
+TEST_CASE("a label takes the place of a name where that is mentioned first") {
+  CHECK(with_label("/root: Spring<Vec3d>: a Spring<Vec3d> is slack",
+                   "Spring<Vec3d>",
+                   "Spring<Vec3d> (2 of 3)") == "/root: Spring<Vec3d> (2 of 3): a Spring<Vec3d> is slack");
+  CHECK(with_label("/root: it is slack", "Spring<Vec3d>", "Spring<Vec3d> 'left'") == "/root: it is slack");
+}
+
 TEST_CASE("the nearest known name is suggested, and none when all are far") {
   const std::vector<std::string> known{"youngModulus", "poissonRatio", "method"};
   CHECK(edit_distance("kitten", "sitting") == 3);

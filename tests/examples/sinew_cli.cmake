@@ -269,7 +269,7 @@ elseif(CASE STREQUAL "run-warnings")
 </Node>")
   set(overlap "warned.scn: step 1 .time 0.01 s., parts of /root/balls: they start in each other, by 0.1 m, ")
   set(unsolved "warned.scn: step 1 .time 0.01 s., /root: BlockGaussSeidelConstraintSolver: .* not solved after 20 iterations: ")
-  set(contradiction "the residual is 1 m.* equation 0 of /root/rods: Bilateral[A-Za-z<>0-9]+ contradicts other equalities by 1 m")
+  set(contradiction "the residual is 1 m.* equation 0 of /root/rods: Bilateral[A-Za-z<>0-9]+ .2 of 2. contradicts other equalities by 1 m")
   sinew(0 run warned.scn --steps 30)
   # each once, and a count
   expect_error("^warning: ${overlap}[^\n]*\nwarning: ${unsolved}[^\n]*${contradiction}[^\n]*\nwarning: [^\n]*\n$")

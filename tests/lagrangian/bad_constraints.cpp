@@ -109,6 +109,31 @@ TEST_CASE("a constraint between a body that is held and one that nothing moves n
   });
 }
 
+TEST_CASE("a joint between two bodies that are both fixed names itself") {
+  auto says = [](auto solver) {
+    auto fixed = [&]<class Name>(Name) {
+      return node<Name::value>(EulerExplicitSolver{},
+                               MechanicalObject<Vec3d>{.position = {{0, 0, 0}}},
+                               UniformMass<Vec3d>{},
+                               FixedConstraint<Vec3d>{.indices = {0}});
+    };
+    Simulation sim{node<"root">(FreeMotionAnimationLoop{},
+                                solver,
+                                BilateralLagrangianConstraint<Vec3d, Between<"left", "right">>{
+                                    .first_point = {0}, .second_point = {0}},
+                                fixed(Named<"left">{}),
+                                fixed(Named<"right">{}))};
+    return run(sim, 1);
+  };
+  auto names = [](std::string const& message) {
+    CHECK_THAT(message,
+               Catch::StartsWith("/root: BilateralLagrangianConstraint<Vec3d") &&
+                   Catch::Contains("its points are fixed") && Catch::Contains("leave it out"));
+  };
+  names(says(BlockGaussSeidelConstraintSolver{}));
+  names(says(ConvexConstraintSolver{}));
+}
+
 TEST_CASE("equalities that say the same twice hold, or the solver says which are too many") {
   each_solver([](auto solver) {
     INFO(decltype(solver)::className);
@@ -119,14 +144,23 @@ TEST_CASE("equalities that say the same twice hold, or the solver says which are
     if (pivots(solver)) {
       CHECK_THAT(message,
                  Catch::Contains("3 of the 6 equalities") &&
-                     Catch::Contains("the first that depends on others is equation 0 of /root/body: Fixed"));
+                     Catch::Contains("the first that depends on others is equation 0 of /root/body: "
+                                     "FixedLagrangianConstraint<Vec3d> (2 of 2)"));
     } else {
       CHECK(message.empty());
+      auto const& warnings = sim.warnings().list();
+      REQUIRE_FALSE(warnings.empty());
       // Jacobi corrects twice what it should, and leaves the point to itself rather than run away
-      if (sim.root().template get<decltype(solver)>().result.converged)
+      if (sim.root().template get<decltype(solver)>().result.converged) {
         CHECK(body.position[0].norm() < 1e-5);
-      else
+        CHECK_THAT(
+            warnings[0].text(),
+            Catch::StartsWith("step 1 (time 0.01 s), /root: 3 of the equalities") &&
+                Catch::Contains("equation 0 of /root/body: FixedLagrangianConstraint<Vec3d> (2 of 2)"));
+      } else {
         CHECK(body.position[0][2] == Approx(body.position[1][2] + 1));
+        CHECK(warnings.back().what == "the constraints are not solved");
+      }
     }
   });
 }
@@ -149,13 +183,16 @@ TEST_CASE("equalities that contradict each other: who is told to stop names one 
       CHECK(warnings[0].count == 20);
       CHECK(warnings[0].step == 1);
       CHECK(warnings[0].last == 20);
-      CHECK_THAT(warnings[0].text(),
-                 Catch::StartsWith("step 1 (time 0.01 s), /root: " +
-                                   std::string(component_name<decltype(solver)>())) &&
-                     Catch::Contains("the residual is ") &&
-                     Catch::Contains(
-                         "equation 0 of /root/body: BilateralLagrangianConstraint<Vec3d> contradicts other "
-                         "equalities by 1 m"));
+      CHECK_THAT(
+          warnings[0].text(),
+          Catch::StartsWith("step 1 (time 0.01 s), /root: " +
+                            std::string(component_name<decltype(solver)>())) &&
+              Catch::Contains("the residual is ") &&
+              Catch::Contains(
+                  "equation 0 of /root/body: BilateralLagrangianConstraint<Vec3d> (2 of 2) contradicts "
+                  "other equalities by 1 m"));
+      std::string const& message = warnings[0].message;
+      CHECK(message.find("the residual is ") == message.rfind("the residual is "));
       sim.reset();
       CHECK(sim.warnings().list().empty());
     }
@@ -182,6 +219,19 @@ TEST_CASE(
   });
 }
 
+TEST_CASE("a constraint on what has diverged names itself") {
+  each_solver([](auto solver) {
+    INFO(decltype(solver)::className);
+    auto sim = two_points(solver, Joint{.first_point = {0}, .second_point = {1}}, Fixed{.indices = {0}});
+    sim.init();
+    sim.template at<"body">().state().velocity[0][1] = 1e308;
+    CHECK_THAT(
+        error_of([&] { sim.animate(100); }),
+        Catch::StartsWith("/root/body: BilateralLagrangianConstraint<Vec3d>: its equation 1 is not finite") &&
+            Catch::Contains("smaller dt"));
+  });
+}
+
 TEST_CASE("friction of constraints that is negative or not a number is refused at init") {
   for (const double mu : {-0.1, std::nan("")}) {
     auto says = [&](auto constraint) {
@@ -196,6 +246,23 @@ TEST_CASE("friction of constraints that is negative or not a number is refused a
                    .first_point = {1}, .second_point = {0}, .normal = {{0, 0, 1}}}),
                Catch::Contains("/root/body: AugmentedLagrangianConstraint") && Catch::Contains("mu"));
   }
+}
+
+TEST_CASE("of several constraints of a class in a node the wrong one is told by its place") {
+  auto says = [](auto first, auto second) {
+    auto sim = two_points(
+        BlockGaussSeidelConstraintSolver{}, first, Joint{.first_point = {0}, .second_point = {1}}, second);
+    return error_of([&] { sim.init(); });
+  };
+  CHECK_THAT(says(Fixed{.indices = {0}}, Fixed{.indices = {2}}),
+             Catch::StartsWith("/root/body: FixedLagrangianConstraint<Vec3d> (2 of 2): "));
+  CHECK_THAT(says(Fixed{.indices = {2}}, Fixed{.indices = {0}}),
+             Catch::StartsWith("/root/body: FixedLagrangianConstraint<Vec3d> (1 of 2): "));
+  CHECK_THAT(says(Joint{.first_point = {3}, .second_point = {1}}, Fixed{.indices = {0}}),
+             Catch::StartsWith("/root/body: BilateralLagrangianConstraint<Vec3d> (1 of 2): "));
+  // one of its class alone needs none
+  CHECK_THAT(says(Joint{.first_point = {0}, .second_point = {1}}, Fixed{.indices = {2}}),
+             Catch::StartsWith("/root/body: FixedLagrangianConstraint<Vec3d>: "));
 }
 
 TEST_CASE("bodies that start in each other are parted, and stay finite") {

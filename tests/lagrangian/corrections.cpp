@@ -115,6 +115,8 @@ TEST_CASE("compliances that move nothing, or are too few, are refused") {
   wrong({.compliance = {1, 1, 0, 0, 0, 0, 1}}, "compliance[4] is 0");
   wrong({.compliance = {-1, 1, 0, 0, 1, 0, 1}}, "compliance[0] is -1");
   wrong({.defaultCompliance = -1}, "defaultCompliance");
+  wrong({.compliance = {1, 1, 2, 0, 1, 0, 1}}, "positive definite");
+  wrong({.compliance = {1, 1, 0.9, 0.9, 1, -0.9, 1}}, "positive definite");
 }
 
 namespace {
@@ -241,6 +243,28 @@ TEST_CASE("a solver that asks the systems alone refuses a correction, which it w
   CHECK_THROWS_WITH(sim.animate(dt),
                     Catch::Contains("/root: UncoupledConstraintCorrection<Vec3d>") &&
                         Catch::Contains("leave this correction out"));
+  // one that stands for the systems is refused where it changes them
+  auto by_system = [](LinearSolverConstraintCorrection const& correction) {
+    return Simulation{node<"root">(FreeMotionAnimationLoop{},
+                                   ConvexConstraintSolver{},
+                                   EulerImplicitSolver{},
+                                   SparseLDLSolver<>{},
+                                   MechanicalObject<Vec3d>{.position = {{0, 0, 1}}},
+                                   UniformMass<Vec3d>{},
+                                   FixedLagrangianConstraint<Vec3d>{.indices = {0}},
+                                   correction)};
+  };
+  for (auto const& correction : {LinearSolverConstraintCorrection{.regularizationTerm = 0.5},
+                                 LinearSolverConstraintCorrection{.complianceFactor = 2}}) {
+    auto changed = by_system(correction);
+    changed.init();
+    CHECK_THROWS_WITH(changed.animate(dt),
+                      Catch::Contains("/root: LinearSolverConstraintCorrection") &&
+                          Catch::Contains("leave this correction out"));
+  }
+  auto same = by_system({});
+  same.init();
+  CHECK_NOTHROW(same.animate(dt));
 }
 
 }  // namespace test_corrections

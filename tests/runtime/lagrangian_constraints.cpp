@@ -197,4 +197,42 @@ TEST_CASE("constraints are baked between the nodes that they join") {
     CHECK_THAT(cpp, Catch::Contains(joined));
 }
 
+TEST_CASE("of several components of a class in a node messages say the name, or the place") {
+  // rods of 1, 1, 2 and 3 m between two points
+  auto rods = [](std::string const& last, std::string const& second = "") {
+    auto rod = [](std::string const& attributes, int length) {
+      return "<BilateralLagrangianConstraint first_point='0' second_point='1' rest_vector='" +
+             std::to_string(length) + " 0 0' " + attributes + "/>";
+    };
+    return "<Node><FreeMotionAnimationLoop/><BlockGaussSeidelConstraintSolver maxIterations='10'/>"
+           "<Node name='rods'><EulerExplicitSolver/><MechanicalObject position='0 0 0  1 0 "
+           "0'/><UniformMass/>" +
+           rod("name='good'", 1) + rod(second, 1) + rod("name='twice'", 2) + rod(last, 3) + "</Node></Node>";
+  };
+  auto warning = [](std::string const& text) {
+    Scene sim = started(text);
+    sim.animate(0.01);
+    REQUIRE(sim.warnings().list().size() == 1);
+    return sim.warnings().list()[0].message;
+  };
+  const std::string rod = "equation 0 of /root/rods: BilateralLagrangianConstraint<Vec3d> ";
+  CHECK_THAT(warning(rods("name='long'")),
+             Catch::Contains(rod + "'long' contradicts other equalities by 2 m"));
+  // no name, that of the class or another one of it, or the same as before
+  for (std::string const name :
+       {"", "name='BilateralLagrangianConstraint'", "name='BilateralInteractionConstraint'", "name='twice'"})
+    CHECK_THAT(warning(rods(name)), Catch::Contains(rod + "(4 of 4) contradicts other equalities by 2 m"));
+  // an error at init
+  auto wrong = parse_scene<Mine>("rods.scn", rods("", "name='second'"));
+  wrong.root.children()[0]
+      ->components()[4]
+      .component.getIf<BilateralLagrangianConstraint<Vec3d>>()
+      ->first_point = {7};
+  Simulation sim{std::move(wrong.root)};
+  CHECK_THROWS_WITH(
+      sim.init(),
+      Catch::Contains("rods.scn:1:") &&
+          Catch::Contains("/root/rods: BilateralLagrangianConstraint<Vec3d> 'second': first_point"));
+}
+
 }  // namespace test_lagrangian_constraints

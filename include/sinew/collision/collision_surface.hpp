@@ -35,6 +35,10 @@ struct CollisionSurface {
   int solver = -1;                   // which of the ODE solvers moves it; none: -1
   bool implicit = false;             // that solver is an implicit one
   Eigen::Vector3d gravity{0, 0, 0};  // on what a solver moves
+  // of each element the point of a state, counted through the scene, with which all of it moves as one: a
+  // frame that carries it, or the point that it is itself; -1: there is none
+  std::vector<int> carriers{};
+  int carrier = -1;     // that of all elements
   Shapes companions{};  // of the models of points, lines and triangles on this state that collide as this one
 
   // around the primitives, from the elements
@@ -69,6 +73,13 @@ struct CollisionSurface {
   }
 
   bool hasAllSimplices() const { return companions == allSimplices && shape != Shape::sphere; }
+  /// Takes the carriers of elements from those of vertices.
+  void setCarriers(std::vector<int> const& ofVertices);
+  /// Whether an element moves as one with an element of another surface, so that no force parts the two.
+  bool isOneWith(int element, CollisionSurface const& other, int its) const {
+    return !carriers.empty() && !other.carriers.empty() && carriers[std::size_t(element)] >= 0 &&
+           carriers[std::size_t(element)] == other.carriers[std::size_t(its)];
+  }
   /// Whether the other model is on the same state, of points, lines or triangles, and collides with the same.
   bool isAccompaniedBy(CollisionSurface const& other) const;
   /// Of which shape the primitives are that have a place on the simplex over so many vertices of this
@@ -177,6 +188,19 @@ void add_forces(typename D::VecDeriv& f, CollisionSurface const& s) {
 #include <cmath>
 
 namespace sinew {
+
+SINEW_ONCE void CollisionSurface::setCarriers(std::vector<int> const& ofVertices) {
+  carriers.clear();
+  for (auto const& e : elements) {
+    int all = ofVertices[std::size_t(e[0])];
+    for (const int v : e)
+      if (v >= 0 && ofVertices[std::size_t(v)] != all) all = -1;
+    carriers.push_back(std::max(all, -1));
+  }
+  carrier = carriers.empty() ? -1 : carriers[0];
+  for (const int c : carriers)
+    if (c != carrier) carrier = -1;
+}
 
 SINEW_ONCE bool CollisionSurface::isAccompaniedBy(CollisionSurface const& other) const {
   auto const &mine = settings, &its = other.settings;

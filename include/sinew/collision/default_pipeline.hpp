@@ -30,9 +30,9 @@ struct DefaultPipeline {
   std::array<std::pair<int, int>, 256> candidates{};
   std::size_t count = 0;
 
-  /// Whether two models may collide at all.
+  /// Whether two models may collide at all; those that one frame carries cannot.
   static bool compare(CollisionSurface const& a, CollisionSurface const& b);
-  /// Primitives of one body that share a vertex touch there always.
+  /// Primitives of one body that share a vertex touch there always, and what moves as one cannot be parted.
   static bool adjacent(CollisionSurface const& a, int i, CollisionSurface const& b, int j);
 
   template <class Broad>
@@ -127,6 +127,7 @@ SINEW_ONCE bool DefaultPipeline::compare(CollisionSurface const& a, CollisionSur
   CollisionSettings const &ofA = a.settings, &ofB = b.settings;
   if (!ofA.active || !ofB.active || (!ofA.moving && !ofB.moving)) return false;
   if ((a.solver < 0 || !ofA.simulated) && (b.solver < 0 || !ofB.simulated)) return false;
+  if (a.carrier >= 0 && a.carrier == b.carrier) return false;
   if (&a == &b) return ofA.selfCollision;
   if (a.state == b.state && !(ofA.selfCollision && ofB.selfCollision)) return false;
   return std::find_first_of(ofA.group.begin(), ofA.group.end(), ofB.group.begin(), ofB.group.end()) ==
@@ -135,6 +136,7 @@ SINEW_ONCE bool DefaultPipeline::compare(CollisionSurface const& a, CollisionSur
 
 SINEW_ONCE bool DefaultPipeline::adjacent(CollisionSurface const& a, int i, CollisionSurface const& b,
                                           int j) {
+  if (a.isOneWith(i, b, j)) return true;
   if (a.state != b.state) return false;
   for (const int v : a.elements[std::size_t(i)])
     for (const int w : b.elements[std::size_t(j)])

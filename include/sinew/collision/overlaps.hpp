@@ -117,7 +117,7 @@ SINEW_ONCE std::vector<Overlap> overlaps(std::vector<CollisionSurface*> const& s
     bool found = false;
     const double least = 1e-4 * list.diagonal(i, j);
     a.tree.pairs(b.tree, 0, [&](int m, int n) {
-      if (found) return;
+      if (found || a.isOneWith(m, b, n)) return;
       const auto s = a.corner<3>(a.position, m), t = b.corner<3>(b.position, n);
       found = detail::passes_through(s, t, least) || detail::passes_through(t, s, least);
     });

@@ -51,6 +51,9 @@ std::string text(Parts const&... parts) {
   return detail::joined({detail::TextPart(parts)...});
 }
 
+/// A message in which what is first called `name` is called `label`, which begins with that.
+std::string with_label(std::string message, std::string_view name, std::string_view label);
+
 /// Number of letters to insert, remove, replace or exchange with the next that turns `a` into `b` (Damerau
 /// 1964), letter case ignored.
 std::size_t edit_distance(std::string_view a, std::string_view b);
@@ -88,6 +91,12 @@ SINEW_ONCE std::string joined(std::initializer_list<TextPart> parts) {
 }  // namespace sinew::detail
 
 namespace sinew {
+
+SINEW_ONCE std::string with_label(std::string message, std::string_view name, std::string_view label) {
+  const std::size_t at = message.find(name);
+  if (at != message.npos && name != label) message.replace(at, name.size(), label);
+  return message;
+}
 
 SINEW_ONCE std::size_t edit_distance(std::string_view a, std::string_view b) {
   auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; };

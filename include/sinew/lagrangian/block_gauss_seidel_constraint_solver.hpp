@@ -18,6 +18,8 @@ struct BlockGaussSeidelConstraintSolver {
   int maxIterations = 1000;
   double tolerance = 0.001;
   double regularizationTerm = 0;
+  bool useSVDForRegularization = false;
+  double svdSingularValueNullSpaceCriteriaFactor = 0.01, svdSingularVectorNullSpaceCriteriaFactor = 0.001;
   bool scaleTolerance = true, allVerified = false, stopsUnsolved = false;
   double sor = 1;
 
@@ -29,6 +31,7 @@ struct BlockGaussSeidelConstraintSolver {
 
   SweepResult result{};  // of the last step
   ConstraintSweeps sweeps{};
+  NullSpaceRows dependent{};
 
   std::string unsolved() const { return unsolved_by_sweeps(*this); }
   void solve(ConstraintProblem& problem, std::string_view where) {

@@ -96,6 +96,7 @@ struct ConstrainedMotion {
   std::vector<ConstrainedSystem> systems{};
   std::vector<int> rowsOf{};  // how many each constraint has, in the order of the scene
   int contactRows = 0;        // the first row behind them: those of contacts
+  int lookedThrough = 0;      // so many rows had those constraints when dependent ones were looked for
   MotionRows motionRows{};
   FactoredRows factored{};
   bool hasMotion = false;  // the solver has found the motion of systems with the multipliers

@@ -84,8 +84,13 @@ void check_blocks(std::vector<ConstraintBlock> const& blocks, int rows, std::str
 void check_movable(Eigen::Ref<Eigen::VectorXd const, 0, Eigen::InnerStride<>> const& compliance,
                    std::string_view where, int first = 0);
 
-/// The first row of an equality that depends on equalities before it; -1: none, or W is not finite.
-int dependent_equality(ConstraintProblem const& problem);
+/// Equalities that depend on equalities before them: how many rows, and the first of them (-1: none).
+struct DependentEqualities {
+  int count = 0, first = -1;
+};
+/// Those of the rows before an end; none where W is not finite. `products`: W, or J J' of the same rows.
+DependentEqualities dependent_equalities(std::vector<ConstraintBlock> const& blocks,
+                                         ConstraintProblem::Matrix const& products, int end);
 
 /// An equality that depends on equalities before it and asks for something else; row -1: none.
 struct Contradiction {
@@ -253,14 +258,19 @@ void each_dependent(std::vector<ConstraintBlock> const& blocks, ConstraintProble
 
 }  // namespace detail
 
-SINEW_ONCE int dependent_equality(ConstraintProblem const& problem) {
-  int first = -1;
-  if (problem.compliance.allFinite())
-    detail::each_dependent(problem.blocks, problem.compliance, problem.freeViolation, [&](int row, double) {
-      first = row;
-      return false;
+SINEW_ONCE DependentEqualities dependent_equalities(std::vector<ConstraintBlock> const& blocks,
+                                                    ConstraintProblem::Matrix const& products, int end) {
+  DependentEqualities found;
+  std::vector<ConstraintBlock> before;
+  for (ConstraintBlock const& b : blocks)
+    if (b.first + b.rows <= end) before.push_back(b);
+  const ConstraintProblem::Matrix part = products.topLeftCorner(end, end);
+  if (part.allFinite())
+    detail::each_dependent(before, part, Eigen::VectorXd::Zero(end), [&](int row, double) {
+      if (found.count++ == 0) found.first = row;
+      return true;
     });
-  return first;
+  return found;
 }
 
 SINEW_ONCE Contradiction contradicting_equality(std::vector<ConstraintBlock> const& blocks,

@@ -105,18 +105,22 @@ struct ConvexConstraintSolver {
     if (stopsUnsolved && !result.converged) throw Error(where, unsolved());
   }
   std::string unsolved() const {
-    const bool isMomentum = result.residual <= tolerance;
     return text(
         className,
         ": the constraints are not solved after ",
         result.conjugateGradients,
         " iterations in ",
         result.updates,
-        result.updates == 1 ? " convex problem: " : " convex problems: ",
-        isMomentum ? "the momentum is off by " : "a condition is off by ",
-        isMomentum ? result.momentum : result.residual,
-        isMomentum ? " (relative), the tolerance " : " m, the tolerance ",
-        isMomentum ? momentumTolerance : tolerance,
+        result.updates == 1 ? " convex problem" : " convex problems",
+        ": the residual is ",
+        result.residual,
+        " m, the tolerance ",
+        tolerance,
+        result.momentum <= momentumTolerance ? std::string()
+                                             : text("; the momentum is off by ",
+                                                    result.momentum,
+                                                    " (relative), the tolerance ",
+                                                    momentumTolerance),
         "; allow more (maxUpdates, maxIterations), or look for constraints that contradict each other");
   }
 

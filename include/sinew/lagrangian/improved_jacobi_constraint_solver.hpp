@@ -17,6 +17,8 @@ struct ImprovedJacobiConstraintSolver {
   int maxIterations = 1000;
   double tolerance = 0.001;
   double regularizationTerm = 0;
+  bool useSVDForRegularization = false;
+  double svdSingularValueNullSpaceCriteriaFactor = 0.01, svdSingularVectorNullSpaceCriteriaFactor = 0.001;
   bool scaleTolerance = true, allVerified = false, stopsUnsolved = false;
   bool useSpectralCorrection = false;
   double spectralCorrectionFactor = 1;
@@ -50,6 +52,7 @@ struct ImprovedJacobiConstraintSolver {
 
   SweepResult result{};  // of the last step
   ConstraintSweeps sweeps{};
+  NullSpaceRows dependent{};
   LargestEigenvalue largest{};
 
   std::string unsolved() const { return unsolved_by_sweeps(*this); }

@@ -19,6 +19,8 @@ struct PreconditionedConjugateResidual {
   int maxIterations = 1000;
   double tolerance = 0.001;
   double regularizationTerm = 0;
+  bool useSVDForRegularization = false;
+  double svdSingularValueNullSpaceCriteriaFactor = 0.01, svdSingularVectorNullSpaceCriteriaFactor = 0.001;
   bool scaleTolerance = true, allVerified = false, stopsUnsolved = false;
 
   static constexpr auto fields() { return sweeping_fields<PreconditionedConjugateResidual>(); }
@@ -26,6 +28,7 @@ struct PreconditionedConjugateResidual {
   SweepResult result{};  // of the last step
   int refusedRow = -1;   // of what is no equality
   ConjugateResiduals residuals{};
+  NullSpaceRows dependent{};
 
   std::string unsolved() const { return unsolved_by_sweeps(*this); }
   void solve(ConstraintProblem& problem, std::string_view where) {

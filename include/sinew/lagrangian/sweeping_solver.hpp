@@ -3,6 +3,7 @@
 
 #include <sinew/core/component.hpp>
 #include <sinew/lagrangian/constraint_sweeps.hpp>
+#include <sinew/lagrangian/null_space_rows.hpp>
 
 #include <string>
 #include <string_view>
@@ -28,6 +29,22 @@ constexpr auto sweeping_fields(More... more) {
             "m/N",
             "added to the compliance of each equation, so that those that depend on each other can be solved",
             range::nonNegative),
+      field("useSVDForRegularization",
+            &S::useSVDForRegularization,
+            "",
+            "regularizationTerm is for those equations only that the two criteria take for dependent on "
+            "others, by a singular value decomposition of the compliance in each step"),
+      field("svdSingularValueNullSpaceCriteriaFactor",
+            &S::svdSingularValueNullSpaceCriteriaFactor,
+            "",
+            "part of the largest singular value below which the vector of one is in the null space; one of a "
+            "body that is as much heavier than the others is, too",
+            range::closed(0, 1)),
+      field("svdSingularVectorNullSpaceCriteriaFactor",
+            &S::svdSingularVectorNullSpaceCriteriaFactor,
+            "",
+            "component of a unit vector of the null space above which its equation depends on others",
+            range::closed(0, 1)),
       field("scaleTolerance", &S::scaleTolerance, "", "the tolerance is one for each equation"),
       field(
           "allVerified", &S::allVerified, "", "each equation is below the tolerance, in place of their sum"),
@@ -64,7 +81,13 @@ std::string unsolved_by_sweeps(S const& solver) {
 /// Solves a problem by solve(problem) of a solver S, which keeps the result.
 template <class S, class F>
 void sweep(S& solver, ConstraintProblem& problem, std::string_view where, F&& solve) {
-  problem.regularise(solver.regularizationTerm);
+  if (solver.useSVDForRegularization)
+    solver.dependent.regularise(problem,
+                                solver.regularizationTerm,
+                                solver.svdSingularValueNullSpaceCriteriaFactor,
+                                solver.svdSingularVectorNullSpaceCriteriaFactor);
+  else
+    problem.regularise(solver.regularizationTerm);
   solver.result = solve(problem);
   if (solver.stopsUnsolved && !solver.result.converged) throw Error(where, solver.unsolved());
 }

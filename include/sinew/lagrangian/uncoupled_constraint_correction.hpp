@@ -78,12 +78,22 @@ struct UncoupledConstraintCorrection {
                          compliance.size(),
                          " numbers; give 7: one for the centres and six for rotations, xx xy xz yy yz zz"));
       for (const int k : {0, 1, 4, 6}) positive(std::size_t(k));
+      if (!(rotationalCompliance().determinant() > 0) ||
+          !(compliance[1] * compliance[4] > compliance[2] * compliance[2]))
+        throw Error(
+            where,
+            "compliance has products xy xz yz by which a body turns against what turns it; give those of a "
+            "matrix that is positive definite");
     } else {
       check_one_or_each(where, "compliance", compliance.size(), context.rest.size(), "points");
       for (std::size_t k = 0; k < compliance.size(); ++k) positive(k);
     }
   }
 
+  Eigen::Matrix3d rotationalCompliance() const {
+    auto const& c = compliance;
+    return (Eigen::Matrix3d() << c[1], c[2], c[3], c[2], c[4], c[5], c[3], c[5], c[6]).finished();
+  }
   bool answersByMasses() const { return rotates && compliance.empty() && !(defaultCompliance > 0); }
 
   void addCorrection(typename D::VecDeriv& u, typename D::VecDeriv const& f, typename D::VecCoord const&,
@@ -94,9 +104,8 @@ struct UncoupledConstraintCorrection {
       Mat<Real, 3> rotation = Real(factors.impulse) * Mat<Real, 3>::Identity();
       Real center = by * Real(defaultCompliance);
       if (!compliance.empty()) {
-        auto c = [&](std::size_t k) { return by * Real(compliance[k]); };
-        center = c(0);
-        rotation << c(1), c(2), c(3), c(2), c(4), c(5), c(3), c(5), c(6);
+        center = by * Real(compliance[0]);
+        rotation = by * rotationalCompliance().template cast<Real>();
       }
       for (std::size_t i = 0; i < u.size(); ++i) {
         u[i].template head<3>() += center * f[i].template head<3>();

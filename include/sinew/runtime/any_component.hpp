@@ -22,6 +22,7 @@ struct ComponentOperations {
   void* (*copy)(void const*);
   void (*destroy)(void*);
   std::string (*name)();
+  bool (*isCalled)(std::string_view);
   void (*checkFields)(void const*, std::string_view where);
   Linked* (*ends)(void*);
   std::vector<std::string>* (*parents)(void*);
@@ -41,11 +42,18 @@ std::vector<std::string>* linked_parents(void* c) {
     return nullptr;
 }
 template <class C>
+bool class_is_called(std::string_view name) {
+  if constexpr (requires { C::aliases; })
+    if (has_name(C::aliases, name)) return true;
+  return name == C::className;
+}
+template <class C>
 constexpr ComponentOperations component_operations() {
   return {[]() -> void* { return new C{}; },
           [](void const* c) -> void* { return new C(*static_cast<C const*>(c)); },
           [](void* c) { delete static_cast<C*>(c); },
           [] { return component_name<C>(); },
+          &class_is_called<C>,
           [](void const* c, std::string_view where) { check_fields(*static_cast<C const*>(c), where); },
           &linked_ends<C>,
           &linked_parents<C>};
@@ -146,6 +154,8 @@ class AnyComponent {
   void* address() const { return value_; }
   /// "UniformMass<Vec3d>".
   std::string name() const { return operations(type_).name(); }
+  /// Whether that is a name of its class, without DataTypes.
+  bool isCalled(std::string_view word) const { return operations(type_).isCalled(word); }
 
   /// Throws Error unless every field is finite and in its declared range.
   void checkFields(std::string_view where) const { operations(type_).checkFields(value_, where); }

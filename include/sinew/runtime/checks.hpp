@@ -186,7 +186,7 @@ void say(RuntimeScope<R> const& scope, RuntimeEntry<R> const& entry, rules::Rule
   const std::string message =
       text(sentence.cause, details.empty() ? "" : text(" (", details, ")"), "; ", sentence.remedy);
   if (rules::only_warns(rule)) return scope.warn(entry, message);
-  const std::string where = text(scope.path(), ": ", entry.component.name());
+  const std::string where = text(scope.path(), ": ", scope.node.labelOf(entry));
   if (entry.origin.empty()) throw Error(where, message);
   throw Error(entry.origin, text(where, ": ", message));
 }
@@ -238,7 +238,7 @@ void check_counts(RuntimeScope<R> const& scope) {
       if (beside) return;
       RuntimeEntry<R>*& earlier = first[{rule, stage}];
       if (earlier)
-        scope.collect([&] { say(scope, entry, rule, text("beside ", earlier->component.name())); });
+        scope.collect([&] { say(scope, entry, rule, text("beside ", scope.node.labelOf(*earlier))); });
       else
         earlier = &entry;
     };

@@ -125,6 +125,27 @@ class RuntimeNode {
     throw Error(path(), "a component is not in this node; this is a mistake in Sinew");
   }
 
+  /// How messages name a component: by its class, and where there are several of that in this node by the
+  /// name that it was given, or by its place among them, as in "StiffSpringForceField<Vec3d> 'left'" and
+  /// "StiffSpringForceField<Vec3d> (2 of 3)".
+  std::string labelOf(Entry const& entry) const {
+    int seen = 0, place = 0, namesakes = 0;
+    for (auto const& other : entries_) {
+      if (other.component.type() != entry.component.type()) continue;
+      if (++seen; &other == &entry) place = seen;
+      namesakes += other.name == entry.name;
+    }
+    const std::string ofClass = entry.component.name();
+    if (seen == 1) return ofClass;
+    if (namesakes == 1 && !entry.component.isCalled(entry.name)) return text(ofClass, " '", entry.name, "'");
+    return text(ofClass, " (", place, " of ", seen, ')');
+  }
+  template <class C>
+  requires(!std::is_same_v<C, Entry>)
+  std::string labelOf(C const& component) {
+    return labelOf(entryOf(&component));
+  }
+
   // children
 
   RuntimeNode& addChild(RuntimeNode child) {

@@ -219,7 +219,7 @@ struct RuntimeScope {
   }
   /// Adds a warning: the simulation goes on, but perhaps not as it was meant.
   void warn(RuntimeEntry<R> const& entry, std::string_view message) const {
-    const std::string where = text(path(), ": ", entry.component.name(), ": ", message);
+    const std::string where = text(path(), ": ", node.labelOf(entry), ": ", message);
     node.top().warnings.push_back(entry.origin.empty() ? where : text(entry.origin, ": ", where));
   }
   void warn(void const* component, std::string_view message) const { warn(node.entryOf(component), message); }
@@ -365,10 +365,9 @@ struct RuntimeScope {
     try {
       f();
     } catch (Error const& error) {
-      if (entry.origin.empty()) throw;
-      throw Error(entry.origin, error.what());
+      throw Error(entry.origin, with_label(error.what(), entry.component.name(), node.labelOf(entry)));
     } catch (std::bad_alloc const&) {
-      const std::string where = text(path(), ": ", entry.component.name());
+      const std::string where = text(path(), ": ", node.labelOf(entry));
       throw Error(entry.origin.empty() ? where : text(entry.origin, ": ", where),
                   "there is not enough memory for it; make the scene smaller, or give it more");
     }

@@ -8,6 +8,7 @@
 #include <sinew/scene/collision_models.hpp>
 #include <sinew/scene/solvers.hpp>
 
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -91,6 +92,14 @@ struct Collision {
              }));
   }
 
+  /// Finds what moves as one, after all is initialised without an Error.
+  void findCarriers() const {
+    const auto carriers = carriersOfPoints();
+    traverse(root, on<role::CollisionModel>([&](auto& model, auto const&) {
+               model.surface.setCarriers(carriers.at(model.surface.state));
+             }));
+  }
+
   /// The contacts of a step of dt that begins, and what they change at once. `newPattern(scope)` is called
   /// for the nodes with a solver in whose matrix other vertices meet now.
   template <class F>
@@ -130,6 +139,45 @@ struct Collision {
   }
 
  private:
+  // Of each state which point of a state without a mapping its points move as one with, these being counted
+  // through the scene; negative where there is none.
+  std::map<void const*, std::vector<int>> carriersOfPoints() const {
+    constexpr int none = -1, several = -2;
+    std::map<void const*, std::vector<int>> all;
+    int next = 0;
+    traverse(root, on<role::State>([&](auto& s, auto const& scope) {
+               auto& mine = all[&s];
+               mine.assign(s.position.size(), none);
+               if (!scope.mapped())
+                 for (int& carrier : mine) carrier = next++;
+             }));
+    traverse(root, on<role::Mapping>([&](auto& mapping, auto const& scope) {
+               scope.withMapped(mapping, [&](auto& m, auto& child, auto& parent) {
+                 if constexpr (HasRole<std::decay_t<decltype(child)>, role::State> &&
+                               HasJacobianBlocks<std::decay_t<decltype(m)>>) {
+                   auto& mine = all[&child];
+                   auto const& above = all[&parent];
+                   for (std::size_t i = 0; i < mine.size(); ++i)
+                     m.forEachJacobianBlock(int(i), [&](int point, auto const& block) {
+                       const int carrier = above[std::size_t(point)];
+                       mine[i] = mine[i] == none && carrier >= 0 && carries(block) ? carrier : several;
+                     });
+                 }
+               });
+             }));
+    return all;
+  }
+  // whether what has this Jacobian moves with its parent as if it were of one piece with it
+  template <class Block>
+  static bool carries([[maybe_unused]] Block const& block) {
+    constexpr int rows = Block::RowsAtCompileTime, columns = Block::ColsAtCompileTime;
+    if constexpr ((rows == 3 && columns >= 3) || (rows == 6 && columns == 6))
+      return block.template topLeftCorner<3, 3>().isIdentity(0) &&
+             (rows == 3 || block.template bottomRightCorner<3, 3>().isIdentity(0));
+    else
+      return false;
+  }
+
   template <class Manager, class S>
   void checkMultipliers(Manager const& manager, S const& scope) const {
     if (manager.asksForMultipliers() && !with_first<role::AnimationLoop>(root, [](auto const&) {}))

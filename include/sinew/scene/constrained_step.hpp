@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -91,7 +92,6 @@ struct ConstrainedStep {
       operations.acted.begin(keepsForces);
     }
     ode.solve(operations, dt);
-    if constexpr (requires { ode.prepareCorrection(operations); }) ode.prepareCorrection(operations);
     operations.projectPositionAndVelocity(time + dt, vec_id::position, vec_id::velocity);
     end_acted_forces<Ode>(operations);
   }
@@ -220,6 +220,12 @@ struct ConstrainedStep {
 
   // W = J A^-1 J', and d_free
   void findCompliance(ConstrainedMotion& m) const;
+  void checkFinite(ConstrainedMotion const& m) const {
+    ConstraintProblem const& p = m.problem;
+    for (int row = 0; row < p.rows(); ++row)
+      if (!std::isfinite(p.compliance(row, row)) || !std::isfinite(p.freeViolation[row]))
+        RowNames<RootScope>{root, m}.refuseNotFinite(row);
+  }
   void checkCompliance(ConstrainedMotion const& m) const {
     for (int row = 0; row < m.contactRows; ++row)
       if (!(m.problem.compliance(row, row) > 0)) RowNames<RootScope>{root, m}.refuseFixed(row);
@@ -250,19 +256,26 @@ struct ConstrainedStep {
         if (!solver.result.converged) throw Error({}, text(error.what(), unsolved(m)));
       if constexpr (requires { solver.refusedRow; })
         if (solver.refusedRow >= 0) names.explain(error, "the first", solver.refusedRow);
-      names.explain(error, "the first that depends on others", dependent_equality(p));
+      names.explain(error,
+                    "the first that depends on others",
+                    dependent_equalities(p.blocks, p.compliance, p.rows()).first);
     }
-    if constexpr (SaysUnsolved<Solver>)
-      if (!solver.result.converged)
-        notes.warn(
-            where, "the constraints are not solved", [&] { return text(solver.unsolved(), unsolved(m)); });
+    if (has_solved(solver))
+      warn_of_dependent(root, m, notes, where, [&](int end) {
+        return dependent_equalities(m.problem.blocks, m.problem.compliance, end);
+      });
+    else if constexpr (SaysUnsolved<Solver>)
+      notes.warn(
+          where, "the constraints are not solved", [&] { return text(solver.unsolved(), unsolved(m)); });
   }
   std::string unsolved(ConstrainedMotion const& m) const {
     ConstraintProblem const& p = m.problem;
-    return RowNames<RootScope>{root, m}.unsolved(
-        p.residual(),
-        furthest_row(p.blocks, p.violation()),
-        contradicting_equality(p.blocks, p.compliance, p.freeViolation));
+    return text("; the residual is ",
+                p.residual(),
+                " m",
+                RowNames<RootScope>{root, m}.unsolved(
+                    furthest_row(p.blocks, p.violation()),
+                    contradicting_equality(p.blocks, p.compliance, p.freeViolation)));
   }
   // constraints keep their multipliers
   void giveBack(ConstrainedMotion& m) const {
@@ -367,10 +380,13 @@ void ConstrainedStep<RootScope>::findCompliance(ConstrainedMotion& m) const {
   std::size_t number = 0;
   for_each_integrator(root, [&](auto& ode, auto const& scope) {
     ConstrainedSystem& system = m.systems[number++];
+    if (system.rows.empty()) return;
     const ConstraintResponse<std::decay_t<decltype(scope)>> response(scope, ode, time, dt, system);
+    response.prepareSystem(ode);
     response.addCompliance(
         m.factored, m.motionRows.jacobian, m.rows.ofVelocity, {system.rows, problem.compliance});
   });
+  checkFinite(m);
   ContactRows<RootScope>::leaveOutFixed(m);
   checkCompliance(m);
   problem.compliance.diagonal() += Eigen::Map<Eigen::VectorXd const>(m.rows.compliance.data(), n);

@@ -44,6 +44,17 @@ struct ConstraintResponse {
   /// What corrections have to know of the system at rest, before the step.
   void prepare() const;
 
+  /// Has the system of an ODE solver that has not solved it in this step made ready for answers.
+  template <class Ode>
+  void prepareSystem([[maybe_unused]] Ode& ode) const {
+    if constexpr (requires(Operations operations) { ode.prepareCorrection(operations); }) {
+      if (allCorrected()) return;
+      Operations operations(scope, time, dt);
+      operations.derivsTaken = how.derivs;
+      ode.prepareCorrection(operations);
+    }
+  }
+
   /// Adds J A^-1 J' times what a multiplier is and what of it is reached.
   void addCompliance(FactoredRows& factored, JacobianRows& room, bool ofVelocity, SystemCompliance to) const {
     forEachCorrection([&](auto& c, auto const& at) {

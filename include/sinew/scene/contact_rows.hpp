@@ -46,8 +46,8 @@ struct ContactRows {
   static void leaveOutFixed(ConstrainedMotion& m) {
     ConstraintProblem& p = m.problem;
     auto diagonal = p.compliance.diagonal();
-    const double negligible =
-        1e-24 * diagonal.maxCoeff();  // that of rounding, where what moves is the same on both sides
+    const double most = diagonal.maxCoeff();
+    const double negligible = 1e-24 * most;  // that of rounding, where what moves is the same on both sides
     for (ConstraintBlock const& b : p.blocks) {
       if (b.first < m.contactRows) continue;
       const double largest = diagonal.segment(b.first, b.rows).maxCoeff();
@@ -59,7 +59,7 @@ struct ContactRows {
         if (diagonal[i] > negligible) continue;
         p.compliance.row(i).setZero();
         p.compliance.col(i).setZero();
-        p.compliance(i, i) = largest > negligible ? largest : 1;
+        p.compliance(i, i) = largest > negligible ? largest : most > 0 ? most : 1;
         p.freeViolation[i] = 0;
         p.multipliers[i] = 0;
       }

@@ -193,7 +193,7 @@ class Initialisation {
     traverse(scope, on<role::ConstraintCorrection>([&](auto& c, auto const& at) {
                using C = std::decay_t<decltype(c)>;
                if constexpr (KeepsCompliance<C>)
-                 throw Error(text(at.path(), ": ", component_name<C>()),
+                 throw Error(text(at.path(), ": ", at.node.labelOf(c)),
                              text("the compliance is made once, and that of ",
                                   solver,
                                   " is another one in the first steps than behind them; give it order=1, or "
@@ -226,6 +226,7 @@ void Initialisation<RootScope>::run() {
     if (again_.touched.empty()) Carving<RootScope>{root_}.check();
   initSolvers();
   root_.raise();
+  if constexpr (collides<RootScope>) Collision<RootScope>{root_}.findCarriers();
   LooseInteractions<RootScope>{root_}.init();
   root_.settled();
 }

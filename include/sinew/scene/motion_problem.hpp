@@ -54,9 +54,13 @@ struct MotionProblem {
     }
     if constexpr (SaysUnsolved<Solver>)
       if (!solver.result.converged)
-        notes.warn(where, "the constraints are not solved", [&] {
-          return text(solver.unsolved(), unsolved(m, solver));
-        });
+        notes.warn(
+            where, "the constraints are not solved", [&] { return text(solver.unsolved(), unsolved(m)); });
+    // rows of constraints stand first, and none of them is left out
+    if (has_solved(solver))
+      warn_of_dependent(root, m, notes, where, [&](int end) {
+        return dependent_equalities(all.blocks, productsOf(all, end), end);
+      });
     m.problem.multipliers.setZero(m.rows.count());
     for (std::size_t i = 0; i < all.rows.size(); ++i)
       m.problem.multipliers[all.rows[i]] = all.multipliers[Eigen::Index(i)];
@@ -85,7 +89,7 @@ struct MotionProblem {
       solve();
     } catch (Error const& error) {
       if constexpr (SaysUnsolved<Solver>)
-        if (!solver.result.converged) throw Error({}, text(error.what(), unsolved(m, solver)));
+        if (!solver.result.converged) throw Error({}, text(error.what(), unsolved(m)));
       throw;
     }
   }
@@ -145,15 +149,18 @@ struct MotionProblem {
     });
   }
 
-  // what bodies answer is their system here
+  // what bodies answer is their system here, as it is
   template <class S>
   static void refuseCorrections(S const& scope) {
     traverse(
         scope, on<role::ConstraintCorrection>([](auto& c, auto const& at) {
           using C = std::decay_t<decltype(c)>;
-          if constexpr (CorrectsState<C>)
+          bool changes = CorrectsState<C>;
+          if constexpr (Regularizes<C>) changes = changes || c.regularizationTerm > 0;
+          if constexpr (ScalesCompliance<C>) changes = changes || c.complianceFactor != 1;
+          if (changes)
             throw Error(
-                text(at.path(), ": ", component_name<C>()),
+                text(at.path(), ": ", at.node.labelOf(c)),
                 "a constraint solver without a compliance matrix moves bodies by the systems of their ODE "
                 "solvers, and would leave this correction out; remove it, or take "
                 "BlockGaussSeidelConstraintSolver");
@@ -232,6 +239,8 @@ struct MotionProblem {
     all.multipliers.resize(n);
     for (Eigen::Index i = 0; i < n; ++i) {
       all.start[i] = m.rows.violation[std::size_t(all.rows[std::size_t(i)])];
+      if (!std::isfinite(all.start[i]))
+        RowNames<RootScope>{root, m}.refuseNotFinite(all.rows[std::size_t(i)]);
       all.multipliers[i] = m.rows.multipliers[std::size_t(all.rows[std::size_t(i)])];
     }
   }
@@ -252,24 +261,28 @@ struct MotionProblem {
     all.jacobian.values.resize(begin);
     return true;
   }
-  // Equalities depend on each other in J J' as they do in W.
-  template <class Solver>
-  std::string unsolved(ConstrainedMotion const& m, Solver const& solver) const {
-    MotionRows const& all = m.motionRows;
-    const int n = all.jacobian.rows();
-    Eigen::VectorXd d = all.start, motion = Eigen::VectorXd::Zero(all.dofs);
+  // J J' of the first n rows, in which equalities depend on each other as they do in W
+  static ConstraintProblem::Matrix productsOf(MotionRows const& all, int n) {
+    Eigen::VectorXd motion = Eigen::VectorXd::Zero(all.dofs);
     ConstraintProblem::Matrix products = ConstraintProblem::Matrix::Zero(n, n);
     for (int i = 0; i < n; ++i) {
-      d[i] += all.jacobian.times(i, all.motion);
       all.jacobian.addTransposed(i, 1, motion);
       for (int k = 0; k < n; ++k) products(k, i) = all.jacobian.times(k, motion);
       all.jacobian.forEachInRow(i, [&](int dof, double) { motion[dof] = 0; });
     }
+    return products;
+  }
+  std::string unsolved(ConstrainedMotion const& m) const {
+    MotionRows const& all = m.motionRows;
+    Eigen::VectorXd d = all.start;
+    for (int i = 0; i < all.jacobian.rows(); ++i) d[i] += all.jacobian.times(i, all.motion);
+    int end = 0;  // behind the last equality
+    for (ConstraintBlock const& b : all.blocks)
+      if (b.kind == ConstraintBlock::Kind::equality) end = b.first + b.rows;
     auto ofAll = [&](int row) { return row < 0 ? row : all.rows[std::size_t(row)]; };
-    Contradiction contradiction = contradicting_equality(all.blocks, products, all.start);
+    Contradiction contradiction = contradicting_equality(all.blocks, productsOf(all, end), all.start);
     contradiction.row = ofAll(contradiction.row);
-    return RowNames<RootScope>{root, m}.unsolved(
-        solver.result.residual, ofAll(furthest_row(all.blocks, d)), contradiction);
+    return RowNames<RootScope>{root, m}.unsolved(ofAll(furthest_row(all.blocks, d)), contradiction);
   }
   static double largestDiagonal(ConstrainedMotion const& m) {
     double largest = 0;

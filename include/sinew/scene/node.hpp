@@ -88,6 +88,25 @@ struct NodeParts<hana::tuple<Cs...>, hana::tuple<Ns...>> {
   /// How many components have the role R, and where the first of them stands (-1: none).
   template <class R>
   static constexpr int count = (0 + ... + int(HasRole<Cs, R>));
+  /// How many are of class C.
+  template <class C>
+  static constexpr int countOfClass = (0 + ... + int(std::is_same_v<Cs, C>));
+  /// How messages name a component: by its class, and by its place among those of its class in this node,
+  /// where there are several, as in "StiffSpringForceField<Vec3d> (2 of 3)".
+  template <class C>
+  std::string labelOf([[maybe_unused]] C const& c) const {
+    if constexpr (countOfClass<C> > 1) {
+      int seen = 0, place = 0;
+      auto look = [&]<class Other>(Other const& other) {
+        if constexpr (std::is_same_v<Other, C>)
+          if (++seen; &other == &c) place = seen;
+      };
+      hana::unpack(components, [&](auto const&... all) { (look(all), ...); });
+      return text(component_name<C>(), " (", place, " of ", seen, ')');
+    } else {
+      return component_name<C>();
+    }
+  }
   /// ODE solvers of the kind that stands beside the one of a node.
   static constexpr int solversBeside = (0 + ... + int(stands_beside<Cs>));
   template <class R>

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/step_warnings.hpp>
 #include <sinew/lagrangian/constrained_motion.hpp>
 #include <sinew/scene/scope.hpp>
 
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 
 namespace sinew {
 
@@ -29,7 +31,7 @@ struct RowNames {
     traverse(root, on<role::LagrangianConstraint>([&](auto& c, auto const& scope) {
                const int end = begin + m.rowsOf[number++];
                if (row >= begin && row < end)
-                 name = {text(scope.path(), ": ", component_name<std::decay_t<decltype(c)>>()), row - begin};
+                 name = {text(scope.path(), ": ", scope.node.labelOf(c)), row - begin};
                begin = end;
              }));
     traverse(root, on<role::ContactManager>([&](auto& manager, auto const&) {
@@ -55,16 +57,24 @@ struct RowNames {
              " holds can move: its points are fixed, or no solver moves them, or its direction is zero; "
              "leave it out, or free a point"));
   }
-  /// What is known of a problem that is not solved: its residual, and rows, which are -1 where there is none.
-  std::string unsolved(double residual, int furthest, Contradiction const& contradiction) const {
+  /// Throws Error for a row whose violation after the motion without multipliers, or compliance, is not
+  /// finite.
+  [[noreturn]] void refuseNotFinite(int row) const {
+    const Name name = of(row);
+    throw Error(
+        name.where,
+        text("its equation ",
+             name.equation,
+             " is not finite after the motion without multipliers: the simulation diverged, or what it holds "
+             "has no mass; take a smaller dt, an implicit solver or a softer material, or give it mass"));
+  }
+  /// What is known of the rows of a problem that is not solved; -1: there is none.
+  std::string unsolved(int furthest, Contradiction const& contradiction) const {
     auto of = [&](int row) {
       const Name name = this->of(row);
       return text("equation ", name.equation, " of ", name.where);
     };
-    return text("; the residual is ",
-                residual,
-                " m",
-                furthest < 0 ? "" : text("; furthest from its condition is ", of(furthest)),
+    return text(furthest < 0 ? std::string() : text("; furthest from its condition is ", of(furthest)),
                 contradiction.row < 0 ? std::string()
                                       : text("; ",
                                              of(contradiction.row),
@@ -79,5 +89,27 @@ struct RowNames {
     throw Error({}, text(error.what(), "; ", what, " is equation ", name.equation, " of ", name.where));
   }
 };
+
+/// Warns of equalities of constraints that depend on others, which look(row behind the last) finds where
+/// their number is a new one: they hold, but how they share a force is open.
+template <class RootScope, class Look>
+void warn_of_dependent(RootScope const& root, ConstrainedMotion& m, StepNotes const& notes,
+                       std::string_view where, Look&& look) {
+  constexpr int most = 1000;  // which take a tenth of a second
+  const int end = m.contactRows, before = std::exchange(m.lookedThrough, end);
+  if ((end == before && notes.step > 1) || end < 2 || end > most) return;
+  const DependentEqualities found = look(end);
+  if (found.count > 0)
+    notes.warn(where, "equalities depend on each other", [&] {
+      const auto first = RowNames<RootScope>{root, m}.of(found.first);
+      return text(found.count,
+                  " of the equalities of constraints depend on others, so that their forces are not "
+                  "determined, only what these do together; the first is equation ",
+                  first.equation,
+                  " of ",
+                  first.where,
+                  "; leave it out, or let one of them give way");
+    });
+}
 
 }  // namespace sinew

@@ -264,12 +264,20 @@ struct Scope {
   /// nothing around it has changed. settled() ends the init.
   template <class C, class F>
   void ifNew(C const& c, InitAgain const& again, F&& f) const {
-    if (!again || again.touches(&c)) f();
+    if (!again || again.touches(&c)) located(c, f);
   }
-  /// Adds the place of a component to its errors; the path is reported here.
+  /// Adds to the errors of a component which of its class it is; the path is reported here.
   template <class C, class F>
-  void located(C const&, F&& f) const {
-    f();
+  void located([[maybe_unused]] C const& c, F&& f) const {
+    if constexpr (N::template countOfClass<C> > 1) {
+      try {
+        f();
+      } catch (Error const& error) {
+        throw Error({}, with_label(error.what(), component_name<C>(), node.labelOf(c)));
+      }
+    } else {
+      f();
+    }
   }
   /// Throws all errors that init of runtime nodes has found so far.
   void raise() const {

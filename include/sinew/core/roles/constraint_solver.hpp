@@ -45,8 +45,16 @@ concept SaysUnsolved = requires(C const c) {
   { c.result.converged } -> std::convertible_to<bool>;
   { c.unsolved() } -> std::convertible_to<std::string>;
 };
+/// Whether it has, as far as it says.
+template <class C>
+bool has_solved([[maybe_unused]] C const& solver) {
+  if constexpr (SaysUnsolved<C>)
+    return solver.result.converged;
+  else
+    return true;
+}
 
-/// And lets others find it, where states are not in the host's memory: solveMotionBy(solve, where) calls
+/// A solver of the motion that lets others find it, where states are not in the host's memory: solveMotionBy(solve, where) calls
 /// solve(ConvexStepSettings), which is ConvexStep::solve for them.
 template <class C>
 concept LetsMotionBeSolved = SolvesMotion<C> && named::solveMotionBy<C>;

@@ -55,10 +55,10 @@ struct ConstraintFactors {
   double impulse = 0, position = 0, velocity = 0;
 };
 /// An implicit solver says it for a step of length h, for scenes with an animation loop that solves constraints. It
-/// may have `prepareCorrection(operations)`, which is called after the step without multipliers and before its linear solver
-/// is asked for u, and `corrected(operations, u, ofVelocity)`, which is called when positions and velocities have taken
-/// u; with `ofVelocity` positions have moved by the velocities times h instead. Where the first steps have other factors,
-/// changesFactors() says so.
+/// may have `prepareCorrection(operations)`, which is called after the step without multipliers where constraints act on
+/// its bodies, before its linear solver is asked for u, and `corrected(operations, u, ofVelocity)`, which is called when
+/// positions and velocities have taken u; with `ofVelocity` positions have moved by the velocities times h instead. Where
+/// the first steps have other factors, changesFactors() says so.
 template <class C>
 concept HasConstraintFactors = requires(C const c) {
   { c.constraintFactors(0.01) } -> std::same_as<ConstraintFactors>;
