@@ -103,8 +103,8 @@ struct ConstrainedStep {
     operations.forEachIndependent([](auto& s) {
       using D = typename std::decay_t<decltype(s)>::DataTypes;
       s.position.swap(s.freePosition);
-      auto& way = s[vec_id::dx];
-      for (std::size_t i = 0; i < way.size(); ++i) way[i] = D::difference(s.position[i], s.freePosition[i]);
+      VectorOperations<D>::difference(
+          s[vec_id::dx], std::as_const(s.position), std::as_const(s.freePosition));
     });
     operations.propagate(vec_id::position, vec_id::velocity);
     operations.propagate(vec_id::dx);
@@ -282,9 +282,7 @@ struct ConstrainedStep {
     MechanicalOperations<S> operations(response.scope, time, dt);
     auto takeFree = [&] { operations.forEachIndependent([](auto& s) { s.position.swap(s.freePosition); }); };
     if (system.rows.empty()) return takeFree();
-    if (m.hasMotion) {
-      operations.scatter(how.motion(), system.motion);
-    } else {
+    if (!m.hasMotion) {
       system.force.setZero();
       for (int k = 0; k < system.jacobian.rows(); ++k)
         system.jacobian.addTransposed(k, m.problem.multipliers[system.rows[std::size_t(k)]], system.force);

@@ -22,7 +22,8 @@ namespace sinew {
 /// The constraints of a step as a problem for the motion v = position u that multipliers add to the free one,
 /// for constraint solvers that need no compliance W (SolvesMotion):
 ///   S v = J' f,   d = d_free + J v,   S = A / (impulse position)
-/// over the degrees of freedom of all systems that have rows, one after the other. A row that is soft, C, or
+/// over the degrees of freedom of all systems that have rows, one after the other; u is left in the vector
+/// MultiplierResponse::motion of their states. A row that is soft, C, or
 /// of a contact and along which nothing can move, has a degree of freedom of its own behind them, of which S
 /// is 1/C.
 template <class RootScope>
@@ -51,6 +52,12 @@ struct MotionProblem {
         solver.solveMotion(
             [&](Eigen::VectorXd const& p, Eigen::VectorXd& q) { multiply(m, p, q); }, all, where);
       });
+      forEachSystem(m, [&](auto& ode, auto const& scope, ConstrainedSystem& system) {
+        const auto how = MultiplierResponse::of(ode, dt);
+        system.motion.head(system.dofs()) = all.motion.segment(system.begin, system.dofs()) / reached(m, how);
+        MechanicalOperations<std::decay_t<decltype(scope)>>(scope, time, dt)
+            .scatter(how.motion(), system.motion);
+      });
     }
     if constexpr (SaysUnsolved<Solver>)
       if (!solver.result.converged)
@@ -60,14 +67,13 @@ struct MotionProblem {
     m.problem.multipliers.setZero(m.rows.count());
     for (std::size_t i = 0; i < all.rows.size(); ++i)
       m.problem.multipliers[all.rows[i]] = all.multipliers[Eigen::Index(i)];
-    forEachSystem(m, [&](auto& ode, auto const&, ConstrainedSystem& system) {
-      const auto factors = MultiplierResponse::of(ode, dt).factors;
-      system.motion.head(system.dofs()) = all.motion.segment(system.begin, system.dofs()) /
-                                          (m.rows.ofVelocity ? factors.velocity : factors.position);
-    });
   }
 
  private:
+  // what is reached of u
+  static double reached(ConstrainedMotion const& m, MultiplierResponse const& how) {
+    return m.rows.ofVelocity ? how.factors.velocity : how.factors.position;
+  }
   // f(ODE solver, its scope, its system) for those that have rows
   template <class F>
   void forEachSystem(ConstrainedMotion& m, F&& f) const {
@@ -104,12 +110,24 @@ struct MotionProblem {
           const auto how = MultiplierResponse::of(ode, dt);
           operations.derivsTaken = how.derivs;
           operations.reserve({.derivs = how.derivs + 2});
-          motion.addSystem(operations, how.factors.matrix, system.scale, system.begin / 3);
+          motion.addSystem(operations, how.factors, system.scale, system.begin / 3);
         });
         joinRows(m, dofs, [&] { return motion.largestDiagonal(); });
         explained(m, solver, [&] {
           solver.solveMotionBy(
-              [&](auto const& settings) { return motion.solve(m.motionRows, settings, where); }, where);
+              [&](auto const& settings) {
+                const auto found = motion.solve(m.motionRows, settings, where);
+                if (!found.converged) motion.bringMotion(m.motionRows);  // for the message
+                return found;
+              },
+              where);
+        });
+        forEachSystem(m, [&](auto& ode, auto const& scope, ConstrainedSystem& system) {
+          const auto how = MultiplierResponse::of(ode, dt);
+          MechanicalOperations<std::decay_t<decltype(scope)>>(scope).forEachIndependent([&](auto& s) {
+            if constexpr (SolvesMotions<typename std::decay_t<decltype(s)>::DataTypes>)
+              motion.give(s[how.motion()], (system.begin + s.dofOffset) / 3, 1 / reached(m, how));
+          });
         });
       });
       done = true;

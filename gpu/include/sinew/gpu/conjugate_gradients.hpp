@@ -3,15 +3,36 @@
 
 #include <sinew/gpu/assembled_system.hpp>
 #include <sinew/gpu/block_jacobi.hpp>
+#include <sinew/gpu/team_solver.hpp>
 #include <sinew/gpu/vector_operations.hpp>
 #include <sinew/solver/cg_linear_solver.hpp>
+#include <sinew/solver/linear_system.hpp>
+
+#include <type_traits>
+#include <utility>
 
 namespace sinew::gpu {
 
+/// Solves an assembled system as one kernel, where all of its bodies are points over the same DataTypes.
+template <class Operations, class Solver, class MultiVec>
+bool solve_by_team(Operations& operations, Solver const& solver, double threshold, MultiVec& x, MultiVec& b,
+                   MultiVec& room) {
+  bool first = true, done = false;
+  operations.forEachIndependent([&](auto& state) {
+    using D = typename std::decay_t<decltype(state)>::DataTypes;
+    if constexpr (SolvesMotions<D>)
+      if (std::exchange(first, false))
+        done = state.solverWorkspace.team.solve(operations, solver, threshold, x, b, room);
+    first = false;
+  });
+  return done;
+}
+
 /// What CGLinearSolver does where all states below it are on the device, and what
 /// ShewchukPCGLinearSolver does with a preconditioner of diagonal blocks: the same method with its numbers
-/// there, so that nothing waits for the host. With a tolerance the host looks every tenth iteration whether
-/// more are needed, but not while the step is being recorded. `residuals` stays empty.
+/// there, so that nothing waits for the host; over an assembled matrix one kernel. With a tolerance the host
+/// looks every tenth iteration whether more are needed, but not while the step is being recorded. `residuals`
+/// stays empty.
 template <class Operations, class Solver, class MultiVec>
 void conjugate_gradients(Operations& operations, Solver& solver, MatrixFactors factors, MultiVec& x,
                          MultiVec& b, DeviceVector<double>& numbers) {
@@ -24,12 +45,18 @@ void conjugate_gradients(Operations& operations, Solver& solver, MatrixFactors f
       make_block_jacobi(operations, factors, method == PreconditionerMethod::jacobi, p, q);
   }
   constexpr bool assembled = !Solver::matrixFree;
-  if constexpr (assembled) assemble_on_device(operations, factors, p, q);
+  double threshold = 0;
+  if constexpr (requires { solver.threshold; }) threshold = solver.threshold;
+  if constexpr (assembled) {
+    assemble_on_device(operations, factors, p, q);
+    if (!preconditioned && solve_by_team(operations, solver, threshold, x, b, p)) {
+      solver.residuals.clear();
+      return;
+    }
+  }
   const auto n = std::size_t(solver.iterations);
   numbers.resize(3 * n + 6);
   double* const workspace = numbers.device();
-  double threshold = 0;
-  if constexpr (requires { solver.threshold; }) threshold = solver.threshold;
   const CgScalars s{workspace,
                     preconditioned ? workspace + n + 2 : workspace,
                     workspace + 2 * n + 4,

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstring>
 #include <new>
 #include <utility>
 
@@ -127,6 +128,17 @@ void copy_on_device(T* to, T const* from, std::size_t n) {
   check(cudaMemcpyAsync(to, from, n * sizeof(T), cudaMemcpyDeviceToDevice, stream()), "copy on the GPU");
 #else
   std::copy_n(from, n, to);
+#endif
+}
+
+/// Makes all bytes 0.
+template <class T>
+void clear_on_device(T* to, std::size_t n) {
+  if (n == 0) return;
+#if SINEW_CUDA
+  check(cudaMemsetAsync(to, 0, n * sizeof(T), stream()), "a loop on the GPU");
+#else
+  std::memset(static_cast<void*>(to), 0, n * sizeof(T));
 #endif
 }
 

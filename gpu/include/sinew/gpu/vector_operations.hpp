@@ -65,6 +65,9 @@ struct VectorOperations<CudaTypes<H>> {
   static void move(VecCoord& x, VecDeriv const& a, Real f) {
     gpu::for_each_index(x.size(), Move{x.device(), a.device(), f});
   }
+  static void difference(VecDeriv& r, VecCoord const& a, VecCoord const& b) {
+    gpu::for_each_index(r.size(), Difference{r.overwrite(), a.device(), b.device()});
+  }
   static void teq(VecDeriv& r, Real f) {
     Real* const to = flat(r);
     gpu::for_each_index(scalars(r), Scale{to, to, f});
@@ -153,6 +156,11 @@ struct VectorOperations<CudaTypes<H>> {
     Deriv const* from;
     Real f;
     SINEW_HD void operator()(int i) const { D::increment(to[i], Deriv(f * from[i])); }
+  };
+  struct Difference {
+    Deriv* to;
+    Coord const *a, *b;
+    SINEW_HD void operator()(int i) const { to[i] = D::difference(a[i], b[i]); }
   };
   struct Xpay {
     Real* p;
