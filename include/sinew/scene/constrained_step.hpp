@@ -105,6 +105,8 @@ struct ConstrainedStep {
       s.position.swap(s.freePosition);
       VectorOperations<D>::difference(
           s[vec_id::dx], std::as_const(s.position), std::as_const(s.freePosition));
+      VectorOperations<D>::bringToHost(s.position);  // rows look at them
+      VectorOperations<D>::bringToHost(s.freePosition);
     });
     operations.propagate(vec_id::position, vec_id::velocity);
     operations.propagate(vec_id::dx);
@@ -129,7 +131,7 @@ struct ConstrainedStep {
     for_each_integrator(root, [&](auto& ode, auto const& scope) {
       ConstrainedSystem& system = m.systems[number++];
       if (keepsForces) system.whole = system.jacobian;
-      project(scope, MultiplierResponse::of(ode, dt), m.motionRows.jacobian, system);
+      project(scope, MultiplierResponse::of(ode, dt), m.room, system);
     });
   }
   template <class D, class State>
@@ -331,6 +333,8 @@ void ConstrainedStep<RootScope>::integrate(ConstrainedMotion& m, bool velocityFi
   for_each_integrator(root, [&](auto& ode, auto const& scope) {
     ConstraintResponse<std::decay_t<decltype(scope)>>{scope, ode, time, dt, m.systems[system++]}.prepare();
   });
+  ++m.step;
+  std::swap(m.rows, m.lastRows);
   forceMapped(m, velocityFirst);
   for_each_solver(root, [&](auto& ode, auto const& scope) { moveFreely(ode, scope, keepsForces); });
   for_each_integrator(root, [&](auto&, auto const& scope) { lookFromStart(scope); });

@@ -115,9 +115,11 @@ struct MotionProblem {
         joinRows(m, dofs, [&] { return motion.largestDiagonal(); });
         explained(m, solver, [&] {
           solver.solveMotionBy(
-              [&](auto const& settings) {
-                const auto found = motion.solve(m.motionRows, settings, where);
-                if (!found.converged) motion.bringMotion(m.motionRows);  // for the message
+              [&](auto const& settings, std::vector<double>& lastMotion) {
+                const auto found = motion.solve(m.motionRows, settings, lastMotion, where);
+                if (!found.converged)  // for the message
+                  m.motionRows.motion =
+                      Eigen::Map<Eigen::VectorXd const>(lastMotion.data(), Eigen::Index(lastMotion.size()));
                 return found;
               },
               where);
@@ -203,6 +205,27 @@ struct MotionProblem {
   template <class Stiffest>
   void joinRows(ConstrainedMotion& m, int dofs, Stiffest&& stiffest) const {
     MotionRows& all = m.motionRows;
+    if (!asBefore(m, dofs)) joinAnew(m, dofs, stiffest);
+    all.step = m.step;
+    const auto n = Eigen::Index(all.rows.size());
+    all.start.resize(n);
+    all.multipliers.resize(n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      all.start[i] = m.rows.violation[std::size_t(all.rows[std::size_t(i)])];
+      all.multipliers[i] = m.rows.multipliers[std::size_t(all.rows[std::size_t(i)])];
+    }
+  }
+  // whether all but violations and multipliers is that of the step before
+  static bool asBefore(ConstrainedMotion const& m, int dofs) {
+    MotionRows const& all = m.motionRows;
+    return all.step == m.step - 1 && !all.byMatrix && all.dofs == dofs + 3 * int(all.slack.size()) &&
+           m.rows.blocks == m.lastRows.blocks && m.rows.compliance == m.lastRows.compliance &&
+           m.rows.ofVelocity == m.lastRows.ofVelocity &&
+           std::all_of(m.systems.begin(), m.systems.end(), [](auto& s) { return s.rowsAsBefore(); });
+  }
+  template <class Stiffest>
+  void joinAnew(ConstrainedMotion& m, int dofs, Stiffest&& stiffest) const {
+    MotionRows& all = m.motionRows;
     all.clear();
     if (all.motion.size() < dofs) all.motion.resize(dofs);
     all.motion.setZero();
@@ -242,16 +265,9 @@ struct MotionProblem {
       all.blocks.push_back(block);
       all.blocks.back().first = first;
     }
-    if (std::find(all.slack.begin(), all.slack.end(), 0) != all.slack.end())
-      std::replace(all.slack.begin(), all.slack.end(), 0., double(stiffest()));
-    const auto n = Eigen::Index(all.rows.size());
+    all.byMatrix = std::find(all.slack.begin(), all.slack.end(), 0) != all.slack.end();
+    if (all.byMatrix) std::replace(all.slack.begin(), all.slack.end(), 0., double(stiffest()));
     all.dofs = dofs + 3 * int(all.slack.size());
-    all.start.resize(n);
-    all.multipliers.resize(n);
-    for (Eigen::Index i = 0; i < n; ++i) {
-      all.start[i] = m.rows.violation[std::size_t(all.rows[std::size_t(i)])];
-      all.multipliers[i] = m.rows.multipliers[std::size_t(all.rows[std::size_t(i)])];
-    }
   }
   // Whether the entries from one on, which are left out then, move nothing: there are none, or both sides are
   // of one rigid body. The motion is zero before and after.

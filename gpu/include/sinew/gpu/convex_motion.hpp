@@ -87,13 +87,15 @@ class ConvexMotion {
     return largest;
   }
 
-  /// Leaves the multipliers in the rows, and the motion for give(). Throws Error as ConvexStep does.
-  ConvexStepResult solve(MotionRows& rows, ConvexStepSettings const& settings, std::string_view where) {
-    none_.setZero(rows.dofs);
-    check_convex_step(none_, rows.jacobian, rows.blocks, rows.start, none_, rows.multipliers, where);
+  /// From `motion`, that of the step before, scaled. Leaves the multipliers in the rows, and the motion there
+  /// and for give(). Throws Error as ConvexStep does.
+  ConvexStepResult solve(MotionRows& rows, ConvexStepSettings const& settings, std::vector<double>& motion,
+                         std::string_view where) {
     check_convex_step(settings, where);
+    check_convex_guess(rows.start, rows.multipliers, where);
     const auto n = std::size_t(rows.jacobian.rows());
-    takeRows(rows);
+    takeRows(rows, where);
+    takeMotion(rows.dofs, motion);
     q_.settings = settings;
     q_.progress = {};
     askedBefore_ = false;
@@ -103,11 +105,15 @@ class ConvexMotion {
     copy_to_device(exchanged_.data() + head, sent_.data(), sent_.size());
     while (true) {
       run_whole_team(std::size_t(q_.system.all), q_, team_);
+      arrival_.begin(exchanged_.data(), head + 2 * n);
+      brought_.begin(q_.velocity, motion.size());
       receive(head + 2 * n);
       std::memcpy(static_cast<void*>(&q_.progress), received_.data(), sizeof(ConvexProgress));
       if (q_.progress.ends == ConvexProgress::Ends::done) break;
       askHost(rows, settings, where);
     }
+    brought_.take(motion.data(), motion.size());
+    broughtMotion_ = motion.size();
     rows.multipliers = Eigen::Map<Eigen::VectorXd const>(received_.data() + head + n, Eigen::Index(n));
     return q_.progress.found;
   }
@@ -119,12 +125,6 @@ class ConvexMotion {
     if constexpr (std::is_same_v<VecDeriv, typename D::VecDeriv>)
       for_each_index(to.size(), Give{q_.velocity + 3 * begin, to.overwrite(), factor});
   }
-  /// All of it, on the host.
-  void bringMotion(MotionRows& rows) const {
-    rows.motion.resize(rows.dofs);
-    copy_to_host(rows.motion.data(), q_.velocity, std::size_t(rows.dofs));
-  }
-
   // what threads do
   struct Scaled {
     double const* from;
@@ -162,7 +162,6 @@ class ConvexMotion {
   ConvexUpdates updates_{};
   std::vector<SystemBody<D>> bodies_{};
   ConvexProblem<D> q_{};
-  Eigen::VectorXd none_{};
   // of the rows, as they go to the device
   MotionRows last_{};
   std::vector<int> ints_{}, entryOf_{}, next_{};
@@ -173,16 +172,28 @@ class ConvexMotion {
   SentList<ConstraintBlock> blocksThere_{};
   DeviceArray<double> rest_{}, velocity_{}, vectors_{}, exchanged_{};
   DeviceArray<unsigned char> held_{};
-  Arrival<double> arrival_{};
+  Arrival<double> arrival_{}, brought_{};
+  std::size_t broughtMotion_ =
+      0;  // how many numbers of the motion are the same in brought_ and on the device
   TeamMemory team_{};
   std::size_t pairs_ = 0;
   bool askedBefore_ = false;  // in this step
 
-  // the first so many numbers of what is exchanged
+  // the first so many numbers of what is exchanged, which are on their way
   void receive(std::size_t count) {
     received_.resize(std::max(received_.size(), count));
-    arrival_.begin(exchanged_.data(), count);
     arrival_.take(received_.data(), count);
+  }
+  // the motion to begin with, if it is not that which the device has left there; 0 where degrees of freedom
+  // came or went
+  void takeMotion(int dofs, std::vector<double>& motion) {
+    const auto n = std::size_t(dofs);
+    if (motion.size() != n) motion.assign(n, 0);
+    if (broughtMotion_ == n && std::memcmp(motion.data(), brought_.data(), n * sizeof(double)) == 0) return;
+    velocity_.resize(n);
+    q_.velocity = velocity_.data();
+    copy_to_device(q_.velocity, motion.data(), n);
+    broughtMotion_ = 0;
   }
 
   // an update that the kernel leaves to the host, or an error
@@ -191,6 +202,7 @@ class ConvexMotion {
     ConvexProgress& now = q_.progress;
     if (now.ends == Ends::unbounded) refuse_unbounded_step(where);
     const Eigen::Index n = rows.jacobian.rows();
+    arrival_.begin(exchanged_.data(), head + mayBeAsked * std::size_t(n));
     receive(head + mayBeAsked * std::size_t(n));
     double const* from = received_.data() + head + n;  // behind the violation at rest
     auto next = [&] { return Eigen::Map<Eigen::VectorXd const>(std::exchange(from, from + n), n); };
@@ -231,18 +243,15 @@ class ConvexMotion {
   }
   // rows by blocks of constraints and points, and room for all else; where they are as in the last step, so
   // is what the device has of them
-  void takeRows(MotionRows const& rows) {
+  void takeRows(MotionRows const& rows, std::string_view where) {
     q_.system.bodies = int(bodies_.size());
     q_.system.body = bodiesThere_.send(bodies_);
     if (isLast(rows)) return;
+    check_convex_rows(rows.dofs, rows.jacobian, rows.blocks, rows.start, rows.multipliers, where);
     last_.jacobian = rows.jacobian;
     last_.blocks = rows.blocks;
     last_.slack = rows.slack;
-    if (std::exchange(last_.dofs, rows.dofs) != rows.dofs) {
-      velocity_.resize(std::size_t(rows.dofs));
-      clear_on_device(velocity_.data(), std::size_t(rows.dofs));
-      q_.velocity = velocity_.data();
-    }
+    last_.dofs = rows.dofs;
     q_.system.slack = slackThere_.send(rows.slack);
     q_.system.all = q_.system.points + int(rows.slack.size());
     q_.blocks = int(rows.blocks.size());
@@ -316,18 +325,10 @@ class ConvexMotion {
     for (double** of :
          {&q_.multipliers, &q_.violation, &q_.before, &q_.lagged, &q_.regularisation, &q_.compliance})
       *of = room(rows);
-    vectors_.resize((9 * 3 + 2 * 9) * all + 5 * rows + 9 * pairs);
+    vectors_.resize((3 * 3 + 3 * GradientVectors::count + 2 * 9) * all + 5 * rows + 9 * pairs);
     v = vectors_.data();
-    for (double** of : {&q_.momentum,
-                        &q_.gradient,
-                        &q_.goodVelocity,
-                        &q_.newton.solution,
-                        &q_.newton.residual,
-                        &q_.newton.scaled,
-                        &q_.newton.direction[0],
-                        &q_.newton.direction[1],
-                        &q_.newton.product})
-      *of = room(3 * all);
+    for (double** of : {&q_.momentum, &q_.gradient, &q_.goodVelocity}) *of = room(3 * all);
+    q_.newton = GradientVectors::in(room(3 * GradientVectors::count * all), all);
     q_.diagonal = room(9 * all);
     q_.inverse = room(9 * all);
     q_.rate = room(rows);

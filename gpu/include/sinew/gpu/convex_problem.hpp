@@ -432,7 +432,11 @@ struct ConvexProblem {
             addTerms(i, lane, Team::lanes, p, sum);
           },
           [&](int i, double(&sum)[3]) { rows.hold(i, sum); },
-          [&](int i, Vector const& r) { return Vector(q.load(q.inverse, i) * r); },
+          [&](int i, int c, Vector const& r) {
+            double sum = 0;
+            for (int k = 0; k < 3; ++k) sum += q.inverse[(3 * c + k) * std::ptrdiff_t(all) + i] * r[k];
+            return sum;
+          },
           [](double curvature) { return curvature > 0; });
       found.conjugateGradients += gradients.iterations;
       if (!gradients.any) return false;

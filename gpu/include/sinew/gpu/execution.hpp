@@ -237,6 +237,8 @@ class Arrival {
     std::copy_n(from, n, buffer_);
 #endif
   }
+  /// What has come, once it was taken.
+  T const* data() const { return buffer_; }
   /// Waits for it, and for nothing that has been queued since.
   void take(T* to, std::size_t n) const {
 #if SINEW_CUDA

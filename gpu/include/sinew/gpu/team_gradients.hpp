@@ -7,12 +7,25 @@
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <utility>
 
 namespace sinew::gpu {
 
-/// The vectors of conjugate gradients by a team, three numbers a point.
+/// The vectors of conjugate gradients by a team, three numbers a point: x, the residual r, u = P^-1 r with
+/// the preconditioner P, w = A u, and those by which they change.
 struct GradientVectors {
-  double *solution, *residual, *scaled, *direction[2], *product;
+  double *solution, *residual, *scaled, *product;
+  double *p, *s, *q, *z, *m[2];
+
+  static constexpr std::size_t count = 10;
+  static GradientVectors in(double* memory, std::size_t points) {
+    auto next = [&] { return std::exchange(memory, memory + 3 * points); };
+    GradientVectors v{};
+    for (double** of :
+         {&v.solution, &v.residual, &v.scaled, &v.product, &v.p, &v.s, &v.q, &v.z, &v.m[0], &v.m[1]})
+      *of = next();
+    return v;
+  }
 };
 
 struct GradientsFound {
@@ -20,65 +33,69 @@ struct GradientsFound {
   bool any = false;  // the solution has changed
 };
 
-/// Conjugate gradients by all threads of a team, for so many points. At first the solution is 0, and `scaled`
-/// is the residual after preconditioning, which may be the same vector; rho is their product, at the end that
-/// of the last ones. Ends where rho <= end, after `most` iterations, and where usable(curvature) is false.
-/// add(i, lane, lanes, p, sum) adds the part of a lane of the product with p in a point, hold(i, sum) takes
-/// away what is held, apply(i, r) is the preconditioner.
+/// Pipelined conjugate gradients (Ghysels, Vanroose 2014) by all threads of a team, for so many points: what
+/// others need of an iteration and its sums are exchanged together, so that blocks wait for each other once
+/// an iteration. At first `solution` is 0, and `residual` and `scaled` are there; rho is their product, at
+/// the end that of the last ones. Ends where rho <= end, after `most` iterations, and where usable(curvature)
+/// is false. add(i, lane, p, sum) adds the part of a lane of the product with p in a point, hold(i, sum)
+/// takes away what is held, apply(i, c, r) is component c of the preconditioner's answer.
 template <class Team, class Add, class Hold, class Apply, class Usable>
 SINEW_INLINE GradientsFound team_gradients(Team& team, int points, GradientVectors const& v, double& rho,
                                            double end, int most, Add&& add, Hold&& hold, Apply&& apply,
                                            Usable&& usable) {
-  using Vector = Eigen::Vector3d;
   GradientsFound found;
-  double beta = 0;
-  int which = 0;
-  while (rho > end && found.iterations < most) {
-    ++found.iterations;
-    // p = z + beta p on the way; what others still read is in the other vector
-    double const* const last = v.direction[which];
-    double* const next = v.direction[1 - which];
-    auto p = [&](int j) {
-      Vector z = vector_at(v.scaled, j);
-      if (beta != 0)
-        for (int c = 0; c < 3; ++c) z[c] += beta * last[3 * j + c];
-      return z;
-    };
-    double curvature[1] = {0};
+  // f(component of a point, of the product with p); a lane has one component
+  auto multiply = [&](double const* p, auto&& f) {
     team.eachRow(points, [&](int i, int lane) {
       double sum[3] = {0, 0, 0};
-      add(i, lane, p, sum);
+      add(
+          i, lane, [&](int j) { return vector_at(p, j); }, sum);
       team.sumOfRow(sum);
-      if (lane != 0) return;
       hold(i, sum);
-      const Vector own = p(i);
-      put_vector(next, i, own);
-      for (int c = 0; c < 3; ++c) {
-        v.product[3 * i + c] = sum[c];
-        curvature[0] += own[c] * sum[c];
+      for (int c = 0; c < 3; ++c)
+        if (c % Team::lanes == lane) f(3 * i + c, sum[c]);
+    });
+  };
+  if (rho > end && most > 0) multiply(v.scaled, [&](int k, double value) { v.product[k] = value; });
+  double last = 0, lastAlpha = 0;
+  while (rho > end && found.iterations < most) {
+    double* const m = v.m[found.iterations % 2];  // what others still read is in the other one
+    double local[2] = {0, 0};
+    team.syncRows();
+    team.eachRow(points, [&](int i, int lane) {
+      for (int c = lane; c < 3; c += Team::lanes) {
+        const int k = 3 * i + c;
+        m[k] = apply(i, c, vector_at(v.product, i));
+        local[0] += v.residual[k] * v.scaled[k];
+        local[1] += v.product[k] * v.scaled[k];
       }
     });
-    team.template reduce<1>(curvature);
-    if (!usable(curvature[0])) break;
-    found.any = true;
-    const double alpha = rho / curvature[0];
-    double now[1] = {0};
-    team.each(points, [&](int i) {
-      Vector left;
-      for (int c = 0; c < 3; ++c) {
-        v.solution[3 * i + c] += alpha * next[3 * i + c];
-        left[c] = v.residual[3 * i + c] - alpha * v.product[3 * i + c];
-      }
-      const Vector z = apply(i, left);
-      put_vector(v.residual, i, left);
-      put_vector(v.scaled, i, z);
-      for (int c = 0; c < 3; ++c) now[0] += left[c] * z[c];
+    team.template reduce<2>(local);
+    rho = local[0];
+    if (!(rho > end)) break;
+    const double beta = found.iterations == 0 ? 0 : rho / last;
+    const double curvature = found.iterations == 0 ? local[1] : local[1] - beta * rho / lastAlpha;
+    ++found.iterations;
+    if (!usable(curvature)) break;
+    const double alpha = rho / curvature;
+    last = rho;
+    lastAlpha = alpha;
+    const bool first = !std::exchange(found.any, true);
+    auto go = [&](double* to, int k, double by) {
+      const double next = first ? by : by + beta * to[k];
+      to[k] = next;
+      return next;
+    };
+    multiply(m, [&](int k, double product) {
+      const double z = go(v.z, k, product), q = go(v.q, k, m[k]), s = go(v.s, k, v.product[k]),
+                   p = go(v.p, k, v.scaled[k]);
+      v.solution[k] += alpha * p;
+      v.residual[k] -= alpha * s;
+      v.scaled[k] -= alpha * q;
+      v.product[k] -= alpha * z;
     });
-    team.template reduce<1>(now);
-    beta = now[0] / rho;
-    rho = now[0];
-    which = 1 - which;
   }
+  if (found.iterations == most) team.sync();  // what others are to read
   return found;
 }
 
@@ -107,7 +124,7 @@ struct SystemGradients {
     eachOf(team, [&](int i, Sides const& of, int own) {
       for (int c = 0; c < 3; ++c) {
         const double b = double(of.b[own][c]);
-        vectors.residual[3 * i + c] = b;
+        vectors.residual[3 * i + c] = vectors.scaled[3 * i + c] = b;
         vectors.solution[3 * i + c] = 0;
         size[0] += b * b;
       }
@@ -123,7 +140,7 @@ struct SystemGradients {
         iterations,
         [&](int i, int lane, auto const& p, double(&sum)[3]) { rows.add(i, lane, p, sum); },
         [&](int i, double(&sum)[3]) { rows.hold(i, sum); },
-        [](int, Vector const& r) { return r; },
+        [](int, int c, Vector const& r) { return r[c]; },
         [&](double curvature) { return curvature > threshold || curvature < -threshold; });
     eachOf(team, [&](int i, Sides const& of, int own) {
       for (int c = 0; c < 3; ++c) of.x[own][c] = Real(vectors.solution[3 * i + c]);

@@ -62,30 +62,23 @@ class TeamSolver {
     if (!can) return false;
     held_.resize(std::size_t(points));
     if (!take_held<D>(operations, room, held_.data())) return false;
-    constexpr std::size_t vectors = 5;
-    memory_.resize(vectors * 3 * std::size_t(points));
-    double* v = memory_.data();
-    auto next = [&] { return std::exchange(v, v + 3 * points); };
+    memory_.resize(3 * GradientVectors::count * std::size_t(points));
     SystemGradients<D> system{};
     system.system = {bodiesThere_.send(bodies_), int(bodies_.size()), points, points, nullptr, held_.data()};
     system.sides = sidesThere_.send(sides_);
-    system.vectors.residual = system.vectors.scaled = next();
-    for (double** of : {&system.vectors.solution,
-                        &system.vectors.direction[0],
-                        &system.vectors.direction[1],
-                        &system.vectors.product})
-      *of = next();
+    system.vectors = GradientVectors::in(memory_.data(), std::size_t(points));
     system.tolerance2 = solver.tolerance * solver.tolerance;
     system.threshold = threshold;
     system.iterations = solver.iterations;
     run_whole_team(std::size_t(points), system, team_);
+    residual_ = system.vectors.residual;
     fresh_ = true;
     return true;
   }
 
   /// b - A x of the last solution, three numbers a point, with the matrix as it is in the rows of the bodies;
   /// null where there has been none since this was asked for.
-  double const* takeRest() { return std::exchange(fresh_, false) ? memory_.data() : nullptr; }
+  double const* takeRest() { return std::exchange(fresh_, false) ? residual_ : nullptr; }
 
  private:
   std::vector<SystemBody<D>> bodies_{};
@@ -95,6 +88,7 @@ class TeamSolver {
   DeviceArray<unsigned char> held_{};
   DeviceArray<double> memory_{};
   TeamMemory team_{};
+  double const* residual_ = nullptr;
   bool fresh_ = false;
 };
 

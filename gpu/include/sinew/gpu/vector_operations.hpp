@@ -68,6 +68,10 @@ struct VectorOperations<CudaTypes<H>> {
   static void difference(VecDeriv& r, VecCoord const& a, VecCoord const& b) {
     gpu::for_each_index(r.size(), Difference{r.overwrite(), a.device(), b.device()});
   }
+  template <class V>
+  static void bringToHost(V const& v) {
+    v.bringToHost();
+  }
   static void teq(VecDeriv& r, Real f) {
     Real* const to = flat(r);
     gpu::for_each_index(scalars(r), Scale{to, to, f});

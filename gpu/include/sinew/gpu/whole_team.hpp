@@ -65,6 +65,8 @@ class WholeTeam {
     extern __shared__ unsigned char memory[];
     return reinterpret_cast<T*>(memory + before * blockDim.x)[unsigned(k) * blockDim.x + threadIdx.x];
   }
+  /// What was written before by the threads of a row is seen by these behind it.
+  __device__ void syncRows() const { __syncwarp(); }
   /// What was written before is seen by all behind it.
   __device__ void sync() {
     double none[1] = {0};
@@ -193,6 +195,7 @@ class WholeTeam {
   }
   template <int N>
   void sumOfRow(double (&)[N]) const {}
+  void syncRows() const {}
   void sync() const {
     if (shared_) shared_->barrier.arrive_and_wait();
   }

@@ -47,7 +47,7 @@ concept SaysUnsolved = requires(C const c) {
 };
 
 /// And lets others find it, where states are not in the host's memory: solveMotionBy(solve, where) calls
-/// solve(ConvexStepSettings), which is ConvexStep::solve for them.
+/// solve(ConvexStepSettings, std::vector<double>& lastMotion), which is ConvexStep::solve for them.
 template <class C>
 concept LetsMotionBeSolved = SolvesMotion<C> && named::solveMotionBy<C>;
 
