@@ -146,25 +146,26 @@ void assemble_on_device(Operations& operations, MatrixFactors factors, MultiVec&
 }
 
 template <class D, class Operations, class MultiVec>
-bool take_held(Operations& operations, MultiVec& room, unsigned char* held) {
-  const bool any = any_below<role::ProjectiveConstraint>(operations.root);
-  if (any && recording()) return false;  // the host looks at what these do
-  if (any) {
-    operations.forEachIndependent([&](auto& s) {
-      if constexpr (std::is_same_v<typename std::decay_t<decltype(s)>::DataTypes, D>)
-        for_each_index(s.size(), typename SystemOfBodies<D>::SetNumbers{s[room.id].overwrite()});
-    });
-    operations.projectResponse(room.id);
-  }
+bool take_held(Operations& operations, MultiVec& room, DeviceArray<unsigned char>& held,
+               std::vector<SystemBody<D>>& bodies, std::size_t first) {
+  if (!any_below<role::ProjectiveConstraint>(operations.root)) return true;
+  if (recording()) return false;  // the host looks at what these do
+  int points = 0;
+  for (std::size_t k = first; k < bodies.size(); ++k) points += bodies[k].points;
+  held.resize(std::size_t(points));
+  operations.forEachIndependent([&](auto& s) {
+    if constexpr (std::is_same_v<typename std::decay_t<decltype(s)>::DataTypes, D>)
+      for_each_index(s.size(), typename SystemOfBodies<D>::SetNumbers{s[room.id].overwrite()});
+  });
+  operations.projectResponse(room.id);
   double mixed = 0;
+  unsigned char* to = held.data();
   operations.forEachIndependent([&](auto& s) {
     if constexpr (std::is_same_v<typename std::decay_t<decltype(s)>::DataTypes, D>) {
-      if (any)
-        mixed += sum_on_host(s.size(),
-                             typename SystemOfBodies<D>::TakeHeld{std::as_const(s[room.id]).device(), held});
-      else
-        clear_on_device(held, s.size());
-      held += s.size();
+      mixed +=
+          sum_on_host(s.size(), typename SystemOfBodies<D>::TakeHeld{std::as_const(s[room.id]).device(), to});
+      bodies[first++].held = to;
+      to += s.size();
     }
   });
   return mixed == 0;

@@ -13,20 +13,18 @@
 
 namespace sinew::gpu {
 
-/// Solves an assembled system as one kernel, where all of its bodies are points over the same DataTypes.
-template <class Operations, class Solver, class MultiVec>
-bool solve_by_team(Operations& operations, Solver const& solver, double threshold, MultiVec& x, MultiVec& b,
-                   MultiVec& room) {
-  bool first = true, done = false;
+namespace detail {
+// f(TeamSolver) of the bodies of a solver, if the first of them is one of points
+template <class Operations, class F>
+void with_team(Operations& operations, F&& f) {
+  bool first = true;
   operations.forEachIndependent([&](auto& state) {
-    using D = typename std::decay_t<decltype(state)>::DataTypes;
-    if constexpr (SolvesMotions<D>)
-      if (std::exchange(first, false))
-        done = state.solverWorkspace.team.solve(operations, solver, threshold, x, b, room);
-    first = false;
+    const bool is = std::exchange(first, false);
+    if constexpr (SolvesMotions<typename std::decay_t<decltype(state)>::DataTypes>)
+      if (is) f(state.solverWorkspace.team);
   });
-  return done;
 }
+}  // namespace detail
 
 /// What CGLinearSolver does where all states below it are on the device, and what
 /// ShewchukPCGLinearSolver does with a preconditioner of diagonal blocks: the same method with its numbers
@@ -49,7 +47,11 @@ void conjugate_gradients(Operations& operations, Solver& solver, MatrixFactors f
   if constexpr (requires { solver.threshold; }) threshold = solver.threshold;
   if constexpr (assembled) {
     assemble_on_device(operations, factors, p, q);
-    if (!preconditioned && solve_by_team(operations, solver, threshold, x, b, p)) {
+    bool done = false;
+    if (!preconditioned)
+      detail::with_team(operations,
+                        [&](auto& team) { done = team.solve(operations, solver, threshold, x, b, p); });
+    if (done) {
       solver.residuals.clear();
       return;
     }
@@ -123,9 +125,10 @@ void conjugate_gradients(Operations& operations, Solver& solver, MatrixFactors f
       double size[2];
       copy_to_host(size, s.size, 1);
       copy_to_host(size + 1, s.size + i + 1, 1);
-      if (!(size[1] > s.tolerance2 * size[0])) return;
+      if (!(size[1] > s.tolerance2 * size[0])) break;
     }
   }
+  detail::with_team(operations, [&](auto& team) { team.leave(operations, r, assembled); });
 }
 
 }  // namespace sinew::gpu

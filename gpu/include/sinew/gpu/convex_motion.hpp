@@ -43,10 +43,6 @@ class ConvexMotion {
   void begin(int points) {
     bodies_.clear();
     q_.system.points = points;
-    held_.resize(std::size_t(points));
-    rest_.resize(3 * std::size_t(points));
-    q_.system.held = held_.data();
-    q_.rest = rest_.data();
   }
 
   /// The matrix of a solver's states, assembled where its linear solver has not done so, S = scale A; the
@@ -54,26 +50,27 @@ class ConvexMotion {
   template <class Operations>
   void addSystem(Operations& operations, ConstraintFactors const& factors, double scale, int begin) {
     MultiVecDeriv<Operations> unit(operations), column(operations);
-    double const* rest = nullptr;
-    bool first = true;
-    operations.forEachIndependent([&](auto& s) {
-      if constexpr (std::is_same_v<typename std::decay_t<decltype(s)>::DataTypes, D>)
-        if (std::exchange(first, false)) rest = s.solverWorkspace.team.takeRest();
+    const std::size_t first = bodies_.size();
+    TeamSolver<D>* team = nullptr;
+    auto eachState = [&](auto&& f) {
+      operations.forEachIndependent([&](auto& s) {
+        if constexpr (std::is_same_v<typename std::decay_t<decltype(s)>::DataTypes, D>) f(s);
+      });
+    };
+    eachState([&](auto& s) {
+      if (!team) team = &s.solverWorkspace.team;
     });
-    if (!rest) assemble_on_device(operations, factors.matrix, unit, column);
-    take_held<D>(operations, unit, held_.data() + begin);
-    int points = 0;
-    operations.forEachIndependent([&](auto& s) {
-      if constexpr (std::is_same_v<typename std::decay_t<decltype(s)>::DataTypes, D>) {
-        bodies_.push_back(body_of<D>(s, begin + points, scale));
-        points += int(s.size());
-      }
+    if (!team->takeAssembled()) assemble_on_device(operations, factors.matrix, unit, column);
+    int points = begin;
+    eachState([&](auto& s) {
+      bodies_.push_back(body_of<D>(s, std::exchange(points, points + int(s.size())), scale));
     });
-    double* const to = rest_.data() + 3 * begin;
-    if (rest)
-      for_each_index(3 * std::size_t(points), Scaled{rest, to, 1 / factors.impulse});
-    else
-      clear_on_device(to, 3 * std::size_t(points));
+    double const* const rest = team->takeRest();
+    for (std::size_t k = first; rest && k < bodies_.size(); ++k) {
+      bodies_[k].rest = rest + 3 * (bodies_[k].begin - begin);
+      bodies_[k].restScale = 1 / factors.impulse;
+    }
+    take_held<D>(operations, unit, team->held(), bodies_, first);
   }
 
   /// The largest number on the diagonal of S.
@@ -126,12 +123,6 @@ class ConvexMotion {
       for_each_index(to.size(), Give{q_.velocity + 3 * begin, to.overwrite(), factor});
   }
   // what threads do
-  struct Scaled {
-    double const* from;
-    double* to;
-    double by;
-    SINEW_HD void operator()(int i) const { to[i] = by * from[i]; }
-  };
   struct Give {
     double const* from;
     typename D::Deriv* to;
@@ -170,8 +161,7 @@ class ConvexMotion {
   SentList<int> intsThere_{};
   SentList<double> rowsThere_{}, slackThere_{};
   SentList<ConstraintBlock> blocksThere_{};
-  DeviceArray<double> rest_{}, velocity_{}, vectors_{}, exchanged_{};
-  DeviceArray<unsigned char> held_{};
+  DeviceArray<double> velocity_{}, vectors_{}, exchanged_{};
   Arrival<double> arrival_{}, brought_{};
   std::size_t broughtMotion_ =
       0;  // how many numbers of the motion are the same in brought_ and on the device
@@ -303,6 +293,9 @@ class ConvexMotion {
       }
       ints_[ofPairs + i + 1] = int(pairs_);
     }
+    const std::size_t pairs = ofPairs + all + 1;
+    for (std::size_t k = 0; k < pairs_; ++k)
+      ints_.push_back(next_[std::size_t(3 * ints_[pairs + 2 * k + 1])]);
     int const* at = intsThere_.send(ints_);
     auto take = [&at](std::size_t n) { return std::exchange(at, at + n); };
     q_.ends = take(blocks + 1);
@@ -313,6 +306,7 @@ class ConvexMotion {
     q_.entry = take(entries);
     q_.pairsOfPoint = take(all + 1);
     q_.pair = take(2 * pairs_);
+    q_.pointOfPair = take(pairs_);
     q_.rows = rowsThere_.send(rowValues_);
   }
   void makeRoom(std::size_t rows, std::size_t pairs) {

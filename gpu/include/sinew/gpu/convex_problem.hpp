@@ -34,7 +34,6 @@ struct ConvexProgress {
 template <class D>
 struct ConvexProblem {
   SystemOfBodies<D> system;
-  double const* rest;  // b, what the free motion has left of its equation; three numbers a point
 
   // blocks of constraints; of each its entries, one for each point that it has, with the rows there: three
   // numbers a row. Of each point the entries that it has, and what of J' G J couples it with: pairs of an
@@ -43,7 +42,7 @@ struct ConvexProblem {
   ConstraintBlock const* block;
   int const *ends, *point, *slot, *blockOf;
   double const* rows;
-  int const *ofPoint, *entry, *pairsOfPoint, *pair;
+  int const *ofPoint, *entry, *pairsOfPoint, *pair, *pointOfPair;
 
   // a number each row: the violation at v = 0, and what ConvexUpdates and ConstraintTerms have
   double const* start;
@@ -91,7 +90,13 @@ struct ConvexProblem {
   class Solution {
    public:
     SINEW_INLINE Solution(Team& t, ConvexProblem const& problem)
-        : team(t), q(problem), rows(t, problem.system), now(problem.progress) {}
+        : team(t), q(problem), rows(t, problem.system), now(problem.progress) {
+      if (team.firstRow() >= 0 && team.firstRow() < all) {
+        own_ = team.firstRow();
+        firstPair_ = q.pairsOfPoint[own_];
+        lastPair_ = q.pairsOfPoint[own_ + 1];
+      }
+    }
 
     SINEW_INLINE void run() {
       if (now.begun || begin()) {
@@ -109,6 +114,7 @@ struct ConvexProblem {
     ConvexProgress now;
     double rho = 0;
     const int all = q.system.all;
+    int own_ = -1, firstPair_ = 0, lastPair_ = 0;  // of the first row of this thread
 
     // The first problem, from the multipliers before and the motion of the last step, scaled to what these
     // would do; false where nothing can move a row.
@@ -139,7 +145,7 @@ struct ConvexProblem {
       team.sync();
       team.each(all, [&](int i) {
         const Vector v = vector_at(q.velocity, i), product = vector_at(q.newton.product, i);
-        Vector impulse = vector_at(q.rest, i);
+        Vector impulse = q.system.restOf(i);
         eachEntry(i, [&](int e, ConstraintBlock const& b) { addForce(e, b, q.multipliers, impulse); });
         for (int c = 0; c < 3; ++c) {
           local[0] += v[c] * product[c];
@@ -152,9 +158,7 @@ struct ConvexProblem {
         return false;
       }
       const double part = local[0] > 0 && local[1] > 0 ? local[1] / local[0] : 0;
-      team.each(all, [&](int i) {
-        for (int c = 3 * i; c < 3 * i + 3; ++c) q.velocity[c] *= part;
-      });
+      team.each(all, [&](int i) { put_vector(q.velocity, i, Vector(part * vector_at(q.velocity, i))); });
       team.sync();
       team.each(q.blocks, [&](int k) {
         ConstraintBlock const& b = q.block[k];
@@ -261,7 +265,7 @@ struct ConvexProblem {
       multiplyVelocity();
       team.sync();
       team.each(all, [&](int i) {
-        put_vector(q.momentum, i, vector_at(q.newton.product, i) - vector_at(q.rest, i));
+        put_vector(q.momentum, i, vector_at(q.newton.product, i) - q.system.restOf(i));
       });
       double size = evaluate();
       const double first = size;
@@ -297,8 +301,10 @@ struct ConvexProblem {
     // the part of a lane of J' G J p in a point
     template <class P>
     SINEW_INLINE void addTerms(int i, int lane, int lanes, P&& p, double (&sum)[3]) const {
-      for (int k = q.pairsOfPoint[i] + lane; k < q.pairsOfPoint[i + 1]; k += lanes) {
-        const Vector v = p(q.point[q.pair[2 * k + 1]]);
+      const bool own = i == own_;
+      const int end = own ? lastPair_ : q.pairsOfPoint[i + 1];
+      for (int k = (own ? firstPair_ : q.pairsOfPoint[i]) + lane; k < end; k += lanes) {
+        const Vector v = p(q.pointOfPair[k]);
         double const* const block = q.coupling + 9 * std::ptrdiff_t(k);
         for (int r = 0; r < 3; ++r)
           for (int c = 0; c < 3; ++c) sum[r] += block[3 * r + c] * v[c];
@@ -395,7 +401,7 @@ struct ConvexProblem {
         invert(sum, inverse);
         const Vector momentum = vector_at(q.momentum, i), gradient = momentum - reaction;
         const Vector steepest = -(inverse * gradient), v = vector_at(q.velocity, i),
-                     answer = inverse * reaction, rest = vector_at(q.rest, i);
+                     answer = inverse * reaction, rest = q.system.restOf(i);
         q.store(q.inverse, i, inverse);
         put_vector(q.gradient, i, gradient);
         put_vector(q.newton.residual, i, -gradient);
@@ -445,13 +451,16 @@ struct ConvexProblem {
       auto step = [&](int j) { return vector_at(q.newton.solution, j); };
       team.each(all, [&](int i) {
         double terms[3] = {0, 0, 0};
+        const Vector move = step(i), momentum = vector_at(q.momentum, i),
+                     left = vector_at(q.gradient, i) + vector_at(q.newton.residual, i);
         addTerms(i, 0, 1, step, terms);
+        Vector product;
         for (int c = 0; c < 3; ++c) {
-          const int k = 3 * i + c;
-          q.newton.product[k] = -(terms[c] + q.gradient[k] + q.newton.residual[k]);
-          line[0] += q.newton.solution[k] * q.momentum[k];
-          line[1] += q.newton.solution[k] * q.newton.product[k];
+          product[c] = -(terms[c] + left[c]);
+          line[0] += move[c] * momentum[c];
+          line[1] += move[c] * product[c];
         }
+        put_vector(q.newton.product, i, product);
       });
       team.each(q.blocks, [&](int k) { rates(k, step, q.rate + q.block[k].first); });
       team.template reduce<2>(line);
@@ -473,10 +482,10 @@ struct ConvexProblem {
           },
           found.lineSearches);
       team.each(all, [&](int i) {
-        for (int c = 3 * i; c < 3 * i + 3; ++c) {
-          q.velocity[c] += t * q.newton.solution[c];
-          q.momentum[c] += t * q.newton.product[c];
-        }
+        const Vector v = vector_at(q.velocity, i) + t * vector_at(q.newton.solution, i),
+                     momentum = vector_at(q.momentum, i) + t * vector_at(q.newton.product, i);
+        put_vector(q.velocity, i, v);
+        put_vector(q.momentum, i, momentum);
       });
       team.each(q.blocks, [&](int k) {
         ConstraintBlock const& b = q.block[k];

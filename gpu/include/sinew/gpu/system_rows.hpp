@@ -23,6 +23,12 @@ struct SystemBody {
   int const* diagonal;                        // place of each row's
   int begin, points;                          // among the points of all bodies
   double scale;                               // S = scale A
+  // of each point the directions, as bits, in which projective constraints hold it; null where there are none
+  unsigned char const* held;
+  // what the free motion has left of its equation, three numbers a point, times restScale; null where there
+  // is nothing
+  double const* rest;
+  double restScale;
 };
 
 /// The matrix S of several bodies of points, one after the other, all in memory of the device; behind them
@@ -32,15 +38,22 @@ struct SystemOfBodies {
   SystemBody<D> const* body;
   int bodies, points, all;  // all: with slack
   double const* slack;
-  // of each point of a body the directions, as bits, in which projective constraints hold it
-  unsigned char const* held;
 
   SINEW_INLINE SystemBody<D> const& bodyOf(int i) const {
     SystemBody<D> const* b = body;
     while (i >= b->begin + b->points) ++b;
     return *b;
   }
-  SINEW_INLINE int heldBits(int i) const { return i < points ? held[i] : 0; }
+  SINEW_INLINE int heldBits(int i) const {
+    if (i >= points) return 0;
+    SystemBody<D> const& b = bodyOf(i);
+    return b.held ? b.held[i - b.begin] : 0;
+  }
+  SINEW_INLINE Eigen::Vector3d restOf(int i) const {
+    if (i < points)
+      if (SystemBody<D> const& b = bodyOf(i); b.rest) return b.restScale * vector_at(b.rest, i - b.begin);
+    return Eigen::Vector3d::Zero();
+  }
 
   /// Which degrees of freedom of a body projective constraints leave; where these make something else of a
   /// motion than 0 or itself, 1 is returned.

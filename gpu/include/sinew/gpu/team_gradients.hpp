@@ -28,6 +28,10 @@ struct GradientVectors {
   }
 };
 
+/// How many components of a point a lane has at most.
+template <class Team>
+inline constexpr int components = Team::lanes < 3 ? 3 : 1;
+
 struct GradientsFound {
   int iterations = 0;
   bool any = false;  // the solution has changed
@@ -44,19 +48,25 @@ SINEW_INLINE GradientsFound team_gradients(Team& team, int points, GradientVecto
                                            double end, int most, Add&& add, Hold&& hold, Apply&& apply,
                                            Usable&& usable) {
   GradientsFound found;
-  // f(component of a point, of the product with p); a lane has one component
-  auto multiply = [&](double const* p, auto&& f) {
+  // read(k), then write(k, number k of the product with p, what was read); a lane has one component of a
+  // point. What a lane reads is read at once: behind a write it would wait for each.
+  auto multiply = [&](double const* p, auto&& read, auto&& write) {
     team.eachRow(points, [&](int i, int lane) {
+      decltype(read(0)) was[components<Team>]{};
+      for (int c = lane; c < 3; c += Team::lanes) was[c / Team::lanes] = read(3 * i + c);
       double sum[3] = {0, 0, 0};
       add(
           i, lane, [&](int j) { return vector_at(p, j); }, sum);
       team.sumOfRow(sum);
       hold(i, sum);
       for (int c = 0; c < 3; ++c)
-        if (c % Team::lanes == lane) f(3 * i + c, sum[c]);
+        if (c % Team::lanes == lane) write(3 * i + c, sum[c], was[c / Team::lanes]);
     });
   };
-  if (rho > end && most > 0) multiply(v.scaled, [&](int k, double value) { v.product[k] = value; });
+  struct Nothing {};
+  if (rho > end && most > 0)
+    multiply(
+        v.scaled, [](int) { return Nothing{}; }, [&](int k, double value, Nothing) { v.product[k] = value; });
   double last = 0, lastAlpha = 0;
   while (rho > end && found.iterations < most) {
     double* const m = v.m[found.iterations % 2];  // what others still read is in the other one
@@ -65,9 +75,10 @@ SINEW_INLINE GradientsFound team_gradients(Team& team, int points, GradientVecto
     team.eachRow(points, [&](int i, int lane) {
       for (int c = lane; c < 3; c += Team::lanes) {
         const int k = 3 * i + c;
+        const double r = v.residual[k], u = v.scaled[k], w = v.product[k];
         m[k] = apply(i, c, vector_at(v.product, i));
-        local[0] += v.residual[k] * v.scaled[k];
-        local[1] += v.product[k] * v.scaled[k];
+        local[0] += r * u;
+        local[1] += w * u;
       }
     });
     team.template reduce<2>(local);
@@ -81,19 +92,28 @@ SINEW_INLINE GradientsFound team_gradients(Team& team, int points, GradientVecto
     last = rho;
     lastAlpha = alpha;
     const bool first = !std::exchange(found.any, true);
-    auto go = [&](double* to, int k, double by) {
-      const double next = first ? by : by + beta * to[k];
-      to[k] = next;
-      return next;
+    struct Own {
+      double x, r, u, w, p, s, q, z, m;
     };
-    multiply(m, [&](int k, double product) {
-      const double z = go(v.z, k, product), q = go(v.q, k, m[k]), s = go(v.s, k, v.product[k]),
-                   p = go(v.p, k, v.scaled[k]);
-      v.solution[k] += alpha * p;
-      v.residual[k] -= alpha * s;
-      v.scaled[k] -= alpha * q;
-      v.product[k] -= alpha * z;
-    });
+    auto goOn = [&](double change, double before) { return first ? change : change + beta * before; };
+    multiply(
+        m,
+        [&](int k) {
+          return Own{
+              v.solution[k], v.residual[k], v.scaled[k], v.product[k], v.p[k], v.s[k], v.q[k], v.z[k], m[k]};
+        },
+        [&](int k, double product, Own const& own) {
+          const double p = goOn(own.u, own.p), s = goOn(own.w, own.s), q = goOn(own.m, own.q),
+                       z = goOn(product, own.z);
+          v.p[k] = p;
+          v.s[k] = s;
+          v.q[k] = q;
+          v.z[k] = z;
+          v.solution[k] = own.x + alpha * p;
+          v.residual[k] = own.r - alpha * s;
+          v.scaled[k] = own.u - alpha * q;
+          v.product[k] = own.w - alpha * z;
+        });
   }
   if (found.iterations == most) team.sync();  // what others are to read
   return found;

@@ -13,10 +13,12 @@
 
 namespace sinew::gpu {
 
-/// Notes, a bit for each direction, which coordinates of the points below a solver projective constraints
-/// hold; false where these do anything else to a motion. Needs an auxiliary vector.
+/// Notes which coordinates projective constraints hold of the bodies of a solver, which are the last of a
+/// list from one on; false where these do anything else to a motion. Needs an auxiliary vector, and room for
+/// what is noted.
 template <class D, class Operations, class MultiVec>
-bool take_held(Operations&, MultiVec& room, unsigned char* held);
+bool take_held(Operations&, MultiVec& room, DeviceArray<unsigned char>& held,
+               std::vector<SystemBody<D>>& bodies, std::size_t first);
 
 /// The assembled matrix of a state, whose first point has this number.
 template <class D, class State>
@@ -26,7 +28,10 @@ SystemBody<D> body_of(State const& s, int begin, double scale) {
           rows.diagonal.device(),
           begin,
           int(s.size()),
-          scale};
+          scale,
+          nullptr,
+          nullptr,
+          0};
 }
 
 /// The bodies of one linear solver that are all points over D, their assembled system solved as one kernel.
@@ -41,8 +46,8 @@ class TeamSolver {
   TeamSolver(TeamSolver const&) {}
   TeamSolver& operator=(TeamSolver const&) { return *this = TeamSolver(); }
 
-  /// x by conjugate gradients, behind the assembly; false where it is not for this. `room` is an auxiliary
-  /// vector.
+  /// x by conjugate gradients, behind the assembly; false where it is not for this: larger bodies are faster
+  /// by a launch for each product. `room` is an auxiliary vector.
   template <class Operations, class Solver, class MultiVec>
   bool solve(Operations& operations, Solver const& solver, double threshold, MultiVec& x, MultiVec& b,
              MultiVec& room) {
@@ -59,12 +64,11 @@ class TeamSolver {
         can = false;
       }
     });
-    if (!can) return false;
-    held_.resize(std::size_t(points));
-    if (!take_held<D>(operations, room, held_.data())) return false;
+    if (!can || !has_row_for_each(std::size_t(points))) return false;
+    if (!take_held<D>(operations, room, held_, bodies_, 0)) return false;
     memory_.resize(3 * GradientVectors::count * std::size_t(points));
     SystemGradients<D> system{};
-    system.system = {bodiesThere_.send(bodies_), int(bodies_.size()), points, points, nullptr, held_.data()};
+    system.system = {bodiesThere_.send(bodies_), int(bodies_.size()), points, points, nullptr};
     system.sides = sidesThere_.send(sides_);
     system.vectors = GradientVectors::in(memory_.data(), std::size_t(points));
     system.tolerance2 = solver.tolerance * solver.tolerance;
@@ -72,13 +76,51 @@ class TeamSolver {
     system.iterations = solver.iterations;
     run_whole_team(std::size_t(points), system, team_);
     residual_ = system.vectors.residual;
-    fresh_ = true;
+    known_ = assembled_ = true;
     return true;
   }
 
-  /// b - A x of the last solution, three numbers a point, with the matrix as it is in the rows of the bodies;
-  /// null where there has been none since this was asked for.
-  double const* takeRest() { return std::exchange(fresh_, false) ? residual_ : nullptr; }
+  /// The same is known of a solution that was found otherwise, with the residual r; `assembled`: by the rows
+  /// of the bodies.
+  template <class Operations, class MultiVec>
+  void leave(Operations& operations, MultiVec const& r, bool assembled) {
+    std::size_t points = 0;
+    bool can = true;
+    operations.forEachIndependent([&](auto& s) {
+      can = can && std::is_same_v<typename std::decay_t<decltype(s)>::DataTypes, D>;
+      points += s.size();
+    });
+    known_ = can;
+    assembled_ = can && assembled;
+    if (!can) return;
+    memory_.resize(3 * points);
+    double* to = memory_.data();
+    residual_ = to;
+    operations.forEachIndependent([&](auto& s) {
+      if constexpr (std::is_same_v<typename std::decay_t<decltype(s)>::DataTypes, D>) {
+        for_each_index(s.size(), TakeVector{std::as_const(s[r.id]).device(), to});
+        to += 3 * s.size();
+      }
+    });
+  }
+
+  /// What the bodies of the solver hold, for who has found that there is something.
+  DeviceArray<unsigned char>& held() { return held_; }
+
+  /// b - A x of the last solution, three numbers a point; null where there has been none since this was asked
+  /// for.
+  double const* takeRest() { return std::exchange(known_, false) ? residual_ : nullptr; }
+  /// Whether the rows of the bodies have been assembled for that.
+  bool takeAssembled() { return std::exchange(assembled_, false); }
+
+  // what threads do
+  struct TakeVector {
+    typename D::Deriv const* from;
+    double* to;
+    SINEW_HD void operator()(int i) const {
+      for (int c = 0; c < 3; ++c) to[3 * i + c] = double(from[i][c]);
+    }
+  };
 
  private:
   std::vector<SystemBody<D>> bodies_{};
@@ -89,7 +131,7 @@ class TeamSolver {
   DeviceArray<double> memory_{};
   TeamMemory team_{};
   double const* residual_ = nullptr;
-  bool fresh_ = false;
+  bool known_ = false, assembled_ = false;
 };
 
 }  // namespace sinew::gpu

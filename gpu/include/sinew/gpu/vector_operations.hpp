@@ -93,7 +93,7 @@ struct VectorOperations<CudaTypes<H>> {
   }
   static int findNotFinite(VecCoord const& x) {
     if (gpu::recording()) return -1;
-    if (gpu::sum_on_host(x.size(), NotFinite{x.device()}) == 0) return -1;
+    if (!x.isOnHost() && gpu::sum_on_host(x.size(), NotFinite{x.device()}) == 0) return -1;
     for (std::size_t i = 0; i < x.size(); ++i)
       if (!D::finite(x[i])) return int(i);
     return -1;

@@ -88,7 +88,7 @@ class WholeTeam {
     if (warp < N) {
       const double own = ofAllLanes<Sums>(warp, lane < warps ? ofWarp[warp][lane] : 0.);
       if (lane == 0) {
-        __threadfence();
+        fence();
         give(list + mostNumbers * blockIdx.x + unsigned(warp), own);
       }
       double sum = 0;
@@ -109,7 +109,7 @@ class WholeTeam {
       }
       sum = ofAllLanes<Sums>(warp, sum);
       if (lane == 0) all[warp] = sum;
-      __threadfence();
+      fence();
     }
     __syncthreads();
     for (int k = 0; k < N; ++k) value[k] = all[k];
@@ -126,6 +126,7 @@ class WholeTeam {
   long long round_;
   int kept_;
 
+  static __device__ void fence() { asm volatile("fence.acq_rel.gpu;" ::: "memory"); }
   static __device__ void look(Slot const* from, Slot& to) {
     asm volatile("ld.relaxed.gpu.global.v2.b64 {%0, %1}, [%2];"
                  : "=d"(to.value), "=l"(to.round)
@@ -160,6 +161,14 @@ __global__ void __launch_bounds__(WholeTeam::threads, 1)
 
 /// Room for what the blocks of a team exchange.
 using TeamMemory = DeviceArray<WholeTeam::Slot>;
+
+inline int processors_of_device() {
+  char const* const what = "the processors of the GPU";
+  int device = 0, processors = 0;
+  check(cudaGetDevice(&device), what);
+  check(cudaDeviceGetAttribute(&processors, cudaDevAttrMultiProcessorCount, device), what);
+  return processors;
+}
 
 #else
 
@@ -231,6 +240,15 @@ struct TeamMemory {};
 
 #endif
 
+/// Whether a thread of the largest team has one row of so many at most.
+inline bool has_row_for_each([[maybe_unused]] std::size_t rows) {
+#if SINEW_CUDA
+  return rows * WholeTeam::lanes <= std::size_t(processors_of_device()) * WholeTeam::threads;
+#else
+  return true;
+#endif
+}
+
 /// body(team) in all threads of a team, for work with so many rows; body is an object whose operator() is
 /// SINEW_HD, waits for the team once at least, and says how many bytes of shared memory an entry of a row
 /// needs, `entryBytes`.
@@ -238,12 +256,11 @@ template <class Body>
 void run_whole_team(std::size_t rows, Body const& body, TeamMemory& memory) {
 #if SINEW_CUDA
   char const* const what = "a step with constraints on the GPU";
-  int device = 0, processors = 0;
+  int device = 0;
   check(cudaGetDevice(&device), what);
-  check(cudaDeviceGetAttribute(&processors, cudaDevAttrMultiProcessorCount, device), what);
   // over the whole GPU, in warps
   constexpr std::size_t warp = 32;
-  const std::size_t most = std::size_t(processors), needed = rows * WholeTeam::lanes;
+  const std::size_t most = std::size_t(processors_of_device()), needed = rows * WholeTeam::lanes;
   const std::size_t threads = std::clamp<std::size_t>(
       (needed + warp * most - 1) / (warp * most) * warp, WholeTeam::leastThreads, WholeTeam::threads);
   const std::size_t blocks = std::clamp<std::size_t>((needed + threads - 1) / threads, 1, most);
