@@ -55,7 +55,7 @@ struct FoundContacts : OneBody {
 }  // namespace
 
 TEST_CASE("contacts that the host finds for a block on the device hold it as on the host") {
-  same_as_host<FoundContacts, Vec3d>(1e-6);  // gpu/tests/scenes_contact.cpp says why
+  same_as_host<FoundContacts, Vec3d>(1e-8);
 }
 
 TEST_CASE("the motion of a block on the device with contacts that the host finds is found on the device") {

@@ -51,7 +51,7 @@ struct BlockOnPlane {
   static auto ground() {
     return node<"ground">(MechanicalObject<D>{.position = {{0, 0, 0}}});
   }
-  static ConvexConstraintSolver solver() { return {.tolerance = 1e-9, .momentumTolerance = 1e-9}; }
+  static ConvexConstraintSolver solver() { return {.tolerance = 1e-12, .momentumTolerance = 1e-12}; }
   static EulerImplicitSolver ode() { return {.rayleighStiffness = 0.02}; }
   static CGLinearSolver<> linear() { return {.iterations = 200, .tolerance = 1e-12}; }
   template <class D>

@@ -7,15 +7,18 @@
 #include <sinew/linalg/block_matrix.hpp>
 #include <sinew/linalg/factored_rows.hpp>
 
+#include <utility>
 #include <vector>
 
 namespace sinew {
 
 /// The rows that act on the bodies of one ODE solver, over the degrees of freedom of its system.
 struct ConstrainedSystem {
-  std::vector<int> rows{};            // which of all they are, rising
-  JacobianRows jacobian{};            // of those, without what projective constraints take away
-  JacobianRows whole{};               // with that, where forces are kept
+  std::vector<int> rows{};      // which of all they are, rising
+  JacobianRows jacobian{};      // of those, without what projective constraints take away
+  JacobianRows whole{};         // with that, where forces are kept
+  std::vector<int> lastRows{};  // those of the step before
+  JacobianRows lastJacobian{};
   Eigen::VectorXd force{}, motion{};  // of all degrees of freedom, and one number more
   bool joined = false;                // projective constraints give several points one motion
 
@@ -36,10 +39,14 @@ struct ConstrainedSystem {
         matrix.block(matrix.rowStart[std::size_t(row)]));
   }
 
+  /// Begins the rows of another step.
   void clear() {
+    rows.swap(lastRows);
+    std::swap(jacobian, lastJacobian);
     rows.clear();
     jacobian.clear();
   }
+  bool rowsAsBefore() const { return rows == lastRows && jacobian == lastJacobian; }
   /// Adds to a row, which is the last or one behind it.
   void add(int row, int dof, double value) {
     if (rows.empty() || rows.back() != row) {
@@ -73,6 +80,8 @@ struct MotionRows {
   std::vector<double> slack{};  // S of the degrees of freedom that rows have for themselves
   Eigen::VectorXd start{}, multipliers{}, motion{};
   std::vector<std::size_t> next{};  // of each system the row that comes next
+  int step = -1;                    // ConstrainedMotion::step in which they were joined
+  bool byMatrix = false;            // `slack` has a number that is that of the matrix of this step
 
   void clear() {
     rows.clear();
@@ -91,13 +100,15 @@ struct MotionRows {
 /// What a scene with constraints by multipliers keeps from step to step: the rows of the last step, their
 /// multipliers, and room.
 struct ConstrainedMotion {
-  ConstraintRows rows{};
-  ConstraintProblem problem{};  // of the last step; multipliers in N
+  ConstraintRows rows{}, lastRows{};  // lastRows: of the step before
+  ConstraintProblem problem{};        // of the last step; multipliers in N
   std::vector<ConstrainedSystem> systems{};
   std::vector<int> rowsOf{};  // how many each constraint has, in the order of the scene
+  int step = 0;               // steps so far
   int contactRows = 0;        // the first row behind them: those of contacts
   int lookedThrough = 0;      // so many rows had those constraints when dependent ones were looked for
   MotionRows motionRows{};
+  JacobianRows room{};
   FactoredRows factored{};
   bool hasMotion = false;  // the solver has found the motion of systems with the multipliers
 };

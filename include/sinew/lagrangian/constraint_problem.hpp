@@ -37,6 +37,7 @@ struct ConstraintBlock {
     return {Kind::interval, first, 1, 0, lower, upper};
   }
   static ConstraintBlock contact(int first, double mu) { return {Kind::friction, first, 3, mu}; }
+  bool operator==(ConstraintBlock const&) const = default;
 };
 
 /// The constraints of a step: d = W f + d_free with the compliance W = J A^-1 J', which is symmetric and

@@ -49,23 +49,19 @@ class ConstraintTerms {
   double value() const;
 
   /// g, inside the cones, and what is lagged: c = mu g_n, or s of the contacts that slide or are open at d.
-  /// In a contact alone s changes mu |d_t| by k / (1 + k) of its own change, k = mu^2 W_tt / W_nn ~ mu^2, so
-  /// that 1 + k times the difference is Newton's step.
   void update(Eigen::VectorXd const& multipliersBefore);
 
   FrictionLag lag() const { return kind_; }
+  /// What is lagged, as another has found it.
+  void setLagged(Eigen::Ref<Eigen::VectorXd const> const& lagged) { lag_.head(lagged.size()) = lagged; }
   /// The same problem, of which something else is lagged; from d and f as they are.
   void change(FrictionLag lag);
 
   /// The largest natural map of the blocks (contact_potential.hpp), with an estimate of the diagonal of W.
   double residual(Eigen::VectorXd const& compliance) const;
 
-  /// How far the potentials are from the conditions, in the unit of d: by the regularisation, r |f - g|, and
-  /// by what is lagged.
-  struct Rest {
-    double regularisation = 0, lag = 0;
-  };
-  Rest rest(Eigen::VectorXd const& compliance) const;
+  /// The largest contact_potential::Rest of the blocks.
+  contact_potential::Rest rest(Eigen::VectorXd const& compliance) const;
 
  private:
   using Values = std::array<double, ConstraintBlock::maxRows>;
@@ -148,18 +144,10 @@ SINEW_ONCE double ConstraintTerms::value() const {
 }
 
 SINEW_ONCE void ConstraintTerms::update(Eigen::VectorXd const& multipliersBefore) {
-  for (ConstraintBlock const& b : *blocks_) {
-    if (b.kind != ConstraintBlock::Kind::friction || kind_ != FrictionLag::gap) continue;
-    const double mu = std::min(b.friction, contact_potential::largestFriction),
-                 bound = mu * multipliers[b.first], sliding = mu * violation.segment<2>(b.first + 1).norm();
-    double& s = lag_[b.first];
-    if (!(bound > 0))
-      s = sliding;
-    else if (multipliers.segment<2>(b.first + 1).norm() < bound * (1 - 1e-9))
-      s = 0;
-    else
-      s = std::max(0., s + (1 + mu * mu) * (sliding - s));
-  }
+  for (ConstraintBlock const& b : *blocks_)
+    if (b.kind == ConstraintBlock::Kind::friction && kind_ == FrictionLag::gap)
+      lag_[b.first] = contact_potential::next_gap(
+          b, violation.data() + b.first, multipliers.data() + b.first, lag_[b.first]);
   setBefore(multipliersBefore);
   evaluateMultipliers();
 }
@@ -185,12 +173,8 @@ SINEW_ONCE ConstraintTerms::Values ConstraintTerms::at(ConstraintBlock const& b,
 }
 
 SINEW_ONCE void ConstraintTerms::setBefore(Eigen::VectorXd const& f) {
-  before.head(J_->rows()) = f.head(J_->rows());
-  for (ConstraintBlock const& b : *blocks_) {
-    if (b.kind != ConstraintBlock::Kind::friction) continue;
-    before.segment<3>(b.first) = project_on_cone(f.segment<3>(b.first), b.friction);
-    if (kind_ == FrictionLag::bound) lag_[b.first] = b.friction * before[b.first];
-  }
+  for (ConstraintBlock const& b : *blocks_)
+    contact_potential::take_before(b, kind_, f.data() + b.first, before.data() + b.first, lag_[b.first]);
 }
 
 SINEW_ONCE void ConstraintTerms::evaluateMultipliers() {
@@ -210,21 +194,20 @@ SINEW_ONCE double ConstraintTerms::residual(Eigen::VectorXd const& compliance) c
   return worst;
 }
 
-SINEW_ONCE ConstraintTerms::Rest ConstraintTerms::rest(Eigen::VectorXd const& compliance) const {
-  Rest rest;
+SINEW_ONCE contact_potential::Rest ConstraintTerms::rest(Eigen::VectorXd const& compliance) const {
+  contact_potential::Rest worst;
   for (ConstraintBlock const& b : *blocks_) {
-    for (int i = b.first; i < b.first + b.rows; ++i)
-      rest.regularisation =
-          std::max(rest.regularisation, regularisation[i] * std::abs(multipliers[i] - before[i]));
-    if (b.kind != ConstraintBlock::Kind::friction) continue;
-    if (kind_ == FrictionLag::bound)
-      rest.lag = std::max(rest.lag,
-                          compliance[b.first] * std::abs(b.friction * multipliers[b.first] - lag_[b.first]));
-    else if (kind_ == FrictionLag::gap && multipliers[b.first] > 0)
-      rest.lag =
-          std::max(rest.lag, std::abs(b.friction * violation.segment<2>(b.first + 1).norm() - lag_[b.first]));
+    const auto one = contact_potential::rest(b,
+                                             kind_,
+                                             of(b),
+                                             compliance[b.first],
+                                             lag_[b.first],
+                                             violation.data() + b.first,
+                                             multipliers.data() + b.first);
+    worst.regularisation = std::max(worst.regularisation, one.regularisation);
+    worst.lag = std::max(worst.lag, one.lag);
   }
-  return rest;
+  return worst;
 }
 
 }  // namespace sinew

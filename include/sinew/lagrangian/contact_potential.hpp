@@ -210,6 +210,61 @@ SINEW_HD inline double natural_map(ConstraintBlock const& b, FrictionLag lag, do
   return (force - project_on_cone(force - away / w, b.friction)).norm() * w;
 }
 
+// What is changed between two convex problems.
+
+/// The regularisation of the rows of a block: `relative` to the estimate of the diagonal of W.
+SINEW_HD inline void regularise(ConstraintBlock const& b, double relative, double const* compliance,
+                                double* r) {
+  const bool friction = b.kind == ConstraintBlock::Kind::friction;
+  for (int i = 0; i < b.rows; ++i)
+    r[i] = relative * (friction ? (compliance[0] + compliance[1] + compliance[2]) / 3 : compliance[i]);
+}
+
+/// The multipliers f become those found before, inside the cone, and with them the lagged bound.
+SINEW_HD inline void take_before(ConstraintBlock const& b, FrictionLag lag, double const* f, double* g,
+                                 double& lagged) {
+  if (b.kind != ConstraintBlock::Kind::friction) {
+    for (int i = 0; i < b.rows; ++i) g[i] = f[i];
+    return;
+  }
+  const Vector3 inside = project_on_cone({f[0], f[1], f[2]}, b.friction);
+  for (int i = 0; i < 3; ++i) g[i] = inside[i];
+  if (lag == FrictionLag::bound) lagged = b.friction * inside[0];
+}
+
+/// The next lagged gap of a contact with friction, from d and f: of one that slides or is open. In a contact
+/// alone s changes mu |d_t| by k / (1 + k) of its own change, k = mu^2 W_tt / W_nn ~ mu^2, so that 1 + k
+/// times the difference is Newton's step.
+SINEW_HD inline double next_gap(ConstraintBlock const& b, double const* d, double const* f, double gap) {
+  const double mu = b.friction < largestFriction ? b.friction : largestFriction, bound = mu * f[0],
+               sliding = mu * std::sqrt(d[1] * d[1] + d[2] * d[2]);
+  if (!(bound > 0)) return sliding;
+  if (std::sqrt(f[1] * f[1] + f[2] * f[2]) < bound * (1 - 1e-9)) return 0;
+  const double next = gap + (1 + mu * mu) * (sliding - gap);
+  return next > 0 ? next : 0;
+}
+
+/// How far the potentials are from the conditions, in the unit of d: by the regularisation, r |f - g|, and
+/// by what is lagged.
+struct Rest {
+  double regularisation = 0, lag = 0;
+};
+/// Of a block with the estimate w of its first row of W, and what is lagged of it.
+SINEW_HD inline Rest rest(ConstraintBlock const& b, FrictionLag lag, Rows const& rows, double w,
+                          double lagged, double const* d, double const* f) {
+  Rest rest;
+  for (int i = 0; i < b.rows; ++i) {
+    const double one = rows.r[i] * std::abs(f[i] - rows.g[i]);
+    if (one > rest.regularisation) rest.regularisation = one;
+  }
+  if (b.kind != ConstraintBlock::Kind::friction) return rest;
+  if (lag == FrictionLag::bound)
+    rest.lag = w * std::abs(b.friction * f[0] - lagged);
+  else if (lag == FrictionLag::gap && f[0] > 0)
+    rest.lag = std::abs(b.friction * std::sqrt(d[1] * d[1] + d[2] * d[2]) - lagged);
+  return rest;
+}
+
 }  // namespace contact_potential
 }  // namespace sinew
 

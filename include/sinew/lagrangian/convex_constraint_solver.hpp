@@ -76,7 +76,7 @@ struct ConvexConstraintSolver {
     none.setZero(rows.dofs);
     guess(multiply, rows);
     solveMotionBy(
-        [&](ConvexStepSettings const& settings) {
+        [&](ConvexStepSettings const& settings, std::vector<double>&) {
           const ConvexStepResult found = step.solve(multiply,
                                                     preconditioner,
                                                     none,
@@ -92,8 +92,8 @@ struct ConvexConstraintSolver {
         },
         where);
   }
-  /// The same by a method of other states: solve(settings) leaves motion and multipliers in their rows, and
-  /// returns what has come of it.
+  /// The same by a method of other states: solve(settings, lastMotion) starts from the last motion, scaled,
+  /// leaves the new one there and multipliers in their rows, and returns what has come of it.
   template <class Solve>
   void solveMotionBy(Solve&& solve, std::string_view where) {
     ConvexStepSettings settings;
@@ -101,7 +101,7 @@ struct ConvexConstraintSolver {
     settings.momentumTolerance = momentumTolerance;
     settings.maxUpdates = maxUpdates;
     settings.maxConjugateGradients = maxIterations;
-    result = solve(settings);
+    result = solve(settings, lastMotion);
     if (stopsUnsolved && !result.converged) throw Error(where, unsolved());
   }
   std::string unsolved() const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/lagrangian/constraint_terms.hpp>
+#include <sinew/lagrangian/convex_schedule.hpp>
 #include <sinew/lagrangian/convex_step_settings.hpp>
 #include <sinew/lagrangian/convex_updates.hpp>
 #include <sinew/lagrangian/exact_line_search.hpp>
@@ -10,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string_view>
 #include <vector>
 
@@ -51,10 +51,9 @@ class ConvexStep {
   Eigen::VectorXd rate_{};  // J dv
   // the last solution of a problem that is about as good as any
   ReservedVector goodVelocity_{}, goodMultipliers_{};
-  double good_ = 0, goodMomentum_ = 0;
+  ConvexBest best_{};
 
-  /// Constraints that contradict each other have multipliers that grow with each problem, until rounding has
-  /// the motion: keeps the solution of a problem, or says that it is far worse than an earlier one.
+  /// Keeps the solution of a problem, or says that it is far worse than an earlier one.
   bool keeps(Eigen::VectorXd const& velocity, ConvexStepResult const& result);
 
   /// The size of the gradient.
@@ -111,7 +110,7 @@ ConvexStepResult ConvexStep::solve(System&& multiply, Preconditioner& preconditi
   goodMultipliers_.setZero(J.rows());
 
   terms().evaluate(velocity);
-  good_ = std::numeric_limits<double>::infinity();
+  best_ = {};
   while (true) {
     multiply(velocity, momentum_);
     momentum_ -= b;
@@ -139,8 +138,8 @@ ConvexStepResult ConvexStep::solve(System&& multiply, Preconditioner& preconditi
   if (!result.converged) {
     velocity = goodVelocity_;
     terms().multipliers.head(J.rows()) = goodMultipliers_;
-    result.residual = good_;
-    result.momentum = goodMomentum_;
+    result.residual = best_.residual;
+    result.momentum = best_.momentum;
   }
   multipliers = terms().multipliers.head(J.rows());
   return result;
@@ -197,13 +196,12 @@ bool ConvexStep::newton(System& multiply, Preconditioner& preconditioner, Eigen:
 namespace sinew {
 
 SINEW_ONCE bool ConvexStep::keeps(Eigen::VectorXd const& velocity, ConvexStepResult const& result) {
-  if (result.residual > 1000 * good_) return false;
-  if (result.residual > 1.1 * good_) return true;
-  good_ = result.residual;
-  goodMomentum_ = result.momentum;
-  goodVelocity_ = velocity;
-  goodMultipliers_ = terms().multipliers.head(terms().rows().rows());
-  return true;
+  const ConvexBest::Found found = best_.look(result.residual, result.momentum);
+  if (found == ConvexBest::Found::good) {
+    goodVelocity_ = velocity;
+    goodMultipliers_ = terms().multipliers.head(terms().rows().rows());
+  }
+  return found != ConvexBest::Found::farWorse;
 }
 
 }  // namespace sinew

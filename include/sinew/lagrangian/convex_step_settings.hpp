@@ -45,6 +45,14 @@ void check_convex_step(Eigen::VectorXd const& b, JacobianRows const& J,
                        Eigen::VectorXd const& velocity, Eigen::VectorXd const& multipliers,
                        std::string_view where);
 
+/// The same of violations and multipliers alone.
+void check_convex_guess(Eigen::VectorXd const& start, Eigen::VectorXd const& multipliers,
+                        std::string_view where);
+/// The same of rows alone, over so many dofs.
+void check_convex_rows(int dofs, JacobianRows const& J, std::vector<ConstraintBlock> const& blocks,
+                       Eigen::VectorXd const& start, Eigen::VectorXd const& multipliers,
+                       std::string_view where);
+
 /// Throws the Error of a step whose momentum, as it is solved, is not finite.
 [[noreturn]] void refuse_unbounded_step(std::string_view where);
 
@@ -64,6 +72,21 @@ SINEW_ONCE void check_convex_step(Eigen::VectorXd const& b, JacobianRows const& 
   if (velocity.size() != b.size())
     throw Error(where,
                 text("a step of ", b.size(), " dofs has ", velocity.size(), " velocities; give each one"));
+  if (!b.allFinite() || !velocity.allFinite())
+    throw Error(where, "a momentum or a velocity of a step with constraints is not a finite number");
+  check_convex_guess(start, multipliers, where);
+  check_convex_rows(int(b.size()), J, blocks, start, multipliers, where);
+}
+
+SINEW_ONCE void check_convex_guess(Eigen::VectorXd const& start, Eigen::VectorXd const& multipliers,
+                                   std::string_view where) {
+  if (!start.allFinite() || !multipliers.allFinite())
+    throw Error(where, "a violation or a multiplier of a step with constraints is not a finite number");
+}
+
+SINEW_ONCE void check_convex_rows(int dofs, JacobianRows const& J, std::vector<ConstraintBlock> const& blocks,
+                                  Eigen::VectorXd const& start, Eigen::VectorXd const& multipliers,
+                                  std::string_view where) {
   if (start.size() != J.rows() || multipliers.size() != J.rows())
     throw Error(where,
                 text("constraints have ",
@@ -73,12 +96,7 @@ SINEW_ONCE void check_convex_step(Eigen::VectorXd const& b, JacobianRows const& 
                      " violations and ",
                      multipliers.size(),
                      " multipliers; give each as many"));
-  if (!b.allFinite() || !velocity.allFinite() || !start.allFinite() || !multipliers.allFinite())
-    throw Error(
-        where,
-        "a momentum, a velocity, a violation or a multiplier of a step with constraints is not a finite "
-        "number");
-  J.check(int(b.size()), where);
+  J.check(dofs, where);
   check_blocks(blocks, J.rows(), where);
 }
 

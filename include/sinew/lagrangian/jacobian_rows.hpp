@@ -19,6 +19,8 @@ struct JacobianRows {
   std::vector<int> dofs{};
   std::vector<double> values{};
 
+  bool operator==(JacobianRows const&) const = default;
+
   int rows() const { return first.empty() ? 0 : int(first.size()) - 1; }
 
   void clear() {

@@ -103,8 +103,10 @@ struct ConstrainedStep {
     operations.forEachIndependent([](auto& s) {
       using D = typename std::decay_t<decltype(s)>::DataTypes;
       s.position.swap(s.freePosition);
-      auto& way = s[vec_id::dx];
-      for (std::size_t i = 0; i < way.size(); ++i) way[i] = D::difference(s.position[i], s.freePosition[i]);
+      VectorOperations<D>::difference(
+          s[vec_id::dx], std::as_const(s.position), std::as_const(s.freePosition));
+      VectorOperations<D>::bringToHost(s.position);  // rows look at them
+      VectorOperations<D>::bringToHost(s.freePosition);
     });
     operations.propagate(vec_id::position, vec_id::velocity);
     operations.propagate(vec_id::dx);
@@ -129,7 +131,7 @@ struct ConstrainedStep {
     for_each_integrator(root, [&](auto& ode, auto const& scope) {
       ConstrainedSystem& system = m.systems[number++];
       if (keepsForces) system.whole = system.jacobian;
-      project(scope, MultiplierResponse::of(ode, dt), m.motionRows.jacobian, system);
+      project(scope, MultiplierResponse::of(ode, dt), m.room, system);
     });
   }
   template <class D, class State>
@@ -295,9 +297,7 @@ struct ConstrainedStep {
     MechanicalOperations<S> operations(response.scope, time, dt);
     auto takeFree = [&] { operations.forEachIndependent([](auto& s) { s.position.swap(s.freePosition); }); };
     if (system.rows.empty()) return takeFree();
-    if (m.hasMotion) {
-      operations.scatter(how.motion(), system.motion);
-    } else {
+    if (!m.hasMotion) {
       system.force.setZero();
       for (int k = 0; k < system.jacobian.rows(); ++k)
         system.jacobian.addTransposed(k, m.problem.multipliers[system.rows[std::size_t(k)]], system.force);
@@ -346,6 +346,8 @@ void ConstrainedStep<RootScope>::integrate(ConstrainedMotion& m, bool velocityFi
   for_each_integrator(root, [&](auto& ode, auto const& scope) {
     ConstraintResponse<std::decay_t<decltype(scope)>>{scope, ode, time, dt, m.systems[system++]}.prepare();
   });
+  ++m.step;
+  std::swap(m.rows, m.lastRows);
   forceMapped(m, velocityFirst);
   for_each_solver(root, [&](auto& ode, auto const& scope) { moveFreely(ode, scope, keepsForces); });
   for_each_integrator(root, [&](auto&, auto const& scope) { lookFromStart(scope); });

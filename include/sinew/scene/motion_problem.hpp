@@ -22,7 +22,8 @@ namespace sinew {
 /// The constraints of a step as a problem for the motion v = position u that multipliers add to the free one,
 /// for constraint solvers that need no compliance W (SolvesMotion):
 ///   S v = J' f,   d = d_free + J v,   S = A / (impulse position)
-/// over the degrees of freedom of all systems that have rows, one after the other. A row that is soft, C, or
+/// over the degrees of freedom of all systems that have rows, one after the other; u is left in the vector
+/// MultiplierResponse::motion of their states. A row that is soft, C, or
 /// of a contact and along which nothing can move, has a degree of freedom of its own behind them, of which S
 /// is 1/C.
 template <class RootScope>
@@ -51,6 +52,12 @@ struct MotionProblem {
         solver.solveMotion(
             [&](Eigen::VectorXd const& p, Eigen::VectorXd& q) { multiply(m, p, q); }, all, where);
       });
+      forEachSystem(m, [&](auto& ode, auto const& scope, ConstrainedSystem& system) {
+        const auto how = MultiplierResponse::of(ode, dt);
+        system.motion.head(system.dofs()) = all.motion.segment(system.begin, system.dofs()) / reached(m, how);
+        MechanicalOperations<std::decay_t<decltype(scope)>>(scope, time, dt)
+            .scatter(how.motion(), system.motion);
+      });
     }
     if constexpr (SaysUnsolved<Solver>)
       if (!solver.result.converged)
@@ -64,14 +71,13 @@ struct MotionProblem {
     m.problem.multipliers.setZero(m.rows.count());
     for (std::size_t i = 0; i < all.rows.size(); ++i)
       m.problem.multipliers[all.rows[i]] = all.multipliers[Eigen::Index(i)];
-    forEachSystem(m, [&](auto& ode, auto const&, ConstrainedSystem& system) {
-      const auto factors = MultiplierResponse::of(ode, dt).factors;
-      system.motion.head(system.dofs()) = all.motion.segment(system.begin, system.dofs()) /
-                                          (m.rows.ofVelocity ? factors.velocity : factors.position);
-    });
   }
 
  private:
+  // what is reached of u
+  static double reached(ConstrainedMotion const& m, MultiplierResponse const& how) {
+    return m.rows.ofVelocity ? how.factors.velocity : how.factors.position;
+  }
   // f(ODE solver, its scope, its system) for those that have rows
   template <class F>
   void forEachSystem(ConstrainedMotion& m, F&& f) const {
@@ -108,12 +114,26 @@ struct MotionProblem {
           const auto how = MultiplierResponse::of(ode, dt);
           operations.derivsTaken = how.derivs;
           operations.reserve({.derivs = how.derivs + 2});
-          motion.addSystem(operations, how.factors.matrix, system.scale, system.begin / 3);
+          motion.addSystem(operations, how.factors, system.scale, system.begin / 3);
         });
         joinRows(m, dofs, [&] { return motion.largestDiagonal(); });
         explained(m, solver, [&] {
           solver.solveMotionBy(
-              [&](auto const& settings) { return motion.solve(m.motionRows, settings, where); }, where);
+              [&](auto const& settings, std::vector<double>& lastMotion) {
+                const auto found = motion.solve(m.motionRows, settings, lastMotion, where);
+                if (!found.converged)  // for the message
+                  m.motionRows.motion =
+                      Eigen::Map<Eigen::VectorXd const>(lastMotion.data(), Eigen::Index(lastMotion.size()));
+                return found;
+              },
+              where);
+        });
+        forEachSystem(m, [&](auto& ode, auto const& scope, ConstrainedSystem& system) {
+          const auto how = MultiplierResponse::of(ode, dt);
+          MechanicalOperations<std::decay_t<decltype(scope)>>(scope).forEachIndependent([&](auto& s) {
+            if constexpr (SolvesMotions<typename std::decay_t<decltype(s)>::DataTypes>)
+              motion.give(s[how.motion()], (system.begin + s.dofOffset) / 3, 1 / reached(m, how));
+          });
         });
       });
       done = true;
@@ -192,6 +212,29 @@ struct MotionProblem {
   template <class Stiffest>
   void joinRows(ConstrainedMotion& m, int dofs, Stiffest&& stiffest) const {
     MotionRows& all = m.motionRows;
+    if (!asBefore(m, dofs)) joinAnew(m, dofs, stiffest);
+    all.step = m.step;
+    const auto n = Eigen::Index(all.rows.size());
+    all.start.resize(n);
+    all.multipliers.resize(n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      all.start[i] = m.rows.violation[std::size_t(all.rows[std::size_t(i)])];
+      if (!std::isfinite(all.start[i]))
+        RowNames<RootScope>{root, m}.refuseNotFinite(all.rows[std::size_t(i)]);
+      all.multipliers[i] = m.rows.multipliers[std::size_t(all.rows[std::size_t(i)])];
+    }
+  }
+  // whether all but violations and multipliers is that of the step before
+  static bool asBefore(ConstrainedMotion const& m, int dofs) {
+    MotionRows const& all = m.motionRows;
+    return all.step == m.step - 1 && !all.byMatrix && all.dofs == dofs + 3 * int(all.slack.size()) &&
+           m.rows.blocks == m.lastRows.blocks && m.rows.compliance == m.lastRows.compliance &&
+           m.rows.ofVelocity == m.lastRows.ofVelocity &&
+           std::all_of(m.systems.begin(), m.systems.end(), [](auto& s) { return s.rowsAsBefore(); });
+  }
+  template <class Stiffest>
+  void joinAnew(ConstrainedMotion& m, int dofs, Stiffest&& stiffest) const {
+    MotionRows& all = m.motionRows;
     all.clear();
     if (all.motion.size() < dofs) all.motion.resize(dofs);
     all.motion.setZero();
@@ -231,18 +274,9 @@ struct MotionProblem {
       all.blocks.push_back(block);
       all.blocks.back().first = first;
     }
-    if (std::find(all.slack.begin(), all.slack.end(), 0) != all.slack.end())
-      std::replace(all.slack.begin(), all.slack.end(), 0., double(stiffest()));
-    const auto n = Eigen::Index(all.rows.size());
+    all.byMatrix = std::find(all.slack.begin(), all.slack.end(), 0) != all.slack.end();
+    if (all.byMatrix) std::replace(all.slack.begin(), all.slack.end(), 0., double(stiffest()));
     all.dofs = dofs + 3 * int(all.slack.size());
-    all.start.resize(n);
-    all.multipliers.resize(n);
-    for (Eigen::Index i = 0; i < n; ++i) {
-      all.start[i] = m.rows.violation[std::size_t(all.rows[std::size_t(i)])];
-      if (!std::isfinite(all.start[i]))
-        RowNames<RootScope>{root, m}.refuseNotFinite(all.rows[std::size_t(i)]);
-      all.multipliers[i] = m.rows.multipliers[std::size_t(all.rows[std::size_t(i)])];
-    }
   }
   // Whether the entries from one on, which are left out then, move nothing: there are none, or both sides are
   // of one rigid body. The motion is zero before and after.

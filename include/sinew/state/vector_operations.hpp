@@ -233,6 +233,13 @@ struct VectorOperations {
   }
   /// x <- x moved along a for the time f
   static void move(VecCoord& x, VecDeriv const& a, Real f) { vec::increment<D>(x, a, f); }
+  /// r = the way from a to b
+  static void difference(VecDeriv& r, VecCoord const& a, VecCoord const& b) {
+    for (std::size_t i = 0; i < r.size(); ++i) r[i] = D::difference(a[i], b[i]);
+  }
+  /// The host is going to look at it.
+  template <class V>
+  static void bringToHost(V const&) {}
   /// r *= f
   static void teq(VecDeriv& r, Real f) { vec::flat(r) *= f; }
   template <class Run>

@@ -3,9 +3,12 @@
 
 #include <sinew/core/element_force.hpp>
 #include <sinew/core/phase.hpp>
+#include <sinew/gpu/reduction.hpp>
 #include <sinew/gpu/solver_workspace.hpp>
+#include <sinew/gpu/team_solver.hpp>
 #include <sinew/gpu/vector_operations.hpp>
 #include <sinew/scene/scope.hpp>
+#include <sinew/scene/solvers.hpp>
 
 #include <type_traits>
 #include <utility>
@@ -37,6 +40,22 @@ struct UnitVectors {
   SINEW_HD void operator()(int i) const { to[i] = D::Deriv::Unit(c); }
 };
 
+template <class D>
+struct Ones {
+  typename D::Deriv* to;
+  SINEW_HD void operator()(int i) const { to[i] = D::Deriv::Ones(); }
+};
+
+// the vector `column` of a state = m M times its vector `unit`, with M the masses on the state
+template <class Operations, class State, class MultiVec>
+void multiply_masses(Operations& operations, State& state, double m, MultiVec& unit, MultiVec& column) {
+  using D = typename State::DataTypes;
+  VectorOperations<D>::clear(OneThread{}, state[column.id]);
+  for_each_acting_on<role::Mass>(operations, state, [&](auto& mass) {
+    mass.addMDx(state[column.id], state[vec_id::position], state[unit.id], typename D::Real(m));
+  });
+}
+
 /// f(c) for each component c of a state's points, where `unit` is e_c for all of them, 0 for those of other
 /// states, and `column` is m M e_c, with M the masses on the state.
 template <class Operations, class State, class MultiVec, class F>
@@ -46,10 +65,7 @@ void for_each_mass_column(Operations& operations, State& state, double m, MultiV
   for (int c = 0; c < D::size; ++c) {
     unit.clear();
     for_each_index(state.size(), UnitVectors<D>{state[unit.id].overwrite(), c});
-    VectorOperations<D>::clear(OneThread{}, state[column.id]);
-    for_each_acting_on<role::Mass>(operations, state, [&](auto& mass) {
-      mass.addMDx(state[column.id], state[vec_id::position], state[unit.id], typename D::Real(m));
-    });
+    multiply_masses(operations, state, m, unit, column);
     f(c);
   }
 }
@@ -116,11 +132,43 @@ void assemble_on_device(Operations& operations, MatrixFactors factors, MultiVec&
         rows.add(source++, law_of(c), c.driver.view(), Real(factors.k), Real(factors.b));
       });
       if (source == 0) rows.clear();
-      detail::for_each_mass_column(operations, state, factors.m, unit, column, [&](int c) {
-        rows.addColumn(std::as_const(state[column.id]).device(), c);
-      });
+      if (!D::rigid && operations.massIsDiagonal()) {
+        for_each_index(state.size(), detail::Ones<D>{state[unit.id].overwrite()});
+        detail::multiply_masses(operations, state, factors.m, unit, column);
+        rows.addDiagonal(std::as_const(state[column.id]).device());
+      } else {
+        detail::for_each_mass_column(operations, state, factors.m, unit, column, [&](int c) {
+          rows.addColumn(std::as_const(state[column.id]).device(), c);
+        });
+      }
     }
   });
+}
+
+template <class D, class Operations, class MultiVec>
+bool take_held(Operations& operations, MultiVec& room, DeviceArray<unsigned char>& held,
+               std::vector<SystemBody<D>>& bodies, std::size_t first) {
+  if (!any_below<role::ProjectiveConstraint>(operations.root)) return true;
+  if (recording()) return false;  // the host looks at what these do
+  int points = 0;
+  for (std::size_t k = first; k < bodies.size(); ++k) points += bodies[k].points;
+  held.resize(std::size_t(points));
+  operations.forEachIndependent([&](auto& s) {
+    if constexpr (std::is_same_v<typename std::decay_t<decltype(s)>::DataTypes, D>)
+      for_each_index(s.size(), typename SystemOfBodies<D>::SetNumbers{s[room.id].overwrite()});
+  });
+  operations.projectResponse(room.id);
+  double mixed = 0;
+  unsigned char* to = held.data();
+  operations.forEachIndependent([&](auto& s) {
+    if constexpr (std::is_same_v<typename std::decay_t<decltype(s)>::DataTypes, D>) {
+      mixed +=
+          sum_on_host(s.size(), typename SystemOfBodies<D>::TakeHeld{std::as_const(s[room.id]).device(), to});
+      bodies[first++].held = to;
+      to += s.size();
+    }
+  });
+  return mixed == 0;
 }
 
 }  // namespace sinew::gpu

@@ -60,6 +60,10 @@ struct BlockRows {
   void addColumn(Deriv const* column, int c) {
     for_each_index(rows, AddColumn{diagonal.device(), values.data(), column, c});
   }
+  /// Adds to the diagonal, one vector a node.
+  void addDiagonal(Deriv const* numbers) {
+    for_each_index(rows, AddDiagonal{diagonal.device(), values.data(), numbers});
+  }
   /// r += A x
   void multiplyAdd(Deriv* r, Deriv const* x) const { for_each_index(rows, product(x, r)); }
   /// r = A x, *to = r.x
@@ -104,6 +108,14 @@ struct BlockRows {
     int c;
     SINEW_HD void operator()(int row) const {
       for (int r = 0; r < n; ++r) at(values, diagonal[row], r * n + c) += column[row][r];
+    }
+  };
+  struct AddDiagonal {
+    int const* diagonal;
+    Real* values;
+    Deriv const* numbers;
+    SINEW_HD void operator()(int row) const {
+      for (int c = 0; c < n; ++c) at(values, diagonal[row], c * n + c) += numbers[row][c];
     }
   };
   template <class Law, class View>

@@ -3,15 +3,34 @@
 
 #include <sinew/gpu/assembled_system.hpp>
 #include <sinew/gpu/block_jacobi.hpp>
+#include <sinew/gpu/team_solver.hpp>
 #include <sinew/gpu/vector_operations.hpp>
 #include <sinew/solver/cg_linear_solver.hpp>
+#include <sinew/solver/linear_system.hpp>
+
+#include <type_traits>
+#include <utility>
 
 namespace sinew::gpu {
 
+namespace detail {
+// f(TeamSolver) of the bodies of a solver, if the first of them is one of points
+template <class Operations, class F>
+void with_team(Operations& operations, F&& f) {
+  bool first = true;
+  operations.forEachIndependent([&](auto& state) {
+    const bool is = std::exchange(first, false);
+    if constexpr (SolvesMotions<typename std::decay_t<decltype(state)>::DataTypes>)
+      if (is) f(state.solverWorkspace.team);
+  });
+}
+}  // namespace detail
+
 /// What CGLinearSolver does where all states below it are on the device, and what
 /// ShewchukPCGLinearSolver does with a preconditioner of diagonal blocks: the same method with its numbers
-/// there, so that nothing waits for the host. With a tolerance the host looks every tenth iteration whether
-/// more are needed, but not while the step is being recorded. `residuals` stays empty.
+/// there, so that nothing waits for the host; over an assembled matrix one kernel. With a tolerance the host
+/// looks every tenth iteration whether more are needed, but not while the step is being recorded. `residuals`
+/// stays empty.
 template <class Operations, class Solver, class MultiVec>
 void conjugate_gradients(Operations& operations, Solver& solver, MatrixFactors factors, MultiVec& x,
                          MultiVec& b, DeviceVector<double>& numbers) {
@@ -24,12 +43,22 @@ void conjugate_gradients(Operations& operations, Solver& solver, MatrixFactors f
       make_block_jacobi(operations, factors, method == PreconditionerMethod::jacobi, p, q);
   }
   constexpr bool assembled = !Solver::matrixFree;
-  if constexpr (assembled) assemble_on_device(operations, factors, p, q);
+  double threshold = 0;
+  if constexpr (requires { solver.threshold; }) threshold = solver.threshold;
+  if constexpr (assembled) {
+    assemble_on_device(operations, factors, p, q);
+    bool done = false;
+    if (!preconditioned)
+      detail::with_team(operations,
+                        [&](auto& team) { done = team.solve(operations, solver, threshold, x, b, p); });
+    if (done) {
+      solver.residuals.clear();
+      return;
+    }
+  }
   const auto n = std::size_t(solver.iterations);
   numbers.resize(3 * n + 6);
   double* const workspace = numbers.device();
-  double threshold = 0;
-  if constexpr (requires { solver.threshold; }) threshold = solver.threshold;
   const CgScalars s{workspace,
                     preconditioned ? workspace + n + 2 : workspace,
                     workspace + 2 * n + 4,
@@ -96,9 +125,10 @@ void conjugate_gradients(Operations& operations, Solver& solver, MatrixFactors f
       double size[2];
       copy_to_host(size, s.size, 1);
       copy_to_host(size + 1, s.size + i + 1, 1);
-      if (!(size[1] > s.tolerance2 * size[0])) return;
+      if (!(size[1] > s.tolerance2 * size[0])) break;
     }
   }
+  detail::with_team(operations, [&](auto& team) { team.leave(operations, r, assembled); });
 }
 
 }  // namespace sinew::gpu

@@ -2,11 +2,14 @@
 #pragma once
 
 #include <sinew/gpu/convex_problem.hpp>
+#include <sinew/gpu/sent_list.hpp>
+#include <sinew/gpu/team_solver.hpp>
 #include <sinew/lagrangian/constrained_motion.hpp>
 #include <sinew/lagrangian/convex_updates.hpp>
 #include <sinew/solver/multi_vec.hpp>
 
 #include <algorithm>
+#include <cstring>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -17,10 +20,12 @@ namespace sinew::gpu {
 template <class Operations, class MultiVec>
 void assemble_on_device(Operations&, MatrixFactors, MultiVec&, MultiVec&);
 
-/// What ConvexStep does, for bodies of points that are all on the device, over D: the system is assembled
-/// there, and each convex problem is solved there by one kernel, with all iterations of Newton's method and
-/// of conjugate gradients. The host has the rows of the constraints, and between two problems moves their
-/// potentials (ConvexUpdates): it looks at violations and multipliers alone.
+/// What ConvexStep does, for bodies of points that are all on the device, over D: the convex problems are
+/// solved there by one kernel, with all iterations of Newton's method and of conjugate gradients, and the
+/// updates of the potentials between two problems. Where these are to be accelerated, or another part of
+/// Coulomb's law is lagged, the host makes the update (ConvexUpdates), and the kernel goes on. What the free
+/// motion has left of its equation, where its assembled system was solved there, is a part of the problem:
+/// the linear solver may stop early. The host has the rows of the constraints.
 ///
 /// One object serves a scene for all its steps; memory grows only where a step has more points or rows than
 /// any before.
@@ -37,44 +42,41 @@ class ConvexMotion {
   /// Begins the step of bodies with so many points in all.
   void begin(int points) {
     bodies_.clear();
-    q_ = {};
-    q_.points = points;
-    held_.resize(std::size_t(points));
-    q_.held = held_.data();
+    q_.system.points = points;
   }
 
-  /// The matrix of a solver's states is assembled, S = scale A; the first of its points is number `begin` of
-  /// all. Takes two auxiliary vectors.
+  /// The matrix of a solver's states, assembled where its linear solver has not done so, S = scale A; the
+  /// first of its points is number `begin` of all. Takes two auxiliary vectors.
   template <class Operations>
-  void addSystem(Operations& operations, MatrixFactors factors, double scale, int begin) {
-    using Deriv = typename D::Deriv;
+  void addSystem(Operations& operations, ConstraintFactors const& factors, double scale, int begin) {
     MultiVecDeriv<Operations> unit(operations), column(operations);
-    assemble_on_device(operations, factors, unit, column);
-    operations.forEachIndependent([&](auto& s) {
-      if constexpr (std::is_same_v<typename std::decay_t<decltype(s)>::DataTypes, D>)
-        for_each_index(s.size(), typename ConvexProblem<D>::SetOnes{s[unit.id].overwrite()});
+    const std::size_t first = bodies_.size();
+    TeamSolver<D>* team = nullptr;
+    auto eachState = [&](auto&& f) {
+      operations.forEachIndependent([&](auto& s) {
+        if constexpr (std::is_same_v<typename std::decay_t<decltype(s)>::DataTypes, D>) f(s);
+      });
+    };
+    eachState([&](auto& s) {
+      if (!team) team = &s.solverWorkspace.team;
     });
-    operations.projectResponse(unit.id);
-    operations.forEachIndependent([&](auto& s) {
-      if constexpr (std::is_same_v<typename std::decay_t<decltype(s)>::DataTypes, D>) {
-        BlockRows<D> const& rows = s.solverWorkspace.rows;
-        const int first = begin + s.dofOffset / 3;
-        bodies_.push_back(
-            {{rows.sliceFirst.device(), rows.column.device(), rows.values.data(), nullptr, nullptr},
-             rows.diagonal.device(),
-             first,
-             int(s.size()),
-             scale});
-        Deriv const* const projected = std::as_const(s[unit.id]).device();
-        for_each_index(s.size(), typename ConvexProblem<D>::TakeHeld{q_, projected, first});
-      }
+    if (!team->takeAssembled()) assemble_on_device(operations, factors.matrix, unit, column);
+    int points = begin;
+    eachState([&](auto& s) {
+      bodies_.push_back(body_of<D>(s, std::exchange(points, points + int(s.size())), scale));
     });
+    double const* const rest = team->takeRest();
+    for (std::size_t k = first; rest && k < bodies_.size(); ++k) {
+      bodies_[k].rest = rest + 3 * (bodies_[k].begin - begin);
+      bodies_[k].restScale = 1 / factors.impulse;
+    }
+    take_held<D>(operations, unit, team->held(), bodies_, first);
   }
 
   /// The largest number on the diagonal of S.
   double largestDiagonal() {
     double largest = 0;
-    for (MotionBody<D> const& b : bodies_) {
+    for (SystemBody<D> const& b : bodies_) {
       DeviceVector<double> all(std::size_t(b.points));
       for_each_index(all.size(), LargestOfRow{b, all.overwrite()});
       for (const double one : std::as_const(all).host()) largest = std::max(largest, one);
@@ -82,46 +84,55 @@ class ConvexMotion {
     return largest;
   }
 
-  /// Leaves the motion and the multipliers in the rows. Throws Error as ConvexStep does.
-  ConvexStepResult solve(MotionRows& rows, ConvexStepSettings const& settings, std::string_view where) {
-    none_.setZero(rows.dofs);
-    check_convex_step(none_, rows.jacobian, rows.blocks, rows.start, rows.motion, rows.multipliers, where);
+  /// From `motion`, that of the step before, scaled. Leaves the multipliers in the rows, and the motion there
+  /// and for give(). Throws Error as ConvexStep does.
+  ConvexStepResult solve(MotionRows& rows, ConvexStepSettings const& settings, std::vector<double>& motion,
+                         std::string_view where) {
     check_convex_step(settings, where);
-    updates_.terms.begin(rows.jacobian, rows.blocks, rows.start, rows.multipliers, settings.friction);
-    takeRows(rows);
-    for_each_index(std::size_t(q_.all), typename ConvexProblem<D>::TakeSystem{q_});
-    for_each_index(rows.blocks.size(), typename ConvexProblem<D>::EstimateCompliance{q_});
-    const int n = rows.jacobian.rows();
-    ConstraintTerms::clear(n, updates_.compliance);
-    copy_to_host(updates_.compliance.data(), q_.compliance, std::size_t(n));
-    check_movable(updates_.compliance.head(n), where);
-    updates_.begin(settings);
-    updates_.terms.evaluate(rows.motion);
-    copy_to_device(q_.violation, updates_.terms.violation.data(), std::size_t(n));
-
-    ConvexStepResult result;
+    check_convex_guess(rows.start, rows.multipliers, where);
+    const auto n = std::size_t(rows.jacobian.rows());
+    takeRows(rows, where);
+    takeMotion(rows.dofs, motion);
+    q_.settings = settings;
+    q_.progress = {};
+    askedBefore_ = false;
+    q_.progress.lag = settings.friction;
+    sent_.assign(rows.start.data(), rows.start.data() + n);
+    sent_.insert(sent_.end(), rows.multipliers.data(), rows.multipliers.data() + n);
+    copy_to_device(exchanged_.data() + head, sent_.data(), sent_.size());
     while (true) {
-      const ConvexProblemResult found = solveProblem(settings, result, n);
-      if (found.finite == 0) refuse_unbounded_step(where);
-      result.momentum = found.momentum;
-      result.residual = found.residual;
-      result.newtonIterations += int(found.newtonIterations);
-      result.conjugateGradients += int(found.conjugateGradients);
-      result.lineSearches += int(found.lineSearches);
-      result.converged =
-          result.residual <= settings.tolerance && result.momentum <= settings.momentumTolerance;
-      if (result.converged || found.stuck != 0 || result.updates == settings.maxUpdates) break;
-      ++result.updates;
-      updates_.update(settings, result.residual);
+      run_whole_team(std::size_t(q_.system.all), q_, team_);
+      arrival_.begin(exchanged_.data(), head + 2 * n);
+      brought_.begin(q_.velocity, motion.size());
+      receive(head + 2 * n);
+      std::memcpy(static_cast<void*>(&q_.progress), received_.data(), sizeof(ConvexProgress));
+      if (q_.progress.ends == ConvexProgress::Ends::done) break;
+      askHost(rows, settings, where);
     }
-    copy_to_host(rows.motion.data(), q_.velocity, std::size_t(rows.dofs));
-    rows.multipliers = updates_.terms.multipliers.head(n);
-    return result;
+    brought_.take(motion.data(), motion.size());
+    broughtMotion_ = motion.size();
+    rows.multipliers = Eigen::Map<Eigen::VectorXd const>(received_.data() + head + n, Eigen::Index(n));
+    return q_.progress.found;
   }
 
+  /// The motion of points from number `begin` on, times a factor; points over other DataTypes than D have
+  /// none.
+  template <class VecDeriv>
+  void give(VecDeriv& to, int begin, double factor) const {
+    if constexpr (std::is_same_v<VecDeriv, typename D::VecDeriv>)
+      for_each_index(to.size(), Give{q_.velocity + 3 * begin, to.overwrite(), factor});
+  }
   // what threads do
+  struct Give {
+    double const* from;
+    typename D::Deriv* to;
+    double by;
+    SINEW_HD void operator()(int i) const {
+      for (int c = 0; c < 3; ++c) to[i][c] = typename D::Real(by * from[3 * i + c]);
+    }
+  };
   struct LargestOfRow {
-    MotionBody<D> b;
+    SystemBody<D> b;
     double* to;
     SINEW_HD void operator()(int i) const {
       double largest = 0;
@@ -134,40 +145,115 @@ class ConvexMotion {
   };
 
  private:
+  // what goes to the host behind the problems: the progress, then a number each row of the vectors that the
+  // host may ask for
+  static constexpr std::size_t head = (sizeof(ConvexProgress) + sizeof(double) - 1) / sizeof(double);
+  static constexpr std::size_t mayBeAsked = 7;
+
   ConvexUpdates updates_{};
-  std::vector<MotionBody<D>> bodies_{};
+  std::vector<SystemBody<D>> bodies_{};
   ConvexProblem<D> q_{};
-  Eigen::VectorXd none_{};
   // of the rows, as they go to the device
+  MotionRows last_{};
   std::vector<int> ints_{}, entryOf_{}, next_{};
   std::vector<double> rowValues_{}, sent_{}, received_{};
-  DeviceArray<int> intsThere_{};
-  DeviceArray<double> rowsThere_{}, sentThere_{}, vectors_{}, receivedThere_{}, slackThere_{};
-  DeviceArray<MotionBody<D>> bodiesThere_{};
-  DeviceArray<ConstraintBlock> blocksThere_{};
-  DeviceArray<unsigned char> held_{};
-  Arrival<double> arrival_{};
+  SentList<SystemBody<D>> bodiesThere_{};
+  SentList<int> intsThere_{};
+  SentList<double> rowsThere_{}, slackThere_{};
+  SentList<ConstraintBlock> blocksThere_{};
+  DeviceArray<double> velocity_{}, vectors_{}, exchanged_{};
+  Arrival<double> arrival_{}, brought_{};
+  std::size_t broughtMotion_ =
+      0;  // how many numbers of the motion are the same in brought_ and on the device
   TeamMemory team_{};
+  std::size_t pairs_ = 0;
+  bool askedBefore_ = false;  // in this step
 
-  template <class T>
-  static T* upload(DeviceArray<T>& to, std::vector<T> const& from) {
-    to.resize(from.size());
-    copy_to_device(to.data(), from.data(), from.size());
-    return to.data();
+  // the first so many numbers of what is exchanged, which are on their way
+  void receive(std::size_t count) {
+    received_.resize(std::max(received_.size(), count));
+    arrival_.take(received_.data(), count);
+  }
+  // the motion to begin with, if it is not that which the device has left there; 0 where degrees of freedom
+  // came or went
+  void takeMotion(int dofs, std::vector<double>& motion) {
+    const auto n = std::size_t(dofs);
+    if (motion.size() != n) motion.assign(n, 0);
+    if (broughtMotion_ == n && std::memcmp(motion.data(), brought_.data(), n * sizeof(double)) == 0) return;
+    velocity_.resize(n);
+    q_.velocity = velocity_.data();
+    copy_to_device(q_.velocity, motion.data(), n);
+    broughtMotion_ = 0;
   }
 
-  // rows by blocks of constraints and points, and room for all else
-  void takeRows(MotionRows const& rows) {
-    const int slack = int(rows.slack.size());
-    q_.bodies = int(bodies_.size());
-    q_.body = upload(bodiesThere_, bodies_);
-    q_.slack = upload(slackThere_, rows.slack);
-    q_.all = q_.points + slack;
-    q_.blocks = int(rows.blocks.size());
-    q_.block = upload(blocksThere_, rows.blocks);
+  // an update that the kernel leaves to the host, or an error
+  void askHost(MotionRows const& rows, ConvexStepSettings const& settings, std::string_view where) {
+    using Ends = ConvexProgress::Ends;
+    ConvexProgress& now = q_.progress;
+    if (now.ends == Ends::unbounded) refuse_unbounded_step(where);
+    const Eigen::Index n = rows.jacobian.rows();
+    arrival_.begin(exchanged_.data(), head + mayBeAsked * std::size_t(n));
+    receive(head + mayBeAsked * std::size_t(n));
+    double const* from = received_.data() + head + n;  // behind the violation at rest
+    auto next = [&] { return Eigen::Map<Eigen::VectorXd const>(std::exchange(from, from + n), n); };
+    ConstraintTerms& terms = updates_.terms;
+    terms.begin(rows.jacobian, rows.blocks, rows.start, rows.multipliers, now.lag);
+    ConstraintTerms::clear(n, updates_.compliance);
+    terms.multipliers.head(n) = next();
+    terms.violation.head(n) = next();
+    terms.before.head(n) = next();
+    terms.setLagged(next());
+    terms.regularisation.head(n) = next();
+    updates_.compliance.head(n) = next();
+    if (now.ends == Ends::immovable) check_movable(updates_.compliance.head(n), where);
+    if (!std::exchange(askedBefore_, true)) updates_.forget();
+    updates_.schedule = now.schedule;
+    updates_.update(settings, now.found.residual);
+    ++now.found.updates;
+    now.schedule = updates_.schedule;
+    now.lag = terms.lag();
+    now.ends = Ends::done;
+    sent_.clear();
+    for (Eigen::VectorXd const* of :
+         {&std::as_const(terms.before), &terms.lagged(), &std::as_const(terms.regularisation)})
+      sent_.insert(sent_.end(), of->data(), of->data() + n);
+    copy_to_device(q_.before, sent_.data(), sent_.size());
+  }
 
-    // in ints_: ends, then point, slot and block of each entry, entries of each point, and which these are
-    const auto all = std::size_t(q_.all), blocks = rows.blocks.size();
+  bool isLast(MotionRows const& rows) const {
+    auto same = [](auto const& a, auto const& b) {
+      return a.size() == b.size() &&
+             (a.empty() ||
+              std::memcmp(static_cast<void const*>(a.data()), b.data(), a.size() * sizeof(a[0])) == 0);
+    };
+    return last_.dofs == rows.dofs && same(last_.jacobian.first, rows.jacobian.first) &&
+           same(last_.jacobian.dofs, rows.jacobian.dofs) &&
+           same(last_.jacobian.values, rows.jacobian.values) && same(last_.blocks, rows.blocks) &&
+           same(last_.slack, rows.slack);
+  }
+  // rows by blocks of constraints and points, and room for all else; where they are as in the last step, so
+  // is what the device has of them
+  void takeRows(MotionRows const& rows, std::string_view where) {
+    q_.system.bodies = int(bodies_.size());
+    q_.system.body = bodiesThere_.send(bodies_);
+    if (isLast(rows)) return;
+    check_convex_rows(rows.dofs, rows.jacobian, rows.blocks, rows.start, rows.multipliers, where);
+    last_.jacobian = rows.jacobian;
+    last_.blocks = rows.blocks;
+    last_.slack = rows.slack;
+    last_.dofs = rows.dofs;
+    q_.system.slack = slackThere_.send(rows.slack);
+    q_.system.all = q_.system.points + int(rows.slack.size());
+    q_.blocks = int(rows.blocks.size());
+    q_.block = blocksThere_.send(rows.blocks);
+    sendEntries(rows);
+    makeRoom(std::size_t(rows.jacobian.rows()), pairs_);
+  }
+
+  // in ints_: ends; point, slot and block of each entry; entries of each point, and which these are; the same
+  // of the pairs
+  void sendEntries(MotionRows const& rows) {
+    const auto all = std::size_t(q_.system.all), blocks = rows.blocks.size();
     entryOf_.assign(all, -1);
     rowValues_.clear();
     next_.clear();  // point, slot and block of each entry
@@ -191,16 +277,26 @@ class ConvexMotion {
     const std::size_t entries = next_.size() / 3;
     for (std::size_t part = 0; part < 3; ++part)
       for (std::size_t e = 0; e < entries; ++e) ints_.push_back(next_[3 * e + part]);
-    const std::size_t ofPoint = ints_.size();
-    ints_.resize(ofPoint + all + 1 + entries, 0);
-    int* const first = ints_.data() + ofPoint;
-    int* const entry = first + all + 1;
-    for (std::size_t e = 0; e < entries; ++e) ++first[next_[3 * e] + 1];
-    for (std::size_t i = 0; i < all; ++i) first[i + 1] += first[i];
-    std::copy_n(first, all, entryOf_.begin());
-    for (std::size_t e = 0; e < entries; ++e) entry[entryOf_[std::size_t(next_[3 * e])]++] = int(e);
-
-    int const* at = upload(intsThere_, ints_);
+    const std::size_t ofPoint = ints_.size(), entry = ofPoint + all + 1, ofPairs = entry + entries;
+    ints_.resize(ofPairs + all + 1, 0);
+    for (std::size_t e = 0; e < entries; ++e) ++ints_[ofPoint + std::size_t(next_[3 * e]) + 1];
+    for (std::size_t i = 0; i < all; ++i) ints_[ofPoint + i + 1] += ints_[ofPoint + i];
+    std::copy_n(ints_.begin() + std::ptrdiff_t(ofPoint), all, entryOf_.begin());
+    for (std::size_t e = 0; e < entries; ++e)
+      ints_[entry + std::size_t(entryOf_[std::size_t(next_[3 * e])]++)] = int(e);
+    pairs_ = 0;
+    for (std::size_t i = 0; i < all; ++i) {
+      for (int k = ints_[ofPoint + i]; k < ints_[ofPoint + i + 1]; ++k) {
+        const int own = ints_[entry + std::size_t(k)], block = next_[std::size_t(3 * own + 2)];
+        for (int other = ints_[std::size_t(block)]; other < ints_[std::size_t(block) + 1]; ++other, ++pairs_)
+          ints_.insert(ints_.end(), {own, other});
+      }
+      ints_[ofPairs + i + 1] = int(pairs_);
+    }
+    const std::size_t pairs = ofPairs + all + 1;
+    for (std::size_t k = 0; k < pairs_; ++k)
+      ints_.push_back(next_[std::size_t(3 * ints_[pairs + 2 * k + 1])]);
+    int const* at = intsThere_.send(ints_);
     auto take = [&at](std::size_t n) { return std::exchange(at, at + n); };
     q_.ends = take(blocks + 1);
     q_.point = take(entries);
@@ -208,62 +304,31 @@ class ConvexMotion {
     q_.blockOf = take(entries);
     q_.ofPoint = take(all + 1);
     q_.entry = take(entries);
-    q_.rows = upload(rowsThere_, rowValues_);
-
-    const auto n = std::size_t(rows.jacobian.rows());
-    vectors_.resize((9 * 3 + 2 * 9) * all + 5 * n);
-    double* v = vectors_.data();
-    auto room = [&v](std::size_t count) { return std::exchange(v, v + count); };
-    for (double** of : {&q_.velocity,
-                        &q_.momentum,
-                        &q_.gradient,
-                        &q_.step,
-                        &q_.residual,
-                        &q_.scaled,
-                        &q_.direction[0],
-                        &q_.direction[1],
-                        &q_.product})
-      *of = room(3 * all);
-    q_.system = room(9 * all);
-    q_.inverse = room(9 * all);
-    q_.compliance = room(n);
-    q_.rate = room(n);
-    q_.curvature = room(3 * n);
-    // what goes to the host behind each problem
-    constexpr std::size_t head = ConvexProblemResult::size + 1;
-    receivedThere_.resize(head + 2 * n);
-    q_.result = reinterpret_cast<ConvexProblemResult*>(receivedThere_.data());
-    q_.violation = receivedThere_.data() + head;
-    q_.multipliers = q_.violation + n;
+    q_.pairsOfPoint = take(all + 1);
+    q_.pair = take(2 * pairs_);
+    q_.pointOfPair = take(pairs_);
+    q_.rows = rowsThere_.send(rowValues_);
   }
-
-  ConvexProblemResult solveProblem(ConvexStepSettings const& s, ConvexStepResult const& so, int rows) {
-    ConstraintTerms& terms = updates_.terms;
-    const auto n = std::size_t(rows);
-    sent_.clear();
-    for (Eigen::VectorXd const* of :
-         {&std::as_const(terms.regularisation), &std::as_const(terms.before), &terms.lagged()})
-      sent_.insert(sent_.end(), of->data(), of->data() + rows);
-    double* const there = upload(sentThere_, sent_);
-    q_.regularisation = there;
-    q_.before = there + n;
-    q_.lagged = there + 2 * n;
-    q_.lag = terms.lag();
-    q_.momentumTolerance = s.momentumTolerance;
-    q_.tolerance = s.tolerance;
-    q_.reduction = s.reduction;
-    q_.forcing = s.forcing;
-    q_.maxNewtonIterations = s.maxNewtonIterations;
-    q_.maxConjugateGradients = s.maxConjugateGradients - so.conjugateGradients;
-    run_whole_team(std::size_t(q_.all), q_, team_);
-    constexpr std::size_t head = ConvexProblemResult::size + 1;
-    received_.resize(head + 2 * n);
-    arrival_.begin(receivedThere_.data(), received_.size());
-    arrival_.take(received_.data(), received_.size());
-    std::copy_n(received_.data() + head, n, terms.violation.data());
-    std::copy_n(received_.data() + head + n, n, terms.multipliers.data());
-    double const* const f = received_.data();
-    return {f[0], f[1], f[2], f[3], f[4], f[5], f[6]};
+  void makeRoom(std::size_t rows, std::size_t pairs) {
+    const auto all = std::size_t(q_.system.all);
+    exchanged_.resize(head + mayBeAsked * rows);
+    double* v = exchanged_.data() + head;
+    auto room = [&v](std::size_t count) { return std::exchange(v, v + count); };
+    q_.progressThere = reinterpret_cast<ConvexProgress*>(exchanged_.data());
+    q_.start = room(rows);
+    for (double** of :
+         {&q_.multipliers, &q_.violation, &q_.before, &q_.lagged, &q_.regularisation, &q_.compliance})
+      *of = room(rows);
+    vectors_.resize((3 * 3 + 3 * GradientVectors::count + 2 * 9) * all + 5 * rows + 9 * pairs);
+    v = vectors_.data();
+    for (double** of : {&q_.momentum, &q_.gradient, &q_.goodVelocity}) *of = room(3 * all);
+    q_.newton = GradientVectors::in(room(3 * GradientVectors::count * all), all);
+    q_.diagonal = room(9 * all);
+    q_.inverse = room(9 * all);
+    q_.rate = room(rows);
+    q_.goodMultipliers = room(rows);
+    q_.curvature = room(3 * rows);
+    q_.coupling = room(9 * pairs);
   }
 };
 

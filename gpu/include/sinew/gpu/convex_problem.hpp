@@ -1,77 +1,75 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <sinew/gpu/block_rows.hpp>
+#include <sinew/gpu/system_rows.hpp>
+#include <sinew/gpu/team_gradients.hpp>
 #include <sinew/gpu/whole_team.hpp>
+#include <sinew/lagrangian/convex_schedule.hpp>
 #include <sinew/lagrangian/exact_line_search.hpp>
 #include <sinew/linalg/block_inverse.hpp>
 
 #include <cmath>
+#include <cstddef>
 
 namespace sinew::gpu {
 
-/// The matrix of one body among those of a step with constraints.
-template <class D>
-struct MotionBody {
-  typename BlockRows<D>::RowProduct product;  // x and r are not read
-  int const* diagonal;                        // place of each row's
-  int begin, points;                          // among the points of all bodies
-  double scale;                               // S = scale A
+/// How far the convex problems of a step with constraints (ConvexStep) have come.
+struct ConvexProgress {
+  enum class Ends {
+    done,
+    asks,       // for an update that is made by the host
+    unbounded,  // the system is not finite
+    immovable   // nothing can move what a row is of
+  };
+
+  ConvexSchedule schedule{};
+  ConvexBest best{};
+  ConvexStepResult found{};
+  FrictionLag lag = FrictionLag::bound;
+  bool begun = false;
+  Ends ends = Ends::done;
 };
 
-/// What one of the convex problems of a step with constraints (ConvexStep) has found.
-struct ConvexProblemResult {
-  double momentum, residual;
-  double newtonIterations, conjugateGradients, lineSearches;
-  double stuck, finite;  // 0 or 1
-  static constexpr int size = 7;
-};
-
-/// One of the convex problems of a step with constraints, all in memory of the device: `points` of bodies,
-/// each with its row of S, then those that rows have for themselves, `slack`.
+/// The convex problems of a step with constraints, all in memory of the device.
 template <class D>
 struct ConvexProblem {
-  MotionBody<D> const* body;
-  int bodies, points, all;  // all: with slack
-  double const* slack;
+  SystemOfBodies<D> system;
 
   // blocks of constraints; of each its entries, one for each point that it has, with the rows there: three
-  // numbers a row. Of each point the entries that it has.
+  // numbers a row. Of each point the entries that it has, and what of J' G J couples it with: pairs of an
+  // entry of the point and another of the same block.
   int blocks;
   ConstraintBlock const* block;
   int const *ends, *point, *slot, *blockOf;
   double const* rows;
-  int const *ofPoint, *entry;
+  int const *ofPoint, *entry, *pairsOfPoint, *pair, *pointOfPair;
 
-  FrictionLag lag;
-  double const *regularisation, *before, *lagged;  // a number each row, as ConstraintTerms has them
-  double* compliance;                              // estimate of the diagonal of W
-
-  // of each point of a body the directions, as bits, in which projective constraints hold it
-  unsigned char* held;
+  // a number each row: the violation at v = 0, and what ConvexUpdates and ConstraintTerms have
+  double const* start;
+  double *multipliers, *violation, *before, *lagged, *regularisation, *compliance;
+  double *rate, *curvature, *goodMultipliers;  // curvature: three
   // three numbers a point
-  double *velocity, *momentum, *gradient, *step, *residual, *scaled, *direction[2], *product;
-  double *system, *inverse;                            // nine a point, component by component
-  double *violation, *multipliers, *rate, *curvature;  // a number each row; curvature three
+  double *velocity, *momentum, *gradient, *goodVelocity;
+  GradientVectors newton;
+  double *diagonal, *inverse;  // nine a point, component by component
+  double* coupling;            // nine a pair
 
-  double momentumTolerance, tolerance, reduction, forcing;
-  int maxNewtonIterations, maxConjugateGradients;
-  ConvexProblemResult* result;
+  ConvexStepSettings settings;
+  ConvexProgress progress;        // where to go on from
+  ConvexProgress* progressThere;  // and where that comes
+
+  static constexpr std::size_t entryBytes = TeamRows<D, WholeTeam>::entryBytes;
 
   using Vector = Eigen::Vector3d;
   using Block = Eigen::Matrix3d;
 
-  SINEW_INLINE Vector at(double const* of, int i) const { return {of[3 * i], of[3 * i + 1], of[3 * i + 2]}; }
-  SINEW_INLINE void put(double* of, int i, Vector const& v) const {
-    for (int c = 0; c < 3; ++c) of[3 * i + c] = v[c];
-  }
   SINEW_INLINE Block load(double const* of, int i) const {
     Block b;
-    for (int c = 0; c < 9; ++c) b(c / 3, c % 3) = of[c * std::ptrdiff_t(all) + i];
+    for (int c = 0; c < 9; ++c) b(c / 3, c % 3) = of[c * std::ptrdiff_t(system.all) + i];
     return b;
   }
   SINEW_INLINE void store(double* of, int i, Block const& b) const {
-    for (int c = 0; c < 9; ++c) of[c * std::ptrdiff_t(all) + i] = b(c / 3, c % 3);
+    for (int c = 0; c < 9; ++c) of[c * std::ptrdiff_t(system.all) + i] = b(c / 3, c % 3);
   }
   SINEW_INLINE static void invert(Block const& a, Block& to) {
     if (!invert_definite(a, to)) invert_diagonal(a, to);
@@ -82,150 +80,234 @@ struct ConvexProblem {
     return {from[0], from[1], from[2]};
   }
 
-  // what threads do before the first problem
-
-  /// Which degrees of freedom of a body projective constraints leave.
-  struct TakeHeld {
-    ConvexProblem q;
-    typename D::Deriv const* projected;  // of ones
-    int begin;
-    SINEW_HD void operator()(int i) const {
-      int bits = 0;
-      for (int c = 0; c < 3; ++c) bits |= projected[i][c] == 0 ? 1 << c : 0;
-      q.held[begin + i] = static_cast<unsigned char>(bits);
-    }
-  };
-  struct SetOnes {
-    typename D::Deriv* to;
-    SINEW_HD void operator()(int i) const { to[i] = D::Deriv::Ones(); }
-  };
-  /// The diagonal blocks of S, and no motion.
-  struct TakeSystem {
-    ConvexProblem q;
-    SINEW_HD void operator()(int i) const {
-      Block d = Block::Identity();
-      if (i >= q.points) {
-        d(0, 0) = q.slack[i - q.points];
-      } else {
-        MotionBody<D> const& b = q.bodyOf(i);
-        const int place = b.diagonal[i - b.begin];
-        for (int r = 0; r < 3; ++r)
-          for (int c = 0; c < 3; ++c)
-            if (!q.holds(i, r) && !q.holds(i, c))
-              d(r, c) = b.scale * double(BlockRows<D>::at(b.product.values, place, 3 * r + c));
-      }
-      q.store(q.system, i, d);
-      q.put(q.velocity, i, Vector(Vector::Zero()));
-    }
-  };
-  /// W of each row, with the diagonal blocks of S alone.
-  struct EstimateCompliance {
-    ConvexProblem q;
-    SINEW_HD void operator()(int k) const {
-      ConstraintBlock const& b = q.block[k];
-      for (int r = 0; r < b.rows; ++r) q.compliance[b.first + r] = 0;
-      for (int e = q.ends[k]; e < q.ends[k + 1]; ++e) {
-        Block inverse;
-        invert(q.load(q.system, q.point[e]), inverse);
-        for (int r = 0; r < b.rows; ++r) {
-          const Vector j = q.row(e, r), moved = inverse * j;
-          q.compliance[b.first + r] += j[0] * moved[0] + j[1] * moved[1] + j[2] * moved[2];
-        }
-      }
-    }
-  };
-
-  SINEW_INLINE bool holds(int i, int c) const { return i < points && (held[i] >> c & 1); }
-  SINEW_INLINE MotionBody<D> const& bodyOf(int i) const {
-    MotionBody<D> const* b = body;
-    while (i >= b->begin + b->points) ++b;
-    return *b;
-  }
-
-  // what a team does
-
   template <class Team>
   SINEW_HD void operator()(Team& team) const {
-    Solution<Team>{team, *this}.run();
+    Solution<Team>(team, *this).run();
   }
 
  private:
   template <class Team>
-  struct Solution {
-    Team& team;
-    ConvexProblem const& q;
-    ConvexProblemResult found{0, 0, 0, 0, 0, 0, 1};
-    double rho = 0;
+  class Solution {
+   public:
+    SINEW_INLINE Solution(Team& t, ConvexProblem const& problem)
+        : team(t), q(problem), rows(t, problem.system), now(problem.progress) {
+      if (team.firstRow() >= 0 && team.firstRow() < all) {
+        own_ = team.firstRow();
+        firstPair_ = q.pairsOfPoint[own_];
+        lastPair_ = q.pairsOfPoint[own_ + 1];
+      }
+    }
 
     SINEW_INLINE void run() {
-      // A v
-      team.eachRow(q.all, [&](int i, int lane) {
-        double sum[3] = {0, 0, 0};
-        addRow(
-            i, lane, [&](int j) { return q.at(q.velocity, j); }, sum);
-        team.sumOfRow(sum);
-        if (lane == 0) put(q.momentum, i, sum);
+      if (now.begun || begin()) {
+        now.begun = true;
+        solve();
+      }
+      if (team.first()) *q.progressThere = now;
+    }
+
+   private:
+    using Ends = ConvexProgress::Ends;
+    Team& team;
+    ConvexProblem const& q;
+    const TeamRows<D, Team> rows;
+    ConvexProgress now;
+    double rho = 0;
+    const int all = q.system.all;
+    int own_ = -1, firstPair_ = 0, lastPair_ = 0;  // of the first row of this thread
+
+    // The first problem, from the multipliers before and the motion of the last step, scaled to what these
+    // would do; false where nothing can move a row.
+    SINEW_INLINE bool begin() {
+      now.schedule.begin(q.settings);
+      team.each(all, [&](int i) { q.store(q.diagonal, i, diagonalOf(i)); });
+      team.sync();
+      double local[3] = {0, 0, 0};  // energy, work, whether a row cannot move
+      team.each(q.blocks, [&](int k) {
+        ConstraintBlock const& b = q.block[k];
+        double* const w = q.compliance + b.first;
+        for (int r = 0; r < b.rows; ++r) w[r] = 0;
+        for (int e = q.ends[k]; e < q.ends[k + 1]; ++e) {
+          Block inverse;
+          invert(q.load(q.diagonal, q.point[e]), inverse);
+          for (int r = 0; r < b.rows; ++r) {
+            const Vector j = q.row(e, r), moved = inverse * j;
+            w[r] += j[0] * moved[0] + j[1] * moved[1] + j[2] * moved[2];
+          }
+        }
+        for (int r = 0; r < b.rows; ++r)
+          if (!(w[r] > 0)) local[2] = 1;
+        contact_potential::take_before(
+            b, now.lag, q.multipliers + b.first, q.before + b.first, q.lagged[b.first]);
+        contact_potential::regularise(b, now.schedule.relative, w, q.regularisation + b.first);
+      });
+      multiplyVelocity();
+      team.sync();
+      team.each(all, [&](int i) {
+        const Vector v = vector_at(q.velocity, i), product = vector_at(q.newton.product, i);
+        Vector impulse = q.system.restOf(i);
+        eachEntry(i, [&](int e, ConstraintBlock const& b) { addForce(e, b, q.multipliers, impulse); });
+        for (int c = 0; c < 3; ++c) {
+          local[0] += v[c] * product[c];
+          local[1] += v[c] * impulse[c];
+        }
+      });
+      team.template reduce<2>(local);
+      if (local[2] > 0) {
+        now.ends = Ends::immovable;
+        return false;
+      }
+      const double part = local[0] > 0 && local[1] > 0 ? local[1] / local[0] : 0;
+      team.each(all, [&](int i) { put_vector(q.velocity, i, Vector(part * vector_at(q.velocity, i))); });
+      team.sync();
+      team.each(q.blocks, [&](int k) {
+        ConstraintBlock const& b = q.block[k];
+        rates(
+            k, [&](int j) { return vector_at(q.velocity, j); }, q.violation + b.first);
+        for (int r = b.first; r < b.first + b.rows; ++r) q.violation[r] += q.start[r];
+      });
+      return true;
+    }
+    SINEW_INLINE Block diagonalOf(int i) const {
+      Block d = Block::Identity();
+      if (i >= q.system.points) {
+        d(0, 0) = q.system.slack[i - q.system.points];
+        return d;
+      }
+      SystemBody<D> const& b = q.system.bodyOf(i);
+      const int place = b.diagonal[i - b.begin], held = q.system.heldBits(i);
+      for (int r = 0; r < 3; ++r)
+        for (int c = 0; c < 3; ++c)
+          if (!(held >> r & 1) && !(held >> c & 1))
+            d(r, c) = b.scale * double(BlockRows<D>::at(b.product.values, place, 3 * r + c));
+      return d;
+    }
+
+    // One problem after the other, until one is the last, or the host is asked.
+    SINEW_INLINE void solve() {
+      ConvexStepResult& found = now.found;
+      ConvexStepSettings const& s = q.settings;
+      while (true) {
+        const bool stuck = solveProblem();
+        if (now.ends == Ends::unbounded) return;
+        found.converged = found.residual <= s.tolerance && found.momentum <= s.momentumTolerance;
+        if (found.converged) return;
+        const ConvexBest::Found good = now.best.look(found.residual, found.momentum);
+        if (good == ConvexBest::Found::good) exchangeBest(false);
+        if (good == ConvexBest::Found::farWorse || stuck || found.updates == s.maxUpdates) {
+          exchangeBest(true);
+          found.residual = now.best.residual;
+          found.momentum = now.best.momentum;
+          return;
+        }
+        if (!update()) return;
+      }
+    }
+    SINEW_INLINE void exchangeBest(bool back) {
+      double *const v = back ? q.velocity : q.goodVelocity, *const f =
+                                                                back ? q.multipliers : q.goodMultipliers;
+      double const *const fromV = back ? q.goodVelocity : q.velocity, *const fromF = back ? q.goodMultipliers
+                                                                                          : q.multipliers;
+      team.each(all, [&](int i) { put_vector(v, i, vector_at(fromV, i)); });
+      team.each(q.blocks, [&](int k) {
+        ConstraintBlock const& b = q.block[k];
+        for (int r = b.first; r < b.first + b.rows; ++r) f[r] = fromF[r];
+      });
+    }
+    // What ConvexUpdates does, where multipliers are taken as they are; false where it would not.
+    SINEW_INLINE bool update() {
+      const ConvexSchedule before = now.schedule;
+      bool forgets = false;
+      const auto next = now.schedule.next(
+          q.settings,
+          now.lag,
+          now.found.residual,
+          [&] {
+            double local[2] = {0, 0};
+            team.each(q.blocks, [&](int k) {
+              ConstraintBlock const& b = q.block[k];
+              const auto one = contact_potential::rest(b,
+                                                       now.lag,
+                                                       rowsOf(b),
+                                                       q.compliance[b.first],
+                                                       q.lagged[b.first],
+                                                       q.violation + b.first,
+                                                       q.multipliers + b.first);
+              local[0] = one.regularisation > local[0] ? one.regularisation : local[0];
+              local[1] = one.lag > local[1] ? one.lag : local[1];
+            });
+            team.template reduce<0>(local);
+            return contact_potential::Rest{local[0], local[1]};
+          },
+          forgets);
+      if (next != ConvexSchedule::Next::move) {
+        now.schedule = before;
+        now.ends = Ends::asks;
+        return false;
+      }
+      ++now.found.updates;
+      team.each(q.blocks, [&](int k) {
+        ConstraintBlock const& b = q.block[k];
+        double* const f = q.multipliers + b.first;
+        if (b.kind == ConstraintBlock::Kind::friction && now.lag == FrictionLag::gap)
+          q.lagged[b.first] = contact_potential::next_gap(b, q.violation + b.first, f, q.lagged[b.first]);
+        contact_potential::take_before(b, now.lag, f, q.before + b.first, q.lagged[b.first]);
+        contact_potential::regularise(
+            b, now.schedule.relative, q.compliance + b.first, q.regularisation + b.first);
+      });
+      return true;
+    }
+
+    // whether no direction was found, or no iteration is left
+    SINEW_INLINE bool solveProblem() {
+      ConvexStepResult& found = now.found;
+      team.sync();  // velocities of others
+      multiplyVelocity();
+      team.sync();
+      team.each(all, [&](int i) {
+        put_vector(q.momentum, i, vector_at(q.newton.product, i) - q.system.restOf(i));
       });
       double size = evaluate();
       const double first = size;
       bool stuck = false;
-      for (int i = 0; i < q.maxNewtonIterations && !stuck; ++i) {
+      for (int i = 0; i < q.settings.maxNewtonIterations && !stuck; ++i) {
         if (!(size <= largest)) {
-          found.finite = 0;
-          break;
+          now.ends = Ends::unbounded;
+          return true;
         }
-        if (found.momentum <= q.momentumTolerance) break;
+        if (found.momentum <= q.settings.momentumTolerance) break;
         // the last problem is solved to the end
-        if (size <= q.reduction * first && found.residual > q.tolerance) break;
-        stuck = found.conjugateGradients >= q.maxConjugateGradients || !newton();
+        if (size <= q.settings.reduction * first && found.residual > q.settings.tolerance) break;
+        stuck = found.conjugateGradients >= q.settings.maxConjugateGradients || !newton();
         size = evaluate();
       }
-      found.stuck = stuck;
-      if (team.first()) *q.result = found;
+      return stuck;
     }
 
-   private:
     static constexpr double largest = 1.7e308;
 
-    SINEW_INLINE void put(double* of, int i, double const (&v)[3]) const {
-      for (int c = 0; c < 3; ++c) of[3 * i + c] = q.holds(i, c) ? 0 : v[c];
-    }
-    // the part of a lane of S p in a point
-    template <class P>
-    SINEW_INLINE void addRow(int i, int lane, P&& p, double (&sum)[3]) const {
-      if (i >= q.points) {
+    // S v into newton.product
+    SINEW_INLINE void multiplyVelocity() {
+      team.eachRow(all, [&](int i, int lane) {
+        double sum[3] = {0, 0, 0};
+        rows.add(
+            i, lane, [&](int j) { return vector_at(q.velocity, j); }, sum);
+        team.sumOfRow(sum);
         if (lane != 0) return;
-        const Vector v = p(i);
-        sum[0] += q.slack[i - q.points] * v[0];
-        sum[1] += v[1];
-        sum[2] += v[2];
-        return;
-      }
-      using Rows = BlockRows<D>;
-      MotionBody<D> const& b = q.bodyOf(i);
-      const int row = i - b.begin, slice = row / Rows::slice, end = b.product.sliceFirst[slice + 1];
-      double own[3] = {0, 0, 0};
-      for (int place = b.product.sliceFirst[slice] + row % Rows::slice + lane * Rows::slice; place < end;
-           place += Team::lanes * Rows::slice) {
-        const Vector v = p(b.begin + b.product.column[place]);
-        for (int r = 0; r < 3; ++r)
-          for (int c = 0; c < 3; ++c) own[r] += double(Rows::at(b.product.values, place, 3 * r + c)) * v[c];
-      }
-      for (int c = 0; c < 3; ++c) sum[c] += b.scale * own[c];
+        rows.hold(i, sum);
+        for (int c = 0; c < 3; ++c) q.newton.product[3 * i + c] = sum[c];
+      });
     }
-    // the same of J' G J p
+    // the part of a lane of J' G J p in a point
     template <class P>
     SINEW_INLINE void addTerms(int i, int lane, int lanes, P&& p, double (&sum)[3]) const {
-      for (int k = q.ofPoint[i] + lane; k < q.ofPoint[i + 1]; k += lanes) {
-        const int e = q.entry[k], of = q.blockOf[e];
-        ConstraintBlock const& b = q.block[of];
-        double w[ConstraintBlock::maxRows];
-        rates(of, p, w);
-        contact_potential::multiply(b, q.curvature + 3 * b.first, w);
-        for (int r = 0; r < b.rows; ++r) {
-          const Vector j = q.row(e, r);
-          for (int c = 0; c < 3; ++c) sum[c] += j[c] * w[r];
-        }
+      const bool own = i == own_;
+      const int end = own ? lastPair_ : q.pairsOfPoint[i + 1];
+      for (int k = (own ? firstPair_ : q.pairsOfPoint[i]) + lane; k < end; k += lanes) {
+        const Vector v = p(q.pointOfPair[k]);
+        double const* const block = q.coupling + 9 * std::ptrdiff_t(k);
+        for (int r = 0; r < 3; ++r)
+          for (int c = 0; c < 3; ++c) sum[r] += block[3 * r + c] * v[c];
       }
     }
     // J p of a block
@@ -241,10 +323,45 @@ struct ConvexProblem {
         }
       }
     }
+    // f(entry, its block) of a point
+    template <class F>
+    SINEW_INLINE void eachEntry(int i, F&& f) const {
+      for (int k = q.ofPoint[i]; k < q.ofPoint[i + 1]; ++k) {
+        const int e = q.entry[k];
+        f(e, q.block[q.blockOf[e]]);
+      }
+    }
+    // J' f of an entry
+    SINEW_INLINE void addForce(int e, ConstraintBlock const& b, double const* f, Vector& to) const {
+      for (int r = 0; r < b.rows; ++r) {
+        const Vector j = q.row(e, r);
+        for (int c = 0; c < 3; ++c) to[c] += f[b.first + r] * j[c];
+      }
+    }
+    // J' G J of two entries of a block
+    SINEW_INLINE Block couplingOf(ConstraintBlock const& b, int own, int other) const {
+      double const* const G = q.curvature + 3 * b.first;
+      const bool friction = b.kind == ConstraintBlock::Kind::friction;
+      Block sum = Block::Zero();
+      for (int r = 0; r < b.rows; ++r) {
+        const Vector j = q.row(own, r);
+        Vector curved = G[r] * q.row(other, r);
+        if (friction) {
+          curved.setZero();
+          for (int s = 0; s < 3; ++s) {
+            const Vector of = q.row(other, s);
+            for (int c = 0; c < 3; ++c) curved[c] += G[3 * s + r] * of[c];
+          }
+        }
+        for (int c = 0; c < 3; ++c)
+          for (int a = 0; a < 3; ++a) sum(a, c) += j[a] * curved[c];
+      }
+      return sum;
+    }
     SINEW_INLINE contact_potential::Rows rowsOf(ConstraintBlock const& b) const {
       return {q.regularisation + b.first,
               q.before + b.first,
-              q.lag == FrictionLag::bound ? q.lagged[b.first] : contact_potential::cone};
+              now.lag == FrictionLag::bound ? q.lagged[b.first] : contact_potential::cone};
     }
     // d + t w + s
     SINEW_INLINE void violationAt(ConstraintBlock const& b, double t, double* d) const {
@@ -252,7 +369,7 @@ struct ConvexProblem {
         d[r] = q.violation[b.first + r];
         if (t != 0) d[r] += t * q.rate[b.first + r];
       }
-      if (q.lag == FrictionLag::gap) d[0] += q.lagged[b.first];
+      if (now.lag == FrictionLag::gap) d[0] += q.lagged[b.first];
     }
 
     // Multipliers, their curvature, the gradient, the preconditioner and the direction of steepest descent;
@@ -267,24 +384,31 @@ struct ConvexProblem {
         contact_potential::curvature(b, rowsOf(b), d, q.curvature + 3 * b.first);
         for (int r = 0; r < b.rows; ++r) mean += q.compliance[b.first + r];
         const double away = contact_potential::natural_map(
-            b, q.lag, mean / b.rows, q.violation + b.first, q.multipliers + b.first);
+            b, now.lag, mean / b.rows, q.violation + b.first, q.multipliers + b.first);
         local[3] = away > local[3] ? away : local[3];
       });
       team.sync();
-      team.each(q.all, [&](int i) {
+      team.each(all, [&](int i) {
         Vector reaction = Vector::Zero();
-        Block sum = q.load(q.system, i), inverse;
-        for (int k = q.ofPoint[i]; k < q.ofPoint[i + 1]; ++k) addEntry(q.entry[k], reaction, sum);
+        Block sum = q.load(q.diagonal, i), inverse;
+        eachEntry(i, [&](int e, ConstraintBlock const& b) { addForce(e, b, q.multipliers, reaction); });
+        for (int k = q.pairsOfPoint[i]; k < q.pairsOfPoint[i + 1]; ++k) {
+          const int own = q.pair[2 * k], other = q.pair[2 * k + 1];
+          const Block coupled = couplingOf(q.block[q.blockOf[own]], own, other);
+          for (int c = 0; c < 9; ++c) q.coupling[9 * std::ptrdiff_t(k) + c] = coupled(c / 3, c % 3);
+          if (own == other) sum += coupled;
+        }
         invert(sum, inverse);
-        const Vector momentum = q.at(q.momentum, i), gradient = momentum - reaction;
-        const Vector steepest = -(inverse * gradient), v = q.at(q.velocity, i), answer = inverse * reaction;
+        const Vector momentum = vector_at(q.momentum, i), gradient = momentum - reaction;
+        const Vector steepest = -(inverse * gradient), v = vector_at(q.velocity, i),
+                     answer = inverse * reaction, rest = q.system.restOf(i);
         q.store(q.inverse, i, inverse);
-        q.put(q.gradient, i, gradient);
-        q.put(q.residual, i, -gradient);
-        q.put(q.scaled, i, steepest);
-        q.put(q.step, i, Vector(Vector::Zero()));
+        put_vector(q.gradient, i, gradient);
+        put_vector(q.newton.residual, i, -gradient);
+        put_vector(q.newton.scaled, i, steepest);
+        put_vector(q.newton.solution, i, Vector(Vector::Zero()));
         for (int c = 0; c < 3; ++c) {
-          local[0] += v[c] * momentum[c];
+          local[0] += v[c] * (momentum[c] + rest[c]);
           local[1] += reaction[c] * answer[c];
           local[2] -= gradient[c] * steepest[c];
         }
@@ -292,100 +416,54 @@ struct ConvexProblem {
       team.template reduce<3>(local);
       const double energy = local[0] > local[1] ? local[0] : local[1];
       const double size = local[2] > 0 ? std::sqrt(local[2]) : local[2] <= 0 ? 0 : local[2];
-      found.momentum = energy > 0 ? size / std::sqrt(energy) : size;
-      found.residual = local[3];
+      now.found.momentum = energy > 0 ? size / std::sqrt(energy) : size;
+      now.found.residual = local[3];
       rho = local[2];
       return size;
-    }
-    // J' f and J' G J of an entry
-    SINEW_INLINE void addEntry(int e, Vector& reaction, Block& sum) const {
-      ConstraintBlock const& b = q.block[q.blockOf[e]];
-      double const *const f = q.multipliers + b.first, *const G = q.curvature + 3 * b.first;
-      const bool friction = b.kind == ConstraintBlock::Kind::friction;
-      for (int r = 0; r < b.rows; ++r) {
-        const Vector j = q.row(e, r);
-        for (int c = 0; c < 3; ++c) reaction[c] += f[r] * j[c];
-        Vector curved = G[r] * j;
-        if (friction) {
-          curved.setZero();
-          for (int s = 0; s < 3; ++s) {
-            const Vector other = q.row(e, s);
-            for (int c = 0; c < 3; ++c) curved[c] += G[3 * s + r] * other[c];
-          }
-        }
-        for (int c = 0; c < 3; ++c)
-          for (int a = 0; a < 3; ++a) sum(a, c) += j[a] * curved[c];
-      }
     }
 
     // A Newton step by conjugate gradients and an exact line search; false where no direction was found.
     SINEW_INLINE bool newton() {
+      ConvexStepResult& found = now.found;
       found.newtonIterations += 1;
-      const double end = q.forcing * q.forcing * rho;
-      double beta = 0;
-      int which = 0;
-      bool any = false;
-      while (rho > end && found.conjugateGradients < q.maxConjugateGradients) {
-        found.conjugateGradients += 1;
-        // p = z + beta p on the way; what others still read is in the other vector
-        double const* const last = q.direction[which];
-        double* const next = q.direction[1 - which];
-        auto p = [&](int j) {
-          Vector v = q.at(q.scaled, j);
-          if (beta != 0)
-            for (int c = 0; c < 3; ++c) v[c] += beta * last[3 * j + c];
-          return v;
-        };
-        double curvature[1] = {0};
-        team.eachRow(q.all, [&](int i, int lane) {
-          double sum[3] = {0, 0, 0};
-          addRow(i, lane, p, sum);
-          addTerms(i, lane, Team::lanes, p, sum);
-          team.sumOfRow(sum);
-          if (lane != 0) return;
-          const Vector own = p(i);
-          q.put(next, i, own);
-          put(q.product, i, sum);
-          for (int c = 0; c < 3; ++c) curvature[0] += own[c] * sum[c];
-        });
-        team.template reduce<1>(curvature);
-        if (!(curvature[0] > 0)) break;
-        any = true;
-        const double alpha = rho / curvature[0];
-        double now[1] = {0};
-        team.each(q.all, [&](int i) {
-          Vector left;
-          for (int c = 0; c < 3; ++c) {
-            q.step[3 * i + c] += alpha * next[3 * i + c];
-            left[c] = q.residual[3 * i + c] - alpha * q.product[3 * i + c];
-          }
-          const Vector z = q.load(q.inverse, i) * left;
-          q.put(q.residual, i, left);
-          q.put(q.scaled, i, z);
-          for (int c = 0; c < 3; ++c) now[0] += left[c] * z[c];
-        });
-        team.template reduce<1>(now);
-        beta = now[0] / rho;
-        rho = now[0];
-        which = 1 - which;
-      }
-      if (!any) return false;
+      const GradientsFound gradients = team_gradients(
+          team,
+          all,
+          q.newton,
+          rho,
+          q.settings.forcing * q.settings.forcing * rho,
+          q.settings.maxConjugateGradients - found.conjugateGradients,
+          [&](int i, int lane, auto const& p, double(&sum)[3]) {
+            rows.add(i, lane, p, sum);
+            addTerms(i, lane, Team::lanes, p, sum);
+          },
+          [&](int i, double(&sum)[3]) { rows.hold(i, sum); },
+          [&](int i, int c, Vector const& r) {
+            double sum = 0;
+            for (int k = 0; k < 3; ++k) sum += q.inverse[(3 * c + k) * std::ptrdiff_t(all) + i] * r[k];
+            return sum;
+          },
+          [](double curvature) { return curvature > 0; });
+      found.conjugateGradients += gradients.iterations;
+      if (!gradients.any) return false;
       // A dv = -grad - residual - J' G J dv
       double line[2] = {0, 0};
-      auto step = [&](int j) { return q.at(q.step, j); };
-      team.each(q.all, [&](int i) {
+      auto step = [&](int j) { return vector_at(q.newton.solution, j); };
+      team.each(all, [&](int i) {
         double terms[3] = {0, 0, 0};
+        const Vector move = step(i), momentum = vector_at(q.momentum, i),
+                     left = vector_at(q.gradient, i) + vector_at(q.newton.residual, i);
         addTerms(i, 0, 1, step, terms);
+        Vector product;
         for (int c = 0; c < 3; ++c) {
-          const int k = 3 * i + c;
-          q.product[k] = -(terms[c] + q.gradient[k] + q.residual[k]);
-          line[0] += q.step[k] * q.momentum[k];
-          line[1] += q.step[k] * q.product[k];
+          product[c] = -(terms[c] + left[c]);
+          line[0] += move[c] * momentum[c];
+          line[1] += move[c] * product[c];
         }
+        put_vector(q.newton.product, i, product);
       });
       team.each(q.blocks, [&](int k) { rates(k, step, q.rate + q.block[k].first); });
       team.template reduce<2>(line);
-      int looks = 0;
       const double t = exact_line_search(
           line[0],
           line[1],
@@ -402,13 +480,12 @@ struct ConvexProblem {
             team.template reduce<2>(slope);
             return contact_potential::Slope{slope[0], slope[1]};
           },
-          looks);
-      found.lineSearches += looks;
-      team.each(q.all, [&](int i) {
-        for (int c = 3 * i; c < 3 * i + 3; ++c) {
-          q.velocity[c] += t * q.step[c];
-          q.momentum[c] += t * q.product[c];
-        }
+          found.lineSearches);
+      team.each(all, [&](int i) {
+        const Vector v = vector_at(q.velocity, i) + t * vector_at(q.newton.solution, i),
+                     momentum = vector_at(q.momentum, i) + t * vector_at(q.newton.product, i);
+        put_vector(q.velocity, i, v);
+        put_vector(q.momentum, i, momentum);
       });
       team.each(q.blocks, [&](int k) {
         ConstraintBlock const& b = q.block[k];

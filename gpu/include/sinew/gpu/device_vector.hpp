@@ -97,6 +97,9 @@ class DeviceVector {
 
   // the host's side
 
+  /// Whether the host may look at it without a copy.
+  bool isOnHost() const { return newest_ != Side::device; }
+
   std::vector<T> const& host() const {
     download();
     return host_;

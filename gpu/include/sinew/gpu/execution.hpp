@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstring>
 #include <new>
 #include <utility>
 
@@ -130,6 +131,17 @@ void copy_on_device(T* to, T const* from, std::size_t n) {
 #endif
 }
 
+/// Makes all bytes 0.
+template <class T>
+void clear_on_device(T* to, std::size_t n) {
+  if (n == 0) return;
+#if SINEW_CUDA
+  check(cudaMemsetAsync(to, 0, n * sizeof(T), stream()), "a loop on the GPU");
+#else
+  std::memset(static_cast<void*>(to), 0, n * sizeof(T));
+#endif
+}
+
 /// Memory of the device, not initialised; T holds nothing but numbers. It grows, and stays when it shrinks.
 template <class T>
 class DeviceArray {
@@ -225,6 +237,8 @@ class Arrival {
     std::copy_n(from, n, buffer_);
 #endif
   }
+  /// What has come, once it was taken.
+  T const* data() const { return buffer_; }
   /// Waits for it, and for nothing that has been queued since.
   void take(T* to, std::size_t n) const {
 #if SINEW_CUDA

@@ -3,6 +3,7 @@
 
 #include <sinew/gpu/block_rows.hpp>
 #include <sinew/gpu/convex_motion.hpp>
+#include <sinew/gpu/team_solver.hpp>
 #include <sinew/state/vector_operations.hpp>
 
 namespace sinew {
@@ -12,6 +13,7 @@ struct SolverWorkspace<CudaTypes<H>> {
   gpu::DeviceVector<double> numbers{};             // of conjugate gradients (CgScalars)
   gpu::DeviceVector<typename H::Real> diagonal{};  // blocks of a preconditioner (PointBlocks), two a point
   gpu::BlockRows<CudaTypes<H>> rows{};             // the assembled system
+  gpu::TeamSolver<CudaTypes<H>> team{};            // of all bodies of a linear solver, in the first of them
   gpu::ConvexMotion<CudaTypes<H>> motion{};        // of a scene with constraints by multipliers
 };
 

@@ -65,6 +65,13 @@ struct VectorOperations<CudaTypes<H>> {
   static void move(VecCoord& x, VecDeriv const& a, Real f) {
     gpu::for_each_index(x.size(), Move{x.device(), a.device(), f});
   }
+  static void difference(VecDeriv& r, VecCoord const& a, VecCoord const& b) {
+    gpu::for_each_index(r.size(), Difference{r.overwrite(), a.device(), b.device()});
+  }
+  template <class V>
+  static void bringToHost(V const& v) {
+    v.bringToHost();
+  }
   static void teq(VecDeriv& r, Real f) {
     Real* const to = flat(r);
     gpu::for_each_index(scalars(r), Scale{to, to, f});
@@ -86,7 +93,7 @@ struct VectorOperations<CudaTypes<H>> {
   }
   static int findNotFinite(VecCoord const& x) {
     if (gpu::recording()) return -1;
-    if (gpu::sum_on_host(x.size(), NotFinite{x.device()}) == 0) return -1;
+    if (!x.isOnHost() && gpu::sum_on_host(x.size(), NotFinite{x.device()}) == 0) return -1;
     for (std::size_t i = 0; i < x.size(); ++i)
       if (!D::finite(x[i])) return int(i);
     return -1;
@@ -153,6 +160,11 @@ struct VectorOperations<CudaTypes<H>> {
     Deriv const* from;
     Real f;
     SINEW_HD void operator()(int i) const { D::increment(to[i], Deriv(f * from[i])); }
+  };
+  struct Difference {
+    Deriv* to;
+    Coord const *a, *b;
+    SINEW_HD void operator()(int i) const { to[i] = D::difference(a[i], b[i]); }
   };
   struct Xpay {
     Real* p;

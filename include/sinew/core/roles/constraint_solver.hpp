@@ -55,7 +55,7 @@ bool has_solved([[maybe_unused]] C const& solver) {
 }
 
 /// A solver of the motion that lets others find it, where states are not in the host's memory: solveMotionBy(solve, where) calls
-/// solve(ConvexStepSettings), which is ConvexStep::solve for them.
+/// solve(ConvexStepSettings, std::vector<double>& lastMotion), which is ConvexStep::solve for them.
 template <class C>
 concept LetsMotionBeSolved = SolvesMotion<C> && named::solveMotionBy<C>;
 
