@@ -12,6 +12,12 @@ namespace cli {
 /// What the program's exit status says.
 enum Exit { ok = 0, badScene = 1, badUsage = 2, diverged = 3, notWritten = 4, interrupted = 130 };
 
+/// Ends a command: what to print on standard error, and the exit status.
+struct Failure {
+  int status;
+  std::vector<std::string> messages;
+};
+
 using Settings = std::vector<std::pair<std::string, std::string>>;  // "liver/fem.youngModulus" and its value
 
 struct SceneOptions {
@@ -81,7 +87,7 @@ struct Options {
 /// `status` the exit status.
 Options read_options(int argc, char** argv, int& status);
 
-// the commands; each returns the exit status, or throws Failure (scene.hpp)
+// the commands; each returns the exit status, or throws Failure
 int run(RunOptions const& options);
 int view(ViewOptions const& options);
 int check(CheckOptions const& options);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "options.hpp"
-#include "scene.hpp"
 
 #include <cstdio>
 #include <exception>

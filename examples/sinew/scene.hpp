@@ -12,12 +12,6 @@ namespace cli {
 
 using Node = sinew::RuntimeNode<sinew::Standard>;
 
-/// Ends a command: what to print on standard error, and the exit status.
-struct Failure {
-  int status;
-  std::vector<std::string> messages;
-};
-
 /// What a scene is made of.
 struct Count {
   std::size_t nodes = 0, components = 0, degreesOfFreedom = 0;
