@@ -8,6 +8,7 @@
 #include <sinew/gpu/recorded_step.hpp>
 
 #include <limits>
+#include <type_traits>
 
 namespace test_scenes_contact {
 
@@ -40,8 +41,8 @@ Eigen::Vector3d mean_velocity(Sim& sim) {
 }  // namespace
 
 TEST_CASE("a block slides on a plane on the device as on the host") {
-  // Each of 60 steps is solved to 1e-12 m by both, in another order of sums; as a velocity that goes on to the
-  // end, which makes 60^2 / 2 of them, 2e-9 m, where all have one sign.
+  // Each of 60 steps is solved to 1e-12 m by both, in another order of sums; as a velocity that goes on to
+  // the end, which makes 60^2 / 2 of them, 2e-9 m, where all have one sign.
   same_as_host<SlidingBlock, Vec3d>(1e-8);
 }
 TEST_CASE("a block slides on a plane on the device in float as on the host") {
@@ -64,6 +65,34 @@ TEST_CASE("the motion with contacts of bodies on the device is found there") {
   CHECK(on_device(SlidingBlock::make<CudaVec3f>()));
   CHECK(on_device(HeldBlock::make<CudaVec3d>()));
   CHECK(on_device(StackedBlocks::make<CudaVec3d>()));
+}
+
+TEST_CASE("what a linear solver on the device leaves of the free motion is solved with the contacts") {
+  auto at_end = []<class Linear>(double tolerance, std::type_identity<Linear>) {
+    auto sim = BlockOnPlane{.slope = 0.3, .linearTolerance = tolerance}.make<CudaVec3d, Linear>();
+    sim.init();
+    for (int i = 0; i < 20; ++i) sim.animate(dt);
+    return places<SlidingBlock>(sim);
+  };
+  auto far = [](auto const& a, auto const& b) {
+    double most = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, std::abs(a[i] - b[i]));
+    return most;
+  };
+  constexpr std::type_identity<CGLinearSolver<>> scattered;
+  constexpr std::type_identity<CGLinearSolver<CompressedRowSparseMatrixMat3x3d>> assembled;
+  const auto exact = at_end(1e-12, scattered);
+  CHECK(far(at_end(1e-2, scattered), exact) < 1e-8);
+  CHECK(far(at_end(1e-2, assembled), exact) < 1e-8);
+}
+
+TEST_CASE("a copy of a scene with contacts on the device goes on with the same bits") {
+  auto sim = SlidingBlock::make<CudaVec3d>();
+  sim.init();
+  for (int i = 0; i < 3; ++i) sim.animate(dt);
+  auto copy = sim;
+  for (int i = 0; i < 3; ++i) sim.animate(dt), copy.animate(dt);
+  CHECK(places<SlidingBlock>(copy) == places<SlidingBlock>(sim));
 }
 
 TEST_CASE("multipliers on the device sum to the weight of a block at rest") {

@@ -19,6 +19,7 @@ struct BlockOnPlane {
   static constexpr double mass = 500, g = 9.81;
   int cells = 4;
   double slope = 0, mu = 0.2;  // of the plane [rad]: gravity is turned
+  double linearTolerance = 1e-12;
 
   Mesh mesh() const {
     return regular_grid_tetrahedra(cells + 1, cells + 1, cells / 2 + 1, {0, 0, 0}, {1, 1, 0.5});
@@ -53,13 +54,16 @@ struct BlockOnPlane {
   }
   static ConvexConstraintSolver solver() { return {.tolerance = 1e-12, .momentumTolerance = 1e-12}; }
   static EulerImplicitSolver ode() { return {.rayleighStiffness = 0.02}; }
-  static CGLinearSolver<> linear() { return {.iterations = 200, .tolerance = 1e-12}; }
+  template <class Linear = CGLinearSolver<>>
+  Linear linear() const {
+    return {.iterations = 200, .tolerance = linearTolerance};
+  }
   template <class D>
   static auto material() {
     return TetrahedronFEMForceField<D>{.youngModulus = {2e5}, .poissonRatio = 0.3};
   }
 
-  template <class D>
+  template <class D, class Linear = CGLinearSolver<>>
   auto make() const {
     const Mesh m = mesh();
     return Simulation{
@@ -69,7 +73,7 @@ struct BlockOnPlane {
                      onGround<D>(mu),
                      ground<D>(),
                      node<"body">(ode(),
-                                  linear(),
+                                  linear<Linear>(),
                                   MeshTopology{.position = m.positions, .tetrahedra = m.tetrahedra},
                                   MechanicalObject<D>{},
                                   UniformMass<D>{.totalMass = mass},

@@ -54,15 +54,26 @@ struct AugmentedLagrangianConstraint {
     check_contacts(*this, first, second);
   }
 
+  PointContact contactAt(std::size_t i) const {
+    PointContact contact = contact_of(*this, i);
+    contact.compliance = compliance;
+    contact.damping = damping;
+    return contact;
+  }
   void addRows(ConstraintRows& rows, ConstrainedState<D> const& state) const { addRows(rows, state, state); }
   void addRows(ConstraintRows& rows, ConstrainedState<D> const& first,
                ConstrainedState<D> const& second) const {
-    for (std::size_t i = 0; i < first_point.size(); ++i) {
-      PointContact contact = contact_of(*this, i);
-      contact.compliance = compliance;
-      contact.damping = damping;
-      add_contact(rows, contact, first, second, between ? 1 : 0);
-    }
+    const int row = rows.count();
+    addJacobian(rows);
+    setViolations(rows, row, first, second);
+  }
+  void addJacobian(ConstraintRows& rows) const { add_contacts(*this, rows); }
+  void setViolations(ConstraintRows& rows, int row, ConstrainedState<D> const& state) const {
+    setViolations(rows, row, state, state);
+  }
+  void setViolations(ConstraintRows& rows, int row, ConstrainedState<D> const& first,
+                     ConstrainedState<D> const& second) const {
+    set_violations(*this, rows, row, first, second);
   }
 };
 

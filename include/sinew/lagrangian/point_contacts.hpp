@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 namespace sinew {
@@ -28,12 +29,34 @@ struct PointContact {
   double damping = 0;     // c [N s/m]
 };
 
-/// Adds the row of a contact, or three with friction. `secondSide`: 1 where the second point is of another
-/// state.
+/// Two directions across the normal and each other.
+inline std::pair<Eigen::Vector3d, Eigen::Vector3d> tangents_of(PointContact const& contact) {
+  const Eigen::Vector3d t = contact.normal.unitOrthogonal();
+  return {t, contact.normal.cross(t)};
+}
+
+/// Adds the row of a contact, or three with friction, without their violations. `secondSide`: 1 where the
+/// second point is of another state.
 template <class D>
-void add_contact(ConstraintRows& rows, PointContact const& contact, ConstrainedState<D> const& first,
-                 ConstrainedState<D> const& second, int secondSide) {
+void add_contact(ConstraintRows& rows, PointContact const& contact, int secondSide) {
   static_assert(!D::rigid && D::size == 3, "contacts are between points in space");
+  auto fill = [&](int row, Eigen::Vector3d const& direction) {
+    const typename D::Deriv j = direction.template cast<typename D::Real>();
+    rows.addTo(row, contact.first, typename D::Deriv(-j));
+    rows.addTo(row, contact.second, j, secondSide);
+  };
+  const int row = contact.mu > 0 ? rows.addContact(contact.mu) : rows.addUnilateral();
+  fill(row, contact.normal);
+  if (!(contact.mu > 0)) return;
+  const auto [t, s] = tangents_of(contact);
+  fill(row + 1, t);
+  fill(row + 2, s);
+}
+
+/// Sets the violations of a contact whose first row is given; returns that of the next one.
+template <class D>
+int set_violation(ConstraintRows& rows, int row, PointContact const& contact,
+                  ConstrainedState<D> const& first, ConstrainedState<D> const& second) {
   using Vector = Eigen::Vector3d;
   const auto a = std::size_t(contact.first), b = std::size_t(contact.second);
   const double h = first.dt;
@@ -45,25 +68,18 @@ void add_contact(ConstraintRows& rows, PointContact const& contact, ConstrainedS
   const double unit = rows.ofVelocity ? 1 / h : 1;
   const double before = contact.normal.dot(start) - contact.distance;
   const double d = contact.normal.dot(end) - unit * contact.distance;
-
-  auto fill = [&](int row, Vector const& direction, double violation) {
-    const typename D::Deriv j = direction.template cast<typename D::Real>();
-    rows.addTo(row, contact.first, typename D::Deriv(-j));
-    rows.addTo(row, contact.second, j, secondSide);
-    rows.setViolation(row, violation);
-  };
   // d + C f + C c (d - d0)/h = 0 over 1 + r, r = C c/h
   const double r = contact.compliance * contact.damping / h;
-  const int row = contact.mu > 0 ? rows.addContact(contact.mu) : rows.addUnilateral();
-  fill(row, contact.normal, d - unit * r / (1 + r) * std::min(before, 0.0));
+  rows.setViolation(row, d - unit * r / (1 + r) * std::min(before, 0.0));
   rows.soften(row, unit * contact.compliance / (1 + r));
-  if (!(contact.mu > 0)) return;
-  // of a motion that begins apart only the part behind the touch; rates are those at the end
+  if (!(contact.mu > 0)) return row + 1;
+  // of a motion that begins apart only the part behind the touch: rates are those at the end
   const double touching = rows.ofVelocity || before <= 0 ? 1 : d < 0 ? d / (d - before) : 0;
   const Vector slide = touching * (end - unit * start);
-  const Vector t = contact.normal.unitOrthogonal(), s = contact.normal.cross(t);
-  fill(row + 1, t, t.dot(slide));
-  fill(row + 2, s, s.dot(slide));
+  const auto [t, s] = tangents_of(contact);
+  rows.setViolation(row + 1, t.dot(slide));
+  rows.setViolation(row + 2, s.dot(slide));
+  return row + 3;
 }
 
 /// Throws Error unless there is a point, a normal that is not zero, and one value or one for each in the
@@ -103,6 +119,19 @@ PointContact contact_of(C const& c, std::size_t i) {
           one_or_each(c.normal, i).normalized().template cast<double>(),
           one_or_each(c.contactDistance, i),
           one_or_each(c.mu, i)};
+}
+
+/// The rows of all contacts of such a constraint, which are contactAt(i), and their violations.
+template <class C>
+void add_contacts(C const& c, ConstraintRows& rows) {
+  for (std::size_t i = 0; i < c.first_point.size(); ++i)
+    add_contact<typename C::DataTypes>(rows, c.contactAt(i), C::between ? 1 : 0);
+}
+template <class C, class D>
+void set_violations(C const& c, ConstraintRows& rows, int row, ConstrainedState<D> const& first,
+                    ConstrainedState<D> const& second) {
+  for (std::size_t i = 0; i < c.first_point.size(); ++i)
+    row = set_violation(rows, row, c.contactAt(i), first, second);
 }
 
 /// The fields of such a constraint C, and more.

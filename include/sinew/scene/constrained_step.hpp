@@ -145,13 +145,18 @@ struct ConstrainedStep {
     m.rows.entries.clear();
     std::array<ConstrainedSystem*, 2> systems{};
     with_states_of(c, scope, [&](auto const&... s) {
-      c.addRows(m.rows, seen<D>(s)...);
+      if constexpr (SetsViolations<C>)
+        c.addJacobian(m.rows);
+      else
+        c.addRows(m.rows, seen<D>(s)...);
       systems = {systemOf(s, m)...};
     });
     with_dofs_of(c, scope, [&](auto const& first, auto const& second) {
       for (ConstraintRows::Entry const& e : m.rows.entries)
         e.side == 0 ? expand(e, first, systems[0]) : expand(e, second, systems[1]);
     });
+    if constexpr (SetsViolations<C>)
+      with_states_of(c, scope, [&](auto const&... s) { c.setViolations(m.rows, before, seen<D>(s)...); });
     const auto count = std::size_t(m.rows.count() - before);
     m.rowsOf.push_back(int(count));
     if constexpr (KeepsMultipliers<C>)

@@ -55,8 +55,13 @@ template <class C>
 concept InteractionLagrangianConstraint =
     HasRole<C, role::LagrangianConstraint> && JoinsTwo<C> && HasInitOfTwo<C> && HasRowsOfTwo<C>;
 
-// Hook:
+// Hooks:
 
+/// Its rows, and which points these are of, do not depend on the states: addJacobian(rows) adds them, and
+/// setViolations(rows, first row, state), of two states with both, comes behind. Rows are then made while states are on their
+/// way from a device.
+template <class C>
+concept SetsViolations = requires(C const c, ConstraintRows& rows) { c.addJacobian(rows); };
 /// Keeps the multipliers f [N] of its rows after each step, `std::vector<double> multipliers`; where the next step has as
 /// many rows, they are the first guess of its solver.
 template <class C>
