@@ -13,7 +13,7 @@ import tempfile
 
 root = pathlib.Path(__file__).resolve().parents[2]
 layers = ["core", "topology", "linalg", "state", "context", "force", "mass", "constraint", "mapping", "collision", "solver",
-          "io", "engine", "control", "visual", "scene", "runtime"]
+          "lagrangian", "io", "engine", "control", "visual", "scene", "runtime"]
 COMPILED = "#define SINEW_COMPILED\n"
 optional = {"cholmod_solver.hpp", "convex.hpp", "contact_manifold.hpp", "hull_contacts.hpp", "hull_impact.hpp",
             "hull_ray.hpp", "moved_primitive.hpp", "convex_collision_model.hpp"}  # need a package
@@ -51,8 +51,9 @@ def subjects():
     """Names and sources; those with COMPILED see sinew::compiled."""
     yield "sinew.hpp alone", "#include <sinew/sinew.hpp>\n"
     yield "sinew.hpp, sinew::compiled", COMPILED + "#include <sinew/sinew.hpp>\n"
-    for part in ("mechanics", "contact", "engines", "control"):
+    for part in ("mechanics", "contact", "engines", "control", "lagrangian"):
         yield f"{part}.hpp alone", f"#include <sinew/{part}.hpp>\n"
+        yield f"{part}.hpp, sinew::compiled", COMPILED + f"#include <sinew/{part}.hpp>\n"
     yield "README.md", readme()
     yield "README.md, sinew::compiled", COMPILED + readme()
     for name in layers:
