@@ -13,15 +13,14 @@ namespace cli {
 
 struct Frames::Parts {
   sinew::view::Painter painter;
-  std::string folder, filmPath;
+  std::string folder;
   std::optional<sinew::view::Film> film{};
   long pictures = 0;
 };
 
 Frames::Frames(RunOptions const& options, double picturesPerSecond)
     : parts_(new Parts{.painter = sinew::view::Painter({.width = options.width, .height = options.height}),
-                       .folder = options.png,
-                       .filmPath = options.film}) {
+                       .folder = options.png}) {
   if (!options.png.empty()) sinew::io::make_folders(options.png);
   if (!options.film.empty())
     parts_->film.emplace(options.film, options.width, options.height, picturesPerSecond);
@@ -43,7 +42,7 @@ std::vector<std::string> Frames::finish() {
   std::vector<std::string> files;
   if (!parts_->folder.empty())
     files.push_back(sinew::text(parts_->folder, " (", parts_->pictures, " pictures)"));
-  if (parts_->film) parts_->film->finish(), files.push_back(parts_->filmPath);
+  if (parts_->film) parts_->film->finish(), files.push_back(parts_->film->path());
   return files;
 }
 

@@ -42,10 +42,6 @@ struct Carving {
  private:
   using Corners = std::array<int, 3>;
 
-  static bool isBelow(std::string const& path, std::string const& above) {
-    return path.starts_with(above) && (path.size() == above.size() || path[above.size()] == '/');
-  }
-
   template <class C, class S>
   void check(C& carving, S const& scope) const {
     auto wrong = [&](auto const&... what) {
@@ -63,9 +59,9 @@ struct Carving {
     traverse(root, on<role::CollisionModel>([&](auto const& model, auto const& s) {
                const std::string path = s.path();
                models += text(models.empty() ? "" : ", ", path);
-               if (isBelow(path, tool))
+               if (is_below(path, tool))
                  hasTool = true;
-               else if (isBelow(path, body) && model.surface.shape == Shape::triangle)
+               else if (is_below(path, body) && model.surface.shape == Shape::triangle)
                  hasBody = hasBody || bodyUnder(s.stateAddress()).address;
              }));
     if (!hasTool)
@@ -131,13 +127,13 @@ struct Carving {
     std::string const &tool = carving.tool, &body = carving.body;
     for (std::size_t s = 0; s < manager.surfaces.size(); ++s) {
       CollisionSurface const& surface = *manager.surfaces[s];
-      if (surface.shape != Shape::triangle || isBelow(surface.path, tool) || !isBelow(surface.path, body))
+      if (surface.shape != Shape::triangle || is_below(surface.path, tool) || !is_below(surface.path, body))
         continue;
       std::vector<Corners> triangles;
       for (Contact const& c : manager.contacts) {
         if (!near(c)) continue;
         for (auto [mine, other] : {std::pair(&c.a, &c.b), std::pair(&c.b, &c.a)})
-          if (mine->surface == int(s) && isBelow(manager.surfaces[std::size_t(other->surface)]->path, tool))
+          if (mine->surface == int(s) && is_below(manager.surfaces[std::size_t(other->surface)]->path, tool))
             triangles.push_back(sorted_corners(surface.elements[std::size_t(mine->element)]));
       }
       if (triangles.empty()) continue;

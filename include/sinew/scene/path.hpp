@@ -12,6 +12,11 @@ namespace sinew {
 /// "/tool" and "@/tool" are below the root.
 std::string path_from(std::string_view where, std::string_view path);
 
+/// Whether a path is that of a node or of one below it.
+inline bool is_below(std::string_view path, std::string_view node) {
+  return path.starts_with(node) && (path.size() == node.size() || path[node.size()] == '/');
+}
+
 }  // namespace sinew
 
 #if SINEW_DEFINES

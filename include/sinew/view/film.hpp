@@ -78,6 +78,7 @@ class Film {
     std::signal(SIGPIPE, before);
     if (done < image.rgb.size()) fail("ffmpeg ended early; what it says is above");
   }
+  std::string const& path() const { return path_; }
   /// The film is whole.
   void finish() {
     close();

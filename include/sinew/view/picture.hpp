@@ -52,17 +52,17 @@ class Painter {
  public:
   /// Throws Error where the size is none, and where there is no OpenGL 3.3.
   explicit Painter(PictureSettings const& settings = {}) : settings_(checked(settings)) {
-    glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest_);
-    if (settings_.width > largest_ || settings_.height > largest_)
+    GLint largest = 0, samples = 0;
+    glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
+    if (settings_.width > largest || settings_.height > largest)
       throw Error("pictures",
                   text("a picture of ",
                        settings_.width,
                        " x ",
                        settings_.height,
                        " pixels is larger than the ",
-                       largest_,
+                       largest,
                        " that OpenGL has room for here; ask for a smaller one"));
-    GLint samples = 0;
     glGetIntegerv(GL_MAX_SAMPLES, &samples);
     attach(smooth_, std::min(samples, 8));
     attach(plain_, 0);
@@ -96,7 +96,6 @@ class Painter {
   OffscreenContext context_{};  // before what is made in it
   Renderer renderer_{};
   Target smooth_{}, plain_{};
-  GLint largest_ = 0;
 
   static PictureSettings const& checked(PictureSettings const& settings) {
     if (settings.width < 1 || settings.height < 1)

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <string>
-#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -17,17 +16,15 @@ struct TreeLine {
   int depth = 0;
   std::string name{};       // of the node; of the component what it is called
   std::string className{};  // "TetrahedronFEMForceField<Vec3d>"; empty: a node
-  std::string path{};       // of the node
 };
 
 namespace detail {
 
 template <class Node>
 void add_runtime_tree(Node& node, int depth, std::vector<TreeLine>& lines) {
-  const std::string path = node.path();
-  lines.push_back({depth, node.name, {}, path});
+  lines.push_back({depth, node.name, {}});
   for (auto const& entry : node.components())
-    lines.push_back({depth + 1, entry.name, std::string(entry.component.name()), path});
+    lines.push_back({depth + 1, entry.name, std::string(entry.component.name())});
   for (auto const& child : node.children()) add_runtime_tree(*child, depth + 1, lines);
 }
 
@@ -45,9 +42,9 @@ std::vector<TreeLine> scene_tree(Simulation& simulation) {
       using C = std::decay_t<decltype(component)>;
       const std::string path = scope.path();
       const int depth = int(std::count(path.begin(), path.end(), '/'));
-      if (path != last) lines.push_back({depth - 1, path.substr(path.rfind('/') + 1), {}, path});
+      if (path != last) lines.push_back({depth - 1, path.substr(path.rfind('/') + 1), {}});
       last = path;
-      lines.push_back({depth, {}, component_name<C>(), path});
+      lines.push_back({depth, {}, component_name<C>()});
     });
   }
   return lines;

@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/collision/ray_hits.hpp>
 #include <sinew/core/context.hpp>
 #include <sinew/core/roles/state.hpp>
 #include <sinew/core/roles/visual_model.hpp>
+#include <sinew/scene/path.hpp>
 #include <sinew/topology/border.hpp>
 
 #include <Eigen/Core>
 #include <algorithm>
 #include <limits>
+#include <span>
 #include <string>
-#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -64,9 +66,6 @@ inline void show_elements(TopologyView const& topology, SeenBody& body) {
   body.quads = listed(topology.quads);
   if (body.triangles.empty() && body.quads.empty()) body.edges = listed(topology.edges);
 }
-inline bool is_below(std::string_view path, std::string_view node) {
-  return path.starts_with(node) && (path.size() == node.size() || path[node.size()] == '/');
-}
 
 }  // namespace detail
 
@@ -106,7 +105,7 @@ SeenScene seen_scene(Simulation& simulation) {
   });
   for (SeenBody& state : states)
     if (std::none_of(seen.bodies.begin(), seen.bodies.end(), [&](SeenBody const& other) {
-          return detail::is_below(other.path, state.path);
+          return is_below(other.path, state.path);
         }))
       seen.bodies.push_back(std::move(state));
   std::stable_sort(seen.bodies.begin(), seen.bodies.end(), [](SeenBody const& a, SeenBody const& b) {
@@ -115,22 +114,17 @@ SeenScene seen_scene(Simulation& simulation) {
   return seen;
 }
 
-/// Whether a ray meets a face of a scene.
+/// Whether a ray meets a face of a scene; the direction has length 1.
 inline bool meets(SeenScene const& scene, Eigen::Vector3d const& origin, Eigen::Vector3d const& direction) {
-  // Moeller, Trumbore (1997)
-  auto meetsFace = [&](Eigen::Vector3d const& a, Eigen::Vector3d const& b, Eigen::Vector3d const& c) {
-    const Eigen::Vector3d ab = b - a, ac = c - a, p = direction.cross(ac), from = origin - a;
-    const double volume = ab.dot(p), u = from.dot(p) / volume;
-    const Eigen::Vector3d q = from.cross(ab);
-    const double v = direction.dot(q) / volume, t = ac.dot(q) / volume;
-    return u >= 0 && v >= 0 && u + v <= 1 && t > 0;
-  };
   for (SeenBody const& body : scene.bodies) {
-    auto at = [&](Index i) -> Eigen::Vector3d const& { return body.points[std::size_t(i)]; };
-    for (auto const& [a, b, c] : body.triangles)
-      if (meetsFace(at(a), at(b), at(c))) return true;
+    auto hit = [&](Triangle const& t) {
+      auto at = [&](int k) -> Eigen::Vector3d const& { return body.points[std::size_t(t[std::size_t(k)])]; };
+      return bool(ray_triangle({origin, direction}, {at(0), at(1), at(2)}, t));
+    };
+    for (Triangle const& t : body.triangles)
+      if (hit(t)) return true;
     for (auto const& [a, b, c, d] : body.quads)
-      if (meetsFace(at(a), at(b), at(c)) || meetsFace(at(a), at(c), at(d))) return true;
+      if (hit({a, b, c}) || hit({a, c, d})) return true;
   }
   return false;
 }

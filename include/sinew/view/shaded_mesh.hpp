@@ -5,11 +5,11 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
-#include <set>
 #include <vector>
 
 namespace sinew::view {
@@ -62,18 +62,19 @@ inline ShadedMesh shaded_mesh(SeenBody const& body) {
     faces.insert(faces.end(), {Triangle{a, b, c}, Triangle{a, c, d}});
   detail::add_faces(body.points, faces, mesh);
 
-  std::set<Edge> edges;
+  std::vector<Edge> edges = body.edges;
   auto outline = [&](auto const& face) {
     for (std::size_t k = 0; k < face.size(); ++k) {
       const Index i = face[k], j = face[(k + 1) % face.size()];
-      edges.insert(i < j ? Edge{i, j} : Edge{j, i});
+      edges.push_back(i < j ? Edge{i, j} : Edge{j, i});
     }
   };
   if (!body.visual) {
     for (auto const& t : body.triangles) outline(t);
     for (auto const& q : body.quads) outline(q);
   }
-  edges.insert(body.edges.begin(), body.edges.end());
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   for (Edge const& e : edges)
     for (const Index i : e) mesh.lines.push_back(body.points[std::size_t(i)].cast<float>());
   if (faces.empty() && edges.empty())
