@@ -109,6 +109,60 @@ TEST_CASE("a ball rolls down a slope without slip, and slips where friction is t
   run(mu, g * (std::sin(angle) - mu * std::cos(angle)), 2.5 * mu * g * std::cos(angle) / radius);
 }
 
+// With more friction than 4/3 the rod of that angle has no force with which its end could slide on (Painleve
+// 1895): the end is held at once, by an impulse, and the rod turns over it.
+TEST_CASE(
+    "Painleve's rod slides, or is caught at its end and turns over it, and comes to rest on the floor") {
+  const double angle = std::atan(2.), radius = 0.02, half = 1, speed = 3;
+  const Eigen::Vector3d along(std::cos(angle), 0, std::sin(angle));
+  auto run = [&](auto solver, double mu) {
+    Rigid3d::Coord start;
+    start.center = half * along + Eigen::Vector3d(0, 0, radius + 0.01);
+    Eigen::Matrix<double, 6, 1> v;
+    v << -speed, 0, 0, 0, 0, 0;  // its lower end before it
+    auto sim = constrained_scene_by(
+        solver,
+        near_by(),
+        mu,
+        fixed_floor(),
+        node<"rod">(EulerExplicitSolver{},
+                    MechanicalObject<Rigid3d>{.position = {start}, .velocity = {v}},
+                    UniformMass<Rigid3d>{
+                        .vertexMass = RigidMass<double, 3>{mass, mass / 3 * Eigen::Matrix3d::Identity()}},
+                    node<"ends">(MechanicalObject<Vec3d>{.position = {-half * along, half * along}},
+                                 RigidMapping<Rigid3d, Vec3d>{},
+                                 SphereCollisionModel<Vec3d>{.radius = radius})));
+    sim.init();
+    auto const& rod = sim.template at<"rod">().state();
+    auto const& ends = sim.template at<"rod/ends">().state();
+    auto energy = [&] {
+      auto const& u = rod.velocity[0];
+      return mass * (u.template head<3>().squaredNorm() / 2 + u.template tail<3>().squaredNorm() / 6 +
+                     g * rod.position[0].center[2]);
+    };
+    const double atStart = energy();
+    double lowest = 1, most = 0;
+    bool caught = false;
+    for (int i = 0; i < 4000; ++i) {
+      sim.animate(dt / 10);
+      for (auto const& p : ends.position) lowest = std::min(lowest, p[2] - radius);
+      most = std::max(most, energy());
+      // but for what a step turns, and how much the sphere rolls in it
+      if (i == 4) caught = ends.velocity[0].norm() < 0.01 * speed;
+    }
+    CHECK(most <= atStart * (1 + 1e-9));
+    CHECK(lowest > -1e-3);
+    CHECK(rod.velocity[0].norm() < 1e-6);
+    CHECK(rod.position[0].center[2] == Approx(radius + 0.01).margin(1e-4));
+    return caught;
+  };
+  for (const double mu : {0.3, 1.5, 10.}) {
+    CAPTURE(mu);
+    CHECK(run(gaussSeidel, mu) == (mu > 4. / 3));
+    CHECK(run(convex, mu) == (mu > 4. / 3));
+  }
+}
+
 TEST_CASE("without a loop that solves them, contacts by multipliers are refused with what to do") {
   Simulation sim{node<"root">(DefaultPipeline{},
                               BruteForceBroadPhase{},

@@ -14,7 +14,8 @@ using namespace sinew;
 namespace {
 
 constexpr double dt = 0.01;
-const BlockGaussSeidelConstraintSolver gaussSeidel{.maxIterations = 10000, .tolerance = 1e-14};
+const BlockGaussSeidelConstraintSolver gaussSeidel{
+    .maxIterations = 10000, .tolerance = 1e-14, .computeConstraintForces = true};
 
 template <class D, class... C>
 auto scene(bool velocityFirst, MechanicalObject<D> state, C... components) {
@@ -55,6 +56,8 @@ TEST_CASE("a rigid body off its rest pose is brought there, and held against for
     auto const& f = body.template get<FixedLagrangianConstraint<Rigid3d>>().multipliers;
     REQUIRE(f.size() == 6);
     for (int c = 0; c < 6; ++c) CHECK(f[std::size_t(c)] == Approx(-load[c]));
+    auto const& all = sim.root().template get<BlockGaussSeidelConstraintSolver>().constraintForces;
+    CHECK(all == f);
     CHECK((body.state().reaction[1] + load).norm() < 1e-8);
     CHECK(body.state().reaction[0].norm() < 1e-12);
   }

@@ -176,6 +176,8 @@ void multiplier_rules() {
                                     node<"b">(dofs, mass)));
   breaks<Rule::loopNotInRoot>(node<"root">(node<"a">(loop, gaussSeidel)));
   breaks<Rule::noConstraintSolver>(node<"root">(loop, euler, dofs, mass));
+  breaks<Rule::severalConstraintSolvers>(
+      node<"root">(loop, gaussSeidel, euler, dofs, mass, node<"a">(gaussSeidel)));
   breaks<Rule::secondLoop>(node<"root">(loop, loop, gaussSeidel));
   breaks<Rule::secondLoop>(node<"root">(loop, gaussSeidel, gaussSeidel));
 }

@@ -22,12 +22,17 @@ struct BlockGaussSeidelConstraintSolver {
   double svdSingularValueNullSpaceCriteriaFactor = 0.01, svdSingularVectorNullSpaceCriteriaFactor = 0.001;
   bool scaleTolerance = true, allVerified = false, stopsUnsolved = false;
   double sor = 1;
+  bool computeConstraintForces = false;
 
   static constexpr auto fields() {
     using S = BlockGaussSeidelConstraintSolver;
     return sweeping_fields<S>(
         field("sor", &S::sor, "", "relaxation of the multipliers", range::closed(0, 2)));
   }
+
+  static constexpr auto outputs() { return constraint_forces_output<BlockGaussSeidelConstraintSolver>(); }
+  std::vector<double> constraintForces{};
+  void reset() { constraintForces.clear(); }
 
   SweepResult result{};  // of the last step
   ConstraintSweeps sweeps{};

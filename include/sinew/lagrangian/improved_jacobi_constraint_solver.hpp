@@ -24,6 +24,7 @@ struct ImprovedJacobiConstraintSolver {
   double spectralCorrectionFactor = 1;
   bool useConjugateResidue = false;
   double conjugateResidueSpeedFactor = 10;
+  bool computeConstraintForces = false;
 
   static constexpr auto fields() {
     using S = ImprovedJacobiConstraintSolver;
@@ -49,6 +50,10 @@ struct ImprovedJacobiConstraintSolver {
                                     "how late the last change begins to count: the higher, the later",
                                     range::nonNegative));
   }
+
+  static constexpr auto outputs() { return constraint_forces_output<ImprovedJacobiConstraintSolver>(); }
+  std::vector<double> constraintForces{};
+  void reset() { constraintForces.clear(); }
 
   SweepResult result{};  // of the last step
   ConstraintSweeps sweeps{};

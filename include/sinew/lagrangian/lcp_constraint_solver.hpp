@@ -21,6 +21,7 @@ struct LCPConstraintSolver {
   double minW = 0, maxF = 0;
   double regularizationTerm = 0;
   bool lemke = false, stopsUnsolved = false;
+  bool computeConstraintForces = false;
 
   static constexpr auto fields() {
     using S = LCPConstraintSolver;
@@ -58,8 +59,13 @@ struct LCPConstraintSolver {
             &S::stopsUnsolved,
             "",
             "an Error where the iterations end above the tolerance, or Lemke's method finds that there is no "
-            "solution; else a warning, and the step goes on with what they have found"));
+            "solution; else a warning, and the step goes on with what they have found"),
+        asks_for_constraint_forces<S>());
   }
+
+  static constexpr auto outputs() { return constraint_forces_output<LCPConstraintSolver>(); }
+  std::vector<double> constraintForces{};
+  void reset() { constraintForces.clear(); }
 
   SweepResult result{};  // of the last step
   ComplementaritySweeps sweeps{};

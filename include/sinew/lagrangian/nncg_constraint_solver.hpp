@@ -17,8 +17,13 @@ struct NNCGConstraintSolver {
   bool useSVDForRegularization = false;
   double svdSingularValueNullSpaceCriteriaFactor = 0.01, svdSingularVectorNullSpaceCriteriaFactor = 0.001;
   bool scaleTolerance = true, allVerified = false, stopsUnsolved = false;
+  bool computeConstraintForces = false;
 
   static constexpr auto fields() { return sweeping_fields<NNCGConstraintSolver>(); }
+
+  static constexpr auto outputs() { return constraint_forces_output<NNCGConstraintSolver>(); }
+  std::vector<double> constraintForces{};
+  void reset() { constraintForces.clear(); }
 
   SweepResult result{};  // of the last step
   ConstraintSweeps sweeps{};

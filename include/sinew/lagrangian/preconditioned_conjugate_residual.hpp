@@ -22,8 +22,13 @@ struct PreconditionedConjugateResidual {
   bool useSVDForRegularization = false;
   double svdSingularValueNullSpaceCriteriaFactor = 0.01, svdSingularVectorNullSpaceCriteriaFactor = 0.001;
   bool scaleTolerance = true, allVerified = false, stopsUnsolved = false;
+  bool computeConstraintForces = false;
 
   static constexpr auto fields() { return sweeping_fields<PreconditionedConjugateResidual>(); }
+
+  static constexpr auto outputs() { return constraint_forces_output<PreconditionedConjugateResidual>(); }
+  std::vector<double> constraintForces{};
+  void reset() { constraintForces.clear(); }
 
   SweepResult result{};  // of the last step
   int refusedRow = -1;   // of what is no equality

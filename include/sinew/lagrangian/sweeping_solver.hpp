@@ -13,6 +13,25 @@ namespace sinew {
 // What constraint solvers share that iterate over the blocks of a problem: settings with SOFA's names and
 // defaults, and what is said when the iterations end.
 
+/// The field that asks for the multipliers of each step, of solvers that give them out under SOFA's names;
+/// ConstrainedStep fills them.
+template <class S>
+constexpr auto asks_for_constraint_forces() {
+  return field("computeConstraintForces",
+               &S::computeConstraintForces,
+               "",
+               "keep the multipliers of each step in constraintForces");
+}
+template <class S>
+constexpr auto constraint_forces_output() {
+  return field_list(field("constraintForces",
+                          &S::constraintForces,
+                          "N, N m",
+                          "multipliers of the last step, of all equations in their order: those of "
+                          "constraints as they stand in the scene, then a normal and two tangents of each "
+                          "contact"));
+}
+
 /// The fields of such a solver S, and more.
 template <class S, class... More>
 constexpr auto sweeping_fields(More... more) {
@@ -53,6 +72,7 @@ constexpr auto sweeping_fields(More... more) {
             "",
             "an Error where the iterations end above the tolerance; else a warning, and the step goes on "
             "with what they have found"),
+      asks_for_constraint_forces<S>(),
       more...);
 }
 

@@ -81,6 +81,11 @@ struct RuntimeFacts {
   }
   bool inRoot() const { return !scope.node.parent() && !scope.mount().scope; }
   bool constraintSolver() const { return any_below<role::ConstraintSolver>(scope); }
+  bool severalConstraintSolvers() const {
+    int count = 0;
+    traverse(scope, on<role::ConstraintSolver>([&](auto const&, auto const&) { ++count; }));
+    return count > 1;
+  }
   bool loopInRoot() const {
     return scope.node.top().mount.scope || Scope(scope.node.top()).template has<role::AnimationLoop>();
   }

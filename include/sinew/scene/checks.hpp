@@ -193,6 +193,7 @@ struct Facts {
   static constexpr bool linearSolver() { return has_above<S, role::LinearSolver>(); }
   static constexpr bool inRoot() { return std::is_same_v<typename S::Above, NoScope>; }
   static constexpr bool constraintSolver() { return N::template holds<role::ConstraintSolver>; }
+  static constexpr bool severalConstraintSolvers() { return count_below<N, role::ConstraintSolver>() > 1; }
   static constexpr bool loopInRoot() { return has_above<S, role::AnimationLoop>(); }
   static constexpr bool pipelineAbove() { return has_above<S, role::CollisionPipeline>(); }
   static constexpr bool pipelineHere() { return N::template count<role::CollisionPipeline> > 0; }

@@ -293,6 +293,12 @@ struct ConstrainedStep {
                if constexpr (KeepsMultipliers<std::decay_t<decltype(c)>>) c.multipliers.assign(f, end);
                f = end;
              }));
+    traverse(root, on<role::ConstraintSolver>([&](auto& solver, auto const&) {
+               if constexpr (requires { solver.constraintForces; })
+                 if (solver.computeConstraintForces)
+                   solver.constraintForces.assign(m.problem.multipliers.data(),
+                                                  m.problem.multipliers.data() + m.rows.count());
+             }));
   }
 
   template <class S>

@@ -49,6 +49,15 @@ constexpr bool holds() {
     return true;
 }
 
+/// How many components have a role in a subtree, without those of runtime nodes.
+template <class N, class R>
+constexpr int count_below() {
+  if constexpr (requires { N::template countBelow<R>; })
+    return N::template countBelow<R>;
+  else
+    return 0;
+}
+
 namespace detail {
 /// Where those of some conditions stand that are true.
 template <bool... Conditions>
@@ -88,6 +97,8 @@ struct NodeParts<hana::tuple<Cs...>, hana::tuple<Ns...>> {
   /// How many components have the role R, and where the first of them stands (-1: none).
   template <class R>
   static constexpr int count = (0 + ... + int(HasRole<Cs, R>));
+  template <class R>
+  static constexpr int countBelow = (count<R> + ... + sinew::count_below<Ns, R>());
   /// How many are of class C.
   template <class C>
   static constexpr int countOfClass = (0 + ... + int(std::is_same_v<Cs, C>));

@@ -30,7 +30,7 @@ constexpr Sentence const& sentence(Rule rule) { return sentences[std::size_t(rul
 
 constexpr bool only_warns(Rule rule) {
   return rule == Rule::noPipeline || rule == Rule::loneStage || rule == Rule::solverBelowSolver ||
-         rule == Rule::nothingToMove;
+         rule == Rule::nothingToMove || rule == Rule::severalConstraintSolvers;
 }
 
 /// A node with which a component has to do: its own, or one that it names. What cannot be asked of a node,
@@ -131,7 +131,7 @@ constexpr Kind kind_of() {
 ///   solved(), solverAbove(), solverHere()   an ODE solver moves its node, from above, from its own
 ///   integrates()           there is a state here or below that no mapping moves
 ///   inRoot(), loopInRoot()   its node is the root; the root has an animation loop
-///   constraintSolver()     there is one, here or below
+///   constraintSolver(), severalConstraintSolvers()   there is one, are several, here or below
 ///   linearSolver(), pipelineAbove(), pipelineHere(), allStages(), tetrahedra(), parentTetrahedra()
 ///                          they are in reach
 template <Kind kind, class Facts>
@@ -173,6 +173,7 @@ constexpr Broken broken(Facts const& facts) {
   } else if constexpr (kind.loop) {
     if (!facts.inRoot()) return {Rule::loopNotInRoot};
     if (!facts.constraintSolver()) return {Rule::noConstraintSolver};
+    if (facts.severalConstraintSolvers()) return {Rule::severalConstraintSolvers};
   } else if constexpr (kind.stage) {
     if (!facts.pipelineHere()) return {Rule::loneStage};
   } else if constexpr (kind.pipeline) {
