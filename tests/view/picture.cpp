@@ -94,7 +94,7 @@ TEST_CASE("visual models hide the states that they follow, states their parents 
   CHECK(scene.bodies[0].path == "/root/points");
   CHECK(scene.bodies[0].points.size() == 1);
   CHECK(scene.bodies[1].path == "/root/seen/skin");
-  CHECK(scene.bodies[1].visual);
+  CHECK(scene.bodies[1].kind == view::SeenBody::Kind::visual);
   const auto [low, high] = scene.box();
   CHECK(low == Eigen::Vector3d(0, 0, 0));
   CHECK(high == Eigen::Vector3d(1, 1, 2));
@@ -107,7 +107,7 @@ TEST_CASE("normals are smooth where a surface is, and sharp at edges") {
   REQUIRE(mesh.corners.size() == 12);
   for (std::size_t i = 0; i < 6; ++i) CHECK((mesh.normals[i] - Eigen::Vector3f(0, 0, -1)).norm() < 1e-6f);
   for (std::size_t i = 6; i < 12; ++i) CHECK((mesh.normals[i] - Eigen::Vector3f(0, -1, 0)).norm() < 1e-6f);
-  CHECK(mesh.lines.size() == 2 * 7);                             // the edge in the middle once
+  CHECK(mesh.lines.at.size() == 2 * 7);                          // the edge in the middle once
   body.points[4] = {0, -1, 0.2}, body.points[5] = {1, -1, 0.2};  // 11 degrees
   mesh = view::shaded_mesh(body);
   const auto at_edge = [&](std::size_t i) { return mesh.corners[i].y() == 0; };

@@ -116,6 +116,10 @@ class GlShaders {
     const Eigen::Vector3f value = v.cast<float>();
     glUniform3fv(at(name), 1, value.data());
   }
+  void set(char const* name, Eigen::Vector4d const& v) const {
+    const Eigen::Vector4f value = v.cast<float>();
+    glUniform4fv(at(name), 1, value.data());
+  }
   void set(char const* name, double value) const { glUniform1f(at(name), float(value)); }
   void setTexture(char const* name, int unit) const { glUniform1i(at(name), unit); }
 
