@@ -38,6 +38,7 @@
 #include <sinew/force/polynomial_springs.hpp>
 #include <sinew/force/regular_grid_spring.hpp>
 #include <sinew/force/rest_shape_springs.hpp>
+#include <sinew/force/sph_fluid.hpp>
 #include <sinew/force/sphere_force_field.hpp>
 #include <sinew/force/stiff_spring.hpp>
 #include <sinew/force/surface_pressure.hpp>

@@ -24,6 +24,8 @@ using RigidLoads = Registry<ConstantForceField<D>, LinearForceField<D>, RestShap
 template <class D>
 using PointLoads = Registry<RigidLoads<D>, SphereForceField<D>>;
 template <class D>
+using Fluids = Registry<SPHFluidForceField<D>>;
+template <class D>
 using ElementForces =
     Registry<TetrahedronFEMForceField<D>, HexahedronFEMForceField<D>, TriangleFEMForceField<D>,
              SurfacePressureForceField<D>, TrianglePressureForceField<D>, QuadPressureForceField<D>,
@@ -53,7 +55,7 @@ using PointComponents = Registry<MechanicalObject<D>, UniformMass<D>, DiagonalMa
                                  PointSprings<D>, PointLoads<D>, PointConstraints<D>>;
 template <class D>
 using SpatialComponents =
-    Registry<PointComponents<D>, ElementForces<D>, HyperelasticForces<D>, SpatialSprings<D>>;
+    Registry<PointComponents<D>, ElementForces<D>, HyperelasticForces<D>, SpatialSprings<D>, Fluids<D>>;
 template <class D>
 using RigidComponents =
     Registry<MechanicalObject<D>, UniformMass<D>, DiagonalMass<D>, RigidLoads<D>, PointConstraints<D>>;

@@ -173,8 +173,9 @@ struct ForceSuite {
 
     if constexpr (isDouble) {
       if (c.claims.conservative) energyGradient(c, x);
-      tangent(c, c.claims.exactTangent ? x : D::rigid && !c.claims.objective ? rest : turned(rest), v);
+      if (c.claims.implicit) tangent(c, c.claims.exactTangent ? x : D::rigid && !c.claims.objective ? rest : turned(rest), v);
     }
+    if (!c.claims.implicit) CHECK(norm(product(c, shake, -1, -1)) == 0);
     symmetry(c, x, v);
     assembled(c, x, v);
     if (c.claims.internal) wholeMotion(c, x, v);

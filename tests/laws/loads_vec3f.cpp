@@ -4,3 +4,7 @@
 TEST_CASE("loads over Vec3f obey the laws of forces") {
   laws::check_force_fields<sinew::PointLoads<sinew::Vec3f>, sinew::Vec3f>();
 }
+
+TEST_CASE("fluids over Vec3f obey the laws of forces") {
+  laws::check_force_fields<sinew::Fluids<sinew::Vec3f>, sinew::Vec3f>();
+}

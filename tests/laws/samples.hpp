@@ -30,6 +30,7 @@
 #include "samples/rest_shape_springs.hpp"
 #include "samples/skinning_mapping.hpp"
 #include "samples/sliding_lagrangian_constraint.hpp"
+#include "samples/sph_fluid.hpp"
 #include "samples/stiff_spring.hpp"
 #include "samples/stopper_lagrangian_constraint.hpp"
 #include "samples/subset_multi_mapping.hpp"

@@ -91,6 +91,8 @@ inline constexpr std::array withoutMeaning =
                                      "CollisionLoop",
                                      "ContactListener",
                                      "ConstraintAttachButtonSetting",
+                                     "SpatialGridContainer",  // neighbours are found by cells anyway
+
                                      "DisplayFlagsSetting"});
 
 /// Those of them that say how a scene is looked at: pictures and windows have them.

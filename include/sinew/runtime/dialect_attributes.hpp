@@ -25,7 +25,7 @@ inline constexpr std::array withoutEffect = std::to_array<std::string_view>({
     "computeGraphs", "computeMassOnRest", "computeMaterialFaces", "computeNormals", "computeQuads", "computeResidual",
     "computeTangents", "computeTextureCoordinates", "computeVonMisesStress", "constraint",
     "constraintIndex", "constraintSolver", "contacts", "context", "createQuadArray", "createSubelements", "createTexCoords",
-    "createTriangleArray", "cullFace", "currentError", "currentIterations", "currentNumConstraintGroups", "currentNumConstraints", "debug", "debugViewFrameScale", "defaultMaterial", "depth", "depthTest", "derivX",
+    "createTriangleArray", "cullFace", "currentError", "currentIterations", "currentNumConstraintGroups", "currentNumConstraints", "debug", "debugGrid", "debugViewFrameScale", "defaultMaterial", "depth", "depthTest", "derivX",
     "destFactor", "displayDebug", "displayFreePosition", "doUpdate", "edgeInfo", "edgeOutIndices", "edgePressureMap",
     "edgesGroups", "edgesOutROI", "elementSpace", "enable", "enableAssembly", "faceList", "factorizationInvalidation",
     "fixMergedUVSeams", "forceBinary", "free_position", "free_velocity", "gatherBsize", "gatherPt", "graph",

@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/component.hpp>
+#include <sinew/force/sph_kernels.hpp>
+#include <sinew/topology/point_cells.hpp>
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sinew {
+
+/// A fluid of particles of one mass m, by smoothed particle hydrodynamics (Mueller, Charypar, Gross 2003;
+/// Monaghan 1992), with the terms and units of SOFA's plugin SofaSphFluid:
+///   rho_i = sum_j m W_ij,   p_i = pressure (rho_i - density)
+///   f_i = -sum_j m^2 (p_i / rho_i^2 + p_j / rho_j^2) grad W_ij
+///         + sum_j m^2 viscosity / (rho_i rho_j) lap W_ij (v_j - v_i)
+/// over all particles nearer than the radius h. The artificial viscosity (2) has a pressure in the place of
+/// the second sum, between what comes nearer: -m viscosity h (v_ij x_ij) / ((q^2 + h^2/100) (rho_i +
+/// rho_j)/2), q = r/h. Surface tension is -m tension c n / |n| with n = sum_j (m/rho_j - m/rho_i) grad W_ij
+/// and c the same sum of lap W_ij (1), or the cohesion -tension m sum_j W_ij (x_i - x_j) of Becker and
+/// Teschner (2007) (2). Forces are those at the start of a step, also for implicit solvers: no part of them
+/// is in a system, as in SOFA. Where pairs pull each other apart or together, momentum is kept to rounding,
+/// and with the cubic kernel and no viscosity energy is, by the order of the solver.
+/// Sums go over neighbours in the order of their cells, so that bits repeat.
+template <class D>
+struct SPHFluidForceField {
+  using Role = role::ForceField;
+  using DataTypes = D;
+  using Real = typename D::Real;
+  using VecCoord = typename D::VecCoord;
+  using VecDeriv = typename D::VecDeriv;
+  static constexpr std::string_view className = "SPHFluidForceField";
+
+  double radius = 1, mass = 1, pressure = 100, density = 1, viscosity = 0.001, surfaceTension = 0;
+  int kernelType = 0, pressureType = 1, viscosityType = 1, surfaceTensionType = 1;
+
+  static constexpr auto fields() {
+    using F = SPHFluidForceField;
+    return field_list(
+        field("radius", &F::radius, "m", "how far particles act on each other", range::positive),
+        field("mass",
+              &F::mass,
+              "kg",
+              "of each particle, for densities; what moves it is the mass of its node",
+              range::positive),
+        field("pressure",
+              &F::pressure,
+              "J/kg",
+              "pressure for a density above that at rest",
+              range::nonNegative),
+        field("density", &F::density, "kg/m^3", "at rest", range::positive),
+        field("viscosity",
+              &F::viscosity,
+              "Pa s",
+              "dynamic viscosity, or the factor of the artificial one",
+              range::nonNegative),
+        field("surfaceTension", &F::surfaceTension, "N/m", "0 or below: none"),
+        field("kernelType",
+              &F::kernelType,
+              "",
+              "0: those of Mueller et al., 1: the cubic spline",
+              range::closed(0, 1)),
+        field("pressureType", &F::pressureType, "", "0: none, 1: as above", range::closed(0, 1)),
+        field("viscosityType",
+              &F::viscosityType,
+              "",
+              "0: none, 1: by the Laplacian of the kernel, 2: artificial",
+              range::closed(0, 2)),
+        field("surfaceTensionType",
+              &F::surfaceTensionType,
+              "",
+              "0: none, 1: by the curvature, 2: cohesion",
+              range::closed(0, 2)));
+  }
+
+  /// Curvature is a force on each particle alone; the first viscosity turns what it slows down.
+  ForceProperties properties() const {
+    return {.internal = !hasCurvature(),
+            .objective = !hasCurvature() && !(viscosityType == 1 && viscosity > 0),
+            .conservative = kernelType == 1 && !(surfaceTension > 0),
+            .exactTangent = false,
+            .implicit = false};
+  }
+
+  std::string where{};
+
+  void init(InitContext<D> const& context) {
+    where = place_of<SPHFluidForceField>(context);
+    const std::size_t n = context.rest.size();
+    cells.reserve(n);
+    resize(n);
+  }
+
+  void addForce(MechanicalParams const&, VecDeriv& f, VecCoord const& x, VecDeriv const& v) {
+    sort(x);
+    for (std::size_t k = 0; k < x.size(); ++k)
+      for (int c = 0; c < 3; ++c) velocities[std::size_t(c)][k] = v[std::size_t(cells.order()[k])][c];
+    withKernels([&](auto const& kernels) {
+      findDensities(kernels);
+      if (hasCurvature()) findNormals(kernels);
+      addForces(kernels, f);
+    });
+  }
+  void addDForce(MechanicalParams const&, VecDeriv&, VecDeriv const&) const {}
+  template <class Sink>
+  void addToMatrix(MechanicalParams const&, Sink const&) const {}
+
+  /// Of the pressure, with densities by the same kernel (the cubic one) [J]:
+  /// sum_i m pressure (ln(rho_i / density) + density / rho_i - 1).
+  double potentialEnergy(VecCoord const& x) {
+    if (pressureType == 0) return 0;
+    sort(x);
+    double sum = 0;
+    withKernels([&](auto const& kernels) { findDensities(kernels); });
+    for (std::size_t k = 0; k < x.size(); ++k) {
+      const double d = double(densities[k]) / density;
+      sum += mass * pressure * (std::log(d) + 1 / d - 1);
+    }
+    return sum;
+  }
+
+  // in the order of the cells, with room behind the last for lanes that reach over it
+  PointCells cells{};
+  std::array<std::vector<Real>, 3> positions{}, velocities{}, normals{};
+  std::vector<Real> densities{}, pressures{}, volumes{};  // pressures: p / rho^2; volumes: m / rho
+
+ private:
+  using L = lanes<Real, lane_width<D>()>;
+  static constexpr int width = lane_traits<L>::width;
+
+  bool hasCurvature() const { return surfaceTension > 0 && surfaceTensionType == 1; }
+  bool hasCohesion() const { return surfaceTension > 0 && surfaceTensionType == 2; }
+
+  void resize(std::size_t n) {
+    const std::size_t all = n + std::size_t(width);
+    for (auto* three : {&positions, &velocities, &normals})
+      for (auto& one : *three) one.resize(all, Real(0));
+    for (auto* one : {&densities, &pressures, &volumes}) one->resize(all, Real(1));
+  }
+  void sort(VecCoord const& x) {
+    if (positions[0].size() != x.size() + std::size_t(width)) resize(x.size());
+    cells.sort(x, radius, where);
+    for (std::size_t k = 0; k < x.size(); ++k)
+      for (int c = 0; c < 3; ++c) positions[std::size_t(c)][k] = x[std::size_t(cells.order()[k])][c];
+  }
+  template <class F>
+  void withKernels(F&& f) const {
+    kernelType == 1 ? f(CubicKernels<Real>(Real(radius))) : f(MuellerKernels<Real>(Real(radius)));
+  }
+
+  static L load(std::vector<Real> const& from, int k) {
+    L value;
+    std::memcpy(&value, from.data() + k, sizeof value);
+    return value;
+  }
+  static Real sum(L const& value) {
+    Real all = lane(value, 0);
+    for (int l = 1; l < width; ++l) all += lane(value, l);
+    return all;
+  }
+
+  // Neighbours of a particle and itself, as many at once as there are lanes: what is beyond the radius or the
+  // range has `acts` false and q = 1. q is not quite 0, so that slopes are numbers.
+  struct Pairs {
+    int first;           // place of the first in the order
+    std::array<L, 3> d;  // x_i - x_j
+    L q;
+    decltype(L(0) < L(1)) acts;
+  };
+  // f(place, each) for all particles: each(g) calls g(pairs) for all that are around
+  template <class F>
+  void forEachParticle(F&& f) const {
+    const Real perRadius = Real(1 / radius);
+    L numbers(0);
+    if constexpr (width > 1)
+      for (int l = 0; l < width; ++l) numbers.set(l, Real(l));
+    cells.forEachCell({}, [&](PointCells::Range const& cell, std::array<PointCells::Range, 9> const& around) {
+      for (int i = cell.first; i < cell.second; ++i) {
+        std::array<L, 3> x;
+        for (std::size_t c = 0; c < 3; ++c) x[c] = L(positions[c][std::size_t(i)]);
+        f(i, [&](auto&& g) {
+          for (auto const& [begin, end] : around)
+            for (int j = begin; j < end; j += width) {
+              Pairs pairs{.first = j, .d = {}, .q = L(0), .acts = numbers < L(Real(end - j))};
+              L square(0);
+              for (std::size_t c = 0; c < 3; ++c) {
+                pairs.d[c] = x[c] - load(positions[c], j);
+                square += pairs.d[c] * pairs.d[c];
+              }
+              using std::sqrt, sinew::sqrt;
+              pairs.q = sqrt(square) * L(perRadius);
+              pairs.acts = both(pairs.acts, pairs.q < L(1));
+              if (!any(pairs.acts)) continue;
+              pairs.q = select(pairs.acts, select(pairs.q > L(Real(1e-9)), pairs.q, L(Real(1e-9))), L(1));
+              g(pairs);
+            }
+        });
+      }
+    });
+  }
+
+  template <class Kernels>
+  void findDensities(Kernels const& kernels) {
+    const Real m = Real(mass), atRest = Real(density), stiffness = Real(pressureType == 0 ? 0 : pressure);
+    forEachParticle([&](int i, auto const& each) {
+      L around(0);
+      each([&](Pairs const& p) { around += select(p.acts, kernels.density(p.q), L(0)); });
+      const Real rho = m * sum(around);
+      densities[std::size_t(i)] = rho;
+      pressures[std::size_t(i)] = stiffness * (rho - atRest) / (rho * rho);
+      volumes[std::size_t(i)] = m / rho;
+    });
+  }
+  template <class Kernels>
+  void findNormals(Kernels const& kernels) {
+    forEachParticle([&](int i, auto const& each) {
+      const L own(volumes[std::size_t(i)]);
+      std::array<L, 3> n{L(0), L(0), L(0)};
+      L curvature(0);
+      each([&](Pairs const& p) {
+        const L more = select(p.acts, load(volumes, p.first) - own, L(0));
+        const L slope = more * kernels.densitySlope(p.q);
+        for (std::size_t c = 0; c < 3; ++c) n[c] += slope * p.d[c];
+        curvature += more * kernels.densityLaplacian(p.q);
+      });
+      const Real c = sum(curvature);
+      Real square(0);
+      std::array<Real, 3> normal;
+      for (std::size_t a = 0; a < 3; ++a) normal[a] = sum(n[a]), square += normal[a] * normal[a];
+      // the force of a particle, in the place of its normal
+      const Real length = std::sqrt(square);
+      for (std::size_t a = 0; a < 3; ++a)
+        normals[a][std::size_t(i)] =
+            length > Real(1e-6) ? -Real(mass * surfaceTension) * c * normal[a] / length : Real(0);
+    });
+  }
+  template <class Kernels>
+  void addForces(Kernels const& kernels, VecDeriv& f) {
+    const bool viscous = viscosityType == 1 && viscosity > 0,
+               artificial = viscosityType == 2 && viscosity > 0;
+    const bool coheres = hasCohesion(), curved = hasCurvature();
+    const L square{Real(mass * mass)}, bulk{Real(2 * viscosity * radius * mass)},
+        soft{Real(0.01 * radius * radius)};
+    const L drag{Real(viscosity)}, cohesion{Real(-surfaceTension * mass)};
+    forEachParticle([&](int i, auto const& each) {
+      const auto at = std::size_t(i);
+      const L pushed(pressures[at]), rho(densities[at]), volume(volumes[at]);
+      std::array<L, 3> v, sums{L(0), L(0), L(0)};
+      for (std::size_t c = 0; c < 3; ++c) v[c] = L(velocities[c][at]);
+      each([&](Pairs const& p) {
+        L pushes = -square * (pushed + load(pressures, p.first));
+        std::array<L, 3> slower;  // v_j - v_i
+        if (viscous || artificial)
+          for (std::size_t c = 0; c < 3; ++c) slower[c] = load(velocities[c], p.first) - v[c];
+        if (artificial) {
+          L apart(0);
+          for (std::size_t c = 0; c < 3; ++c) apart -= slower[c] * p.d[c];
+          pushes += select(apart < L(0), apart, L(0)) * bulk /
+                    ((p.q * p.q + soft) * (rho + load(densities, p.first)));
+        }
+        L along = pushes * kernels.pressureSlope(p.q);
+        if (coheres) along += cohesion * kernels.density(p.q);
+        along = select(p.acts, along, L(0));
+        for (std::size_t c = 0; c < 3; ++c) sums[c] += along * p.d[c];
+        if (viscous) {
+          const L rubs =
+              select(p.acts, drag * volume * load(volumes, p.first) * kernels.viscosityLaplacian(p.q), L(0));
+          for (std::size_t c = 0; c < 3; ++c) sums[c] += rubs * slower[c];
+        }
+      });
+      auto& force = f[std::size_t(cells.order()[at])];
+      for (std::size_t c = 0; c < 3; ++c)
+        force[Eigen::Index(c)] += sum(sums[c]) + (curved ? normals[c][at] : Real(0));
+    });
+  }
+};
+
+}  // namespace sinew
