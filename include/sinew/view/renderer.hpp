@@ -148,7 +148,10 @@ class Renderer {
     glBindTexture(GL_TEXTURE_2D, shadow_.depth);
     glEnable(GL_POLYGON_OFFSET_FILL);  // edges are seen on the faces they belong to
     glPolygonOffset(1, 1);
-    for (Body const& body : bodies_) body.faces.draw(GL_TRIANGLES);
+    for (Body const& body : bodies_) {
+      if (&body == &bodies_.back()) surface_.set("clip", everything());  // marks are seen as a whole
+      body.faces.draw(GL_TRIANGLES);
+    }
     glDisable(GL_POLYGON_OFFSET_FILL);
     plain_.use();
     plain_.set("toView", toView);
@@ -156,6 +159,7 @@ class Renderer {
     plain_.set("clip", clipped());
     plain_.set("pointSize", std::max(4., height / 90.));
     for (Body const& body : bodies_) {
+      if (&body == &bodies_.back()) plain_.set("clip", everything());
       plain_.set("roundPoints", 0);
       body.lines.draw(GL_LINES);
       plain_.set("roundPoints", 1);
@@ -205,8 +209,9 @@ class Renderer {
   double radius_ = 1;
 
   // positive where something is seen
+  static Eigen::Vector4d everything() { return {0, 0, 0, 1}; }
   Eigen::Vector4d clipped() const {
-    if (!clip_) return {0, 0, 0, 1};
+    if (!clip_) return everything();
     return {-clip_->normal[0], -clip_->normal[1], -clip_->normal[2], clip_->offset};
   }
   // parallel light onto the sphere around everything
@@ -248,6 +253,7 @@ class Renderer {
     plain_.use();
     plain_.set("toView", Eigen::Matrix4d(Eigen::Matrix4d::Identity()));
     plain_.set("toClip", toClip);
+    plain_.set("clip", everything());
     plain_.set("roundPoints", 0);
     overlay_.set(overlay.triangles().at, overlay.triangles().colours);
     overlay_.draw(GL_TRIANGLES);

@@ -50,12 +50,14 @@ class Stage {
   /// seconds long and, where it is fast enough, go at `speed` times the time of the clock; 0: as fast as they
   /// can.
   template <class Simulation>
-  Stage(Simulation& simulation, double dt, double speed = 1)
+  Stage(Simulation& simulation, double dt, double speed = 1, SeenSettings const& seen = {})
       : tree(scene_tree(simulation)),
         dt_(dt),
         speed_(speed),
-        actor_(new ActorOf<Simulation>(simulation)),
-        scene_(std::make_shared<SeenScene>(actor_->see())),
+        seen_(seen),
+        actor_(new ActorOf<Simulation>(simulation, seen.needsForces())),
+        forcesKept_(seen.needsForces()),
+        scene_(std::make_shared<SeenScene>(actor_->see(seen_))),
         thread_([this] { go(); }) {}
   Stage(Stage const&) = delete;
   Stage& operator=(Stage const&) = delete;
@@ -111,6 +113,14 @@ class Stage {
   }
   void release() {
     ask([](Stage& s) { s.actor_->release(); });
+  }
+  /// What is to be seen from the next picture on; forces are kept while they are asked for.
+  void show(SeenSettings settings) {
+    ask([settings = std::move(settings)](Stage& s) {
+      if (const bool needs = settings.needsForces(); needs != s.forcesKept_)
+        s.actor_->keepForces(s.forcesKept_ = needs);
+      s.seen_ = settings;
+    });
   }
   /// The component at a line of the tree is looked at from now on (StageState::selected); -1: none is.
   void select(int line) {
@@ -186,7 +196,8 @@ class Stage {
     virtual void press(Eigen::Vector3d const& origin, Eigen::Vector3d const& direction, double stiffness) = 0;
     virtual void move(Eigen::Vector3d const& origin, Eigen::Vector3d const& direction) = 0;
     virtual void release() = 0;
-    virtual SeenScene see() = 0;
+    virtual void keepForces(bool keep) = 0;
+    virtual SeenScene see(SeenSettings const& settings) = 0;
     virtual SeenComponent component(int line) = 0;
     virtual std::string fieldText(int line, std::string const& field) = 0;
     virtual FieldChange setField(int line, std::string const& field, std::string const& words) = 0;
@@ -197,7 +208,9 @@ class Stage {
     Simulation& simulation;
     MouseInteractor mouse{};
 
-    explicit ActorOf(Simulation& s) : simulation(s) {}
+    ActorOf(Simulation& s, bool forces) : simulation(s) {
+      if (forces) simulation.keepForces(true);
+    }
     void animate(double dt) override { simulation.animate(dt); }
     void reset() override {
       mouse.release(simulation);
@@ -211,7 +224,8 @@ class Stage {
       mouse.move(simulation, origin, direction);
     }
     void release() override { mouse.release(simulation); }
-    SeenScene see() override { return seen_scene(simulation); }
+    void keepForces(bool keep) override { simulation.keepForces(keep); }
+    SeenScene see(SeenSettings const& settings) override { return seen_scene(simulation, settings); }
     SeenComponent component(int line) override { return seen_component(simulation, line); }
     std::string fieldText(int line, std::string const& field) override {
       return field_text(simulation, line, field);
@@ -234,7 +248,9 @@ class Stage {
   using Clock = std::chrono::steady_clock;
 
   double dt_, speed_;
+  SeenSettings seen_;
   std::unique_ptr<Actor> actor_;
+  bool forcesKept_;
   mutable std::mutex mutex_{};
   std::condition_variable wake_{}, idle_{};
   std::vector<std::function<void(Stage&)>> asked_{};
@@ -311,7 +327,7 @@ class Stage {
       Scene seen;
       if (look || told)
         careful([&] {
-          seen = std::make_shared<SeenScene>(actor_->see());
+          seen = std::make_shared<SeenScene>(actor_->see(seen_));
           if (selectedLine_ >= 0)
             selected_ = std::make_shared<SeenComponent const>(actor_->component(selectedLine_));
         });
