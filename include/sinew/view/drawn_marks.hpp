@@ -35,7 +35,8 @@ namespace detail {
 
 inline std::string number_words(double value) {
   char words[32];
-  std::snprintf(words, sizeof words, "%.3g", value);
+  const double size = std::abs(value);
+  std::snprintf(words, sizeof words, size >= 1000 && size < 1e6 ? "%.0f" : "%.3g", value);
   return words;
 }
 
