@@ -100,6 +100,7 @@ class Renderer {
       if (used == bodies_.size()) bodies_.emplace_back();
       Body& body = bodies_[used++];
       body.faces.set(mesh.corners, mesh.normals, mesh.colours);
+      body.faces.setIndices(mesh.triangles);
       body.lines.set(mesh.lines.at, mesh.lines.colours);
       body.points.set(mesh.points.at, mesh.points.colours);
     };
