@@ -8,6 +8,7 @@
 #include <sinew/view/scene_panel.hpp>
 #include <sinew/view/show_panel.hpp>
 #include <sinew/view/stage.hpp>
+#include <sinew/view/tools_panel.hpp>
 
 #include <GLFW/glfw3.h>
 #include <backends/imgui_impl_glfw.h>
@@ -60,6 +61,8 @@ class Window {
     return image;
   }
   Controls& controls() { return controls_; }
+  /// A part of the panel: "Scene", "Show", "Tools" or "Plots".
+  void open(std::string part) { tab_ = std::move(part); }
   ScenePanel& scenePanel() { return panel_; }
   ShowPanel& showPanel() { return show_; }
   void close() { glfwSetWindowShouldClose(system_.window, GLFW_TRUE); }
@@ -120,6 +123,8 @@ class Window {
   Controls controls_{stage_, camera_of(*scene_, region().width, region().height)};
   ScenePanel panel_{stage_};
   ShowPanel show_;
+  ToolsPanel tools_{stage_};
+  std::string tab_{};
   int speed_ = 0;
   bool help_ = false;
 
@@ -192,6 +197,9 @@ class Window {
     if (pressed(GLFW_KEY_H)) help_ = !help_;
     if (pressed(GLFW_KEY_Q)) close();
   }
+  ImGuiTabItemFlags selected(char const* tab) const {
+    return tab_ == tab ? ImGuiTabItemFlags_SetSelected : ImGuiTabItemFlags_None;
+  }
   void panel() {
     const Region seen = region();
     ImGui::SetNextWindowPos({0, 0});
@@ -221,16 +229,27 @@ class Window {
       ImGui::PopStyleColor();
     }
     if (ImGui::BeginTabBar("tabs")) {
-      if (ImGui::BeginTabItem("Scene")) {
+      if (ImGui::BeginTabItem("Scene", nullptr, selected("Scene"))) {
         panel_.draw(state_);
         ImGui::EndTabItem();
       }
-      if (ImGui::BeginTabItem("Show")) {
+      if (ImGui::BeginTabItem("Show", nullptr, selected("Show"))) {
         ImGui::BeginChild("show");
         show_.draw(*scene_);
         ImGui::EndChild();
         ImGui::EndTabItem();
       }
+      if (ImGui::BeginTabItem("Tools", nullptr, selected("Tools"))) {
+        tools_.drawTools(state_);
+        ImGui::EndTabItem();
+      }
+      if (ImGui::BeginTabItem("Plots", nullptr, selected("Plots"))) {
+        ImGui::BeginChild("plots");
+        tools_.drawPlots(state_);
+        ImGui::EndChild();
+        ImGui::EndTabItem();
+      }
+      tab_.clear();
       ImGui::EndTabBar();
     }
     ImGui::End();
