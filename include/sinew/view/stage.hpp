@@ -179,6 +179,11 @@ class Stage {
       s.seen_ = settings;
     });
   }
+  /// act() by the thread of the simulation, between two steps, when it may look at the simulation; then
+  /// answer(error).
+  void between(std::function<void()> act, std::function<void(std::string const& error)> answer) {
+    ask([act = std::move(act), answer = std::move(answer)](Stage&) { answer(error_of(act)); });
+  }
   /// Measures the simulation after each step from now on, or no more: how long a step takes, and the energies
   /// of what moves and of the force fields. Those cost about as much as forces.
   void measure(bool on) {

@@ -23,7 +23,10 @@ namespace sinew::view {
 /// Keeping and going back, records of what was done, and plots, in a window of Dear ImGui that is open.
 class ToolsPanel {
  public:
-  explicit ToolsPanel(Stage& stage) : stage_(stage) {
+  /// save(path) writes the simulation to a file, between two steps; without it there is no button for that.
+  ToolsPanel(Stage& stage, std::function<void(std::string const&)> save)
+      : stage_(stage), save_(std::move(save)) {
+    std::strcpy(scene_.data(), "checkpoint.scn");
     std::strcpy(actions_.data(), "scene.actions");
     std::strcpy(plots_.data(), "plots.csv");
   }
@@ -33,6 +36,18 @@ class ToolsPanel {
     if (ImGui::Button("Keep")) stage_.keep();
     ImGui::SameLine();
     if (ImGui::Button("Go back to it")) stage_.restore();
+    if (save_) {
+      ImGui::InputText("##scene", scene_.data(), scene_.size());
+      if (ImGui::Button("Save as a scene")) {
+        answer_ = std::make_shared<Answer>();
+        const std::string path = scene_.data();
+        stage_.between([save = save_, path] { save(path); },
+                       [answer = answer_, path](std::string const& error) {
+                         const std::lock_guard lock(answer->mutex);
+                         answer->message = error.empty() ? text("wrote ", path) : error;
+                       });
+      }
+    }
     ImGui::Separator();
     ImGui::TextDisabled("what is done to it");
     if (ImGui::Button(state.recording ? "Stop" : "Record from the start")) stage_.record(!state.recording);
@@ -98,9 +113,11 @@ class ToolsPanel {
   struct Answer {
     std::mutex mutex{};
     std::optional<UserActions> actions{};
+    std::string message{};
   };
   Stage& stage_;
-  std::array<char, 256> actions_{}, plots_{};
+  std::function<void(std::string const&)> save_;
+  std::array<char, 256> scene_{}, actions_{}, plots_{};
   std::string message_{};
   bool measures_ = false;
   std::shared_ptr<Answer> answer_{};
@@ -117,12 +134,14 @@ class ToolsPanel {
     if (!answer_) return;
     {
       const std::lock_guard lock(answer_->mutex);
-      if (!answer_->actions) return;
-      careful([&] {
-        if (answer_->actions->dt == 0) throw Error("actions", "nothing was recorded yet");
-        io::write_file(actions_.data(), actions_text(*answer_->actions));
-        message_ = text("wrote ", actions_.data());
-      });
+      if (!answer_->message.empty()) message_ = answer_->message;
+      if (!answer_->actions && answer_->message.empty()) return;
+      if (answer_->actions)
+        careful([&] {
+          if (answer_->actions->dt == 0) throw Error("actions", "nothing was recorded yet");
+          io::write_file(actions_.data(), actions_text(*answer_->actions));
+          message_ = text("wrote ", actions_.data());
+        });
     }
     answer_.reset();
   }

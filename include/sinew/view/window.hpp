@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -25,9 +26,10 @@ namespace sinew::view {
 
 struct WindowSettings {
   std::string title = "Sinew";
-  int width = 1280, height = 800;  // [pixels]
-  std::optional<Camera> camera{};  // without one, that which sees all of the scene
-  SeenSettings seen{};             // what view() shows at first
+  int width = 1280, height = 800;                       // [pixels]
+  std::optional<Camera> camera{};                       // without one, that which sees all of the scene
+  SeenSettings seen{};                                  // what view() shows at first
+  std::function<void(std::string const& path)> save{};  // writes the simulation to a file, between two steps
 };
 
 /// A window onto a stage: the scene, its tree, and what it may be told. Of a process one at a time, in its
@@ -36,7 +38,11 @@ class Window {
  public:
   /// Throws Error where there is no display, or no OpenGL 3.3.
   explicit Window(Stage& stage, WindowSettings const& settings = {})
-      : stage_(stage), system_(settings), scene_(stage.scene()), show_(stage, scene_->settings) {
+      : stage_(stage),
+        system_(settings),
+        scene_(stage.scene()),
+        show_(stage, scene_->settings),
+        tools_(stage, settings.save) {
     if (settings.camera) controls_.setHome(*settings.camera);
     renderer_.show(*scene_);
   }
@@ -123,7 +129,7 @@ class Window {
   Controls controls_{stage_, camera_of(*scene_, region().width, region().height)};
   ScenePanel panel_{stage_};
   ShowPanel show_;
-  ToolsPanel tools_{stage_};
+  ToolsPanel tools_;
   std::string tab_{};
   int speed_ = 0;
   bool help_ = false;
