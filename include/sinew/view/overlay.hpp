@@ -37,7 +37,7 @@ class Overlay {
       float x, y, z;
       unsigned char colour[4];
     };
-    std::vector<char> buffer(words.size() * 270 + 1);
+    std::vector<char> buffer(1000 * words.size() + 1);
     const int quads = stb_easy_font_print(0, 0, words.data(), nullptr, buffer.data(), int(buffer.size()));
     for (std::size_t q = 0; q < std::size_t(quads); ++q) {
       Corner corners[4];

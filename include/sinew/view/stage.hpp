@@ -4,10 +4,15 @@
 #include <sinew/core/error.hpp>
 #include <sinew/scene/mouse_interactor.hpp>
 #include <sinew/view/fields.hpp>
+#include <sinew/view/plots.hpp>
 #include <sinew/view/seen_scene.hpp>
+#include <sinew/view/user_actions.hpp>
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <chrono>
+#include <cmath>
 #include <condition_variable>
 #include <cstddef>
 #include <exception>
@@ -32,9 +37,10 @@ struct Held {
 struct StageState {
   double time = 0, stepsPerSecond = 0;
   long step = 0;
-  bool playing = false;
+  bool playing = false, recording = false, replaying = false, measuring = false;
   std::optional<Held> held{};
   std::shared_ptr<SeenComponent const> selected{};  // as it was when the scene was last looked at; or none
+  std::shared_ptr<Measures const> measures{};       // a few times a second, while it is measured
   std::optional<FieldChange> undo{}, redo{};        // what undo() would take back, and redo() do again
   std::string error{};  // of the last thing that went wrong; empty where nothing has
 };
@@ -50,12 +56,14 @@ class Stage {
   /// seconds long and, where it is fast enough, go at `speed` times the time of the clock; 0: as fast as they
   /// can.
   template <class Simulation>
-  Stage(Simulation& simulation, double dt, double speed = 1)
+  Stage(Simulation& simulation, double dt, double speed = 1, SeenSettings const& seen = {})
       : tree(scene_tree(simulation)),
         dt_(dt),
         speed_(speed),
-        actor_(new ActorOf<Simulation>(simulation)),
-        scene_(std::make_shared<SeenScene>(actor_->see())),
+        seen_(seen),
+        actor_(new ActorOf<Simulation>(simulation, seen.needsForces())),
+        forcesKept_(seen.needsForces()),
+        scene_(std::make_shared<SeenScene>(actor_->see(seen_))),
         thread_([this] { go(); }) {}
   Stage(Stage const&) = delete;
   Stage& operator=(Stage const&) = delete;
@@ -91,26 +99,118 @@ class Stage {
   void step() {
     ask([](Stage& s) {
       s.playing_ = false;
-      s.actor_->animate(s.dt_);
+      s.animate();
     });
   }
   /// Back to the start.
-  void reset() {
-    ask([](Stage& s) { s.actor_->reset(); });
-  }
+  void reset() { act({.kind = ActionKind::reset}); }
   void setSpeed(double speed) {
     ask([speed](Stage& s) { s.speed_ = speed; });
   }
   /// Takes hold of what a ray meets first, by a spring [N/m].
   void press(Eigen::Vector3d const& origin, Eigen::Vector3d const& direction, double stiffness) {
-    ask([=](Stage& s) { s.actor_->press(origin, direction, stiffness); });
+    act({.kind = ActionKind::press, .origin = origin, .direction = direction, .stiffness = stiffness});
   }
   /// The end of the spring comes under another ray.
   void move(Eigen::Vector3d const& origin, Eigen::Vector3d const& direction) {
-    ask([=](Stage& s) { s.actor_->move(origin, direction); });
+    act({.kind = ActionKind::move, .origin = origin, .direction = direction});
   }
-  void release() {
-    ask([](Stage& s) { s.actor_->release(); });
+  void release() { act({.kind = ActionKind::release}); }
+
+  /// Keeps the simulation as it is now; restore() goes back there, as often as wanted.
+  void keep() {
+    ask([](Stage& s) { s.actor_->keep(); });
+  }
+  void restore() {
+    ask([](Stage& s) {
+      if (!s.actor_->restore()) throw Error("view", "nothing was kept to go back to");
+      s.stopActions();
+    });
+  }
+  /// Goes back to the start, and records from there what is done to the simulation; or ends that.
+  void record(bool on) {
+    ask([on](Stage& s) {
+      s.stopActions();
+      if (!on) return;
+      s.actor_->reset();
+      s.recorded_ = UserActions{.dt = s.dt_};
+      for (std::size_t k = 0; k < s.changesDone_; ++k)
+        s.recorded_.actions.push_back({0,
+                                       {.kind = ActionKind::set,
+                                        .line = s.changes_[k].line,
+                                        .field = s.changes_[k].field,
+                                        .words = s.changes_[k].after}});
+      s.records_ = true;
+    });
+  }
+  /// answer(what the last record has).
+  void recorded(std::function<void(UserActions const&)> answer) {
+    ask([answer = std::move(answer)](Stage& s) { answer(s.recorded_); });
+  }
+  /// Goes back to the start, with the fields that it had, and does all of that again at the same steps, which
+  /// makes the same motion bit by bit; then it stands. What a user does meanwhile ends it.
+  void replay(UserActions actions) {
+    ask([actions = std::move(actions)](Stage& s) {
+      if (actions.dt != s.dt_)
+        throw Error("view",
+                    text("the actions were recorded with steps of ",
+                         actions.dt,
+                         " s, and those of the scene are ",
+                         s.dt_,
+                         " s; start it with --dt ",
+                         actions.dt));
+      s.stopActions();
+      while (s.changesDone_ > 0) {
+        FieldChange const& last = s.changes_[--s.changesDone_];
+        s.actor_->setField(last.line, last.field, last.before);
+      }
+      s.changes_.clear();
+      s.actor_->reset();
+      s.replayed_ = actions;
+      s.replays_ = s.playing_ = true;
+    });
+  }
+
+  /// What is to be seen from the next picture on; forces are kept while they are asked for.
+  void show(SeenSettings settings) {
+    ask([settings = std::move(settings)](Stage& s) {
+      if (const bool needs = settings.needsForces(); needs != s.forcesKept_)
+        s.actor_->keepForces(s.forcesKept_ = needs);
+      s.seen_ = settings;
+    });
+  }
+  /// act() by the thread of the simulation, between two steps, when it may look at the simulation; then
+  /// answer(error).
+  void between(std::function<void()> act, std::function<void(std::string const& error)> answer) {
+    ask([act = std::move(act), answer = std::move(answer)](Stage&) { answer(error_of(act)); });
+  }
+  /// Measures the simulation after each step from now on, or no more: how long a step takes, and the energies
+  /// of what moves and of the force fields. Those cost about as much as forces.
+  void measure(bool on) {
+    ask([on](Stage& s) {
+      s.beginMeasures();
+      s.measuring_ = on;
+    });
+  }
+  /// Measures a field, too: the first number of its value.
+  void measureField(int line, std::string field) {
+    ask([line, field = std::move(field)](Stage& s) {
+      const SeenComponent component = s.actor_->component(line);
+      for (SeenField const& one : component.fields)
+        if (one.name == field) {
+          s.beginMeasures();
+          s.measuredFields_.emplace_back(line, field);
+          s.clearMeasures();
+          s.measures_.series.push_back(
+              {text(component.path, ": ", component.className, ": ", field), one.unit});
+          return;
+        }
+      throw Error("view", text("there is no field '", field, "' to measure"));
+    });
+  }
+  /// answer(all that was measured).
+  void measures(std::function<void(Measures const&)> answer) {
+    ask([answer = std::move(answer)](Stage& s) { answer(s.measures_); });
   }
   /// The component at a line of the tree is looked at from now on (StageState::selected); -1: none is.
   void select(int line) {
@@ -145,14 +245,12 @@ class Stage {
   void setField(int line, std::string field, std::string words,
                 std::function<void(std::string const& error)> answer = {}) {
     ask([line, field = std::move(field), words = std::move(words), answer = std::move(answer)](Stage& s) {
-      auto act = [&] {
-        FieldChange change = s.actor_->setField(line, field, words);
-        s.changes_.resize(s.changesDone_);
-        if (change.before != change.after) s.changes_.push_back(std::move(change));
-        s.changesDone_ = s.changes_.size();
+      auto change = [&] {
+        s.endReplay();
+        s.perform({.kind = ActionKind::set, .line = line, .field = field, .words = words});
       };
-      if (!answer) return act();
-      answer(error_of(act));
+      if (!answer) return change();
+      answer(error_of(change));
     });
   }
   /// Takes back the last change of a field; and does again what was taken back last.
@@ -160,7 +258,8 @@ class Stage {
     ask([](Stage& s) {
       if (s.changesDone_ == 0) return;
       FieldChange const& last = s.changes_[s.changesDone_ - 1];
-      s.actor_->setField(last.line, last.field, last.before);
+      s.endReplay();
+      s.setRecorded(last.line, last.field, last.before);
       --s.changesDone_;
     });
   }
@@ -168,7 +267,8 @@ class Stage {
     ask([](Stage& s) {
       if (s.changesDone_ == s.changes_.size()) return;
       FieldChange const& next = s.changes_[s.changesDone_];
-      s.actor_->setField(next.line, next.field, next.after);
+      s.endReplay();
+      s.setRecorded(next.line, next.field, next.after);
       ++s.changesDone_;
     });
   }
@@ -186,7 +286,11 @@ class Stage {
     virtual void press(Eigen::Vector3d const& origin, Eigen::Vector3d const& direction, double stiffness) = 0;
     virtual void move(Eigen::Vector3d const& origin, Eigen::Vector3d const& direction) = 0;
     virtual void release() = 0;
-    virtual SeenScene see() = 0;
+    virtual std::array<double, 2> energies() = 0;
+    virtual void keep() = 0;
+    virtual bool restore() = 0;
+    virtual void keepForces(bool keep) = 0;
+    virtual SeenScene see(SeenSettings const& settings) = 0;
     virtual SeenComponent component(int line) = 0;
     virtual std::string fieldText(int line, std::string const& field) = 0;
     virtual FieldChange setField(int line, std::string const& field, std::string const& words) = 0;
@@ -195,9 +299,13 @@ class Stage {
   template <class Simulation>
   struct ActorOf final : Actor {
     Simulation& simulation;
+    std::unique_ptr<Simulation> kept{};
+    KnownBorders borders{};
     MouseInteractor mouse{};
 
-    explicit ActorOf(Simulation& s) : simulation(s) {}
+    ActorOf(Simulation& s, bool forces) : simulation(s) {
+      if (forces) simulation.keepForces(true);
+    }
     void animate(double dt) override { simulation.animate(dt); }
     void reset() override {
       mouse.release(simulation);
@@ -211,7 +319,22 @@ class Stage {
       mouse.move(simulation, origin, direction);
     }
     void release() override { mouse.release(simulation); }
-    SeenScene see() override { return seen_scene(simulation); }
+    std::array<double, 2> energies() override {
+      return {simulation.kineticEnergy(), simulation.potentialEnergy()};
+    }
+    void keep() override {
+      mouse.release(simulation);
+      kept = std::make_unique<Simulation>(simulation);
+    }
+    bool restore() override {
+      mouse.release(simulation);
+      if (kept) simulation = *kept;
+      return bool(kept);
+    }
+    void keepForces(bool keep) override { simulation.keepForces(keep); }
+    SeenScene see(SeenSettings const& settings) override {
+      return seen_scene(simulation, settings, &borders);
+    }
     SeenComponent component(int line) override { return seen_component(simulation, line); }
     std::string fieldText(int line, std::string const& field) override {
       return field_text(simulation, line, field);
@@ -234,7 +357,9 @@ class Stage {
   using Clock = std::chrono::steady_clock;
 
   double dt_, speed_;
+  SeenSettings seen_;
   std::unique_ptr<Actor> actor_;
+  bool forcesKept_;
   mutable std::mutex mutex_{};
   std::condition_variable wake_{}, idle_{};
   std::vector<std::function<void(Stage&)>> asked_{};
@@ -245,9 +370,106 @@ class Stage {
   std::shared_ptr<SeenComponent const> selected_{};
   std::vector<FieldChange> changes_{};
   std::size_t changesDone_ = 0;
+  Measures measures_{};
+  std::vector<std::pair<int, std::string>> measuredFields_{};
+  bool measuring_ = false;
+  UserActions recorded_{}, replayed_{};
+  bool records_ = false, replays_ = false;
+  long stepped_ = 0;            // since a record or a replay has begun
+  std::size_t replayedTo_ = 0;  // of its actions
   bool ends_ = false, wanted_ = true, busy_ = false, playing_ = false;
   std::thread thread_;  // the last, since it uses all of them
 
+  void act(UserAction action) {
+    ask([action = std::move(action)](Stage& s) {
+      s.endReplay();
+      s.perform(action);
+    });
+  }
+  // what a user does to the simulation
+  void perform(UserAction const& action) {
+    switch (action.kind) {
+      case ActionKind::press:
+        actor_->press(action.origin, action.direction, action.stiffness);
+        break;
+      case ActionKind::move:
+        actor_->move(action.origin, action.direction);
+        break;
+      case ActionKind::release:
+        actor_->release();
+        break;
+      case ActionKind::reset:
+        actor_->reset();
+        break;
+      case ActionKind::set: {
+        FieldChange change = actor_->setField(action.line, action.field, action.words);
+        changes_.resize(changesDone_);
+        if (change.before != change.after) changes_.push_back(std::move(change));
+        changesDone_ = changes_.size();
+        break;
+      }
+    }
+    if (records_) recorded_.actions.push_back({stepped_, action});
+  }
+  // without a place among the changes that can be taken back
+  void setRecorded(int line, std::string const& field, std::string const& words) {
+    actor_->setField(line, field, words);
+    if (records_)
+      recorded_.actions.push_back(
+          {stepped_, {.kind = ActionKind::set, .line = line, .field = field, .words = words}});
+  }
+  void stopActions() {
+    if (records_) recorded_.steps = stepped_;
+    records_ = replays_ = false;
+    stepped_ = 0;
+    replayedTo_ = 0;
+  }
+  void endReplay() {
+    if (replays_) stopActions();
+  }
+  void animate() {
+    auto& actions = replayed_.actions;
+    while (replays_ && replayedTo_ < actions.size() && actions[replayedTo_].step <= stepped_)
+      perform(actions[replayedTo_++].action);
+    if (replays_ && stepped_ >= replayed_.steps) {
+      stopActions();
+      playing_ = false;
+      return;
+    }
+    const auto start = Clock::now();
+    actor_->animate(dt_);
+    ++stepped_;
+    if (measuring_) measureStep(std::chrono::duration<double>(Clock::now() - start).count());
+  }
+  void beginMeasures() {
+    if (measures_.series.empty())
+      measures_.series = {
+          {"time of a step", "ms"}, {"kinetic energy", "J"}, {"energy of the force fields", "J"}};
+  }
+  void clearMeasures() {
+    measures_.times.clear();
+    for (Series& one : measures_.series) one.values.clear();
+  }
+  void measureStep(double seconds) {
+    StageState now;
+    actor_->tell(now);
+    // behind a reset, time begins anew
+    if (!measures_.times.empty() && now.time < measures_.times.back()) {
+      clearMeasures();
+    }
+    measures_.drop();
+    measures_.times.push_back(now.time);
+    const auto [kinetic, potential] = actor_->energies();
+    std::size_t k = 0;
+    for (const double value : {1000 * seconds, kinetic, potential})
+      measures_.series[k++].values.push_back(value);
+    for (auto const& [line, field] : measuredFields_) {
+      const std::string words = actor_->fieldText(line, field);
+      double value = std::nan("");
+      std::from_chars(words.data(), words.data() + words.size(), value);
+      measures_.series[k++].values.push_back(value);
+    }
+  }
   // what an act throws, in words; empty where it throws nothing
   template <class Act>
   static std::string error_of(Act&& act) {
@@ -275,7 +497,7 @@ class Stage {
       }
       return true;
     };
-    Clock::time_point next = Clock::now(), measured = next;
+    Clock::time_point next = Clock::now(), measured = next, nextMeasures = next;
     long steps = 0;
     double rate = 0;
     std::vector<std::function<void(Stage&)>> mine;
@@ -284,10 +506,11 @@ class Stage {
       {
         std::unique_lock lock(mutex_);
         auto called = [this] { return ends_ || !asked_.empty() || wanted_; };
-        if (playing_)
-          wake_.wait_until(lock, next, [this] { return ends_ || !asked_.empty(); });
-        else
+        // what is late does not wait, which would give the processor away
+        if (!playing_)
           wake_.wait(lock, called);
+        else if (Clock::now() < next)
+          wake_.wait_until(lock, next, [this] { return ends_ || !asked_.empty(); });
         if (ends_) return;
         mine.swap(asked_);
         busy_ = true;
@@ -299,7 +522,7 @@ class Stage {
       mine.clear();
       if (stood) next = measured = Clock::now(), steps = 0;
       if (playing_ && Clock::now() >= next) {
-        if (!careful([&] { actor_->animate(dt_); })) playing_ = false;
+        if (!careful([&] { animate(); })) playing_ = false;
         ++steps;
         // after a slow step the time that is lost is not made up for
         const auto pause = std::chrono::duration_cast<Clock::duration>(
@@ -311,7 +534,7 @@ class Stage {
       Scene seen;
       if (look || told)
         careful([&] {
-          seen = std::make_shared<SeenScene>(actor_->see());
+          seen = std::make_shared<SeenScene>(actor_->see(seen_));
           if (selectedLine_ >= 0)
             selected_ = std::make_shared<SeenComponent const>(actor_->component(selectedLine_));
         });
@@ -319,6 +542,13 @@ class Stage {
       if (seen) scene_ = std::move(seen);
       actor_->tell(state_);
       state_.selected = selected_;
+      if (measuring_ && (look || told) && Clock::now() > nextMeasures) {
+        state_.measures = std::make_shared<Measures const>(measures_);
+        nextMeasures = Clock::now() + std::chrono::milliseconds(200);
+      }
+      state_.measuring = measuring_;
+      state_.recording = records_;
+      state_.replaying = replays_;
       if (told) {
         state_.undo = changesDone_ > 0 ? std::optional(changes_[changesDone_ - 1]) : std::nullopt;
         state_.redo = changesDone_ < changes_.size() ? std::optional(changes_[changesDone_]) : std::nullopt;

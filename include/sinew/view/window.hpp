@@ -5,7 +5,10 @@
 #include <sinew/view/image.hpp>
 #include <sinew/view/picture.hpp>
 #include <sinew/view/renderer.hpp>
+#include <sinew/view/scene_panel.hpp>
+#include <sinew/view/show_panel.hpp>
 #include <sinew/view/stage.hpp>
+#include <sinew/view/tools_panel.hpp>
 
 #include <GLFW/glfw3.h>
 #include <backends/imgui_impl_glfw.h>
@@ -14,6 +17,8 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -21,7 +26,10 @@ namespace sinew::view {
 
 struct WindowSettings {
   std::string title = "Sinew";
-  int width = 1280, height = 800;  // [pixels]
+  int width = 1280, height = 800;                       // [pixels]
+  std::optional<Camera> camera{};                       // without one, that which sees all of the scene
+  SeenSettings seen{};                                  // what view() shows at first
+  std::function<void(std::string const& path)> save{};  // writes the simulation to a file, between two steps
 };
 
 /// A window onto a stage: the scene, its tree, and what it may be told. Of a process one at a time, in its
@@ -30,7 +38,12 @@ class Window {
  public:
   /// Throws Error where there is no display, or no OpenGL 3.3.
   explicit Window(Stage& stage, WindowSettings const& settings = {})
-      : stage_(stage), system_(settings), scene_(stage.scene()) {
+      : stage_(stage),
+        system_(settings),
+        scene_(stage.scene()),
+        show_(stage, scene_->settings),
+        tools_(stage, settings.save) {
+    if (settings.camera) controls_.setHome(*settings.camera);
     renderer_.show(*scene_);
   }
 
@@ -54,6 +67,10 @@ class Window {
     return image;
   }
   Controls& controls() { return controls_; }
+  /// A part of the panel: "Scene", "Show", "Tools" or "Plots".
+  void open(std::string part) { tab_ = std::move(part); }
+  ScenePanel& scenePanel() { return panel_; }
+  ShowPanel& showPanel() { return show_; }
   void close() { glfwSetWindowShouldClose(system_.window, GLFW_TRUE); }
 
  private:
@@ -80,6 +97,7 @@ class Window {
       float scale = 1;
       glfwGetWindowContentScale(window, &scale, nullptr);
       ImGui::StyleColorsLight();
+      ImGui::GetStyle().FrameBorderSize = 1;
       ImGui::GetStyle().ScaleAllSizes(scale);
       ImGui::GetIO().FontGlobalScale = scale;
       ImGui_ImplGlfw_InitForOpenGL(window, true);
@@ -110,6 +128,10 @@ class Window {
   Renderer renderer_{};
   StageState state_{};
   Controls controls_{stage_, camera_of(*scene_, region().width, region().height)};
+  ScenePanel panel_{stage_};
+  ShowPanel show_;
+  ToolsPanel tools_;
+  std::string tab_{};
   int speed_ = 0;
   bool help_ = false;
 
@@ -176,8 +198,14 @@ class Window {
     if (pressed(GLFW_KEY_N)) stage_.step();
     if (pressed(GLFW_KEY_R)) stage_.reset();
     if (pressed(GLFW_KEY_F)) controls_.home();
+    for (int axis = 0; axis < 3; ++axis)
+      if (pressed(GLFW_KEY_X + axis)) controls_.lookAlong(axis);
+    if (pressed(GLFW_KEY_U)) stage_.undo();
     if (pressed(GLFW_KEY_H)) help_ = !help_;
     if (pressed(GLFW_KEY_Q)) close();
+  }
+  ImGuiTabItemFlags selected(char const* tab) const {
+    return tab_ == tab ? ImGuiTabItemFlags_SetSelected : ImGuiTabItemFlags_None;
   }
   void panel() {
     const Region seen = region();
@@ -207,17 +235,30 @@ class Window {
       ImGui::TextWrapped("%s", state_.error.c_str());
       ImGui::PopStyleColor();
     }
-    ImGui::Separator();
-    ImGui::BeginChild("tree");
-    for (TreeLine const& line : stage_.tree) {
-      ImGui::Indent(10.f * float(line.depth) + 1);
-      if (line.className.empty())
-        ImGui::TextUnformatted(line.name.c_str());
-      else
-        ImGui::TextDisabled("%s", line.className.c_str());
-      ImGui::Unindent(10.f * float(line.depth) + 1);
+    if (ImGui::BeginTabBar("tabs")) {
+      if (ImGui::BeginTabItem("Scene", nullptr, selected("Scene"))) {
+        panel_.draw(state_);
+        ImGui::EndTabItem();
+      }
+      if (ImGui::BeginTabItem("Show", nullptr, selected("Show"))) {
+        ImGui::BeginChild("show");
+        show_.draw(*scene_);
+        ImGui::EndChild();
+        ImGui::EndTabItem();
+      }
+      if (ImGui::BeginTabItem("Tools", nullptr, selected("Tools"))) {
+        tools_.drawTools(state_);
+        ImGui::EndTabItem();
+      }
+      if (ImGui::BeginTabItem("Plots", nullptr, selected("Plots"))) {
+        ImGui::BeginChild("plots");
+        tools_.drawPlots(state_);
+        ImGui::EndChild();
+        ImGui::EndTabItem();
+      }
+      tab_.clear();
+      ImGui::EndTabBar();
     }
-    ImGui::EndChild();
     ImGui::End();
   }
   void showHelp() {
@@ -231,6 +272,8 @@ class Window {
         "N                         one step\n"
         "R                         back to the start\n"
         "F                         the whole scene\n"
+        "X, Y, Z                   from the side of an axis\n"
+        "U                         takes back the last change of a field\n"
         "H                         this help\n"
         "Q                         close");
     ImGui::End();
@@ -259,7 +302,7 @@ class Window {
 /// lets it go.
 template <class Simulation>
 void view(Simulation& simulation, double dt, WindowSettings const& settings = {}) {
-  Stage stage(simulation, dt);
+  Stage stage(simulation, dt, 1, settings.seen);
   Window(stage, settings).run();
 }
 
