@@ -6,6 +6,7 @@
 #ifdef SINEW_VIEW
 #include <sinew/io/output_file.hpp>
 #include <sinew/view/film.hpp>
+#include <sinew/view/gltf.hpp>
 #include <sinew/view/picture.hpp>
 
 #include <cstdio>
@@ -16,27 +17,31 @@ namespace cli {
 struct Frames::Parts {
   sinew::view::SeenSettings seen;
   sinew::view::KnownBorders borders{};
-  sinew::view::Painter painter;
-  std::string folder;
+  std::optional<sinew::view::Painter> painter{};  // of pictures and films
+  std::string folder{};
   std::optional<sinew::view::Film> film{};
+  std::optional<sinew::view::GltfFile> gltf{};
   long pictures = 0;
 };
 
 Frames::Frames(RunOptions const& options, Scene& scene, double picturesPerSecond) {
   const sinew::view::ViewSettings settings = seen_settings(options.seen, scene);
   if (options.output != Output::quiet) print_notes({}, settings.warnings);
-  parts_.reset(new Parts{.seen = settings.seen,
-                         .painter = sinew::view::Painter(
-                             {.width = options.width, .height = options.height, .camera = settings.camera}),
-                         .folder = options.png});
+  parts_.reset(new Parts{.seen = settings.seen, .folder = options.png});
+  if (!options.png.empty() || !options.film.empty())
+    parts_->painter.emplace(sinew::view::PictureSettings{
+        .width = options.width, .height = options.height, .camera = settings.camera});
+  if (!options.gltf.empty()) parts_->gltf.emplace(options.gltf);
   if (!options.png.empty()) sinew::io::make_folders(options.png);
   if (!options.film.empty())
     parts_->film.emplace(options.film, options.width, options.height, picturesPerSecond);
 }
 
 void Frames::add(sinew::StandardSimulation& simulation) {
-  const auto image =
-      parts_->painter.paint(sinew::view::seen_scene(simulation, parts_->seen, &parts_->borders));
+  const auto scene = sinew::view::seen_scene(simulation, parts_->seen, &parts_->borders);
+  if (parts_->gltf) parts_->gltf->add(scene);
+  if (!parts_->painter) return;
+  const auto image = parts_->painter->paint(scene);
   if (!parts_->folder.empty()) {
     char name[32];
     std::snprintf(name, sizeof name, "%06ld.png", parts_->pictures);
@@ -54,6 +59,7 @@ std::vector<std::string> Frames::finish() {
   if (!parts_->folder.empty())
     files.push_back(sinew::text(parts_->folder, " (", parts_->pictures, " pictures)"));
   if (parts_->film) parts_->film->finish(), files.push_back(parts_->film->path());
+  if (parts_->gltf) parts_->gltf->finish(), files.push_back(parts_->gltf->path());
   return files;
 }
 
@@ -66,9 +72,10 @@ namespace cli {
 struct Frames::Parts {};
 
 Frames::Frames(RunOptions const&, Scene&, double) {
-  throw Failure{badUsage,
-                {"--png and --film: this program was built without pictures; install what they need (Debian: "
-                 "libepoxy-dev, libegl-dev, libstb-dev), configure and build again"}};
+  throw Failure{
+      badUsage,
+      {"--png, --film and --gltf: this program was built without pictures; install what they need (Debian: "
+       "libepoxy-dev, libegl-dev, libstb-dev), configure and build again"}};
 }
 void Frames::add(sinew::StandardSimulation&) {}
 bool Frames::needForces() const { return false; }

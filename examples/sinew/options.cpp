@@ -165,6 +165,11 @@ Options read_options(int argc, char** argv, int& status) {
       ->type_name("DIR");
   run->add_option("--film", o.run.film, "File for the pictures as a film (.mp4), which ffmpeg makes")
       ->type_name("FILE");
+  run->add_option(
+         "--gltf",
+         o.run.gltf,
+         "File for what is seen over time, in three dimensions (.glb), which viewers and browsers open")
+      ->type_name("FILE");
   run->add_option("--size", size, "Width and height of these pictures in pixels (default 1280x960)")
       ->type_name("WxH");
   add_seen(*run, o.run.seen);

@@ -47,7 +47,7 @@ enum class Output { words, quiet, json };
 struct RunOptions {
   SceneOptions scene{};
   Duration duration{};
-  std::string vtk{}, png{}, film{}, record{}, forces{}, save{};
+  std::string vtk{}, png{}, film{}, gltf{}, record{}, forces{}, save{};
   int width = 1280, height = 960;  // of pictures [pixels]
   SeenOptions seen{};
   long every = 1;

@@ -29,7 +29,7 @@ class Outputs {
         sinew::io::make_folders(options.vtk);
         pictures_.emplace(options.vtk, scene.simulation.root());
       }
-      if (!options.png.empty() || !options.film.empty())
+      if (!options.png.empty() || !options.film.empty() || !options.gltf.empty())
         frames_.emplace(options, scene, 1 / (scene.dt * double(options.every)));
       if (!options.record.empty()) record_.emplace(options.record);
       if (!options.forces.empty()) forces_.emplace(options.forces);
