@@ -267,12 +267,20 @@ int run(RunOptions const& options) {
   if (words) warnings.printCounts();
   const bool stopped = done < steps && !failure;
   if (words && done < steps && isatty(2)) std::fprintf(stderr, "\n");
+  double kinetic = std::nan(""), potential = kinetic;
+  if (!failure) {
+    kinetic = simulation.kineticEnergy(), potential = simulation.potentialEnergy();
+    if (!std::isfinite(kinetic))
+      failure =
+          Failure{diverged,
+                  {sinew::text(options.scene.path,
+                               ": the kinetic energy is not a finite number: the simulation diverged; take "
+                               "a smaller dt, an implicit solver or smaller forces")}};
+  }
   const auto files = outputs.finish(!failure);
 
   const double seconds = stepping.seconds();
   const double rate = done > 0 ? double(done) / seconds : std::nan("");
-  double kinetic = std::nan(""), potential = kinetic;
-  if (!failure) kinetic = simulation.kineticEnergy(), potential = simulation.potentialEnergy();
   if (options.output == Output::json) {
     for (auto const& warning : warnings.all()) scene.warnings.push_back(warning);
     Json json = Summary{.scene = options.scene.path,

@@ -299,6 +299,14 @@ elseif(CASE STREQUAL "run-diverges")
   endif()
   sinew(3 run stiff.scn --json --steps 1000)
   json(error errors 0)
+  # numbers that are finite, and their squares are not
+  file(WRITE ${WORK}/far.scn "<Node gravity='1e200 0 0'><EulerExplicitSolver/><Node name='body'>
+    <MechanicalObject position='0 0 0'/><UniformMass vertexMass='1'/></Node></Node>")
+  sinew(3 run far.scn --save end.scn)
+  expect_error("far.scn: the kinetic energy is not a finite number")
+  if(EXISTS ${WORK}/end.scn)
+    fail("what diverged was saved")
+  endif()
   # and of a scene that is refused
   sinew(1 run stiff.scn --json --set body/UniformMass.vertexMass=-1)
   json(error errors 0)
