@@ -1,0 +1,21 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSL-1.0
+# Makes the pictures of the pages anew, from the programs of build/demo: docs/pictures/make.sh
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+programs=$PWD/build/demo/examples
+out=$(mktemp -d)
+trap 'rm -rf "$out"' EXIT
+
+# the last picture of a scene: picture NAME SCENE STEPS OPTIONS...
+picture() {
+  local name=$1 scene=$2 steps=$3
+  shift 3
+  "$programs/sinew" run "examples/scenes/$scene.scn" --steps "$steps" --every "$steps" --png "$out/$name" --size 960x540 --quiet "$@"
+  cp "$out/$name/000001.png" "docs/pictures/$name.png"
+}
+
+(cd "$out" && "$programs/guide_beam" >/dev/null && cp beam.png "$OLDPWD/docs/pictures/beam.png")
+picture stress liver 60 --colour vonMises
+picture contacts contacts 150 --arrows contacts
+picture fluid fluid 60 --colour speed
