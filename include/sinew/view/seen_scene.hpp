@@ -36,6 +36,7 @@ struct SeenScene {
   std::vector<SeenBody> bodies{};
   Eigen::Vector3d up{0, 1, 0};  // against gravity
   double time = 0;              // [s]
+  long step = 0;
 
   /// The corners of the smallest box around everything that is finite; equal where nothing is seen.
   std::pair<Eigen::Vector3d, Eigen::Vector3d> box() const {
@@ -75,6 +76,7 @@ SeenScene seen_scene(Simulation& simulation) {
   simulation.updateVisual();
   SeenScene seen;
   seen.time = simulation.time();
+  seen.step = simulation.step();
   simulation.template visit<role::VisualModel>([&](auto const& visual, auto const& scope) {
     SeenBody body{.path = scope.path(), .visual = true};
     Mesh mesh = visual.current();

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/view/scene_tree.hpp>
+#include <sinew/view/seen_scene.hpp>
+#include <sinew/view/stage.hpp>
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+// What a stage and a page that is elsewhere, in a browser, say to each other (docs/viewing.md): functions on
+// bytes, which know of no socket. They are of the target sinew::serve.
+namespace sinew::view {
+
+/// What a page may tell a stage. Rays have an origin and a direction of length 1, in metres.
+namespace command {
+struct Play {
+  bool on = true;
+  bool operator==(Play const&) const = default;
+};
+struct Step {
+  bool operator==(Step const&) const = default;
+};
+struct Reset {
+  bool operator==(Reset const&) const = default;
+};
+struct Speed {
+  double times = 1;  // the time of the clock; 0: as fast as it can
+  bool operator==(Speed const&) const = default;
+};
+struct Press {
+  Eigen::Vector3d origin{0, 0, 0}, direction{0, 0, 1};
+  double stiffness = 1000;  // [N/m]
+  bool operator==(Press const&) const = default;
+};
+struct Move {
+  Eigen::Vector3d origin{0, 0, 0}, direction{0, 0, 1};
+  bool operator==(Move const&) const = default;
+};
+struct Release {
+  bool operator==(Release const&) const = default;
+};
+}  // namespace command
+using Command = std::variant<command::Play, command::Step, command::Reset, command::Speed, command::Press,
+                             command::Move, command::Release>;
+
+/// Commands longer than that [bytes], or nested deeper, are refused.
+inline constexpr std::size_t longestCommand = 16384, deepestCommand = 4;
+
+/// A command from JSON (RFC 8259). Throws Error for all that is not exactly one: whose numbers are finite and
+/// in range, and which has its members and no others.
+Command read_command(std::string_view json);
+std::string write_command(Command const& command);
+
+/// Does what a command says with a stage, or what has its functions.
+template <class Stage>
+void tell(Stage& stage, Command const& said) {
+  struct {
+    Stage& stage;
+    void operator()(command::Play const& c) { stage.play(c.on); }
+    void operator()(command::Step const&) { stage.step(); }
+    void operator()(command::Reset const&) { stage.reset(); }
+    void operator()(command::Speed const& c) { stage.setSpeed(c.times); }
+    void operator()(command::Press const& c) { stage.press(c.origin, c.direction, c.stiffness); }
+    void operator()(command::Move const& c) { stage.move(c.origin, c.direction); }
+    void operator()(command::Release const&) { stage.release(); }
+  } doing{stage};
+  std::visit(doing, said);
+}
+
+/// What a page is told as JSON: once what the scene is made of; how it gets on; what was wrong with a
+/// command.
+std::string write_scene(std::string_view title, double dt, std::vector<TreeLine> const& tree);
+std::string write_state(StageState const& state);
+std::string write_error(std::string_view message);
+
+/// The elements of what is seen, known by a number; of its points only how many there are. Words of four
+/// bytes, the lowest first: 1 for a topology, its number, three floats upwards, how many bodies; for each
+/// body whether it is a visual model, lengths of path [bytes], points, triangles, quads, edges; the path,
+/// filled up to a word, and the numbers of the points of each element.
+std::string write_topology(SeenScene const& scene, std::uint32_t number);
+/// A moment of it: the words 2, the number of its topology, how many points all bodies have, 0; time [s] and
+/// step as doubles; x, y, z of each point as floats.
+std::string write_frame(SeenScene const& scene, std::uint32_t topology);
+
+/// Of a topology that is read.
+inline constexpr std::size_t mostPoints = 4'000'000;
+
+struct ReadTopology {
+  std::uint32_t number = 0;
+  SeenScene scene{};  // its points are all 0
+};
+/// The inverse functions; throw Error where bytes are no topology, or no frame of this one.
+ReadTopology read_topology(std::string_view bytes);
+void read_frame(std::string_view bytes, ReadTopology& into);
+
+/// Messages for scenes that follow each other: their topology again only when it has changed.
+class SceneWriter {
+ public:
+  /// What to send of a scene: to whom does not have the topology of this number, that first.
+  void write(SeenScene const& scene);
+  std::uint32_t number() const { return number_; }
+  std::string const& topology() const { return topology_; }
+  std::string const& frame() const { return frame_; }
+
+ private:
+  std::uint32_t number_ = 0;
+  std::string topology_{}, frame_{};
+};
+
+}  // namespace sinew::view
