@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,6 +22,8 @@ struct ValueType {
   std::string (*write)(void const* value);
   std::string (*cpp)(void const* value);
   bool isFile;
+  std::span<std::string_view const> choices;     // the words of an enumeration; none where it is none
+  std::size_t (*entries)(void const* value);     // of a list; 1 of anything else
 };
 
 /// What scene files, messages and reference pages know of one field of a class.
@@ -113,12 +116,27 @@ std::string kind_of() {
 }
 
 template <class T>
+inline constexpr auto choices_of = [] {
+  if constexpr (std::is_enum_v<T>)
+    return enum_names(T{});
+  else
+    return std::array<std::string_view, 0>{};
+}();
+
+template <class T>
 inline constexpr ValueType value_type{
     &kind_of<T>,
     [](void* value, std::string_view words) { read_value(words, *static_cast<T*>(value)); },
     [](void const* value) { return write_value(*static_cast<T const*>(value)); },
     [](void const* value) { return cpp_value(*static_cast<T const*>(value)); },
-    std::is_same_v<T, DataFile>};
+    std::is_same_v<T, DataFile>,
+    choices_of<T>,
+    [](void const* value) {
+      if constexpr (DynamicList<T>)
+        return static_cast<T const*>(value)->size();
+      else
+        return std::size_t(value != nullptr);
+    }};
 
 /// What is said of one field in a table of a class.
 struct FieldRow {

@@ -93,6 +93,25 @@ inline constexpr std::array withoutMeaning =
                                      "ConstraintAttachButtonSetting",
                                      "DisplayFlagsSetting"});
 
+/// Those of them that say how a scene is looked at: pictures and windows have them.
+inline constexpr std::array ofViews = std::to_array<std::string_view>({"VisualStyle",
+                                                                       "DisplayFlagsSetting",
+                                                                       "BackgroundSetting",
+                                                                       "ViewerSetting",
+                                                                       "InteractiveCamera",
+                                                                       "OrthographicCamera",
+                                                                       "Camera",
+                                                                       "BaseCamera",
+                                                                       "LightManager",
+                                                                       "SpotLight",
+                                                                       "PositionalLight",
+                                                                       "DirectionalLight",
+                                                                       "OglSceneFrame",
+                                                                       "OglGrid",
+                                                                       "VisualGrid",
+                                                                       "LineAxis",
+                                                                       "ClipPlane"});
+
 /// Classes that are not there, by names with blanks between, and what follows from it for a scene.
 struct ClassesLeftOut {
   std::string_view names, why;

@@ -3,6 +3,7 @@
 
 #include <sinew/core/profile.hpp>
 #include <sinew/runtime/any_component.hpp>
+#include <sinew/runtime/view_element.hpp>
 
 #include <algorithm>
 #include <map>
@@ -59,10 +60,12 @@ class RuntimeNode {
   Mount mount{};
   std::vector<std::string> errors{};    // of the top node: what init has found wrong so far
   std::vector<std::string> warnings{};  // of the top node: what the last init has noticed
+  std::vector<ViewElement> view{};      // of the top node: what a scene file says of how it is looked at
   Profile* profile = nullptr;           // of the top node: what times its steps; copies are not timed
 
   explicit RuntimeNode(std::string n = "root", Verdict = {}) : name(std::move(n)) {}
-  RuntimeNode(RuntimeNode const& other) : name(other.name), mount(other.mount), entries_(other.entries_) {
+  RuntimeNode(RuntimeNode const& other)
+      : name(other.name), mount(other.mount), view(other.view), entries_(other.entries_) {
     for (auto const& child : other.children_) children_.push_back(std::make_unique<RuntimeNode>(*child));
     adopt();
   }
@@ -70,6 +73,7 @@ class RuntimeNode {
       : name(std::move(other.name)),
         mount(other.mount),
         warnings(std::move(other.warnings)),
+        view(std::move(other.view)),
         profile(std::exchange(other.profile, nullptr)),
         entries_(std::move(other.entries_)),
         children_(std::move(other.children_)) {
@@ -79,6 +83,7 @@ class RuntimeNode {
     name.swap(other.name);
     mount = other.mount;
     warnings.swap(other.warnings);
+    view.swap(other.view);
     entries_.swap(other.entries_);
     children_.swap(other.children_);
     adopt();

@@ -10,6 +10,11 @@
 #include <sinew/runtime/scope.hpp>
 #include <sinew/scene/solvers.hpp>
 
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
 namespace sinew {
 
 namespace detail {
@@ -34,6 +39,7 @@ class SceneReader {
   SceneClasses classes_{table_, messages_};
   SceneValues<R> values_{items_, xml_, messages_};
   std::vector<SceneItem*> moved_{};
+  std::vector<ViewElement> view_{};
 
   ReadScene<R> build(XmlElement root) {
     if (root.tag != "Node")
@@ -52,6 +58,7 @@ class SceneReader {
     ReadScene<R> scene{RuntimeNode<R>(top.name)};
     readNode(top, scene);
     fill(top, scene.root);
+    scene.root.view = std::move(view_);
     addConstraintSolver(top, scene.root);
     if (!messages_.errors.empty()) throw SceneError(messages_.errors);
     scene.ignored.assign(messages_.ignored.begin(), messages_.ignored.end());
@@ -110,7 +117,22 @@ class SceneReader {
     return items;
   }
 
+  // what an element says of how the scene is looked at: all of its attributes, or some
+  void keepView(ScenePlace const& place, XmlElement const& element, std::string const& tag,
+                std::span<std::string_view const> of = {}) {
+    ViewElement kept{.path = place.path(),
+                     .tag = tag,
+                     .origin = element.place(),
+                     .folder = element.file ? element.file->folder : std::string()};
+    for (XmlAttribute const& a : element.attributes)
+      if (of.empty() || dialect::has(of, a.name)) kept.attributes.emplace_back(a.name, a.value);
+    if (of.empty() || !kept.attributes.empty()) view_.push_back(std::move(kept));
+  }
+
   void fill(ScenePlace& place, RuntimeNode<R>& node) {
+    for (XmlElement const& child : place.element->children)
+      if (const std::string tag = tag_of(child); dialect::has(dialect::ofViews, tag))
+        keepView(place, child, tag);
     auto const* gravity = place.element->attribute("gravity");
     if (gravity && place.parent) {
       messages_.warnings.insert(
@@ -142,6 +164,8 @@ class SceneReader {
                            text("<Node> has no attribute '", a.name, "'", suggestion(a.name, known)));
     for (SceneItem* item : itemsOf(place))
       if (item->address && !item->failed) {
+        if (item->info->role == RoleKind::visualModel)
+          keepView(place, *item->element, item->tag, looks_of_visuals);
         RuntimeEntry<R> entry{
             std::move(values_.component(*item)), item->name, item->element->place(), std::move(item->links)};
         node.add(std::move(entry));

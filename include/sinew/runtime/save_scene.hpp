@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/runtime/class_table.hpp>
+#include <sinew/runtime/dialect.hpp>
 #include <sinew/runtime/read_scene.hpp>
 #include <sinew/runtime/scene_files.hpp>
 
@@ -27,6 +28,7 @@ class SceneWriter {
       set(node, "time", write_value(time));
       set(node, "step", std::to_string(step));
     }
+    view_ = &root.view;
     fill(node, root, {});
     std::ostringstream bytes;
     document.save(bytes, "  ");
@@ -35,6 +37,7 @@ class SceneWriter {
 
  private:
   std::vector<ClassInfo> table_ = make_class_table<R>();
+  std::vector<ViewElement> const* view_ = nullptr;
 
   static void set(pugi::xml_node& node, std::string_view name, std::string const& value) {
     node.append_attribute(std::string(name).c_str()) = value.c_str();
@@ -47,6 +50,15 @@ class SceneWriter {
   };
   void fill(pugi::xml_node& to, RuntimeNode<R> const& node, Kept kept) {
     const bool mapped = node.mapping() != nullptr;
+    const std::string here = node.path();
+    auto has_looks = [&](ViewElement const& v) {
+      return v.path == here && !dialect::has(dialect::ofViews, v.tag);
+    };
+    for (ViewElement const& v : *view_)
+      if (v.path == here && !has_looks(v)) {
+        pugi::xml_node element = to.append_child(v.tag.c_str());
+        for (auto const& [name, value] : v.attributes) set(element, name, value);
+      }
     for (auto const& entry : node.components())
       entry.component.template visit<role::OdeSolver>([&](auto const& ode) {
         if constexpr (stands_beside<std::decay_t<decltype(ode)>>) return;
@@ -75,6 +87,11 @@ class SceneWriter {
             field.isFile ? absolute(field.write(component.address())) : field.write(component.address());
         if (value != field.defaultValue) set(element, field.name, value);
       }
+      if (info.role == RoleKind::visualModel)
+        for (ViewElement const& v : *view_)
+          if (has_looks(v))
+            for (auto const& [name, value] : v.attributes)
+              set(element, name, name == "texturename" ? absolute(in_folder(v.folder, value)) : value);
       if (auto const* parents = component.parents()) {
         std::string input;
         for (auto const& path : *parents) input += text(input.empty() ? "@" : " @", path);
@@ -114,6 +131,10 @@ class SceneWriter {
       }
     });
     return copy;
+  }
+  static std::string in_folder(std::string const& folder, std::string const& path) {
+    return path.starts_with('/') || folder.empty() ? path
+                                                   : text(folder, folder.ends_with('/') ? "" : "/", path);
   }
   static std::string absolute(std::string const& path) {
     char whole[PATH_MAX];

@@ -14,10 +14,14 @@
 #include <sinew/scene/step.hpp>
 #include <sinew/scene/visuals.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string_view>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace sinew {
@@ -112,15 +116,21 @@ class Simulation {
   }
 
   /// Changes the scene in the middle of the simulation: edit(root) is given a copy, in which runtime nodes
-  /// come, go and move. What is new is initialised, and the copy takes the place of the scene; where edit or
-  /// the new scene is wrong, Error is thrown and nothing has changed.
+  /// come, go and move, and fields take other values. What is new is initialised, and so are the components
+  /// whose addresses edit returns, in a std::vector<void const*>; then the copy takes the place of the scene.
+  /// Where edit or the new scene is wrong, Error is thrown and nothing has changed.
   template <class F>
   void change(F&& edit) {
     initialisedFor("change");
     Root next(root_);
     scopeOf(next).settled();
-    edit(next);
-    Initialisation<RootScope>(scopeOf(next), {.again = true}).run();
+    InitAgain again{.again = true};
+    if constexpr (std::is_void_v<decltype(edit(next))>)
+      edit(next);
+    else
+      again.touched = edit(next);
+    std::sort(again.touched.begin(), again.touched.end(), std::less<>{});
+    Initialisation<RootScope>(scopeOf(next), std::move(again)).run();
     root_ = std::move(next);
     propagate();
   }

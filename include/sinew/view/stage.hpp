@@ -3,12 +3,14 @@
 
 #include <sinew/core/error.hpp>
 #include <sinew/scene/mouse_interactor.hpp>
-#include <sinew/view/scene_tree.hpp>
+#include <sinew/view/fields.hpp>
 #include <sinew/view/seen_scene.hpp>
 
 #include <algorithm>
 #include <chrono>
 #include <condition_variable>
+#include <cstddef>
+#include <exception>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -32,6 +34,8 @@ struct StageState {
   long step = 0;
   bool playing = false;
   std::optional<Held> held{};
+  std::shared_ptr<SeenComponent const> selected{};  // as it was when the scene was last looked at; or none
+  std::optional<FieldChange> undo{}, redo{};        // what undo() would take back, and redo() do again
   std::string error{};  // of the last thing that went wrong; empty where nothing has
 };
 
@@ -108,6 +112,66 @@ class Stage {
   void release() {
     ask([](Stage& s) { s.actor_->release(); });
   }
+  /// The component at a line of the tree is looked at from now on (StageState::selected); -1: none is.
+  void select(int line) {
+    ask([line](Stage& s) {
+      s.selectedLine_ = -1;
+      s.selected_.reset();
+      if (line < 0) return;
+      s.selected_ = std::make_shared<SeenComponent const>(s.actor_->component(line));
+      s.selectedLine_ = line;
+    });
+  }
+  /// answer(component, error) with the fields of the component at a line as they are between two steps; the
+  /// error is empty where there is one. The thread of the simulation calls it.
+  void component(int line, std::function<void(SeenComponent const&, std::string const& error)> answer) {
+    ask([line, answer = std::move(answer)](Stage& s) {
+      SeenComponent seen;
+      const std::string error = error_of([&] { seen = s.actor_->component(line); });
+      answer(seen, error);
+    });
+  }
+  /// The same with the whole value of one field, however long.
+  void fieldText(int line, std::string field,
+                 std::function<void(std::string const& value, std::string const& error)> answer) {
+    ask([line, field = std::move(field), answer = std::move(answer)](Stage& s) {
+      std::string value;
+      const std::string error = error_of([&] { value = s.actor_->fieldText(line, field); });
+      answer(value, error);
+    });
+  }
+  /// Gives a field of the component at a line another value, in the words of a scene file, between two steps
+  /// (set_field). answer(error) is called then, where it is given; otherwise an error is that of the state.
+  void setField(int line, std::string field, std::string words,
+                std::function<void(std::string const& error)> answer = {}) {
+    ask([line, field = std::move(field), words = std::move(words), answer = std::move(answer)](Stage& s) {
+      auto act = [&] {
+        FieldChange change = s.actor_->setField(line, field, words);
+        s.changes_.resize(s.changesDone_);
+        if (change.before != change.after) s.changes_.push_back(std::move(change));
+        s.changesDone_ = s.changes_.size();
+      };
+      if (!answer) return act();
+      answer(error_of(act));
+    });
+  }
+  /// Takes back the last change of a field; and does again what was taken back last.
+  void undo() {
+    ask([](Stage& s) {
+      if (s.changesDone_ == 0) return;
+      FieldChange const& last = s.changes_[s.changesDone_ - 1];
+      s.actor_->setField(last.line, last.field, last.before);
+      --s.changesDone_;
+    });
+  }
+  void redo() {
+    ask([](Stage& s) {
+      if (s.changesDone_ == s.changes_.size()) return;
+      FieldChange const& next = s.changes_[s.changesDone_];
+      s.actor_->setField(next.line, next.field, next.after);
+      ++s.changesDone_;
+    });
+  }
   /// Waits until all that was asked for is done.
   void settle() {
     std::unique_lock lock(mutex_);
@@ -123,6 +187,9 @@ class Stage {
     virtual void move(Eigen::Vector3d const& origin, Eigen::Vector3d const& direction) = 0;
     virtual void release() = 0;
     virtual SeenScene see() = 0;
+    virtual SeenComponent component(int line) = 0;
+    virtual std::string fieldText(int line, std::string const& field) = 0;
+    virtual FieldChange setField(int line, std::string const& field, std::string const& words) = 0;
     virtual void tell(StageState& state) = 0;
   };
   template <class Simulation>
@@ -145,6 +212,13 @@ class Stage {
     }
     void release() override { mouse.release(simulation); }
     SeenScene see() override { return seen_scene(simulation); }
+    SeenComponent component(int line) override { return seen_component(simulation, line); }
+    std::string fieldText(int line, std::string const& field) override {
+      return field_text(simulation, line, field);
+    }
+    FieldChange setField(int line, std::string const& field, std::string const& words) override {
+      return set_field(simulation, line, field, words);
+    }
     void tell(StageState& state) override {
       state.time = simulation.time();
       state.step = simulation.step();
@@ -166,9 +240,24 @@ class Stage {
   std::vector<std::function<void(Stage&)>> asked_{};
   Scene scene_;
   StageState state_{};
+  // of the thread alone
+  int selectedLine_ = -1;
+  std::shared_ptr<SeenComponent const> selected_{};
+  std::vector<FieldChange> changes_{};
+  std::size_t changesDone_ = 0;
   bool ends_ = false, wanted_ = true, busy_ = false, playing_ = false;
   std::thread thread_;  // the last, since it uses all of them
 
+  // what an act throws, in words; empty where it throws nothing
+  template <class Act>
+  static std::string error_of(Act&& act) {
+    try {
+      act();
+    } catch (std::exception const& e) {
+      return e.what();
+    }
+    return {};
+  }
   void ask(std::function<void(Stage&)> what) {
     {
       const std::lock_guard lock(mutex_);
@@ -180,12 +269,11 @@ class Stage {
   void go() {
     std::string error;
     auto careful = [&](auto&& act) {
-      try {
-        act();
-      } catch (Error const& e) {
-        error = e.what();
-        playing_ = false;
+      if (const std::string wrong = error_of(act); !wrong.empty()) {
+        error = wrong;
+        return false;
       }
+      return true;
     };
     Clock::time_point next = Clock::now(), measured = next;
     long steps = 0;
@@ -211,7 +299,7 @@ class Stage {
       mine.clear();
       if (stood) next = measured = Clock::now(), steps = 0;
       if (playing_ && Clock::now() >= next) {
-        careful([&] { actor_->animate(dt_); });
+        if (!careful([&] { actor_->animate(dt_); })) playing_ = false;
         ++steps;
         // after a slow step the time that is lost is not made up for
         const auto pause = std::chrono::duration_cast<Clock::duration>(
@@ -221,10 +309,20 @@ class Stage {
         if (since > 0.5) rate = double(steps) / since, steps = 0, measured = Clock::now();
       }
       Scene seen;
-      if (look || told) careful([&] { seen = std::make_shared<SeenScene>(actor_->see()); });
+      if (look || told)
+        careful([&] {
+          seen = std::make_shared<SeenScene>(actor_->see());
+          if (selectedLine_ >= 0)
+            selected_ = std::make_shared<SeenComponent const>(actor_->component(selectedLine_));
+        });
       const std::lock_guard lock(mutex_);
       if (seen) scene_ = std::move(seen);
       actor_->tell(state_);
+      state_.selected = selected_;
+      if (told) {
+        state_.undo = changesDone_ > 0 ? std::optional(changes_[changesDone_ - 1]) : std::nullopt;
+        state_.redo = changesDone_ < changes_.size() ? std::optional(changes_[changesDone_]) : std::nullopt;
+      }
       state_.playing = playing_;
       state_.stepsPerSecond = playing_ ? rate : 0;
       state_.error = error;
