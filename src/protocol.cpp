@@ -61,6 +61,16 @@ struct Members {
   double number(char const* key, double low, double high) const {
     return number(member(key), key, low, high);
   }
+  int line() const {
+    Json const& value = member("line");
+    if (!value.is_number_integer()) refuse("'line' must be a whole number");
+    return int(number(value, "line", 0, 1e9));
+  }
+  std::string words(char const* key) const {
+    Json const& value = member(key);
+    if (!value.is_string()) refuse(text("'", key, "' must be text"));
+    return value.get<std::string>();
+  }
   Eigen::Vector3d vector(char const* key, double most) const {
     Json const& value = member(key);
     if (!value.is_array() || value.size() != 3) refuse(text("'", key, "' must be a list of 3 numbers"));
@@ -169,37 +179,30 @@ Command read_command(std::string_view json) {
   const auto what = parsed.find("do");
   if (what == parsed.end() || !what->is_string()) refuse("it lacks the member 'do', which says what to do");
   const Members m{parsed, Members::shown(what->get<std::string>())};
-  if (m.name == "play") {
-    m.only({"on"});
-    return command::Play{m.flag("on")};
-  }
-  if (m.name == "step") {
-    m.only({});
-    return command::Step{};
-  }
-  if (m.name == "reset") {
-    m.only({});
-    return command::Reset{};
-  }
-  if (m.name == "speed") {
-    m.only({"times"});
-    return command::Speed{m.number("times", 0, 1e6)};
-  }
-  if (m.name == "press") {
-    m.only({"origin", "direction", "stiffness"});
+  auto has = [&](char const* name, std::initializer_list<char const*> members) {
+    if (m.name != name) return false;
+    m.only(members);
+    return true;
+  };
+  if (has("play", {"on"})) return command::Play{m.flag("on")};
+  if (has("step", {})) return command::Step{};
+  if (has("reset", {})) return command::Reset{};
+  if (has("speed", {"times"})) return command::Speed{m.number("times", 0, 1e6)};
+  if (has("press", {"origin", "direction", "stiffness"}))
     return command::Press{
         m.vector("origin", farthest), m.direction("direction"), m.number("stiffness", 1e-12, 1e12)};
-  }
-  if (m.name == "move") {
-    m.only({"origin", "direction"});
+  if (has("move", {"origin", "direction"}))
     return command::Move{m.vector("origin", farthest), m.direction("direction")};
-  }
-  if (m.name == "release") {
-    m.only({});
-    return command::Release{};
-  }
-  refuse(
-      text("nothing is called '", m.name, "'; there are play, step, reset, speed, press, move and release"));
+  if (has("release", {})) return command::Release{};
+  if (has("component", {"line"})) return command::Component{m.line()};
+  if (has("setField", {"line", "field", "value"}))
+    return command::SetField{m.line(), m.words("field"), m.words("value")};
+  if (has("undo", {})) return command::Undo{};
+  if (has("redo", {})) return command::Redo{};
+  refuse(text("nothing is called '",
+              m.name,
+              "'; there are play, step, reset, speed, press, move, release, component, setField, undo and "
+              "redo"));
 }
 
 std::string write_command(Command const& said) {
@@ -218,6 +221,12 @@ std::string write_command(Command const& said) {
       return {{"do", "move"}, {"origin", list_of(c.origin)}, {"direction", list_of(c.direction)}};
     }
     Json operator()(command::Release const&) { return {{"do", "release"}}; }
+    Json operator()(command::Component const& c) { return {{"do", "component"}, {"line", c.line}}; }
+    Json operator()(command::SetField const& c) {
+      return {{"do", "setField"}, {"line", c.line}, {"field", c.field}, {"value", c.value}};
+    }
+    Json operator()(command::Undo const&) { return {{"do", "undo"}}; }
+    Json operator()(command::Redo const&) { return {{"do", "redo"}}; }
   } json;
   return dumped(std::visit(json, said));
 }
@@ -239,6 +248,8 @@ std::string write_state(StageState const& state) {
             {"playing", state.playing},
             {"stepsPerSecond", state.stepsPerSecond},
             {"held", nullptr},
+            {"undo", state.undo ? Json(state.undo->field) : Json()},
+            {"redo", state.redo ? Json(state.redo->field) : Json()},
             {"error", state.error}};
   if (state.held)
     json["held"] = {{"path", state.held->path},
@@ -246,6 +257,30 @@ std::string write_state(StageState const& state) {
                     {"target", list_of(state.held->target)},
                     {"force", list_of(state.held->force)}};
   return dumped(json);
+}
+
+std::string write_component(SeenComponent const& component) {
+  Json fields = Json::array();
+  for (SeenField const& field : component.fields)
+    fields.push_back({{"name", field.name},
+                      {"value", field.value},
+                      {"entries", field.entries},
+                      {"whole", field.whole},
+                      {"kind", field.kind},
+                      {"choices", field.choices},
+                      {"unit", field.unit},
+                      {"help", field.help},
+                      {"range", field.rangeWords},
+                      {"default", field.defaultValue},
+                      {"isInput", field.isInput},
+                      {"fixed", field.fixed}});
+  return dumped({{"is", "component"},
+                 {"line", component.line},
+                 {"path", component.path},
+                 {"name", component.name},
+                 {"class", component.className},
+                 {"role", component.role},
+                 {"fields", std::move(fields)}});
 }
 
 std::string write_error(std::string_view message) { return dumped({{"is", "error"}, {"text", message}}); }

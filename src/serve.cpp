@@ -70,6 +70,7 @@ char const* type_of(std::filesystem::path const& file) {
                                                         {".js", "text/javascript; charset=utf-8"},
                                                         {".css", "text/css; charset=utf-8"},
                                                         {".wasm", "application/wasm"},
+                                                        {".json", "application/json"},
                                                         {".svg", "image/svg+xml"},
                                                         {".txt", "text/plain; charset=utf-8"}};
   const auto at = types.find(file.extension().string());
@@ -97,7 +98,7 @@ Page read_page(std::string const& asked) {
     throw Error("serve",
                 text("the folder '",
                      folder.string(),
-                     "' has no page (index.html); ./dev page builds it in the sources of Sinew, "
+                     "' has no page (index.html); ./dev serve builds it in the sources of Sinew, "
                      "and --page names another folder"));
   Page page;
   std::size_t size = 0;
@@ -112,6 +113,8 @@ Page read_page(std::string const& asked) {
       throw Error("serve", text("the folder '", folder.string(), "' is no page: its files are too large"));
     page.emplace(entry.path().filename().string(), std::move(read));
   }
+  // the page asks what runs its scene; as a folder of files it is Sinew in WebAssembly
+  page["engine.json"] = {type_of("engine.json"), R"({"engine": "socket"})"};
   return page;
 }
 
@@ -198,13 +201,22 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
       const Command said =
           read_command(std::string_view(static_cast<char const*>(bytes.data()), bytes.size()));
       if (std::holds_alternative<command::Press>(said)) all().puller = this;
-      tell(all().stage, said);
+      // the stage answers in its own thread, and perhaps when nobody is here any more
+      auto answer = [weak = weak_from_this(), executor = socket_.get_executor()](std::string json) {
+        asio::post(executor, [weak, text = shared(std::move(json))] {
+          if (const auto self = weak.lock()) self->reply(text);
+        });
+      };
+      tell(all().stage, said, answer);
       all().look();
     } catch (Error const& error) {
-      if (replies_.size() >= mostReplies) return close();
-      replies_.push_back(shared(write_error(error.what())));
-      write();
+      reply(shared(write_error(error.what())));
     }
+  }
+  void reply(Text text) {
+    if (replies_.size() >= mostReplies) return close();
+    replies_.push_back(std::move(text));
+    write();
   }
   // what it holds falls
   void leave() {

@@ -20,7 +20,11 @@ const std::vector<Command> every{command::Play{true},
                                  command::Speed{0.1},
                                  command::Press{{0.1, -2e-7, 1e9}, Eigen::Vector3d(1, 2, 2) / 3, 1234.5},
                                  command::Move{{1. / 3, 0, -5}, {0, 0, -1}},
-                                 command::Release{}};
+                                 command::Release{},
+                                 command::Component{3},
+                                 command::SetField{4, "youngModulus", "1000 \"2\"\n"},
+                                 command::Undo{},
+                                 command::Redo{}};
 
 // two bodies, one of them a visual model
 SeenScene scene() {
@@ -58,7 +62,12 @@ TEST_CASE("what is no command is refused, with a sentence") {
   CHECK(refusal("{}") == "command: it lacks the member 'do', which says what to do");
   CHECK(refusal(R"({"do":7})") == "command: it lacks the member 'do', which says what to do");
   CHECK(refusal(R"({"do":"fly"})") ==
-        "command: nothing is called 'fly'; there are play, step, reset, speed, press, move and release");
+        "command: nothing is called 'fly'; there are play, step, reset, speed, press, move, release, "
+        "component, "
+        "setField, undo and redo");
+  CHECK(refusal(R"({"do":"component","line":1.5})") == "command: 'line' must be a whole number");
+  CHECK(refusal(R"({"do":"component","line":-1})").starts_with("command: 'line' is -1 and must be from 0"));
+  CHECK(refusal(R"({"do":"setField","line":1,"field":"a","value":1})") == "command: 'value' must be text");
   CHECK(refusal(R"({"do":"play"})") == "command: 'play' lacks its member 'on'");
   CHECK(refusal(R"({"do":"play","on":1})") == "command: 'on' must be true or false");
   CHECK(refusal(R"({"do":"step","on":true})") == "command: 'step' has no member 'on'");
@@ -150,14 +159,25 @@ TEST_CASE("what a page is told is JSON") {
   state.held = Held{.path = "a", .point = {1, 2, 3}, .target = {4, 5, 6}, .force = {0, 0, 7}};
   state.error = "a \"word\"\n\xff";
   // what is no number has none in JSON, and what is no UTF-8 becomes a mark
-  CHECK(write_state(state) ==
-        R"({"error":"a \"word\"\n)"
-        "\xef\xbf\xbd"
-        R"(","held":{"force":[0.0,0.0,7.0],"path":"a","point":[1.0,2.0,3.0],"target":[4.0,5.0,6.0]},)"
-        R"("is":"state","playing":false,"step":25,"stepsPerSecond":null,"time":0.5})");
+  CHECK(
+      write_state(state) ==
+      R"({"error":"a \"word\"\n)"
+      "\xef\xbf\xbd"
+      R"(","held":{"force":[0.0,0.0,7.0],"path":"a","point":[1.0,2.0,3.0],"target":[4.0,5.0,6.0]},)"
+      R"("is":"state","playing":false,"redo":null,"step":25,"stepsPerSecond":null,"time":0.5,"undo":null})");
   CHECK(write_scene("t", 0.01, {{0, "root", ""}, {1, "fem", "Force<Vec3d>"}}) ==
         R"({"dt":0.01,"is":"scene","protocol":1,"title":"t","tree":[{"depth":0,"name":"root"},)"
         R"({"class":"Force<Vec3d>","depth":1,"name":"fem"}]})");
+  CHECK(
+      write_component({.line = 3,
+                       .path = "/root",
+                       .name = "fem",
+                       .className = "Force<Vec3d>",
+                       .role = "forceField",
+                       .fields = {{.name = "k", .value = "5", .unit = "N/m", .rangeWords = "at least 0"}}}) ==
+      R"({"class":"Force<Vec3d>","fields":[{"choices":[],"default":"","entries":1,"fixed":"","help":"",)"
+      R"("isInput":true,"kind":"","name":"k","range":"at least 0","unit":"N/m","value":"5","whole":true}],)"
+      R"("is":"component","line":3,"name":"fem","path":"/root","role":"forceField"})");
   CHECK(write_error("no") == R"({"is":"error","text":"no"})");
 }
 
@@ -175,18 +195,45 @@ struct Told {
   }
   void move(Eigen::Vector3d const& o, Eigen::Vector3d const&) { last = "move", origin = o; }
   void release() { last = "release"; }
+  template <class F>
+  void component(int line, F answer) {
+    last = "component", value = line;
+    answer(SeenComponent{.line = line}, line == 3 ? "" : "there is none");
+  }
+  template <class F>
+  void setField(int, std::string const& field, std::string const& words, F answer) {
+    last = field + '=' + words;
+    answer("it is no number");
+  }
+  void undo() { last = "undo"; }
+  void redo() { last = "redo"; }
 };
 
 TEST_CASE("a command does with a stage what it says") {
   Told told;
-  std::vector<std::string> words;
+  std::vector<std::string> words, answers;
+  auto answer = [&](std::string json) { answers.push_back(std::move(json)); };
   for (Command const& said : every) {
-    tell(told, said);
+    tell(told, said, answer);
     words.push_back(told.last);
   }
-  CHECK(words ==
-        std::vector<std::string>{"play", "pause", "step", "reset", "speed", "press", "move", "release"});
-  CHECK(told.value == 1234.5);
+  CHECK(words == std::vector<std::string>{"play",
+                                          "pause",
+                                          "step",
+                                          "reset",
+                                          "speed",
+                                          "press",
+                                          "move",
+                                          "release",
+                                          "component",
+                                          "youngModulus=1000 \"2\"\n",
+                                          "undo",
+                                          "redo"});
+  tell(told, command::Component{5}, answer);
+  CHECK(answers == std::vector<std::string>{write_component({.line = 3}),
+                                            write_error("it is no number"),
+                                            write_error("there is none")});
+  CHECK(told.value == 5);
   CHECK(told.origin == Eigen::Vector3d(1. / 3, 0, -5));
 }
 

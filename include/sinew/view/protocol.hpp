@@ -45,9 +45,27 @@ struct Move {
 struct Release {
   bool operator==(Release const&) const = default;
 };
+/// Asks for the component at a line of the tree, with its fields.
+struct Component {
+  int line = 0;
+  bool operator==(Component const&) const = default;
+};
+/// Gives a field of it another value, in the words of a scene file.
+struct SetField {
+  int line = 0;
+  std::string field{}, value{};
+  bool operator==(SetField const&) const = default;
+};
+struct Undo {
+  bool operator==(Undo const&) const = default;
+};
+struct Redo {
+  bool operator==(Redo const&) const = default;
+};
 }  // namespace command
-using Command = std::variant<command::Play, command::Step, command::Reset, command::Speed, command::Press,
-                             command::Move, command::Release>;
+using Command =
+    std::variant<command::Play, command::Step, command::Reset, command::Speed, command::Press, command::Move,
+                 command::Release, command::Component, command::SetField, command::Undo, command::Redo>;
 
 /// Commands longer than that [bytes], or nested deeper, are refused.
 inline constexpr std::size_t longestCommand = 16384, deepestCommand = 4;
@@ -57,11 +75,20 @@ inline constexpr std::size_t longestCommand = 16384, deepestCommand = 4;
 Command read_command(std::string_view json);
 std::string write_command(Command const& command);
 
-/// Does what a command says with a stage, or what has its functions.
-template <class Stage>
-void tell(Stage& stage, Command const& said) {
+/// What a page is told as JSON: once what the scene is made of; how it gets on; a component that it asked
+/// for; what was wrong with a command.
+std::string write_scene(std::string_view title, double dt, std::vector<TreeLine> const& tree);
+std::string write_state(StageState const& state);
+std::string write_component(SeenComponent const& component);
+std::string write_error(std::string_view message);
+
+/// Does what a command says with a stage, or what has its functions. What the stage answers, now or later and
+/// then in its thread, goes to answer(std::string json).
+template <class Stage, class Answer>
+void tell(Stage& stage, Command const& said, Answer const& answer) {
   struct {
     Stage& stage;
+    Answer const& answer;
     void operator()(command::Play const& c) { stage.play(c.on); }
     void operator()(command::Step const&) { stage.step(); }
     void operator()(command::Reset const&) { stage.reset(); }
@@ -69,15 +96,21 @@ void tell(Stage& stage, Command const& said) {
     void operator()(command::Press const& c) { stage.press(c.origin, c.direction, c.stiffness); }
     void operator()(command::Move const& c) { stage.move(c.origin, c.direction); }
     void operator()(command::Release const&) { stage.release(); }
-  } doing{stage};
+    void operator()(command::Component const& c) {
+      stage.component(c.line, [say = answer](SeenComponent const& seen, std::string const& error) {
+        say(error.empty() ? write_component(seen) : write_error(error));
+      });
+    }
+    void operator()(command::SetField const& c) {
+      stage.setField(c.line, c.field, c.value, [say = answer](std::string const& error) {
+        if (!error.empty()) say(write_error(error));
+      });
+    }
+    void operator()(command::Undo const&) { stage.undo(); }
+    void operator()(command::Redo const&) { stage.redo(); }
+  } doing{stage, answer};
   std::visit(doing, said);
 }
-
-/// What a page is told as JSON: once what the scene is made of; how it gets on; what was wrong with a
-/// command.
-std::string write_scene(std::string_view title, double dt, std::vector<TreeLine> const& tree);
-std::string write_state(StageState const& state);
-std::string write_error(std::string_view message);
 
 /// The elements of what is seen, known by a number; of its points only how many there are. Words of four
 /// bytes, the lowest first: 1 for a topology, its number, three floats upwards, how many bodies; for each

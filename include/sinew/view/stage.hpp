@@ -50,13 +50,18 @@ class Stage {
   /// seconds long and, where it is fast enough, go at `speed` times the time of the clock; 0: as fast as they
   /// can.
   template <class Simulation>
-  Stage(Simulation& simulation, double dt, double speed = 1)
+  Stage(Simulation& simulation, double dt, double speed = 1) : Stage(simulation, dt, speed, WithoutThread{}) {
+    thread_ = std::thread([this] { go(); });
+  }
+  /// Where there are no threads, as in WebAssembly, turn() does the work.
+  struct WithoutThread {};
+  template <class Simulation>
+  Stage(Simulation& simulation, double dt, double speed, WithoutThread)
       : tree(scene_tree(simulation)),
         dt_(dt),
         speed_(speed),
         actor_(new ActorOf<Simulation>(simulation)),
-        scene_(std::make_shared<SeenScene>(actor_->see())),
-        thread_([this] { go(); }) {}
+        scene_(std::make_shared<SeenScene>(actor_->see())) {}
   Stage(Stage const&) = delete;
   Stage& operator=(Stage const&) = delete;
   ~Stage() {
@@ -65,7 +70,7 @@ class Stage {
       ends_ = true;
     }
     wake_.notify_all();
-    thread_.join();
+    if (thread_.joinable()) thread_.join();
   }
 
   /// The components of the scene.
@@ -83,6 +88,11 @@ class Stage {
     return state_;
   }
   double dt() const { return dt_; }
+  /// Of a stage without a thread: does what it was asked for, and a step if it is time for one.
+  void turn() {
+    std::unique_lock lock(mutex_);
+    work(lock);
+  }
 
   void play(bool on) {
     ask([on](Stage& s) { s.playing_ = on; });
@@ -245,6 +255,12 @@ class Stage {
   std::shared_ptr<SeenComponent const> selected_{};
   std::vector<FieldChange> changes_{};
   std::size_t changesDone_ = 0;
+  struct Pace {
+    Clock::time_point next = Clock::now(), measured = next;  // when a step is due; since when steps count
+    long steps = 0;
+    double rate = 0;
+    std::string error{};
+  } pace_{};
   bool ends_ = false, wanted_ = true, busy_ = false, playing_ = false;
   std::thread thread_;  // the last, since it uses all of them
 
@@ -267,68 +283,65 @@ class Stage {
   }
 
   void go() {
-    std::string error;
+    while (true) {
+      std::unique_lock lock(mutex_);
+      auto called = [this] { return ends_ || !asked_.empty() || wanted_; };
+      if (playing_)
+        wake_.wait_until(lock, pace_.next, [this] { return ends_ || !asked_.empty(); });
+      else
+        wake_.wait(lock, called);
+      if (ends_) return;
+      work(lock);
+    }
+  }
+  // The lock is held at first and at the end.
+  void work(std::unique_lock<std::mutex>& lock) {
     auto careful = [&](auto&& act) {
       if (const std::string wrong = error_of(act); !wrong.empty()) {
-        error = wrong;
+        pace_.error = wrong;
         return false;
       }
       return true;
     };
-    Clock::time_point next = Clock::now(), measured = next;
-    long steps = 0;
-    double rate = 0;
-    std::vector<std::function<void(Stage&)>> mine;
-    while (true) {
-      bool look = false;
-      {
-        std::unique_lock lock(mutex_);
-        auto called = [this] { return ends_ || !asked_.empty() || wanted_; };
-        if (playing_)
-          wake_.wait_until(lock, next, [this] { return ends_ || !asked_.empty(); });
-        else
-          wake_.wait(lock, called);
-        if (ends_) return;
-        mine.swap(asked_);
-        busy_ = true;
-        look = std::exchange(wanted_, false);
-      }
-      const bool stood = !playing_, told = !mine.empty();
-      if (told) error.clear();
-      for (auto const& what : mine) careful([&] { what(*this); });
-      mine.clear();
-      if (stood) next = measured = Clock::now(), steps = 0;
-      if (playing_ && Clock::now() >= next) {
-        if (!careful([&] { actor_->animate(dt_); })) playing_ = false;
-        ++steps;
-        // after a slow step the time that is lost is not made up for
-        const auto pause = std::chrono::duration_cast<Clock::duration>(
-            std::chrono::duration<double>(speed_ > 0 ? dt_ / speed_ : 0));
-        next = std::max(next + pause, Clock::now() - pause);
-        const double since = std::chrono::duration<double>(Clock::now() - measured).count();
-        if (since > 0.5) rate = double(steps) / since, steps = 0, measured = Clock::now();
-      }
-      Scene seen;
-      if (look || told)
-        careful([&] {
-          seen = std::make_shared<SeenScene>(actor_->see());
-          if (selectedLine_ >= 0)
-            selected_ = std::make_shared<SeenComponent const>(actor_->component(selectedLine_));
-        });
-      const std::lock_guard lock(mutex_);
-      if (seen) scene_ = std::move(seen);
-      actor_->tell(state_);
-      state_.selected = selected_;
-      if (told) {
-        state_.undo = changesDone_ > 0 ? std::optional(changes_[changesDone_ - 1]) : std::nullopt;
-        state_.redo = changesDone_ < changes_.size() ? std::optional(changes_[changesDone_]) : std::nullopt;
-      }
-      state_.playing = playing_;
-      state_.stepsPerSecond = playing_ ? rate : 0;
-      state_.error = error;
-      busy_ = false;
-      idle_.notify_all();
+    auto& [next, measured, steps, rate, error] = pace_;
+    std::vector<std::function<void(Stage&)>> mine = std::exchange(asked_, {});
+    busy_ = true;
+    const bool look = std::exchange(wanted_, false);
+    lock.unlock();
+    const bool stood = !playing_, told = !mine.empty();
+    if (told) error.clear();
+    for (auto const& what : mine) careful([&] { what(*this); });
+    if (stood) next = measured = Clock::now(), steps = 0;
+    if (playing_ && Clock::now() >= next) {
+      if (!careful([&] { actor_->animate(dt_); })) playing_ = false;
+      ++steps;
+      // after a slow step the time that is lost is not made up for
+      const auto pause = std::chrono::duration_cast<Clock::duration>(
+          std::chrono::duration<double>(speed_ > 0 ? dt_ / speed_ : 0));
+      next = std::max(next + pause, Clock::now() - pause);
+      const double since = std::chrono::duration<double>(Clock::now() - measured).count();
+      if (since > 0.5) rate = double(steps) / since, steps = 0, measured = Clock::now();
     }
+    Scene seen;
+    if (look || told)
+      careful([&] {
+        seen = std::make_shared<SeenScene>(actor_->see());
+        if (selectedLine_ >= 0)
+          selected_ = std::make_shared<SeenComponent const>(actor_->component(selectedLine_));
+      });
+    lock.lock();
+    if (seen) scene_ = std::move(seen);
+    actor_->tell(state_);
+    state_.selected = selected_;
+    if (told) {
+      state_.undo = changesDone_ > 0 ? std::optional(changes_[changesDone_ - 1]) : std::nullopt;
+      state_.redo = changesDone_ < changes_.size() ? std::optional(changes_[changesDone_]) : std::nullopt;
+    }
+    state_.playing = playing_;
+    state_.stepsPerSecond = playing_ ? rate : 0;
+    state_.error = error;
+    busy_ = false;
+    idle_.notify_all();
   }
 };
 

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSL-1.0
+// Sinew in a page: the worker calls these functions. A stage without a thread does what it is told, and what it
+// has to say waits as messages of view/protocol.hpp.
+#include "liver.hpp"
+
+#include <sinew/view/protocol.hpp>
+
+#include <emscripten.h>
+
+#include <chrono>
+#include <cstddef>
+#include <deque>
+#include <exception>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace {
+
+using namespace sinew;
+using Liver = decltype(page::liver());
+
+struct Message {
+  std::string bytes;
+  bool binary;
+};
+std::deque<Message> messages;  // to be sent
+Message sent;
+
+struct Engine {
+  Liver simulation;
+  std::unique_ptr<view::Stage> stage{};
+  view::SceneWriter writer{};
+  view::Stage::Scene seen{};
+  std::uint32_t topology = 0;
+  std::string state{};
+
+  Engine() : simulation(page::liver()) {
+    simulation.init();
+    stage = std::make_unique<view::Stage>(simulation, page::dt, 1, view::Stage::WithoutThread{});
+    say(view::write_scene("liver", page::dt, stage->tree));
+  }
+  static void say(std::string json) { messages.push_back({std::move(json), false}); }
+  void look() {
+    if (view::Stage::Scene latest = stage->scene(); latest != seen) {
+      seen = std::move(latest);
+      writer.write(*seen);
+      if (std::exchange(topology, writer.number()) != writer.number())
+        messages.push_back({writer.topology(), true});
+      messages.push_back({writer.frame(), true});
+    }
+    if (std::string json = view::write_state(stage->state()); json != state) say(state = std::move(json));
+  }
+};
+std::unique_ptr<Engine> engine;
+
+}  // namespace
+
+extern "C" {
+
+/// False where the scene does not start; the message says why.
+EMSCRIPTEN_KEEPALIVE bool sinew_start() try {
+  engine = std::make_unique<Engine>();
+  engine->look();
+  return true;
+} catch (std::exception const& error) {
+  Engine::say(view::write_error(error.what()));
+  return false;
+}
+
+EMSCRIPTEN_KEEPALIVE void sinew_command(char const* bytes, std::size_t size) try {
+  view::tell(*engine->stage, view::read_command({bytes, size}), Engine::say);
+} catch (std::exception const& error) {
+  Engine::say(view::write_error(error.what()));
+}
+
+/// Works for some milliseconds and looks at the scene; what follows in how many milliseconds there is more to
+/// do, and below 0 where that is so only after the next command.
+EMSCRIPTEN_KEEPALIVE double sinew_turn(double milliseconds) {
+  using Clock = std::chrono::steady_clock;
+  const auto begin = Clock::now();
+  bool playing = false, works = true;
+  while (works) {
+    const long before = engine->stage->state().step;
+    engine->stage->turn();
+    const view::StageState now = engine->stage->state();
+    playing = now.playing;
+    works = playing && now.step != before &&
+            std::chrono::duration<double, std::milli>(Clock::now() - begin).count() < milliseconds;
+  }
+  engine->look();
+  if (!playing) return -1;
+  return std::chrono::duration<double, std::milli>(Clock::now() - begin).count() < milliseconds ? 4 : 0;
+}
+
+/// The next message, or null; its length, and whether it is no text.
+EMSCRIPTEN_KEEPALIVE char const* sinew_message() {
+  if (messages.empty()) return nullptr;
+  sent = std::move(messages.front());
+  messages.pop_front();
+  return sent.bytes.data();
+}
+EMSCRIPTEN_KEEPALIVE std::size_t sinew_message_size() { return sent.bytes.size(); }
+EMSCRIPTEN_KEEPALIVE bool sinew_message_is_binary() { return sent.binary; }
+}
