@@ -1,12 +1,22 @@
 // SPDX-License-Identifier: BSL-1.0
-// Builds the page into web/dist: one module with what it needs of three.js, and the files beside it.
+// Builds the page into web/dist: one module with what it needs of three.js, and the files beside it. With a folder as argument
+// it builds the page there, with what is in engine/build: Sinew as WebAssembly, so that it runs without a server.
 import { build } from 'esbuild';
-import { copyFile, mkdir, readFile, writeFile } from 'node:fs/promises';
+import { copyFile, mkdir, readdir, readFile, rm, stat, writeFile } from 'node:fs/promises';
+import { dirname, resolve } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { gzipSync } from 'node:zlib';
 
-await mkdir('dist', { recursive: true });
+const folder = resolve(process.argv[2] ?? 'web/dist');
+process.chdir(dirname(fileURLToPath(import.meta.url)));
+const alone = process.argv.length > 2;
+
+await rm(folder, { recursive: true, force: true });
+await mkdir(folder, { recursive: true });
 await build({
-  entryPoints: ['src/main.js'],
-  outdir: 'dist',
+  absWorkingDir: process.cwd(),
+  entryPoints: ['src/main.js', ...(alone ? ['src/worker.js'] : [])],
+  outdir: folder,
   bundle: true,
   minify: true,
   format: 'esm',
@@ -14,8 +24,19 @@ await build({
   legalComments: 'none',
   logLevel: 'warning',
 });
-for (const file of ['index.html', 'style.css', 'icon.svg']) await copyFile(file, `dist/${file}`);
+for (const file of ['index.html', 'style.css', 'icon.svg']) await copyFile(file, `${folder}/${file}`);
 const { version } = JSON.parse(await readFile('node_modules/three/package.json', 'utf8'));
-const three = await readFile('node_modules/three/LICENSE', 'utf8');
-const sinew = await readFile('../LICENSE', 'utf8');
-await writeFile('dist/licences.txt', `Sinew\n\n${sinew}\n\nthree.js ${version}\n\n${three}`);
+const licences = [
+  ['Sinew', await readFile('../LICENSE', 'utf8')],
+  [`three.js ${version}`, await readFile('node_modules/three/LICENSE', 'utf8')],
+];
+if (alone) {
+  // packed, since not every server packs what it sends
+  await writeFile(`${folder}/sinew.bin`, gzipSync(await readFile('engine/build/sinew.wasm'), { level: 9 }));
+  await writeFile(`${folder}/engine.json`, JSON.stringify({ engine: 'worker', scene: 'liver' }));
+  licences.push(['Eigen, JSON for Modern C++ and the libraries of emscripten, in sinew.bin', await readFile('engine/licences.txt', 'utf8')]);
+}
+await writeFile(`${folder}/licences.txt`, licences.map(([name, text]) => `${name}\n\n${text}`).join('\n\n'));
+let size = 0;
+for (const file of await readdir(folder)) size += (await stat(`${folder}/${file}`)).size;
+console.log(`${folder}: ${(size / 1e6).toFixed(2)} MB`);

@@ -29,7 +29,7 @@ inline auto liver() {
       BruteForceBroadPhase{},
       BVHNarrowPhase{},
       MinProximityIntersection{.alarmDistance = 0.002, .contactDistance = 0.001},
-      DefaultContactManager{},
+      ContactManager<PenalityContactForceField>{},
       EulerImplicitSolver{.rayleighStiffness = 0.1, .rayleighMass = 0.1},
       CGLinearSolver<CompressedRowSparseMatrixMat3x3d>{.iterations = 25, .tolerance = 1e-9},
       node<"liver">(TetrahedronTopology{volume.tetrahedra},

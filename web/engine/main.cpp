@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// Sinew in a page: the worker calls these functions. A stage without a thread does what it is told, and what it
-// has to say waits as messages of view/protocol.hpp.
+// Sinew in a page: the worker calls these functions. A stage without a thread does what it is told, and what
+// it has to say waits as messages of view/protocol.hpp.
 #include "liver.hpp"
 
 #include <sinew/view/protocol.hpp>
@@ -9,6 +9,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <exception>
 #include <memory>
@@ -28,7 +29,7 @@ struct Message {
 std::deque<Message> messages;  // to be sent
 Message sent;
 
-struct Engine {
+struct Running {
   Liver simulation;
   std::unique_ptr<view::Stage> stage{};
   view::SceneWriter writer{};
@@ -36,7 +37,7 @@ struct Engine {
   std::uint32_t topology = 0;
   std::string state{};
 
-  Engine() : simulation(page::liver()) {
+  Running() : simulation(page::liver()) {
     simulation.init();
     stage = std::make_unique<view::Stage>(simulation, page::dt, 1, view::Stage::WithoutThread{});
     say(view::write_scene("liver", page::dt, stage->tree));
@@ -53,7 +54,7 @@ struct Engine {
     if (std::string json = view::write_state(stage->state()); json != state) say(state = std::move(json));
   }
 };
-std::unique_ptr<Engine> engine;
+std::unique_ptr<Running> running;
 
 }  // namespace
 
@@ -61,18 +62,18 @@ extern "C" {
 
 /// False where the scene does not start; the message says why.
 EMSCRIPTEN_KEEPALIVE bool sinew_start() try {
-  engine = std::make_unique<Engine>();
-  engine->look();
+  running = std::make_unique<Running>();
+  running->look();
   return true;
 } catch (std::exception const& error) {
-  Engine::say(view::write_error(error.what()));
+  Running::say(view::write_error(error.what()));
   return false;
 }
 
 EMSCRIPTEN_KEEPALIVE void sinew_command(char const* bytes, std::size_t size) try {
-  view::tell(*engine->stage, view::read_command({bytes, size}), Engine::say);
+  view::tell(*running->stage, view::read_command({bytes, size}), Running::say);
 } catch (std::exception const& error) {
-  Engine::say(view::write_error(error.what()));
+  Running::say(view::write_error(error.what()));
 }
 
 /// Works for some milliseconds and looks at the scene; what follows in how many milliseconds there is more to
@@ -82,14 +83,14 @@ EMSCRIPTEN_KEEPALIVE double sinew_turn(double milliseconds) {
   const auto begin = Clock::now();
   bool playing = false, works = true;
   while (works) {
-    const long before = engine->stage->state().step;
-    engine->stage->turn();
-    const view::StageState now = engine->stage->state();
+    const long before = running->stage->state().step;
+    running->stage->turn();
+    const view::StageState now = running->stage->state();
     playing = now.playing;
     works = playing && now.step != before &&
             std::chrono::duration<double, std::milli>(Clock::now() - begin).count() < milliseconds;
   }
-  engine->look();
+  running->look();
   if (!playing) return -1;
   return std::chrono::duration<double, std::milli>(Clock::now() - begin).count() < milliseconds ? 4 : 0;
 }

@@ -83,7 +83,7 @@ function receive(message) {
     showState();
   } else if (said.is === 'component') {
     if (said.line === tree.selected) {
-      $('componentName').textContent = said.class;
+      $('componentName').textContent = said.class.replace('<', ' <');
       $('componentPath').textContent = said.path + (said.name && said.name !== said.class ? `: ${said.name}` : '');
       fields.show(said);
     }

@@ -212,7 +212,7 @@ export class StageView {
     shade.near = 0.5 * radius;
     shade.far = 3.5 * radius;
     shade.updateProjectionMatrix();
-    this.light.shadow.normalBias = 0.01 * radius;
+    this.light.shadow.normalBias = 0.02 * radius;
     this.around.position.copy(this.orbit.up);
     for (const body of this.bodies) if (body.dots) body.dots.material.size = this.#dotSize();
     this.renderer.render(this.scene, this.orbit.camera);

@@ -42,13 +42,18 @@ again.port1.onmessage = () => {
   turn();
 };
 
+onunhandledrejection = ({ reason }) => {
+  throw reason; // so that the page hears of it
+};
 onmessage = async ({ data }) => {
   if (typeof data === 'string') {
     waiting.push(data);
     return soon();
   }
-  const made = await createSinew({ locateFile: (file) => new URL(file, location.href).href });
-  sinew = made;
+  const packed = await fetch('sinew.bin');
+  if (!packed.ok) throw new Error('sinew.bin is not beside the page; build the page again.');
+  const unpacked = new Response(packed.body.pipeThrough(new DecompressionStream('gzip')));
+  sinew = await createSinew({ wasmBinary: await unpacked.arrayBuffer() });
   const starts = sinew._sinew_start();
   post();
   if (starts) soon();
