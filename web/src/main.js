@@ -168,6 +168,7 @@ const keys = {
   h: acts.helpButton,
   '?': acts.helpButton,
   '/': () => $('search').focus(),
+  u: acts.undo,
   x: along(0),
   y: along(1),
   z: along(2),

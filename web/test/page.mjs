@@ -206,6 +206,6 @@ async function alone() {
   }
 }
 
-await served();
-await alone();
+if (options.program) await served();
+if (options.alone) await alone();
 console.log(`${checks} checks passed`);
