@@ -7,8 +7,9 @@ import { dirname, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { gzipSync } from 'node:zlib';
 
-const folder = resolve(process.argv[2] ?? 'web/dist');
-process.chdir(dirname(fileURLToPath(import.meta.url)));
+const here = dirname(fileURLToPath(import.meta.url));
+const folder = resolve(process.argv[2] ?? `${here}/dist`);
+process.chdir(here);
 const alone = process.argv.length > 2;
 
 await rm(folder, { recursive: true, force: true });

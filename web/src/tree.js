@@ -45,10 +45,10 @@ export class Tree {
       });
       item.append(line.fold, line.name || '(no name)');
     } else {
-      item.append(line.class.replace(/<.*/, ''));
-      const template = line.class.match(/<.*/)?.[0];
+      const [plain, template] = line.class.split(/(?=<)/);
       const small = document.createElement('small');
-      small.textContent = [template, line.name && line.name !== line.class && line.name].filter(Boolean).join(' ');
+      small.textContent = [line.name !== plain && line.name, template].filter(Boolean).join(' ');
+      item.append(plain);
       item.append(small);
       item.tabIndex = 0;
       item.title = line.class;
