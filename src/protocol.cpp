@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstring>
 #include <initializer_list>
+#include <limits>
 #include <tuple>
 #include <type_traits>
 
@@ -99,6 +100,12 @@ struct Members {
   }
 };
 
+std::string listed_names() {
+  std::string all;
+  for (std::string_view name : enum_names(Quantity{})) all += text(all.empty() ? "" : ", ", name);
+  return all;
+}
+
 constexpr double farthest = 1e9;  // of the origin of a ray [m]
 
 Json list_of(Eigen::Vector3d const& v) {
@@ -111,7 +118,7 @@ std::string dumped(Json const& json) { return json.dump(-1, ' ', false, Json::er
 
 // ---- bytes
 
-constexpr std::uint32_t topologyKind = 1, frameKind = 2;
+constexpr std::uint32_t topologyKind = 1, frameKind = 2, hiddenKind = 4;
 
 template <class T>
 void put(std::string& to, T value) {
@@ -199,10 +206,18 @@ Command read_command(std::string_view json) {
     return command::SetField{m.line(), m.words("field"), m.words("value")};
   if (has("undo", {})) return command::Undo{};
   if (has("redo", {})) return command::Redo{};
+  if (has("colour", {"by"})) {
+    const std::string by = m.words("by");
+    constexpr auto names = enum_names(Quantity{});
+    const auto at = std::find(names.begin(), names.end(), by);
+    if (at == names.end())
+      refuse(text("'by' is '", Members::shown(by), "' and must be one of: ", listed_names()));
+    return command::Colour{Quantity(at - names.begin())};
+  }
   refuse(text("nothing is called '",
               m.name,
-              "'; there are play, step, reset, speed, press, move, release, component, setField, undo and "
-              "redo"));
+              "'; there are play, step, reset, speed, press, move, release, component, setField, undo, "
+              "redo and colour"));
 }
 
 std::string write_command(Command const& said) {
@@ -227,6 +242,9 @@ std::string write_command(Command const& said) {
     }
     Json operator()(command::Undo const&) { return {{"do", "undo"}}; }
     Json operator()(command::Redo const&) { return {{"do", "redo"}}; }
+    Json operator()(command::Colour const& c) {
+      return {{"do", "colour"}, {"by", enum_names(c.by)[std::size_t(c.by)]}};
+    }
   } json;
   return dumped(std::visit(json, said));
 }
@@ -241,7 +259,7 @@ std::string write_scene(std::string_view title, double dt, std::vector<TreeLine>
   return dumped({{"is", "scene"}, {"protocol", 1}, {"title", title}, {"dt", dt}, {"tree", std::move(lines)}});
 }
 
-std::string write_state(StageState const& state) {
+std::string write_state(StageState const& state, SeenScene const& scene) {
   Json json{{"is", "state"},
             {"time", state.time},
             {"step", state.step},
@@ -250,7 +268,14 @@ std::string write_state(StageState const& state) {
             {"held", nullptr},
             {"undo", state.undo ? Json(state.undo->field) : Json()},
             {"redo", state.redo ? Json(state.redo->field) : Json()},
-            {"error", state.error}};
+            {"error", state.error},
+            {"colour", enum_names(Quantity{})[std::size_t(scene.settings.colour)]},
+            {"legend", nullptr}};
+  if (scene.legend)
+    json["legend"] = {{"title", scene.legend->title},
+                      {"unit", scene.legend->unit},
+                      {"low", scene.legend->low},
+                      {"high", scene.legend->high}};
   if (state.held)
     json["held"] = {{"path", state.held->path},
                     {"point", list_of(state.held->point)},
@@ -292,7 +317,8 @@ std::string write_topology(SeenScene const& scene, std::uint32_t number) {
   for (int k = 0; k < 3; ++k) put(to, float(scene.up[k]));
   put_count(to, scene.bodies.size());
   for (SeenBody const& body : scene.bodies) {
-    put(to, std::uint32_t(body.visual));
+    put(to, std::uint32_t(body.kind) + (body.visible ? 0u : hiddenKind));
+    for (int k = 0; k < 3; ++k) put(to, float(body.colour[k]));
     for (const std::size_t n :
          {body.path.size(), body.points.size(), body.triangles.size(), body.quads.size(), body.edges.size()})
       put_count(to, n);
@@ -307,18 +333,26 @@ std::string write_topology(SeenScene const& scene, std::uint32_t number) {
 
 std::string write_frame(SeenScene const& scene, std::uint32_t topology) {
   std::size_t points = 0;
-  for (SeenBody const& body : scene.bodies) points += body.points.size();
+  bool coloured = false;
+  for (SeenBody const& body : scene.bodies) {
+    points += body.points.size();
+    coloured = coloured || !body.values.empty();
+  }
   std::string to;
-  to.reserve(32 + 12 * points);
+  to.reserve(32 + 16 * points);
   put(to, frameKind);
   put(to, topology);
   put_count(to, points);
-  put(to, std::uint32_t(0));
+  put_count(to, coloured ? points : 0);
   put(to, scene.time);
   put(to, double(scene.step));
   for (SeenBody const& body : scene.bodies)
     for (Eigen::Vector3d const& p : body.points)
       for (int k = 0; k < 3; ++k) put(to, float(p[k]));
+  if (coloured)
+    for (SeenBody const& body : scene.bodies)
+      for (std::size_t i = 0; i < body.points.size(); ++i)
+        put(to, i < body.values.size() ? float(body.values[i]) : std::numeric_limits<float>::quiet_NaN());
   return to;
 }
 
@@ -328,10 +362,14 @@ ReadTopology read_topology(std::string_view message) {
   ReadTopology read{.number = bytes.word()};
   for (int k = 0; k < 3; ++k) read.scene.up[k] = double(bytes.number<float>());
   std::size_t all = 0;
-  constexpr std::size_t header = 6 * sizeof(std::uint32_t);
+  constexpr std::size_t header = 9 * sizeof(std::uint32_t);
   const std::size_t bodies = bytes.count(bytes.word(), header);
   for (std::size_t b = 0; b < bodies; ++b) {
-    SeenBody body{.visual = bytes.word() != 0};
+    const std::uint32_t kind = bytes.word();
+    if (kind % hiddenKind > std::uint32_t(SeenBody::Kind::collision) || kind >= 2 * hiddenKind)
+      bytes.refuse("a body is of no kind that there is");
+    SeenBody body{.kind = SeenBody::Kind(kind % hiddenKind), .visible = kind < hiddenKind};
+    for (int k = 0; k < 3; ++k) body.colour[k] = double(bytes.number<float>());
     const std::uint32_t path = bytes.word(), points = bytes.word(), triangles = bytes.word(),
                         quads = bytes.word(), edges = bytes.word();
     // a frame of them would be longer than what is sent
@@ -356,15 +394,20 @@ void read_frame(std::string_view message, ReadTopology& into) {
   for (SeenBody const& body : into.scene.bodies) points += body.points.size();
   const std::uint32_t count = bytes.word();
   if (count != points) bytes.refuse("it has another number of points than its topology");
-  bytes.word();
+  const std::uint32_t values = bytes.word();
+  if (values != 0 && values != points) bytes.refuse("it has another number of values than points");
   const double time = bytes.number<double>(), step = bytes.number<double>();
   if (!(step >= 0 && step < 9e15)) bytes.refuse("its step is no count");
-  if (bytes.left.size() != 12 * points) bytes.refuse("it has another length than its points");
+  if (bytes.left.size() != 12 * points + 4 * values) bytes.refuse("it has another length than its points");
   into.scene.time = time;
   into.scene.step = long(step);
   for (SeenBody& body : into.scene.bodies)
     for (Eigen::Vector3d& p : body.points)
       for (int k = 0; k < 3; ++k) p[k] = double(bytes.number<float>());
+  for (SeenBody& body : into.scene.bodies) {
+    body.values.resize(values == 0 ? 0 : body.points.size());
+    for (double& value : body.values) value = double(bytes.number<float>());
+  }
 }
 
 void SceneWriter::write(SeenScene const& scene) {

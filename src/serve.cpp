@@ -465,7 +465,7 @@ struct Server::Parts {
       }
       if (!all->frame || *all->frame != writer.frame()) all->frame = shared(std::string(writer.frame()));
     }
-    if (std::string json = write_state(state); !all->state || *all->state != json) {
+    if (std::string json = write_state(state, *seen); !all->state || *all->state != json) {
       all->state = shared(std::move(json));
       changed = std::chrono::steady_clock::now();
     }

@@ -11,7 +11,9 @@ namespace cli {
 class Frames {
  public:
   /// Throws Failure where this program has no pictures, and sinew::Error where they cannot be made here.
-  Frames(RunOptions const& options, double picturesPerSecond);
+  Frames(RunOptions const& options, Scene& scene, double picturesPerSecond);
+  /// Whether they show forces that the simulation has to keep.
+  bool needForces() const;
   ~Frames();
   void add(sinew::StandardSimulation& simulation);
   /// Completes the film. The files.

@@ -89,6 +89,39 @@ void add_duration(CLI::App& app, Duration& duration) {
   steps->excludes(time);
 }
 
+void add_seen(CLI::App& app, SeenOptions& seen) {
+  app.add_option("--colour,--color",
+                 seen.colour,
+                 "What the colours show: displacement, speed, vonMises, strainEnergy or stretch")
+      ->type_name("QUANTITY");
+  app.add_option(
+         "--range", seen.range, "Values at both ends of the colours, as in 0:5000 (default: those there are)")
+      ->type_name("LOW:HIGH");
+  app.add_option("--arrows",
+                 seen.arrows,
+                 "Arrows, apart by commas: velocities, forces, reactions, contacts, attachments")
+      ->type_name("KINDS")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  constexpr char const* things =
+      "visuals, states, collision, springs, constraints, normals, wireframe, axes, grid, legend";
+  app.add_option("--show", seen.show, std::string("What to show besides, apart by commas: ") + things)
+      ->type_name("THINGS")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  app.add_option(
+         "--hide", seen.hide, "What of these, or which bodies by the paths of their nodes, not to show")
+      ->type_name("THINGS")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  app.add_option("--clip", seen.clip, "Plane that cuts bodies open: what is seen has X*x + Y*y + Z*z <= D")
+      ->type_name("\"X Y Z D\"");
+  app.add_option("--camera",
+                 seen.camera,
+                 "Where the camera stands, and where it looks (default: at all of the scene)")
+      ->type_name("\"X Y Z  X Y Z\"");
+}
+
 void add_output(CLI::App& app, bool& quiet, bool& json) {
   auto* q = app.add_flag("--quiet", quiet, "Print errors only");
   auto* j = app.add_flag("--json", json, "Print the result as one JSON object");
@@ -134,6 +167,7 @@ Options read_options(int argc, char** argv, int& status) {
       ->type_name("FILE");
   run->add_option("--size", size, "Width and height of these pictures in pixels (default 1280x960)")
       ->type_name("WxH");
+  add_seen(*run, o.run.seen);
   run->add_option(
          "--record", o.run.record, "File for positions and velocities of all bodies over time, as text")
       ->type_name("FILE");
@@ -166,6 +200,7 @@ Options read_options(int argc, char** argv, int& status) {
   view->footer("Example:  sinew view liver.scn");
   view->add_option("scene", o.view.scene.path, "Scene file")->type_name("FILE")->required();
   viewWords.addTo(*view, o.view.scene, true);
+  add_seen(*view, o.view.seen);
 
   auto* serve = app.add_subcommand("serve", "Show a scene in browsers, run it there and pull its bodies");
   serve->footer("Example:  sinew serve liver.scn   and open the link that it prints");

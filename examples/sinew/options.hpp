@@ -36,6 +36,12 @@ struct Duration {
   bool given = false;
 };
 
+/// What is to be seen of a scene, beside what its file says.
+struct SeenOptions {
+  std::string colour{}, range{}, clip{}, camera{};
+  std::vector<std::string> arrows{}, show{}, hide{};
+};
+
 enum class Output { words, quiet, json };
 
 struct RunOptions {
@@ -43,6 +49,7 @@ struct RunOptions {
   Duration duration{};
   std::string vtk{}, png{}, film{}, record{}, forces{}, save{};
   int width = 1280, height = 960;  // of pictures [pixels]
+  SeenOptions seen{};
   long every = 1;
   int threads = 0;  // as the scene says
   bool profile = false;
@@ -51,6 +58,7 @@ struct RunOptions {
 };
 struct ViewOptions {
   SceneOptions scene{};
+  SeenOptions seen{};
 };
 struct ServeOptions {
   SceneOptions scene{};

@@ -30,13 +30,13 @@ class Outputs {
         pictures_.emplace(options.vtk, scene.simulation.root());
       }
       if (!options.png.empty() || !options.film.empty())
-        frames_.emplace(options, 1 / (scene.dt * double(options.every)));
+        frames_.emplace(options, scene, 1 / (scene.dt * double(options.every)));
       if (!options.record.empty()) record_.emplace(options.record);
       if (!options.forces.empty()) forces_.emplace(options.forces);
       if (!options.save.empty()) mayWrite(options.save);
       if (!options.trace.empty()) mayWrite(options.trace);
     });
-    scene.simulation.keepForces(!options.forces.empty());
+    scene.simulation.keepForces(!options.forces.empty() || (frames_ && frames_->needForces()));
     if (!options.profile && options.trace.empty()) return;
     // 13 MB; as a file 50 MB
     profile_.emplace(options.trace.empty() ? 0 : 1u << 19);

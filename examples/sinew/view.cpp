@@ -2,15 +2,22 @@
 #include "scene.hpp"
 
 #ifdef SINEW_WINDOW
+#include "seen.hpp"
+
 #include <sinew/view/window.hpp>
 
 namespace cli {
 
 int view(ViewOptions const& options) {
   Scene scene = load(options.scene);
+  const sinew::view::ViewSettings settings = seen_settings(options.seen, scene);
+  scene.warnings.insert(scene.warnings.end(), settings.warnings.begin(), settings.warnings.end());
   print_notes(scene.ignored, scene.warnings);
   try {
-    sinew::view::view(scene.simulation, scene.dt, {.title = options.scene.path + " - Sinew"});
+    sinew::view::view(
+        scene.simulation,
+        scene.dt,
+        {.title = options.scene.path + " - Sinew", .camera = settings.camera, .seen = settings.seen});
   } catch (sinew::Error const& error) {
     throw Failure{notWritten, {error.what()}};
   }

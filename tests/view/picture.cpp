@@ -94,7 +94,7 @@ TEST_CASE("visual models hide the states that they follow, states their parents 
   CHECK(scene.bodies[0].path == "/root/points");
   CHECK(scene.bodies[0].points.size() == 1);
   CHECK(scene.bodies[1].path == "/root/seen/skin");
-  CHECK(scene.bodies[1].visual);
+  CHECK(scene.bodies[1].kind == view::SeenBody::Kind::visual);
   const auto [low, high] = scene.box();
   CHECK(low == Eigen::Vector3d(0, 0, 0));
   CHECK(high == Eigen::Vector3d(1, 1, 2));
@@ -104,15 +104,21 @@ TEST_CASE("normals are smooth where a surface is, and sharp at edges") {
   view::SeenBody body{.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}},
                       .quads = {{0, 3, 2, 1}, {0, 1, 5, 4}}};
   view::ShadedMesh mesh = view::shaded_mesh(body);
-  REQUIRE(mesh.corners.size() == 12);
-  for (std::size_t i = 0; i < 6; ++i) CHECK((mesh.normals[i] - Eigen::Vector3f(0, 0, -1)).norm() < 1e-6f);
-  for (std::size_t i = 6; i < 12; ++i) CHECK((mesh.normals[i] - Eigen::Vector3f(0, -1, 0)).norm() < 1e-6f);
-  CHECK(mesh.lines.size() == 2 * 7);                             // the edge in the middle once
+  REQUIRE(mesh.triangles.size() == 12);
+  CHECK(mesh.corners.size() == 8);  // those of the edge twice
+  auto normal = [&](std::size_t i) { return mesh.normals[mesh.triangles[i]]; };
+  for (std::size_t i = 0; i < 6; ++i) CHECK((normal(i) - Eigen::Vector3f(0, 0, -1)).norm() < 1e-6f);
+  for (std::size_t i = 6; i < 12; ++i) CHECK((normal(i) - Eigen::Vector3f(0, -1, 0)).norm() < 1e-6f);
+  CHECK(mesh.lines.at.size() == 2 * 7);                          // the edge in the middle once
   body.points[4] = {0, -1, 0.2}, body.points[5] = {1, -1, 0.2};  // 11 degrees
   mesh = view::shaded_mesh(body);
-  const auto at_edge = [&](std::size_t i) { return mesh.corners[i].y() == 0; };
+  CHECK(mesh.corners.size() == 6);
   for (std::size_t i = 0; i < 12; ++i)
-    if (at_edge(i)) CHECK(mesh.normals[i].y() < -0.05f);
+    if (mesh.corners[mesh.triangles[i]].y() == 0) CHECK(normal(i).y() < -0.05f);
+  // 34 degrees: smooth, though more than 20 from the mean of the two
+  body.points[4] = {0, -0.1, 0.0675}, body.points[5] = {1, -0.1, 0.0675};
+  mesh = view::shaded_mesh(body);
+  CHECK(mesh.corners.size() == 6);
 }
 
 TEST_CASE("files of pictures, and what cannot be pictured") {

@@ -5,7 +5,9 @@
 
 #include <sinew/view/protocol.hpp>
 
+#include <cmath>
 #include <limits>
+#include <memory>
 #include <random>
 
 namespace test_protocol {
@@ -24,7 +26,8 @@ const std::vector<Command> every{command::Play{true},
                                  command::Component{3},
                                  command::SetField{4, "youngModulus", "1000 \"2\"\n"},
                                  command::Undo{},
-                                 command::Redo{}};
+                                 command::Redo{},
+                                 command::Colour{Quantity::vonMises}};
 
 // two bodies, one of them a visual model
 SeenScene scene() {
@@ -33,11 +36,16 @@ SeenScene scene() {
   seen.time = 0.1;
   seen.step = 10;
   seen.bodies.push_back({.path = "root/a",
-                         .visual = true,
+                         .kind = SeenBody::Kind::visual,
                          .points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.1, 1, 0}},
                          .triangles = {{0, 1, 2}},
                          .quads = {{0, 1, 2, 3}}});
-  seen.bodies.push_back({.path = "root/bb", .points = {{1, 2, 3}, {4, 5, 6}}, .edges = {{0, 1}}});
+  seen.bodies.push_back({.path = "root/bb",
+                         .visible = false,
+                         .points = {{1, 2, 3}, {4, 5, 6}},
+                         .edges = {{0, 1}},
+                         .values = {0.5, 0.25},
+                         .colour = {1, 0.5, 0}});
   return seen;
 }
 
@@ -93,14 +101,17 @@ TEST_CASE("a topology and its frames are read as they were written") {
   CHECK(read.scene.up == seen.up);
   REQUIRE(read.scene.bodies.size() == 2);
   CHECK(read.scene.bodies[0].path == "root/a");
-  CHECK(read.scene.bodies[0].visual);
+  CHECK(read.scene.bodies[0].kind == SeenBody::Kind::visual);
+  CHECK(read.scene.bodies[0].visible);
   CHECK(read.scene.bodies[0].triangles == seen.bodies[0].triangles);
   CHECK(read.scene.bodies[0].quads == seen.bodies[0].quads);
   CHECK(read.scene.bodies[1].path == "root/bb");
-  CHECK_FALSE(read.scene.bodies[1].visual);
+  CHECK(read.scene.bodies[1].kind == SeenBody::Kind::state);
+  CHECK_FALSE(read.scene.bodies[1].visible);
+  CHECK(read.scene.bodies[1].colour == Eigen::Vector3d(1, 0.5, 0));
   CHECK(read.scene.bodies[1].edges == seen.bodies[1].edges);
   const std::string frame = write_frame(seen, 7);
-  CHECK(frame.size() == 32 + 6 * 12);
+  CHECK(frame.size() == 32 + 6 * 16);
   read_frame(frame, read);
   CHECK(read.scene.time == 0.1);
   CHECK(read.scene.step == 10);
@@ -108,6 +119,14 @@ TEST_CASE("a topology and its frames are read as they were written") {
     for (std::size_t i = 0; i < seen.bodies[b].points.size(); ++i)
       CHECK(read.scene.bodies[b].points[i] ==
             Eigen::Vector3d(seen.bodies[b].points[i].cast<float>().cast<double>()));
+  CHECK(read.scene.bodies[1].values == seen.bodies[1].values);
+  CHECK(std::isnan(read.scene.bodies[0].values[3]));
+  // without colours
+  SeenScene plain = seen;
+  plain.bodies[1].values.clear();
+  CHECK(write_frame(plain, 7).size() == 32 + 6 * 12);
+  read_frame(write_frame(plain, 7), read);
+  CHECK(read.scene.bodies[1].values.empty());
 }
 
 TEST_CASE("bytes that are no topology or frame are refused") {
@@ -122,7 +141,7 @@ TEST_CASE("bytes that are no topology or frame are refused") {
   CHECK(refused(write_topology(wrong, 1)) == "topology: an element has a point that there is not");
   // a number of triangles for which there is no memory
   std::string large = topology;
-  large.replace(24 + 12, 4, "\xff\xff\xff\xff");
+  large.replace(24 + 24, 4, "\xff\xff\xff\xff");
   CHECK(refused(large) == "topology: it ends too early");
 
   ReadTopology into = read_topology(topology);
@@ -130,6 +149,12 @@ TEST_CASE("bytes that are no topology or frame are refused") {
   CHECK(not_frame(topology) == "frame: it is none");
   CHECK(not_frame(write_frame(scene(), 2)) == "frame: it is of another topology");
   CHECK(not_frame(frame.substr(0, frame.size() - 4)) == "frame: it has another length than its points");
+  std::string values = frame;
+  values[12] = 1;
+  CHECK(not_frame(values) == "frame: it has another number of values than points");
+  std::string kind = topology;
+  kind[24] = 3;
+  CHECK(refused(kind) == "topology: a body is of no kind that there is");
   wrong.bodies[0].points.pop_back();
   CHECK(not_frame(write_frame(wrong, 1)) == "frame: it has another number of points than its topology");
   CHECK(into.scene.step == 0);
@@ -164,7 +189,7 @@ TEST_CASE("what a page is told is JSON") {
       R"({"error":"a \"word\"\n)"
       "\xef\xbf\xbd"
       R"(","held":{"force":[0.0,0.0,7.0],"path":"a","point":[1.0,2.0,3.0],"target":[4.0,5.0,6.0]},)"
-      R"("is":"state","playing":false,"redo":null,"step":25,"stepsPerSecond":null,"time":0.5,"undo":null})");
+      R"("is":"state","legend":{"high":2.0,"low":0.0,"title":"speed","unit":"m/s"},"playing":false,"redo":null,"step":25,"stepsPerSecond":null,"time":0.5,"undo":null})");
   CHECK(write_scene("t", 0.01, {{0, "root", ""}, {1, "fem", "Force<Vec3d>"}}) ==
         R"({"dt":0.01,"is":"scene","protocol":1,"title":"t","tree":[{"depth":0,"name":"root"},)"
         R"({"class":"Force<Vec3d>","depth":1,"name":"fem"}]})");
@@ -207,6 +232,8 @@ struct Told {
   }
   void undo() { last = "undo"; }
   void redo() { last = "redo"; }
+  std::shared_ptr<SeenScene const> scene() const { return std::make_shared<SeenScene>(); }
+  void show(SeenSettings const& seen) { last = enum_names(seen.colour)[std::size_t(seen.colour)]; }
 };
 
 TEST_CASE("a command does with a stage what it says") {
@@ -228,7 +255,8 @@ TEST_CASE("a command does with a stage what it says") {
                                           "component",
                                           "youngModulus=1000 \"2\"\n",
                                           "undo",
-                                          "redo"});
+                                          "redo",
+                                          "vonMises"});
   tell(told, command::Component{5}, answer);
   CHECK(answers == std::vector<std::string>{write_component({.line = 3}),
                                             write_error("it is no number"),

@@ -41,6 +41,32 @@ TEST_CASE("a window shows the scene beside its panel, and goes on while a simula
   const auto beside = image.at(798, 2);
   CHECK(beside == std::array<unsigned char, 3>{255, 255, 255});
   CHECK(image.at(2, 598) != beside);  // the panel
+  // a component is selected, and has its fields in the panel; its mass is changed, and that is taken back
+  const auto without = window.image();
+  window.scenePanel().select(5);
+  stage.setField(5, "totalMass", "4");
+  stage.settle();
+  window.frame();
+  const auto with = window.image();
+  REQUIRE(stage.state().selected);
+  CHECK(stage.state().selected->className == "UniformMass<Vec3d>");
+  int changed = 0;
+  for (int y = 300; y < 600; ++y)
+    for (int x = 0; x < 340; ++x) changed += without.at(x, y) != with.at(x, y);
+  CHECK(changed > 500);
+  stage.undo();
+  stage.settle();
+  CHECK(stage.state().redo->after == "4");
+  // what is shown, without the colour of the body
+  view::SeenSettings settings;
+  settings.looks = {{.path = "/root/body", .visible = false}};
+  window.showPanel().set(settings);
+  stage.settle();
+  window.frame();
+  CHECK(window.image().at(340 + int(at[0]), int(at[1])) == std::array<unsigned char, 3>{255, 255, 255});
+  window.showPanel().set({});
+  window.controls().lookAlong(1);
+  CHECK(window.controls().camera.right().allFinite());
   stage.play(true);
   while (stage.state().step < 10) window.frame();
   stage.play(false);

@@ -39,7 +39,8 @@ struct Running {
 
   Running() : simulation(page::liver()) {
     simulation.init();
-    stage = std::make_unique<view::Stage>(simulation, page::dt, 1, view::Stage::WithoutThread{});
+    stage = std::make_unique<view::Stage>(
+        simulation, page::dt, 1, view::SeenSettings{}, view::Stage::WithoutThread{});
     say(view::write_scene("liver", page::dt, stage->tree));
   }
   static void say(std::string json) { messages.push_back({std::move(json), false}); }
@@ -51,7 +52,8 @@ struct Running {
         messages.push_back({writer.topology(), true});
       messages.push_back({writer.frame(), true});
     }
-    if (std::string json = view::write_state(stage->state()); json != state) say(state = std::move(json));
+    if (std::string json = view::write_state(stage->state(), *seen); json != state)
+      say(state = std::move(json));
   }
 };
 std::unique_ptr<Running> running;

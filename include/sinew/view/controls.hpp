@@ -69,6 +69,14 @@ class Controls {
   }
   /// Back to the whole scene, from where it was first seen.
   void home() { camera = home_; }
+  void setHome(Camera const& first) { camera = home_ = first; }
+  /// The whole scene from the side of an axis: 0 x, 1 y, 2 z.
+  void lookAlong(int axis) {
+    camera = home_;
+    camera.toEye = Eigen::Vector3d::Unit(axis);
+    // what is upwards in the scene, or where one looks along that, another axis
+    if (camera.up.cross(camera.toEye).norm() < 1e-3) camera.up = Eigen::Vector3d::Unit((axis + 1) % 3);
+  }
 
  private:
   enum class Doing { nothing, turns, shifts, pulls };

@@ -79,15 +79,28 @@ class GlMesh {
     }
     count_ = GLsizei(first.size());
   }
+  /// Which of them make the primitives; without that they are taken in their order.
+  void setIndices(std::vector<GLuint> const& indices) {
+    if (!indices_) indices_ = detail::made<GlBuffer>([](auto n, auto* id) { glGenBuffers(n, id); });
+    glBindVertexArray(vertices_);
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_);
+    glBufferData(
+        GL_ELEMENT_ARRAY_BUFFER, GLsizeiptr(indices.size() * sizeof(GLuint)), indices.data(), GL_STREAM_DRAW);
+    count_ = GLsizei(indices.size());
+  }
   void draw(GLenum kind) const {
     if (count_ == 0) return;
     glBindVertexArray(vertices_);
-    glDrawArrays(kind, 0, count_);
+    if (indices_)
+      glDrawElements(kind, count_, GL_UNSIGNED_INT, nullptr);
+    else
+      glDrawArrays(kind, 0, count_);
   }
 
  private:
   GlVertices vertices_{};
   std::vector<GlBuffer> buffers_{};
+  GlBuffer indices_{};
   GLsizei count_ = 0;
 };
 
@@ -115,6 +128,10 @@ class GlShaders {
   void set(char const* name, Eigen::Vector3d const& v) const {
     const Eigen::Vector3f value = v.cast<float>();
     glUniform3fv(at(name), 1, value.data());
+  }
+  void set(char const* name, Eigen::Vector4d const& v) const {
+    const Eigen::Vector4f value = v.cast<float>();
+    glUniform4fv(at(name), 1, value.data());
   }
   void set(char const* name, double value) const { glUniform1f(at(name), float(value)); }
   void setTexture(char const* name, int unit) const { glUniform1i(at(name), unit); }

@@ -18,6 +18,7 @@ struct PictureSettings {
   int width = 1280, height = 960;  // [pixels]
   std::optional<Camera>
       camera{};  // without one the first picture shows all of the scene, and later ones the same place
+  SeenSettings seen{};
 };
 
 /// The camera that sees all of a scene: from the front, the right and above.
@@ -131,7 +132,7 @@ class Picture {
  public:
   template <class Simulation>
   explicit Picture(Simulation& simulation, PictureSettings const& settings = {})
-      : image_(Painter(settings).paint(seen_scene(simulation))) {}
+      : image_(Painter(settings).paint(seen_scene(simulation, settings.seen))) {}
   Image const& image() const { return image_; }
   void write(std::string const& path) const { write_png(image_, path); }
 

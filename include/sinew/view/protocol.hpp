@@ -62,10 +62,15 @@ struct Undo {
 struct Redo {
   bool operator==(Redo const&) const = default;
 };
+/// What the colours of bodies show from now on, for all who look.
+struct Colour {
+  Quantity by = Quantity::none;
+  bool operator==(Colour const&) const = default;
+};
 }  // namespace command
-using Command =
-    std::variant<command::Play, command::Step, command::Reset, command::Speed, command::Press, command::Move,
-                 command::Release, command::Component, command::SetField, command::Undo, command::Redo>;
+using Command = std::variant<command::Play, command::Step, command::Reset, command::Speed, command::Press,
+                             command::Move, command::Release, command::Component, command::SetField,
+                             command::Undo, command::Redo, command::Colour>;
 
 /// Commands longer than that [bytes], or nested deeper, are refused.
 inline constexpr std::size_t longestCommand = 16384, deepestCommand = 4;
@@ -78,7 +83,7 @@ std::string write_command(Command const& command);
 /// What a page is told as JSON: once what the scene is made of; how it gets on; a component that it asked
 /// for; what was wrong with a command.
 std::string write_scene(std::string_view title, double dt, std::vector<TreeLine> const& tree);
-std::string write_state(StageState const& state);
+std::string write_state(StageState const& state, SeenScene const& scene);
 std::string write_component(SeenComponent const& component);
 std::string write_error(std::string_view message);
 
@@ -108,17 +113,24 @@ void tell(Stage& stage, Command const& said, Answer const& answer) {
     }
     void operator()(command::Undo const&) { stage.undo(); }
     void operator()(command::Redo const&) { stage.redo(); }
+    void operator()(command::Colour const& c) {
+      SeenSettings seen = stage.scene()->settings;
+      seen.colour = c.by;
+      stage.show(seen);
+    }
   } doing{stage, answer};
   std::visit(doing, said);
 }
 
 /// The elements of what is seen, known by a number; of its points only how many there are. Words of four
 /// bytes, the lowest first: 1 for a topology, its number, three floats upwards, how many bodies; for each
-/// body whether it is a visual model, lengths of path [bytes], points, triangles, quads, edges; the path,
-/// filled up to a word, and the numbers of the points of each element.
+/// body its kind (SeenBody::Kind, and 4 more where it is hidden), three floats of its colour, lengths of path
+/// [bytes], points, triangles, quads, edges; the path, filled up to a word, and the numbers of the points of
+/// each element.
 std::string write_topology(SeenScene const& scene, std::uint32_t number);
-/// A moment of it: the words 2, the number of its topology, how many points all bodies have, 0; time [s] and
-/// step as doubles; x, y, z of each point as floats.
+/// A moment of it: the words 2, the number of its topology, how many points all bodies have, how many values:
+/// none, or one a point; time [s] and step as doubles; x, y, z of each point as floats; the values that
+/// colours show as floats, those of bodies without them no numbers.
 std::string write_frame(SeenScene const& scene, std::uint32_t topology);
 
 /// Of a topology that is read.

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <sinew/view/camera.hpp>
+#include <sinew/view/drawn_marks.hpp>
 #include <sinew/view/gl_objects.hpp>
+#include <sinew/view/overlay.hpp>
 #include <sinew/view/seen_scene.hpp>
 #include <sinew/view/shaded_mesh.hpp>
 
@@ -11,27 +13,25 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace sinew::view {
-
-/// Colours that people who see colours differently can tell apart (Okabe, Ito 2008), red, green, blue.
-inline constexpr std::array<std::array<double, 3>, 7> palette{{{0.84, 0.37, 0.0},
-                                                               {0.0, 0.45, 0.70},
-                                                               {0.0, 0.62, 0.45},
-                                                               {0.80, 0.47, 0.65},
-                                                               {0.90, 0.62, 0.0},
-                                                               {0.34, 0.71, 0.91},
-                                                               {0.94, 0.89, 0.26}}};
 
 namespace detail {
 
 inline constexpr char const* surfaceVertex = R"(#version 330 core
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
+layout(location = 2) in vec3 colour;
 uniform mat4 toClip, toView, toLight;
-out vec3 atEye, normalAtEye, atLight;
+uniform vec4 clip;
+out vec3 atEye, normalAtEye, atLight, own;
 void main() {
+  own = colour;
+  gl_ClipDistance[0] = dot(clip, vec4(position, 1));
   vec4 p = toView * vec4(position, 1);
   atEye = p.xyz;
   normalAtEye = mat3(toView) * normal;
@@ -42,8 +42,8 @@ void main() {
 // Blinn and Phong's light from one side, with its shadow, and light from all sides that is brighter from
 // above. Both sides of a face are seen.
 inline constexpr char const* surfaceFragment = R"(#version 330 core
-in vec3 atEye, normalAtEye, atLight;
-uniform vec3 colour, lightAtEye, upAtEye;
+in vec3 atEye, normalAtEye, atLight, own;
+uniform vec3 lightAtEye, upAtEye;
 uniform sampler2DShadow shadow;
 out vec4 pixel;
 void main() {
@@ -57,26 +57,31 @@ void main() {
       lit += texture(shadow, vec3(atLight.xy + vec2(i, j) * texel, atLight.z - bias)) / 9.0;
   float around = 0.42 + 0.18 * dot(n, upAtEye);
   float shine = pow(max(dot(n, normalize(lightAtEye + toEye)), 0.0), 40.0);
-  vec3 linear = pow(colour, vec3(2.2)) * (around + 0.75 * slope * lit) + 0.12 * shine * lit;
+  vec3 linear = pow(own, vec3(2.2)) * (around + 0.75 * slope * lit) + 0.12 * shine * lit;
   pixel = vec4(pow(linear, vec3(1.0 / 2.2)), 1);
 })";
 
 inline constexpr char const* plainVertex = R"(#version 330 core
 layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 colour;
 uniform mat4 toClip, toView;
+uniform vec4 clip;
 uniform float pointSize;
+out vec3 own;
 void main() {
+  own = colour;
+  gl_ClipDistance[0] = dot(clip, vec4(position, 1));
   gl_Position = toClip * (toView * vec4(position, 1));
   gl_PointSize = pointSize;
 })";
 
 inline constexpr char const* plainFragment = R"(#version 330 core
-uniform vec3 colour;
+in vec3 own;
 uniform float roundPoints;
 out vec4 pixel;
 void main() {
   if (roundPoints > 0.0 && length(gl_PointCoord - 0.5) > 0.5) discard;
-  pixel = vec4(colour, 1);
+  pixel = vec4(own, 1);
 })";
 
 }  // namespace detail
@@ -87,19 +92,30 @@ class Renderer {
  public:
   /// Brings what is seen onto the graphics card.
   void show(SeenScene const& scene) {
-    bodies_.resize(std::min(bodies_.size(), scene.bodies.size()));
-    while (bodies_.size() < scene.bodies.size()) bodies_.emplace_back();
-    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-      const ShadedMesh mesh = shaded_mesh(scene.bodies[i]);
-      bodies_[i].faces.set(mesh.corners, mesh.normals);
-      bodies_[i].lines.set(mesh.lines);
-      bodies_[i].points.set(mesh.points);
-      bodies_[i].hasFaces = !mesh.corners.empty();
-    }
-    up_ = scene.up;
     auto const& [low, high] = scene.box();
     centre_ = (low + high) / 2;
     radius_ = std::max((high - low).norm() / 2, 1e-9);
+    std::size_t used = 0;
+    auto upload = [&](ShadedMesh const& mesh) {
+      if (used == bodies_.size()) bodies_.emplace_back();
+      Body& body = bodies_[used++];
+      body.faces.set(mesh.corners, mesh.normals, mesh.colours);
+      body.faces.setIndices(mesh.triangles);
+      body.lines.set(mesh.lines.at, mesh.lines.colours);
+      body.points.set(mesh.points.at, mesh.points.colours);
+    };
+    for (SeenBody const& body : scene.bodies)
+      if (body.visible) upload(shaded_mesh(body, scene.legend, scene.settings));
+    DrawnMarks marks = drawn_marks(scene, radius_);
+    upload(marks.mesh);
+    bodies_.resize(used);
+    labels_ = std::move(marks.labels);
+    words_ = std::move(marks.words);
+    legend_ = scene.settings.legend ? scene.legend : std::nullopt;
+    if (!scene.settings.legend) words_.clear();
+    up_ = scene.up;
+    clip_ = scene.settings.clip;
+    colour_ = scene.settings.background.value_or(Eigen::Vector3d(background.data()));
   }
 
   /// `left`: the pixels that are left free beside the picture.
@@ -111,6 +127,7 @@ class Renderer {
     const Eigen::Matrix4d toLight = lightOf(light);
     GLint target = 0;
     glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &target);
+    if (clip_) glEnable(GL_CLIP_DISTANCE0);
     drawShadow(toLight);
     glBindFramebuffer(GL_FRAMEBUFFER, GLuint(target));
 
@@ -118,12 +135,13 @@ class Renderer {
     glEnable(GL_DEPTH_TEST);
     glEnable(GL_MULTISAMPLE);
     glEnable(GL_PROGRAM_POINT_SIZE);
-    glClearColor(GLfloat(background[0]), GLfloat(background[1]), GLfloat(background[2]), 1);
+    glClearColor(GLfloat(colour_[0]), GLfloat(colour_[1]), GLfloat(colour_[2]), 1);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     surface_.use();
     surface_.set("toView", toView);
     surface_.set("toClip", toClip);
     surface_.set("toLight", toLight);
+    surface_.set("clip", clipped());
     surface_.set("lightAtEye", toView.topLeftCorner<3, 3>() * light);
     surface_.set("upAtEye", toView.topLeftCorner<3, 3>() * up_);
     surface_.setTexture("shadow", 0);
@@ -131,30 +149,32 @@ class Renderer {
     glBindTexture(GL_TEXTURE_2D, shadow_.depth);
     glEnable(GL_POLYGON_OFFSET_FILL);  // edges are seen on the faces they belong to
     glPolygonOffset(1, 1);
-    for (std::size_t i = 0; i < bodies_.size(); ++i) {
-      surface_.set("colour", colourOf(i));
-      bodies_[i].faces.draw(GL_TRIANGLES);
+    for (Body const& body : bodies_) {
+      if (&body == &bodies_.back()) surface_.set("clip", everything());  // marks are seen as a whole
+      body.faces.draw(GL_TRIANGLES);
     }
     glDisable(GL_POLYGON_OFFSET_FILL);
     plain_.use();
     plain_.set("toView", toView);
     plain_.set("toClip", toClip);
+    plain_.set("clip", clipped());
     plain_.set("pointSize", std::max(4., height / 90.));
-    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    for (Body const& body : bodies_) {
+      if (&body == &bodies_.back()) plain_.set("clip", everything());
       plain_.set("roundPoints", 0);
-      plain_.set("colour", bodies_[i].hasFaces ? Eigen::Vector3d(0.4 * colourOf(i)) : colourOf(i));
-      bodies_[i].lines.draw(GL_LINES);
+      body.lines.draw(GL_LINES);
       plain_.set("roundPoints", 1);
-      bodies_[i].points.draw(GL_POINTS);
+      body.points.draw(GL_POINTS);
     }
+    glDisable(GL_CLIP_DISTANCE0);
+    drawWords(camera, width, height);
   }
 
   std::array<double, 3> background{1, 1, 1};
 
  private:
   struct Body {
-    GlMesh faces{2}, lines{1}, points{1};
-    bool hasFaces = false;
+    GlMesh faces{3}, lines{2}, points{2};
   };
   struct Shadow {
     static constexpr int size = 2048;
@@ -181,11 +201,19 @@ class Renderer {
   GlShaders plain_{detail::plainVertex, detail::plainFragment};
   Shadow shadow_{};
   std::vector<Body> bodies_{};
-  Eigen::Vector3d up_{0, 1, 0}, centre_{0, 0, 0};
+  GlMesh overlay_{2};
+  std::vector<std::pair<Eigen::Vector3d, std::string>> labels_{};
+  std::vector<std::string> words_{};
+  std::optional<Legend> legend_{};
+  std::optional<ClipPlane> clip_{};
+  Eigen::Vector3d up_{0, 1, 0}, centre_{0, 0, 0}, colour_{1, 1, 1};
   double radius_ = 1;
 
-  static Eigen::Vector3d colourOf(std::size_t body) {
-    return Eigen::Vector3d(palette[body % palette.size()].data());
+  // positive where something is seen
+  static Eigen::Vector4d everything() { return {0, 0, 0, 1}; }
+  Eigen::Vector4d clipped() const {
+    if (!clip_) return everything();
+    return {-clip_->normal[0], -clip_->normal[1], -clip_->normal[2], clip_->offset};
   }
   // parallel light onto the sphere around everything
   Eigen::Matrix4d lightOf(Eigen::Vector3d const& light) const {
@@ -205,7 +233,32 @@ class Renderer {
     plain_.use();
     plain_.set("toView", Eigen::Matrix4d(Eigen::Matrix4d::Identity()));
     plain_.set("toClip", toLight);
+    plain_.set("clip", clipped());
     for (Body const& body : bodies_) body.faces.draw(GL_TRIANGLES);
+  }
+  // legend, words and labels, in front of everything
+  void drawWords(Camera const& camera, int width, int height) {
+    if (!legend_ && words_.empty() && labels_.empty()) return;
+    const double luminance = colour_.dot(Eigen::Vector3d(0.3, 0.6, 0.1));
+    Overlay overlay(std::max(1., height / 480.), Eigen::Vector3d::Constant(luminance > 0.5 ? 0.1 : 0.95));
+    if (legend_) overlay.addLegend(*legend_, width, height);
+    overlay.addWords(words_, height);
+    for (auto const& [place, label] : labels_) {
+      const Eigen::Vector3d at = camera.project(place, width, height);
+      if (at[2] > 0 && at[2] < 1) overlay.addText(at[0], at[1], label);
+    }
+    Eigen::Matrix4d toClip = Eigen::Matrix4d::Identity();
+    toClip(0, 0) = 2. / width, toClip(1, 1) = -2. / height;
+    toClip(0, 3) = -1, toClip(1, 3) = 1;
+    glDisable(GL_DEPTH_TEST);
+    plain_.use();
+    plain_.set("toView", Eigen::Matrix4d(Eigen::Matrix4d::Identity()));
+    plain_.set("toClip", toClip);
+    plain_.set("clip", everything());
+    plain_.set("roundPoints", 0);
+    overlay_.set(overlay.triangles().at, overlay.triangles().colours);
+    overlay_.draw(GL_TRIANGLES);
+    glEnable(GL_DEPTH_TEST);
   }
 };
 

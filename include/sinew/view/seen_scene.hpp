@@ -1,39 +1,81 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/collision/collision_surface.hpp>
 #include <sinew/collision/ray_hits.hpp>
 #include <sinew/core/context.hpp>
+#include <sinew/core/roles/collision_model.hpp>
+#include <sinew/core/roles/projective_constraint.hpp>
 #include <sinew/core/roles/state.hpp>
 #include <sinew/core/roles/visual_model.hpp>
+#include <sinew/scene/force_report.hpp>
 #include <sinew/scene/path.hpp>
+#include <sinew/scene/states_of.hpp>
 #include <sinew/topology/border.hpp>
+#include <sinew/view/seen_settings.hpp>
+#include <sinew/view/seen_values.hpp>
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
 namespace sinew::view {
 
+/// Colours that people who see colours differently can tell apart (Okabe, Ito 2008), red, green, blue.
+inline constexpr std::array<std::array<double, 3>, 7> palette{{{0.84, 0.37, 0.0},
+                                                               {0.0, 0.45, 0.70},
+                                                               {0.0, 0.62, 0.45},
+                                                               {0.80, 0.47, 0.65},
+                                                               {0.90, 0.62, 0.0},
+                                                               {0.34, 0.71, 0.91},
+                                                               {0.94, 0.89, 0.26}}};
+
 /// What is seen of a node: surfaces, or where there are none lines, or points.
 struct SeenBody {
+  enum class Kind { state, visual, collision };
   std::string path{};
-  bool visual = false;  // a visual model; otherwise a state, whose elements are seen
+  Kind kind = Kind::state;
+  bool visible = true;
   std::vector<Eigen::Vector3d> points{};
   std::vector<Triangle> triangles{};
   std::vector<Quad> quads{};
   std::vector<Edge> edges{};
+  std::vector<double> values{};           // of the quantity that colours show, one a point; or none
+  Eigen::Vector3d colour{0.5, 0.5, 0.5};  // red, green, blue from 0 to 1
+};
+
+/// A vector at a place.
+struct SeenArrow {
+  ArrowKind kind = ArrowKind::velocity;
+  Eigen::Vector3d from{0, 0, 0}, vector{0, 0, 0};  // [m], and [m/s] or [N]
+};
+
+/// What colours mean.
+struct Legend {
+  std::string title{}, unit{};
+  double low = 0, high = 1;
 };
 
 /// What a camera sees of a scene, as it is at one time: all visual models, and of states without one in
 /// their node or below the surface of the elements, which a mapped state shows only where it has elements of
-/// its own.
+/// its own; and what settings ask for beside these.
 struct SeenScene {
   std::vector<SeenBody> bodies{};
+  std::vector<SeenArrow> arrows{};
+  std::vector<SeenLine> springs{};
+  std::vector<Eigen::Vector3d> constrained{};  // points that are held
+  std::optional<Legend> legend{};
+  SeenSettings settings{};
   Eigen::Vector3d up{0, 1, 0};  // against gravity
   double time = 0;              // [s]
   long step = 0;
@@ -67,38 +109,175 @@ inline void show_elements(TopologyView const& topology, SeenBody& body) {
   body.quads = listed(topology.quads);
   if (body.triangles.empty() && body.quads.empty()) body.edges = listed(topology.edges);
 }
+template <class State>
+Eigen::Vector3d seen_place(State const& state, std::size_t i) {
+  using D = typename State::DataTypes;
+  Eigen::Vector3d x = Eigen::Vector3d::Zero();
+  x.head<D::spatial>() = D::center(state.position[i]).template cast<double>();
+  return x;
+}
+
+// a ball as an octahedron, each of whose faces is divided in 16
+inline void add_ball(Eigen::Vector3d const& centre, double radius, SeenBody& body) {
+  constexpr int n = 4;
+  for (int face = 0; face < 8; ++face) {
+    const Eigen::Vector3d x(face & 1 ? -1 : 1, 0, 0), y(0, face & 2 ? -1 : 1, 0), z(0, 0, face & 4 ? -1 : 1);
+    const bool turned = (face & 1) ^ (face >> 1 & 1) ^ (face >> 2 & 1);
+    const auto first = Index(body.points.size());
+    auto at = [&](int i, int j) { return first + Index(i * (i + 1) / 2 + j); };
+    for (int i = 0; i <= n; ++i)
+      for (int j = 0; j <= i; ++j)
+        body.points.push_back(centre +
+                              radius * (double(n - i) * x + double(i - j) * y + double(j) * z).normalized());
+    auto add = [&](Index a, Index b, Index c) {
+      if (turned) std::swap(b, c);
+      body.triangles.push_back({a, b, c});
+    };
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j <= i; ++j) {
+        add(at(i, j), at(i + 1, j), at(i + 1, j + 1));
+        if (j < i) add(at(i, j), at(i + 1, j + 1), at(i, j + 1));
+      }
+  }
+}
+
+// the primitives of a collision model where its state is now
+template <class Model, class State>
+void show_collision(Model const& model, State const& state, SeenBody& body) {
+  CollisionSurface const& surface = model.surface;
+  if (surface.hull) {  // by the points of the hull, since its faces are not known
+    using D = typename State::DataTypes;
+    if constexpr (D::rigid && D::spatial == 3)
+      for (auto const& x : state.position)
+        for (auto const& p : surface.hull->points())
+          body.points.push_back(x.center.template cast<double>() + x.orientation.template cast<double>() * p);
+    return;
+  }
+  if (surface.shape == Shape::sphere) {
+    for (std::size_t e = 0; e < surface.size() && e < surface.radius.size(); ++e)
+      if (const auto i = std::size_t(surface.elements[e][0]); i < state.size())
+        add_ball(seen_place(state, i), surface.radius[e], body);
+    return;
+  }
+  for (std::size_t i = 0; i < state.size(); ++i) body.points.push_back(seen_place(state, i));
+  for (auto const& [a, b, c] : surface.elements)
+    if (c >= 0)
+      body.triangles.push_back({a, b, c});
+    else if (b >= 0)
+      body.edges.push_back({a, b});
+  if (surface.shape == Shape::point) {
+    std::vector<Eigen::Vector3d> own;
+    for (auto const& element : surface.elements) own.push_back(body.points[std::size_t(element[0])]);
+    body.points = std::move(own);
+  }
+}
+
+template <class Simulation>
+void show_arrows(Simulation& simulation, SeenScene& seen) {
+  SeenSettings const& wanted = seen.settings;
+  auto add = [&](ArrowKind kind, Eigen::Vector3d const& from, Eigen::Vector3d const& vector) {
+    if (from.allFinite() && vector.allFinite() && !vector.isZero(0))
+      seen.arrows.push_back({kind, from, vector});
+  };
+  if (wanted.shows(ArrowKind::velocity) || wanted.shows(ArrowKind::force))
+    simulation.template visit<role::State>([&](auto const& state, auto const& scope) {
+      using D = typename std::decay_t<decltype(state)>::DataTypes;
+      if (scope.mapped()) return;
+      for (std::size_t i = 0; i < state.size(); ++i) {
+        auto linear = [](auto const& v) {
+          Eigen::Vector3d w = Eigen::Vector3d::Zero();
+          w.head<D::spatial>() = v.template head<D::spatial>().template cast<double>();
+          return w;
+        };
+        if (wanted.shows(ArrowKind::velocity))
+          add(ArrowKind::velocity, seen_place(state, i), linear(state.velocity[i]));
+        if (wanted.shows(ArrowKind::force) && state.applied.size() == state.size() &&
+            state.reaction.size() == state.size())
+          add(ArrowKind::force,
+              seen_place(state, i),
+              linear(typename D::Deriv(state.applied[i] + state.reaction[i])));
+      }
+    });
+  if (wanted.shows(ArrowKind::reaction) || wanted.shows(ArrowKind::contact) ||
+      wanted.shows(ArrowKind::attachment))
+    for (ForceOnBody const& f : simulation.forces()) {
+      const ArrowKind kind = f.kind == ForceKind::contact      ? ArrowKind::contact
+                             : f.kind == ForceKind::attachment ? ArrowKind::attachment
+                             : f.kind == ForceKind::reaction   ? ArrowKind::reaction
+                                                               : ArrowKind::force;
+      if (kind != ArrowKind::force && wanted.shows(kind)) add(kind, f.point, f.wrench.force);
+    }
+}
+
+template <class Simulation>
+void show_constrained(Simulation& simulation, SeenScene& seen) {
+  simulation.template visit<role::ProjectiveConstraint>([&](auto const& c, auto const& scope) {
+    with_states_of(c, scope, [&](auto const& state, auto const&...) {
+      auto add = [&](auto const& points) {
+        for (const int i : points)
+          if (i >= 0 && std::size_t(i) < state.size())
+            seen.constrained.push_back(seen_place(state, std::size_t(i)));
+      };
+      if constexpr (requires { c.held.begin(); })
+        add(c.held);
+      else if constexpr (requires { c.indices.begin(); })
+        add(c.indices);
+      else if constexpr (requires { c.indices1.begin(); })
+        add(c.indices1);
+    });
+  });
+}
+
+// the range of the values that are seen, where none is asked for
+inline void set_legend(SeenScene& seen) {
+  SeenSettings const& wanted = seen.settings;
+  if (wanted.colour == Quantity::none) return;
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  auto take = [&](double value) {
+    if (std::isfinite(value)) low = std::min(low, value), high = std::max(high, value);
+  };
+  for (SeenBody const& body : seen.bodies)
+    if (body.visible) std::for_each(body.values.begin(), body.values.end(), take);
+  if (wanted.colour == Quantity::stretch)
+    for (SeenLine const& line : seen.springs) take(line.value);
+  if (!(low <= high)) low = high = 0;
+  if (wanted.range) std::tie(low, high) = *wanted.range;
+  const QuantityWords words = words_of(wanted.colour);
+  seen.legend = Legend{std::string(words.title), std::string(words.unit), low, high};
+}
 
 }  // namespace detail
 
-/// What is seen of a simulation now. Its visual models are brought up to date.
+/// What is seen of a simulation now. Its visual models are brought up to date. Forces and reactions are those
+/// that it keeps (Simulation::keepForces).
 template <class Simulation>
-SeenScene seen_scene(Simulation& simulation) {
+SeenScene seen_scene(Simulation& simulation, SeenSettings const& settings = {}) {
   simulation.updateVisual();
   SeenScene seen;
+  seen.settings = settings;
   seen.time = simulation.time();
   seen.step = simulation.step();
-  simulation.template visit<role::VisualModel>([&](auto const& visual, auto const& scope) {
-    SeenBody body{.path = scope.path(), .visual = true};
-    Mesh mesh = visual.current();
-    body.points = std::move(mesh.positions);
-    body.triangles = std::move(mesh.triangles);
-    body.quads = std::move(mesh.quads);
-    if (body.triangles.empty() && body.quads.empty()) body.edges = std::move(mesh.edges);
-    seen.bodies.push_back(std::move(body));
-  });
+  const SeenValues<Simulation> values(simulation, settings.colour);
+  if (settings.visualModels)
+    simulation.template visit<role::VisualModel>([&](auto const& visual, auto const& scope) {
+      SeenBody body{.path = scope.path(), .kind = SeenBody::Kind::visual};
+      Mesh mesh = visual.current();
+      body.points = std::move(mesh.positions);
+      body.triangles = std::move(mesh.triangles);
+      body.quads = std::move(mesh.quads);
+      if (body.triangles.empty() && body.quads.empty()) body.edges = std::move(mesh.edges);
+      body.values = values.of(&visual);
+      seen.bodies.push_back(std::move(body));
+    });
   std::vector<SeenBody> states;
   simulation.template visit<role::State>([&](auto const& state, auto const& scope) {
-    using D = typename std::decay_t<decltype(state)>::DataTypes;
     SeenBody body{.path = scope.path()};
     if (Eigen::Vector3d const g = scope.gravity(); g.norm() > 0) seen.up = -g.normalized();
     detail::show_elements(scope.topology(), body);
     const bool hasElements = !body.triangles.empty() || !body.quads.empty() || !body.edges.empty();
     if (scope.mapped() && !hasElements) return;
-    for (std::size_t i = 0; i < state.size(); ++i) {
-      Eigen::Vector3d x = Eigen::Vector3d::Zero();
-      x.head<D::spatial>() = D::center(state.position[i]).template cast<double>();
-      body.points.push_back(x);
-    }
+    for (std::size_t i = 0; i < state.size(); ++i) body.points.push_back(detail::seen_place(state, i));
+    body.values = values.of(&state);
     states.push_back(std::move(body));
   });
   // from the deepest on: a node hides those above it
@@ -106,19 +285,41 @@ SeenScene seen_scene(Simulation& simulation) {
     return a.path.size() > b.path.size();
   });
   for (SeenBody& state : states)
-    if (std::none_of(seen.bodies.begin(), seen.bodies.end(), [&](SeenBody const& other) {
+    if (settings.states || std::none_of(seen.bodies.begin(), seen.bodies.end(), [&](SeenBody const& other) {
           return is_below(other.path, state.path);
         }))
       seen.bodies.push_back(std::move(state));
+  if (settings.collisionModels)
+    simulation.template visit<role::CollisionModel>([&](auto const& model, auto const& scope) {
+      SeenBody body{.path = scope.path(), .kind = SeenBody::Kind::collision};
+      detail::show_collision(
+          model, scope.template state<typename std::decay_t<decltype(model)>::DataTypes>(), body);
+      seen.bodies.push_back(std::move(body));
+    });
   std::stable_sort(seen.bodies.begin(), seen.bodies.end(), [](SeenBody const& a, SeenBody const& b) {
     return a.path < b.path;
   });
+  for (std::size_t i = 0; i < seen.bodies.size(); ++i) {
+    SeenBody& body = seen.bodies[i];
+    body.colour = Eigen::Vector3d(palette[i % palette.size()].data());
+    if (body.kind == SeenBody::Kind::collision) body.colour = {0.25, 0.25, 0.25};
+    for (BodyLook const& look : settings.looks)
+      if (look.path == body.path && body.kind != SeenBody::Kind::collision) {
+        body.visible = look.visible;
+        if (look.colour) body.colour = *look.colour;
+      }
+  }
+  if (settings.springs || settings.colour == Quantity::stretch) seen.springs = seen_springs(simulation);
+  if (settings.constraints) detail::show_constrained(simulation, seen);
+  detail::show_arrows(simulation, seen);
+  detail::set_legend(seen);
   return seen;
 }
 
 /// Whether a ray meets a face of a scene; the direction has length 1.
 inline bool meets(SeenScene const& scene, Eigen::Vector3d const& origin, Eigen::Vector3d const& direction) {
   for (SeenBody const& body : scene.bodies) {
+    if (!body.visible) continue;
     auto hit = [&](Triangle const& t) {
       auto at = [&](int k) -> Eigen::Vector3d const& { return body.points[std::size_t(t[std::size_t(k)])]; };
       return bool(ray_triangle({origin, direction}, {at(0), at(1), at(2)}, t));

@@ -5,6 +5,7 @@
 #include <sinew/scene/mouse_interactor.hpp>
 #include <sinew/view/fields.hpp>
 #include <sinew/view/seen_scene.hpp>
+#include <sinew/view/user_actions.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -32,7 +33,7 @@ struct Held {
 struct StageState {
   double time = 0, stepsPerSecond = 0;
   long step = 0;
-  bool playing = false;
+  bool playing = false, recording = false, replaying = false;
   std::optional<Held> held{};
   std::shared_ptr<SeenComponent const> selected{};  // as it was when the scene was last looked at; or none
   std::optional<FieldChange> undo{}, redo{};        // what undo() would take back, and redo() do again
@@ -50,18 +51,21 @@ class Stage {
   /// seconds long and, where it is fast enough, go at `speed` times the time of the clock; 0: as fast as they
   /// can.
   template <class Simulation>
-  Stage(Simulation& simulation, double dt, double speed = 1) : Stage(simulation, dt, speed, WithoutThread{}) {
+  Stage(Simulation& simulation, double dt, double speed = 1, SeenSettings const& seen = {})
+      : Stage(simulation, dt, speed, seen, WithoutThread{}) {
     thread_ = std::thread([this] { go(); });
   }
   /// Where there are no threads, as in WebAssembly, turn() does the work.
   struct WithoutThread {};
   template <class Simulation>
-  Stage(Simulation& simulation, double dt, double speed, WithoutThread)
+  Stage(Simulation& simulation, double dt, double speed, SeenSettings const& seen, WithoutThread)
       : tree(scene_tree(simulation)),
         dt_(dt),
         speed_(speed),
-        actor_(new ActorOf<Simulation>(simulation)),
-        scene_(std::make_shared<SeenScene>(actor_->see())) {}
+        seen_(seen),
+        actor_(new ActorOf<Simulation>(simulation, seen.needsForces())),
+        forcesKept_(seen.needsForces()),
+        scene_(std::make_shared<SeenScene>(actor_->see(seen_))) {}
   Stage(Stage const&) = delete;
   Stage& operator=(Stage const&) = delete;
   ~Stage() {
@@ -101,26 +105,85 @@ class Stage {
   void step() {
     ask([](Stage& s) {
       s.playing_ = false;
-      s.actor_->animate(s.dt_);
+      s.animate();
     });
   }
   /// Back to the start.
-  void reset() {
-    ask([](Stage& s) { s.actor_->reset(); });
-  }
+  void reset() { act({.kind = ActionKind::reset}); }
   void setSpeed(double speed) {
     ask([speed](Stage& s) { s.speed_ = speed; });
   }
   /// Takes hold of what a ray meets first, by a spring [N/m].
   void press(Eigen::Vector3d const& origin, Eigen::Vector3d const& direction, double stiffness) {
-    ask([=](Stage& s) { s.actor_->press(origin, direction, stiffness); });
+    act({.kind = ActionKind::press, .origin = origin, .direction = direction, .stiffness = stiffness});
   }
   /// The end of the spring comes under another ray.
   void move(Eigen::Vector3d const& origin, Eigen::Vector3d const& direction) {
-    ask([=](Stage& s) { s.actor_->move(origin, direction); });
+    act({.kind = ActionKind::move, .origin = origin, .direction = direction});
   }
-  void release() {
-    ask([](Stage& s) { s.actor_->release(); });
+  void release() { act({.kind = ActionKind::release}); }
+
+  /// Keeps the simulation as it is now; restore() goes back there, as often as wanted.
+  void keep() {
+    ask([](Stage& s) { s.actor_->keep(); });
+  }
+  void restore() {
+    ask([](Stage& s) {
+      if (!s.actor_->restore()) throw Error("view", "nothing was kept to go back to");
+      s.stopActions();
+    });
+  }
+  /// Goes back to the start, and records from there what is done to the simulation; or ends that.
+  void record(bool on) {
+    ask([on](Stage& s) {
+      s.stopActions();
+      if (!on) return;
+      s.actor_->reset();
+      s.recorded_ = UserActions{.dt = s.dt_};
+      for (std::size_t k = 0; k < s.changesDone_; ++k)
+        s.recorded_.actions.push_back({0,
+                                       {.kind = ActionKind::set,
+                                        .line = s.changes_[k].line,
+                                        .field = s.changes_[k].field,
+                                        .words = s.changes_[k].after}});
+      s.records_ = true;
+    });
+  }
+  /// answer(what the last record has).
+  void recorded(std::function<void(UserActions const&)> answer) {
+    ask([answer = std::move(answer)](Stage& s) { answer(s.recorded_); });
+  }
+  /// Goes back to the start, with the fields that it had, and does all of that again at the same steps, which
+  /// makes the same motion bit by bit; then it stands. What a user does meanwhile ends it.
+  void replay(UserActions actions) {
+    ask([actions = std::move(actions)](Stage& s) {
+      if (actions.dt != s.dt_)
+        throw Error("view",
+                    text("the actions were recorded with steps of ",
+                         actions.dt,
+                         " s, and those of the scene are ",
+                         s.dt_,
+                         " s; start it with --dt ",
+                         actions.dt));
+      s.stopActions();
+      while (s.changesDone_ > 0) {
+        FieldChange const& last = s.changes_[--s.changesDone_];
+        s.actor_->setField(last.line, last.field, last.before);
+      }
+      s.changes_.clear();
+      s.actor_->reset();
+      s.replayed_ = actions;
+      s.replays_ = s.playing_ = true;
+    });
+  }
+
+  /// What is to be seen from the next picture on; forces are kept while they are asked for.
+  void show(SeenSettings settings) {
+    ask([settings = std::move(settings)](Stage& s) {
+      if (const bool needs = settings.needsForces(); needs != s.forcesKept_)
+        s.actor_->keepForces(s.forcesKept_ = needs);
+      s.seen_ = settings;
+    });
   }
   /// The component at a line of the tree is looked at from now on (StageState::selected); -1: none is.
   void select(int line) {
@@ -155,14 +218,12 @@ class Stage {
   void setField(int line, std::string field, std::string words,
                 std::function<void(std::string const& error)> answer = {}) {
     ask([line, field = std::move(field), words = std::move(words), answer = std::move(answer)](Stage& s) {
-      auto act = [&] {
-        FieldChange change = s.actor_->setField(line, field, words);
-        s.changes_.resize(s.changesDone_);
-        if (change.before != change.after) s.changes_.push_back(std::move(change));
-        s.changesDone_ = s.changes_.size();
+      auto change = [&] {
+        s.endReplay();
+        s.perform({.kind = ActionKind::set, .line = line, .field = field, .words = words});
       };
-      if (!answer) return act();
-      answer(error_of(act));
+      if (!answer) return change();
+      answer(error_of(change));
     });
   }
   /// Takes back the last change of a field; and does again what was taken back last.
@@ -170,7 +231,8 @@ class Stage {
     ask([](Stage& s) {
       if (s.changesDone_ == 0) return;
       FieldChange const& last = s.changes_[s.changesDone_ - 1];
-      s.actor_->setField(last.line, last.field, last.before);
+      s.endReplay();
+      s.setRecorded(last.line, last.field, last.before);
       --s.changesDone_;
     });
   }
@@ -178,7 +240,8 @@ class Stage {
     ask([](Stage& s) {
       if (s.changesDone_ == s.changes_.size()) return;
       FieldChange const& next = s.changes_[s.changesDone_];
-      s.actor_->setField(next.line, next.field, next.after);
+      s.endReplay();
+      s.setRecorded(next.line, next.field, next.after);
       ++s.changesDone_;
     });
   }
@@ -196,7 +259,10 @@ class Stage {
     virtual void press(Eigen::Vector3d const& origin, Eigen::Vector3d const& direction, double stiffness) = 0;
     virtual void move(Eigen::Vector3d const& origin, Eigen::Vector3d const& direction) = 0;
     virtual void release() = 0;
-    virtual SeenScene see() = 0;
+    virtual void keep() = 0;
+    virtual bool restore() = 0;
+    virtual void keepForces(bool keep) = 0;
+    virtual SeenScene see(SeenSettings const& settings) = 0;
     virtual SeenComponent component(int line) = 0;
     virtual std::string fieldText(int line, std::string const& field) = 0;
     virtual FieldChange setField(int line, std::string const& field, std::string const& words) = 0;
@@ -205,9 +271,12 @@ class Stage {
   template <class Simulation>
   struct ActorOf final : Actor {
     Simulation& simulation;
+    std::unique_ptr<Simulation> kept{};
     MouseInteractor mouse{};
 
-    explicit ActorOf(Simulation& s) : simulation(s) {}
+    ActorOf(Simulation& s, bool forces) : simulation(s) {
+      if (forces) simulation.keepForces(true);
+    }
     void animate(double dt) override { simulation.animate(dt); }
     void reset() override {
       mouse.release(simulation);
@@ -221,7 +290,17 @@ class Stage {
       mouse.move(simulation, origin, direction);
     }
     void release() override { mouse.release(simulation); }
-    SeenScene see() override { return seen_scene(simulation); }
+    void keep() override {
+      mouse.release(simulation);
+      kept = std::make_unique<Simulation>(simulation);
+    }
+    bool restore() override {
+      mouse.release(simulation);
+      if (kept) simulation = *kept;
+      return bool(kept);
+    }
+    void keepForces(bool keep) override { simulation.keepForces(keep); }
+    SeenScene see(SeenSettings const& settings) override { return seen_scene(simulation, settings); }
     SeenComponent component(int line) override { return seen_component(simulation, line); }
     std::string fieldText(int line, std::string const& field) override {
       return field_text(simulation, line, field);
@@ -244,7 +323,9 @@ class Stage {
   using Clock = std::chrono::steady_clock;
 
   double dt_, speed_;
+  SeenSettings seen_;
   std::unique_ptr<Actor> actor_;
+  bool forcesKept_;
   mutable std::mutex mutex_{};
   std::condition_variable wake_{}, idle_{};
   std::vector<std::function<void(Stage&)>> asked_{};
@@ -255,6 +336,10 @@ class Stage {
   std::shared_ptr<SeenComponent const> selected_{};
   std::vector<FieldChange> changes_{};
   std::size_t changesDone_ = 0;
+  UserActions recorded_{}, replayed_{};
+  bool records_ = false, replays_ = false;
+  long stepped_ = 0;            // since a record or a replay has begun
+  std::size_t replayedTo_ = 0;  // of its actions
   struct Pace {
     Clock::time_point next = Clock::now(), measured = next;  // when a step is due; since when steps count
     long steps = 0;
@@ -264,6 +349,65 @@ class Stage {
   bool ends_ = false, wanted_ = true, busy_ = false, playing_ = false;
   std::thread thread_;  // the last, since it uses all of them
 
+  void act(UserAction action) {
+    ask([action = std::move(action)](Stage& s) {
+      s.endReplay();
+      s.perform(action);
+    });
+  }
+  // what a user does to the simulation
+  void perform(UserAction const& action) {
+    switch (action.kind) {
+      case ActionKind::press:
+        actor_->press(action.origin, action.direction, action.stiffness);
+        break;
+      case ActionKind::move:
+        actor_->move(action.origin, action.direction);
+        break;
+      case ActionKind::release:
+        actor_->release();
+        break;
+      case ActionKind::reset:
+        actor_->reset();
+        break;
+      case ActionKind::set: {
+        FieldChange change = actor_->setField(action.line, action.field, action.words);
+        changes_.resize(changesDone_);
+        if (change.before != change.after) changes_.push_back(std::move(change));
+        changesDone_ = changes_.size();
+        break;
+      }
+    }
+    if (records_) recorded_.actions.push_back({stepped_, action});
+  }
+  // without a place among the changes that can be taken back
+  void setRecorded(int line, std::string const& field, std::string const& words) {
+    actor_->setField(line, field, words);
+    if (records_)
+      recorded_.actions.push_back(
+          {stepped_, {.kind = ActionKind::set, .line = line, .field = field, .words = words}});
+  }
+  void stopActions() {
+    if (records_) recorded_.steps = stepped_;
+    records_ = replays_ = false;
+    stepped_ = 0;
+    replayedTo_ = 0;
+  }
+  void endReplay() {
+    if (replays_) stopActions();
+  }
+  void animate() {
+    auto& actions = replayed_.actions;
+    while (replays_ && replayedTo_ < actions.size() && actions[replayedTo_].step <= stepped_)
+      perform(actions[replayedTo_++].action);
+    if (replays_ && stepped_ >= replayed_.steps) {
+      stopActions();
+      playing_ = false;
+      return;
+    }
+    actor_->animate(dt_);
+    ++stepped_;
+  }
   // what an act throws, in words; empty where it throws nothing
   template <class Act>
   static std::string error_of(Act&& act) {
@@ -286,10 +430,11 @@ class Stage {
     while (true) {
       std::unique_lock lock(mutex_);
       auto called = [this] { return ends_ || !asked_.empty() || wanted_; };
-      if (playing_)
-        wake_.wait_until(lock, pace_.next, [this] { return ends_ || !asked_.empty(); });
-      else
+      // what is late does not wait, which would give the processor away
+      if (!playing_)
         wake_.wait(lock, called);
+      else if (Clock::now() < pace_.next)
+        wake_.wait_until(lock, pace_.next, [this] { return ends_ || !asked_.empty(); });
       if (ends_) return;
       work(lock);
     }
@@ -313,7 +458,7 @@ class Stage {
     for (auto const& what : mine) careful([&] { what(*this); });
     if (stood) next = measured = Clock::now(), steps = 0;
     if (playing_ && Clock::now() >= next) {
-      if (!careful([&] { actor_->animate(dt_); })) playing_ = false;
+      if (!careful([&] { animate(); })) playing_ = false;
       ++steps;
       // after a slow step the time that is lost is not made up for
       const auto pause = std::chrono::duration_cast<Clock::duration>(
@@ -325,7 +470,7 @@ class Stage {
     Scene seen;
     if (look || told)
       careful([&] {
-        seen = std::make_shared<SeenScene>(actor_->see());
+        seen = std::make_shared<SeenScene>(actor_->see(seen_));
         if (selectedLine_ >= 0)
           selected_ = std::make_shared<SeenComponent const>(actor_->component(selectedLine_));
       });
@@ -333,6 +478,8 @@ class Stage {
     if (seen) scene_ = std::move(seen);
     actor_->tell(state_);
     state_.selected = selected_;
+    state_.recording = records_;
+    state_.replaying = replays_;
     if (told) {
       state_.undo = changesDone_ > 0 ? std::optional(changes_[changesDone_ - 1]) : std::nullopt;
       state_.redo = changesDone_ < changes_.size() ? std::optional(changes_[changesDone_]) : std::nullopt;

@@ -5,6 +5,8 @@
 #include <sinew/view/image.hpp>
 #include <sinew/view/picture.hpp>
 #include <sinew/view/renderer.hpp>
+#include <sinew/view/scene_panel.hpp>
+#include <sinew/view/show_panel.hpp>
 #include <sinew/view/stage.hpp>
 
 #include <GLFW/glfw3.h>
@@ -14,6 +16,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -22,6 +25,8 @@ namespace sinew::view {
 struct WindowSettings {
   std::string title = "Sinew";
   int width = 1280, height = 800;  // [pixels]
+  std::optional<Camera> camera{};  // without one, that which sees all of the scene
+  SeenSettings seen{};             // what view() shows at first
 };
 
 /// A window onto a stage: the scene, its tree, and what it may be told. Of a process one at a time, in its
@@ -30,7 +35,8 @@ class Window {
  public:
   /// Throws Error where there is no display, or no OpenGL 3.3.
   explicit Window(Stage& stage, WindowSettings const& settings = {})
-      : stage_(stage), system_(settings), scene_(stage.scene()) {
+      : stage_(stage), system_(settings), scene_(stage.scene()), show_(stage, scene_->settings) {
+    if (settings.camera) controls_.setHome(*settings.camera);
     renderer_.show(*scene_);
   }
 
@@ -54,6 +60,8 @@ class Window {
     return image;
   }
   Controls& controls() { return controls_; }
+  ScenePanel& scenePanel() { return panel_; }
+  ShowPanel& showPanel() { return show_; }
   void close() { glfwSetWindowShouldClose(system_.window, GLFW_TRUE); }
 
  private:
@@ -110,6 +118,8 @@ class Window {
   Renderer renderer_{};
   StageState state_{};
   Controls controls_{stage_, camera_of(*scene_, region().width, region().height)};
+  ScenePanel panel_{stage_};
+  ShowPanel show_;
   int speed_ = 0;
   bool help_ = false;
 
@@ -176,6 +186,9 @@ class Window {
     if (pressed(GLFW_KEY_N)) stage_.step();
     if (pressed(GLFW_KEY_R)) stage_.reset();
     if (pressed(GLFW_KEY_F)) controls_.home();
+    for (int axis = 0; axis < 3; ++axis)
+      if (pressed(GLFW_KEY_X + axis)) controls_.lookAlong(axis);
+    if (pressed(GLFW_KEY_U)) stage_.undo();
     if (pressed(GLFW_KEY_H)) help_ = !help_;
     if (pressed(GLFW_KEY_Q)) close();
   }
@@ -207,17 +220,19 @@ class Window {
       ImGui::TextWrapped("%s", state_.error.c_str());
       ImGui::PopStyleColor();
     }
-    ImGui::Separator();
-    ImGui::BeginChild("tree");
-    for (TreeLine const& line : stage_.tree) {
-      ImGui::Indent(10.f * float(line.depth) + 1);
-      if (line.className.empty())
-        ImGui::TextUnformatted(line.name.c_str());
-      else
-        ImGui::TextDisabled("%s", line.className.c_str());
-      ImGui::Unindent(10.f * float(line.depth) + 1);
+    if (ImGui::BeginTabBar("tabs")) {
+      if (ImGui::BeginTabItem("Scene")) {
+        panel_.draw(state_);
+        ImGui::EndTabItem();
+      }
+      if (ImGui::BeginTabItem("Show")) {
+        ImGui::BeginChild("show");
+        show_.draw(*scene_);
+        ImGui::EndChild();
+        ImGui::EndTabItem();
+      }
+      ImGui::EndTabBar();
     }
-    ImGui::EndChild();
     ImGui::End();
   }
   void showHelp() {
@@ -231,6 +246,8 @@ class Window {
         "N                         one step\n"
         "R                         back to the start\n"
         "F                         the whole scene\n"
+        "X, Y, Z                   from the side of an axis\n"
+        "U                         takes back the last change of a field\n"
         "H                         this help\n"
         "Q                         close");
     ImGui::End();
@@ -259,7 +276,7 @@ class Window {
 /// lets it go.
 template <class Simulation>
 void view(Simulation& simulation, double dt, WindowSettings const& settings = {}) {
-  Stage stage(simulation, dt);
+  Stage stage(simulation, dt, 1, settings.seen);
   Window(stage, settings).run();
 }
 
