@@ -72,7 +72,10 @@ TEST_CASE("what is no command is refused, with a sentence") {
   CHECK(refusal(R"({"do":"fly"})") ==
         "command: nothing is called 'fly'; there are play, step, reset, speed, press, move, release, "
         "component, "
-        "setField, undo and redo");
+        "setField, undo, redo and colour");
+  CHECK(refusal(R"({"do":"colour","by":"mood"})") ==
+        "command: 'by' is 'mood' and must be one of: none, displacement, speed, vonMises, strainEnergy, "
+        "stretch");
   CHECK(refusal(R"({"do":"component","line":1.5})") == "command: 'line' must be a whole number");
   CHECK(refusal(R"({"do":"component","line":-1})").starts_with("command: 'line' is -1 and must be from 0"));
   CHECK(refusal(R"({"do":"setField","line":1,"field":"a","value":1})") == "command: 'value' must be text");
@@ -184,12 +187,15 @@ TEST_CASE("what a page is told is JSON") {
   state.held = Held{.path = "a", .point = {1, 2, 3}, .target = {4, 5, 6}, .force = {0, 0, 7}};
   state.error = "a \"word\"\n\xff";
   // what is no number has none in JSON, and what is no UTF-8 becomes a mark
-  CHECK(
-      write_state(state) ==
-      R"({"error":"a \"word\"\n)"
-      "\xef\xbf\xbd"
-      R"(","held":{"force":[0.0,0.0,7.0],"path":"a","point":[1.0,2.0,3.0],"target":[4.0,5.0,6.0]},)"
-      R"("is":"state","legend":{"high":2.0,"low":0.0,"title":"speed","unit":"m/s"},"playing":false,"redo":null,"step":25,"stepsPerSecond":null,"time":0.5,"undo":null})");
+  SeenScene seen;
+  seen.settings.colour = Quantity::speed;
+  seen.legend = Legend{"speed", "m/s", 0, 2};
+  CHECK(write_state(state, seen) ==
+        R"({"colour":"speed","error":"a \"word\"\n)"
+        "\xef\xbf\xbd"
+        R"(","held":{"force":[0.0,0.0,7.0],"path":"a","point":[1.0,2.0,3.0],"target":[4.0,5.0,6.0]},)"
+        R"("is":"state","legend":{"high":2.0,"low":0.0,"title":"speed","unit":"m/s"},"playing":false,)"
+        R"("redo":null,"step":25,"stepsPerSecond":null,"time":0.5,"undo":null})");
   CHECK(write_scene("t", 0.01, {{0, "root", ""}, {1, "fem", "Force<Vec3d>"}}) ==
         R"({"dt":0.01,"is":"scene","protocol":1,"title":"t","tree":[{"depth":0,"name":"root"},)"
         R"({"class":"Force<Vec3d>","depth":1,"name":"fem"}]})");

@@ -4,7 +4,7 @@ import { socketEngine, workerEngine } from './engines.js';
 import { Fields } from './fields.js';
 import { frameKind, kindOf, readFrame, readTopology, topologyKind } from './messages.js';
 import { Pointer } from './pointer.js';
-import { StageView } from './stage_view.js';
+import { StageView, viridis } from './stage_view.js';
 import { Tree } from './tree.js';
 
 const $ = (id) => document.getElementById(id);
@@ -107,6 +107,15 @@ function showState() {
   const error = refused || state.error;
   $('error').textContent = error;
   $('error').hidden = !error;
+  view.setLegend(state.legend);
+  $('legend').hidden = !state.legend;
+  if (state.legend) {
+    const { title, unit, low, high } = state.legend;
+    $('legendTitle').textContent = unit ? `${title} [${unit}]` : title;
+    $('legendLow').textContent = Number(low.toPrecision(3));
+    $('legendHigh').textContent = Number(high.toPrecision(3));
+  }
+  if (document.activeElement !== $('colour') || state.colour === $('colour').value) $('colour').value = state.colour ?? 'none';
   $('undo').disabled = !state.undo;
   $('redo').disabled = !state.redo;
   $('undo').title = state.undo ? `Take back: ${state.undo}` : 'Nothing was changed';
@@ -148,6 +157,11 @@ const acts = {
   helpButton: () => ($('help').open ? $('help').close() : $('help').showModal()),
 };
 for (const [id, act] of Object.entries(acts)) $(id).addEventListener('click', act);
+$('colour').addEventListener('change', () => {
+  send({ do: 'colour', by: $('colour').value });
+  $('colour').blur();
+});
+$('legendBar').style.background = `linear-gradient(90deg, ${viridis.map((c) => `rgb(${c})`)})`;
 $('speed').addEventListener('change', () => send({ do: 'speed', times: Number($('speed').value) }));
 const setStiffness = () => {
   pointer.stiffness = Number((10 ** Number($('stiffness').value)).toPrecision(2));

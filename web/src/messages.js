@@ -14,14 +14,18 @@ export function readTopology(buffer) {
   let at = 6;
   let first = 0;
   for (let b = 0; b < words[5]; ++b) {
-    const [visual, pathBytes, points, triangles, quads, edges] = words.subarray(at, at + 6);
-    at += 6;
+    const kind = words[at];
+    const colour = [...new Float32Array(buffer, 4 * (at + 1), 3)];
+    const [pathBytes, points, triangles, quads, edges] = words.subarray(at + 4, at + 9);
+    at += 9;
     const path = text.decode(new Uint8Array(buffer, 4 * at, pathBytes));
     at += Math.ceil(pathBytes / 4);
     const take = (count) => words.subarray(at, (at += count));
     bodies.push({
       path,
-      visual: visual !== 0,
+      visual: kind % 4 === 1,
+      visible: kind < 4,
+      colour,
       first, // of its points among those of all bodies
       points,
       triangles: take(3 * triangles),
@@ -33,9 +37,11 @@ export function readTopology(buffer) {
   return { number: words[1], up: [...up], bodies, points: first };
 }
 
-/** A moment: x, y, z of all points of all bodies. */
+/** A moment: x, y, z of all points of all bodies, and perhaps the values that colours show. */
 export function readFrame(buffer) {
   const words = new Uint32Array(buffer, 0, 4);
   const [time, step] = new Float64Array(buffer, 16, 2);
-  return { topology: words[1], time, step, positions: new Float32Array(buffer, 32, 3 * words[2]) };
+  const positions = new Float32Array(buffer, 32, 3 * words[2]);
+  const values = words[3] ? new Float32Array(buffer, 32 + positions.byteLength, words[3]) : null;
+  return { topology: words[1], time, step, positions, values };
 }

@@ -26,17 +26,35 @@ import {
 import { OrbitCamera } from './camera.js';
 import { edgesOf, facesOf, SmoothSurface } from './smooth.js';
 
-// colours that people who see colours differently can tell apart (Okabe, Ito 2008)
-export const palette = [
-  [0.84, 0.37, 0.0],
-  [0.0, 0.45, 0.7],
-  [0.0, 0.62, 0.45],
-  [0.8, 0.47, 0.65],
-  [0.9, 0.62, 0.0],
-  [0.34, 0.71, 0.91],
-  [0.94, 0.89, 0.26],
+// the colours of viridis (Smith, van der Walt 2015) at equal steps
+export const viridis = [
+  [68, 1, 84],
+  [71, 45, 123],
+  [59, 82, 139],
+  [44, 114, 142],
+  [33, 145, 140],
+  [40, 174, 128],
+  [94, 201, 98],
+  [173, 220, 48],
+  [253, 231, 37],
 ];
-export const colourOf = (body) => new Color().setRGB(...palette[body % palette.length], SRGBColorSpace);
+// of 256 values from 0 to 1, and last of what is no number, in linear light
+const shades = new Float32Array(3 * 257);
+for (let i = 0; i < 257; ++i) {
+  const at = (i / 255) * 8;
+  const k = Math.min(Math.floor(at), 7);
+  const mixed = i < 256 ? viridis[k].map((c, j) => (c + (at - k) * (viridis[k + 1][j] - c)) / 255) : [0.6, 0.6, 0.6];
+  new Color().setRGB(...mixed, SRGBColorSpace).toArray(shades, 3 * i);
+}
+function shade(value, colours, at) {
+  const i = 3 * (value === value ? Math.round(255 * Math.min(1, Math.max(0, value))) : 256);
+  colours[at] = shades[i];
+  colours[at + 1] = shades[i + 1];
+  colours[at + 2] = shades[i + 2];
+}
+
+const white = new Color(1, 1, 1);
+const dark = new Color(0.05, 0.05, 0.05);
 
 const changing = (array) => {
   const attribute = new BufferAttribute(array, 3);
@@ -48,6 +66,8 @@ export class StageView {
   orbit = new OrbitCamera();
   bodies = []; // { path, objects, surface, ... }
   drawn = 0; // frames
+
+  legend = null; // { low, high } of the values that colours show
 
   /** Throws where there is no WebGL 2. */
   constructor(canvas) {
@@ -67,13 +87,13 @@ export class StageView {
 
   /** Other elements are seen from the next frame on. */
   setTopology(topology) {
-    const hidden = new Set(this.bodies.filter((body) => !body.visible).map((body) => body.path));
+    const before = new Map(this.bodies.map((body) => [body.path, body.visible]));
     this.clear();
     this.topology = topology;
-    this.bodies = topology.bodies.map((body, number) => ({
+    this.bodies = topology.bodies.map((body) => ({
       ...body,
-      colour: colourOf(number),
-      visible: !hidden.has(body.path),
+      colour: new Color().setRGB(...body.colour, SRGBColorSpace),
+      visible: before.get(body.path) ?? body.visible,
       objects: [],
     }));
   }
@@ -93,6 +113,7 @@ export class StageView {
       const points = frame.positions.subarray(3 * body.first, 3 * (body.first + body.points));
       if (body.places) this.#move(body, points);
       else this.#make(body, points);
+      this.#colour(body, this.#valuesOf(body));
     }
     this.#measure();
     if (isFirst) this.home();
@@ -154,6 +175,40 @@ export class StageView {
     body.surface.update(points);
     body.mesh.geometry.attributes.position.needsUpdate = true;
     body.mesh.geometry.attributes.normal.needsUpdate = true;
+  }
+  setLegend(legend) {
+    const changed = legend?.low !== this.legend?.low || legend?.high !== this.legend?.high;
+    this.legend = legend;
+    if (changed && this.frame) for (const body of this.bodies) this.#colour(body, this.#valuesOf(body));
+  }
+  #valuesOf(body) {
+    return this.frame.values?.subarray(body.first, body.first + body.points);
+  }
+  // by values between those of the legend, or by the colour of the body
+  #colour(body, values) {
+    const { low, high } = this.legend ?? { low: 0, high: 1 };
+    const coloured = !!values && values.some((value) => value === value);
+    if (!coloured && !body.coloured) return;
+    const scale = high > low ? 1 / (high - low) : 0;
+    for (const object of body.objects) {
+      const source = object === body.mesh ? body.surface.source : null;
+      const isEdge = !!body.mesh && object !== body.mesh;
+      const { geometry, material } = object;
+      if (coloured !== body.coloured) {
+        if (coloured && !isEdge) {
+          const count = geometry.attributes.position.count;
+          geometry.setAttribute('color', changing(new Float32Array(3 * count)));
+        }
+        material.vertexColors = coloured && !isEdge;
+        material.color.copy(isEdge ? (coloured ? dark : body.colour.clone().multiplyScalar(0.25)) : coloured ? white : body.colour);
+        material.needsUpdate = true;
+      }
+      if (!coloured || isEdge) continue;
+      const { array } = geometry.attributes.color;
+      for (let v = 0; 3 * v < array.length; ++v) shade((values[source ? source[v] : v] - low) * scale, array, 3 * v);
+      geometry.attributes.color.needsUpdate = true;
+    }
+    body.coloured = coloured;
   }
   // a sphere around all that is finite
   #measure() {

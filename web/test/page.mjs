@@ -131,6 +131,24 @@ async function use(page, name, native) {
   keep(`${name}-fields.png`, await page.picture());
   await page.evaluate(`document.getElementById('undo').click()`);
   await page.until(`sinew.state.redo === 'youngModulus'`);
+  // colours show stress, and then bodies again
+  const choose = (by) =>
+    page.evaluate(`(() => { const s = document.getElementById('colour'); s.value = '${by}'; s.dispatchEvent(new Event('change')); })()`);
+  await choose('vonMises');
+  await page.until(`sinew.state.legend?.unit === 'Pa' && sinew.state.legend.high > 10 && sinew.view.frame.values`);
+  check(
+    await page.evaluate(`(() => {
+      const { low, high } = sinew.state.legend;
+      const known = [...sinew.view.frame.values].filter((x) => x === x);
+      return known.length > 100 && known.every((x) => x > -1e-6 * high);
+    })()`),
+    'points have their stress',
+  );
+  await page.until(`!document.getElementById('legend').hidden`);
+  await pause(0.5);
+  keep(`${name}-stress.png`, await page.picture());
+  await choose('none');
+  await page.until('sinew.state.legend === null && !sinew.view.frame.values');
   // back to the start
   await page.key(' ');
   await page.until('!sinew.state.playing');
