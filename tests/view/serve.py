@@ -250,7 +250,7 @@ def scene(server):
     topology = client.until(lambda m: isinstance(m, bytes))
     kind, number = struct.unpack_from("<II", topology)
     check(kind == 1, "a topology comes before the first frame")
-    path = topology[48:58]
+    path = topology[60:70]
     check(path == b"/root/body", f"it has the body: {path}")
     frame = client.frame()
     check(struct.unpack_from("<III", frame) == (2, number, 3), "the frame is of this topology")
