@@ -49,7 +49,7 @@ std::array<double, N> numbers_of(std::string words, char const* option, char con
 }
 
 bool* flag_of(SeenSettings& seen, std::string const& word) {
-  const std::array<std::pair<std::string_view, bool*>, 10> all{{{"visuals", &seen.visualModels},
+  const std::array<std::pair<std::string_view, bool*>, 11> all{{{"visuals", &seen.visualModels},
                                                                 {"states", &seen.states},
                                                                 {"collision", &seen.collisionModels},
                                                                 {"springs", &seen.springs},
@@ -58,7 +58,8 @@ bool* flag_of(SeenSettings& seen, std::string const& word) {
                                                                 {"wireframe", &seen.wireframe},
                                                                 {"axes", &seen.axes},
                                                                 {"grid", &seen.grid},
-                                                                {"legend", &seen.legend}}};
+                                                                {"legend", &seen.legend},
+                                                                {"shadows", &seen.shadows}}};
   for (auto const& [name, flag] : all)
     if (name == word) return flag;
   return nullptr;
@@ -84,7 +85,7 @@ ViewSettings seen_settings(SeenOptions const& options, Scene& scene) {
       refuse(text("--show: '",
                   thing,
                   "' is not one of visuals, states, collision, springs, constraints, normals, wireframe, "
-                  "axes, grid, legend"));
+                  "axes, grid, legend, shadows"));
     *flag = true;
   }
   for (auto const& thing : options.hide) {

@@ -17,7 +17,10 @@ int view(ViewOptions const& options) {
     sinew::view::view(
         scene.simulation,
         scene.dt,
-        {.title = options.scene.path + " - Sinew", .camera = settings.camera, .seen = settings.seen});
+        {.title = options.scene.path + " - Sinew",
+         .camera = settings.camera,
+         .seen = settings.seen,
+         .save = [&scene](std::string const& path) { sinew::save_scene(scene.simulation, scene.dt, path); }});
   } catch (sinew::Error const& error) {
     throw Failure{notWritten, {error.what()}};
   }

@@ -65,6 +65,18 @@ TEST_CASE("a window shows the scene beside its panel, and goes on while a simula
   window.frame();
   CHECK(window.image().at(340 + int(at[0]), int(at[1])) == std::array<unsigned char, 3>{255, 255, 255});
   window.showPanel().set({});
+  // each part of the panel is another one
+  stage.measure(true);
+  stage.step();
+  stage.settle();
+  view::Image last = window.image();
+  for (char const* part : {"Show", "Tools", "Plots", "Scene"}) {
+    window.open(part);
+    window.frame();
+    view::Image now = window.image();
+    CHECK(now.rgb != last.rgb);
+    last = std::move(now);
+  }
   window.controls().lookAlong(1);
   CHECK(window.controls().camera.right().allFinite());
   stage.play(true);

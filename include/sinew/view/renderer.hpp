@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstring>
 #include <optional>
 #include <string>
 #include <utility>
@@ -44,15 +45,16 @@ void main() {
 inline constexpr char const* surfaceFragment = R"(#version 330 core
 in vec3 atEye, normalAtEye, atLight, own;
 uniform vec3 lightAtEye, upAtEye;
+uniform float shadowed;
 uniform sampler2DShadow shadow;
 out vec4 pixel;
 void main() {
   vec3 n = normalize(normalAtEye), toEye = normalize(-atEye);
   if (!gl_FrontFacing) n = -n;
   float slope = clamp(dot(n, lightAtEye), 0.0, 1.0);
-  float bias = 0.002 + 0.006 * (1.0 - slope), lit = 0.0;
+  float bias = 0.002 + 0.006 * (1.0 - slope), lit = 1.0 - shadowed;
   vec2 texel = 1.0 / vec2(textureSize(shadow, 0));
-  for (int i = -1; i <= 1; ++i)
+  if (shadowed > 0.0) for (int i = -1; i <= 1; ++i)
     for (int j = -1; j <= 1; ++j)
       lit += texture(shadow, vec3(atLight.xy + vec2(i, j) * texel, atLight.z - bias)) / 9.0;
   float around = 0.42 + 0.18 * dot(n, upAtEye);
@@ -115,6 +117,7 @@ class Renderer {
     if (!scene.settings.legend) words_.clear();
     up_ = scene.up;
     clip_ = scene.settings.clip;
+    shadows_ = scene.settings.shadows;
     colour_ = scene.settings.background.value_or(Eigen::Vector3d(background.data()));
   }
 
@@ -128,7 +131,7 @@ class Renderer {
     GLint target = 0;
     glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &target);
     if (clip_) glEnable(GL_CLIP_DISTANCE0);
-    drawShadow(toLight);
+    if (shadows_) drawShadow(toLight);
     glBindFramebuffer(GL_FRAMEBUFFER, GLuint(target));
 
     glViewport(left, 0, width, height);
@@ -144,6 +147,7 @@ class Renderer {
     surface_.set("clip", clipped());
     surface_.set("lightAtEye", toView.topLeftCorner<3, 3>() * light);
     surface_.set("upAtEye", toView.topLeftCorner<3, 3>() * up_);
+    surface_.set("shadowed", shadows_ ? 1 : 0);
     surface_.setTexture("shadow", 0);
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, shadow_.depth);
@@ -177,11 +181,14 @@ class Renderer {
     GlMesh faces{3}, lines{2}, points{2};
   };
   struct Shadow {
-    static constexpr int size = 2048;
+    int size = 2048;
     GlTexture depth = detail::made<GlTexture>([](auto n, auto* id) { glGenTextures(n, id); });
     GlFrame frame = detail::made<GlFrame>([](auto n, auto* id) { glGenFramebuffers(n, id); });
 
     Shadow() {
+      // without a graphics card a finer one takes most of the time
+      auto const* renderer = reinterpret_cast<char const*>(glGetString(GL_RENDERER));
+      if (renderer && std::strstr(renderer, "llvmpipe")) size = 1024;
       glBindTexture(GL_TEXTURE_2D, depth);
       glTexImage2D(
           GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, size, size, 0, GL_DEPTH_COMPONENT, GL_FLOAT, nullptr);
@@ -208,6 +215,7 @@ class Renderer {
   std::optional<ClipPlane> clip_{};
   Eigen::Vector3d up_{0, 1, 0}, centre_{0, 0, 0}, colour_{1, 1, 1};
   double radius_ = 1;
+  bool shadows_ = true;
 
   // positive where something is seen
   static Eigen::Vector4d everything() { return {0, 0, 0, 1}; }
@@ -227,7 +235,7 @@ class Renderer {
   }
   void drawShadow(Eigen::Matrix4d const& toLight) {
     glBindFramebuffer(GL_FRAMEBUFFER, shadow_.frame);
-    glViewport(0, 0, Shadow::size, Shadow::size);
+    glViewport(0, 0, shadow_.size, shadow_.size);
     glEnable(GL_DEPTH_TEST);
     glClear(GL_DEPTH_BUFFER_BIT);
     plain_.use();

@@ -64,7 +64,7 @@ struct SeenSettings {
   std::array<bool, 5> arrows{};                      // of each kind
   bool visualModels = true, states = false;          // states are seen in any case where no visual model is
   bool collisionModels = false, springs = false, constraints = false, normals = false;
-  bool wireframe = false, axes = false, grid = false, legend = true;
+  bool wireframe = false, axes = false, grid = false, legend = true, shadows = true;
   std::optional<ClipPlane> clip{};
   std::vector<BodyLook> looks{};
   std::optional<Eigen::Vector3d> background{};

@@ -67,6 +67,7 @@ class ShowPanel {
     check("grid", settings_.grid);
     ImGui::SameLine();
     check("legend", settings_.legend);
+    check("shadows", settings_.shadows);
     changed = drawClip(scene) || changed;
     ImGui::Separator();
     ImGui::TextDisabled("bodies");

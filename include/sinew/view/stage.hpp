@@ -4,11 +4,15 @@
 #include <sinew/core/error.hpp>
 #include <sinew/scene/mouse_interactor.hpp>
 #include <sinew/view/fields.hpp>
+#include <sinew/view/plots.hpp>
 #include <sinew/view/seen_scene.hpp>
 #include <sinew/view/user_actions.hpp>
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <chrono>
+#include <cmath>
 #include <condition_variable>
 #include <cstddef>
 #include <exception>
@@ -36,6 +40,7 @@ struct StageState {
   bool playing = false, recording = false, replaying = false;
   std::optional<Held> held{};
   std::shared_ptr<SeenComponent const> selected{};  // as it was when the scene was last looked at; or none
+  std::shared_ptr<Measures const> measures{};       // a few times a second, while it is measured
   std::optional<FieldChange> undo{}, redo{};        // what undo() would take back, and redo() do again
   std::string error{};  // of the last thing that went wrong; empty where nothing has
 };
@@ -185,6 +190,39 @@ class Stage {
       s.seen_ = settings;
     });
   }
+  /// act() by the thread of the simulation, between two steps, when it may look at the simulation; then
+  /// answer(error).
+  void between(std::function<void()> act, std::function<void(std::string const& error)> answer) {
+    ask([act = std::move(act), answer = std::move(answer)](Stage&) { answer(error_of(act)); });
+  }
+  /// Measures the simulation after each step from now on, or no more: how long a step takes, and the energies
+  /// of what moves and of the force fields. Those cost about as much as forces.
+  void measure(bool on) {
+    ask([on](Stage& s) {
+      s.beginMeasures();
+      s.measuring_ = on;
+    });
+  }
+  /// Measures a field, too: the first number of its value.
+  void measureField(int line, std::string field) {
+    ask([line, field = std::move(field)](Stage& s) {
+      const SeenComponent component = s.actor_->component(line);
+      for (SeenField const& one : component.fields)
+        if (one.name == field) {
+          s.beginMeasures();
+          s.measuredFields_.emplace_back(line, field);
+          s.clearMeasures();
+          s.measures_.series.push_back(
+              {text(component.path, ": ", component.className, ": ", field), one.unit});
+          return;
+        }
+      throw Error("view", text("there is no field '", field, "' to measure"));
+    });
+  }
+  /// answer(all that was measured).
+  void measures(std::function<void(Measures const&)> answer) {
+    ask([answer = std::move(answer)](Stage& s) { answer(s.measures_); });
+  }
   /// The component at a line of the tree is looked at from now on (StageState::selected); -1: none is.
   void select(int line) {
     ask([line](Stage& s) {
@@ -259,6 +297,7 @@ class Stage {
     virtual void press(Eigen::Vector3d const& origin, Eigen::Vector3d const& direction, double stiffness) = 0;
     virtual void move(Eigen::Vector3d const& origin, Eigen::Vector3d const& direction) = 0;
     virtual void release() = 0;
+    virtual std::array<double, 2> energies() = 0;
     virtual void keep() = 0;
     virtual bool restore() = 0;
     virtual void keepForces(bool keep) = 0;
@@ -290,6 +329,9 @@ class Stage {
       mouse.move(simulation, origin, direction);
     }
     void release() override { mouse.release(simulation); }
+    std::array<double, 2> energies() override {
+      return {simulation.kineticEnergy(), simulation.potentialEnergy()};
+    }
     void keep() override {
       mouse.release(simulation);
       kept = std::make_unique<Simulation>(simulation);
@@ -336,12 +378,16 @@ class Stage {
   std::shared_ptr<SeenComponent const> selected_{};
   std::vector<FieldChange> changes_{};
   std::size_t changesDone_ = 0;
+  Measures measures_{};
+  std::vector<std::pair<int, std::string>> measuredFields_{};
+  bool measuring_ = false;
   UserActions recorded_{}, replayed_{};
   bool records_ = false, replays_ = false;
   long stepped_ = 0;            // since a record or a replay has begun
   std::size_t replayedTo_ = 0;  // of its actions
   struct Pace {
-    Clock::time_point next = Clock::now(), measured = next;  // when a step is due; since when steps count
+    // when a step is due; since when steps count; when measures are shown again
+    Clock::time_point next = Clock::now(), measured = next, nextMeasures = next;
     long steps = 0;
     double rate = 0;
     std::string error{};
@@ -405,8 +451,39 @@ class Stage {
       playing_ = false;
       return;
     }
+    const auto start = Clock::now();
     actor_->animate(dt_);
     ++stepped_;
+    if (measuring_) measureStep(std::chrono::duration<double>(Clock::now() - start).count());
+  }
+  void beginMeasures() {
+    if (measures_.series.empty())
+      measures_.series = {
+          {"time of a step", "ms"}, {"kinetic energy", "J"}, {"energy of the force fields", "J"}};
+  }
+  void clearMeasures() {
+    measures_.times.clear();
+    for (Series& one : measures_.series) one.values.clear();
+  }
+  void measureStep(double seconds) {
+    StageState now;
+    actor_->tell(now);
+    // behind a reset, time begins anew
+    if (!measures_.times.empty() && now.time < measures_.times.back()) {
+      clearMeasures();
+    }
+    measures_.drop();
+    measures_.times.push_back(now.time);
+    const auto [kinetic, potential] = actor_->energies();
+    std::size_t k = 0;
+    for (const double value : {1000 * seconds, kinetic, potential})
+      measures_.series[k++].values.push_back(value);
+    for (auto const& [line, field] : measuredFields_) {
+      const std::string words = actor_->fieldText(line, field);
+      double value = std::nan("");
+      std::from_chars(words.data(), words.data() + words.size(), value);
+      measures_.series[k++].values.push_back(value);
+    }
   }
   // what an act throws, in words; empty where it throws nothing
   template <class Act>
@@ -448,7 +525,7 @@ class Stage {
       }
       return true;
     };
-    auto& [next, measured, steps, rate, error] = pace_;
+    auto& [next, measured, nextMeasures, steps, rate, error] = pace_;
     std::vector<std::function<void(Stage&)>> mine = std::exchange(asked_, {});
     busy_ = true;
     const bool look = std::exchange(wanted_, false);
@@ -478,6 +555,10 @@ class Stage {
     if (seen) scene_ = std::move(seen);
     actor_->tell(state_);
     state_.selected = selected_;
+    if (measuring_ && (look || told) && Clock::now() > nextMeasures) {
+      state_.measures = std::make_shared<Measures const>(measures_);
+      nextMeasures = Clock::now() + std::chrono::milliseconds(200);
+    }
     state_.recording = records_;
     state_.replaying = replays_;
     if (told) {

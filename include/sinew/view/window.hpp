@@ -8,6 +8,7 @@
 #include <sinew/view/scene_panel.hpp>
 #include <sinew/view/show_panel.hpp>
 #include <sinew/view/stage.hpp>
+#include <sinew/view/tools_panel.hpp>
 
 #include <GLFW/glfw3.h>
 #include <backends/imgui_impl_glfw.h>
@@ -16,6 +17,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -24,9 +26,10 @@ namespace sinew::view {
 
 struct WindowSettings {
   std::string title = "Sinew";
-  int width = 1280, height = 800;  // [pixels]
-  std::optional<Camera> camera{};  // without one, that which sees all of the scene
-  SeenSettings seen{};             // what view() shows at first
+  int width = 1280, height = 800;                       // [pixels]
+  std::optional<Camera> camera{};                       // without one, that which sees all of the scene
+  SeenSettings seen{};                                  // what view() shows at first
+  std::function<void(std::string const& path)> save{};  // writes the simulation to a file, between two steps
 };
 
 /// A window onto a stage: the scene, its tree, and what it may be told. Of a process one at a time, in its
@@ -35,7 +38,11 @@ class Window {
  public:
   /// Throws Error where there is no display, or no OpenGL 3.3.
   explicit Window(Stage& stage, WindowSettings const& settings = {})
-      : stage_(stage), system_(settings), scene_(stage.scene()), show_(stage, scene_->settings) {
+      : stage_(stage),
+        system_(settings),
+        scene_(stage.scene()),
+        show_(stage, scene_->settings),
+        tools_(stage, settings.save) {
     if (settings.camera) controls_.setHome(*settings.camera);
     renderer_.show(*scene_);
   }
@@ -60,6 +67,8 @@ class Window {
     return image;
   }
   Controls& controls() { return controls_; }
+  /// A part of the panel: "Scene", "Show", "Tools" or "Plots".
+  void open(std::string part) { tab_ = std::move(part); }
   ScenePanel& scenePanel() { return panel_; }
   ShowPanel& showPanel() { return show_; }
   void close() { glfwSetWindowShouldClose(system_.window, GLFW_TRUE); }
@@ -120,6 +129,8 @@ class Window {
   Controls controls_{stage_, camera_of(*scene_, region().width, region().height)};
   ScenePanel panel_{stage_};
   ShowPanel show_;
+  ToolsPanel tools_;
+  std::string tab_{};
   int speed_ = 0;
   bool help_ = false;
 
@@ -192,6 +203,9 @@ class Window {
     if (pressed(GLFW_KEY_H)) help_ = !help_;
     if (pressed(GLFW_KEY_Q)) close();
   }
+  ImGuiTabItemFlags selected(char const* tab) const {
+    return tab_ == tab ? ImGuiTabItemFlags_SetSelected : ImGuiTabItemFlags_None;
+  }
   void panel() {
     const Region seen = region();
     ImGui::SetNextWindowPos({0, 0});
@@ -221,16 +235,27 @@ class Window {
       ImGui::PopStyleColor();
     }
     if (ImGui::BeginTabBar("tabs")) {
-      if (ImGui::BeginTabItem("Scene")) {
+      if (ImGui::BeginTabItem("Scene", nullptr, selected("Scene"))) {
         panel_.draw(state_);
         ImGui::EndTabItem();
       }
-      if (ImGui::BeginTabItem("Show")) {
+      if (ImGui::BeginTabItem("Show", nullptr, selected("Show"))) {
         ImGui::BeginChild("show");
         show_.draw(*scene_);
         ImGui::EndChild();
         ImGui::EndTabItem();
       }
+      if (ImGui::BeginTabItem("Tools", nullptr, selected("Tools"))) {
+        tools_.drawTools(state_);
+        ImGui::EndTabItem();
+      }
+      if (ImGui::BeginTabItem("Plots", nullptr, selected("Plots"))) {
+        ImGui::BeginChild("plots");
+        tools_.drawPlots(state_);
+        ImGui::EndChild();
+        ImGui::EndTabItem();
+      }
+      tab_.clear();
       ImGui::EndTabBar();
     }
     ImGui::End();
