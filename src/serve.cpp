@@ -38,7 +38,7 @@ using Text = std::shared_ptr<std::string const>;
 using Request = http::request<http::string_body>;
 
 constexpr std::size_t mostReplies = 64;         // that wait for a client who does not read
-constexpr std::size_t mostConnections = 64;     // at a time, with those for files
+constexpr std::size_t mostConnections = 64;     // at a time, beside those who look
 constexpr std::size_t largestPage = 32u << 20;  // all files together [bytes]
 
 Text shared(std::string&& text) { return std::make_shared<std::string const>(std::move(text)); }
@@ -430,7 +430,7 @@ struct Server::Parts {
         });
         return;
       }
-      if (all->connections < mostConnections) {
+      if (all->connections < mostConnections + std::size_t(all->settings.clients)) {
         error_code ignored;
         socket.set_option(tcp::no_delay(true), ignored);
         std::make_shared<Visitor>(std::move(socket), all)->read();

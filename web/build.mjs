@@ -34,7 +34,7 @@ const licences = [
 if (alone) {
   // packed, since not every server packs what it sends
   await writeFile(`${folder}/sinew.bin`, gzipSync(await readFile('engine/build/sinew.wasm'), { level: 9 }));
-  await writeFile(`${folder}/engine.json`, JSON.stringify({ engine: 'worker', scene: 'liver' }));
+  await writeFile(`${folder}/engine.json`, JSON.stringify({ engine: 'worker', scenes: ['liver', 'vitrectomy'] }));
   licences.push(['Eigen, JSON for Modern C++ and the libraries of emscripten, in sinew.bin', await readFile('engine/licences.txt', 'utf8')]);
 }
 await writeFile(`${folder}/licences.txt`, licences.map(([name, text]) => `${name}\n\n${text}`).join('\n\n'));

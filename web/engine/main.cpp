@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // Sinew in a page: the worker calls these functions. A stage without a thread does what it is told, and what
 // it has to say waits as messages of view/protocol.hpp.
-#include "liver.hpp"
+#include "running.hpp"
 
 #include <sinew/view/protocol.hpp>
 
@@ -20,7 +20,6 @@
 namespace {
 
 using namespace sinew;
-using Liver = decltype(page::liver());
 
 struct Message {
   std::string bytes;
@@ -28,54 +27,54 @@ struct Message {
 };
 std::deque<Message> messages;  // to be sent
 Message sent;
+void say(std::string json) { messages.push_back({std::move(json), false}); }
 
-struct Running {
-  Liver simulation;
-  std::unique_ptr<view::Stage> stage{};
+struct Shown {
+  page::Running scene;
   view::SceneWriter writer{};
   view::Stage::Scene seen{};
   std::uint32_t topology = 0;
   std::string state{};
 
-  Running() : simulation(page::liver()) {
-    simulation.init();
-    stage = std::make_unique<view::Stage>(
-        simulation, page::dt, 1, view::SeenSettings{}, view::Stage::WithoutThread{});
-    say(view::write_scene("liver", page::dt, stage->tree));
-  }
-  static void say(std::string json) { messages.push_back({std::move(json), false}); }
   void look() {
-    if (view::Stage::Scene latest = stage->scene(); latest != seen) {
+    if (view::Stage::Scene latest = scene.stage->scene(); latest != seen) {
       seen = std::move(latest);
       writer.write(*seen);
       if (std::exchange(topology, writer.number()) != writer.number())
         messages.push_back({writer.topology(), true});
       messages.push_back({writer.frame(), true});
     }
-    if (std::string json = view::write_state(stage->state(), *seen); json != state)
+    if (std::string json = view::write_state(scene.stage->state(), *seen); json != state)
       say(state = std::move(json));
   }
 };
-std::unique_ptr<Running> running;
+std::unique_ptr<Shown> shown;
+
+page::Running run(std::string_view name) {
+  if (name == "liver") return page::run_liver();
+  if (name == "vitrectomy") return page::run_vitrectomy();
+  throw Error("page", text("there is no scene '", name, "'; there are liver and vitrectomy"));
+}
 
 }  // namespace
 
 extern "C" {
 
-/// False where the scene does not start; the message says why.
-EMSCRIPTEN_KEEPALIVE bool sinew_start() try {
-  running = std::make_unique<Running>();
-  running->look();
+/// Starts the scene of a name. False where it does not start; the message says why.
+EMSCRIPTEN_KEEPALIVE bool sinew_start(char const* name, std::size_t size) try {
+  shown = std::make_unique<Shown>(Shown{run({name, size})});
+  say(view::write_scene(shown->scene.name, shown->scene.stage->dt(), shown->scene.stage->tree));
+  shown->look();
   return true;
 } catch (std::exception const& error) {
-  Running::say(view::write_error(error.what()));
+  say(view::write_error(error.what()));
   return false;
 }
 
 EMSCRIPTEN_KEEPALIVE void sinew_command(char const* bytes, std::size_t size) try {
-  view::tell(*running->stage, view::read_command({bytes, size}), Running::say);
+  view::tell(*shown->scene.stage, view::read_command({bytes, size}), say);
 } catch (std::exception const& error) {
-  Running::say(view::write_error(error.what()));
+  say(view::write_error(error.what()));
 }
 
 /// Works for some milliseconds and looks at the scene; what follows in how many milliseconds there is more to
@@ -85,14 +84,14 @@ EMSCRIPTEN_KEEPALIVE double sinew_turn(double milliseconds) {
   const auto begin = Clock::now();
   bool playing = false, works = true;
   while (works) {
-    const long before = running->stage->state().step;
-    running->stage->turn();
-    const view::StageState now = running->stage->state();
+    const long before = shown->scene.stage->state().step;
+    shown->scene.stage->turn();
+    const view::StageState now = shown->scene.stage->state();
     playing = now.playing;
     works = playing && now.step != before &&
             std::chrono::duration<double, std::milli>(Clock::now() - begin).count() < milliseconds;
   }
-  running->look();
+  shown->look();
   if (!playing) return -1;
   return std::chrono::duration<double, std::milli>(Clock::now() - begin).count() < milliseconds ? 4 : 0;
 }

@@ -244,14 +244,20 @@ const page = {
 };
 globalThis.sinew = page;
 
-// `sinew serve` says here that it runs the scene; a folder of files, that the page does
-const { engine: kind, scene } = await fetch('engine.json').then((answer) => (answer.ok ? answer.json() : {}));
+// `sinew serve` says here that it runs the scene; a folder of files, that the page does, and which scenes it has
+const { engine: kind, scenes } = await fetch('engine.json').then((answer) => (answer.ok ? answer.json() : {}));
 if (kind === 'socket') {
   const address = new URL('stage', document.baseURI);
   address.protocol = address.protocol === 'https:' ? 'wss:' : 'ws:';
   engine = socketEngine(address, receive, lost);
 } else if (kind === 'worker') {
-  engine = workerEngine(scene, receive, lost);
+  const asked = new URLSearchParams(location.search).get('scene');
+  const chosen = scenes.includes(asked) ? asked : scenes[0];
+  $('scenes').replaceChildren(...scenes.map((name) => new Option(name, name, false, name === chosen)));
+  $('scenes').addEventListener('change', () => location.assign(`?scene=${encodeURIComponent($('scenes').value)}`));
+  $('scenes').hidden = false;
+  $('title').hidden = true;
+  engine = workerEngine(chosen, receive, lost);
 } else {
   lost('This page has nothing that runs a scene: open it by the link of sinew serve, or build it with ./dev page.');
 }

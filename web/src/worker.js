@@ -15,17 +15,19 @@ function post() {
     else postMessage(new TextDecoder().decode(bytes));
   }
 }
-function command(json) {
-  const bytes = new TextEncoder().encode(json);
+// a function of text
+function call(name, text) {
+  const bytes = new TextEncoder().encode(text);
   const at = sinew._malloc(bytes.length || 1);
   sinew.HEAPU8.set(bytes, at);
-  sinew._sinew_command(at, bytes.length);
+  const result = sinew[name](at, bytes.length);
   sinew._free(at);
+  return result;
 }
 function turn() {
   clearTimeout(timer);
   timer = null;
-  for (const json of waiting.splice(0)) command(json);
+  for (const json of waiting.splice(0)) call('_sinew_command', json);
   const pause = sinew._sinew_turn(share);
   post();
   if (pause === 0) again.port2.postMessage(null);
@@ -54,7 +56,7 @@ onmessage = async ({ data }) => {
   if (!packed.ok) throw new Error('sinew.bin is not beside the page; build the page again.');
   const unpacked = new Response(packed.body.pipeThrough(new DecompressionStream('gzip')));
   sinew = await createSinew({ wasmBinary: await unpacked.arrayBuffer() });
-  const starts = sinew._sinew_start();
+  const starts = call('_sinew_start', data.start);
   post();
   if (starts) soon();
   else sinew = null;

@@ -198,7 +198,7 @@ async function alone() {
   check(size < 1.5e6, 'it is below 1.5 MB');
   const types = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.json': 'application/json', '.svg': 'image/svg+xml', '.txt': 'text/plain' };
   const server = createServer((request, answer) => {
-    const file = request.url === '/' ? 'index.html' : request.url.slice(1);
+    const file = new URL(request.url, 'http://localhost').pathname.slice(1) || 'index.html';
     if (!files.includes(file)) return answer.writeHead(404).end();
     answer.setHeader('content-type', types[extname(file)] ?? 'application/octet-stream');
     answer.end(readFileSync(join(options.alone, file)));
@@ -218,6 +218,17 @@ async function alone() {
     }
     console.log(`  ${most.toFixed(0)} steps/s`);
     check(most > 500, 'it makes 500 steps a second');
+    // the other scene: the tool moves by itself
+    await page.evaluate(`(() => { const s = document.getElementById('scenes'); s.value = 'vitrectomy'; s.dispatchEvent(new Event('change')); })()`);
+    await page.until(`location.search === '?scene=vitrectomy' && globalThis.sinew?.frames > 0 && sinew.tree.some((l) => l.name === 'tool')`, 60);
+    const tool = `(() => { const b = sinew.view.bodies.find((b) => b.path === '/root/tool/tip'); return [...sinew.view.frame.positions.subarray(3 * b.first, 3 * b.first + 3)]; })()`;
+    const from = await page.evaluate(tool);
+    await page.evaluate(`sinew.send({ do: 'speed', times: 0 }), sinew.send({ do: 'play', on: true })`);
+    await page.until('sinew.view.frame.time > 2.5', 120);
+    const to = await page.evaluate(tool);
+    check(Math.hypot(...to.map((x, k) => x - from[k])) > 0.001, 'the tool of the vitrectomy moves');
+    keep('vitrectomy.png', await page.picture());
+    check(page.messages.length === 0, `the console is empty: ${page.messages.join('\n')}`);
   } finally {
     await page.close();
     server.close();
