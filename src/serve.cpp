@@ -158,6 +158,7 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
   void accept(Request const& request) {
     socket_.set_option(websocket::stream_base::timeout::suggested(beast::role_type::server));
     socket_.read_message_max(longestCommand);
+    socket_.auto_fragment(false);
     socket_.async_accept(request, [self = shared_from_this()](error_code error) {
       if (error) return;
       self->scene_ = self->all().scene;
