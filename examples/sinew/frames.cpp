@@ -15,6 +15,7 @@ namespace cli {
 
 struct Frames::Parts {
   sinew::view::SeenSettings seen;
+  sinew::view::KnownBorders borders{};
   sinew::view::Painter painter;
   std::string folder;
   std::optional<sinew::view::Film> film{};
@@ -34,7 +35,8 @@ Frames::Frames(RunOptions const& options, Scene& scene, double picturesPerSecond
 }
 
 void Frames::add(sinew::StandardSimulation& simulation) {
-  const auto image = parts_->painter.paint(sinew::view::seen_scene(simulation, parts_->seen));
+  const auto image =
+      parts_->painter.paint(sinew::view::seen_scene(simulation, parts_->seen, &parts_->borders));
   if (!parts_->folder.empty()) {
     char name[32];
     std::snprintf(name, sizeof name, "%06ld.png", parts_->pictures);

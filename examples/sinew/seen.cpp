@@ -7,7 +7,8 @@
 #include <string_view>
 
 template sinew::view::SeenScene sinew::view::seen_scene(sinew::StandardSimulation&,
-                                                        sinew::view::SeenSettings const&);
+                                                        sinew::view::SeenSettings const&,
+                                                        sinew::view::KnownBorders*);
 
 namespace cli {
 

@@ -16,6 +16,6 @@ sinew::view::ViewSettings seen_settings(SeenOptions const& options, Scene& scene
 
 namespace sinew::view {
 
-extern template SeenScene seen_scene(StandardSimulation&, SeenSettings const&);  // in seen.cpp
+extern template SeenScene seen_scene(StandardSimulation&, SeenSettings const&, KnownBorders*);  // in seen.cpp
 
 }  // namespace sinew::view

@@ -133,7 +133,9 @@ TEST_CASE("what has no meaning here is accepted, and said once") {
     <LMConstraintSolver/> <CollisionGroupManager/>
     <Node name="off" activated="0"><Nonsense/></Node>
   </Node>)");
-  CHECK(scene.ignored.size() == 4);
+  CHECK(scene.ignored.size() == 3);
+  REQUIRE(scene.root.view.size() == 1);
+  CHECK(*scene.root.view[0].find("displayFlags") == "showForceFields");
   REQUIRE(scene.warnings.size() == 2);
   CHECK_THAT(scene.warnings[0], Catch::Contains("<CollisionGroupManager> does nothing: bodies that touch"));
   CHECK_THAT(scene.warnings[1], Catch::Contains("test.scn:5:5: <LMConstraintSolver> does nothing"));

@@ -143,12 +143,15 @@ inline DrawnMarks drawn_marks(SeenScene const& scene, double radius) {
     }
     const double cell = detail::round_length(radius / 4);
     constexpr int cells = 8;
+    const Eigen::Vector3d background = scene.settings.background.value_or(Eigen::Vector3d(1, 1, 1)),
+                          ink = Eigen::Vector3d::Constant(background.mean() > 0.5 ? 0 : 1),
+                          colour = 0.72 * background + 0.28 * ink;
     const Eigen::Vector3d origin = middle - down * scene.up;
     for (int k = -cells; k <= cells; ++k)
       for (const bool turned : {false, true}) {
         Eigen::Vector3d const &along = turned ? a : b, &aside = turned ? b : a;
         for (const int end : {-cells, cells})
-          drawn.mesh.lines.add(origin + k * cell * aside + end * cell * along, {0.72, 0.72, 0.72});
+          drawn.mesh.lines.add(origin + k * cell * aside + end * cell * along, colour);
       }
     drawn.words.push_back(text("grid: ", detail::number_words(cell), " m"));
   }

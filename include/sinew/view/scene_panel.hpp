@@ -30,10 +30,14 @@ class ScenePanel {
     else
       drawFound();
     ImGui::EndChild();
-    if (ImGui::Button("Undo") && state.undo) stage_.undo();
+    ImGui::BeginDisabled(!state.undo);
+    if (ImGui::Button("Undo")) stage_.undo();
+    ImGui::EndDisabled();
     tip(state.undo, "takes back");
     ImGui::SameLine();
-    if (ImGui::Button("Redo") && state.redo) stage_.redo();
+    ImGui::BeginDisabled(!state.redo);
+    if (ImGui::Button("Redo")) stage_.redo();
+    ImGui::EndDisabled();
     tip(state.redo, "does again");
     ImGui::BeginChild("fields", {0, 0}, true);
     if (state.selected && state.selected->line == selected_)

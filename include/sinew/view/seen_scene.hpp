@@ -20,7 +20,9 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -92,17 +94,41 @@ struct SeenScene {
   }
 };
 
+/// The surfaces of volume elements that were seen before, found once for the same elements.
+class KnownBorders {
+ public:
+  Border const& of(TopologyView const& topology) {
+    // FNV-1a of all corners
+    std::uint64_t key = 14695981039346656037u;
+    auto add = [&](auto const& elements) {
+      for (auto const& element : elements)
+        for (const Index i : element) key = (key ^ std::uint64_t(i)) * 1099511628211u;
+      key = (key ^ elements.size()) * 1099511628211u;
+    };
+    add(topology.tetrahedra);
+    add(topology.hexahedra);
+    constexpr std::size_t enough = 256;  // of a body that is carved, those of long ago go
+    if (known_.size() >= enough && !known_.count(key)) known_.clear();
+    const auto [found, isNew] = known_.try_emplace(key);
+    if (isNew) found->second = border_of(topology.tetrahedra, topology.hexahedra);
+    return found->second;
+  }
+
+ private:
+  std::map<std::uint64_t, Border> known_{};
+};
+
 namespace detail {
 
 template <class T>
 std::vector<T> listed(std::span<T const> elements) {
   return {elements.begin(), elements.end()};
 }
-inline void show_elements(TopologyView const& topology, SeenBody& body) {
+inline void show_elements(TopologyView const& topology, KnownBorders& borders, SeenBody& body) {
   if (!topology.tetrahedra.empty() || !topology.hexahedra.empty()) {
-    Border border = border_of(topology.tetrahedra, topology.hexahedra);
-    body.triangles = std::move(border.triangles);
-    body.quads = std::move(border.quads);
+    Border const& border = borders.of(topology);
+    body.triangles = border.triangles;
+    body.quads = border.quads;
     return;
   }
   body.triangles = listed(topology.triangles);
@@ -249,9 +275,12 @@ inline void set_legend(SeenScene& seen) {
 }  // namespace detail
 
 /// What is seen of a simulation now. Its visual models are brought up to date. Forces and reactions are those
-/// that it keeps (Simulation::keepForces).
+/// that it keeps (Simulation::keepForces). Whoever looks again and again keeps the borders.
 template <class Simulation>
-SeenScene seen_scene(Simulation& simulation, SeenSettings const& settings = {}) {
+SeenScene seen_scene(Simulation& simulation, SeenSettings const& settings = {},
+                     KnownBorders* borders = nullptr) {
+  KnownBorders own;
+  if (!borders) borders = &own;
   simulation.updateVisual();
   SeenScene seen;
   seen.settings = settings;
@@ -273,7 +302,11 @@ SeenScene seen_scene(Simulation& simulation, SeenSettings const& settings = {}) 
   simulation.template visit<role::State>([&](auto const& state, auto const& scope) {
     SeenBody body{.path = scope.path()};
     if (Eigen::Vector3d const g = scope.gravity(); g.norm() > 0) seen.up = -g.normalized();
-    detail::show_elements(scope.topology(), body);
+    if (!settings.states && std::any_of(seen.bodies.begin(), seen.bodies.end(), [&](SeenBody const& visual) {
+          return is_below(visual.path, body.path);
+        }))
+      return;
+    detail::show_elements(scope.topology(), *borders, body);
     const bool hasElements = !body.triangles.empty() || !body.quads.empty() || !body.edges.empty();
     if (scope.mapped() && !hasElements) return;
     for (std::size_t i = 0; i < state.size(); ++i) body.points.push_back(detail::seen_place(state, i));

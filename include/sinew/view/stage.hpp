@@ -37,7 +37,7 @@ struct Held {
 struct StageState {
   double time = 0, stepsPerSecond = 0;
   long step = 0;
-  bool playing = false, recording = false, replaying = false;
+  bool playing = false, recording = false, replaying = false, measuring = false;
   std::optional<Held> held{};
   std::shared_ptr<SeenComponent const> selected{};  // as it was when the scene was last looked at; or none
   std::shared_ptr<Measures const> measures{};       // a few times a second, while it is measured
@@ -311,6 +311,7 @@ class Stage {
   struct ActorOf final : Actor {
     Simulation& simulation;
     std::unique_ptr<Simulation> kept{};
+    KnownBorders borders{};
     MouseInteractor mouse{};
 
     ActorOf(Simulation& s, bool forces) : simulation(s) {
@@ -342,7 +343,9 @@ class Stage {
       return bool(kept);
     }
     void keepForces(bool keep) override { simulation.keepForces(keep); }
-    SeenScene see(SeenSettings const& settings) override { return seen_scene(simulation, settings); }
+    SeenScene see(SeenSettings const& settings) override {
+      return seen_scene(simulation, settings, &borders);
+    }
     SeenComponent component(int line) override { return seen_component(simulation, line); }
     std::string fieldText(int line, std::string const& field) override {
       return field_text(simulation, line, field);
@@ -559,6 +562,7 @@ class Stage {
       state_.measures = std::make_shared<Measures const>(measures_);
       nextMeasures = Clock::now() + std::chrono::milliseconds(200);
     }
+    state_.measuring = measuring_;
     state_.recording = records_;
     state_.replaying = replays_;
     if (told) {

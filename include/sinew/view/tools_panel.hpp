@@ -68,14 +68,15 @@ class ToolsPanel {
     say();
   }
   void drawPlots(StageState const& state) {
-    bool on = measures_;
-    if (ImGui::Checkbox("measure each step", &on)) stage_.measure(measures_ = on);
+    bool on = state.measuring;
+    if (ImGui::Checkbox("measure each step", &on)) stage_.measure(on);
+    ImGui::SetNextItemWidth(-1);
     if (state.selected && ImGui::BeginCombo("##field", "and a field of the selected component")) {
       for (SeenField const& field : state.selected->fields)
         if (field.whole && field.kind.find("number") != std::string::npos)
           if (ImGui::Selectable(field.name.c_str())) {
             stage_.measureField(state.selected->line, field.name);
-            stage_.measure(measures_ = true);
+            stage_.measure(true);
           }
       ImGui::EndCombo();
     }
@@ -94,7 +95,7 @@ class ToolsPanel {
                        last.c_str(),
                        FLT_MAX,
                        FLT_MAX,
-                       {-1, 70});
+                       {ImGui::GetContentRegionAvail().x, 70});
     }
     ImGui::InputText("##plots", plots_.data(), plots_.size());
     const bool picture = std::string_view(plots_.data()).ends_with(".svg");
@@ -119,7 +120,6 @@ class ToolsPanel {
   std::function<void(std::string const&)> save_;
   std::array<char, 256> scene_{}, actions_{}, plots_{};
   std::string message_{};
-  bool measures_ = false;
   std::shared_ptr<Answer> answer_{};
 
   void saveActions() {

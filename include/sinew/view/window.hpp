@@ -97,6 +97,7 @@ class Window {
       float scale = 1;
       glfwGetWindowContentScale(window, &scale, nullptr);
       ImGui::StyleColorsLight();
+      ImGui::GetStyle().FrameBorderSize = 1;
       ImGui::GetStyle().ScaleAllSizes(scale);
       ImGui::GetIO().FontGlobalScale = scale;
       ImGui_ImplGlfw_InitForOpenGL(window, true);

@@ -118,7 +118,8 @@ class SceneItems {
       case ElementKind::tetrahedronModel:
         return tetrahedra_.push_back(&element);
       case ElementKind::withoutMeaning:
-        return void(messages_.ignored.insert(tag));
+        if (!dialect::has(dialect::ofViews, tag)) messages_.ignored.insert(tag);
+        return;
       case ElementKind::inert:
         return void(messages_.warnings.insert(
             text(element.place(), ": <", tag, "> ", dialect::left_out(dialect::inert, tag)->why)));
