@@ -2,6 +2,8 @@
 #include "scene.hpp"
 
 #ifdef SINEW_SERVE
+#include "seen.hpp"
+
 #include <sinew/view/serve.hpp>
 
 #include <filesystem>
@@ -10,10 +12,12 @@ namespace cli {
 
 int serve(ServeOptions const& options) {
   Scene scene = load(options.scene);
+  const sinew::view::ViewSettings settings = seen_settings({}, scene);
+  scene.warnings.insert(scene.warnings.end(), settings.warnings.begin(), settings.warnings.end());
   print_notes(scene.ignored, scene.warnings);
   try {
-    sinew::view::serve(scene.simulation,
-                       scene.dt,
+    sinew::view::Stage stage(scene.simulation, scene.dt, 1, settings.seen);
+    sinew::view::serve(stage,
                        {.title = std::filesystem::path(options.scene.path).filename().string(),
                         .address = options.address,
                         .port = options.port,
