@@ -164,6 +164,7 @@ SeenComponent seen_component(Simulation& simulation, int line) {
                      .className = found.className,
                      .role = std::string(enum_names(found.info->role)[std::size_t(found.info->role)])};
   for (FieldInfo const& field : found.info->fields) {
+    if (found.info->field(field.name) != &field) continue;  // a list that is given, and made where it is not
     SeenField one{.name = std::string(field.name),
                   .kind = field.kind,
                   .unit = std::string(field.unit),
