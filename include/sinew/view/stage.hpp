@@ -2,10 +2,11 @@
 #pragma once
 
 #include <sinew/core/error.hpp>
-#include <sinew/scene/mouse_interactor.hpp>
 #include <sinew/view/fields.hpp>
 #include <sinew/view/plots.hpp>
 #include <sinew/view/seen_scene.hpp>
+#include <sinew/view/stage_actor.hpp>
+#include <sinew/view/stage_state.hpp>
 #include <sinew/view/user_actions.hpp>
 
 #include <algorithm>
@@ -26,24 +27,6 @@
 #include <vector>
 
 namespace sinew::view {
-
-/// What the pointer holds: the place on the body, where the pointer is, and the force between them [N].
-struct Held {
-  std::string path{};
-  Eigen::Vector3d point{0, 0, 0}, target{0, 0, 0}, force{0, 0, 0};
-};
-
-/// How a simulation is getting on.
-struct StageState {
-  double time = 0, stepsPerSecond = 0;
-  long step = 0;
-  bool playing = false, recording = false, replaying = false, measuring = false;
-  std::optional<Held> held{};
-  std::shared_ptr<SeenComponent const> selected{};  // as it was when the scene was last looked at; or none
-  std::shared_ptr<Measures const> measures{};       // a few times a second, while it is measured
-  std::optional<FieldChange> undo{}, redo{};        // what undo() would take back, and redo() do again
-  std::string error{};  // of the last thing that went wrong; empty where nothing has
-};
 
 /// A simulation in a thread of its own, and what others see of it and tell it to do. Nobody waits for a step:
 /// what is asked for is done before the next one, and what is seen is the scene as it was after the last. A
@@ -68,7 +51,7 @@ class Stage {
         dt_(dt),
         speed_(speed),
         seen_(seen),
-        actor_(new ActorOf<Simulation>(simulation, seen.needsForces())),
+        actor_(new detail::StageActorOf<Simulation>(simulation, seen.needsForces())),
         forcesKept_(seen.needsForces()),
         scene_(std::make_shared<SeenScene>(actor_->see(seen_))) {}
   Stage(Stage const&) = delete;
@@ -290,86 +273,11 @@ class Stage {
   }
 
  private:
-  struct Actor {
-    virtual ~Actor() = default;
-    virtual void animate(double dt) = 0;
-    virtual void reset() = 0;
-    virtual void press(Eigen::Vector3d const& origin, Eigen::Vector3d const& direction, double stiffness) = 0;
-    virtual void move(Eigen::Vector3d const& origin, Eigen::Vector3d const& direction) = 0;
-    virtual void release() = 0;
-    virtual std::array<double, 2> energies() = 0;
-    virtual void keep() = 0;
-    virtual bool restore() = 0;
-    virtual void keepForces(bool keep) = 0;
-    virtual SeenScene see(SeenSettings const& settings) = 0;
-    virtual SeenComponent component(int line) = 0;
-    virtual std::string fieldText(int line, std::string const& field) = 0;
-    virtual FieldChange setField(int line, std::string const& field, std::string const& words) = 0;
-    virtual void tell(StageState& state) = 0;
-  };
-  template <class Simulation>
-  struct ActorOf final : Actor {
-    Simulation& simulation;
-    std::unique_ptr<Simulation> kept{};
-    KnownBorders borders{};
-    MouseInteractor mouse{};
-
-    ActorOf(Simulation& s, bool forces) : simulation(s) {
-      if (forces) simulation.keepForces(true);
-    }
-    void animate(double dt) override { simulation.animate(dt); }
-    void reset() override {
-      mouse.release(simulation);
-      simulation.reset();
-    }
-    void press(Eigen::Vector3d const& origin, Eigen::Vector3d const& direction, double stiffness) override {
-      mouse.spring.stiffness = stiffness;
-      mouse.press(simulation, origin, direction);
-    }
-    void move(Eigen::Vector3d const& origin, Eigen::Vector3d const& direction) override {
-      mouse.move(simulation, origin, direction);
-    }
-    void release() override { mouse.release(simulation); }
-    std::array<double, 2> energies() override {
-      return {simulation.kineticEnergy(), simulation.potentialEnergy()};
-    }
-    void keep() override {
-      mouse.release(simulation);
-      kept = std::make_unique<Simulation>(simulation);
-    }
-    bool restore() override {
-      mouse.release(simulation);
-      if (kept) simulation = *kept;
-      return bool(kept);
-    }
-    void keepForces(bool keep) override { simulation.keepForces(keep); }
-    SeenScene see(SeenSettings const& settings) override {
-      return seen_scene(simulation, settings, &borders);
-    }
-    SeenComponent component(int line) override { return seen_component(simulation, line); }
-    std::string fieldText(int line, std::string const& field) override {
-      return field_text(simulation, line, field);
-    }
-    FieldChange setField(int line, std::string const& field, std::string const& words) override {
-      return set_field(simulation, line, field, words);
-    }
-    void tell(StageState& state) override {
-      state.time = simulation.time();
-      state.step = simulation.step();
-      state.held.reset();
-      if (!mouse.held) return;
-      if (Attachment const* a = simulation.attachment(mouse.attachment))
-        state.held = Held{.path = mouse.held->path,
-                          .point = a->target - a->contact.evaluated / a->stiffness,
-                          .target = a->target,
-                          .force = a->contact.force};
-    }
-  };
   using Clock = std::chrono::steady_clock;
 
   double dt_, speed_;
   SeenSettings seen_;
-  std::unique_ptr<Actor> actor_;
+  std::unique_ptr<detail::StageActor> actor_;
   bool forcesKept_;
   mutable std::mutex mutex_{};
   std::condition_variable wake_{}, idle_{};
