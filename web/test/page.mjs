@@ -99,7 +99,7 @@ async function use(page, name, native) {
   for (let k = 1; k <= 8; ++k) await page.mouse('move', left + x + 12 * k, top + y - 8 * k);
   await page.key(' ');
   await page.until('sinew.state.step >= 60', 60);
-  await page.until(`Math.hypot(...sinew.state.held.force) > 0.01`);
+  await page.until(`sinew.state.held && Math.hypot(...sinew.state.held.force) > 0.01`);
   await pause(1);
   const held = await page.evaluate('sinew.state.held');
   // the force is that of the spring, towards the pointer
