@@ -145,7 +145,7 @@ Options read_options(int argc, char** argv, int& status) {
   app.footer(exitCodes);
   app.failure_message(CLI::FailureMessage::simple);
 
-  SceneWords runWords, viewWords, checkWords, bakeWords, bothWords;
+  SceneWords runWords, viewWords, serveWords, checkWords, bakeWords, bothWords;
   bool quiet = false, json = false, compareQuiet = false, compareJson = false;
   std::string size;
 
@@ -206,6 +206,25 @@ Options read_options(int argc, char** argv, int& status) {
   view->add_option("scene", o.view.scene.path, "Scene file")->type_name("FILE")->required();
   viewWords.addTo(*view, o.view.scene, true);
   add_seen(*view, o.view.seen);
+
+  auto* serve = app.add_subcommand("serve", "Show a scene in browsers, run it there and pull its bodies");
+  serve->footer("Example:  sinew serve liver.scn   and open the link that it prints");
+  serve->add_option("scene", o.serve.scene.path, "Scene file")->type_name("FILE")->required();
+  serveWords.addTo(*serve, o.serve.scene, true);
+  serve->add_option("--port", o.serve.port, "Port of the link (default 8765; 0: any that is free)")
+      ->type_name("N")
+      ->check(CLI::Range(0, 65535).description(""));
+  serve
+      ->add_option("--address",
+                   o.serve.address,
+                   "Address to listen at (default 127.0.0.1, this machine; 0.0.0.0 lets others in)")
+      ->type_name("ADDRESS");
+  serve->add_option("--clients", o.serve.clients, "Browsers that may look at a time (default 16)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000).description(""));
+  serve->add_option("--page", o.serve.page, "Folder of the page (default: where it was built or installed)")
+      ->type_name("DIR")
+      ->check(CLI::ExistingDirectory.description(""));
 
   auto* check = app.add_subcommand("check", "Find all mistakes in a scene, without simulating it");
   check->footer("Example:  sinew check liver.scn");
@@ -268,6 +287,7 @@ Options read_options(int argc, char** argv, int& status) {
     o.run.scene.set = settings_of(runWords.set, "--set");
     if (!size.empty()) std::tie(o.run.width, o.run.height) = size_of(size);
     o.view.scene.set = settings_of(viewWords.set, "--set");
+    o.serve.scene.set = settings_of(serveWords.set, "--set");
     o.check.scene.set = settings_of(checkWords.set, "--set");
     o.bake.scene.set = settings_of(bakeWords.set, "--set");
     CompareOptions& c = o.compare;
@@ -295,6 +315,7 @@ Options read_options(int argc, char** argv, int& status) {
   o.compare.duration.given = given(compare);
   o.command = run->parsed()     ? Command::run
               : view->parsed()  ? Command::view
+              : serve->parsed() ? Command::serve
               : check->parsed() ? Command::check
               : list->parsed()  ? Command::list
               : bake->parsed()  ? Command::bake

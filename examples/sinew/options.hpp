@@ -60,6 +60,11 @@ struct ViewOptions {
   SceneOptions scene{};
   SeenOptions seen{};
 };
+struct ServeOptions {
+  SceneOptions scene{};
+  std::string address{"127.0.0.1"}, page{};
+  int port = 8765, clients = 16;
+};
 struct CheckOptions {
   SceneOptions scene{};
   bool quiet = false;
@@ -80,11 +85,12 @@ struct CompareOptions {
   Output output = Output::words;
 };
 
-enum class Command { none, run, view, check, list, bake, compare };
+enum class Command { none, run, view, serve, check, list, bake, compare };
 struct Options {
   Command command = Command::none;
   RunOptions run{};
   ViewOptions view{};
+  ServeOptions serve{};
   CheckOptions check{};
   ListOptions list{};
   BakeOptions bake{};
@@ -98,6 +104,7 @@ Options read_options(int argc, char** argv, int& status);
 // the commands; each returns the exit status, or throws Failure
 int run(RunOptions const& options);
 int view(ViewOptions const& options);
+int serve(ServeOptions const& options);
 int check(CheckOptions const& options);
 int list(ListOptions const& options);
 int bake(BakeOptions const& options);

@@ -12,6 +12,8 @@ int cli::program(int argc, char** argv) try {
       return cli::run(options.run);
     case cli::Command::view:
       return cli::view(options.view);
+    case cli::Command::serve:
+      return cli::serve(options.serve);
     case cli::Command::check:
       return cli::check(options.check);
     case cli::Command::list:

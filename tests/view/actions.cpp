@@ -134,7 +134,13 @@ TEST_CASE("a simulation that was kept goes on from there to the same bits") {
   stage.settle();
   CHECK(stage.state().error.find("nothing was kept") != std::string::npos);
   go_on();
+  stage.press({0.6, 0.2, 3}, {0, 0, -1}, 100);
   stage.keep();
+  stage.settle();
+  CHECK(stage.state().held);  // here, and not in what is kept
+  stage.restore();
+  stage.settle();
+  CHECK_FALSE(stage.state().held);
   const auto first = go_on();
   stage.setField(line_of(sim, "UniformMass<Vec3d>"), "totalMass", "3");
   CHECK(go_on() != first);

@@ -125,6 +125,27 @@ TEST_CASE("what goes wrong stops a stage, which says so and goes on to be told")
   CHECK_FALSE(stage.state().playing);
 }
 
+TEST_CASE("a stage without a thread does what it is told when it has its turn") {
+  auto sim = triangle();
+  sim.init();
+  view::Stage stage(sim, 0.01, 0, {}, view::Stage::WithoutThread{});
+  stage.step();
+  CHECK(stage.state().step == 0);
+  stage.turn();
+  CHECK(stage.state().step == 1);
+  CHECK(stage.scene()->step == 1);
+  stage.play(true);
+  for (int i = 0; i < 5; ++i) stage.turn();
+  CHECK(stage.state().step == 6);
+  stage.scene();
+  stage.turn();
+  CHECK(stage.scene()->step == 7);
+  stage.play(false);
+  stage.turn();
+  stage.turn();
+  CHECK(stage.state().step == 7);
+}
+
 TEST_CASE("watching a simulation changes none of its bits") {
   auto watched = triangle(), alone = triangle();
   watched.at<"body">().state().velocity =

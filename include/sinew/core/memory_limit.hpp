@@ -13,7 +13,7 @@ namespace sinew {
 
 /// The most memory that a grid of a scene may take, with a body over it [bytes]. A number of points that was
 /// mistyped is refused by it; who means it raises the limit. The program sinew has a lower one.
-inline std::atomic<std::size_t> memory_limit{std::size_t(8) << 30};
+inline std::atomic<std::size_t> memory_limit{std::size_t(1) << (sizeof(std::size_t) > 4 ? 33 : 31)};
 
 /// What a point of a grid takes, about: the vectors of its state, lists of the elements around it, and what a
 /// force field keeps of a cell [bytes].

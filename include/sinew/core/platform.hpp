@@ -17,6 +17,10 @@
 #include <sinew/see_the_error_above>
 #endif
 
+#if defined(__EMSCRIPTEN__)
+#include <sinew/core/emscripten.hpp>
+#endif
+
 /// SINEW_HD marks a function that a GPU kernel may call. The library's other macros are SINEW_INLINE, and
 /// those of compiled.hpp and version.hpp.
 #if defined(__CUDACC__)

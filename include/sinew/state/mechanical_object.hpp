@@ -109,7 +109,8 @@ struct MechanicalObject {
         D::setCenter(position.back(), center_of(p));
       }
     auto same = [&](auto const& x, Eigen::Vector3d const& p) { return D::center(x) == center_of(p); };
-    if (!points.empty() && std::ranges::equal(position, points, same)) pointsOfTopology = true;
+    if (!points.empty() && std::equal(position.begin(), position.end(), points.begin(), points.end(), same))
+      pointsOfTopology = true;
     const Eigen::Vector3d none = Eigen::Vector3d::Zero(), whole = Eigen::Vector3d::Ones();
     if (translation == none && rotation == none && scale3d == whole) return;
     const Eigen::Quaterniond rotate = rotation_of_degrees(rotation);

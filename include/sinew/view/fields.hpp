@@ -111,20 +111,41 @@ inline FieldInfo const& find_field(FoundLine const& line, std::string_view name)
                    nearest.empty() ? std::string("; choose one of its fields")
                                    : text("; did you mean '", nearest, "'?")));
 }
+// f(component) for those of a role in and below a node
+template <class Role, class Node, class F>
+void for_each_of_role(Node& node, F& f) {
+  if constexpr (is_runtime_node<Node>) {
+    for (auto& entry : node.components()) entry.component.template visit<Role>(f);
+    for (auto& child : node.children()) for_each_of_role<Role>(*child, f);
+  } else {
+    node.forEachComponent(on<Role>([&](auto& component) { f(component); }));
+    boost::hana::for_each(node.children, [&](auto& child) { for_each_of_role<Role>(child, f); });
+  }
+}
 // Contacts and what is held go on
 template <class Root>
 void keep_contacts(Root& root) {
-  auto keep = on<role::ContactManager>([](auto& manager) {
+  auto keep = [](auto& manager) {
     static const Renumbering none{};
     manager.follow([](int) -> Renumbering const& { return none; });
-  });
-  if constexpr (is_runtime_node<Root>) {
-    for (auto& entry : root.components()) entry.component.template visit<role::ContactManager>(keep.f);
-    for (auto& child : root.children()) keep_contacts(*child);
-  } else {
-    root.forEachComponent(keep);
-    boost::hana::for_each(root.children, [](auto& child) { keep_contacts(child); });
-  }
+  };
+  for_each_of_role<role::ContactManager>(root, keep);
+}
+// States may get other points: what solvers have of the old ones goes
+template <class Root>
+void forget_sizes(Root& root) {
+  auto forget = [](auto& state) {
+    if constexpr (requires {
+                    state.auxiliaryCoords.clear();
+                    state.multiplierForce.clear();
+                  }) {
+      state.auxiliaryCoords.clear();
+      state.auxiliaryDerivs.clear();
+      state.history.clear();
+      state.multiplierForce.clear();
+    }
+  };
+  for_each_of_role<role::State>(root, forget);
 }
 
 }  // namespace detail
@@ -143,6 +164,7 @@ SeenComponent seen_component(Simulation& simulation, int line) {
                      .className = found.className,
                      .role = std::string(enum_names(found.info->role)[std::size_t(found.info->role)])};
   for (FieldInfo const& field : found.info->fields) {
+    if (found.info->field(field.name) != &field) continue;  // a list that is given, and made where it is not
     SeenField one{.name = std::string(field.name),
                   .kind = field.kind,
                   .unit = std::string(field.unit),
@@ -204,6 +226,8 @@ FieldChange set_field(Simulation& simulation, int line, std::string_view name, s
                        " points; give one for each"));
     change.after = field.write(found.component);
     detail::keep_contacts(root);
+    if (found.info->role == RoleKind::topology || found.info->role == RoleKind::mapping)
+      detail::forget_sizes(root);
     std::vector<void const*> touched{found.component};
     if (detail::carries_others(found.info->role))
       for_each_line(root, [&](FoundLine const& other) {

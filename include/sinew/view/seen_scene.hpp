@@ -80,6 +80,7 @@ struct SeenScene {
   SeenSettings settings{};
   Eigen::Vector3d up{0, 1, 0};  // against gravity
   double time = 0;              // [s]
+  long step = 0;
 
   /// The corners of the smallest box around everything that is finite; equal where nothing is seen.
   std::pair<Eigen::Vector3d, Eigen::Vector3d> box() const {
@@ -284,6 +285,7 @@ SeenScene seen_scene(Simulation& simulation, SeenSettings const& settings = {},
   SeenScene seen;
   seen.settings = settings;
   seen.time = simulation.time();
+  seen.step = simulation.step();
   const SeenValues<Simulation> values(simulation, settings.colour);
   if (settings.visualModels)
     simulation.template visit<role::VisualModel>([&](auto const& visual, auto const& scope) {

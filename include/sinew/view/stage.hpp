@@ -2,10 +2,11 @@
 #pragma once
 
 #include <sinew/core/error.hpp>
-#include <sinew/scene/mouse_interactor.hpp>
 #include <sinew/view/fields.hpp>
 #include <sinew/view/plots.hpp>
 #include <sinew/view/seen_scene.hpp>
+#include <sinew/view/stage_actor.hpp>
+#include <sinew/view/stage_state.hpp>
 #include <sinew/view/user_actions.hpp>
 
 #include <algorithm>
@@ -27,24 +28,6 @@
 
 namespace sinew::view {
 
-/// What the pointer holds: the place on the body, where the pointer is, and the force between them [N].
-struct Held {
-  std::string path{};
-  Eigen::Vector3d point{0, 0, 0}, target{0, 0, 0}, force{0, 0, 0};
-};
-
-/// How a simulation is getting on.
-struct StageState {
-  double time = 0, stepsPerSecond = 0;
-  long step = 0;
-  bool playing = false, recording = false, replaying = false, measuring = false;
-  std::optional<Held> held{};
-  std::shared_ptr<SeenComponent const> selected{};  // as it was when the scene was last looked at; or none
-  std::shared_ptr<Measures const> measures{};       // a few times a second, while it is measured
-  std::optional<FieldChange> undo{}, redo{};        // what undo() would take back, and redo() do again
-  std::string error{};  // of the last thing that went wrong; empty where nothing has
-};
-
 /// A simulation in a thread of its own, and what others see of it and tell it to do. Nobody waits for a step:
 /// what is asked for is done before the next one, and what is seen is the scene as it was after the last. A
 /// scene that nobody looks at makes no pictures.
@@ -57,14 +40,20 @@ class Stage {
   /// can.
   template <class Simulation>
   Stage(Simulation& simulation, double dt, double speed = 1, SeenSettings const& seen = {})
+      : Stage(simulation, dt, speed, seen, WithoutThread{}) {
+    thread_ = std::thread([this] { go(); });
+  }
+  /// Where there are no threads, as in WebAssembly, turn() does the work.
+  struct WithoutThread {};
+  template <class Simulation>
+  Stage(Simulation& simulation, double dt, double speed, SeenSettings const& seen, WithoutThread)
       : tree(scene_tree(simulation)),
         dt_(dt),
         speed_(speed),
         seen_(seen),
-        actor_(new ActorOf<Simulation>(simulation, seen.needsForces())),
+        actor_(new detail::StageActorOf<Simulation>(simulation, seen.needsForces())),
         forcesKept_(seen.needsForces()),
-        scene_(std::make_shared<SeenScene>(actor_->see(seen_))),
-        thread_([this] { go(); }) {}
+        scene_(std::make_shared<SeenScene>(actor_->see(seen_))) {}
   Stage(Stage const&) = delete;
   Stage& operator=(Stage const&) = delete;
   ~Stage() {
@@ -73,7 +62,7 @@ class Stage {
       ends_ = true;
     }
     wake_.notify_all();
-    thread_.join();
+    if (thread_.joinable()) thread_.join();
   }
 
   /// The components of the scene.
@@ -91,6 +80,11 @@ class Stage {
     return state_;
   }
   double dt() const { return dt_; }
+  /// Of a stage without a thread: does what it was asked for, and a step if it is time for one.
+  void turn() {
+    std::unique_lock lock(mutex_);
+    work(lock);
+  }
 
   void play(bool on) {
     ask([on](Stage& s) { s.playing_ = on; });
@@ -279,86 +273,11 @@ class Stage {
   }
 
  private:
-  struct Actor {
-    virtual ~Actor() = default;
-    virtual void animate(double dt) = 0;
-    virtual void reset() = 0;
-    virtual void press(Eigen::Vector3d const& origin, Eigen::Vector3d const& direction, double stiffness) = 0;
-    virtual void move(Eigen::Vector3d const& origin, Eigen::Vector3d const& direction) = 0;
-    virtual void release() = 0;
-    virtual std::array<double, 2> energies() = 0;
-    virtual void keep() = 0;
-    virtual bool restore() = 0;
-    virtual void keepForces(bool keep) = 0;
-    virtual SeenScene see(SeenSettings const& settings) = 0;
-    virtual SeenComponent component(int line) = 0;
-    virtual std::string fieldText(int line, std::string const& field) = 0;
-    virtual FieldChange setField(int line, std::string const& field, std::string const& words) = 0;
-    virtual void tell(StageState& state) = 0;
-  };
-  template <class Simulation>
-  struct ActorOf final : Actor {
-    Simulation& simulation;
-    std::unique_ptr<Simulation> kept{};
-    KnownBorders borders{};
-    MouseInteractor mouse{};
-
-    ActorOf(Simulation& s, bool forces) : simulation(s) {
-      if (forces) simulation.keepForces(true);
-    }
-    void animate(double dt) override { simulation.animate(dt); }
-    void reset() override {
-      mouse.release(simulation);
-      simulation.reset();
-    }
-    void press(Eigen::Vector3d const& origin, Eigen::Vector3d const& direction, double stiffness) override {
-      mouse.spring.stiffness = stiffness;
-      mouse.press(simulation, origin, direction);
-    }
-    void move(Eigen::Vector3d const& origin, Eigen::Vector3d const& direction) override {
-      mouse.move(simulation, origin, direction);
-    }
-    void release() override { mouse.release(simulation); }
-    std::array<double, 2> energies() override {
-      return {simulation.kineticEnergy(), simulation.potentialEnergy()};
-    }
-    void keep() override {
-      mouse.release(simulation);
-      kept = std::make_unique<Simulation>(simulation);
-    }
-    bool restore() override {
-      mouse.release(simulation);
-      if (kept) simulation = *kept;
-      return bool(kept);
-    }
-    void keepForces(bool keep) override { simulation.keepForces(keep); }
-    SeenScene see(SeenSettings const& settings) override {
-      return seen_scene(simulation, settings, &borders);
-    }
-    SeenComponent component(int line) override { return seen_component(simulation, line); }
-    std::string fieldText(int line, std::string const& field) override {
-      return field_text(simulation, line, field);
-    }
-    FieldChange setField(int line, std::string const& field, std::string const& words) override {
-      return set_field(simulation, line, field, words);
-    }
-    void tell(StageState& state) override {
-      state.time = simulation.time();
-      state.step = simulation.step();
-      state.held.reset();
-      if (!mouse.held) return;
-      if (Attachment const* a = simulation.attachment(mouse.attachment))
-        state.held = Held{.path = mouse.held->path,
-                          .point = a->target - a->contact.evaluated / a->stiffness,
-                          .target = a->target,
-                          .force = a->contact.force};
-    }
-  };
   using Clock = std::chrono::steady_clock;
 
   double dt_, speed_;
   SeenSettings seen_;
-  std::unique_ptr<Actor> actor_;
+  std::unique_ptr<detail::StageActor> actor_;
   bool forcesKept_;
   mutable std::mutex mutex_{};
   std::condition_variable wake_{}, idle_{};
@@ -377,6 +296,13 @@ class Stage {
   bool records_ = false, replays_ = false;
   long stepped_ = 0;            // since a record or a replay has begun
   std::size_t replayedTo_ = 0;  // of its actions
+  struct Pace {
+    // when a step is due; since when steps count; when measures are shown again
+    Clock::time_point next = Clock::now(), measured = next, nextMeasures = next;
+    long steps = 0;
+    double rate = 0;
+    std::string error{};
+  } pace_{};
   bool ends_ = false, wanted_ = true, busy_ = false, playing_ = false;
   std::thread thread_;  // the last, since it uses all of them
 
@@ -489,76 +415,73 @@ class Stage {
   }
 
   void go() {
-    std::string error;
+    while (true) {
+      std::unique_lock lock(mutex_);
+      auto called = [this] { return ends_ || !asked_.empty() || wanted_; };
+      // what is late does not wait, which would give the processor away
+      if (!playing_)
+        wake_.wait(lock, called);
+      else if (Clock::now() < pace_.next)
+        wake_.wait_until(lock, pace_.next, [this] { return ends_ || !asked_.empty(); });
+      if (ends_) return;
+      work(lock);
+    }
+  }
+  // The lock is held at first and at the end.
+  void work(std::unique_lock<std::mutex>& lock) {
     auto careful = [&](auto&& act) {
       if (const std::string wrong = error_of(act); !wrong.empty()) {
-        error = wrong;
+        pace_.error = wrong;
         return false;
       }
       return true;
     };
-    Clock::time_point next = Clock::now(), measured = next, nextMeasures = next;
-    long steps = 0;
-    double rate = 0;
-    std::vector<std::function<void(Stage&)>> mine;
-    while (true) {
-      bool look = false;
-      {
-        std::unique_lock lock(mutex_);
-        auto called = [this] { return ends_ || !asked_.empty() || wanted_; };
-        // what is late does not wait, which would give the processor away
-        if (!playing_)
-          wake_.wait(lock, called);
-        else if (Clock::now() < next)
-          wake_.wait_until(lock, next, [this] { return ends_ || !asked_.empty(); });
-        if (ends_) return;
-        mine.swap(asked_);
-        busy_ = true;
-        look = std::exchange(wanted_, false);
-      }
-      const bool stood = !playing_, told = !mine.empty();
-      if (told) error.clear();
-      for (auto const& what : mine) careful([&] { what(*this); });
-      mine.clear();
-      if (stood) next = measured = Clock::now(), steps = 0;
-      if (playing_ && Clock::now() >= next) {
-        if (!careful([&] { animate(); })) playing_ = false;
-        ++steps;
-        // after a slow step the time that is lost is not made up for
-        const auto pause = std::chrono::duration_cast<Clock::duration>(
-            std::chrono::duration<double>(speed_ > 0 ? dt_ / speed_ : 0));
-        next = std::max(next + pause, Clock::now() - pause);
-        const double since = std::chrono::duration<double>(Clock::now() - measured).count();
-        if (since > 0.5) rate = double(steps) / since, steps = 0, measured = Clock::now();
-      }
-      Scene seen;
-      if (look || told)
-        careful([&] {
-          seen = std::make_shared<SeenScene>(actor_->see(seen_));
-          if (selectedLine_ >= 0)
-            selected_ = std::make_shared<SeenComponent const>(actor_->component(selectedLine_));
-        });
-      const std::lock_guard lock(mutex_);
-      if (seen) scene_ = std::move(seen);
-      actor_->tell(state_);
-      state_.selected = selected_;
-      if (measuring_ && (look || told) && Clock::now() > nextMeasures) {
-        state_.measures = std::make_shared<Measures const>(measures_);
-        nextMeasures = Clock::now() + std::chrono::milliseconds(200);
-      }
-      state_.measuring = measuring_;
-      state_.recording = records_;
-      state_.replaying = replays_;
-      if (told) {
-        state_.undo = changesDone_ > 0 ? std::optional(changes_[changesDone_ - 1]) : std::nullopt;
-        state_.redo = changesDone_ < changes_.size() ? std::optional(changes_[changesDone_]) : std::nullopt;
-      }
-      state_.playing = playing_;
-      state_.stepsPerSecond = playing_ ? rate : 0;
-      state_.error = error;
-      busy_ = false;
-      idle_.notify_all();
+    auto& [next, measured, nextMeasures, steps, rate, error] = pace_;
+    std::vector<std::function<void(Stage&)>> mine = std::exchange(asked_, {});
+    busy_ = true;
+    const bool look = std::exchange(wanted_, false);
+    lock.unlock();
+    const bool stood = !playing_, told = !mine.empty();
+    if (told) error.clear();
+    for (auto const& what : mine) careful([&] { what(*this); });
+    if (stood) next = measured = Clock::now(), steps = 0;
+    if (playing_ && Clock::now() >= next) {
+      if (!careful([&] { animate(); })) playing_ = false;
+      ++steps;
+      // after a slow step the time that is lost is not made up for
+      const auto pause = std::chrono::duration_cast<Clock::duration>(
+          std::chrono::duration<double>(speed_ > 0 ? dt_ / speed_ : 0));
+      next = std::max(next + pause, Clock::now() - pause);
+      const double since = std::chrono::duration<double>(Clock::now() - measured).count();
+      if (since > 0.5) rate = double(steps) / since, steps = 0, measured = Clock::now();
     }
+    Scene seen;
+    if (look || told)
+      careful([&] {
+        seen = std::make_shared<SeenScene>(actor_->see(seen_));
+        if (selectedLine_ >= 0)
+          selected_ = std::make_shared<SeenComponent const>(actor_->component(selectedLine_));
+      });
+    lock.lock();
+    if (seen) scene_ = std::move(seen);
+    actor_->tell(state_);
+    state_.selected = selected_;
+    if (measuring_ && (look || told) && Clock::now() > nextMeasures) {
+      state_.measures = std::make_shared<Measures const>(measures_);
+      nextMeasures = Clock::now() + std::chrono::milliseconds(200);
+    }
+    state_.measuring = measuring_;
+    state_.recording = records_;
+    state_.replaying = replays_;
+    if (told) {
+      state_.undo = changesDone_ > 0 ? std::optional(changes_[changesDone_ - 1]) : std::nullopt;
+      state_.redo = changesDone_ < changes_.size() ? std::optional(changes_[changesDone_]) : std::nullopt;
+    }
+    state_.playing = playing_;
+    state_.stepsPerSecond = playing_ ? rate : 0;
+    state_.error = error;
+    busy_ = false;
+    idle_.notify_all();
   }
 };
 

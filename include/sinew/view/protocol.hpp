@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/view/scene_tree.hpp>
+#include <sinew/view/seen_scene.hpp>
+#include <sinew/view/stage.hpp>
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+// What a stage and a page that is elsewhere, in a browser, say to each other (docs/viewing.md): functions on
+// bytes, which know of no socket. They are of the target sinew::serve.
+namespace sinew::view {
+
+/// What a page may tell a stage. Rays have an origin and a direction of length 1, in metres.
+namespace command {
+struct Play {
+  bool on = true;
+  bool operator==(Play const&) const = default;
+};
+struct Step {
+  bool operator==(Step const&) const = default;
+};
+struct Reset {
+  bool operator==(Reset const&) const = default;
+};
+struct Speed {
+  double times = 1;  // the time of the clock; 0: as fast as it can
+  bool operator==(Speed const&) const = default;
+};
+struct Press {
+  Eigen::Vector3d origin{0, 0, 0}, direction{0, 0, 1};
+  double stiffness = 1000;  // [N/m]
+  bool operator==(Press const&) const = default;
+};
+struct Move {
+  Eigen::Vector3d origin{0, 0, 0}, direction{0, 0, 1};
+  bool operator==(Move const&) const = default;
+};
+struct Release {
+  bool operator==(Release const&) const = default;
+};
+/// Asks for the component at a line of the tree, with its fields.
+struct Component {
+  int line = 0;
+  bool operator==(Component const&) const = default;
+};
+/// Gives a field of it another value, in the words of a scene file.
+struct SetField {
+  int line = 0;
+  std::string field{}, value{};
+  bool operator==(SetField const&) const = default;
+};
+struct Undo {
+  bool operator==(Undo const&) const = default;
+};
+struct Redo {
+  bool operator==(Redo const&) const = default;
+};
+/// What the colours of bodies show from now on, for all who look.
+struct Colour {
+  Quantity by = Quantity::none;
+  bool operator==(Colour const&) const = default;
+};
+}  // namespace command
+using Command = std::variant<command::Play, command::Step, command::Reset, command::Speed, command::Press,
+                             command::Move, command::Release, command::Component, command::SetField,
+                             command::Undo, command::Redo, command::Colour>;
+
+/// Commands longer than that [bytes], or nested deeper, are refused.
+inline constexpr std::size_t longestCommand = 16384, deepestCommand = 4;
+
+/// A command from JSON (RFC 8259). Throws Error for all that is not exactly one: whose numbers are finite and
+/// in range, and which has its members and no others.
+Command read_command(std::string_view json);
+std::string write_command(Command const& command);
+
+/// What a page is told as JSON: once what the scene is made of; how it gets on; a component that it asked
+/// for; what was wrong with a command.
+std::string write_scene(std::string_view title, double dt, std::vector<TreeLine> const& tree);
+std::string write_state(StageState const& state, SeenScene const& scene);
+std::string write_component(SeenComponent const& component);
+std::string write_error(std::string_view message);
+
+/// Does what a command says with a stage, or what has its functions. What the stage answers, now or later and
+/// then in its thread, goes to answer(std::string json).
+template <class Stage, class Answer>
+void tell(Stage& stage, Command const& said, Answer const& answer) {
+  struct {
+    Stage& stage;
+    Answer const& answer;
+    void operator()(command::Play const& c) { stage.play(c.on); }
+    void operator()(command::Step const&) { stage.step(); }
+    void operator()(command::Reset const&) { stage.reset(); }
+    void operator()(command::Speed const& c) { stage.setSpeed(c.times); }
+    void operator()(command::Press const& c) { stage.press(c.origin, c.direction, c.stiffness); }
+    void operator()(command::Move const& c) { stage.move(c.origin, c.direction); }
+    void operator()(command::Release const&) { stage.release(); }
+    void operator()(command::Component const& c) {
+      stage.component(c.line, [say = answer](SeenComponent const& seen, std::string const& error) {
+        say(error.empty() ? write_component(seen) : write_error(error));
+      });
+    }
+    void operator()(command::SetField const& c) {
+      stage.setField(c.line, c.field, c.value, [say = answer](std::string const& error) {
+        if (!error.empty()) say(write_error(error));
+      });
+    }
+    void operator()(command::Undo const&) { stage.undo(); }
+    void operator()(command::Redo const&) { stage.redo(); }
+    void operator()(command::Colour const& c) {
+      SeenSettings seen = stage.scene()->settings;
+      seen.colour = c.by;
+      stage.show(seen);
+    }
+  } doing{stage, answer};
+  std::visit(doing, said);
+}
+
+/// The elements of what is seen, known by a number; of its points only how many there are. Words of four
+/// bytes, the lowest first: 1 for a topology, its number, three floats upwards, how many bodies; for each
+/// body its kind (SeenBody::Kind, and 4 more where it is hidden), three floats of its colour, lengths of path
+/// [bytes], points, triangles, quads, edges; the path, filled up to a word, and the numbers of the points of
+/// each element.
+std::string write_topology(SeenScene const& scene, std::uint32_t number);
+/// A moment of it: the words 2, the number of its topology, how many points all bodies have, how many values:
+/// none, or one a point; time [s] and step as doubles; x, y, z of each point as floats; the values that
+/// colours show as floats, those of bodies without them no numbers.
+std::string write_frame(SeenScene const& scene, std::uint32_t topology);
+
+/// Of a topology that is read.
+inline constexpr std::size_t mostPoints = 4'000'000;
+
+struct ReadTopology {
+  std::uint32_t number = 0;
+  SeenScene scene{};  // its points are all 0
+};
+/// The inverse functions; throw Error where bytes are no topology, or no frame of this one.
+ReadTopology read_topology(std::string_view bytes);
+void read_frame(std::string_view bytes, ReadTopology& into);
+
+/// Messages for scenes that follow each other: their topology again only when it has changed.
+class SceneWriter {
+ public:
+  /// What to send of a scene: to whom does not have the topology of this number, that first.
+  void write(SeenScene const& scene);
+  std::uint32_t number() const { return number_; }
+  std::string const& topology() const { return topology_; }
+  std::string const& frame() const { return frame_; }
+
+ private:
+  std::uint32_t number_ = 0;
+  std::string topology_{}, frame_{};
+};
+
+}  // namespace sinew::view

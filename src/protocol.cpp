@@ -1,0 +1,419 @@
+// SPDX-License-Identifier: BSL-1.0
+// Of sinew::serve: what a stage and a page say to each other.
+#include <sinew/view/protocol.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <initializer_list>
+#include <limits>
+#include <tuple>
+#include <type_traits>
+
+namespace sinew::view {
+
+namespace {
+
+using Json = nlohmann::json;
+
+// ---- commands
+
+[[noreturn]] void refuse(std::string const& what) { throw Error("command", what); }
+
+Json parse(std::string_view json) {
+  if (json.size() > longestCommand)
+    refuse(text("it has ", json.size(), " bytes, and ", longestCommand, " are allowed"));
+  auto depth = [](int deep, Json::parse_event_t, Json&) {
+    if (deep > int(deepestCommand)) refuse("it is nested too deep");
+    return true;
+  };
+  try {
+    return Json::parse(json.begin(), json.end(), depth);
+  } catch (Json::exception const&) {
+    refuse("it is no JSON (RFC 8259)");
+  }
+}
+
+// The members of a command; each is asked for once, and no others may be there.
+struct Members {
+  Json const& json;
+  std::string name;
+
+  void only(std::initializer_list<char const*> names) const {
+    for (auto const& [key, value] : json.items()) {
+      bool known = key == "do";
+      for (char const* n : names) known = known || key == n;
+      if (!known) refuse(text("'", name, "' has no member '", shown(key), "'"));
+    }
+  }
+  Json const& member(char const* key) const {
+    const auto at = json.find(key);
+    if (at == json.end()) refuse(text("'", name, "' lacks its member '", key, "'"));
+    return *at;
+  }
+  bool flag(char const* key) const {
+    Json const& value = member(key);
+    if (!value.is_boolean()) refuse(text("'", key, "' must be true or false"));
+    return value.get<bool>();
+  }
+  double number(char const* key, double low, double high) const {
+    return number(member(key), key, low, high);
+  }
+  int line() const {
+    Json const& value = member("line");
+    if (!value.is_number_integer()) refuse("'line' must be a whole number");
+    return int(number(value, "line", 0, 1e9));
+  }
+  std::string words(char const* key) const {
+    Json const& value = member(key);
+    if (!value.is_string()) refuse(text("'", key, "' must be text"));
+    return value.get<std::string>();
+  }
+  Eigen::Vector3d vector(char const* key, double most) const {
+    Json const& value = member(key);
+    if (!value.is_array() || value.size() != 3) refuse(text("'", key, "' must be a list of 3 numbers"));
+    Eigen::Vector3d v;
+    for (int k = 0; k < 3; ++k) v[k] = number(value[std::size_t(k)], key, -most, most);
+    return v;
+  }
+  Eigen::Vector3d direction(char const* key) const {
+    const Eigen::Vector3d v = vector(key, 1e9);
+    if (!(v.norm() > 1e-9)) refuse(text("'", key, "' has no direction"));
+    // one that has length 1 keeps its bits
+    return std::abs(v.norm() - 1) < 1e-15 ? v : Eigen::Vector3d(v.normalized());
+  }
+  static double number(Json const& value, char const* key, double low, double high) {
+    if (!value.is_number()) refuse(text("'", key, "' must be a number"));
+    const double x = value.get<double>();
+    if (!std::isfinite(x) || x < low || x > high)
+      refuse(text("'", key, "' is ", x, " and must be from ", low, " to ", high));
+    return x;
+  }
+  static std::string shown(std::string_view word) {
+    std::string clean(word.substr(0, 40));
+    for (char& c : clean)
+      if (c < ' ' || c > '~') c = '?';
+    return clean;
+  }
+};
+
+std::string listed_names() {
+  std::string all;
+  for (std::string_view name : enum_names(Quantity{})) all += text(all.empty() ? "" : ", ", name);
+  return all;
+}
+
+constexpr double farthest = 1e9;  // of the origin of a ray [m]
+
+Json list_of(Eigen::Vector3d const& v) {
+  Json list = Json::array();
+  for (int k = 0; k < 3; ++k) list.push_back(v[k]);
+  return list;
+}
+// bytes that are no UTF-8, as names of a scene may have, become marks
+std::string dumped(Json const& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+// ---- bytes
+
+constexpr std::uint32_t topologyKind = 1, frameKind = 2, hiddenKind = 4;
+
+template <class T>
+void put(std::string& to, T value) {
+  char bytes[sizeof(T)];
+  std::memcpy(bytes, &value, sizeof(T));
+  if constexpr (std::endian::native == std::endian::big) std::reverse(bytes, bytes + sizeof(T));
+  to.append(bytes, sizeof(T));
+}
+void put_count(std::string& to, std::size_t count) { put(to, std::uint32_t(count)); }
+
+// Bytes from first to last; what is not there is refused.
+struct Bytes {
+  std::string_view left;
+  char const* what;
+
+  [[noreturn]] void refuse(char const* why) const { throw Error(what, why); }
+  std::string_view take(std::size_t count) {
+    if (count > left.size()) refuse("it ends too early");
+    const std::string_view taken = left.substr(0, count);
+    left.remove_prefix(count);
+    return taken;
+  }
+  template <class T>
+  T number() {
+    char bytes[sizeof(T)];
+    std::memcpy(bytes, take(sizeof(T)).data(), sizeof(T));
+    if constexpr (std::endian::native == std::endian::big) std::reverse(bytes, bytes + sizeof(T));
+    T value;
+    std::memcpy(&value, bytes, sizeof(T));
+    return value;
+  }
+  std::uint32_t word() { return number<std::uint32_t>(); }
+  // so many things of so many bytes, which are there
+  std::size_t count(std::uint32_t n, std::size_t size) const {
+    if (n > left.size() / size) refuse("it ends too early");
+    return n;
+  }
+  void end() const {
+    if (!left.empty()) refuse("bytes are left at its end");
+  }
+};
+
+template <class Elements>
+void put_elements(std::string& to, Elements const& elements) {
+  for (auto const& element : elements)
+    for (const auto i : element) put(to, std::uint32_t(i));
+}
+template <class Elements>
+void read_elements(Bytes& bytes, std::uint32_t n, std::size_t points, Elements& elements) {
+  constexpr std::size_t corners = std::tuple_size_v<typename Elements::value_type>;
+  elements.resize(bytes.count(n, corners * sizeof(std::uint32_t)));
+  for (auto& element : elements)
+    for (auto& i : element) {
+      const std::uint32_t number = bytes.word();
+      if (number >= points) bytes.refuse("an element has a point that there is not");
+      i = std::remove_reference_t<decltype(i)>(number);
+    }
+}
+
+}  // namespace
+
+Command read_command(std::string_view json) {
+  const Json parsed = parse(json);
+  if (!parsed.is_object()) refuse("it is no object");
+  const auto what = parsed.find("do");
+  if (what == parsed.end() || !what->is_string()) refuse("it lacks the member 'do', which says what to do");
+  const Members m{parsed, Members::shown(what->get<std::string>())};
+  auto has = [&](char const* name, std::initializer_list<char const*> members) {
+    if (m.name != name) return false;
+    m.only(members);
+    return true;
+  };
+  if (has("play", {"on"})) return command::Play{m.flag("on")};
+  if (has("step", {})) return command::Step{};
+  if (has("reset", {})) return command::Reset{};
+  if (has("speed", {"times"})) return command::Speed{m.number("times", 0, 1e6)};
+  if (has("press", {"origin", "direction", "stiffness"}))
+    return command::Press{
+        m.vector("origin", farthest), m.direction("direction"), m.number("stiffness", 1e-12, 1e12)};
+  if (has("move", {"origin", "direction"}))
+    return command::Move{m.vector("origin", farthest), m.direction("direction")};
+  if (has("release", {})) return command::Release{};
+  if (has("component", {"line"})) return command::Component{m.line()};
+  if (has("setField", {"line", "field", "value"}))
+    return command::SetField{m.line(), m.words("field"), m.words("value")};
+  if (has("undo", {})) return command::Undo{};
+  if (has("redo", {})) return command::Redo{};
+  if (has("colour", {"by"})) {
+    const std::string by = m.words("by");
+    constexpr auto names = enum_names(Quantity{});
+    const auto at = std::find(names.begin(), names.end(), by);
+    if (at == names.end())
+      refuse(text("'by' is '", Members::shown(by), "' and must be one of: ", listed_names()));
+    return command::Colour{Quantity(at - names.begin())};
+  }
+  refuse(text("nothing is called '",
+              m.name,
+              "'; there are play, step, reset, speed, press, move, release, component, setField, undo, "
+              "redo and colour"));
+}
+
+std::string write_command(Command const& said) {
+  struct {
+    Json operator()(command::Play const& c) { return {{"do", "play"}, {"on", c.on}}; }
+    Json operator()(command::Step const&) { return {{"do", "step"}}; }
+    Json operator()(command::Reset const&) { return {{"do", "reset"}}; }
+    Json operator()(command::Speed const& c) { return {{"do", "speed"}, {"times", c.times}}; }
+    Json operator()(command::Press const& c) {
+      return {{"do", "press"},
+              {"origin", list_of(c.origin)},
+              {"direction", list_of(c.direction)},
+              {"stiffness", c.stiffness}};
+    }
+    Json operator()(command::Move const& c) {
+      return {{"do", "move"}, {"origin", list_of(c.origin)}, {"direction", list_of(c.direction)}};
+    }
+    Json operator()(command::Release const&) { return {{"do", "release"}}; }
+    Json operator()(command::Component const& c) { return {{"do", "component"}, {"line", c.line}}; }
+    Json operator()(command::SetField const& c) {
+      return {{"do", "setField"}, {"line", c.line}, {"field", c.field}, {"value", c.value}};
+    }
+    Json operator()(command::Undo const&) { return {{"do", "undo"}}; }
+    Json operator()(command::Redo const&) { return {{"do", "redo"}}; }
+    Json operator()(command::Colour const& c) {
+      return {{"do", "colour"}, {"by", enum_names(c.by)[std::size_t(c.by)]}};
+    }
+  } json;
+  return dumped(std::visit(json, said));
+}
+
+std::string write_scene(std::string_view title, double dt, std::vector<TreeLine> const& tree) {
+  Json lines = Json::array();
+  for (TreeLine const& line : tree) {
+    Json one{{"depth", line.depth}, {"name", line.name}};
+    if (!line.className.empty()) one["class"] = line.className;
+    lines.push_back(std::move(one));
+  }
+  return dumped({{"is", "scene"}, {"protocol", 1}, {"title", title}, {"dt", dt}, {"tree", std::move(lines)}});
+}
+
+std::string write_state(StageState const& state, SeenScene const& scene) {
+  Json json{{"is", "state"},
+            {"time", state.time},
+            {"step", state.step},
+            {"playing", state.playing},
+            {"stepsPerSecond", state.stepsPerSecond},
+            {"held", nullptr},
+            {"undo", state.undo ? Json(state.undo->field) : Json()},
+            {"redo", state.redo ? Json(state.redo->field) : Json()},
+            {"error", state.error},
+            {"colour", enum_names(Quantity{})[std::size_t(scene.settings.colour)]},
+            {"legend", nullptr}};
+  if (scene.legend)
+    json["legend"] = {{"title", scene.legend->title},
+                      {"unit", scene.legend->unit},
+                      {"low", scene.legend->low},
+                      {"high", scene.legend->high}};
+  if (state.held)
+    json["held"] = {{"path", state.held->path},
+                    {"point", list_of(state.held->point)},
+                    {"target", list_of(state.held->target)},
+                    {"force", list_of(state.held->force)}};
+  return dumped(json);
+}
+
+std::string write_component(SeenComponent const& component) {
+  Json fields = Json::array();
+  for (SeenField const& field : component.fields)
+    fields.push_back({{"name", field.name},
+                      {"value", field.value},
+                      {"entries", field.entries},
+                      {"whole", field.whole},
+                      {"kind", field.kind},
+                      {"choices", field.choices},
+                      {"unit", field.unit},
+                      {"help", field.help},
+                      {"range", field.rangeWords},
+                      {"default", field.defaultValue},
+                      {"isInput", field.isInput},
+                      {"fixed", field.fixed}});
+  return dumped({{"is", "component"},
+                 {"line", component.line},
+                 {"path", component.path},
+                 {"name", component.name},
+                 {"class", component.className},
+                 {"role", component.role},
+                 {"fields", std::move(fields)}});
+}
+
+std::string write_error(std::string_view message) { return dumped({{"is", "error"}, {"text", message}}); }
+
+std::string write_topology(SeenScene const& scene, std::uint32_t number) {
+  std::string to;
+  put(to, topologyKind);
+  put(to, number);
+  for (int k = 0; k < 3; ++k) put(to, float(scene.up[k]));
+  put_count(to, scene.bodies.size());
+  for (SeenBody const& body : scene.bodies) {
+    put(to, std::uint32_t(body.kind) + (body.visible ? 0u : hiddenKind));
+    for (int k = 0; k < 3; ++k) put(to, float(body.colour[k]));
+    for (const std::size_t n :
+         {body.path.size(), body.points.size(), body.triangles.size(), body.quads.size(), body.edges.size()})
+      put_count(to, n);
+    to += body.path;
+    to.append((4 - body.path.size() % 4) % 4, '\0');
+    put_elements(to, body.triangles);
+    put_elements(to, body.quads);
+    put_elements(to, body.edges);
+  }
+  return to;
+}
+
+std::string write_frame(SeenScene const& scene, std::uint32_t topology) {
+  std::size_t points = 0;
+  bool coloured = false;
+  for (SeenBody const& body : scene.bodies) {
+    points += body.points.size();
+    coloured = coloured || !body.values.empty();
+  }
+  std::string to;
+  to.reserve(32 + 16 * points);
+  put(to, frameKind);
+  put(to, topology);
+  put_count(to, points);
+  put_count(to, coloured ? points : 0);
+  put(to, scene.time);
+  put(to, double(scene.step));
+  for (SeenBody const& body : scene.bodies)
+    for (Eigen::Vector3d const& p : body.points)
+      for (int k = 0; k < 3; ++k) put(to, float(p[k]));
+  if (coloured)
+    for (SeenBody const& body : scene.bodies)
+      for (std::size_t i = 0; i < body.points.size(); ++i)
+        put(to, i < body.values.size() ? float(body.values[i]) : std::numeric_limits<float>::quiet_NaN());
+  return to;
+}
+
+ReadTopology read_topology(std::string_view message) {
+  Bytes bytes{message, "topology"};
+  if (bytes.word() != topologyKind) bytes.refuse("it is none");
+  ReadTopology read{.number = bytes.word()};
+  for (int k = 0; k < 3; ++k) read.scene.up[k] = double(bytes.number<float>());
+  std::size_t all = 0;
+  constexpr std::size_t header = 9 * sizeof(std::uint32_t);
+  const std::size_t bodies = bytes.count(bytes.word(), header);
+  for (std::size_t b = 0; b < bodies; ++b) {
+    const std::uint32_t kind = bytes.word();
+    if (kind % hiddenKind > std::uint32_t(SeenBody::Kind::collision) || kind >= 2 * hiddenKind)
+      bytes.refuse("a body is of no kind that there is");
+    SeenBody body{.kind = SeenBody::Kind(kind % hiddenKind), .visible = kind < hiddenKind};
+    for (int k = 0; k < 3; ++k) body.colour[k] = double(bytes.number<float>());
+    const std::uint32_t path = bytes.word(), points = bytes.word(), triangles = bytes.word(),
+                        quads = bytes.word(), edges = bytes.word();
+    // a frame of them would be longer than what is sent
+    if ((all += points) > mostPoints) bytes.refuse("it has too many points");
+    body.path = bytes.take(path);
+    bytes.take((4 - path % 4) % 4);
+    body.points.assign(points, Eigen::Vector3d::Zero());
+    read_elements(bytes, triangles, points, body.triangles);
+    read_elements(bytes, quads, points, body.quads);
+    read_elements(bytes, edges, points, body.edges);
+    read.scene.bodies.push_back(std::move(body));
+  }
+  bytes.end();
+  return read;
+}
+
+void read_frame(std::string_view message, ReadTopology& into) {
+  Bytes bytes{message, "frame"};
+  if (bytes.word() != frameKind) bytes.refuse("it is none");
+  if (bytes.word() != into.number) bytes.refuse("it is of another topology");
+  std::size_t points = 0;
+  for (SeenBody const& body : into.scene.bodies) points += body.points.size();
+  const std::uint32_t count = bytes.word();
+  if (count != points) bytes.refuse("it has another number of points than its topology");
+  const std::uint32_t values = bytes.word();
+  if (values != 0 && values != points) bytes.refuse("it has another number of values than points");
+  const double time = bytes.number<double>(), step = bytes.number<double>();
+  if (!(step >= 0 && step < 9e15)) bytes.refuse("its step is no count");
+  if (bytes.left.size() != 12 * points + 4 * values) bytes.refuse("it has another length than its points");
+  into.scene.time = time;
+  into.scene.step = long(step);
+  for (SeenBody& body : into.scene.bodies)
+    for (Eigen::Vector3d& p : body.points)
+      for (int k = 0; k < 3; ++k) p[k] = double(bytes.number<float>());
+  for (SeenBody& body : into.scene.bodies) {
+    body.values.resize(values == 0 ? 0 : body.points.size());
+    for (double& value : body.values) value = double(bytes.number<float>());
+  }
+}
+
+void SceneWriter::write(SeenScene const& scene) {
+  if (std::string now = write_topology(scene, number_); now != topology_)
+    topology_ = write_topology(scene, ++number_);
+  frame_ = write_frame(scene, number_);
+}
+
+}  // namespace sinew::view

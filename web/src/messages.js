@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSL-1.0
+// The binary messages of a stage (include/sinew/view/protocol.hpp): words of four bytes, the lowest first.
+
+export const kindOf = (buffer) => new Uint32Array(buffer, 0, 1)[0];
+export const topologyKind = 1;
+export const frameKind = 2;
+
+/** The elements of what is seen. */
+export function readTopology(buffer) {
+  const words = new Uint32Array(buffer);
+  const text = new TextDecoder();
+  const up = new Float32Array(buffer, 8, 3);
+  const bodies = [];
+  let at = 6;
+  let first = 0;
+  for (let b = 0; b < words[5]; ++b) {
+    const kind = words[at];
+    const colour = [...new Float32Array(buffer, 4 * (at + 1), 3)];
+    const [pathBytes, points, triangles, quads, edges] = words.subarray(at + 4, at + 9);
+    at += 9;
+    const path = text.decode(new Uint8Array(buffer, 4 * at, pathBytes));
+    at += Math.ceil(pathBytes / 4);
+    const take = (count) => words.subarray(at, (at += count));
+    bodies.push({
+      path,
+      visual: kind % 4 === 1,
+      visible: kind < 4,
+      colour,
+      first, // of its points among those of all bodies
+      points,
+      triangles: take(3 * triangles),
+      quads: take(4 * quads),
+      edges: take(2 * edges),
+    });
+    first += points;
+  }
+  return { number: words[1], up: [...up], bodies, points: first };
+}
+
+/** A moment: x, y, z of all points of all bodies, and perhaps the values that colours show. */
+export function readFrame(buffer) {
+  const words = new Uint32Array(buffer, 0, 4);
+  const [time, step] = new Float64Array(buffer, 16, 2);
+  const positions = new Float32Array(buffer, 32, 3 * words[2]);
+  const values = words[3] ? new Float32Array(buffer, 32 + positions.byteLength, words[3]) : null;
+  return { topology: words[1], time, step, positions, values };
+}

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: BSL-1.0
+// The page in a browser that nobody sees, with each of its engines: what is seen, what is pulled, and how fast.
+//   node test/page.mjs --program build/sinew --native build/page_liver --alone out/page [--pictures folder]
+import { execFileSync, spawn } from 'node:child_process';
+import { mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
+import { createServer } from 'node:http';
+import { tmpdir } from 'node:os';
+import { dirname, extname, join, resolve } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { parseArgs } from 'node:util';
+import { openPage } from './browser.mjs';
+
+const { values: options } = parseArgs({
+  options: {
+    program: { type: 'string' },
+    native: { type: 'string' },
+    alone: { type: 'string' },
+    pictures: { type: 'string' },
+  },
+});
+const root = resolve(dirname(fileURLToPath(import.meta.url)), '../..');
+const scene = join(root, 'examples/scenes/liver.scn');
+let checks = 0;
+function check(condition, what) {
+  if (!condition) throw new Error(`failed: ${what}`);
+  ++checks;
+}
+const keep = (name, png) => {
+  if (!options.pictures) return;
+  mkdirSync(options.pictures, { recursive: true });
+  writeFileSync(join(options.pictures, name), png);
+};
+const pause = (seconds) => new Promise((done) => setTimeout(done, 1000 * seconds));
+
+// the skin, as the page shows it
+const skin = `(() => {
+  const body = sinew.view.bodies.find((b) => b.visual);
+  return [...sinew.view.frame.positions.subarray(3 * body.first, 3 * (body.first + body.points))];
+})()`;
+function compare(shown, native, what) {
+  check(shown.length === native.length && native.length > 1000, `${what}: as many points`);
+  const size = native.reduce((most, x) => Math.max(most, Math.abs(x)), 0);
+  const apart = native.reduce((most, x, i) => Math.max(most, Math.abs(x - shown[i])), 0);
+  console.log(`  ${what}: ${native.length / 3} points, ${(apart / size).toExponential(1)} of the body apart`);
+  check(apart < 1e-6 * size, `${what}: positions agree to 6 digits`);
+}
+
+// what the user does on either engine
+async function use(page, name, native) {
+  await page.until('globalThis.sinew?.frames > 0', 60);
+  console.log(`  first frame after ${(await page.evaluate('sinew.firstFrame')).toFixed(0)} ms`);
+  await page.until('sinew.tree.length > 0');
+  check(await page.evaluate(`sinew.tree.some((line) => line.class?.startsWith('EulerImplicitSolver'))`), 'the tree is told');
+  for (let step = 1; step <= 20; ++step) await page.key('n');
+  await page.until('sinew.state.step === 20 && sinew.view.frame.step === 20', 60);
+  check(!(await page.evaluate('sinew.state.playing')), 'after steps it stands');
+  compare(await page.evaluate(skin), native, 'after 20 steps');
+
+  // a picture is not empty: the body is orange on a ground that is not
+  const pixel = await page.evaluate(`(() => {
+    sinew.view.draw();
+    const c = document.createElement('canvas');
+    const { width, height } = sinew.view.canvas;
+    Object.assign(c, { width, height });
+    const draw = c.getContext('2d');
+    draw.drawImage(sinew.view.canvas, 0, 0);
+    const { data } = draw.getImageData(0, 0, width, height);
+    let body = 0;
+    for (let i = 0; i < data.length; i += 4) body += data[i + 3] > 200 && data[i] > data[i + 2] + 40;
+    return body / (width * height);
+  })()`);
+  check(pixel > 0.05 && pixel < 0.7, `the body covers a part of the picture: ${pixel}`);
+
+  // beside the body the camera turns
+  const eye = await page.evaluate('sinew.view.orbit.toEye.toArray()');
+  const [left, top, width, height] = await page.evaluate(
+    `(({ left, top, width, height }) => [left, top, width, height])(sinew.view.canvas.getBoundingClientRect())`,
+  );
+  check(!(await page.evaluate('sinew.view.meets(10, 10)')), 'there is nothing in the corner');
+  await page.mouse('move', left + 10, top + 10);
+  await page.mouse('down', left + 10, top + 10);
+  await page.mouse('move', left + 60, top + 10);
+  await page.mouse('up', left + 60, top + 10);
+  const turned = await page.evaluate('sinew.view.orbit.toEye.toArray()');
+  check(Math.hypot(...turned.map((x, k) => x - eye[k])) > 0.1, 'the camera turns');
+  check((await page.evaluate('sinew.state.held')) === null, 'and nothing is held');
+
+  // on it, it is pulled: to the right of its middle, so that its lobe gives way
+  await page.key('f');
+  const [x, y] = await page.evaluate(`(() => {
+    const { view } = sinew;
+    for (let u = 0.9; u > 0.1; u -= 0.01)
+      if (view.meets(view.width * u, view.height / 2)) return [view.width * (u - 0.05), view.height / 2];
+  })()`);
+  const before = await page.evaluate(skin);
+  await page.mouse('move', left + x, top + y);
+  await page.mouse('down', left + x, top + y);
+  await page.until('sinew.state.held', 20);
+  for (let k = 1; k <= 8; ++k) await page.mouse('move', left + x + 12 * k, top + y - 8 * k);
+  await page.key(' ');
+  await page.until('sinew.state.step >= 60', 60);
+  await page.until(`sinew.state.held && Math.hypot(...sinew.state.held.force) > 0.01`);
+  await pause(1);
+  const held = await page.evaluate('sinew.state.held');
+  // the force is that of the spring, towards the pointer
+  const spring = held.target.map((t, k) => t - held.point[k]);
+  const cosine =
+    held.force.reduce((sum, f, k) => sum + f * spring[k], 0) / (Math.hypot(...held.force) * Math.hypot(...spring));
+  check(cosine > 0.99, `the force is along the spring: ${cosine}`);
+  check(/[0-9] N$/.test(await page.evaluate(`document.getElementById('heldForce').textContent`)), 'and is shown');
+  check(await page.evaluate(`document.getElementById('held').getAttribute('visibility') === 'visible'`), 'with an arrow');
+  keep(`${name}-pulled.png`, await page.picture());
+  const moved = (await page.evaluate(skin)).reduce((most, p, k) => Math.max(most, Math.abs(p - before[k])), 0);
+  check(moved > 0.002, `the body is pulled: ${moved} m`);
+  await page.mouse('up', left + x + 96, top + y - 64);
+  await page.until('sinew.state.held === null');
+
+  // a field is changed
+  await page.evaluate(
+    `[...document.querySelectorAll('#tree .component')].find((item) => /FEMForceField/.test(item.title)).click()`,
+  );
+  await page.until(`document.querySelector('#fields input')`);
+  const field = `[...document.querySelectorAll('#fields label')].find((label) => label.textContent.startsWith('youngModulus')).querySelector('input')`;
+  const give = (value) =>
+    page.evaluate(`(() => { const i = ${field}; i.value = '${value}'; i.dispatchEvent(new Event('change')); })()`);
+  await give('9000');
+  await page.until(`sinew.state.undo === 'youngModulus' && ${field}.value === '9000'`);
+  await give('-1');
+  await page.until(`document.getElementById('error').textContent.includes('youngModulus')`);
+  await page.until(`${field}.value === '9000'`);
+  keep(`${name}-fields.png`, await page.picture());
+  await page.evaluate(`document.getElementById('undo').click()`);
+  await page.until(`sinew.state.redo === 'youngModulus'`);
+  // colours show stress, and then bodies again
+  const choose = (by) =>
+    page.evaluate(`(() => { const s = document.getElementById('colour'); s.value = '${by}'; s.dispatchEvent(new Event('change')); })()`);
+  await choose('vonMises');
+  await page.until(`sinew.state.legend?.unit === 'Pa' && sinew.state.legend.high > 10 && sinew.view.frame.values`);
+  check(
+    await page.evaluate(`(() => {
+      const { low, high } = sinew.state.legend;
+      const known = [...sinew.view.frame.values].filter((x) => x === x);
+      return known.length > 100 && known.every((x) => x > -1e-6 * high);
+    })()`),
+    'points have their stress',
+  );
+  await page.until(`!document.getElementById('legend').hidden`);
+  await pause(0.5);
+  keep(`${name}-stress.png`, await page.picture());
+  await choose('none');
+  await page.until('sinew.state.legend === null && !sinew.view.frame.values');
+  // back to the start
+  await page.key(' ');
+  await page.until('!sinew.state.playing');
+  await page.key('r');
+  await page.until('sinew.state.step === 0');
+  check(page.messages.length === 0, `the console is empty: ${page.messages.join('\n')}`);
+}
+
+async function served() {
+  console.log('the page of sinew serve');
+  const folder = mkdtempSync(join(tmpdir(), 'sinew-native-'));
+  execFileSync(options.program, ['run', scene, '--steps', '20', '--every', '20', '--vtk', folder, '--quiet']);
+  const native = visual(folder);
+  rmSync(folder, { recursive: true });
+  const program = spawn(options.program, ['serve', scene, '--port', '0'], { stdio: ['ignore', 'pipe', 'inherit'] });
+  try {
+    const link = await new Promise((done) => program.stdout.once('data', (data) => done(String(data).split('\n')[0])));
+    const page = await openPage(link);
+    try {
+      await use(page, 'served', native);
+    } finally {
+      await page.close();
+    }
+  } finally {
+    program.kill('SIGINT');
+  }
+  const status = await new Promise((done) => (program.exitCode === null ? program.on('exit', done) : done(program.exitCode)));
+  check(status === 0, `sinew serve ends: ${status}`);
+}
+// the points of the visual model in the last file of a series, of which --vtk writes one for each body
+function visual(folder) {
+  const last = readdirSync(folder, { recursive: true })
+    .filter((file) => file.endsWith('.vtu'))
+    .sort()
+    .at(-1);
+  // in base64, after their length in 8 bytes
+  const packed = readFileSync(join(folder, last), 'utf8').match(/<Points>\s*<DataArray type="Float64"[^>]*format="binary">([^<]*)</)[1];
+  const bytes = Buffer.from(packed.trim(), 'base64');
+  return Array.from({ length: (bytes.length - 8) / 8 }, (_, k) => bytes.readDoubleLE(8 + 8 * k));
+}
+
+async function alone() {
+  console.log('the page as a folder of files');
+  const files = readdirSync(options.alone);
+  const size = files.reduce((sum, file) => sum + statSync(join(options.alone, file)).size, 0);
+  console.log(`  ${(size / 1e6).toFixed(2)} MB`);
+  check(size < 1.5e6, 'it is below 1.5 MB');
+  const types = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.json': 'application/json', '.svg': 'image/svg+xml', '.txt': 'text/plain' };
+  const server = createServer((request, answer) => {
+    const file = new URL(request.url, 'http://localhost').pathname.slice(1) || 'index.html';
+    if (!files.includes(file)) return answer.writeHead(404).end();
+    answer.setHeader('content-type', types[extname(file)] ?? 'application/octet-stream');
+    answer.end(readFileSync(join(options.alone, file)));
+  });
+  await new Promise((done) => server.listen(0, '127.0.0.1', done));
+  const page = await openPage(`http://127.0.0.1:${server.address().port}/`);
+  try {
+    const native = execFileSync(options.native, ['20'], { encoding: 'utf8' }).trim().split(/\s+/).map(Number);
+    await use(page, 'alone', native);
+    // without drawing, which software does here on the same processor
+    await page.evaluate('sinew.view.draw = () => {}');
+    await page.evaluate(`sinew.send({ do: 'speed', times: 0 }), sinew.send({ do: 'play', on: true })`);
+    let most = 0;
+    for (let k = 0; k < 5; ++k) {
+      await pause(1);
+      most = Math.max(most, await page.evaluate('sinew.state.stepsPerSecond'));
+    }
+    console.log(`  ${most.toFixed(0)} steps/s`);
+    check(most > 500, 'it makes 500 steps a second');
+    // the other scene: the tool moves by itself
+    await page.evaluate(`(() => { const s = document.getElementById('scenes'); s.value = 'vitrectomy'; s.dispatchEvent(new Event('change')); })()`);
+    await page.until(`location.search === '?scene=vitrectomy' && globalThis.sinew?.frames > 0 && sinew.tree.some((l) => l.name === 'tool')`, 60);
+    const tool = `(() => { const b = sinew.view.bodies.find((b) => b.path === '/root/tool/tip'); return [...sinew.view.frame.positions.subarray(3 * b.first, 3 * b.first + 3)]; })()`;
+    const from = await page.evaluate(tool);
+    await page.evaluate(`sinew.send({ do: 'speed', times: 0 }), sinew.send({ do: 'play', on: true })`);
+    await page.until('sinew.view.frame.time > 2.5', 120);
+    const to = await page.evaluate(tool);
+    check(Math.hypot(...to.map((x, k) => x - from[k])) > 0.001, 'the tool of the vitrectomy moves');
+    keep('vitrectomy.png', await page.picture());
+    check(page.messages.length === 0, `the console is empty: ${page.messages.join('\n')}`);
+  } finally {
+    await page.close();
+    server.close();
+  }
+}
+
+if (options.program) await served();
+if (options.alone) await alone();
+console.log(`${checks} checks passed`);
