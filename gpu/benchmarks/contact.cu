@@ -34,7 +34,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <string>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -128,30 +127,42 @@ auto scene_found(Options const& o) {
       block<D>(o, mesh_of(o), PointCollisionModel<D>{}));
 }
 
-// how many contacts, and the sum of their normal forces
-template <class Sim>
-std::pair<std::size_t, double> contacts_of(Sim& sim) {
-  std::size_t count = 0;
-  double normal = 0;
-  sim.template visit<role::LagrangianConstraint>([&](auto& c, auto const&) {
-    count = c.first_point.size();
+// of a scene: how many contacts, and the sum of their normal forces
+struct Given {
+  template <class D>
+  static auto scene(Options const& o) {
+    return scene_given<D>(o);
+  }
+  template <class Sim>
+  static std::pair<std::size_t, double> contacts(Sim& sim) {
+    auto const& c = sim.root().template first<role::LagrangianConstraint>();
+    double normal = 0;
     for (std::size_t i = 0; i < c.multipliers.size(); i += 3) normal += c.multipliers[i];
-  });
-  sim.template visit<role::ContactManager>([&](auto& manager, auto const&) {
-    count = manager.contacts.size();
-    for (Contact const& c : manager.contacts) normal += std::abs(c.normal.dot(c.force));
-  });
-  return {count, normal};
-}
+    return {c.first_point.size(), normal};
+  }
+};
+struct Found {
+  template <class D>
+  static auto scene(Options const& o) {
+    return scene_found<D>(o);
+  }
+  template <class Sim>
+  static std::pair<std::size_t, double> contacts(Sim& sim) {
+    auto const& all = sim.root().template first<role::ContactManager>().contacts;
+    double normal = 0;
+    for (Contact const& c : all) normal += std::abs(c.normal.dot(c.force));
+    return {all.size(), normal};
+  }
+};
 
 double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
 template <class H, class Scene>
-void measure(Options const& o, Scene&& scene) {
+void measure(Options const& o) {
   using D = CudaTypes<H>;
-  Simulation sim{scene(std::type_identity<D>(), o)};
+  Simulation sim{Scene::template scene<D>(o)};
   sim.init();
   auto const& solver = sim.root().template first<role::ConstraintSolver>();
   auto& block = sim.template at<"block">();
@@ -160,7 +171,7 @@ void measure(Options const& o, Scene&& scene) {
   if (o.host) {
     Options tight = o;
     tight.linear = 1e-8;  // the processor solves the free motion by itself
-    Simulation reference{scene(std::type_identity<H>(), tight)};
+    Simulation reference{Scene::template scene<H>(tight)};
     reference.init();
     for (int i = 0; i < settling; ++i) reference.animate(dt);
     auto const& y = reference.template at<"block">().state().position;
@@ -188,7 +199,7 @@ void measure(Options const& o, Scene&& scene) {
     unsolved += !r.converged;
   }
   std::sort(seconds.begin(), seconds.end());
-  const auto [count, normal] = contacts_of(sim);
+  const auto [count, normal] = Scene::contacts(sim);
   const double weight = 9.81 * density * volume_of(o), n = o.steps;
   std::printf(
       "%zu; %zu; %zu; %s; %.1f; %.1f updates, %.1f Newton, %.1f conjugate gradients, %.1f looks; %.1e m, "
@@ -208,7 +219,7 @@ void measure(Options const& o, Scene&& scene) {
       std::abs(normal / weight - 1));
   std::fflush(stdout);
   if (!o.profile) return;
-  Simulation timed{profiled(scene(std::type_identity<D>(), o))};
+  Simulation timed{profiled(Scene::template scene<D>(o))};
   timed.init();
   for (int i = 0; i < settling + o.steps; ++i) timed.animate(dt);
   std::printf("%s\n", profile_table(timed.root().profile()).c_str());
@@ -253,16 +264,10 @@ Options options(int argc, char** argv) {
 
 int main(int argc, char** argv) try {
   const Options o = options(argc, argv);
-  auto with = [&]<class H>(std::type_identity<H>) {
-    if (o.given)
-      measure<H>(o, []<class D>(std::type_identity<D>, Options const& of) { return scene_given<D>(of); });
-    else
-      measure<H>(o, []<class D>(std::type_identity<D>, Options const& of) { return scene_found<D>(of); });
-  };
   if (o.inDouble)
-    with(std::type_identity<Vec3d>());
+    o.given ? measure<Vec3d, Given>(o) : measure<Vec3d, Found>(o);
   else
-    with(std::type_identity<Vec3f>());
+    o.given ? measure<Vec3f, Given>(o) : measure<Vec3f, Found>(o);
   return 0;
 } catch (Error const& error) {
   std::fprintf(stderr, "contact: %s\n", error.what());

@@ -20,11 +20,11 @@ struct MinProximityIntersection {
 
   static constexpr auto fields() { return proximity_fields<MinProximityIntersection>(); }
 
-  double reach() const { return std::max(alarmDistance, contactDistance); }
+  SINEW_HD double reach() const { return std::max(alarmDistance, contactDistance); }
   double limit() const { return contactDistance; }
 
-  template <Shape A, Shape B>
-  std::optional<Contact> intersect(PrimitivePair<A, B> const& pair) const {
+  template <Shape A, Shape B, class SA, class SB>
+  SINEW_HD std::optional<Contact> intersect(PrimitivePair<A, B, SA, SB> const& pair) const {
     const auto a = pair.cornersA();
     const auto b = pair.cornersB();
     const double far = reach() + pair.proximity() + pair.thickness();

@@ -3,10 +3,12 @@
 
 #include <sinew/core/step_warnings.hpp>
 #include <sinew/lagrangian/constrained_motion.hpp>
+#include <sinew/scene/collision.hpp>
 #include <sinew/scene/constraint_response.hpp>
 #include <sinew/scene/contact_rows.hpp>
 #include <sinew/scene/mechanical_operations.hpp>
 #include <sinew/scene/motion_problem.hpp>
+#include <sinew/scene/overlap_warnings.hpp>
 #include <sinew/scene/row_names.hpp>
 #include <sinew/scene/solvers.hpp>
 #include <sinew/scene/states_of.hpp>
@@ -98,13 +100,14 @@ struct ConstrainedStep {
   // states as they were, mappings as they were, and where all would come to be: what a mapping moves goes by
   // its Jacobian as far as its parents do
   template <class S>
-  void lookFromStart(S const& scope) const {
+  void lookFromStart(S const& scope, bool hostMakesRows) const {
     MechanicalOperations<S> operations(scope, time, dt);
-    operations.forEachIndependent([](auto& s) {
+    operations.forEachIndependent([hostMakesRows](auto& s) {
       using D = typename std::decay_t<decltype(s)>::DataTypes;
       s.position.swap(s.freePosition);
       VectorOperations<D>::difference(
           s[vec_id::dx], std::as_const(s.position), std::as_const(s.freePosition));
+      if (!hostMakesRows) return;
       VectorOperations<D>::bringToHost(s.position);  // rows look at them
       VectorOperations<D>::bringToHost(s.freePosition);
     });
@@ -126,6 +129,10 @@ struct ConstrainedStep {
     traverse(root,
              on<role::LagrangianConstraint>([&](auto& c, auto const& scope) { addRowsOf(c, scope, m); }));
     m.contactRows = m.rows.count();
+    m.owesViolations = false;
+    if constexpr (collides<RootScope>)
+      Collision<RootScope>{root}.finish(
+          dt, [&](auto const& pipeline, auto const& manager) { warn_of_overlaps(notes, pipeline, manager); });
     ContactRows<RootScope>{root, dt}.add(m);
     std::size_t number = 0;
     for_each_integrator(root, [&](auto& ode, auto const& scope) {
@@ -181,6 +188,15 @@ struct ConstrainedStep {
         system->add(e.row, dof + c, value);
       }
     });
+  }
+
+  // whether the rows of this step are all of contacts that states find
+  bool hostMakesRows() const {
+    bool byStates = false;
+    traverse(root, on<role::CollisionPipeline>([&](auto& pipeline, auto const&) {
+               if constexpr (requires { pipeline.begun; }) byStates = pipeline.begun;
+             }));
+    return !byStates || any_below<role::LagrangianConstraint>(root);
   }
 
   // J P, where P is what projective constraints leave of a motion
@@ -247,6 +263,7 @@ struct ConstrainedStep {
                  MotionProblem<RootScope>{root, time, dt, notes}.solve(m, solver, scope.path());
                  m.hasMotion = true;
                } else {
+                 ContactRows<RootScope>{root, dt}.putViolations(m);
                  findCompliance(m);
                  solveProblem(m, solver, scope.path());
                }
@@ -355,12 +372,12 @@ void ConstrainedStep<RootScope>::integrate(ConstrainedMotion& m, bool velocityFi
   std::swap(m.rows, m.lastRows);
   forceMapped(m, velocityFirst);
   for_each_solver(root, [&](auto& ode, auto const& scope) { moveFreely(ode, scope, keepsForces); });
-  for_each_integrator(root, [&](auto&, auto const& scope) { lookFromStart(scope); });
+  const bool ofHost = hostMakesRows();
+  for_each_integrator(root, [&](auto&, auto const& scope) { lookFromStart(scope, ofHost); });
   collectRows(m, velocityFirst, keepsForces);
   m.hasMotion = false;
   if (m.rows.count() > 0) solve(m);
   giveBack(m);
-  ContactRows<RootScope>{root, dt}.giveBack(m);
   std::size_t number = 0;
   for_each_integrator(root, [&](auto& ode, auto const& scope) {
     using S = std::decay_t<decltype(scope)>;
@@ -372,6 +389,7 @@ void ConstrainedStep<RootScope>::integrate(ConstrainedMotion& m, bool velocityFi
     operations.projectPositionAndVelocity(time + dt, vec_id::position, vec_id::velocity);
     operations.propagate(vec_id::position, vec_id::velocity);
   });
+  ContactRows<RootScope>{root, dt}.giveBack(m);  // a device goes on meanwhile
 }
 
 template <class RootScope>

@@ -9,6 +9,7 @@
 #include <Eigen/Eigenvalues>
 
 #include <type_traits>
+#include <utility>
 
 namespace sinew {
 
@@ -26,6 +27,22 @@ struct ContactRows {
       bool some = false;
       manager.forEachConstrained([&](auto const&, Contact&) { some = true; });
       if (some) addOf(manager, scope, m);
+    });
+  }
+
+  /// Brings the violations that states were to say, where these cannot.
+  void putViolations(ConstrainedMotion& m) const {
+    if (!std::exchange(m.owesViolations, false)) return;
+    forEachManager([&](auto& manager, auto const& scope) {
+      for_each_collision_model(scope, [&]<class D>(auto& model, auto& s, auto const&, std::type_identity<D>) {
+        if (model.surface.elsewhere) lookAt<D>(model.surface, s);
+      });
+      manager.forEachConstrained([&](auto const& response, Contact& c) {
+        if (c.place < 0 || c.row < 0) return;
+        c.motion = motionOf(manager, c);
+        if constexpr (MeasuresMotion<std::decay_t<decltype(response)>>)
+          response.violations(c, c.motion, m.rows.ofVelocity, m.rows.violation.data() + std::size_t(c.row));
+      });
     });
   }
 
@@ -90,8 +107,10 @@ struct ContactRows {
     manager.assembly.entries.clear();
     for_each_collision_model(
         scope, [&]<class D>(auto& model, auto& s, auto const& at, std::type_identity<D>) {
-          update_touched_vertices<D>(model.surface, s.position, s.velocity);
-          setMotion<D>(model.surface, s);
+          if (model.surface.elsewhere)
+            keepStill(model.surface);
+          else
+            lookAt<D>(model.surface, s);
           if (model.simulated && model.surface.solver >= 0)
             at.template withDofs<D>(
                 [&](auto const& dofs) { manager.assembly.template addVertices<D>(model.surface, dofs); });
@@ -101,11 +120,25 @@ struct ContactRows {
       const int row = m.rows.count();
       c.motion = motionOf(manager, c);
       c.start = c.motion.start;
+      m.owesViolations = m.owesViolations || c.place >= 0;
       response.addRows(m.rows, c, c.motion);
       c.rows = m.rows.count() - row;
       c.row = c.rows > 0 ? row : -1;
       if (c.rows > 0) addJacobian(manager, c, m);
     });
+  }
+  // (the start of touched vertices that are elsewhere is known)
+  static void keepStill(CollisionSurface& surface) {
+    for (const int t : surface.touched) {
+      surface.dx[std::size_t(t)].setZero();
+      surface.velocity[std::size_t(t)].setZero();
+      surface.force[std::size_t(t)].setZero();
+    }
+  }
+  template <class D, class State>
+  void lookAt(CollisionSurface& surface, State& s) const {
+    update_touched_vertices<D>(surface, s.position, s.velocity);
+    setMotion<D>(surface, s);
   }
   // how far touched vertices go without multipliers; what no solver moves is where it will be, and has come
   // there

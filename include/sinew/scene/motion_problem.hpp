@@ -7,6 +7,7 @@
 #include <sinew/scene/mechanical_operations.hpp>
 #include <sinew/scene/row_names.hpp>
 #include <sinew/scene/solvers.hpp>
+#include <sinew/scene/state_contacts.hpp>
 #include <sinew/solver/linear_system.hpp>
 
 #include <algorithm>
@@ -43,6 +44,7 @@ struct MotionProblem {
       dofs += system.dofs();
     });
     if (!solveByStates(m, solver, dofs, where)) {
+      ContactRows<RootScope>{root, dt}.putViolations(m);
       forEachSystem(m, [&](auto& ode, auto const& scope, ConstrainedSystem& system) {
         assemble(scope, MultiplierResponse::of(ode, dt), system);
       });
@@ -94,6 +96,10 @@ struct MotionProblem {
     try {
       solve();
     } catch (Error const& error) {
+      if (m.owesViolations)
+        for (Eigen::Index i = 0; i < m.motionRows.start.size(); ++i)
+          if (!std::isfinite(m.motionRows.start[i]))
+            RowNames<RootScope>{root, m}.refuseNotFinite(m.motionRows.rows[std::size_t(i)]);
       if constexpr (SaysUnsolved<Solver>)
         if (!solver.result.converged) throw Error({}, text(error.what(), unsolved(m)));
       throw;
@@ -120,7 +126,10 @@ struct MotionProblem {
         explained(m, solver, [&] {
           solver.solveMotionBy(
               [&](auto const& settings, std::vector<double>& lastMotion) {
-                const auto found = motion.solve(m.motionRows, settings, lastMotion, where);
+                const auto found = motion.solve(
+                    m.motionRows, settings, lastMotion, where, m.owesViolations, [&](double* to) {
+                      violationsByStates(m, to);
+                    });
                 if (!found.converged)  // for the message
                   m.motionRows.motion =
                       Eigen::Map<Eigen::VectorXd const>(lastMotion.data(), Eigen::Index(lastMotion.size()));
@@ -139,6 +148,31 @@ struct MotionProblem {
       done = true;
     }
     return done;
+  }
+  // the violations of contacts that states have found, a number each of the joined rows
+  void violationsByStates(ConstrainedMotion const& m, double* to) const {
+    traverse(
+        root, on<role::ContactManager>([&](auto& manager, auto const& scope) {
+          StateContacts<std::decay_t<decltype(scope)>>{scope}.eachSearch(
+              [&](CollisionSurface& surface, auto& state, auto& search) {
+                search.clearRows();
+                auto joined = m.motionRows.rows.begin();
+                for (Contact const& c : manager.contacts) {
+                  if (c.place < 0 || c.row < 0) continue;
+                  while (joined != m.motionRows.rows.end() && *joined < c.row) ++joined;
+                  if (joined == m.motionRows.rows.end()) break;
+                  if (*joined == c.row && (c.a.surface == surface.number || c.b.surface == surface.number))
+                    search.addRow({c.place, int(joined - m.motionRows.rows.begin()), c.response, c.friction});
+                }
+                search.putViolations(manager.responses,
+                                     std::as_const(state.position),
+                                     std::as_const(state.freePosition),
+                                     std::as_const(state.velocity),
+                                     dt,
+                                     m.rows.ofVelocity,
+                                     to);
+              });
+        }));
   }
   bool canBeSolvedByStates(ConstrainedMotion& m) const {
     bool can = true;
