@@ -10,6 +10,7 @@
 #include <cmath>
 #include <optional>
 #include <type_traits>
+#include <utility>
 
 namespace sinew {
 
@@ -179,24 +180,24 @@ SINEW_HD void set_normal(Contact& contact, PrimitivePair<A, B, SA, SB> const& pa
   if (pair.b.rigid) contact.thickness -= pair.b.radiusOf(pair.elementB);
 }
 
-/// The contact of two primitives at their closest points, the corners being at `a` and `b`; none where a
+/// The contact of two primitives at their closest points, the corners being at `a` and `b`; false where a
 /// neighbour of one of them is nearer there, unless that is not asked (`onlyLocalMinima`). Where a corner or
 /// the inside of an edge is nearest to the inside of a triangle of a one-sided surface (bothSide = false), or
 /// to an edge or a corner of it in a plane, the normal is that of the triangle, and the distance is negative
 /// behind it.
 SINEW_ANY_SIDE
 template <Shape A, Shape B, class SA, class SB>
-SINEW_HD std::optional<Contact> contact_at(PrimitivePair<A, B, SA, SB> const& pair, ShapeCorners<A> const& a,
-                                           ShapeCorners<B> const& b, bool onlyLocalMinima = true) {
+SINEW_HD bool find_contact(PrimitivePair<A, B, SA, SB> const& pair, ShapeCorners<A> const& a,
+                           ShapeCorners<B> const& b, bool onlyLocalMinima, Contact& contact) {
   const auto closest = closest_points(a, b);
-  Contact contact = places_of(pair, closest);
+  contact = places_of(pair, closest);
   const Eigen::Vector3d between = contact.start;
   // a point has one nearest place, and would be stopped by the edges inside a floor that it slides on
   constexpr bool ofPoint = std::tuple_size_v<ShapeCorners<A>> == 1 || std::tuple_size_v<ShapeCorners<B>> == 1;
   const double cone = ofPoint ? CollisionSurface::leastCone : pair.cone;
   if (onlyLocalMinima && (!pair.a.isLocalMinimum(pair.elementA, contact.a.vertices, between, cone) ||
                           !pair.b.isLocalMinimum(pair.elementB, contact.b.vertices, -between, cone)))
-    return std::nullopt;
+    return false;
   const Eigen::Vector3d outOfA = detail::outer_normal(pair.a, a, closest.weightsA, between),
                         outOfB = detail::outer_normal(pair.b, b, closest.weightsB, between);
   const bool faceA = outOfA.squaredNorm() > 0, faceB = outOfB.squaredNorm() > 0;
@@ -205,7 +206,15 @@ SINEW_HD std::optional<Contact> contact_at(PrimitivePair<A, B, SA, SB> const& pa
              faceA == faceB ? Eigen::Vector3d(contact_direction(a, b, closest))
              : faceA        ? outOfA
                             : Eigen::Vector3d(-outOfB));
-  return contact;
+  return true;
+}
+/// The same as an optional, which nvcc has on the host only.
+template <Shape A, Shape B>
+std::optional<Contact> contact_at(PrimitivePair<A, B> const& pair, ShapeCorners<A> const& a,
+                                  ShapeCorners<B> const& b, bool onlyLocalMinima = true) {
+  std::optional<Contact> found(std::in_place);
+  if (!find_contact(pair, a, b, onlyLocalMinima, *found)) found.reset();
+  return found;
 }
 
 }  // namespace sinew

@@ -54,8 +54,8 @@ constexpr bool states_find_contacts() {
 
 /// An intersection method that takes surfaces of any kind, and so those of a device.
 template <class I>
-concept MeetsAnySurface =
-    requires(I const i, PrimitivePair<Shape::point, Shape::triangle, int, char> pair) { i.intersect(pair); };
+concept MeetsAnySurface = requires(I const i, PrimitivePair<Shape::point, Shape::triangle, int, char> pair,
+                                   Contact c) { i.find(pair, c); };
 
 }  // namespace detail
 

@@ -194,12 +194,13 @@ class ContactSearch {
     SINEW_HD void meet(int element, int k, int other, Eigen::Vector3d const& x, F&& f) const {
       StandingSurface const& s = surfaces[k];
       using Points = PointsOfState<D>;
+      Contact c;
       if (s.first) {
         const PrimitivePair<Other, Shape::point, StandingSurface, Points> pair{s, points, other, element, 0};
-        if (const auto contact = method.intersect(pair)) f(found(*contact, contact->a, element, k, other, x));
+        if (method.find(pair, c)) f(found(c, c.a, element, k, other, x));
       } else {
         const PrimitivePair<Shape::point, Other, Points, StandingSurface> pair{points, s, element, other, 0};
-        if (const auto contact = method.intersect(pair)) f(found(*contact, contact->b, element, k, other, x));
+        if (method.find(pair, c)) f(found(c, c.b, element, k, other, x));
       }
     }
     SINEW_HD static FoundContact found(Contact const& c, ContactSide const& side, int element, int k,
