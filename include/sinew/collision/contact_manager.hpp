@@ -268,6 +268,13 @@ struct ContactManager {
     }
   }
 
+  /// The contacts that were found have the same keys as those of the last step, none of them by force, and
+  /// are in their places.
+  void goOn(double dt) {
+    couplingChanged = std::exchange(couplesAgain, false);
+    All::setStep(responses, dt);
+  }
+
   /// f(response, state, touched points of it) for the contacts of responses that change what they touch.
   template <class F>
   void forEachTouchResponse(F&& f) {

@@ -113,21 +113,24 @@ struct Collision {
                detectOnHost(pipeline, scope, dt, newPattern);
              }));
   }
-  /// The contacts for which states have begun to look; f(pipeline, manager) where there are some to come.
+  /// The contacts for which states have begun to look; f(pipeline, manager, whether rows are those of the
+  /// step before but for violations) where there are some to come.
   template <class F>
   void finish(double dt, F&& f) const {
     traverse(root, on<role::CollisionPipeline>([&](auto& pipeline, auto const& scope) {
                using S = std::decay_t<decltype(scope)>;
                if constexpr (StateContacts<S>::possible) {
+                 using Found = typename StateContacts<S>::Found;
+                 auto found = Found::others;
                  if (!std::exchange(pipeline.begun, false)) return;
                  with_first<role::ContactManager>(scope, [&](auto& manager) {
                    withIntersection(scope, [&](auto const& method) {
                      [[maybe_unused]] const auto span = root.span(Phase::narrowPhase);
-                     StateContacts<S>{scope}.finish(pipeline, manager, method);
+                     found = StateContacts<S>{scope}.finish(pipeline, manager, method);
                    });
                    [[maybe_unused]] const auto span = root.span(Phase::response);
-                   manager.manage(dt);
-                   f(pipeline, manager);
+                   found == Found::others ? manager.manage(dt) : manager.goOn(dt);
+                   f(pipeline, manager, found == Found::sameRows);
                  });
                }
              }));

@@ -122,6 +122,15 @@ struct ConstrainedStep {
 
   void collectRows(ConstrainedMotion& m, bool ofVelocity, bool keepsForces) const {
     [[maybe_unused]] const auto span = root.span(Phase::constraint);
+    const bool sameContacts = finishContacts();
+    m.stands = sameContacts && m.mayStand && !keepsForces && m.lastRows.ofVelocity == ofVelocity;
+    if (m.stands) {
+      std::swap(m.rows, m.lastRows);
+      m.rows.multipliers.assign(m.problem.multipliers.begin(), m.problem.multipliers.end());
+      m.owesViolations = true;
+      return;
+    }
+    m.owesViolations = false;
     m.rows.clear();
     m.rows.ofVelocity = ofVelocity;
     m.rowsOf.clear();
@@ -129,10 +138,6 @@ struct ConstrainedStep {
     traverse(root,
              on<role::LagrangianConstraint>([&](auto& c, auto const& scope) { addRowsOf(c, scope, m); }));
     m.contactRows = m.rows.count();
-    m.owesViolations = false;
-    if constexpr (collides<RootScope>)
-      Collision<RootScope>{root}.finish(
-          dt, [&](auto const& pipeline, auto const& manager) { warn_of_overlaps(notes, pipeline, manager); });
     ContactRows<RootScope>{root, dt}.add(m);
     std::size_t number = 0;
     for_each_integrator(root, [&](auto& ode, auto const& scope) {
@@ -140,6 +145,19 @@ struct ConstrainedStep {
       if (keepsForces) system.whole = system.jacobian;
       project(scope, MultiplierResponse::of(ode, dt), m.room, system);
     });
+    m.mayStand = m.owesViolations && !keepsForces && !any_below<role::LagrangianConstraint>(root) &&
+                 !any_below<role::ProjectiveConstraint>(root);
+  }
+  // those that states have begun to look for; whether all are as in the last step
+  bool finishContacts() const {
+    int searches = 0, same = 0;
+    if constexpr (collides<RootScope>)
+      Collision<RootScope>{root}.finish(dt, [&](auto const& pipeline, auto const& manager, bool sameRows) {
+        warn_of_overlaps(notes, pipeline, manager);
+        ++searches;
+        same += sameRows;
+      });
+    return searches == 1 && same == 1;
   }
   template <class D, class State>
   ConstrainedState<D> seen(State const& s) const {

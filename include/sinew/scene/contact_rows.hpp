@@ -33,6 +33,7 @@ struct ContactRows {
   /// Brings the violations that states were to say, where these cannot.
   void putViolations(ConstrainedMotion& m) const {
     if (!std::exchange(m.owesViolations, false)) return;
+    m.mayStand = false;
     forEachManager([&](auto& manager, auto const& scope) {
       for_each_collision_model(scope, [&]<class D>(auto& model, auto& s, auto const&, std::type_identity<D>) {
         if (model.surface.elsewhere) lookAt<D>(model.surface, s);

@@ -151,28 +151,32 @@ struct MotionProblem {
   }
   // the violations of contacts that states have found, a number each of the joined rows
   void violationsByStates(ConstrainedMotion const& m, double* to) const {
-    traverse(
-        root, on<role::ContactManager>([&](auto& manager, auto const& scope) {
-          StateContacts<std::decay_t<decltype(scope)>>{scope}.eachSearch(
-              [&](CollisionSurface& surface, auto& state, auto& search) {
-                search.clearRows();
-                auto joined = m.motionRows.rows.begin();
-                for (Contact const& c : manager.contacts) {
-                  if (c.place < 0 || c.row < 0) continue;
-                  while (joined != m.motionRows.rows.end() && *joined < c.row) ++joined;
-                  if (joined == m.motionRows.rows.end()) break;
-                  if (*joined == c.row && (c.a.surface == surface.number || c.b.surface == surface.number))
-                    search.addRow({c.place, int(joined - m.motionRows.rows.begin()), c.response, c.friction});
-                }
-                search.putViolations(manager.responses,
-                                     std::as_const(state.position),
-                                     std::as_const(state.freePosition),
-                                     std::as_const(state.velocity),
-                                     dt,
-                                     m.rows.ofVelocity,
-                                     to);
-              });
-        }));
+    traverse(root, on<role::ContactManager>([&](auto& manager, auto const& scope) {
+               StateContacts<std::decay_t<decltype(scope)>>{scope}.eachSearch(
+                   [&](CollisionSurface& surface, auto& state, auto& search) {
+                     if (!m.stands) listRows(m, manager, surface.number, search);
+                     search.putViolations(manager.responses,
+                                          std::as_const(state.position),
+                                          std::as_const(state.freePosition),
+                                          std::as_const(state.velocity),
+                                          dt,
+                                          m.rows.ofVelocity,
+                                          to);
+                   });
+             }));
+  }
+  // tells a search which of the joined rows its contacts have
+  template <class Manager, class Search>
+  static void listRows(ConstrainedMotion const& m, Manager const& manager, int surface, Search& search) {
+    search.clearRows();
+    std::vector<int> const& all = m.motionRows.rows;
+    auto joined = all.begin();
+    for (Contact const& c : manager.contacts) {
+      if (c.place < 0 || c.row < 0 || (c.a.surface != surface && c.b.surface != surface)) continue;
+      joined = std::lower_bound(joined, all.end(), c.row);
+      if (joined == all.end()) return;
+      if (*joined == c.row) search.addRow({c.place, int(joined - all.begin()), c.response, c.friction});
+    }
   }
   bool canBeSolvedByStates(ConstrainedMotion& m) const {
     bool can = true;
@@ -262,9 +266,10 @@ struct MotionProblem {
   static bool asBefore(ConstrainedMotion const& m, int dofs) {
     MotionRows const& all = m.motionRows;
     return all.step == m.step - 1 && !all.byMatrix && all.dofs == dofs + 3 * int(all.slack.size()) &&
-           m.rows.blocks == m.lastRows.blocks && m.rows.compliance == m.lastRows.compliance &&
-           m.rows.ofVelocity == m.lastRows.ofVelocity &&
-           std::all_of(m.systems.begin(), m.systems.end(), [](auto& s) { return s.rowsAsBefore(); });
+           (m.stands ||
+            (m.rows.blocks == m.lastRows.blocks && m.rows.compliance == m.lastRows.compliance &&
+             m.rows.ofVelocity == m.lastRows.ofVelocity &&
+             std::all_of(m.systems.begin(), m.systems.end(), [](auto& s) { return s.rowsAsBefore(); })));
   }
   template <class Stiffest>
   void joinAnew(ConstrainedMotion& m, int dofs, Stiffest&& stiffest) const {

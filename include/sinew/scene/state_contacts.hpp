@@ -10,6 +10,7 @@
 #include <sinew/scene/solvers.hpp>
 #include <sinew/state/vector_operations.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -107,38 +108,47 @@ struct StateContacts {
       search.look(method, std::as_const(state.position));
     });
   }
-  /// Its contacts into the manager. Vertices that touch are on the host then.
+  /// What its contacts are to those of the step before: others; of the same vertices; or those in the same
+  /// directions, so that their rows are the same but for violations.
+  enum class Found { others, same, sameRows };
+
+  /// Its contacts into the manager, by whose manage() they are to be managed where they are others. Vertices
+  /// that touch are on the host then.
   template <class Pipeline, class Manager, class Intersection>
-  void finish(Pipeline const& pipeline, Manager& manager, Intersection const& method) const {
-    auto const& surfaces = pipeline.surfaces;
+  Found finish(Pipeline const& pipeline, Manager& manager, Intersection const& method) const {
+    std::size_t count = 0;
+    bool same = true, sameDirections = true;
     eachSearch([&](CollisionSurface& mine, auto& state, auto& search) {
-      const bool grows =
-          search.take(method, std::as_const(state.position), [&](int place, auto const& found) {
-            CollisionSurface const& other = *surfaces[std::size_t(search.numberOf(found.surface))];
-            const int vertex = mine.elements[std::size_t(found.element)][0];
-            if (found.vertices[0] < 0) detail::refuse_place(mine, found.element);
-            mine.position[std::size_t(vertex)] = found.point;
-            const bool otherFirst = other.number < mine.number;
-            Contact& c = manager.addNew();
-            ContactSide &own = otherFirst ? c.b : c.a, &its = otherFirst ? c.a : c.b;
-            own.surface = mine.number;
-            own.element = found.element;
-            own.vertices[0] = vertex;
-            own.weights[0] = 1;
-            its.surface = other.number;
-            its.element = found.other;
-            its.vertices = found.vertices;
-            for (std::size_t k = 0; k < 3; ++k) its.weights[k] = found.weights[Eigen::Index(k)];
-            c.start = position_of(c.b, *surfaces[std::size_t(c.b.surface)]) -
-                      position_of(c.a, *surfaces[std::size_t(c.a.surface)]);
-            c.normal = found.normal;
-            c.thickness = found.thickness;
-            c.limit = found.limit;
-            c.distance = found.distance;
-            c.place = place;
-          });
-      manager.grown += grows;
+      manager.grown += search.take(method, std::as_const(state.position));
+      using Again = typename std::decay_t<decltype(search)>::Again;
+      same = same && search.again() != Again::no;
+      sameDirections = sameDirections && search.again() == Again::sameDirections;
+      count += search.found().size();
+      for (auto const& found : search.found()) {
+        if (found.vertices[0] < 0) detail::refuse_place(mine, found.element);
+        mine.position[std::size_t(mine.elements[std::size_t(found.element)][0])] = found.point;
+      }
     });
+    // (the manager may have left some out)
+    same = same && manager.contacts.size() == count;
+    for (Contact const& c : manager.contacts) same = same && c.place >= 0 && c.response >= 0;
+    eachSearch([&](CollisionSurface& mine, auto&, auto& search) {
+      if (same) {
+        for (Contact& c : manager.contacts)
+          if (c.a.surface == mine.number || c.b.surface == mine.number)
+            place(c, mine, search.found()[std::size_t(c.place)], c.place);
+        return;
+      }
+      int number = 0;
+      for (auto const& found : search.found()) {
+        Contact& c = manager.addNew();
+        const int other = search.numberOf(found.surface);
+        c.a.surface = std::min(other, mine.number);
+        c.b.surface = std::max(other, mine.number);
+        place(c, mine, found, number++);
+      }
+    });
+    return !same ? Found::others : sameDirections ? Found::sameRows : Found::same;
   }
 
   /// f(model's surface, its state, what searches for it) for the models whose contacts states find.
@@ -158,6 +168,25 @@ struct StateContacts {
   }
 
  private:
+  template <class Found>
+  void place(Contact& c, CollisionSurface const& mine, Found const& found, int number) const {
+    const bool first = c.a.surface == mine.number;
+    ContactSide &own = first ? c.a : c.b, &its = first ? c.b : c.a;
+    own.element = found.element;
+    own.vertices[0] = mine.elements[std::size_t(found.element)][0];
+    own.weights[0] = 1;
+    its.element = found.other;
+    its.vertices = found.vertices;
+    for (std::size_t k = 0; k < 3; ++k) its.weights[k] = found.weights[Eigen::Index(k)];
+    const Eigen::Vector3d between = found.standing - found.point;
+    c.start = first ? between : Eigen::Vector3d(-between);
+    c.normal = found.normal;
+    c.thickness = found.thickness;
+    c.limit = found.limit;
+    c.distance = found.distance;
+    c.place = number;
+    c.isNew = false;
+  }
   template <class Pipeline>
   static bool mayMeet(Pipeline const& pipeline, CollisionSurface const& mine, CollisionSurface const& other) {
     return mine.number < other.number ? pipeline.compare(mine, other) && has_pairs(mine, other)

@@ -52,7 +52,7 @@ struct FoundContact {
   Eigen::Vector3d normal{0, 0, 0};  // from the first to the second model in the order of the scene
   double thickness = 0, limit = 0, distance = 0;
   double friction = 0;
-  Eigen::Vector3d point{0, 0, 0};  // where that of the state is
+  Eigen::Vector3d point{0, 0, 0}, standing{0, 0, 0};  // the places of the two
 };
 
 /// Finds the contacts of the points or spheres of a state on the device with surfaces that no solver moves:
@@ -85,6 +85,7 @@ class ContactSearch {
     reserve_ = std::max(reserve_, reserve);
     used_ = 0;
   }
+
   /// Adds a surface to look at, whose boxes are `reach` / 2 around its elements; `first`: it is the first of
   /// the two.
   void add(CollisionSurface const& surface, bool first, double reach) {
@@ -112,10 +113,10 @@ class ContactSearch {
     write(look, n);
     arrival_.begin(found_.data(), 1 + expected_);
   }
-  /// f(place, FoundContact) for what has come of it. Where it is more than there is room for, it is written
-  /// down again, for the same points, which are at x now; returns whether that was so.
-  template <class Intersection, class F>
-  bool take(Intersection const& method, typename D::VecCoord const& x, F&& f) {
+  /// Waits for what has come of it. Where it is more than there is room for, it is written down again, for
+  /// the same points, which are at x now; returns whether that was so.
+  template <class Intersection>
+  bool take(Intersection const& method, typename D::VecCoord const& x) {
     FoundContact head;
     arrival_.take(&head, 1);
     const auto count = std::size_t(head.surface);
@@ -131,9 +132,16 @@ class ContactSearch {
     }
     expected_ = std::min(room_, count + count / 8 + 64);
     FoundContact const* const all = arrival_.data() + 1;
-    for (std::size_t i = 0; i < count; ++i) f(int(i), all[i]);
+    again_ = compare(all, count);
+    taken_.assign(all, all + count);
     return grows;
   }
+  /// What has been found, in the order of points, until the next search.
+  std::vector<FoundContact> const& found() const { return taken_; }
+  /// Whether each point has one contact at most and meets the same as in the step before, and whether that is
+  /// in the same directions.
+  enum class Again { no, same, sameDirections };
+  Again again() const { return again_; }
 
   /// A contact that has rows: which it is, the first of them, the response with these.
   struct Row {
@@ -203,19 +211,23 @@ class ContactSearch {
         if (method.find(pair, c)) f(found(c, c.b, element, k, other, x));
       }
     }
-    SINEW_HD static FoundContact found(Contact const& c, ContactSide const& side, int element, int k,
-                                       int other, Eigen::Vector3d const& x) {
-      return {k,
-              element,
-              other,
-              side.vertices,
-              {side.weights[0], side.weights[1], side.weights[2]},
-              c.normal,
-              c.thickness,
-              c.limit,
-              c.distance,
-              0,
-              x};
+    SINEW_HD FoundContact found(Contact const& c, ContactSide const& side, int element, int k, int other,
+                                Eigen::Vector3d const& x) const {
+      FoundContact f;
+      f.surface = k;
+      f.element = element;
+      f.other = other;
+      f.vertices = side.vertices;
+      f.normal = c.normal;
+      f.thickness = c.thickness;
+      f.limit = c.limit;
+      f.distance = c.distance;
+      f.point = x;
+      for (int i = 0; i < 3 && side.vertices[std::size_t(i)] >= 0; ++i) {
+        f.weights[i] = side.weights[std::size_t(i)];
+        f.standing += f.weights[i] * surfaces[k].position[side.vertices[std::size_t(i)]];
+      }
+      return f;
     }
   };
   template <class Intersection>
@@ -262,17 +274,14 @@ class ContactSearch {
       c.friction = row.friction;
       StandingSurface const& s = surfaces[c.surface];
       const int point = elements[c.element][0];
-      Vector place(0, 0, 0), rate(0, 0, 0);
-      for (int k = 0; k < 3; ++k)
-        if (c.vertices[std::size_t(k)] >= 0) {
-          place += c.weights[k] * s.position[c.vertices[std::size_t(k)]];
-          rate += c.weights[k] * s.velocity[c.vertices[std::size_t(k)]];
-        }
+      Vector rate(0, 0, 0);
+      for (int k = 0; k < 3 && c.vertices[std::size_t(k)] >= 0; ++k)
+        rate += c.weights[k] * s.velocity[c.vertices[std::size_t(k)]];
       // what no solver moves is where it will be, and has come there
       const double sign = s.first ? 1 : -1;
       const Vector moved = D::difference(x[point], free[point]).template cast<double>();
       ContactMotion motion{};
-      motion.start = sign * (x[point].template cast<double>() - place + dt * rate);
+      motion.start = sign * (c.point - c.standing + dt * rate);
       motion.free = motion.start + sign * (moved - dt * rate);
       motion.rate = sign * (v[point].template cast<double>() - rate);
       motion.dt = dt;
@@ -305,9 +314,23 @@ class ContactSearch {
   DeviceArray<FoundContact> found_{};
   Arrival<FoundContact> arrival_{};
   std::size_t room_ = 0, reserve_ = 0, expected_ = 0;
+  std::vector<FoundContact> taken_{};
+  Again again_ = Again::no;
   std::vector<Row> rows_{};
   SentList<Row> rowsThere_{};
 
+  Again compare(FoundContact const* now, std::size_t count) const {
+    if (count != taken_.size()) return Again::no;
+    bool directions = true;
+    for (std::size_t i = 0; i < count; ++i) {
+      FoundContact const &a = now[i], &b = taken_[i];
+      if (a.surface != b.surface || a.element != b.element || a.other != b.other ||
+          a.vertices != b.vertices || (i > 0 && a.element == now[i - 1].element))
+        return Again::no;
+      directions = directions && a.normal == b.normal && a.thickness == b.thickness && a.limit == b.limit;
+    }
+    return directions ? Again::sameDirections : Again::same;
+  }
   void makeRoom(std::size_t contacts) {
     if (contacts <= room_) return;
     found_.resize(1 + contacts);
