@@ -126,7 +126,7 @@ struct Collision {
                  with_first<role::ContactManager>(scope, [&](auto& manager) {
                    withIntersection(scope, [&](auto const& method) {
                      [[maybe_unused]] const auto span = root.span(Phase::narrowPhase);
-                     found = StateContacts<S>{scope}.finish(pipeline, manager, method);
+                     found = StateContacts<S>{scope}.finish(manager, method);
                    });
                    [[maybe_unused]] const auto span = root.span(Phase::response);
                    found == Found::others ? manager.manage(dt) : manager.goOn(dt);

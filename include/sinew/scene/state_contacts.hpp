@@ -114,8 +114,8 @@ struct StateContacts {
 
   /// Its contacts into the manager, by whose manage() they are to be managed where they are others. Vertices
   /// that touch are on the host then.
-  template <class Pipeline, class Manager, class Intersection>
-  Found finish(Pipeline const& pipeline, Manager& manager, Intersection const& method) const {
+  template <class Manager, class Intersection>
+  Found finish(Manager& manager, Intersection const& method) const {
     std::size_t count = 0;
     bool same = true, sameDirections = true;
     eachSearch([&](CollisionSurface& mine, auto& state, auto& search) {
