@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSL-1.0
 // Steps a second on a GPU of a soft block that lies on a plane and slides there, its contacts solved by
 // multipliers (ConvexConstraintSolver):
-//   contact NX NY NZ [--given] [--double] [--steps N] [--tolerance METRES] [--linear RELATIVE] [--profile]
-//           [--host]
+//   contact NX NY NZ [--given] [--double] [--steps N] [--tolerance METRES] [--linear RELATIVE] [--mu
+//   FRICTION]
+//           [--profile] [--host]
 // The block has NX x NY points that touch, and NZ layers of them: 32 32 6 are 1,024 contacts and 28,830
 // tetrahedra. They are found in each step, between all points of the block and a floor of 3,200 triangles;
-// with --given they are a list of points above a plane (UnilateralLagrangianConstraint). --linear is the
+// with --given they are a list of points above a plane (UnilateralLagrangianConstraint). With --mu 0 the
+// block slides on at 1 m/s. --linear is the
 // tolerance of the linear solver in the free motion: what that leaves is solved with the contacts. Prints
 // tetrahedra; points; contacts; real; steps a second, the median; of each step the updates of the potentials,
 // iterations of Newton's method and of conjugate gradients, and looks of the line search; the largest
@@ -48,7 +50,7 @@ constexpr double apart = 0.005;  // from the floor
 struct Options {
   std::array<int, 3> n{};
   int steps = 200;
-  double tolerance = 1e-6, linear = 1e-2;
+  double tolerance = 1e-6, linear = 1e-2, mu = 0.5;
   bool inDouble = false, profile = false, host = false, given = false;
 };
 
@@ -95,7 +97,7 @@ auto scene_given(Options const& o) {
                           .first_point = std::vector<int>(bottom.size(), 0),
                           .second_point = bottom,
                           .normal = {{0, 0, 1}},
-                          .mu = {0.5}},
+                          .mu = {o.mu}},
                       node<"ground">(MechanicalObject<D>{.position = {{0, 0, 0}}}),
                       block<D>(o, mesh));
 }
@@ -111,20 +113,20 @@ auto scene_found(Options const& o) {
       floor.triangles.push_back({p, p + 1, q + 1});
       floor.triangles.push_back({p, q + 1, q});
     }
-  return node<"root">(
-      FreeMotionAnimationLoop{},
-      ConvexConstraintSolver{.tolerance = o.tolerance},
-      Gravity{{0, 0, -9.81}},
-      DefaultPipeline{},
-      BruteForceBroadPhase{},
-      BVHNarrowPhase{},
-      MinProximityIntersection{.alarmDistance = 2 * apart, .contactDistance = apart},
-      DefaultContactManager{
-          .response = "FrictionContactConstraint", .responseParams = "mu=0.5", .capacity = 2000},
-      node<"floor">(floor,
-                    MechanicalObject<Vec3d>{},
-                    TriangleCollisionModel<Vec3d>{.moving = false, .simulated = false}),
-      block<D>(o, mesh_of(o), PointCollisionModel<D>{}));
+  return node<"root">(FreeMotionAnimationLoop{},
+                      ConvexConstraintSolver{.tolerance = o.tolerance},
+                      Gravity{{0, 0, -9.81}},
+                      DefaultPipeline{},
+                      BruteForceBroadPhase{},
+                      BVHNarrowPhase{},
+                      MinProximityIntersection{.alarmDistance = 2 * apart, .contactDistance = apart},
+                      DefaultContactManager{.response = "FrictionContactConstraint",
+                                            .responseParams = "mu=" + std::to_string(o.mu),
+                                            .capacity = 2000},
+                      node<"floor">(floor,
+                                    MechanicalObject<Vec3d>{},
+                                    TriangleCollisionModel<Vec3d>{.moving = false, .simulated = false}),
+                      block<D>(o, mesh_of(o), PointCollisionModel<D>{}));
 }
 
 // of a scene: how many contacts, and the sum of their normal forces
@@ -246,6 +248,8 @@ Options options(int argc, char** argv) {
       o.steps = whole_number(next());
     else if (a == "--tolerance")
       o.tolerance = std::strtod(next().c_str(), nullptr);
+    else if (a == "--mu")
+      o.mu = std::strtod(next().c_str(), nullptr);
     else if (a == "--linear")
       o.linear = std::strtod(next().c_str(), nullptr);
     else if (given < 3)
@@ -256,6 +260,7 @@ Options options(int argc, char** argv) {
   if (given < 3)
     throw Error("arguments",
                 "contact NX NY NZ [--given] [--double] [--steps N] [--tolerance METRES] [--linear RELATIVE] "
+                "[--mu FRICTION] "
                 "[--profile] [--host]");
   return o;
 }

@@ -126,7 +126,7 @@ struct ConstrainedStep {
     m.stands = sameContacts && m.mayStand && !keepsForces && m.lastRows.ofVelocity == ofVelocity;
     if (m.stands) {
       std::swap(m.rows, m.lastRows);
-      m.rows.multipliers.assign(m.problem.multipliers.begin(), m.problem.multipliers.end());
+      ContactRows<RootScope>{root, dt}.guessAgain(m);
       m.owesViolations = true;
       return;
     }

@@ -30,6 +30,13 @@ struct ContactRows {
     });
   }
 
+  /// The guesses of multipliers anew, where rows are those of the step before.
+  void guessAgain(ConstrainedMotion& m) const {
+    forEachManager([&](auto& manager, auto const&) {
+      manager.forEachConstrained([&](auto const&, Contact const& c) { guess(m, c, contact_axes(c.normal)); });
+    });
+  }
+
   /// Brings the violations that states were to say, where these cannot.
   void putViolations(ConstrainedMotion& m) const {
     if (!std::exchange(m.owesViolations, false)) return;
@@ -170,17 +177,19 @@ struct ContactRows {
     motion.rate = rate_of(c.b, b, b.velocity, b.spin) - rate_of(c.a, a, a.velocity, a.spin);
     return motion;
   }
+  static void guess(ConstrainedMotion& m, Contact const& c, Eigen::Matrix3d const& axes) {
+    for (int i = 0; i < c.rows; ++i) m.rows.setMultiplier(c.row + i, axes.col(i).dot(c.force));
+  }
   template <class Manager>
   static void addJacobian(Manager& manager, Contact const& c, ConstrainedMotion& m) {
     const Eigen::Matrix3d axes = contact_axes(c.normal);
     auto const& blocks = manager.assembly.blocksOf(c, manager.surfaces);
-    for (int i = 0; i < c.rows; ++i) {
-      m.rows.setMultiplier(c.row + i, axes.col(i).dot(c.force));
+    guess(m, c, axes);
+    for (int i = 0; i < c.rows; ++i)
       for (auto const& block : blocks)
         for (int k = 0; k < block.columns; ++k)
           m.systems[std::size_t(block.solver)].add(
               c.row + i, block.dof + k, axes.col(i).dot(block.rows.col(k)));
-    }
   }
 };
 

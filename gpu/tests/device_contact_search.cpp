@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-namespace test_contact_search {
+namespace test_device_contact_search {
 
 using namespace sinew;
 using Vector = Eigen::Vector3d;
@@ -254,4 +254,4 @@ TEST_CASE("the device says the violations of contacts as the host does") {
     }
 }
 
-}  // namespace test_contact_search
+}  // namespace test_device_contact_search
