@@ -108,6 +108,7 @@ void agrees(CollisionSurface const& points, std::vector<CollisionSurface*> const
       count = 0;
       int wrong = 0, lastElement = -1;
       search.take(method, std::as_const(x));
+      search.accept();
       bool once = true;
       int before = -1;
       for (gpu::FoundContact const& found : search.found()) {

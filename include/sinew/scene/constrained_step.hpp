@@ -120,14 +120,14 @@ struct ConstrainedStep {
     });
   }
 
-  void collectRows(ConstrainedMotion& m, bool ofVelocity, bool keepsForces) const {
+  void collectRows(ConstrainedMotion& m, bool ofVelocity, bool keepsForces, bool mayStand) const {
     [[maybe_unused]] const auto span = root.span(Phase::constraint);
     const bool sameContacts = finishContacts();
-    m.stands = sameContacts && m.mayStand && !keepsForces && m.lastRows.ofVelocity == ofVelocity;
+    m.stands = sameContacts && mayStand && !keepsForces && m.lastRows.ofVelocity == ofVelocity;
     if (m.stands) {
       std::swap(m.rows, m.lastRows);
       ContactRows<RootScope>{root, dt}.guessAgain(m);
-      m.owesViolations = true;
+      m.owesViolations = m.mayStand = true;
       return;
     }
     m.owesViolations = false;
@@ -388,11 +388,12 @@ void ConstrainedStep<RootScope>::integrate(ConstrainedMotion& m, bool velocityFi
   });
   ++m.step;
   std::swap(m.rows, m.lastRows);
+  const bool mayStand = std::exchange(m.mayStand, false);  // not behind an Error
   forceMapped(m, velocityFirst);
   for_each_solver(root, [&](auto& ode, auto const& scope) { moveFreely(ode, scope, keepsForces); });
   const bool ofHost = hostMakesRows();
   for_each_integrator(root, [&](auto&, auto const& scope) { lookFromStart(scope, ofHost); });
-  collectRows(m, velocityFirst, keepsForces);
+  collectRows(m, velocityFirst, keepsForces, mayStand);
   m.hasMotion = false;
   if (m.rows.count() > 0) solve(m);
   giveBack(m);

@@ -137,7 +137,7 @@ struct StateContacts {
         for (Contact& c : manager.contacts)
           if (c.a.surface == mine.number || c.b.surface == mine.number)
             place(c, mine, search.found()[std::size_t(c.place)], c.place);
-        return;
+        return search.accept();
       }
       int number = 0;
       for (auto const& found : search.found()) {
@@ -147,6 +147,7 @@ struct StateContacts {
         c.b.surface = std::max(other, mine.number);
         place(c, mine, found, number++);
       }
+      search.accept();
     });
     return !same ? Found::others : sameDirections ? Found::sameRows : Found::same;
   }

@@ -132,7 +132,7 @@ class ContactSearch {
     }
     expected_ = std::min(room_, count + count / 8 + 64);
     FoundContact const* const all = arrival_.data() + 1;
-    again_ = compare(all, count);
+    again_ = std::exchange(accepted_, false) ? compare(all, count) : Again::no;
     taken_.assign(all, all + count);
     return grows;
   }
@@ -142,6 +142,8 @@ class ContactSearch {
   /// in the same directions.
   enum class Again { no, same, sameDirections };
   Again again() const { return again_; }
+  /// All that has been found is among the contacts of the scene, with which the next step is compared.
+  void accept() { accepted_ = true; }
 
   /// A contact that has rows: which it is, the first of them, the response with these.
   struct Row {
@@ -316,6 +318,7 @@ class ContactSearch {
   std::size_t room_ = 0, reserve_ = 0, expected_ = 0;
   std::vector<FoundContact> taken_{};
   Again again_ = Again::no;
+  bool accepted_ = false;
   std::vector<Row> rows_{};
   SentList<Row> rowsThere_{};
 
