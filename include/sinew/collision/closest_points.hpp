@@ -20,7 +20,7 @@ struct ClosestPoints {
 /// Below this the distance of a and b is taken for zero: 16 times the machine epsilon of their common size,
 /// several times the largest error of closest_points.
 template <class Real, std::size_t NA, std::size_t NB>
-Real contact_tolerance(Simplex<Real, NA> const& a, Simplex<Real, NB> const& b) {
+SINEW_HD Real contact_tolerance(Simplex<Real, NA> const& a, Simplex<Real, NB> const& b) {
   return 16 * std::numeric_limits<Real>::epsilon() * detail::contact_size<Real, NA, NB>(a, b);
 }
 
@@ -32,8 +32,8 @@ Real contact_tolerance(Simplex<Real, NA> const& a, Simplex<Real, NB> const& b) {
 /// them; where a and b cross, a common point. Of points that are not finite the distance is infinite. Lengths
 /// whose fourth powers leave the range of Real (float: below 1e-9, above 1e9) cost accuracy. No allocation.
 template <class Real, std::size_t NA, std::size_t NB>
-ClosestPoints<Real> closest_points(std::array<Vec<Real, 3>, NA> const& a,
-                                   std::array<Vec<Real, 3>, NB> const& b) {
+SINEW_HD ClosestPoints<Real> closest_points(std::array<Vec<Real, 3>, NA> const& a,
+                                            std::array<Vec<Real, 3>, NB> const& b) {
   static_assert(NA >= 1 && NA <= 3 && NB >= 1 && NB <= 3,
                 "Sinew: closest_points takes 1, 2 or 3 points of each.");
   const detail::SimplexFrame<Real, NA> frameA(a);
@@ -93,7 +93,7 @@ namespace detail {
 /// The edge inside which the point with weights w lies, in units of size; zero where it is a corner or inside
 /// a face.
 template <class Real, std::size_t N>
-Vec<Real, 3> carrying_edge(Simplex<Real, N> const& p, Vec<Real, 3> const& w, Real size) {
+SINEW_HD Vec<Real, 3> carrying_edge(Simplex<Real, N> const& p, Vec<Real, 3> const& w, Real size) {
   for (std::size_t k = 0; N > 1 && k < SimplexFrame<Real, N>::edgeCount; ++k) {
     const std::size_t i = k, j = (k + 1) % N;
     if (w[Eigen::Index(i)] > 0 && w[Eigen::Index(j)] > 0 && (N == 2 || !(w[Eigen::Index(3 - i - j)] > 0)))
@@ -105,8 +105,8 @@ Vec<Real, 3> carrying_edge(Simplex<Real, N> const& p, Vec<Real, 3> const& w, Rea
 /// The normal of the features on which closest points lie, of either sign and in units of size^2: of a face
 /// that holds one inside, else the cross product of two edges; zero where there is neither.
 template <class Real, std::size_t NA, std::size_t NB>
-Vec<Real, 3> feature_normal(Simplex<Real, NA> const& a, Simplex<Real, NB> const& b,
-                            ClosestPoints<Real> const& c, Real size) {
+SINEW_HD Vec<Real, 3> feature_normal(Simplex<Real, NA> const& a, Simplex<Real, NB> const& b,
+                                     ClosestPoints<Real> const& c, Real size) {
   auto inside = [](Vec<Real, 3> const& w) { return w[0] > 0 && w[1] > 0 && w[2] > 0; };
   if constexpr (NA == 3)
     if (inside(c.weightsA)) return ((a[1] - a[0]) / size).cross((a[2] - a[0]) / size);
@@ -127,8 +127,9 @@ Vec<Real, 3> feature_normal(Simplex<Real, NA> const& a, Simplex<Real, NB> const&
 /// the line between the middles, less its part along an edge that is touched. Where that is empty too: the
 /// normal of a triangle, a perpendicular of an edge, the z axis. Never NaN for finite points.
 template <class Real, std::size_t NA, std::size_t NB>
-Vec<Real, 3> contact_direction(std::array<Vec<Real, 3>, NA> const& a, std::array<Vec<Real, 3>, NB> const& b,
-                               ClosestPoints<Real> const& closest) {
+SINEW_HD Vec<Real, 3> contact_direction(std::array<Vec<Real, 3>, NA> const& a,
+                                        std::array<Vec<Real, 3>, NB> const& b,
+                                        ClosestPoints<Real> const& closest) {
   using V = Vec<Real, 3>;
   const Real size = detail::contact_size<Real, NA, NB>(a, b);
   if (!(size > 0)) return {0, 0, 1};

@@ -13,7 +13,7 @@ struct ClosestSearch {
   Vec<Real, 3> weightsA = unit_weight<Real>(0), weightsB = weightsA, difference{};
   Real minimum = std::numeric_limits<Real>::infinity();
 
-  Real offer(Vec<Real, 3> const& wa, Vec<Real, 3> const& wb) {
+  SINEW_HD Real offer(Vec<Real, 3> const& wa, Vec<Real, 3> const& wb) {
     const Vec<Real, 3> d = weighted_difference<Real, NA, NB>(a, b, wa, wb);
     const Real square = d.squaredNorm();
     if (square < minimum) weightsA = wa, weightsB = wb, difference = d, minimum = square;
@@ -22,7 +22,7 @@ struct ClosestSearch {
 
   /// Whether a and b lie on the two sides of planes across `difference` through its ends: then no pair is
   /// nearer by more than rounding (the test by which Larsen, Gottschalk, Lin, Manocha 1999 leave early).
-  bool found(Real size) const {
+  SINEW_HD bool found(Real size) const {
     Real low = std::numeric_limits<Real>::infinity();
     for (auto const& x : a)
       for (auto const& y : b) low = std::min(low, (y - x).dot(difference));
@@ -32,7 +32,7 @@ struct ClosestSearch {
   /// Points inside both edges: A(s), B(t) with A(s) - B(t) along n = u x v. Cross products, and t again from
   /// A(s), keep the error of the distance at rounding where the edges are nearly parallel. All else is found
   /// from the ends.
-  void offerInside(EdgeFrame<Real> const& u, EdgeFrame<Real> const& v) {
+  SINEW_HD void offerInside(EdgeFrame<Real> const& u, EdgeFrame<Real> const& v) {
     const Vec<Real, 3> n = u.along.cross(v.along), w = u.from - v.from;
     const Real square = n.squaredNorm();
     if (!(square > 0)) return;
@@ -46,7 +46,7 @@ struct ClosestSearch {
   /// Where the edge meets the plane of the triangle. The normal of a needle has a large relative error, so
   /// the crossing is found again from the point of the triangle nearest to it, while that brings both nearer.
   template <bool EdgeOfA, class Frame>
-  void offerCrossing(EdgeFrame<Real> const& edge, Frame const& triangle) {
+  SINEW_HD void offerCrossing(EdgeFrame<Real> const& edge, Frame const& triangle) {
     constexpr Real eps = std::numeric_limits<Real>::epsilon();
     const Vec<Real, 3> to0 = edge.from - triangle.points[0], to1 = to0 + edge.along;
     const Real h0 = to0.dot(triangle.normal), h1 = to1.dot(triangle.normal);
@@ -80,7 +80,7 @@ struct ClosestSearch {
 
   /// The best mean of two pairs of nearest points, of the edge and two edges of the triangle.
   template <bool EdgeOfA, class Frame>
-  void offerBetween(EdgeFrame<Real> const& edge, Frame const& triangle) {
+  SINEW_HD void offerBetween(EdgeFrame<Real> const& edge, Frame const& triangle) {
     Real s[3];
     Vec<Real, 3> w[3], d[3];
     const Simplex<Real, 2> local{Vec<Real, 3>(0, 0, 0), edge.along};
@@ -108,7 +108,7 @@ struct ClosestSearch {
     }
   }
 
-  void offerAll(SimplexFrame<Real, NA> const& frameA, SimplexFrame<Real, NB> const& frameB) {
+  SINEW_HD void offerAll(SimplexFrame<Real, NA> const& frameA, SimplexFrame<Real, NB> const& frameB) {
     for (std::size_t i = 0; i < NA; ++i) offer(unit_weight<Real>(i), frameB.nearest(a[i] - b[0]));
     if constexpr (NA > 1)
       for (std::size_t j = 0; j < NB; ++j) offer(frameA.nearest(b[j] - a[0]), unit_weight<Real>(j));

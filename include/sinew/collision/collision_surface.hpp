@@ -20,10 +20,8 @@ namespace sinew {
 /// with a radius around it, and how they behave in contact. A model is to its surface what a mapping is to
 /// its child: positions and velocities go down, forces come up. Surfaces are alike for all DataTypes, so that
 /// what is between them is compiled once.
-struct CollisionSurface {
+struct CollisionSurface : SurfaceShape {
   // of the model, at init
-  Shape shape = Shape::hull;  // of a primitive
-  bool rigid = false;
   CollisionSettings settings{};
   std::vector<std::array<int, 3>> elements{};  // their corners, -1 behind the last; of a hull its centre
   std::vector<double> radius{};                // of each sphere
@@ -38,8 +36,7 @@ struct CollisionSurface {
   // of each element the point of a state, counted through the scene, with which all of it moves as one: a
   // frame that carries it, or the point that it is itself; -1: there is none
   std::vector<int> carriers{};
-  int carrier = -1;     // that of all elements
-  Shapes companions{};  // of the models of points, lines and triangles on this state that collide as this one
+  int carrier = -1;  // that of all elements
 
   // around the primitives, from the elements
   std::vector<std::array<int, 3>> across{};  // of triangles: the corner opposite to the edge behind each
@@ -60,19 +57,21 @@ struct CollisionSurface {
   AxisBox box{};
   BoundingTree tree{};
   std::optional<std::array<double, 2>> enclosed{};  // margin and dt of the boxes, while vertices stand still
+  long enclosures = 0;                              // how often they were made anew
+  bool elsewhere = false;  // in this step its vertices are on a device: the host has those that touch
 
   std::size_t size() const { return elements.size(); }
-  int corners() const { return corners_of(shape); }
-  double radiusOf(int element) const { return shape == Shape::sphere ? radius[std::size_t(element)] : 0; }
+  SINEW_HD double radiusOf(int element) const {
+    return shape == Shape::sphere ? radius[std::size_t(element)] : 0;
+  }
   /// The corners of an element.
   template <std::size_t N>
-  std::array<Eigen::Vector3d, N> corner(std::vector<Eigen::Vector3d> const& of, int element) const {
+  SINEW_HD std::array<Eigen::Vector3d, N> corner(std::vector<Eigen::Vector3d> const& of, int element) const {
     std::array<Eigen::Vector3d, N> all;
     for (std::size_t c = 0; c < N; ++c) all[c] = of[std::size_t(elements[std::size_t(element)][c])];
     return all;
   }
 
-  bool hasAllSimplices() const { return companions == allSimplices && shape != Shape::sphere; }
   /// Takes the carriers of elements from those of vertices.
   void setCarriers(std::vector<int> const& ofVertices);
   /// Whether an element moves as one with an element of another surface, so that no force parts the two.
@@ -82,14 +81,6 @@ struct CollisionSurface {
   }
   /// Whether the other model is on the same state, of points, lines or triangles, and collides with the same.
   bool isAccompaniedBy(CollisionSurface const& other) const;
-  /// Of which shape the primitives are that have a place on the simplex over so many vertices of this
-  /// surface: the smallest that hold it, of this model and of those beside it.
-  Shape smallestAround(int vertices) const {
-    for (int n = vertices; n < corners(); ++n)
-      if (companions.has(simplex(n))) return simplex(n);
-    return skeleton(shape);
-  }
-
   /// Whether the distance d from a place of this surface, on the primitive over these vertices of an element,
   /// to somewhere else is the least one around it, and not only on this element: where it is not, a neighbour
   /// is nearer (the filter of Duriez, LocalMinDistance). `cone`: the sine of the angle by which a neighbour
@@ -181,6 +172,7 @@ void add_forces(typename D::VecDeriv& f, CollisionSurface const& s) {
 }  // namespace sinew
 
 #if SINEW_DEFINES
+#include <sinew/collision/local_minimum.hpp>
 #include <sinew/core/data_types.hpp>
 #include <sinew/core/error.hpp>
 
@@ -212,35 +204,7 @@ SINEW_ONCE bool CollisionSurface::isAccompaniedBy(CollisionSurface const& other)
 
 SINEW_ONCE bool CollisionSurface::isLocalMinimum(int element, std::array<int, 3> const& vertices,
                                                  Eigen::Vector3d const& d, double cone) const {
-  if (corners() < 2 || vertices[2] >= 0) return true;
-  auto towards = [&](Eigen::Vector3d const& direction) {
-    return d.dot(direction) > cone * d.norm() * direction.norm();
-  };
-  if (vertices[1] < 0) {
-    const auto v = std::size_t(vertices[0]);
-    for (int k = firstAround[v]; k < firstAround[v + 1]; ++k)
-      if (towards(position[std::size_t(around[std::size_t(k)])] - position[v])) return false;
-    return true;
-  }
-  // into the triangle that an edge has with a corner
-  auto intoTriangle = [&](int p, int q, int corner) {
-    const Eigen::Vector3d edge = position[std::size_t(q)] - position[std::size_t(p)];
-    const Eigen::Vector3d direction = position[std::size_t(corner)] - position[std::size_t(p)];
-    return towards(direction - (direction.dot(edge) / std::max(edge.squaredNorm(), 1e-300)) * edge);
-  };
-  auto const& e = elements[std::size_t(element)];
-  if (shape == Shape::line) {
-    if (beside.empty()) return true;
-    for (const int corner : beside[std::size_t(element)])
-      if (corner >= 0 && intoTriangle(e[0], e[1], corner)) return false;
-    return true;
-  }
-  for (std::size_t c = 0; c < 3; ++c) {
-    const int p = e[c], q = e[(c + 1) % 3], other = across[std::size_t(element)][c];
-    if ((p == vertices[0] && q == vertices[1]) || (q == vertices[0] && p == vertices[1]))
-      return other < 0 || !intoTriangle(p, q, other);
-  }
-  return true;
+  return is_local_minimum(*this, element, vertices, d, cone);
 }
 
 SINEW_ONCE std::string CollisionSurface::wrongWinding(Eigen::Vector3d const& along) const {
@@ -353,6 +317,7 @@ SINEW_ONCE void CollisionSurface::resize(std::size_t vertices) {
 SINEW_ONCE void CollisionSurface::enclose(double margin, double dt) {
   if (enclosed == std::array{margin, dt}) return;
   enclosed.reset();
+  ++enclosures;
   box = AxisBox{};
   for (std::size_t e = 0; e < size(); ++e) {
     AxisBox b;

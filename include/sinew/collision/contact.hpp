@@ -33,7 +33,7 @@ struct ContactSide {
                       field("lever", &S::lever, "m", "from the centre of a rigid, in its axes"),
                       field("feature", &S::feature, "", "of a hull"));
   }
-  int corners() const { return 3 - int(vertices[1] < 0) - int(vertices[2] < 0); }
+  SINEW_HD int corners() const { return 3 - int(vertices[1] < 0) - int(vertices[2] < 0); }
 };
 
 /// What friction, or sticking, remembers of a contact from step to step.
@@ -101,6 +101,7 @@ struct Contact {
   // of a response by multipliers, in this step: its first equation, and how many it has
   int row = -1, rows = 0;
   bool isNew = false;  // there was none of these vertices in the last step
+  int place = -1;      // among what a device has found for its model in this step
   ContactMotion motion{};
 
   static constexpr auto fields() {

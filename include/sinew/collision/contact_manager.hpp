@@ -89,7 +89,11 @@ struct ContactManager {
   std::vector<Attachment> attachments{};         // places that are held from outside
   std::vector<Contact> keptContacts{};           // those that follow a change of the scene, until init
   std::vector<Attachment> keptAttachments{};
-  bool couplesAgain = false;  // whatever the contacts are
+  bool couplesAgain = false;                    // whatever the contacts are
+  std::vector<ContactKey> keys{}, foundKeys{};  // of contacts, and of those that were found
+  std::vector<std::pair<ContactKey, int>> order{};
+  std::vector<Contact> sorted{};
+  bool byForce = false;  // some contacts are not answered by multipliers
   int lastAttachment = 0;
 
   void init(std::string const& where, std::vector<CollisionSurface*> const& all, bool again = false) {
@@ -103,10 +107,11 @@ struct ContactManager {
                            surfaces.begin()));
     if (again) contacts = std::exchange(keptContacts, {});
     attachments = std::exchange(keptAttachments, {});
-    couplesAgain = acts();
+    couplesAgain = !contacts.empty() || !attachments.empty();
     found.clear();
-    contacts.reserve(std::size_t(capacity));
-    found.reserve(std::size_t(capacity));
+    for (auto* list : {&contacts, &found, &sorted}) list->reserve(std::size_t(capacity));
+    for (auto* list : {&keys, &foundKeys}) list->reserve(std::size_t(capacity));
+    order.reserve(std::size_t(capacity));
     ofVertices.reserve(std::size_t(capacity));
     foundVertices.reserve(std::size_t(capacity));
     listed = false;
@@ -128,17 +133,26 @@ struct ContactManager {
                          " of the checkpoint is between primitives that this scene does not have; take the "
                          "checkpoint with the "
                          "scene that it was made of"));
+    byForce = coupling(contacts) > 0;
   }
 
   /// Whether a response by multipliers may answer contacts.
   bool asksForMultipliers() const { return answers.any(&All::isConstraint); }
 
-  bool acts() const { return !contacts.empty() || !attachments.empty(); }
+  /// Whether contacts of two models are answered by multipliers whose violations follow from the motion.
+  bool answersMeasuring(int a, int b) const { return All::measuresMotion(answers.find(a, b).place); }
+  /// Whether no contact is answered otherwise than by multipliers.
+  bool asksForMultipliersOnly() const {
+    return !answers.any([](int place) { return place >= 0 && !All::isConstraint(place); });
+  }
+
+  /// Whether some of it are forces, which ODE solvers see.
+  bool acts() const { return byForce || !attachments.empty(); }
   /// Forgets all contacts.
   void reset() {
-    couplesAgain = couplesAgain || acts();
+    couplesAgain = couplesAgain || !contacts.empty() || !attachments.empty();
     contacts.clear();
-    listed = false;
+    listed = byForce = false;
     attachments.clear();
   }
 
@@ -200,45 +214,46 @@ struct ContactManager {
     if (found.size() == found.capacity()) ++grown;
     found.push_back(c);
   }
+  Contact& addNew() {
+    if (found.size() == found.capacity()) ++grown;
+    return found.emplace_back();
+  }
 
   /// The contacts that were found take the place of those before.
   void manage(double dt) {
-    const auto before = [](Contact const& x, Contact const& y) {
-      const ContactKey kx = x.key(), ky = y.key();
-      if (kx != ky) return kx < ky;
-      if (x.distance != y.distance) return x.distance < y.distance;
-      return std::pair(x.a.element, x.b.element) < std::pair(y.a.element, y.b.element);
-    };
-    std::sort(found.begin(), found.end(), before);
-    // the same vertices meet in several pairs of primitives: once is enough
-    found.erase(std::unique(found.begin(),
-                            found.end(),
-                            [](Contact const& x, Contact const& y) { return x.key() == y.key(); }),
-                found.end());
-    foundVertices.list(found, bodies);
-    foundVertices.dropSamePlaces(found, bodies);
-    foundVertices.dropBehindOthers(found, bodies);
+    sortFound();
+    foundVertices.list(foundKeys, bodies);
+    foundVertices.dropSamePlaces(found, foundKeys, bodies);
+    foundVertices.dropBehindOthers(found, foundKeys, bodies);
     couplingChanged = std::exchange(couplesAgain, false);
-    if (!listed) ofVertices.list(contacts, bodies);
-    auto old = contacts.begin();
-    for (Contact& c : found) {
-      const ContactKey key = c.key();
-      while (old != contacts.end() && old->key() < key) ++old;
-      const bool again = old != contacts.end() && old->key() == key;
+    if (!listed) {
+      keys.clear();
+      for (Contact const& c : contacts) keys.push_back(c.key());
+      ofVertices.list(keys, bodies);
+    }
+    std::size_t old = 0;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      Contact& c = found[i];
+      ContactKey const& key = foundKeys[i];
+      while (old < keys.size() && keys[old] < key) ++old;
+      const bool again = old < keys.size() && keys[old] == key;
       describe(c, *surfaces[std::size_t(c.a.surface)], *surfaces[std::size_t(c.b.surface)]);
       couplingChanged = couplingChanged || (!again && !All::isConstraint(c.response));
       c.start = displacement(c);
       const int other = again ? -1 : ofVertices.find(key, bodies);
       if (again)
-        remember(c, *old);
+        remember(c, contacts[old]);
       else if (other >= 0)
         remember(c, contacts[std::size_t(other)]);
       c.isNew = !again && other < 0 && All::isConstraint(c.response);
     }
     listed = std::erase_if(found, [](Contact const& c) { return c.response < 0; }) == 0;
-    couplingChanged = couplingChanged || coupling(contacts) != coupling(found);
+    const auto joined = coupling(found);
+    couplingChanged = couplingChanged || coupling(contacts) != joined;
+    byForce = joined > 0;
     contacts.swap(found);
     found.clear();
+    keys.swap(foundKeys);
     ofVertices.swap(foundVertices);
     All::setStep(responses, dt);
     for (auto* s : surfaces) s->clearTouched();
@@ -251,6 +266,13 @@ struct ContactManager {
       touch(a.contact.b);
       find_solver(a.contact, nullptr, surfaces[std::size_t(a.contact.b.surface)]);
     }
+  }
+
+  /// The contacts that were found have the same keys as those of the last step, none of them by force, and
+  /// are in their places.
+  void goOn(double dt) {
+    couplingChanged = std::exchange(couplesAgain, false);
+    All::setStep(responses, dt);
   }
 
   /// f(response, state, touched points of it) for the contacts of responses that change what they touch.
@@ -335,6 +357,29 @@ struct ContactManager {
   }
 
  private:
+  // rising by key, each key once: the same vertices meet in several pairs of primitives
+  void sortFound() {
+    order.clear();
+    for (std::size_t i = 0; i < found.size(); ++i) order.emplace_back(found[i].key(), int(i));
+    auto at = [this](auto const& entry) -> Contact const& { return found[std::size_t(entry.second)]; };
+    std::sort(order.begin(), order.end(), [&](auto const& x, auto const& y) {
+      if (x.first != y.first) return x.first < y.first;
+      Contact const &a = at(x), &b = at(y);
+      if (a.distance != b.distance) return a.distance < b.distance;
+      return std::pair(a.a.element, a.b.element) < std::pair(b.a.element, b.b.element);
+    });
+    order.erase(
+        std::unique(
+            order.begin(), order.end(), [](auto const& x, auto const& y) { return x.first == y.first; }),
+        order.end());
+    sorted.clear();
+    foundKeys.clear();
+    for (auto const& entry : order) {
+      sorted.push_back(at(entry));
+      foundKeys.push_back(entry.first);
+    }
+    found.swap(sorted);
+  }
   // how many of them may join vertices in the matrix of a solver
   static auto coupling(std::vector<Contact> const& all) {
     return std::count_if(

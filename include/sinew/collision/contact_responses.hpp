@@ -84,6 +84,12 @@ struct ContactResponses {
     return place >= 0 && constraints[std::size_t(place)];
   }
 
+  /// By multipliers whose violations follow from the motion (MeasuresMotion).
+  static bool measuresMotion(int place) {
+    constexpr std::array measuring{ContactConstraint<Responses> && MeasuresMotion<Responses>...};
+    return place >= 0 && measuring[std::size_t(place)];
+  }
+
   /// f(response) for that at a place.
   template <class F>
   static void visit(std::tuple<Responses...> const& responses, int place, F&& f) {

@@ -25,6 +25,7 @@ struct DefaultPipeline {
 
   std::vector<CollisionSurface*> surfaces{};  // of the step, in the order of the scene
   std::vector<std::pair<int, int>> near{};    // pairs of them
+  bool begun = false;                         // a device looks for the contacts of the step
   long boxTests = 0;  // pairs of primitives that the narrow phase found in the last step
   // primitives of two models whose boxes meet: those that are found one after the other are met together
   std::array<std::pair<int, int>, 256> candidates{};

@@ -17,15 +17,20 @@ struct FrictionContactConstraint {
   double mu = 0.8;  // where neither responseParams nor the contactFriction of the models say it
 
   void addRows(ConstraintRows& rows, Contact const& c, ContactMotion const& m) const {
-    const bool ofVelocity = rows.ofVelocity;
-    const double gap = ofVelocity ? gap_of(c, m.start) / m.dt + c.normal.dot(m.rate) : gap_of(c, m.free);
-    if (!(c.friction > 0)) return rows.setViolation(rows.addUnilateral(), gap);
-    const int row = rows.addContact(c.friction);
-    rows.setViolation(row, gap);
+    const int row = c.friction > 0 ? rows.addContact(c.friction) : rows.addUnilateral();
+    double d[3];
+    violations(c, m, rows.ofVelocity, d);
+    for (int i = 0; i < (c.friction > 0 ? 3 : 1); ++i) rows.setViolation(row + i, d[i]);
+  }
+  /// Of the normal, and of two tangents where there is friction.
+  template <class C>
+  SINEW_HD static void violations(C const& c, ContactMotion const& m, bool ofVelocity, double* d) {
+    d[0] = ofVelocity ? gap_of(c, m.start) / m.dt + c.normal.dot(m.rate) : gap_of(c, m.free);
+    if (!(c.friction > 0)) return;
     const Eigen::Matrix3d axes = contact_axes(c.normal);
     const Eigen::Vector3d slip =
         ofVelocity ? m.rate : Eigen::Vector3d(part_after_impact(c, m) * (m.free - m.start));
-    for (int t = 1; t <= 2; ++t) rows.setViolation(row + t, axes.col(t).dot(slip));
+    for (int t = 1; t <= 2; ++t) d[t] = axes.col(t).dot(slip);
   }
 };
 

@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <type_traits>
+#include <utility>
 
 namespace sinew {
 
@@ -17,18 +19,24 @@ template <Shape S>
 using ShapeCorners = std::array<Eigen::Vector3d, std::size_t(corners_of(S))>;
 
 /// Two primitives of two surfaces, seen by an intersection method: their corners, and the motion of these
-/// during the step. Spheres are points here; radiusOf() of their surfaces is around them.
-template <Shape A, Shape B>
+/// during the step. Spheres are points here; radiusOf() of their surfaces is around them. Surfaces are those
+/// of models, or what has the same names of members in memory of a GPU.
+template <Shape A, Shape B, class SurfaceA, class SurfaceB>
 struct PrimitivePair {
-  CollisionSurface const &a, &b;
+  SurfaceA const& a;
+  SurfaceB const& b;
   int elementA, elementB;
   double dt;
   double cone = CollisionSurface::leastCone;  // for isLocalMinimum
 
-  auto cornersA() const { return a.corner<std::size_t(corners_of(A))>(a.position, elementA); }
-  auto cornersB() const { return b.corner<std::size_t(corners_of(B))>(b.position, elementB); }
-  double thickness() const { return a.radiusOf(elementA) + b.radiusOf(elementB); }
-  double proximity() const { return a.settings.proximity + b.settings.proximity; }
+  SINEW_HD auto cornersA() const {
+    return a.template corner<std::size_t(corners_of(A))>(a.position, elementA);
+  }
+  SINEW_HD auto cornersB() const {
+    return b.template corner<std::size_t(corners_of(B))>(b.position, elementB);
+  }
+  SINEW_HD double thickness() const { return a.radiusOf(elementA) + b.radiusOf(elementB); }
+  SINEW_HD double proximity() const { return a.settings.proximity + b.settings.proximity; }
 };
 
 namespace detail {
@@ -42,8 +50,10 @@ namespace detail {
            "points, or scale the scene"));
 }
 
-template <Shape S>
-void set_side(ContactSide& side, CollisionSurface const& s, int element, Eigen::Vector3d const& weights) {
+// where no corner has a weight, which is so for numbers that are not finite, there is no vertex on a GPU
+SINEW_ANY_SIDE
+template <Shape S, class Surface>
+SINEW_HD void set_side(ContactSide& side, Surface const& s, int element, Eigen::Vector3d const& weights) {
   side.element = element;
   int n = 0;
   for (std::size_t c = 0; c < std::size_t(corners_of(S)); ++c)
@@ -51,14 +61,15 @@ void set_side(ContactSide& side, CollisionSurface const& s, int element, Eigen::
       side.vertices[std::size_t(n)] = s.elements[std::size_t(element)][c];
       side.weights[std::size_t(n++)] = weights[Eigen::Index(c)];
     }
-  if (n == 0) refuse_place(s, element);
+  if constexpr (std::is_same_v<Surface, CollisionSurface>)
+    if (n == 0) refuse_place(s, element);
 }
 
 // the outer normal of a triangle whose inside is meant by the point, or whose border where what is between it
 // and the other place stands upright on it, as on the edges inside a plane; zero where it is not
-template <std::size_t N>
-Eigen::Vector3d outer_normal(CollisionSurface const& s, std::array<Eigen::Vector3d, N> const& p,
-                             Eigen::Vector3d const& weights, Eigen::Vector3d const& between) {
+template <class Surface, std::size_t N>
+SINEW_HD Eigen::Vector3d outer_normal(Surface const& s, std::array<Eigen::Vector3d, N> const& p,
+                                      Eigen::Vector3d const& weights, Eigen::Vector3d const& between) {
   if constexpr (N == 3)
     if (!s.settings.bothSide) {
       const Eigen::Vector3d n = (p[1] - p[0]).cross(p[2] - p[0]);
@@ -74,8 +85,8 @@ Eigen::Vector3d outer_normal(CollisionSurface const& s, std::array<Eigen::Vector
 /// Two bodies may have several models each, and what touches is then found by several pairs of them. One pair
 /// has it: that of the smallest primitives on which its two places are; where both have points, lines and
 /// triangles, points against triangles and lines against lines.
-template <Shape A, Shape B>
-bool is_of_pair(PrimitivePair<A, B> const& pair, Contact const& contact) {
+template <Shape A, Shape B, class SA, class SB>
+SINEW_HD bool is_of_pair(PrimitivePair<A, B, SA, SB> const& pair, Contact const& contact) {
   const int ofA = contact.a.corners(), ofB = contact.b.corners();
   if (pair.a.hasAllSimplices() && pair.b.hasAllSimplices())
     return A == Shape::point || (ofA >= 2 && (B == Shape::point || ofB == 2));
@@ -114,8 +125,8 @@ struct HullContacts;
 /// that are near by their boxes only are told apart so, at a tenth of the cost of closest points; what is
 /// not may be far as well.
 template <std::size_t NA, std::size_t NB>
-bool are_apart(std::array<Eigen::Vector3d, NA> const& a, std::array<Eigen::Vector3d, NB> const& b,
-               double reach) {
+SINEW_HD bool are_apart(std::array<Eigen::Vector3d, NA> const& a, std::array<Eigen::Vector3d, NB> const& b,
+                        double reach) {
   const double square = reach * reach * (1 + 1e-9);  // rounding does not part what is near
   auto parted = [&](Eigen::Vector3d const& n) {
     double lowA = 0, highA = 0, lowB = (b[0] - a[0]).dot(n), highB = lowB;
@@ -144,8 +155,8 @@ bool are_apart(std::array<Eigen::Vector3d, NA> const& a, std::array<Eigen::Vecto
 }
 
 /// A contact at closest points of two primitives: its places, and u there.
-template <Shape A, Shape B>
-Contact places_of(PrimitivePair<A, B> const& pair, ClosestPoints<double> const& closest) {
+template <Shape A, Shape B, class SA, class SB>
+SINEW_HD Contact places_of(PrimitivePair<A, B, SA, SB> const& pair, ClosestPoints<double> const& closest) {
   Contact contact;
   contact.start = closest.pointB - closest.pointA;
   detail::set_side<A>(contact.a, pair.a, pair.elementA, closest.weightsA);
@@ -154,12 +165,13 @@ Contact places_of(PrimitivePair<A, B> const& pair, ClosestPoints<double> const& 
 }
 /// Its normal, and with that the distance between surfaces: what touches a sphere or a thick rigid does so on
 /// its skin.
-template <Shape A, Shape B>
-void set_normal(Contact& contact, PrimitivePair<A, B> const& pair, Eigen::Vector3d const& normal) {
+template <Shape A, Shape B, class SA, class SB>
+SINEW_HD void set_normal(Contact& contact, PrimitivePair<A, B, SA, SB> const& pair,
+                         Eigen::Vector3d const& normal) {
   contact.normal = normal;
   contact.thickness = pair.thickness();
   contact.distance = normal.dot(contact.start) - contact.thickness;
-  auto toSkin = [&](ContactSide& side, CollisionSurface const& s, double along) {
+  auto toSkin = [&](ContactSide& side, auto const& s, double along) {
     if (s.rigid) side.lever = s.orientation[std::size_t(side.vertices[0])].conjugate() * (along * normal);
   };
   toSkin(contact.a, pair.a, pair.a.radiusOf(pair.elementA));
@@ -168,23 +180,24 @@ void set_normal(Contact& contact, PrimitivePair<A, B> const& pair, Eigen::Vector
   if (pair.b.rigid) contact.thickness -= pair.b.radiusOf(pair.elementB);
 }
 
-/// The contact of two primitives at their closest points, the corners being at `a` and `b`; none where a
+/// The contact of two primitives at their closest points, the corners being at `a` and `b`; false where a
 /// neighbour of one of them is nearer there, unless that is not asked (`onlyLocalMinima`). Where a corner or
 /// the inside of an edge is nearest to the inside of a triangle of a one-sided surface (bothSide = false), or
 /// to an edge or a corner of it in a plane, the normal is that of the triangle, and the distance is negative
 /// behind it.
-template <Shape A, Shape B>
-std::optional<Contact> contact_at(PrimitivePair<A, B> const& pair, ShapeCorners<A> const& a,
-                                  ShapeCorners<B> const& b, bool onlyLocalMinima = true) {
+SINEW_ANY_SIDE
+template <Shape A, Shape B, class SA, class SB>
+SINEW_HD bool find_contact(PrimitivePair<A, B, SA, SB> const& pair, ShapeCorners<A> const& a,
+                           ShapeCorners<B> const& b, bool onlyLocalMinima, Contact& contact) {
   const auto closest = closest_points(a, b);
-  Contact contact = places_of(pair, closest);
+  contact = places_of(pair, closest);
   const Eigen::Vector3d between = contact.start;
   // a point has one nearest place, and would be stopped by the edges inside a floor that it slides on
   constexpr bool ofPoint = std::tuple_size_v<ShapeCorners<A>> == 1 || std::tuple_size_v<ShapeCorners<B>> == 1;
   const double cone = ofPoint ? CollisionSurface::leastCone : pair.cone;
   if (onlyLocalMinima && (!pair.a.isLocalMinimum(pair.elementA, contact.a.vertices, between, cone) ||
                           !pair.b.isLocalMinimum(pair.elementB, contact.b.vertices, -between, cone)))
-    return std::nullopt;
+    return false;
   const Eigen::Vector3d outOfA = detail::outer_normal(pair.a, a, closest.weightsA, between),
                         outOfB = detail::outer_normal(pair.b, b, closest.weightsB, between);
   const bool faceA = outOfA.squaredNorm() > 0, faceB = outOfB.squaredNorm() > 0;
@@ -193,7 +206,15 @@ std::optional<Contact> contact_at(PrimitivePair<A, B> const& pair, ShapeCorners<
              faceA == faceB ? Eigen::Vector3d(contact_direction(a, b, closest))
              : faceA        ? outOfA
                             : Eigen::Vector3d(-outOfB));
-  return contact;
+  return true;
+}
+/// The same as an optional, which nvcc has on the host only.
+template <Shape A, Shape B>
+std::optional<Contact> contact_at(PrimitivePair<A, B> const& pair, ShapeCorners<A> const& a,
+                                  ShapeCorners<B> const& b, bool onlyLocalMinima = true) {
+  std::optional<Contact> found(std::in_place);
+  if (!find_contact(pair, a, b, onlyLocalMinima, *found)) found.reset();
+  return found;
 }
 
 }  // namespace sinew

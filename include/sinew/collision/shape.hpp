@@ -34,6 +34,25 @@ constexpr Shapes operator|(Shapes a, Shapes b) { return {a.bits | b.bits}; }
 inline constexpr Shapes allSimplices =
     Shapes::of(Shape::point) | Shapes::of(Shape::line) | Shapes::of(Shape::triangle);
 
+/// What a model has of a body besides its primitives: their shape, and which models stand beside it.
+struct SurfaceShape {
+  Shape shape = Shape::hull;  // of a primitive
+  bool rigid = false;
+  Shapes companions{};  // of the models of points, lines and triangles on this state that collide as this one
+
+  SINEW_HD int corners() const { return corners_of(shape); }
+  SINEW_HD bool hasAllSimplices() const {
+    return companions.bits == allSimplices.bits && shape != Shape::sphere;
+  }
+  /// Of which shape the primitives are that have a place on the simplex over so many vertices of this
+  /// surface: the smallest that hold it, of this model and of those beside it.
+  SINEW_HD Shape smallestAround(int vertices) const {
+    for (int n = vertices; n < corners(); ++n)
+      if (companions.has(simplex(n))) return simplex(n);
+    return skeleton(shape);
+  }
+};
+
 /// Shapes as a type.
 template <Shape...>
 struct ShapeList {};

@@ -18,19 +18,19 @@ using Simplex = std::array<Vec<Real, 3>, N>;
 namespace detail {
 
 template <class Real>
-Real clamp_unit(Real t) {
+SINEW_HD Real clamp_unit(Real t) {
   return t > 0 ? (t < 1 ? t : Real(1)) : Real(0);
 }
 
 template <class Real>
-Vec<Real, 3> unit_weight(std::size_t i) {
+SINEW_HD Vec<Real, 3> unit_weight(std::size_t i) {
   Vec<Real, 3> w(Real(0), Real(0), Real(0));
   w[Eigen::Index(i)] = 1;
   return w;
 }
 
 template <class Real, std::size_t N>
-Vec<Real, 3> weighted_point(Simplex<Real, N> const& p, Vec<Real, 3> const& w) {
+SINEW_HD Vec<Real, 3> weighted_point(Simplex<Real, N> const& p, Vec<Real, 3> const& w) {
   Vec<Real, 3> x = w[0] * p[0];
   for (std::size_t i = 1; i < N; ++i) x += w[Eigen::Index(i)] * p[i];
   return x;
@@ -39,8 +39,8 @@ Vec<Real, 3> weighted_point(Simplex<Real, N> const& p, Vec<Real, 3> const& w) {
 /// pointB - pointA, from differences to the points of largest weight: near a vertex the error is that of the
 /// distance from it.
 template <class Real, std::size_t NA, std::size_t NB>
-Vec<Real, 3> weighted_difference(Simplex<Real, NA> const& a, Simplex<Real, NB> const& b,
-                                 Vec<Real, 3> const& wa, Vec<Real, 3> const& wb) {
+SINEW_HD Vec<Real, 3> weighted_difference(Simplex<Real, NA> const& a, Simplex<Real, NB> const& b,
+                                          Vec<Real, 3> const& wa, Vec<Real, 3> const& wb) {
   std::size_t i = 0, j = 0;
   for (std::size_t k = 1; k < NA; ++k)
     if (wa[Eigen::Index(k)] > wa[Eigen::Index(i)]) i = k;
@@ -63,13 +63,15 @@ struct EdgeFrame {
 
   EdgeFrame() = default;
   template <std::size_t N>
-  EdgeFrame(Simplex<Real, N> const& p, std::size_t i, std::size_t j)
+  SINEW_HD EdgeFrame(Simplex<Real, N> const& p, std::size_t i, std::size_t j)
       : first(i), second(j), from(p[i]), along(p[j] - p[i]) {
     const Real square = along.squaredNorm();
     if (square > 0 && 1 / square <= std::numeric_limits<Real>::max()) inverse = 1 / square;
   }
-  Real nearest(Vec<Real, 3> const& fromStart) const { return clamp_unit(fromStart.dot(along) * inverse); }
-  Vec<Real, 3> weights(Real s) const {
+  SINEW_HD Real nearest(Vec<Real, 3> const& fromStart) const {
+    return clamp_unit(fromStart.dot(along) * inverse);
+  }
+  SINEW_HD Vec<Real, 3> weights(Real s) const {
     Vec<Real, 3> w(Real(0), Real(0), Real(0));
     w[Eigen::Index(first)] = 1 - s;
     w[Eigen::Index(second)] = s;
@@ -87,7 +89,7 @@ struct SimplexFrame {
   Vec<Real, 3> second, across, normal;  // of a triangle; the normal is not of unit length
   Real inverseAcross = 0;
 
-  explicit SimplexFrame(Simplex<Real, N> const& p) : points(p) {
+  SINEW_HD explicit SimplexFrame(Simplex<Real, N> const& p) : points(p) {
     if constexpr (N > 1)
       for (std::size_t k = 0; k < edgeCount; ++k) edges[k] = EdgeFrame<Real>(p, k, (k + 1) % N);
     if constexpr (N == 3) {
@@ -103,7 +105,7 @@ struct SimplexFrame {
   }
 
   /// Weights of the point nearest to points[0] + r.
-  Vec<Real, 3> nearest(Vec<Real, 3> const& r) const {
+  SINEW_HD Vec<Real, 3> nearest(Vec<Real, 3> const& r) const {
     if constexpr (N == 1) {
       return unit_weight<Real>(0);
     } else if constexpr (N == 2) {
@@ -133,7 +135,7 @@ struct SimplexFrame {
 /// Length that bounds what separates points of a and b from one another: distances are right to some epsilon
 /// of it.
 template <class Real, std::size_t NA, std::size_t NB>
-Real contact_size(Simplex<Real, NA> const& a, Simplex<Real, NB> const& b) {
+SINEW_HD Real contact_size(Simplex<Real, NA> const& a, Simplex<Real, NB> const& b) {
   Real size = 0;
   auto extend = [&](Vec<Real, 3> const& d) {
     size = std::max({size, std::abs(d[0]), std::abs(d[1]), std::abs(d[2])});

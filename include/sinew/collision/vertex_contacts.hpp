@@ -17,18 +17,20 @@ class VertexContacts {
   void swap(VertexContacts& other) { list_.swap(other.list_); }
 
   /// `bodies`: of each surface, the first one that is on the same state.
-  void list(std::vector<Contact> const& all, std::vector<int> const& bodies);
+  void list(std::vector<ContactKey> const& keys, std::vector<int> const& bodies);
 
   /// The number of the first contact that has a vertex of this one for itself; -1: there is none.
   int find(ContactKey const& key, std::vector<int> const& bodies) const;
 
   /// A vertex above the border of two triangles is near the one, and near the edge of the other, at the same
-  /// place: once is enough. The list is that of `found`.
-  void dropSamePlaces(std::vector<Contact>& found, std::vector<int> const& bodies);
+  /// place: once is enough. The list is that of `found`, and so are the keys.
+  void dropSamePlaces(std::vector<Contact>& found, std::vector<ContactKey>& keys,
+                      std::vector<int> const& bodies);
 
   /// What is behind a triangle is in the body, and pushed out, unless it is in front of something of the same
   /// body that is nearer in that direction: then it is above a plate, whose far side it is behind.
-  void dropBehindOthers(std::vector<Contact>& found, std::vector<int> const& bodies);
+  void dropBehindOthers(std::vector<Contact>& found, std::vector<ContactKey>& keys,
+                        std::vector<int> const& bodies);
 
  private:
   // the two bodies, the side, the vertex, and the corner of its hull
@@ -47,7 +49,8 @@ class VertexContacts {
             k.features[side].first};
   }
   static constexpr int dropped = -1;  // in place of a response
-  void removeDropped(std::vector<Contact>& found, std::vector<int> const& bodies);
+  void removeDropped(std::vector<Contact>& found, std::vector<ContactKey>& keys,
+                     std::vector<int> const& bodies);
 };
 
 }  // namespace sinew
@@ -58,12 +61,11 @@ class VertexContacts {
 
 namespace sinew {
 
-SINEW_ONCE void VertexContacts::list(std::vector<Contact> const& all, std::vector<int> const& bodies) {
+SINEW_ONCE void VertexContacts::list(std::vector<ContactKey> const& keys, std::vector<int> const& bodies) {
   list_.clear();
-  for (std::size_t i = 0; i < all.size(); ++i)
+  for (std::size_t i = 0; i < keys.size(); ++i)
     for (std::size_t side = 0; side < 2; ++side)
-      if (const ContactKey key = all[i].key(); key.ofOneVertex(side))
-        list_.push_back({identity(key, side, bodies), int(i)});
+      if (keys[i].ofOneVertex(side)) list_.push_back({identity(keys[i], side, bodies), int(i)});
   std::sort(list_.begin(), list_.end(), [](Entry const& x, Entry const& y) {
     return std::pair(x.vertex, x.contact) < std::pair(y.vertex, y.contact);
   });
@@ -80,7 +82,8 @@ SINEW_ONCE int VertexContacts::find(ContactKey const& key, std::vector<int> cons
   return -1;
 }
 
-SINEW_ONCE void VertexContacts::dropSamePlaces(std::vector<Contact>& found, std::vector<int> const& bodies) {
+SINEW_ONCE void VertexContacts::dropSamePlaces(std::vector<Contact>& found, std::vector<ContactKey>& keys,
+                                               std::vector<int> const& bodies) {
   bool any = false;
   for (std::size_t i = 0, j = 1; j < list_.size(); ++j) {
     if (list_[i].vertex != list_[j].vertex) {
@@ -94,10 +97,10 @@ SINEW_ONCE void VertexContacts::dropSamePlaces(std::vector<Contact>& found, std:
     other.response = dropped;
     any = true;
   }
-  if (any) removeDropped(found, bodies);
+  if (any) removeDropped(found, keys, bodies);
 }
 
-SINEW_ONCE void VertexContacts::dropBehindOthers(std::vector<Contact>& found,
+SINEW_ONCE void VertexContacts::dropBehindOthers(std::vector<Contact>& found, std::vector<ContactKey>& keys,
                                                  std::vector<int> const& bodies) {
   bool any = false;
   for (std::size_t first = 0, last = 0; first < list_.size(); first = last) {
@@ -112,12 +115,23 @@ SINEW_ONCE void VertexContacts::dropBehindOthers(std::vector<Contact>& found,
         any = true;
       }
   }
-  if (any) removeDropped(found, bodies);
+  if (any) removeDropped(found, keys, bodies);
 }
 
-SINEW_ONCE void VertexContacts::removeDropped(std::vector<Contact>& found, std::vector<int> const& bodies) {
-  std::erase_if(found, [](Contact const& c) { return c.response == dropped; });
-  list(found, bodies);
+SINEW_ONCE void VertexContacts::removeDropped(std::vector<Contact>& found, std::vector<ContactKey>& keys,
+                                              std::vector<int> const& bodies) {
+  std::size_t left = 0;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (found[i].response == dropped) continue;
+    if (left != i) {
+      found[left] = found[i];
+      keys[left] = keys[i];
+    }
+    ++left;
+  }
+  found.resize(left);
+  keys.resize(left);
+  list(keys, bodies);
 }
 
 }  // namespace sinew

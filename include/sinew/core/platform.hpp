@@ -21,12 +21,15 @@
 #include <sinew/core/emscripten.hpp>
 #endif
 
-/// SINEW_HD marks a function that a GPU kernel may call. The library's other macros are SINEW_INLINE, and
-/// those of compiled.hpp and version.hpp.
+/// SINEW_HD marks a function that a GPU kernel may call; SINEW_ANY_SIDE before a template says that it calls
+/// functions of its arguments, which need not be for a GPU where it is not called there. The library's other
+/// macros are SINEW_INLINE, and those of compiled.hpp and version.hpp.
 #if defined(__CUDACC__)
 #define SINEW_HD __host__ __device__
+#define SINEW_ANY_SIDE _Pragma("nv_exec_check_disable")
 #else
 #define SINEW_HD
+#define SINEW_ANY_SIDE
 #endif
 
 /// For the innermost functions, whose call would cost more than their body.

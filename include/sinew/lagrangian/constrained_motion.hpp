@@ -111,6 +111,10 @@ struct ConstrainedMotion {
   JacobianRows room{};
   FactoredRows factored{};
   bool hasMotion = false;  // the solver has found the motion of systems with the multipliers
+  // violations of contacts that states have found are theirs to say: those in `rows` are of no motion
+  bool owesViolations = false;
+  // whether all rows are theirs, in a form that may stand, and whether those of the last step do so
+  bool mayStand = false, stands = false;
 };
 
 }  // namespace sinew

@@ -7,8 +7,11 @@
 #include <sinew/core/registry.hpp>
 #include <sinew/scene/collision_models.hpp>
 #include <sinew/scene/solvers.hpp>
+#include <sinew/scene/state_contacts.hpp>
 
+#include <algorithm>
 #include <map>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -101,44 +104,141 @@ struct Collision {
   }
 
   /// The contacts of a step of dt that begins, and what they change at once. `newPattern(scope)` is called
-  /// for the nodes with a solver in whose matrix other vertices meet now.
+  /// for the nodes with a solver in whose matrix other vertices meet now. `byStates`: states that can find
+  /// contacts begin to, until finish(); where they cannot in this scene, byHost(path, why) is told.
+  template <class F, class G>
+  void detect(double dt, bool byStates, F&& newPattern, G&& byHost) const {
+    traverse(root, on<role::CollisionPipeline>([&](auto& pipeline, auto const& scope) {
+               if (begin(pipeline, scope, byStates, byHost)) return;
+               detectOnHost(pipeline, scope, dt, newPattern);
+             }));
+  }
+  /// The contacts for which states have begun to look; f(pipeline, manager, whether rows are those of the
+  /// step before but for violations) where there are some to come.
   template <class F>
-  void detect(double dt, F&& newPattern) const {
-    traverse(
-        root, on<role::CollisionPipeline>([&](auto& pipeline, auto const& scope) {
-          {
-            [[maybe_unused]] const auto span = root.span(Phase::positions);
-            collect(pipeline, scope);
-            with_first<role::ContactManager>(scope,
-                                             [&](auto& manager) { manager.settle(pipeline.surfaces); });
-          }
-          with_first<role::Intersection>(scope, [&](auto const& intersection) {
-            [[maybe_unused]] const auto span = root.span(Phase::boundingTrees);
-            for (auto* s : pipeline.surfaces)
-              s->enclose(intersection.reach() / 2, intersection.continuous ? dt : 0);
-          });
-          with_first<role::BroadPhase>(scope, [&](auto& broad) {
-            [[maybe_unused]] const auto span = root.span(Phase::broadPhase);
-            pipeline.findNear(broad);
-          });
-          with_first<role::ContactManager>(scope, [&](auto& manager) {
-            with_first<role::NarrowPhase>(scope, [&](auto& narrow) {
-              [[maybe_unused]] const auto span = root.span(Phase::narrowPhase);
-              with_first<role::Intersection>(scope, [&](auto const& intersection) {
-                using S = std::decay_t<decltype(scope)>;
-                pipeline.findContacts(
-                    detail::list_of_shapes<detail::shapes_below<S>()>(), narrow, intersection, manager, dt);
-              });
-            });
-            [[maybe_unused]] const auto span = root.span(Phase::response);
-            manager.manage(dt);
-            touch(manager);
-            if (manager.couplingChanged) forEachSolver(root, newPattern);
-          });
-        }));
+  void finish(double dt, F&& f) const {
+    traverse(root, on<role::CollisionPipeline>([&](auto& pipeline, auto const& scope) {
+               using S = std::decay_t<decltype(scope)>;
+               if constexpr (StateContacts<S>::possible) {
+                 using Found = typename StateContacts<S>::Found;
+                 auto found = Found::others;
+                 if (!std::exchange(pipeline.begun, false)) return;
+                 with_first<role::ContactManager>(scope, [&](auto& manager) {
+                   withIntersection(scope, [&](auto const& method) {
+                     [[maybe_unused]] const auto span = root.span(Phase::narrowPhase);
+                     found = StateContacts<S>{scope}.finish(manager, method);
+                   });
+                   [[maybe_unused]] const auto span = root.span(Phase::response);
+                   found == Found::others ? manager.manage(dt) : manager.goOn(dt);
+                   f(pipeline, manager, found == Found::sameRows);
+                 });
+               }
+             }));
   }
 
  private:
+  // f(intersection method) where it is one that a device has
+  template <class S, class F>
+  static void withIntersection(S const& scope, F&& f) {
+    with_first<role::Intersection>(scope, [&](auto const& method) {
+      if constexpr (detail::MeetsAnySurface<std::decay_t<decltype(method)>>) f(method);
+    });
+  }
+  // whether states look for all contacts of this step
+  template <class Pipeline, class S, class G>
+  bool begin(Pipeline& pipeline, S const& scope, bool byStates, G&& byHost) const {
+    if constexpr (!StateContacts<S>::possible) {
+      return false;
+    } else {
+      [[maybe_unused]] const auto span = root.span(Phase::narrowPhase);
+      pipeline.begun = false;
+      auto mark = [&](bool away) {
+        bool any = false;
+        int number = 0;
+        pipeline.surfaces.clear();
+        for_each_collision_model(
+            scope, [&]<class D>(auto& model, auto const& s, auto const&, std::type_identity<D>) {
+              CollisionSurface& surface = model.surface;
+              surface.elsewhere = away && detail::is_found_by_states<std::decay_t<decltype(model)>>() &&
+                                  surface.solver >= 0 && surface.settings.simulated;
+              surface.state = &s;
+              surface.number = number++;
+              any = any || surface.elsewhere;
+              pipeline.surfaces.push_back(&surface);
+            });
+        return any;
+      };
+      if (!mark(byStates)) return false;
+      const bool loop = with_first<role::AnimationLoop>(root, [](auto const&) {});
+      std::string_view why = loop ? "" : "nothing solves for multipliers";
+      with_first<role::ContactManager>(scope, [&](auto const& manager) {
+        with_first<role::Intersection>(scope, [&](auto const& method) {
+          if (why.empty()) why = StateContacts<S>{scope}.reason(pipeline.surfaces, pipeline, manager, method);
+        });
+      });
+      if (any_below<role::Carving>(root)) why = "tools carve in this scene";
+      if (hasSeveralModels(scope)) why = "a state has several models of points or spheres";
+      if (!why.empty()) {
+        mark(false);
+        byHost(scope.path(), why);
+        return false;
+      }
+      for_each_collision_model(
+          scope, [&]<class D>(auto& model, auto const& s, auto const& at, std::type_identity<D>) {
+            if (!model.surface.elsewhere) update_vertices<D>(model.surface, s.position, s.velocity);
+            if (model.surface.solver >= 0) model.surface.gravity = at.gravity();
+          });
+      pipeline.near.clear();
+      pipeline.boxTests = 0;
+      with_first<role::ContactManager>(scope, [&](auto& manager) {
+        withIntersection(
+            scope, [&](auto const& method) { StateContacts<S>{scope}.begin(pipeline, manager, method); });
+      });
+      return pipeline.begun = true;
+    }
+  }
+  template <class S>
+  static bool hasSeveralModels(S const& scope) {
+    bool several = false;
+    std::vector<void const*> states;
+    for_each_collision_model(scope, [&](auto& model, auto const& s, auto const&, auto) {
+      if (!model.surface.elsewhere) return;
+      several = several || std::find(states.begin(), states.end(), &s) != states.end();
+      states.push_back(&s);
+    });
+    return several;
+  }
+  template <class Pipeline, class S, class F>
+  void detectOnHost(Pipeline& pipeline, S const& scope, double dt, F&& newPattern) const {
+    {
+      [[maybe_unused]] const auto span = root.span(Phase::positions);
+      collect(pipeline, scope);
+      with_first<role::ContactManager>(scope, [&](auto& manager) { manager.settle(pipeline.surfaces); });
+    }
+    with_first<role::Intersection>(scope, [&](auto const& intersection) {
+      [[maybe_unused]] const auto span = root.span(Phase::boundingTrees);
+      for (auto* s : pipeline.surfaces)
+        s->enclose(intersection.reach() / 2, intersection.continuous ? dt : 0);
+    });
+    with_first<role::BroadPhase>(scope, [&](auto& broad) {
+      [[maybe_unused]] const auto span = root.span(Phase::broadPhase);
+      pipeline.findNear(broad);
+    });
+    with_first<role::ContactManager>(scope, [&](auto& manager) {
+      with_first<role::NarrowPhase>(scope, [&](auto& narrow) {
+        [[maybe_unused]] const auto span = root.span(Phase::narrowPhase);
+        with_first<role::Intersection>(scope, [&](auto const& intersection) {
+          pipeline.findContacts(
+              detail::list_of_shapes<detail::shapes_below<S>()>(), narrow, intersection, manager, dt);
+        });
+      });
+      [[maybe_unused]] const auto span = root.span(Phase::response);
+      manager.manage(dt);
+      touch(manager);
+      if (manager.couplingChanged) forEachSolver(root, newPattern);
+    });
+  }
+
   // Of each state which point of a state without a mapping its points move as one with, these being counted
   // through the scene; negative where there is none.
   std::map<void const*, std::vector<int>> carriersOfPoints() const {

@@ -3,10 +3,12 @@
 
 #include <sinew/core/step_warnings.hpp>
 #include <sinew/lagrangian/constrained_motion.hpp>
+#include <sinew/scene/collision.hpp>
 #include <sinew/scene/constraint_response.hpp>
 #include <sinew/scene/contact_rows.hpp>
 #include <sinew/scene/mechanical_operations.hpp>
 #include <sinew/scene/motion_problem.hpp>
+#include <sinew/scene/overlap_warnings.hpp>
 #include <sinew/scene/row_names.hpp>
 #include <sinew/scene/solvers.hpp>
 #include <sinew/scene/states_of.hpp>
@@ -98,13 +100,14 @@ struct ConstrainedStep {
   // states as they were, mappings as they were, and where all would come to be: what a mapping moves goes by
   // its Jacobian as far as its parents do
   template <class S>
-  void lookFromStart(S const& scope) const {
+  void lookFromStart(S const& scope, bool hostMakesRows) const {
     MechanicalOperations<S> operations(scope, time, dt);
-    operations.forEachIndependent([](auto& s) {
+    operations.forEachIndependent([hostMakesRows](auto& s) {
       using D = typename std::decay_t<decltype(s)>::DataTypes;
       s.position.swap(s.freePosition);
       VectorOperations<D>::difference(
           s[vec_id::dx], std::as_const(s.position), std::as_const(s.freePosition));
+      if (!hostMakesRows) return;
       VectorOperations<D>::bringToHost(s.position);  // rows look at them
       VectorOperations<D>::bringToHost(s.freePosition);
     });
@@ -117,8 +120,17 @@ struct ConstrainedStep {
     });
   }
 
-  void collectRows(ConstrainedMotion& m, bool ofVelocity, bool keepsForces) const {
+  void collectRows(ConstrainedMotion& m, bool ofVelocity, bool keepsForces, bool mayStand) const {
     [[maybe_unused]] const auto span = root.span(Phase::constraint);
+    const bool sameContacts = finishContacts();
+    m.stands = sameContacts && mayStand && !keepsForces && m.lastRows.ofVelocity == ofVelocity;
+    if (m.stands) {
+      std::swap(m.rows, m.lastRows);
+      ContactRows<RootScope>{root, dt}.guessAgain(m);
+      m.owesViolations = m.mayStand = true;
+      return;
+    }
+    m.owesViolations = false;
     m.rows.clear();
     m.rows.ofVelocity = ofVelocity;
     m.rowsOf.clear();
@@ -133,6 +145,19 @@ struct ConstrainedStep {
       if (keepsForces) system.whole = system.jacobian;
       project(scope, MultiplierResponse::of(ode, dt), m.room, system);
     });
+    m.mayStand = m.owesViolations && !keepsForces && !any_below<role::LagrangianConstraint>(root) &&
+                 !any_below<role::ProjectiveConstraint>(root);
+  }
+  // those that states have begun to look for; whether all are as in the last step
+  bool finishContacts() const {
+    int searches = 0, same = 0;
+    if constexpr (collides<RootScope>)
+      Collision<RootScope>{root}.finish(dt, [&](auto const& pipeline, auto const& manager, bool sameRows) {
+        warn_of_overlaps(notes, pipeline, manager);
+        ++searches;
+        same += sameRows;
+      });
+    return searches == 1 && same == 1;
   }
   template <class D, class State>
   ConstrainedState<D> seen(State const& s) const {
@@ -181,6 +206,15 @@ struct ConstrainedStep {
         system->add(e.row, dof + c, value);
       }
     });
+  }
+
+  // whether the rows of this step are all of contacts that states find
+  bool hostMakesRows() const {
+    bool byStates = false;
+    traverse(root, on<role::CollisionPipeline>([&](auto& pipeline, auto const&) {
+               if constexpr (requires { pipeline.begun; }) byStates = pipeline.begun;
+             }));
+    return !byStates || any_below<role::LagrangianConstraint>(root);
   }
 
   // J P, where P is what projective constraints leave of a motion
@@ -247,6 +281,7 @@ struct ConstrainedStep {
                  MotionProblem<RootScope>{root, time, dt, notes}.solve(m, solver, scope.path());
                  m.hasMotion = true;
                } else {
+                 ContactRows<RootScope>{root, dt}.putViolations(m);
                  findCompliance(m);
                  solveProblem(m, solver, scope.path());
                }
@@ -359,14 +394,15 @@ void ConstrainedStep<RootScope>::integrate(ConstrainedMotion& m, bool velocityFi
   });
   ++m.step;
   std::swap(m.rows, m.lastRows);
+  const bool mayStand = std::exchange(m.mayStand, false);  // not behind an Error
   forceMapped(m, velocityFirst);
   for_each_solver(root, [&](auto& ode, auto const& scope) { moveFreely(ode, scope, keepsForces); });
-  for_each_integrator(root, [&](auto&, auto const& scope) { lookFromStart(scope); });
-  collectRows(m, velocityFirst, keepsForces);
+  const bool ofHost = hostMakesRows();
+  for_each_integrator(root, [&](auto&, auto const& scope) { lookFromStart(scope, ofHost); });
+  collectRows(m, velocityFirst, keepsForces, mayStand);
   m.hasMotion = false;
   if (m.rows.count() > 0) solve(m);
   giveBack(m);
-  ContactRows<RootScope>{root, dt}.giveBack(m);
   std::size_t number = 0;
   for_each_integrator(root, [&](auto& ode, auto const& scope) {
     using S = std::decay_t<decltype(scope)>;
@@ -378,6 +414,7 @@ void ConstrainedStep<RootScope>::integrate(ConstrainedMotion& m, bool velocityFi
     operations.projectPositionAndVelocity(time + dt, vec_id::position, vec_id::velocity);
     operations.propagate(vec_id::position, vec_id::velocity);
   });
+  ContactRows<RootScope>{root, dt}.giveBack(m);  // a device goes on meanwhile
 }
 
 template <class RootScope>

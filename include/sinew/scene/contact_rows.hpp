@@ -9,6 +9,7 @@
 #include <Eigen/Eigenvalues>
 
 #include <type_traits>
+#include <utility>
 
 namespace sinew {
 
@@ -26,6 +27,30 @@ struct ContactRows {
       bool some = false;
       manager.forEachConstrained([&](auto const&, Contact&) { some = true; });
       if (some) addOf(manager, scope, m);
+    });
+  }
+
+  /// The guesses of multipliers anew, where rows are those of the step before.
+  void guessAgain(ConstrainedMotion& m) const {
+    forEachManager([&](auto& manager, auto const&) {
+      manager.forEachConstrained([&](auto const&, Contact const& c) { guess(m, c, contact_axes(c.normal)); });
+    });
+  }
+
+  /// Brings the violations that states were to say, where these cannot.
+  void putViolations(ConstrainedMotion& m) const {
+    if (!std::exchange(m.owesViolations, false)) return;
+    m.mayStand = false;
+    forEachManager([&](auto& manager, auto const& scope) {
+      for_each_collision_model(scope, [&]<class D>(auto& model, auto& s, auto const&, std::type_identity<D>) {
+        if (model.surface.elsewhere) lookAt<D>(model.surface, s);
+      });
+      manager.forEachConstrained([&](auto const& response, Contact& c) {
+        if (c.place < 0 || c.row < 0) return;
+        c.motion = motionOf(manager, c);
+        if constexpr (MeasuresMotion<std::decay_t<decltype(response)>>)
+          response.violations(c, c.motion, m.rows.ofVelocity, m.rows.violation.data() + std::size_t(c.row));
+      });
     });
   }
 
@@ -90,8 +115,10 @@ struct ContactRows {
     manager.assembly.entries.clear();
     for_each_collision_model(
         scope, [&]<class D>(auto& model, auto& s, auto const& at, std::type_identity<D>) {
-          update_touched_vertices<D>(model.surface, s.position, s.velocity);
-          setMotion<D>(model.surface, s);
+          if (model.surface.elsewhere)
+            keepStill(model.surface);
+          else
+            lookAt<D>(model.surface, s);
           if (model.simulated && model.surface.solver >= 0)
             at.template withDofs<D>(
                 [&](auto const& dofs) { manager.assembly.template addVertices<D>(model.surface, dofs); });
@@ -101,11 +128,25 @@ struct ContactRows {
       const int row = m.rows.count();
       c.motion = motionOf(manager, c);
       c.start = c.motion.start;
+      m.owesViolations = m.owesViolations || c.place >= 0;
       response.addRows(m.rows, c, c.motion);
       c.rows = m.rows.count() - row;
       c.row = c.rows > 0 ? row : -1;
       if (c.rows > 0) addJacobian(manager, c, m);
     });
+  }
+  // (the start of touched vertices that are elsewhere is known)
+  static void keepStill(CollisionSurface& surface) {
+    for (const int t : surface.touched) {
+      surface.dx[std::size_t(t)].setZero();
+      surface.velocity[std::size_t(t)].setZero();
+      surface.force[std::size_t(t)].setZero();
+    }
+  }
+  template <class D, class State>
+  void lookAt(CollisionSurface& surface, State& s) const {
+    update_touched_vertices<D>(surface, s.position, s.velocity);
+    setMotion<D>(surface, s);
   }
   // how far touched vertices go without multipliers; what no solver moves is where it will be, and has come
   // there
@@ -136,17 +177,19 @@ struct ContactRows {
     motion.rate = rate_of(c.b, b, b.velocity, b.spin) - rate_of(c.a, a, a.velocity, a.spin);
     return motion;
   }
+  static void guess(ConstrainedMotion& m, Contact const& c, Eigen::Matrix3d const& axes) {
+    for (int i = 0; i < c.rows; ++i) m.rows.setMultiplier(c.row + i, axes.col(i).dot(c.force));
+  }
   template <class Manager>
   static void addJacobian(Manager& manager, Contact const& c, ConstrainedMotion& m) {
     const Eigen::Matrix3d axes = contact_axes(c.normal);
     auto const& blocks = manager.assembly.blocksOf(c, manager.surfaces);
-    for (int i = 0; i < c.rows; ++i) {
-      m.rows.setMultiplier(c.row + i, axes.col(i).dot(c.force));
+    guess(m, c, axes);
+    for (int i = 0; i < c.rows; ++i)
       for (auto const& block : blocks)
         for (int k = 0; k < block.columns; ++k)
           m.systems[std::size_t(block.solver)].add(
               c.row + i, block.dof + k, axes.col(i).dot(block.rows.col(k)));
-    }
   }
 };
 

@@ -75,6 +75,7 @@ struct LooseInteractions {
       });
     };
     traverse(root, on<role::ContactManager>([&](auto& manager, auto const&) {
+               if (!manager.acts()) return;
                withModels([]<class D>(auto& model, auto& state, std::type_identity<D>) {
                  update_touched_vertices<D>(model.surface, state.position, state.velocity);
                });

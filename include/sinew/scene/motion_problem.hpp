@@ -7,6 +7,7 @@
 #include <sinew/scene/mechanical_operations.hpp>
 #include <sinew/scene/row_names.hpp>
 #include <sinew/scene/solvers.hpp>
+#include <sinew/scene/state_contacts.hpp>
 #include <sinew/solver/linear_system.hpp>
 
 #include <algorithm>
@@ -43,6 +44,7 @@ struct MotionProblem {
       dofs += system.dofs();
     });
     if (!solveByStates(m, solver, dofs, where)) {
+      ContactRows<RootScope>{root, dt}.putViolations(m);
       forEachSystem(m, [&](auto& ode, auto const& scope, ConstrainedSystem& system) {
         assemble(scope, MultiplierResponse::of(ode, dt), system);
       });
@@ -94,6 +96,10 @@ struct MotionProblem {
     try {
       solve();
     } catch (Error const& error) {
+      if (m.owesViolations)
+        for (Eigen::Index i = 0; i < m.motionRows.start.size(); ++i)
+          if (!std::isfinite(m.motionRows.start[i]))
+            RowNames<RootScope>{root, m}.refuseNotFinite(m.motionRows.rows[std::size_t(i)]);
       if constexpr (SaysUnsolved<Solver>)
         if (!solver.result.converged) throw Error({}, text(error.what(), unsolved(m)));
       throw;
@@ -120,7 +126,10 @@ struct MotionProblem {
         explained(m, solver, [&] {
           solver.solveMotionBy(
               [&](auto const& settings, std::vector<double>& lastMotion) {
-                const auto found = motion.solve(m.motionRows, settings, lastMotion, where);
+                const auto found = motion.solve(
+                    m.motionRows, settings, lastMotion, where, m.owesViolations, [&](double* to) {
+                      violationsByStates(m, to);
+                    });
                 if (!found.converged)  // for the message
                   m.motionRows.motion =
                       Eigen::Map<Eigen::VectorXd const>(lastMotion.data(), Eigen::Index(lastMotion.size()));
@@ -139,6 +148,35 @@ struct MotionProblem {
       done = true;
     }
     return done;
+  }
+  // the violations of contacts that states have found, a number each of the joined rows
+  void violationsByStates(ConstrainedMotion const& m, double* to) const {
+    traverse(root, on<role::ContactManager>([&](auto& manager, auto const& scope) {
+               StateContacts<std::decay_t<decltype(scope)>>{scope}.eachSearch(
+                   [&](CollisionSurface& surface, auto& state, auto& search) {
+                     if (!m.stands) listRows(m, manager, surface.number, search);
+                     search.putViolations(manager.responses,
+                                          std::as_const(state.position),
+                                          std::as_const(state.freePosition),
+                                          std::as_const(state.velocity),
+                                          dt,
+                                          m.rows.ofVelocity,
+                                          to);
+                   });
+             }));
+  }
+  // tells a search which of the joined rows its contacts have
+  template <class Manager, class Search>
+  static void listRows(ConstrainedMotion const& m, Manager const& manager, int surface, Search& search) {
+    search.clearRows();
+    std::vector<int> const& all = m.motionRows.rows;
+    auto joined = all.begin();
+    for (Contact const& c : manager.contacts) {
+      if (c.place < 0 || c.row < 0 || (c.a.surface != surface && c.b.surface != surface)) continue;
+      joined = std::lower_bound(joined, all.end(), c.row);
+      if (joined == all.end()) return;
+      if (*joined == c.row) search.addRow({c.place, int(joined - all.begin()), c.response, c.friction});
+    }
   }
   bool canBeSolvedByStates(ConstrainedMotion& m) const {
     bool can = true;
@@ -228,9 +266,10 @@ struct MotionProblem {
   static bool asBefore(ConstrainedMotion const& m, int dofs) {
     MotionRows const& all = m.motionRows;
     return all.step == m.step - 1 && !all.byMatrix && all.dofs == dofs + 3 * int(all.slack.size()) &&
-           m.rows.blocks == m.lastRows.blocks && m.rows.compliance == m.lastRows.compliance &&
-           m.rows.ofVelocity == m.lastRows.ofVelocity &&
-           std::all_of(m.systems.begin(), m.systems.end(), [](auto& s) { return s.rowsAsBefore(); });
+           (m.stands ||
+            (m.rows.blocks == m.lastRows.blocks && m.rows.compliance == m.lastRows.compliance &&
+             m.rows.ofVelocity == m.lastRows.ofVelocity &&
+             std::all_of(m.systems.begin(), m.systems.end(), [](auto& s) { return s.rowsAsBefore(); })));
   }
   template <class Stiffest>
   void joinAnew(ConstrainedMotion& m, int dofs, Stiffest&& stiffest) const {

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <sinew/collision/overlaps.hpp>
 #include <sinew/core/step_warnings.hpp>
 #include <sinew/scene/carving.hpp>
 #include <sinew/scene/collision.hpp>
 #include <sinew/scene/loose_interactions.hpp>
 #include <sinew/scene/mechanical_operations.hpp>
+#include <sinew/scene/overlap_warnings.hpp>
 #include <sinew/scene/solvers.hpp>
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace sinew {
@@ -92,28 +93,11 @@ struct Step {
   StepNotes notes() const { return {warnings, number, time + dt}; }
   void warnOfOverlaps() const {
     traverse(root, on<role::CollisionPipeline>([&](auto& pipeline, auto const& scope) {
-               with_first<role::ContactManager>(scope,
-                                                [&](auto& manager) { warnOfOverlaps(pipeline, manager); });
+               if constexpr (requires { pipeline.begun; })
+                 if (pipeline.begun) return;  // what has to come
+               with_first<role::ContactManager>(
+                   scope, [&](auto& manager) { warn_of_overlaps(notes(), pipeline, manager); });
              }));
-  }
-  template <class Pipeline, class Manager>
-  void warnOfOverlaps(Pipeline const& pipeline, Manager const& manager) const {
-    auto const& surfaces = pipeline.surfaces;
-    auto warn = [&](Overlap const& o, std::string_view what, std::string_view advice) {
-      std::string const &a = surfaces[std::size_t(o.a)]->path, &b = surfaces[std::size_t(o.b)]->path;
-      notes().warn(a == b ? text("parts of ", a) : text(a, " and ", b), what, [&] {
-        return text(what, o.depth > 0 ? text(", by ", o.depth, " m") : std::string(), advice);
-      });
-    };
-    if (number == 1)
-      for (Overlap const& o : overlaps(surfaces, pipeline.near, manager.contacts))
-        warn(o, "they start in each other", ", and will be driven apart at once; move one of them away");
-    else
-      for (Overlap const& o : unseen_overlaps(surfaces, manager.contacts))
-        warn(o,
-             "they come into each other before a contact is seen",
-             "; make alarmDistance longer than what they move in a step, or take smaller steps, or a "
-             "ContinuousIntersection");
   }
 
   // (a function, since the body of a generic lambda is looked at where there is no loop)
@@ -186,7 +170,7 @@ struct Step {
 template <class RootScope>
 void Step<RootScope>::detectContacts() const {
   [[maybe_unused]] const auto span = root.span(Phase::collision);
-  Collision<RootScope>{root}.detect(dt, [&](auto const& solved, bool) {
+  auto newPattern = [&](auto const& solved, bool) {
     auto visit = on<role::OdeSolver>([&](auto& ode) {
       MechanicalOperations<std::decay_t<decltype(solved)>> operations(solved, time, dt);
       if (operations.template hasSystem<std::decay_t<decltype(ode)>>()) operations.formPattern();
@@ -196,6 +180,12 @@ void Step<RootScope>::detectContacts() const {
     with_first<role::AnimationLoop>(root, [](auto& loop) {
       if constexpr (requires { loop.motion.systems; })
         for (auto& system : loop.motion.systems) system.hasPattern = false;
+    });
+  };
+  // in the first step the host looks at all that may start in each other
+  Collision<RootScope>{root}.detect(dt, number > 1, newPattern, [&](auto const& where, std::string_view why) {
+    notes().warn(where, "contacts of bodies on a device are found on the host", [&] {
+      return text("contacts of bodies on a device are found on the host, from copies: ", why);
     });
   });
   warnOfOverlaps();

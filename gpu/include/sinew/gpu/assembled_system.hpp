@@ -70,15 +70,12 @@ void for_each_mass_column(Operations& operations, State& state, double m, MultiV
   }
 }
 
-// whether none of the contacts of a solver is a force: multipliers answer all
+// whether none of the contacts of a solver is a force, now, or ever: multipliers answer all
 template <class Operations>
-bool only_multipliers_answer(Operations& operations) {
+bool only_multipliers_answer(Operations& operations, bool now) {
   bool only = true;
-  operations.root.withContacts([&](auto& manager) {
-    std::size_t answered = 0;
-    manager.forEachConstrained([&](auto const&, auto&) { ++answered; });
-    only = answered == manager.contacts.size() && manager.attachments.empty();
-  });
+  operations.root.withContacts(
+      [&](auto& manager) { only = !manager.acts() && (now || manager.asksForMultipliersOnly()); });
   return only;
 }
 
@@ -86,7 +83,7 @@ bool only_multipliers_answer(Operations& operations) {
 
 /// Whether all that a solver's matrix consists of can be summed up on the device: elements there and masses,
 /// on states that are no mapped ones; nothing between two states. `now`: mapped states that add nothing may
-/// be there, and collision models as long as their contacts add nothing, too.
+/// be there; collision models may be as long as their contacts add nothing, now or ever.
 template <class Operations>
 bool can_assemble(Operations& operations, bool now) {
   bool can = true;
@@ -100,7 +97,7 @@ bool can_assemble(Operations& operations, bool now) {
                        can = can && now && !HasGeometricStiffness<C>;
                    });
                  else if constexpr (HasRole<C, role::CollisionModel>)
-                   can = can && now && detail::only_multipliers_answer(operations);
+                   can = can && detail::only_multipliers_answer(operations, now);
                  else if constexpr (HasRole<C, role::InteractionForceField>)
                    can = false;
                  else

@@ -85,9 +85,12 @@ class ConvexMotion {
   }
 
   /// From `motion`, that of the step before, scaled. Leaves the multipliers in the rows, and the motion there
-  /// and for give(). Throws Error as ConvexStep does.
+  /// and for give(). `byStates`: some violations at the start are not in the rows; put(to) has the device
+  /// write them there, and rows get them where something is to be said of them. Throws Error as ConvexStep
+  /// does.
+  template <class Put>
   ConvexStepResult solve(MotionRows& rows, ConvexStepSettings const& settings, std::vector<double>& motion,
-                         std::string_view where) {
+                         std::string_view where, bool byStates, Put&& put) {
     check_convex_step(settings, where);
     check_convex_guess(rows.start, rows.multipliers, where);
     const auto n = std::size_t(rows.jacobian.rows());
@@ -100,13 +103,18 @@ class ConvexMotion {
     sent_.assign(rows.start.data(), rows.start.data() + n);
     sent_.insert(sent_.end(), rows.multipliers.data(), rows.multipliers.data() + n);
     copy_to_device(exchanged_.data() + head, sent_.data(), sent_.size());
+    if (byStates) put(exchanged_.data() + head);
     while (true) {
       run_whole_team(std::size_t(q_.system.all), q_, team_);
       arrival_.begin(exchanged_.data(), head + 2 * n);
       brought_.begin(q_.velocity, motion.size());
       receive(head + 2 * n);
       std::memcpy(static_cast<void*>(&q_.progress), received_.data(), sizeof(ConvexProgress));
-      if (q_.progress.ends == ConvexProgress::Ends::done) break;
+      using Ends = ConvexProgress::Ends;
+      const bool done = q_.progress.ends == Ends::done;
+      if (byStates && (done ? !q_.progress.found.converged : q_.progress.ends != Ends::asks))
+        rows.start = Eigen::Map<Eigen::VectorXd const>(received_.data() + head, Eigen::Index(n));
+      if (done) break;
       askHost(rows, settings, where);
     }
     brought_.take(motion.data(), motion.size());

@@ -14,13 +14,14 @@ template <class D>
 using CudaBodies = Registry<MechanicalObject<D>, UniformMass<D>, RestShapeSpringsForceField<D>,
                             FixedConstraint<D>, PartialFixedConstraint<D>>;
 template <class D>
-using CudaPoints = Registry<CudaBodies<D>, DiagonalMass<D>, PointSprings<D>, PlaneForceField<D>,
-                            SphereForceField<D>, TriangleFEMForceField<D>, TetrahedronFEMForceField<D>,
-                            HexahedronFEMForceField<D>, TetrahedronHyperelasticityFEMForceField<D>,
-                            UnilateralLagrangianConstraint<D>, UnilateralLagrangianConstraint<D, Linked>>;
+using CudaPoints =
+    Registry<CudaBodies<D>, DiagonalMass<D>, PointSprings<D>, PlaneForceField<D>, SphereForceField<D>,
+             TriangleFEMForceField<D>, TetrahedronFEMForceField<D>, HexahedronFEMForceField<D>,
+             TetrahedronHyperelasticityFEMForceField<D>, UnilateralLagrangianConstraint<D>,
+             UnilateralLagrangianConstraint<D, Linked>, PointCollisionModel<D>, SphereCollisionModel<D>>;
 template <class D>
 using CudaRigids = Registry<CudaBodies<D>, AngularSpringForceField<D>>;
-// to states of the device, and to models of the host: collision models are there over Vec3d
+// to states of the device, and to models of the host
 template <class In>
 using CudaPointMappings =
     Registry<SpatialMappings<In, In>, SpatialMappings<In, Vec3d>, SpatialMappings<In, Vec3f>>;

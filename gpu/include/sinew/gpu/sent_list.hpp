@@ -9,10 +9,11 @@
 
 namespace sinew::gpu {
 
-/// A list of the host of which the device has a copy, sent only where it has changed.
+/// A list of the host of which the device has a copy, sent only where it has changed. T holds nothing but
+/// numbers.
 template <class T>
 class SentList {
-  static_assert(std::is_trivially_copyable_v<T>);
+  static_assert(std::is_trivially_destructible_v<T>);
 
  public:
   T* send(std::vector<T> const& now) {

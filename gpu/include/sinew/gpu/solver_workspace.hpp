@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/gpu/block_rows.hpp>
+#include <sinew/gpu/contact_search.hpp>
 #include <sinew/gpu/convex_motion.hpp>
 #include <sinew/gpu/team_solver.hpp>
 #include <sinew/state/vector_operations.hpp>
@@ -15,6 +16,7 @@ struct SolverWorkspace<CudaTypes<H>> {
   gpu::BlockRows<CudaTypes<H>> rows{};             // the assembled system
   gpu::TeamSolver<CudaTypes<H>> team{};            // of all bodies of a linear solver, in the first of them
   gpu::ConvexMotion<CudaTypes<H>> motion{};        // of a scene with constraints by multipliers
+  gpu::ContactSearch<CudaTypes<H>> contacts{};     // of a collision model of its points
 };
 
 }  // namespace sinew

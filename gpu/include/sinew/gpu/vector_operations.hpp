@@ -41,6 +41,7 @@ struct VectorOperations<CudaTypes<H>> {
   using Real = typename D::Real;
   static constexpr bool solvesSystems = true;
   static constexpr bool solvesMotions = !D::rigid && D::size == 3;
+  static constexpr bool findsContacts = solvesMotions;
   using Coord = typename D::Coord;
   using Deriv = typename D::Deriv;
   using VecCoord = typename D::VecCoord;

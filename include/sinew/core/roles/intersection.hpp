@@ -33,7 +33,7 @@ namespace sinew {
 enum class Shape;         // of primitives: hull, point, line, triangle, sphere (collision/shape.hpp)
 struct Contact;           // collision/contact.hpp
 struct CollisionSurface;  // collision/collision_surface.hpp
-template <Shape A, Shape B>
+template <Shape A, Shape B, class SurfaceA = CollisionSurface, class SurfaceB = SurfaceA>
 struct PrimitivePair;  // collision/proximity.hpp
 
 /// Whether it looks at the motion of a step, so that boxes are around where primitives come from and go to.

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include "scenes_contact.hpp"
+
+#include <sinew/contact.hpp>
+
+#include <utility>
+
+namespace gpu_test {
+
+/// The soft block of BlockOnPlane, slides over hills of triangles that stand, its points over D meeting them.
+struct BlockOnFloor {
+  double slope = 0.3, mu = 0.2;
+  bool velocityFirst = false;
+  int capacity = 1000;
+  bool twice = false;  // with another plate, which the block never reaches by more than its points
+
+  // off the lines on which points of the block would meet two triangles at once
+  MeshTopology floor() const {
+    constexpr int cells = 7;
+    MeshTopology t;
+    for (int j = 0; j <= cells; ++j)
+      for (int i = 0; i <= cells; ++i)
+        t.position.push_back({0.613 * i - 1.237, 0.587 * j - 1.171, -0.01 - 0.002 * ((i + 2 * j) % 3)});
+    for (int j = 0; j < cells; ++j)
+      for (int i = 0; i < cells; ++i) {
+        const int p = j * (cells + 1) + i, q = p + cells + 1;
+        t.triangles.push_back({p, p + 1, q + 1});
+        t.triangles.push_back({p, q + 1, q});
+      }
+    return t;
+  }
+  template <class D, class Model, class... More>
+  auto make(Model model, More... more) const {
+    const BlockOnPlane b{.slope = slope};
+    const Mesh m = b.mesh();
+    return Simulation{
+        node<"root">(FreeMotionAnimationLoop{.solveVelocityConstraintFirst = velocityFirst},
+                     b.solver(),
+                     b.gravity(),
+                     DefaultPipeline{},
+                     BruteForceBroadPhase{},
+                     BVHNarrowPhase{},
+                     MinProximityIntersection{.alarmDistance = 0.02, .contactDistance = 0.01},
+                     DefaultContactManager{.response = "FrictionContactConstraint",
+                                           .responseParams = "mu=" + std::to_string(mu),
+                                           .capacity = capacity},
+                     node<"floor">(floor(),
+                                   MechanicalObject<Vec3d>{},
+                                   TriangleCollisionModel<Vec3d>{.moving = false, .simulated = false}),
+                     node<"body">(b.ode(),
+                                  b.linear<CGLinearSolver<CompressedRowSparseMatrixMat3x3d>>(),
+                                  MeshTopology{.position = m.positions, .tetrahedra = m.tetrahedra},
+                                  MechanicalObject<D>{},
+                                  UniformMass<D>{.totalMass = b.mass},
+                                  b.material<D>(),
+                                  std::move(model),
+                                  std::move(more)...))};
+  }
+};
+
+struct PointsOnFloor : OneBody {
+  static constexpr double dt = 0.01;
+  static constexpr int steps = 40;
+  static constexpr bool onDevice = true;
+  template <class D>
+  static auto make() {
+    return BlockOnFloor{}.make<D>(PointCollisionModel<D>{});
+  }
+};
+struct RatesOnFloor : PointsOnFloor {
+  template <class D>
+  static auto make() {
+    return BlockOnFloor{.velocityFirst = true}.make<D>(PointCollisionModel<D>{});
+  }
+};
+struct SpheresOnFloor : PointsOnFloor {
+  template <class D>
+  static auto make() {
+    return BlockOnFloor{.mu = 0}.make<D>(SphereCollisionModel<D>{.radius = 0.004});
+  }
+};
+/// Some of its points are held, of which some touch.
+struct HeldOnFloor : PointsOnFloor {
+  static constexpr bool onDevice = false;  // the host looks at what is held
+  template <class D>
+  static auto make() {
+    const Mesh m = BlockOnPlane{}.mesh();
+    return BlockOnFloor{.slope = 0.5}.make<D>(
+        PointCollisionModel<D>{},
+        FixedConstraint<D>{.indices = BlockOnPlane::points(m, [](auto const& x) { return x[0] < 1e-9; })},
+        PartialFixedConstraint<D>{
+            .indices = BlockOnPlane::points(m, [](auto const& x) { return x[1] > 0.99; }),
+            .fixedDirections = {true, false, false}});
+  }
+};
+
+}  // namespace gpu_test
