@@ -14,8 +14,8 @@ export class Pointer {
     const canvas = view.canvas;
     canvas.addEventListener('pointerdown', (event) => this.#press(event));
     canvas.addEventListener('pointermove', (event) => this.#move(event));
-    for (const end of ['pointerup', 'pointercancel', 'lostpointercapture'])
-      canvas.addEventListener(end, (event) => this.#release(event));
+    // wherever that is; a canvas that has lost its capture for a moment still has what it holds
+    for (const end of ['pointerup', 'pointercancel']) addEventListener(end, (event) => this.#release(event));
     canvas.addEventListener('contextmenu', (event) => event.preventDefault());
     canvas.addEventListener(
       'wheel',

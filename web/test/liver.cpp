@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// The scene that the page runs as WebAssembly, run here: prints the positions of its skin after some steps, which
-// web/test/page.mjs compares.
+// The scene that the page runs as WebAssembly, run here: prints the positions of its skin after some steps,
+// which web/test/page.mjs compares.
 #include "../engine/liver.hpp"
 
 #include <cstdio>
