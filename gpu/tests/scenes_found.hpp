@@ -5,16 +5,16 @@
 
 #include <sinew/contact.hpp>
 
+#include <string>
 #include <utility>
 
 namespace gpu_test {
 
-/// The soft block of BlockOnPlane, slides over hills of triangles that stand, its points over D meeting them.
+/// The soft block of BlockOnPlane slides over hills of triangles that stand, its points over D meeting them.
 struct BlockOnFloor {
   double slope = 0.3, mu = 0.2;
   bool velocityFirst = false;
   int capacity = 1000;
-  bool twice = false;  // with another plate, which the block never reaches by more than its points
 
   // off the lines on which points of the block would meet two triangles at once
   MeshTopology floor() const {

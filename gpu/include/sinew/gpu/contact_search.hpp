@@ -83,6 +83,8 @@ class ContactSearch {
     static_cast<SurfaceShape&>(points_) = model;
     points_.settings = {model.settings.proximity, model.settings.bothSide};
     reserve_ = std::max(reserve_, reserve);
+    taken_.reserve(reserve_);
+    rows_.reserve(reserve_);
     used_ = 0;
   }
 
