@@ -18,4 +18,4 @@ picture() {
 (cd "$out" && "$programs/guide_beam" >/dev/null && cp beam.png "$OLDPWD/docs/pictures/beam.png")
 picture stress liver 60 --colour vonMises
 picture contacts contacts 150 --arrows contacts
-picture fluid fluid 60 --colour speed
+picture fluid fluid 110 --colour speed --camera "10 7 24  0 2.5 -1"
