@@ -220,4 +220,29 @@ TEST_CASE("a scene that lost elements is saved, and read again goes on with the 
   CHECK(bits_of(again) == bits_of(sim));
 }
 
+TEST_CASE("a mapping that takes the place of another may give its state other points") {
+  auto sim = world();
+  auto follow = [&](std::vector<int> indices) {
+    sim.change([&](RuntimeNode<Standard>& root) {
+      auto* ends = root.find_node("a/ends");
+      if (ends)
+        ends->remove("SubsetMapping");
+      else
+        ends = &root.find_node("a")->addChild("ends");
+      if (!ends->get<MechanicalObject<Vec3d>>()) {
+        ends->add(MechanicalObject<Vec3d>{});
+        ends->add(ConstantForceField<Vec3d>{.indices = {0}, .force = {{1, 0, 0}}});
+      }
+      ends->add(SubsetMapping<Vec3d, Vec3d>{.indices = indices});
+    });
+    for (int i = 0; i < 5; ++i) sim.animate(0.01);
+    auto const &x = state(sim, "a").position, &followed = state(sim, "a/ends").position;
+    REQUIRE(followed.size() == indices.size());
+    for (std::size_t i = 0; i < indices.size(); ++i) CHECK(followed[i] == x[std::size_t(indices[i])]);
+  };
+  follow({0, 1, 0});
+  follow({1, 0, 1, 0, 1, 0, 1, 0});
+  follow({1});
+}
+
 }  // namespace test_change

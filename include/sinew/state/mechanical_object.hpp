@@ -191,6 +191,14 @@ struct MechanicalObject {
     if (lastSolution.size() == n) dx = lastSolution;
     lastSolution.clear();
     freePosition = position;
+    // a mapping that takes the place of another may have given it other points
+    if (std::any_of(auxiliaryCoords.begin(), auxiliaryCoords.end(), [n](auto& v) { return v.size() != n; }) ||
+        std::any_of(auxiliaryDerivs.begin(), auxiliaryDerivs.end(), [n](auto& v) { return v.size() != n; })) {
+      auxiliaryCoords.clear();
+      auxiliaryDerivs.clear();
+      history.clear();
+    }
+    if (multiplierForce.size() != n) multiplierForce.clear();
     if (resetPosition.empty()) resetPosition = position;
     if (resetVelocity.empty()) resetVelocity = velocity;
   }

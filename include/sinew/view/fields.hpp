@@ -131,22 +131,6 @@ void keep_contacts(Root& root) {
   };
   for_each_of_role<role::ContactManager>(root, keep);
 }
-// States may get other points: what solvers have of the old ones goes
-template <class Root>
-void forget_sizes(Root& root) {
-  auto forget = [](auto& state) {
-    if constexpr (requires {
-                    state.auxiliaryCoords.clear();
-                    state.multiplierForce.clear();
-                  }) {
-      state.auxiliaryCoords.clear();
-      state.auxiliaryDerivs.clear();
-      state.history.clear();
-      state.multiplierForce.clear();
-    }
-  };
-  for_each_of_role<role::State>(root, forget);
-}
 
 }  // namespace detail
 
@@ -226,8 +210,6 @@ FieldChange set_field(Simulation& simulation, int line, std::string_view name, s
                        " points; give one for each"));
     change.after = field.write(found.component);
     detail::keep_contacts(root);
-    if (found.info->role == RoleKind::topology || found.info->role == RoleKind::mapping)
-      detail::forget_sizes(root);
     std::vector<void const*> touched{found.component};
     if (detail::carries_others(found.info->role))
       for_each_line(root, [&](FoundLine const& other) {
