@@ -292,4 +292,34 @@ TEST_CASE("joints that cannot be are refused") {
   CHECK(says(Joint<Vec3d, Within>{}).empty());
 }
 
+TEST_CASE("what a movement leads, and no solver moves, leads what is joined to it") {
+  for (const bool velocityFirst : {false, true}) {
+    Simulation sim{node<"root">(
+        FreeMotionAnimationLoop{.solveVelocityConstraintFirst = velocityFirst},
+        gaussSeidel,
+        BilateralLagrangianConstraint<Vec3d, Between<"led", "leader/tip">>{.first_point = {0},
+                                                                           .second_point = {0}},
+        node<"led">(EulerImplicitSolver{},
+                    SparseLDLSolver<>{},
+                    MechanicalObject<Vec3d>{.position = {{0, 0.5, 0}}},
+                    UniformMass<Vec3d>{.vertexMass = 2}),
+        node<"leader">(
+            MechanicalObject<Rigid3d>{.position = {placed({0, 0, 0}, {0, 0, 0})}},
+            LinearMovementConstraint<Rigid3d>{
+                .indices = {0}, .keyTimes = {0, 1}, .movements = {Vector6::Zero(), Vector6::Unit(1)}},
+            node<"tip">(MechanicalObject<Vec3d>{.position = {{0, 0.5, 0}}},
+                        RigidMapping<Rigid3d, Vec3d>{})))};
+    sim.init();
+    for (int i = 0; i < 50; ++i) {
+      sim.animate(dt);
+      // it is where the movement puts it at the end of the step
+      CHECK(sim.at<"leader">().state().position[0].center.y() == Approx((i + 1) * dt));
+      // by velocities what follows is a step behind the place where the other has come
+      CHECK((sim.at<"led">().state().position[0] - sim.at<"leader/tip">().state().position[0]).norm() <
+            (velocityFirst ? dt * (1 + 1e-9) : 1e-10));
+    }
+    CHECK(sim.at<"led">().state().velocity[0].y() == Approx(1));
+  }
+}
+
 }  // namespace test_bilateral_lagrangian_constraint

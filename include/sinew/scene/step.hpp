@@ -40,7 +40,14 @@ struct Step {
     forEachAhead(root, ahead, [&](auto& c, auto& state, StepAhead const& step) {
       if constexpr (requires { c.beginStep(step, state); }) moved = c.beginStep(step, state) || moved;
     });
-    if (moved) MechanicalOperations(root, time, dt).propagate(vec_id::position, vec_id::velocity);
+    placeUnsolved(root, moved);
+    if (!moved) return;
+    MechanicalOperations(root, time, dt).propagate(vec_id::position, vec_id::velocity);
+    with_first<role::AnimationLoop>(root, [&](auto const&) {
+      traverse(root, on<role::State>([](auto& s, auto const&) {
+                 if constexpr (requires { s.freePosition; }) s.freePosition = s.position;
+               }));
+    });
   }
 
   /// Finds the contacts of the step; a matrix in which other points are joined is formed anew. It warns of
@@ -109,6 +116,27 @@ struct Step {
     if constexpr (IsComplete<ConstrainedStep<RootScope>>)
       ConstrainedStep<RootScope>{root, time, dt, notes()}.integrate(
           loop.motion, loop.solveVelocityConstraintFirst, keepsForces);
+  }
+
+  // What no solver moves is, during a step, where its constraints put it at the end of the step.
+  template <class S>
+  void placeUnsolved(S const& scope, bool& moved) const {
+    if (scope.template has<role::OdeSolver>()) return;
+    auto visit = on<role::ProjectiveConstraint>([&](auto& c) {
+      using C = std::decay_t<decltype(c)>;
+      if constexpr (!JoinsTwo<C>) {
+        auto& s = scope.template state<typename C::DataTypes>();
+        if constexpr (requires { c.projectVelocity(time, s.velocity); })
+          c.projectVelocity(time + dt, s.velocity);
+        if constexpr (requires { c.projectPosition(time, s.position); }) {
+          c.projectPosition(time + dt, s.position);
+          moved = true;
+        }
+      }
+    });
+    scope.forEachComponent(visit);
+    scope.template forEachChild<role::ProjectiveConstraint>(
+        [&](auto const& child) { placeUnsolved(child, moved); });
   }
 
   // f(component, state, step) for what acts before a step
