@@ -20,7 +20,7 @@ auto held_twice(Solver solver, bool dependentOnly) {
   using Fixed = FixedLagrangianConstraint<Vec3d>;
   solver.maxIterations = 20000;
   solver.tolerance = 1e-15;
-  solver.regularizationTerm = term;
+  solver.regularizationTerm = term / dt;  // of impulses
   solver.useSVDForRegularization = dependentOnly;
   return Simulation{node<"root">(Gravity{{0, 0, -g}},
                                  FreeMotionAnimationLoop{},

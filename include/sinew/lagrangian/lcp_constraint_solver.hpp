@@ -37,18 +37,19 @@ struct LCPConstraintSolver {
         field("initial_guess", &S::initial_guess, "", "start from the multipliers of the last step"),
         field("minW",
               &S::minW,
-              "m/N",
-              "contacts whose compliance along the normal is not above that are ignored; 0: none",
+              "m/(N s)",
+              "contacts whose compliance along the normal, for an impulse, is not above that are ignored; 0: "
+              "none",
               range::nonNegative),
         field("maxF",
               &S::maxF,
-              "N",
-              "contacts whose normal force would be at least that are ignored; 0: none",
+              "N s",
+              "contacts whose normal impulse in a step would be at least that are ignored; 0: none",
               range::nonNegative),
         field("regularizationTerm",
               &S::regularizationTerm,
-              "m/N",
-              "added to the compliance of each equation",
+              "m/(N s)",
+              "displacement for an impulse of 1 N s that is added to the compliance of each equation",
               range::nonNegative),
         field("lemke",
               &S::lemke,
@@ -75,14 +76,14 @@ struct LCPConstraintSolver {
     checkLemke(where);
     for (ConstraintBlock& block : problem.blocks)
       if (block.kind == ConstraintBlock::Kind::friction) block.friction = mu;
-    problem.regularise(regularizationTerm);
+    problem.regularise(regularizationTerm * problem.timeStep);
     result = lemke ? pivots.solve(problem, where)
                    : sweeps.solve(problem,
                                   {.maxIterations = maxIterations,
                                    .tolerance = tolerance,
                                    .initialGuess = initial_guess,
-                                   .minW = minW,
-                                   .maxF = maxF},
+                                   .minW = minW * problem.timeStep,
+                                   .maxF = maxF / problem.timeStep},
                                   where);
     if (stopsUnsolved && !result.converged) throw Error(where, unsolved());
   }

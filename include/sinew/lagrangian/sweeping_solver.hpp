@@ -45,8 +45,9 @@ constexpr auto sweeping_fields(More... more) {
             range::nonNegative),
       field("regularizationTerm",
             &S::regularizationTerm,
-            "m/N",
-            "added to the compliance of each equation, so that those that depend on each other can be solved",
+            "m/(N s)",
+            "displacement for an impulse of 1 N s that is added to the compliance of each equation, so that "
+            "those that depend on each other can be solved",
             range::nonNegative),
       field("useSVDForRegularization",
             &S::useSVDForRegularization,
@@ -101,13 +102,14 @@ std::string unsolved_by_sweeps(S const& solver) {
 /// Solves a problem by solve(problem) of a solver S, which keeps the result.
 template <class S, class F>
 void sweep(S& solver, ConstraintProblem& problem, std::string_view where, F&& solve) {
+  const double term = solver.regularizationTerm * problem.timeStep;
   if (solver.useSVDForRegularization)
     solver.dependent.regularise(problem,
-                                solver.regularizationTerm,
+                                term,
                                 solver.svdSingularValueNullSpaceCriteriaFactor,
                                 solver.svdSingularVectorNullSpaceCriteriaFactor);
   else
-    problem.regularise(solver.regularizationTerm);
+    problem.regularise(term);
   solver.result = solve(problem);
   if (solver.stopsUnsolved && !solver.result.converged) throw Error(where, solver.unsolved());
 }
