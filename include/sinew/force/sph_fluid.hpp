@@ -90,7 +90,7 @@ struct SPHFluidForceField {
   std::string where{};
 
   void init(InitContext<D> const& context) {
-    where = place_of<SPHFluidForceField>(context);
+    where = text(context.where, ": ", component_name<SPHFluidForceField>());
     const std::size_t n = context.rest.size();
     cells.reserve(n);
     resize(n);
