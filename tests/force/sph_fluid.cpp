@@ -4,6 +4,7 @@
 #include "catch.hpp"
 #include "error_of.hpp"
 
+#include <sinew/control/threads.hpp>
 #include <sinew/force/sph_fluid.hpp>
 #include <sinew/mechanics.hpp>
 
@@ -229,6 +230,26 @@ TEST_CASE("a drop that is let go keeps momentum to rounding, and its energy by t
   const double coarse = run(1e-3), fine = run(5e-4);
   CHECK(coarse < 0.02);
   CHECK(fine < 0.6 * coarse);  // symplectic Euler, of first order
+}
+
+TEST_CASE("threads share the particles among them, with the same bits") {
+  const auto x = scattered(3000, 2, 21);
+  auto run = [&](auto... threads) {
+    Simulation sim{node<"root">(
+        threads...,
+        EulerExplicitSolver{},
+        MechanicalObject<Vec3d>{.position = x},
+        UniformMass<Vec3d>{.vertexMass = 1},
+        SPHFluidForceField<Vec3d>{
+            .radius = 0.2, .pressure = 1, .density = 1000, .viscosity = 0.1, .surfaceTension = 0.1})};
+    sim.init();
+    for (int i = 0; i < 20; ++i) sim.animate(1e-3);
+    return sim.root().state().position;
+  };
+  const auto one = run();
+  CHECK(one != x);
+  CHECK(run(Threads{.count = 2}) == one);
+  CHECK(run(Threads{.count = 5}) == one);
 }
 
 TEST_CASE("what cannot be is refused with what and where") {

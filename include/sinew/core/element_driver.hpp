@@ -125,7 +125,7 @@ struct ElementDriver {
   double energy(Law const& law, std::vector<Coord> const& x) const { return energy(law, oneBody(x.data())); }
 
   /// Elements of one body may be taken in shares at the same time, as split() has prepared it, and then those
-  /// shares once more as deferred ones. All shares, and the whole, run the same compiled loop: of two copies
+  /// shares once more in a second pass. All shares, and the whole, run the same compiled loop: of two copies
   /// of a law the compiler may join other products and sums to one operation, and their last bits differ.
   [[gnu::flatten]] void addForce(Law const& law, Derivs f, Coords x, ConstDerivs v,
                                  [[maybe_unused]] WorkShare share = {}) {
@@ -179,7 +179,7 @@ struct ElementDriver {
           addOneByOne(law, sink.matrix, k, b);
       }
     } else if constexpr (Sink::phase != AssemblyPhase::bind) {
-      if (share.index > 0 || share.deferred) return;
+      if (share.index > 0 || share.pass == 1) return;
       if constexpr (within) {
         for (Pack const& pack : packs)
           for (int i = 0; i < arity; ++i)
@@ -229,7 +229,7 @@ struct ElementDriver {
     if (share.count > 1) share.count = self.shares;
     if (share.index >= share.count) return;
     const bool whole = share.count == 1;
-    if (share.deferred) {
+    if (share.pass == 1) {
       constexpr int n = Pack::template realsOf<Deriv>;
       self.keptForces.addDeferred(share, [&](int place, Real const* kept) {
         for (int c = 0; c < n; ++c) reinterpret_cast<Real*>(to[0] + place)[c] += kept[c];
@@ -292,7 +292,7 @@ struct ElementDriver {
     constexpr int n = D::size;
     if (share.count > 1) share.count = shares;
     if (share.index >= share.count) return;
-    if (share.deferred) {
+    if (share.pass == 1) {
       keptBlocks.addDeferred(
           share, [&](int slot, Real const* kept) { detail::add_to<n * n>(matrix.block(slot), kept); });
       return;

@@ -8,11 +8,12 @@
 namespace sinew {
 
 /// The share of a loop that one of several threads does: number `index` of `count` shares of about the same
-/// size. What several shares add to one place is added in a second pass, `deferred`, in the order of the
-/// whole loop: the bits of a result do not depend on the number of threads.
+/// size. Work that needs what all shares have done is of a later `pass`, which begins when all are through
+/// with the one before. Of loops over elements, what several shares add to one place is added in a second
+/// pass, in the order of the whole loop: the bits of a result do not depend on the number of threads.
 struct WorkShare {
   int index = 0, count = 1;
-  bool deferred = false;
+  int pass = 0;
 
   /// Of n things, those from begin(n) to end(n).
   std::size_t begin(std::size_t n) const { return n * std::size_t(index) / std::size_t(count); }
@@ -35,5 +36,29 @@ struct OneThread {
 /// for.
 template <class C>
 inline constexpr bool shares_work = requires { requires C::sharesWork; };
+/// In how many passes; two, unless the component has `passes`.
+template <class C>
+constexpr int work_passes() {
+  if constexpr (requires { C::passes; })
+    return C::passes;
+  else
+    return 2;
+}
+/// Tells a component, or its driver, for how many shares at once it may be asked.
+template <class C>
+void split_work(C& c, int most) {
+  if constexpr (requires { c.split(most); })
+    c.split(most);
+  else
+    c.driver.split(most);
+}
+/// For how many it wants to be asked.
+template <class C>
+int work_shares(C const& c) {
+  if constexpr (requires { c.shares; })
+    return c.shares;
+  else
+    return c.driver.shares;
+}
 
 }  // namespace sinew

@@ -90,20 +90,28 @@ struct SPHFluidForceField {
   std::string where{};
 
   void init(InitContext<D> const& context) {
-    where = place_of<SPHFluidForceField>(context);
+    where = text(context.where, ": ", component_name<SPHFluidForceField>());
     const std::size_t n = context.rest.size();
     cells.reserve(n);
     resize(n);
   }
 
-  void addForce(MechanicalParams const&, VecDeriv& f, VecCoord const& x, VecDeriv const& v) {
-    sort(x);
-    for (std::size_t k = 0; k < x.size(); ++k)
-      for (int c = 0; c < 3; ++c) velocities[std::size_t(c)][k] = v[std::size_t(cells.order()[k])][c];
+  /// Shared among threads in three passes: the order of the particles, densities, forces.
+  static constexpr bool sharesWork = true;
+  static constexpr int passes = 3;
+  int shares = 1;
+  void split(int most) { shares = positions[0].size() < 2000 ? 1 : most; }
+
+  void addForce(MechanicalParams const& p, VecDeriv& f, VecCoord const& x, VecDeriv const& v) {
+    const bool whole = p.share.count == 1;
+    if (whole || (p.share.pass == 0 && p.share.index == 0)) {
+      sort(x);
+      for (std::size_t k = 0; k < x.size(); ++k)
+        for (int c = 0; c < 3; ++c) velocities[std::size_t(c)][k] = v[std::size_t(cells.order()[k])][c];
+    }
     withKernels([&](auto const& kernels) {
-      findDensities(kernels);
-      if (hasCurvature()) findNormals(kernels);
-      addForces(kernels, f);
+      if (whole || p.share.pass == 1) findDensities(kernels, p.share);
+      if (whole || p.share.pass == 2) addForces(kernels, p.share, f);
     });
   }
   void addDForce(MechanicalParams const&, VecDeriv&, VecDeriv const&) const {}
@@ -116,7 +124,7 @@ struct SPHFluidForceField {
     if (pressureType == 0) return 0;
     sort(x);
     double sum = 0;
-    withKernels([&](auto const& kernels) { findDensities(kernels); });
+    withKernels([&](auto const& kernels) { findDensities(kernels, {}); });
     for (std::size_t k = 0; k < x.size(); ++k) {
       const double d = double(densities[k]) / density;
       sum += mass * pressure * (std::log(d) + 1 / d - 1);
@@ -126,7 +134,7 @@ struct SPHFluidForceField {
 
   // in the order of the cells, with room behind the last for lanes that reach over it
   PointCells cells{};
-  std::array<std::vector<Real>, 3> positions{}, velocities{}, normals{};
+  std::array<std::vector<Real>, 3> positions{}, velocities{};
   std::vector<Real> densities{}, pressures{}, volumes{};  // pressures: p / rho^2; volumes: m / rho
 
  private:
@@ -138,7 +146,7 @@ struct SPHFluidForceField {
 
   void resize(std::size_t n) {
     const std::size_t all = n + std::size_t(width);
-    for (auto* three : {&positions, &velocities, &normals})
+    for (auto* three : {&positions, &velocities})
       for (auto& one : *three) one.resize(all, Real(0));
     for (auto* one : {&densities, &pressures, &volumes}) one->resize(all, Real(1));
   }
@@ -172,42 +180,43 @@ struct SPHFluidForceField {
     L q;
     decltype(L(0) < L(1)) acts;
   };
-  // f(place, each) for all particles: each(g) calls g(pairs) for all that are around
+  // f(place, each) for all particles of a share: each(g) calls g(pairs) for all that are around
   template <class F>
-  void forEachParticle(F&& f) const {
+  void forEachParticle(WorkShare const& share, F&& f) const {
     const Real perRadius = Real(1 / radius);
     L numbers(0);
     if constexpr (width > 1)
       for (int l = 0; l < width; ++l) numbers.set(l, Real(l));
-    cells.forEachCell({}, [&](PointCells::Range const& cell, std::array<PointCells::Range, 9> const& around) {
-      for (int i = cell.first; i < cell.second; ++i) {
-        std::array<L, 3> x;
-        for (std::size_t c = 0; c < 3; ++c) x[c] = L(positions[c][std::size_t(i)]);
-        f(i, [&](auto&& g) {
-          for (auto const& [begin, end] : around)
-            for (int j = begin; j < end; j += width) {
-              Pairs pairs{.first = j, .d = {}, .q = L(0), .acts = numbers < L(Real(end - j))};
-              L square(0);
-              for (std::size_t c = 0; c < 3; ++c) {
-                pairs.d[c] = x[c] - load(positions[c], j);
-                square += pairs.d[c] * pairs.d[c];
-              }
-              using std::sqrt, sinew::sqrt;
-              pairs.q = sqrt(square) * L(perRadius);
-              pairs.acts = both(pairs.acts, pairs.q < L(1));
-              if (!any(pairs.acts)) continue;
-              pairs.q = select(pairs.acts, select(pairs.q > L(Real(1e-9)), pairs.q, L(Real(1e-9))), L(1));
-              g(pairs);
-            }
+    cells.forEachCell(
+        share, [&](PointCells::Range const& cell, std::array<PointCells::Range, 9> const& around) {
+          for (int i = cell.first; i < cell.second; ++i) {
+            std::array<L, 3> x;
+            for (std::size_t c = 0; c < 3; ++c) x[c] = L(positions[c][std::size_t(i)]);
+            f(i, [&](auto&& g) {
+              for (auto const& [begin, end] : around)
+                for (int j = begin; j < end; j += width) {
+                  Pairs pairs{.first = j, .d = {}, .q = L(0), .acts = numbers < L(Real(end - j))};
+                  L square(0);
+                  for (std::size_t c = 0; c < 3; ++c) {
+                    pairs.d[c] = x[c] - load(positions[c], j);
+                    square += pairs.d[c] * pairs.d[c];
+                  }
+                  using std::sqrt, sinew::sqrt;
+                  pairs.q = sqrt(square) * L(perRadius);
+                  pairs.acts = both(pairs.acts, pairs.q < L(1));
+                  if (!any(pairs.acts)) continue;
+                  pairs.q = select(pairs.acts, select(pairs.q > L(Real(1e-9)), pairs.q, L(Real(1e-9))), L(1));
+                  g(pairs);
+                }
+            });
+          }
         });
-      }
-    });
   }
 
   template <class Kernels>
-  void findDensities(Kernels const& kernels) {
+  void findDensities(Kernels const& kernels, WorkShare const& share) {
     const Real m = Real(mass), atRest = Real(density), stiffness = Real(pressureType == 0 ? 0 : pressure);
-    forEachParticle([&](int i, auto const& each) {
+    forEachParticle(share, [&](int i, auto const& each) {
       L around(0);
       each([&](Pairs const& p) { around += select(p.acts, kernels.density(p.q), L(0)); });
       const Real rho = m * sum(around);
@@ -216,38 +225,36 @@ struct SPHFluidForceField {
       volumes[std::size_t(i)] = m / rho;
     });
   }
-  template <class Kernels>
-  void findNormals(Kernels const& kernels) {
-    forEachParticle([&](int i, auto const& each) {
-      const L own(volumes[std::size_t(i)]);
-      std::array<L, 3> n{L(0), L(0), L(0)};
-      L curvature(0);
-      each([&](Pairs const& p) {
-        const L more = select(p.acts, load(volumes, p.first) - own, L(0));
-        const L slope = more * kernels.densitySlope(p.q);
-        for (std::size_t c = 0; c < 3; ++c) n[c] += slope * p.d[c];
-        curvature += more * kernels.densityLaplacian(p.q);
-      });
-      const Real c = sum(curvature);
-      Real square(0);
-      std::array<Real, 3> normal;
-      for (std::size_t a = 0; a < 3; ++a) normal[a] = sum(n[a]), square += normal[a] * normal[a];
-      // the force of a particle, in the place of its normal
-      const Real length = std::sqrt(square);
-      for (std::size_t a = 0; a < 3; ++a)
-        normals[a][std::size_t(i)] =
-            length > Real(1e-6) ? -Real(mass * surfaceTension) * c * normal[a] / length : Real(0);
+  // -m tension c n / |n|
+  template <class Kernels, class Each>
+  std::array<Real, 3> curvatureForce(Kernels const& kernels, int i, Each const& each) const {
+    const L own(volumes[std::size_t(i)]);
+    std::array<L, 3> n{L(0), L(0), L(0)};
+    L curvature(0);
+    each([&](Pairs const& p) {
+      const L more = select(p.acts, load(volumes, p.first) - own, L(0));
+      const L slope = more * kernels.densitySlope(p.q);
+      for (std::size_t c = 0; c < 3; ++c) n[c] += slope * p.d[c];
+      curvature += more * kernels.densityLaplacian(p.q);
     });
+    std::array<Real, 3> force;
+    Real square(0);
+    for (std::size_t c = 0; c < 3; ++c) force[c] = sum(n[c]), square += force[c] * force[c];
+    const Real length = std::sqrt(square);
+    const Real factor =
+        length > Real(1e-6) ? -Real(mass * surfaceTension) * sum(curvature) / length : Real(0);
+    for (Real& one : force) one *= factor;
+    return force;
   }
   template <class Kernels>
-  void addForces(Kernels const& kernels, VecDeriv& f) {
+  void addForces(Kernels const& kernels, WorkShare const& share, VecDeriv& f) {
     const bool viscous = viscosityType == 1 && viscosity > 0,
                artificial = viscosityType == 2 && viscosity > 0;
     const bool coheres = hasCohesion(), curved = hasCurvature();
     const L square{Real(mass * mass)}, bulk{Real(2 * viscosity * radius * mass)},
         soft{Real(0.01 * radius * radius)};
     const L drag{Real(viscosity)}, cohesion{Real(-surfaceTension * mass)};
-    forEachParticle([&](int i, auto const& each) {
+    forEachParticle(share, [&](int i, auto const& each) {
       const auto at = std::size_t(i);
       const L pushed(pressures[at]), rho(densities[at]), volume(volumes[at]);
       std::array<L, 3> v, sums{L(0), L(0), L(0)};
@@ -273,9 +280,10 @@ struct SPHFluidForceField {
           for (std::size_t c = 0; c < 3; ++c) sums[c] += rubs * slower[c];
         }
       });
+      std::array<Real, 3> tension{};
+      if (curved) tension = curvatureForce(kernels, i, each);
       auto& force = f[std::size_t(cells.order()[at])];
-      for (std::size_t c = 0; c < 3; ++c)
-        force[Eigen::Index(c)] += sum(sums[c]) + (curved ? normals[c][at] : Real(0));
+      for (std::size_t c = 0; c < 3; ++c) force[Eigen::Index(c)] += sum(sums[c]) + tension[c];
     });
   }
 };

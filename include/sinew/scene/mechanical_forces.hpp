@@ -20,7 +20,7 @@ struct MechanicalForces {
   void split() const {
     if constexpr (Root::threaded)
       traverse(root, on<role::ForceField>([&](auto& c, auto const&) {
-                 if constexpr (shares_work<std::decay_t<decltype(c)>>) c.driver.split(root.workers().count());
+                 if constexpr (shares_work<std::decay_t<decltype(c)>>) split_work(c, root.workers().count());
                }));
   }
 
@@ -109,18 +109,17 @@ struct MechanicalForces {
              on<role::ForceField, role::Mass, role::InteractionForceField>(
                  [&](auto& c, auto const& scope) { f(c, scope); }));
   }
-  // f(params) for a component as a whole, or for each share of it, and again for the deferred sums of all
-  // shares
+  // f(params) for a component as a whole, or for each share of it, pass by pass
   template <class C, class F>
   void inShares([[maybe_unused]] C const& c, MechanicalParams const& p, F&& f) const {
     if constexpr (Root::threaded && shares_work<C>)
-      if (c.driver.shares > 1) {
+      if (work_shares(c) > 1) {
         const auto threads = root.workers();
-        for (const bool deferred : {false, true})
+        for (int pass = 0; pass < work_passes<C>(); ++pass)
           threads.run([&](WorkShare share) {
             MechanicalParams own = p;
             own.share = share;
-            own.share.deferred = deferred;
+            own.share.pass = pass;
             f(own);
           });
         return;
