@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "catch.hpp"
 #include "error_of.hpp"
+#include "view/triangle.hpp"
 
 #include <sinew/collision/contact_responses.hpp>
 #include <sinew/contact.hpp>
@@ -202,18 +203,7 @@ TEST_CASE("a scene that is composed while the program runs has the same fields")
 }
 
 TEST_CASE("a body stays held while a field changes") {
-  Simulation sim{node<"root">(
-      DefaultPipeline{},
-      BruteForceBroadPhase{},
-      BVHNarrowPhase{},
-      MinProximityIntersection{.alarmDistance = 0.02, .contactDistance = 0.01},
-      DefaultContactManager{},
-      EulerImplicitSolver{},
-      CGLinearSolver<>{.iterations = 50, .tolerance = 1e-12},
-      node<"body">(MeshTopology{.position = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, .triangles = {{0, 1, 2}}},
-                   MechanicalObject<Vec3d>{},
-                   UniformMass<Vec3d>{.totalMass = 3},
-                   TriangleCollisionModel<Vec3d>{}))};
+  auto sim = test_view::triangle();
   sim.init();
   view::Stage stage(sim, 0.01);
   stage.press({0.2, 0.2, 1}, {0, 0, -1}, 100);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "catch.hpp"
+#include "view/triangle.hpp"
 
 #include <sinew/collision/contact_responses.hpp>
 #include <sinew/contact.hpp>
@@ -11,23 +12,8 @@
 namespace test_stage {
 
 using namespace sinew;
+using test_view::triangle;
 using view::Controls;
-
-// a triangle of 3 kg in the plane z = 0, which nothing moves
-auto triangle() {
-  return Simulation{node<"root">(
-      DefaultPipeline{},
-      BruteForceBroadPhase{},
-      BVHNarrowPhase{},
-      MinProximityIntersection{.alarmDistance = 0.02, .contactDistance = 0.01},
-      DefaultContactManager{},
-      EulerImplicitSolver{},
-      CGLinearSolver<>{.iterations = 50, .tolerance = 1e-12},
-      node<"body">(MeshTopology{.position = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, .triangles = {{0, 1, 2}}},
-                   MechanicalObject<Vec3d>{},
-                   UniformMass<Vec3d>{.totalMass = 3},
-                   TriangleCollisionModel<Vec3d>{}))};
-}
 
 TEST_CASE("a stage does what it is told, and shows what there is") {
   auto sim = triangle();
