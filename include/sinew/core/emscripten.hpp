@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <sinew/core/platform.hpp>
-
 // What the standard library of emscripten 3.1 (libc++ 14) lacks of C++20; later ones have it, and then this
 // header is empty. platform.hpp includes it for emscripten only.
 #include <algorithm>
