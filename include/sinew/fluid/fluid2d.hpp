@@ -10,8 +10,8 @@
 
 namespace sinew {
 
-/// An incompressible fluid in a rectangle of cells in the plane z = 0, with a free surface: Fluid3D in two
-/// dimensions, with the names of SOFA's Fluid2D. The rectangle is around the origin; the cells at its border
+/// An incompressible fluid in a rectangle of cells across the z axis, with a free surface: Fluid3D in two
+/// dimensions, with the names of SOFA's Fluid2D. The rectangle is around `center`; the cells at its border
 /// are its walls.
 struct Fluid2D {
   using Role = role::BehaviorModel;
@@ -20,6 +20,7 @@ struct Fluid2D {
 
   int nx = 16, ny = 16;
   double cellwidth = 1;
+  Eigen::Vector3d center{0, 0, 0};
   double height = 5;
   Eigen::Vector2d dir{0, 1};
   double tstart = 0, tstop = 60;
@@ -40,12 +41,12 @@ struct Fluid2D {
         field("nx", &F::nx, "", "cells along x, with the two of the walls", range::atLeast(3)),
         field("ny", &F::ny, "", "cells along y, with the two of the walls", range::atLeast(3)),
         field("cellwidth", &F::cellwidth, "m", "width of each cell", range::positive),
+        field("center", &F::center, "m", "position of the centre of the grid"),
         field("height",
               &F::height,
               "",
               "how far the surface is at first from the centre of the first cell, which belongs to the "
-              "walls, along dir "
-              "[cells]; 0: the fluid fills the box and has no surface"),
+              "walls, along dir [cells]; 0: the fluid fills the box and has no surface"),
         field("dir", &F::dir, "", "normal of the surface at first, out of the fluid"),
         field("tstart", &F::tstart, "s", "from when on the source pours fluid"),
         field("tstop", &F::tstop, "s", "until when"),
@@ -81,11 +82,12 @@ struct Fluid2D {
   /// Velocity, surface and pressure (GridFluid::save).
   std::vector<double> flow{};
   static constexpr auto state() {
-    return field_list(field("flow",
-                            &Fluid2D::flow,
-                            "",
-                            "velocity [m/s], distances from the surface [cells], pressure times dt over "
-                            "density and cellwidth [m/s], of all cells; dt [s], volume [cells]"));
+    return field_list(
+        field("flow",
+              &Fluid2D::flow,
+              "",
+              "velocity [m/s], distances from the surface [cells], pressure times dt over "
+              "density and cellwidth [m/s], of all cells; cells along each axis, dt [s], volume [cells]"));
   }
 
   // after init
@@ -136,7 +138,11 @@ SINEW_ONCE double Fluid2D::gravityEnergy(Eigen::Vector3d const& gravity) {
 }
 SINEW_ONCE double Fluid2D::volume() { return grid.volume(); }
 SINEW_ONCE std::string_view Fluid2D::notice() const { return fluid::notice_of(grid); }
-SINEW_ONCE Mesh Fluid2D::border() const { return grid.border(); }
+SINEW_ONCE Mesh Fluid2D::border() const {
+  Mesh mesh = grid.border();
+  for (Eigen::Vector3d& position : mesh.positions) position[2] = center[2];
+  return mesh;
+}
 
 }  // namespace sinew
 #endif

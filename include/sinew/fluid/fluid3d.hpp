@@ -50,8 +50,7 @@ struct Fluid3D {
               &F::height,
               "",
               "how far the surface is at first from the centre of the first cell, which belongs to the "
-              "walls, along dir "
-              "[cells]; 0: the fluid fills the box and has no surface"),
+              "walls, along dir [cells]; 0: the fluid fills the box and has no surface"),
         field("dir", &F::dir, "", "normal of the surface at first, out of the fluid"),
         field("tstart", &F::tstart, "s", "from when on the source pours fluid"),
         field("tstop", &F::tstop, "s", "until when"),
@@ -87,11 +86,12 @@ struct Fluid3D {
   /// Velocity, surface and pressure (GridFluid::save).
   std::vector<double> flow{};
   static constexpr auto state() {
-    return field_list(field("flow",
-                            &Fluid3D::flow,
-                            "",
-                            "velocity [m/s], distances from the surface [cells], pressure times dt over "
-                            "density and cellwidth [m/s], of all cells; dt [s], volume [cells]"));
+    return field_list(
+        field("flow",
+              &Fluid3D::flow,
+              "",
+              "velocity [m/s], distances from the surface [cells], pressure times dt over "
+              "density and cellwidth [m/s], of all cells; cells along each axis, dt [s], volume [cells]"));
   }
 
   // after init

@@ -26,7 +26,7 @@ GridFluidSettings<N> grid_settings(C const& c) {
   for (int& n : s.cells) n -= 2;
   s.cellWidth = c.cellwidth;
   for (int d = 0; d < N; ++d) s.corner[d] = -s.cells[std::size_t(d)] * c.cellwidth / 2;
-  if constexpr (N == 3) s.corner += c.center;
+  s.corner += c.center.template head<N>();
   s.density = c.density;
   s.viscosity = c.viscosity;
   s.walls = c.walls;
@@ -61,7 +61,7 @@ void start(C& c, std::string const& where) {
         return true;
     return false;
   });
-  if (c.flow.size() == grid.savedSize()) {
+  if (grid.saves(c.flow)) {
     grid.restore(c.flow);
     return;
   }

@@ -257,11 +257,12 @@ class GridFluid {
   }
   double cellVolume() const { return std::pow(settings_.cellWidth, N); }
 
-  /// All that the next step depends on: components of the velocity, distances, pressure, the time step that
-  /// it was made with, and the volume that is kept. The list has room for it after the first call.
+  /// All that the next step depends on: components of the velocity, distances, pressure, how many cells there
+  /// are along each axis, the time step that the pressure was made with, and the volume that is kept. The
+  /// list has room for it after the first call.
   void save(std::vector<Real>& to, SomeWorkers workers) const {
     const std::size_t n = grid().size;
-    to.resize(savedSize());
+    to.resize(n * (axes<N> + 2) + axes<N> + 2);
     auto lists = savedLists(*this);
     workers.run([&](WorkShare share) {
       for (std::size_t k = 0; k < lists.size(); ++k)
@@ -269,10 +270,19 @@ class GridFluid {
                   lists[k]->begin() + std::ptrdiff_t(share.end(n)),
                   to.begin() + std::ptrdiff_t(k * n + share.begin(n)));
     });
-    to[to.size() - 2] = Real(timeFactor_);
-    to[to.size() - 1] = Real(volume_);
+    Real* last = to.data() + lists.size() * n;
+    for (const int count : settings_.cells) *last++ = Real(count);
+    *last++ = Real(timeFactor_);
+    *last = Real(volume_);
   }
-  std::size_t savedSize() const { return grid().size * (N + 2) + 2; }
+  /// Whether a list is what this grid saves.
+  bool saves(std::vector<Real> const& list) const {
+    const std::size_t n = grid().size * (axes<N> + 2);
+    if (list.size() != n + axes<N> + 2) return false;
+    for (std::size_t c = 0; c < axes<N>; ++c)
+      if (list[n + c] != Real(settings_.cells[c])) return false;
+    return std::all_of(list.begin(), list.end(), [](Real value) { return std::isfinite(value); });
+  }
   /// The inverse; comes in the place of what sets and begins.
   void restore(std::vector<Real> const& from, SomeWorkers workers = {}) {
     const std::size_t n = grid().size;

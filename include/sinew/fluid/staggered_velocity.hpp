@@ -194,9 +194,9 @@ struct StaggeredVelocity {
     std::ptrdiff_t base;
     Real fraction;
     SINEW_INLINE Along(Real place, CellGrid<N> const& grid, int d) {
-      const int cell = std::min(int(place), grid.cells[std::size_t(d)]);
-      base = cell * grid.stride[std::size_t(d)];
-      fraction = place - Real(cell);
+      const int first = std::min(int(place), grid.cells[std::size_t(d)]);
+      base = first * grid.stride[std::size_t(d)];
+      fraction = place - Real(first);
     }
   };
   // linear between the values at an edge, of a square, and of a cube
