@@ -20,7 +20,7 @@ set(quick_topology adjacency hexahedra mesh_topology regular_grid regular_grid_t
 set(quick_collision axis_box bounding_tree broad_phase closest_points contact_laws contact_scenes friction overlap ray_hits surface_elements
     time_of_impact)
 set(quick_scene bad_input element_removal picking place reset simulation)
-set(quick_components constraint/constraints control/trajectory mapping/measuring_mappings solver/direct_solvers solver/solver_fields)
+set(quick_components constraint/constraints control/trajectory fluid/fluid_components fluid/poisson_multigrid mapping/measuring_mappings solver/direct_solvers solver/solver_fields)
 set(quick_core data_types dual element_driver element_force error lanes block_ldl block_matrix factored_rows preconditioner convex_step)
 set(quick_lagrangian constrained_step contact_friction)
 # each component over the DataTypes that most scenes have

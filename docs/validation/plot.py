@@ -357,6 +357,12 @@ FIGURES = {
     "free_form_volume": ("free_form_volume", dict(
         title="Volume of the sparse grid around a liver", series="cells", x=("width", "side of a cell [mm]"),
         y=("ratio", "volume of the cells / volume of the liver"), ylim=(0, 2))),
+    "fluid_vortex": ("fluid_vortex", dict(
+        title="Taylor and Green's vortex on a grid, dt = 1.6 / n", series="method", x=("n", "cells along a side"),
+        y=("error", "root of the mean square error of velocity"), log="xy", slopes=[(-1, "macCormack", 0.5)])),
+    "fluid_wave": ("fluid_wave", dict(
+        title="Standing wave in a tank", series="who", x=("time", "time [s]"), y=("height", "height at the wall [m]"),
+        marks=False, dashed=("linear theory",))),
 }
 
 # name of the table: the file it is made of, and its columns

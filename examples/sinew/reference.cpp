@@ -55,6 +55,7 @@ RoleWords words_of(sinew::RoleKind role) {
        {"Mappings", "Make the state or the visual model of the node follow the state above."},
        {"ODE solvers", "Integrate the node and all below it in time."},
        {"Linear solvers", "Solve the systems of an implicit ODE solver."},
+       {"Behavior models", "Have degrees of freedom of their own, which no solver moves."},
        {"Callbacks", "Watch the state of the node, or the nearest above, before and after each step."},
        {"Loaders, selections and other engines",
         "Make data, once, from files or other data; others link to it, as in "
