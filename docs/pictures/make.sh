@@ -19,3 +19,4 @@ picture() {
 picture stress liver 60 --colour vonMises
 picture contacts contacts 150 --arrows contacts
 picture fluid fluid 110 --colour speed --camera "10 7 24  0 2.5 -1"
+picture fluid_grid fluid_grid 60 --camera "1.9 1.5 3.1  0.05 -0.2 -0.2"
