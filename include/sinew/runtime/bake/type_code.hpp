@@ -22,6 +22,36 @@ struct TypeCode {
   bool copied = false;  // the constants are the elements
 };
 
+/// A type as C++ text names it that is `using namespace sinew`: "std::vector<Vec<double, 3>>".
+template <class T>
+std::string cpp_type() {
+  auto unqualified = [](std::string_view spelled) {
+    std::string name(spelled);
+    for (std::size_t at = 0; (at = name.find("sinew::", at)) != name.npos;) name.erase(at, 7);
+    return name;
+  };
+  if constexpr (std::is_same_v<T, std::string>)
+    return "std::string";
+  else if constexpr (requires(T value) { value.has_value(); })
+    return text("std::optional<", cpp_type<typename T::value_type>(), '>');
+  else if constexpr (is_eigen<T>)
+    return T::ColsAtCompileTime == 1
+               ? text("Vec<", cpp_type<typename T::Scalar>(), ", ", int(T::RowsAtCompileTime), '>')
+               : text("Mat<",
+                      cpp_type<typename T::Scalar>(),
+                      ", ",
+                      int(T::RowsAtCompileTime),
+                      ", ",
+                      int(T::ColsAtCompileTime),
+                      '>');
+  else if constexpr (DynamicList<T>)
+    return text("std::vector<", cpp_type<typename T::value_type>(), '>');
+  else if constexpr (requires { std::tuple_size<T>::value; } && !HasFields<T>)
+    return text("std::array<", cpp_type<typename T::value_type>(), ", ", std::tuple_size_v<T>, '>');
+  else
+    return unqualified(type_name<T>());
+}
+
 template <class T>
 TypeCode const& type_code() {
   static const TypeCode code = [] {
