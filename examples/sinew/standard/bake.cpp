@@ -6,5 +6,4 @@
 namespace sinew {
 template std::string scene_text<Standard>(Simulation<RuntimeNode<Standard>>&, double);
 template std::string bake_text<Standard>(ReadScene<Standard>, std::string const&, BakeOptions const&);
-template std::vector<std::vector<CppMember>> cpp_members<Standard>();
 }  // namespace sinew
