@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/boundary_particles.hpp>
 #include <sinew/core/component.hpp>
 #include <sinew/force/sorted_particles.hpp>
 #include <sinew/force/sph_kernels.hpp>
@@ -25,7 +26,10 @@ namespace sinew {
 /// Teschner (2007) (2). Forces are those at the start of a step, also for implicit solvers: no part of them
 /// is in a system, as in SOFA. Where pairs pull each other apart or together, momentum is kept to rounding,
 /// and with the cubic kernel and no viscosity energy is, by the order of the solver.
-/// Sums go over neighbours in the order of their cells, so that bits repeat.
+/// Boundary particles of bodies (FluidBoundary) are neighbours of the mass density V_k, V_k = 1 / sum_l W_kl
+/// over those of boundaries, at their velocity and without a pressure of their own (Akinci et al. 2012); they
+/// have the opposite force of the last evaluation, which is the mean over the step under an explicit Euler
+/// solver. Sums go over neighbours in the order of their cells, so that bits repeat.
 template <class D>
 struct SPHFluidForceField {
   using Role = role::ForceField;
@@ -86,16 +90,22 @@ struct SPHFluidForceField {
             .implicit = false};
   }
 
+  BoundaryParticles boundary{};
   std::string where{};
   std::size_t size = 0;
 
   void init(InitContext<D> const& context) {
     where = text(context.where, ": ", component_name<SPHFluidForceField>());
     size = context.rest.size();
-    particles.reserve(size);
-    const std::size_t room = size + std::size_t(Particles::width);
+    boundary.clear();
+    reserveForBoundary();
+  }
+  void reserveForBoundary() {
+    const std::size_t all = size + boundary.size(), room = all + std::size_t(Particles::width);
+    particles.reserve(all);
+    joined.reserve(all);
     for (auto& one : velocities) one.reserve(room);
-    for (auto* one : {&densities, &pressures, &volumes}) one->reserve(room);
+    for (auto* one : {&densities, &pressures, &volumes, &weights, &fluid}) one->reserve(room);
   }
 
   /// Shared among threads in three passes: the order of the particles, densities, forces.
@@ -108,8 +118,11 @@ struct SPHFluidForceField {
     const bool whole = p.share.count == 1;
     if (whole || (p.share.pass == 0 && p.share.index == 0)) {
       sort(x);
-      for (std::size_t k = 0; k < x.size(); ++k)
-        for (int c = 0; c < 3; ++c) velocities[std::size_t(c)][k] = v[std::size_t(particles.order()[k])][c];
+      for (std::size_t k = 0; k < particles.order().size(); ++k) {
+        const auto i = std::size_t(particles.order()[k]);
+        for (int c = 0; c < 3; ++c)
+          velocities[std::size_t(c)][k] = i < size ? v[i][c] : Real(boundary.velocities[i - size][c]);
+      }
     }
     withKernels([&](auto const& kernels) {
       if (whole || p.share.pass == 1) findDensities(kernels, p.share);
@@ -127,7 +140,8 @@ struct SPHFluidForceField {
     sort(x);
     double sum = 0;
     withKernels([&](auto const& kernels) { findDensities(kernels, {}); });
-    for (std::size_t k = 0; k < x.size(); ++k) {
+    for (std::size_t k = 0; k < particles.order().size(); ++k) {
+      if (fluid[k] == 0) continue;
       const double d = double(densities[k]) / density;
       sum += mass * pressure * (std::log(d) + 1 / d - 1);
     }
@@ -138,6 +152,8 @@ struct SPHFluidForceField {
   SortedParticles<Real, lane_width<D>()> particles{};
   std::array<std::vector<Real>, 3> velocities{};
   std::vector<Real> densities{}, pressures{}, volumes{};  // pressures: p / rho^2; volumes: m / rho
+  std::vector<Real> weights{}, fluid{};  // mass over that of the fluid's; 1 for the fluid, 0 for the boundary
+  VecCoord joined{};                     // the fluid, then the boundary
 
  private:
   using Particles = SortedParticles<Real, lane_width<D>()>;
@@ -148,9 +164,36 @@ struct SPHFluidForceField {
   bool hasCohesion() const { return surfaceTension > 0 && surfaceTensionType == 2; }
 
   void sort(VecCoord const& x) {
-    particles.sort(x, radius, where);
+    size = x.size();
+    if (boundary.size() == 0) {
+      particles.sort(x, radius, where);
+    } else {
+      joined.assign(x.begin(), x.end());
+      for (auto const& p : boundary.positions) joined.push_back(p.template cast<Real>());
+      particles.sort(joined, radius, where);
+    }
     for (auto& one : velocities) one.resize(particles.room(), Real(0));
     for (auto* one : {&densities, &pressures, &volumes}) one->resize(particles.room(), Real(1));
+    for (auto* one : {&weights, &fluid}) one->assign(particles.room(), Real(1));
+    if (boundary.size() > 0) withKernels([&](auto const& kernels) { findBoundary(kernels); });
+  }
+  // masses and volumes of the boundary, at the density at rest and without pressure
+  template <class Kernels>
+  void findBoundary(Kernels const& kernels) {
+    for (std::size_t k = 0; k < particles.order().size(); ++k)
+      if (std::size_t(particles.order()[k]) >= size) fluid[k] = 0;
+    particles.forEach({}, [&](int i, auto const& each) {
+      const auto at = std::size_t(i);
+      if (fluid[at] != 0) return;
+      L around(0);
+      each([&](Pairs const& p) {
+        around += select(p.acts, (L(1) - load(fluid, p.first)) * kernels.density(p.q), L(0));
+      });
+      volumes[at] = 1 / sum(around);
+      weights[at] = Real(density / mass) * volumes[at];
+      densities[at] = Real(density);
+      pressures[at] = 0;
+    });
   }
   static L load(std::vector<Real> const& from, int place) { return Particles::load(from, place); }
   static Real sum(L const& value) { return Particles::sum(value); }
@@ -163,8 +206,11 @@ struct SPHFluidForceField {
   void findDensities(Kernels const& kernels, WorkShare const& share) {
     const Real m = Real(mass), atRest = Real(density), stiffness = Real(pressureType == 0 ? 0 : pressure);
     particles.forEach(share, [&](int i, auto const& each) {
+      if (fluid[std::size_t(i)] == 0) return;
       L around(0);
-      each([&](Pairs const& p) { around += select(p.acts, kernels.density(p.q), L(0)); });
+      each([&](Pairs const& p) {
+        around += select(p.acts, load(weights, p.first) * kernels.density(p.q), L(0));
+      });
       const Real rho = m * sum(around);
       densities[std::size_t(i)] = rho;
       pressures[std::size_t(i)] = stiffness * (rho - atRest) / (rho * rho);
@@ -205,7 +251,11 @@ struct SPHFluidForceField {
       const L pushed(pressures[at]), rho(densities[at]), volume(volumes[at]);
       std::array<L, 3> v, sums{L(0), L(0), L(0)};
       for (std::size_t c = 0; c < 3; ++c) v[c] = L(velocities[c][at]);
+      const bool wall = fluid[at] == 0;
+      const L own(weights[at]);
       each([&](Pairs const& p) {
+        auto acts = p.acts;  // walls do not act on walls
+        if (wall) acts = both(acts, load(fluid, p.first) > L(0));
         L pushes = -square * (pushed + load(pressures, p.first));
         std::array<L, 3> slower;  // v_j - v_i
         if (viscous || artificial)
@@ -218,18 +268,23 @@ struct SPHFluidForceField {
         }
         L along = pushes * kernels.pressureSlope(p.q);
         if (coheres) along += cohesion * kernels.density(p.q);
-        along = select(p.acts, along, L(0));
+        along = select(acts, own * load(weights, p.first) * along, L(0));
         for (std::size_t c = 0; c < 3; ++c) sums[c] += along * p.d[c];
         if (viscous) {
           const L rubs =
-              select(p.acts, drag * volume * load(volumes, p.first) * kernels.viscosityLaplacian(p.q), L(0));
+              select(acts, drag * volume * load(volumes, p.first) * kernels.viscosityLaplacian(p.q), L(0));
           for (std::size_t c = 0; c < 3; ++c) sums[c] += rubs * slower[c];
         }
       });
       std::array<Real, 3> tension{};
+      const auto point = std::size_t(particles.order()[at]);
+      if (wall) {
+        for (std::size_t c = 0; c < 3; ++c)
+          boundary.forces[point - size][Eigen::Index(c)] = double(sum(sums[c]));
+        return;
+      }
       if (curved) tension = curvatureForce(kernels, i, each);
-      auto& force = f[std::size_t(particles.order()[at])];
-      for (std::size_t c = 0; c < 3; ++c) force[Eigen::Index(c)] += sum(sums[c]) + tension[c];
+      for (std::size_t c = 0; c < 3; ++c) f[point][Eigen::Index(c)] += sum(sums[c]) + tension[c];
     });
   }
 };

@@ -96,8 +96,10 @@ class CubicKernels {
 template <class Real>
 class WendlandKernel {
  public:
-  explicit WendlandKernel(Real h)
-      : factor_(21 / (2 * std::numbers::pi_v<Real> * h * h * h)), perSquare_(-20 * factor_ / (h * h)) {}
+  /// `factor` times the kernel whose integral is 1.
+  explicit WendlandKernel(Real h, Real factor = 1)
+      : factor_(factor * 21 / (2 * std::numbers::pi_v<Real> * h * h * h)),
+        perSquare_(-20 * factor_ / (h * h)) {}
 
   template <class T>
   SINEW_INLINE T density(T q) const {

@@ -25,6 +25,7 @@ namespace sinew {
 struct DFSPHSolver {
   using Role = role::OdeSolver;
   static constexpr std::string_view className = "DFSPHSolver";
+  static constexpr std::string_view header = "sinew/solver/dfsph.hpp";
   static constexpr bool implicit = false;
   static constexpr int convergenceOrder = 0;
   static constexpr Auxiliary auxiliary{.derivs = 1};
@@ -117,6 +118,7 @@ struct DFSPHSolver {
                        distance,
                        " m apart at rest; take twice that, or correct the mass or the density"));
     flow.radius = radius;
+    flow.calibrate(distance);
     flow.workers = {};
     withFluid(operations, [&](auto& s) { read(s); });
     flow.place(where);

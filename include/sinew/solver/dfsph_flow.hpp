@@ -15,7 +15,8 @@
 namespace sinew {
 
 /// The pressures of a fluid of particles that is not compressed, by divergence-free SPH (Bender, Koschier
-/// 2017). Particle i has the volume V_i = m_i / density at rest, and with the kernel W (WendlandKernel)
+/// 2017). Particle i has the volume V_i = m_i / density at rest, and with the kernel W (WendlandKernel, see
+/// calibrate())
 ///   d_i = sum_j V_j W_ij                       density over that at rest
 ///   D_i = sum_j V_j (v_i - v_j).grad W_ij      its rate [1/s]
 ///   a_i = -sum_j V_j (k_i + k_j) grad W_ij     acceleration by k = pressure / density >= 0 [m^2/s^2]
@@ -38,6 +39,7 @@ class DFSPHFlow {
   };
 
   double radius = 1;  // of the kernel [m]
+  double factor = 1;  // of the kernel
   SomeWorkers workers{};
 
   // of particles, the fluid's first, then those of the boundary
@@ -51,6 +53,8 @@ class DFSPHFlow {
 
   std::size_t fluidSize() const { return volumes.size(); }
 
+  /// Makes the kernel such that a cubic lattice of particles at this distance has d = 1.
+  void calibrate(double distance);
   /// Room for all.
   void reserve(std::size_t fluid, std::size_t boundary);
   /// Finds neighbours, densities and b where the particles are. Throws Error as PointCells does.
@@ -126,6 +130,17 @@ class DFSPHFlow {
 
 namespace sinew {
 
+SINEW_ONCE void DFSPHFlow::calibrate(double distance) {
+  const WendlandKernel<double> kernel(radius);
+  const int reach = int(radius / distance);
+  double sum = 0;
+  for (int x = -reach; x <= reach; ++x)
+    for (int y = -reach; y <= reach; ++y)
+      for (int z = -reach; z <= reach; ++z)
+        sum += kernel.density(std::min(1.0, std::sqrt(double(x * x + y * y + z * z)) * distance / radius));
+  factor = 1 / (sum * distance * distance * distance);
+}
+
 SINEW_ONCE void DFSPHFlow::reserve(std::size_t fluid, std::size_t boundary) {
   const std::size_t all = fluid + boundary, room = all + std::size_t(Particles::width);
   particles_.reserve(all);
@@ -156,7 +171,7 @@ SINEW_ONCE void DFSPHFlow::place(std::string_view where) {
 }
 
 SINEW_ONCE void DFSPHFlow::findBoundaryVolumes(WorkShare const& share) {
-  const WendlandKernel<double> kernels(radius);
+  const WendlandKernel<double> kernels(radius, factor);
   particles_.forEach(share, [&](int i, auto const& each) {
     if (fluid_[std::size_t(i)] != 0) return;
     L around(0);
@@ -169,7 +184,7 @@ SINEW_ONCE void DFSPHFlow::findBoundaryVolumes(WorkShare const& share) {
 
 SINEW_ONCE void DFSPHFlow::findDensities(WorkShare const& share) {
   constexpr double few = 20;  // neighbours, below which a particle may go where it likes (2017, section 3.3)
-  const WendlandKernel<double> kernels(radius);
+  const WendlandKernel<double> kernels(radius, factor);
   particles_.forEach(share, [&](int i, auto const& each) {
     const auto at = std::size_t(i);
     if (fluid_[at] == 0) return;
@@ -227,7 +242,7 @@ SINEW_ONCE std::pair<int, int> DFSPHFlow::coincident() const {
 
 // pushed = v + h a of the fluid
 SINEW_ONCE void DFSPHFlow::push(WorkShare const& share, double h) {
-  const WendlandKernel<double> kernels(radius);
+  const WendlandKernel<double> kernels(radius, factor);
   particles_.forEach(share, [&](int i, auto const& each) {
     const auto at = std::size_t(i);
     if (fluid_[at] == 0) return;
@@ -246,7 +261,7 @@ SINEW_ONCE void DFSPHFlow::push(WorkShare const& share, double h) {
 
 SINEW_ONCE void DFSPHFlow::correct(WorkShare const& share, double h, bool ofDensity) {
   constexpr double relaxation = 0.5;
-  const WendlandKernel<double> kernels(radius);
+  const WendlandKernel<double> kernels(radius, factor);
   particles_.forEach(share, [&](int i, auto const& each) {
     const auto at = std::size_t(i);
     next_[at] = error_[at] = 0;
@@ -267,7 +282,7 @@ SINEW_ONCE void DFSPHFlow::correct(WorkShare const& share, double h, bool ofDens
 }
 
 SINEW_ONCE void DFSPHFlow::pushBoundary(WorkShare const& share, double h) {
-  const WendlandKernel<double> kernels(radius);
+  const WendlandKernel<double> kernels(radius, factor);
   particles_.forEach(share, [&](int i, auto const& each) {
     const auto at = std::size_t(i);
     if (fluid_[at] != 0) return;
