@@ -124,7 +124,8 @@ struct DFSPHSolver {
     flow.place(where);
     if (const auto [i, j] = flow.coincident(); i >= 0)
       throw Error(where, text("particles ", i, " and ", j, " are in one place; move one"));
-    for (auto* k : {&pressures, &pressuresV}) k->resize(flow.fluidSize(), 0.0);
+    for (auto* k : {&pressures, &pressuresV})
+      if (k->size() != flow.fluidSize()) k->assign(flow.fluidSize(), 0.0);
   }
 
   template <class Operations>
