@@ -4,6 +4,7 @@
 #include <sinew/core/step_warnings.hpp>
 #include <sinew/scene/carving.hpp>
 #include <sinew/scene/collision.hpp>
+#include <sinew/scene/fluid_boundaries.hpp>
 #include <sinew/scene/loose_interactions.hpp>
 #include <sinew/scene/mechanical_operations.hpp>
 #include <sinew/scene/overlap_warnings.hpp>
@@ -96,6 +97,7 @@ struct Step {
   /// Each ODE solver integrates its subtree and propagates; where the scene has an animation loop,
   /// constraints by multipliers hold at the end.
   void integrate(bool keepsForces) const {
+    FluidBoundaries<RootScope>{root}.gather();
     const bool constrained =
         with_first<role::AnimationLoop>(root, [&](auto& loop) { integrateConstrained(loop, keepsForces); });
     if (!constrained)
@@ -187,6 +189,7 @@ struct Step {
     operations.projectPositionAndVelocity(time + dt, vec_id::position, vec_id::velocity);
     operations.propagate(vec_id::position, vec_id::velocity);
     end_acted_forces<Ode>(operations);
+    FluidBoundaries<RootScope>{root}.giveForces(scope);
   }
 
   template <class C, class S>
