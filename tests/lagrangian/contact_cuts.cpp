@@ -123,7 +123,7 @@ TEST_CASE("what a tool carves goes on to touch it, by multipliers") {
   std::vector<int> bottom;
   for (int i = 0; i < 25; ++i) bottom.push_back(i);
   auto carves = [&](auto solver) {
-    Simulation sim{node<"root">(
+    RegistryScene sim{node<"root">(
         FreeMotionAnimationLoop{},
         solver,
         DefaultPipeline{},

@@ -3,6 +3,8 @@
 
 // Scenes of one moving mass whose motion has a closed form, and the error of a solver at their end.
 
+#include "registry_scene.hpp"
+
 #include <sinew/sinew.hpp>
 #include <sinew/solver/sparse_ldl_solver.hpp>
 
@@ -22,7 +24,7 @@ double order(Error&& error, int steps) {
 
 template <class Solver>
 auto mass_on_spring(Solver solver, Eigen::Vector2d x, Eigen::Vector2d v) {
-  Simulation sim{node<"root">(
+  RegistryScene sim{node<"root">(
       solver,
       SparseLDLSolver<CompressedRowSparseMatrixd>{},
       MechanicalObject<Vec2d>{.position = {{0, 0}, x}, .velocity = {{0, 0}, v}},

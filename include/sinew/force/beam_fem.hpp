@@ -156,7 +156,7 @@ struct BeamFEMForceField {
   using Real = typename D::Real;
   static constexpr std::string_view className = "BeamFEMForceField";
 
-  double poissonRatio = 0.49, youngModulus = 5000;
+  double poissonRatio = 0.45, youngModulus = 5000;
   double radius = 0.1, radiusInner = 0;
   std::vector<int> listSegment{};
   CrossSectionShape crossSectionShape = CrossSectionShape::circular;

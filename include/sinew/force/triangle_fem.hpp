@@ -174,7 +174,7 @@ struct TriangleFEMForceField {
   static constexpr std::string_view className = "TriangleFEMForceField";
   static constexpr std::string_view aliases = "TriangularFEMForceField TriangularFEMForceFieldOptim";
 
-  std::vector<double> youngModulus{1000}, poissonRatio{0.3};  // one for all triangles, or one for each
+  std::vector<double> youngModulus{5000}, poissonRatio{0.45};  // one for all triangles, or one for each
   double thickness = 1;
   bool planeStrain = false;
   TriangleMethod method = TriangleMethod::large;

@@ -21,12 +21,12 @@ struct BDFOdeSolver {
   static constexpr std::string_view className = "BDFOdeSolver";
   static constexpr std::string_view aliases = "BDF2OdeSolver BDF2";
   static constexpr bool implicit = true;
-  static constexpr int convergenceOrder = 2;
+  static constexpr int convergenceOrder = 1;
   static constexpr Auxiliary auxiliary{.coords = 1, .derivs = 8};
   /// The first four auxiliary derivs, dx-, dv-, dx-- and dv--, keep their values from step to step.
   static constexpr Auxiliary history{.derivs = 4};
 
-  int order = 2;
+  int order = 1;
   double rayleighStiffness = 0;
   double rayleighMass = 0;
   int maxNbIterationsNewton = 1;
