@@ -518,7 +518,7 @@ constexpr auto classExamples = std::to_array<ClassExample>({
      R"(
 <Node name="hook">
   <MechanicalObject position="0.75 0.01 0"/>
-  <BeamLinearMapping/>
+  <BeamLinearMapping localCoord="false"/>
   <ConstantForceField force="0 0 0.5"/>
 </Node>)",
      beams,

@@ -29,6 +29,7 @@ std::string cpp_type() {
   auto unqualified = [](std::string_view spelled) {
     std::string name(spelled);
     for (std::size_t at = 0; (at = name.find("sinew::", at)) != name.npos;) name.erase(at, 7);
+    for (std::size_t at = 0; (at = name.find("> >", at)) != name.npos;) name.erase(at + 1, 1);
     return name;
   };
   if constexpr (std::is_same_v<T, std::string>)
