@@ -49,3 +49,4 @@
 #include <sinew/topology/sparse_grid_topology.hpp>
 #include <sinew/topology/sphere_grid_topology.hpp>
 #include <sinew/topology/subdivision.hpp>
+#include <sinew/topology/surface_sampling.hpp>

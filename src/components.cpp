@@ -36,4 +36,5 @@
 #include <sinew/scene/path.hpp>
 #include <sinew/scene/profile_report.hpp>
 #include <sinew/scene/removed_border.hpp>
+#include <sinew/solver/dfsph_flow.hpp>
 #include <sinew/visual/visual_model.hpp>

@@ -22,4 +22,5 @@
 #include <sinew/topology/regular_grid_topology.hpp>
 #include <sinew/topology/sparse_grid_topology.hpp>
 #include <sinew/topology/sphere_grid_topology.hpp>
+#include <sinew/topology/surface_sampling.hpp>
 #include <sinew/topology/tetrahedron_topology.hpp>

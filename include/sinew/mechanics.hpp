@@ -31,6 +31,7 @@
 #include <sinew/force/constant_force.hpp>
 #include <sinew/force/element_pressure.hpp>
 #include <sinew/force/fast_triangular_bending_springs.hpp>
+#include <sinew/force/fluid_boundary.hpp>
 #include <sinew/force/hexahedron_fem.hpp>
 #include <sinew/force/linear_force_field.hpp>
 #include <sinew/force/mesh_spring.hpp>

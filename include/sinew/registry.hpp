@@ -7,6 +7,7 @@
 #include <sinew/fluid/fluid3d.hpp>
 #include <sinew/lagrangian.hpp>
 #include <sinew/sinew.hpp>
+#include <sinew/solver/dfsph.hpp>
 
 // a program that links libccd may have hulls in scene files; CMake's sinew::standard says so, where it has
 // them
@@ -26,7 +27,7 @@ using RigidLoads = Registry<ConstantForceField<D>, LinearForceField<D>, RestShap
 template <class D>
 using PointLoads = Registry<RigidLoads<D>, SphereForceField<D>>;
 template <class D>
-using Fluids = Registry<SPHFluidForceField<D>>;
+using Fluids = Registry<SPHFluidForceField<D>, FluidBoundary<D>>;
 template <class D>
 using ElementForces =
     Registry<TetrahedronFEMForceField<D>, HexahedronFEMForceField<D>, TriangleFEMForceField<D>,
@@ -110,7 +111,7 @@ using AssembledSolvers =
 using StandardSolvers =
     Registry<EulerExplicitSolver, CentralDifferenceSolver, RungeKutta2Solver, RungeKutta4Solver,
              RungeKutta45Solver, EulerImplicitSolver, NewmarkImplicitSolver, VariationalSymplecticSolver,
-             BDFOdeSolver, StaticSolver, DampVelocitySolver, CGLinearSolver<>,
+             BDFOdeSolver, StaticSolver, DampVelocitySolver, DFSPHSolver, CGLinearSolver<>,
              AssembledSolvers<CGLinearSolver>, CGLinearSolver<CompressedRowSparseMatrixMat3x3f>,
              MinResLinearSolver<>, AssembledSolvers<MinResLinearSolver>, ShewchukPCGLinearSolver<>,
              AssembledSolvers<ShewchukPCGLinearSolver>, AssembledSolvers<SparseLDLSolver>,
@@ -126,7 +127,7 @@ using StandardEngines =
              SpatialEngines<Vec3d>, Regions<Vec3f>, SpatialEngines<Rigid3d>, BoxROI<Vec1d>, Regions<Vec2d>,
              Regions<Rigid2d>>;
 using StandardTopologies =
-    Registry<TetrahedronTopology, MeshTopology, RegularGridTopology, SparseGridTopology>;
+    Registry<TetrahedronTopology, MeshTopology, RegularGridTopology, SparseGridTopology, SurfaceSampling>;
 // meshes that need no file
 using MadeMeshes = Registry<CubeTopology, CylinderGridTopology, SphereGridTopology, GridMeshCreator,
                             StringMeshCreator, MeshSubdivision>;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // Two bodies whose points are attached to each other.
+#include "registry_scene.hpp"
+
 #include <sinew/sinew.hpp>
 #include <sinew/topology/regular_grid.hpp>
 
@@ -56,7 +58,7 @@ Points thrown(Points x) {
 
 template <class... Solvers>
 auto together(Solvers... solvers) {
-  return Simulation{node<"root">(
+  return RegistryScene{node<"root">(
       Gravity{{0, 0, 0}},
       solvers...,
       node<"body">(TetrahedronTopology{whole.tetrahedra},
@@ -73,7 +75,7 @@ auto half(Mesh const& mesh) {
 }
 template <class... Solvers>
 auto attached(Halves const& halves, bool twoWay, Solvers... solvers) {
-  return Simulation{node<"root">(
+  return RegistryScene{node<"root">(
       Gravity{{0, 0, 0}},
       solvers...,
       Attach<Between<"a", "b">>{.indices1 = halves.face[0], .indices2 = halves.face[1], .twoWay = twoWay},
@@ -102,7 +104,7 @@ Eigen::Vector3d momentum(Points const& v, auto const& mass) {
 }
 template <class Sim>
 Eigen::Vector3d momentum(Sim& sim) {
-  auto of = [](auto& node) {
+  auto of = [](auto&& node) {
     return momentum(node.state().velocity, node.template get<DiagonalMass<Vec3d>>());
   };
   return of(sim.template at<"a">()) + of(sim.template at<"b">());
@@ -152,7 +154,7 @@ TEST_CASE("one way, the second follows the first, which does not feel it") {
   const auto ode = EulerImplicitSolver{.rayleighStiffness = 0.01};
   const auto linear = exact(CGLinearSolver<CompressedRowSparseMatrixMat3x3d>{});
   auto two = attached(halves, false, ode, linear);
-  Simulation alone{node<"root">(Gravity{{0, 0, 0}}, ode, linear, half<"a">(halves.mesh[0]))};
+  RegistryScene alone{node<"root">(Gravity{{0, 0, 0}}, ode, linear, half<"a">(halves.mesh[0]))};
   two.init();
   alone.init();
   for (int i = 0; i < 50; ++i) two.animate(0.02), alone.animate(0.02);
@@ -167,7 +169,7 @@ TEST_CASE("one way, the second follows the first, which does not feel it") {
 
 TEST_CASE("points of one body that are attached, three to one, and what a jump leaves") {
   // masses 1, 2, 3, 6: the common velocity is the mean by mass
-  Simulation sim{node<"root">(
+  RegistryScene sim{node<"root">(
       Gravity{{0, 0, 0}},
       EulerExplicitSolver{},
       MechanicalObject<Vec3d>{.position = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {5, 0, 0}},
@@ -189,7 +191,7 @@ TEST_CASE("rigid bodies: as one, and with a joint") {
     auto body = [](double spin) {
       return MechanicalObject<Rigid3d>{.position = {B{}}, .velocity = {{0, 0, 0, 0, 0, spin}}};
     };
-    return Simulation{node<"root">(
+    return RegistryScene{node<"root">(
         Gravity{{0, -1, 0}},
         EulerImplicitSolver{},
         SparseLDLSolver<CompressedRowSparseMatrixd>{},
@@ -218,7 +220,7 @@ TEST_CASE("rigid bodies: as one, and with a joint") {
 TEST_CASE("bad input of attachments is named") {
   auto with = [](Attach<Between<"a", "b">> attach) {
     return [=] {
-      Simulation sim{node<"root">(
+      RegistryScene sim{node<"root">(
           EulerExplicitSolver{},
           attach,
           node<"a">(MechanicalObject<Vec3d>{.position = {{0, 0, 0}, {1, 0, 0}}}, UniformMass<Vec3d>{}),

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "catch.hpp"
+#include "registry_scene.hpp"
 
 #include <sinew/constraint/fixed_plane.hpp>
 #include <sinew/constraint/partial_fixed.hpp>
@@ -19,7 +20,7 @@ Vec3d::VecCoord fallen(Linear linear) {
   const Mesh mesh = regular_grid_tetrahedra(4, 3, 3, {0, 0, 0}, {3, 2, 2});
   linear.iterations = 400;
   linear.tolerance = 1e-13;
-  Simulation sim{node<"root">(
+  RegistryScene sim{node<"root">(
       Gravity{{1, -9.81, 2}},
       EulerImplicitSolver{.rayleighStiffness = 0.01},
       linear,

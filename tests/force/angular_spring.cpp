@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "one_component.hpp"
+#include "registry_scene.hpp"
 
 #include <sinew/constraint/fixed_constraint.hpp>
 #include <sinew/force/angular_spring.hpp>
@@ -113,7 +114,7 @@ TEST_CASE("torsion pendulums swing at their frequency") {
       state.restPosition = {body({0, 0, 0}), body({1, 0, 0})};
       state.position = state.restPosition;
       state.position[1].orientation = AngleAxisd(theta, Vector3d::Unit(axis));
-      Simulation sim{node<"root">(
+      RegistryScene sim{node<"root">(
           RungeKutta4Solver{},
           state,
           UniformMass<Rigid3d>{.vertexMass = mass},

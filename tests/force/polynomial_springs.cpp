@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "one_component.hpp"
+#include "registry_scene.hpp"
 
 #include <sinew/force/polynomial_springs.hpp>
 #include <sinew/mass/uniform_mass.hpp>
@@ -72,7 +73,7 @@ TEST_CASE("springs share one polynomial, or have their own one after the other")
 
 TEST_CASE("two bodies on a spring swing against each other and keep their energy") {
   using Pair = PolynomialSpringsForceField<Vec3d, Between<"a", "b">>;
-  Simulation sim{
+  RegistryScene sim{
       node<"root">(RungeKutta4Solver{},
                    node<"a">(MechanicalObject<Vec3d>{{{0, 0, 0}}}, UniformMass<Vec3d>{.vertexMass = 1}),
                    node<"b">(MechanicalObject<Vec3d>{{{1, 0, 0}}}, UniformMass<Vec3d>{.vertexMass = 3}),

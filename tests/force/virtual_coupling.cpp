@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "one_component.hpp"
+#include "registry_scene.hpp"
 
 #include <sinew/context/gravity.hpp>
 #include <sinew/force/virtual_coupling.hpp>
@@ -26,11 +27,11 @@ auto tool(VirtualCoupling<Rigid3d> const& coupling, Vector3d const& gravity, Rig
           Solvers... solvers) {
   // 0.05 kg, 1e-4 kg m^2
   const RigidMass<double, 3> mass{0.05, 1e-4 * Eigen::Matrix3d::Identity()};
-  return Simulation{node<"root">(Gravity{gravity},
-                                 solvers...,
-                                 MechanicalObject<Rigid3d>{.position = {{}}, .velocity = {velocity}},
-                                 UniformMass<Rigid3d>{.vertexMass = mass},
-                                 coupling)};
+  return RegistryScene{node<"root">(Gravity{gravity},
+                                    solvers...,
+                                    MechanicalObject<Rigid3d>{.position = {{}}, .velocity = {velocity}},
+                                    UniformMass<Rigid3d>{.vertexMass = mass},
+                                    coupling)};
 }
 
 Rigid3d::Deriv six(double a, double b) {

@@ -2,6 +2,7 @@
 // Contacts that give way; hard ones are those of UnilateralLagrangianConstraint.
 #include "catch.hpp"
 #include "error_of.hpp"
+#include "registry_scene.hpp"
 
 #include <sinew/lagrangian.hpp>
 #include <sinew/mechanics.hpp>
@@ -20,15 +21,15 @@ using Contact = AugmentedLagrangianConstraint<Vec3d, Between<"ground", "body">>;
 
 template <class Ode, class... Linear>
 auto above(Contact contact, double height, double slope, bool velocityFirst, Ode ode, Linear... linear) {
-  return Simulation{node<"root">(Gravity{g * Eigen::Vector3d(slope, 0, -1)},
-                                 FreeMotionAnimationLoop{.solveVelocityConstraintFirst = velocityFirst},
-                                 gaussSeidel,
-                                 contact,
-                                 node<"ground">(MechanicalObject<Vec3d>{.position = {{0, 0, 0}}}),
-                                 node<"body">(ode,
-                                              linear...,
-                                              MechanicalObject<Vec3d>{.position = {{0, 0, height}}},
-                                              UniformMass<Vec3d>{.vertexMass = mass}))};
+  return RegistryScene{node<"root">(Gravity{g * Eigen::Vector3d(slope, 0, -1)},
+                                    FreeMotionAnimationLoop{.solveVelocityConstraintFirst = velocityFirst},
+                                    gaussSeidel,
+                                    contact,
+                                    node<"ground">(MechanicalObject<Vec3d>{.position = {{0, 0, 0}}}),
+                                    node<"body">(ode,
+                                                 linear...,
+                                                 MechanicalObject<Vec3d>{.position = {{0, 0, height}}},
+                                                 UniformMass<Vec3d>{.vertexMass = mass}))};
 }
 Contact soft(double compliance, double damping, double mu = 0) {
   return {.first_point = {0},

@@ -19,13 +19,13 @@ using Joint = BilateralLagrangianConstraint<Vec3d>;
 // two points, 1 m above each other, of 2 kg each
 template <class Solver, class... Components>
 auto two_points(Solver solver, Components... components) {
-  return Simulation{node<"root">(Gravity{{0, 0, -g}},
-                                 FreeMotionAnimationLoop{},
-                                 solver,
-                                 node<"body">(EulerExplicitSolver{},
-                                              MechanicalObject<Vec3d>{.position = {{0, 0, 0}, {0, 0, -1}}},
-                                              UniformMass<Vec3d>{.totalMass = 4},
-                                              components...))};
+  return RegistryScene{node<"root">(Gravity{{0, 0, -g}},
+                                    FreeMotionAnimationLoop{},
+                                    solver,
+                                    node<"body">(EulerExplicitSolver{},
+                                                 MechanicalObject<Vec3d>{.position = {{0, 0, 0}, {0, 0, -1}}},
+                                                 UniformMass<Vec3d>{.totalMass = 4},
+                                                 components...))};
 }
 template <class Sim>
 std::string run(Sim& sim, int steps = 20) {
@@ -95,14 +95,14 @@ TEST_CASE("a constraint between a body that is held and one that nothing moves n
   using Contacts = UnilateralLagrangianConstraint<Vec3d, Between<"a", "b">>;
   each_solver([](auto solver) {
     INFO(decltype(solver)::className);
-    Simulation sim{node<"root">(FreeMotionAnimationLoop{},
-                                solver,
-                                Contacts{.first_point = {0}, .second_point = {0}, .normal = {{0, 0, 1}}},
-                                node<"a">(EulerExplicitSolver{},
-                                          MechanicalObject<Vec3d>{.position = {{0, 0, 0}}},
-                                          UniformMass<Vec3d>{},
-                                          FixedConstraint<Vec3d>{.indices = {0}}),
-                                node<"b">(MechanicalObject<Vec3d>{.position = {{0, 0, -1}}}))};
+    RegistryScene sim{node<"root">(FreeMotionAnimationLoop{},
+                                   solver,
+                                   Contacts{.first_point = {0}, .second_point = {0}, .normal = {{0, 0, 1}}},
+                                   node<"a">(EulerExplicitSolver{},
+                                             MechanicalObject<Vec3d>{.position = {{0, 0, 0}}},
+                                             UniformMass<Vec3d>{},
+                                             FixedConstraint<Vec3d>{.indices = {0}}),
+                                   node<"b">(MechanicalObject<Vec3d>{.position = {{0, 0, -1}}}))};
     CHECK_THAT(run(sim),
                Catch::Contains("UnilateralLagrangianConstraint") && Catch::Contains("equation 0") &&
                    Catch::Contains("free a point"));
@@ -117,12 +117,12 @@ TEST_CASE("a joint between two bodies that are both fixed names itself") {
                                UniformMass<Vec3d>{},
                                FixedConstraint<Vec3d>{.indices = {0}});
     };
-    Simulation sim{node<"root">(FreeMotionAnimationLoop{},
-                                solver,
-                                BilateralLagrangianConstraint<Vec3d, Between<"left", "right">>{
-                                    .first_point = {0}, .second_point = {0}},
-                                fixed(Named<"left">{}),
-                                fixed(Named<"right">{}))};
+    RegistryScene sim{node<"root">(FreeMotionAnimationLoop{},
+                                   solver,
+                                   BilateralLagrangianConstraint<Vec3d, Between<"left", "right">>{
+                                       .first_point = {0}, .second_point = {0}},
+                                   fixed(Named<"left">{}),
+                                   fixed(Named<"right">{}))};
     return run(sim, 1);
   };
   auto names = [](std::string const& message) {

@@ -2,6 +2,7 @@
 // Multipliers under BDFOdeSolver: closed forms, and orders of convergence.
 #include "catch.hpp"
 #include "error_of.hpp"
+#include "registry_scene.hpp"
 
 #include <sinew/lagrangian.hpp>
 #include <sinew/mechanics.hpp>
@@ -46,7 +47,7 @@ auto joined_oscillators(Solver solver, int order, bool velocityFirst) {
         UniformMass<Vec3d>{.totalMass = mass},
         RestShapeSpringsForceField<Vec3d>{.points = {0}, .stiffness = {stiffness}});
   };
-  return Simulation{node<"root">(
+  return RegistryScene{node<"root">(
       FreeMotionAnimationLoop{.solveVelocityConstraintFirst = velocityFirst},
       solver,
       BilateralLagrangianConstraint<Vec3d, Between<"a", "b">>{.first_point = {0}, .second_point = {0}},
@@ -101,7 +102,7 @@ namespace {
 auto pendulum(int order, bool velocityFirst = false) {
   MeshTopology edge;
   edge.edges = {{0, 1}};
-  return Simulation{node<"root">(
+  return RegistryScene{node<"root">(
       Gravity{{0, -10, 0}},
       FreeMotionAnimationLoop{.solveVelocityConstraintFirst = velocityFirst},
       exact(),
@@ -173,14 +174,14 @@ TEST_CASE("reset under BDF brings back the bits of the first steps, what multipl
 
 TEST_CASE("a compliance that is made once is refused beside a BDF whose first steps have another") {
   auto scene = [](int order) {
-    return Simulation{node<"root">(FreeMotionAnimationLoop{},
-                                   exact(),
-                                   node<"body">(BDFOdeSolver{.order = order},
-                                                SparseLDLSolver<>{},
-                                                MechanicalObject<Vec3d>{.position = {{0, 0, 0}}},
-                                                UniformMass<Vec3d>{.totalMass = 4},
-                                                PrecomputedConstraintCorrection<Vec3d>{},
-                                                FixedLagrangianConstraint<Vec3d>{.indices = {0}}))};
+    return RegistryScene{node<"root">(FreeMotionAnimationLoop{},
+                                      exact(),
+                                      node<"body">(BDFOdeSolver{.order = order},
+                                                   SparseLDLSolver<>{},
+                                                   MechanicalObject<Vec3d>{.position = {{0, 0, 0}}},
+                                                   UniformMass<Vec3d>{.totalMass = 4},
+                                                   PrecomputedConstraintCorrection<Vec3d>{},
+                                                   FixedLagrangianConstraint<Vec3d>{.indices = {0}}))};
   };
   auto refused = scene(2);
   CHECK_THAT(error_of([&] { refused.init(); }),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "catch.hpp"
 #include "error_of.hpp"
+#include "registry_scene.hpp"
 
 #include <sinew/lagrangian.hpp>
 #include <sinew/mechanics.hpp>
@@ -34,16 +35,16 @@ using Joint = BilateralLagrangianConstraint<D, E>;
 template <class C>
 auto two_bodies(C joint, Body const& a, Body const& b, Vector6 const& va, Vector6 const& vb,
                 bool velocityFirst) {
-  return Simulation{node<"root">(FreeMotionAnimationLoop{.solveVelocityConstraintFirst = velocityFirst},
-                                 gaussSeidel,
-                                 joint,
-                                 node<"a">(EulerExplicitSolver{},
-                                           MechanicalObject<Rigid3d>{.position = {a}, .velocity = {va}},
-                                           UniformMass<Rigid3d>{.vertexMass = mass(1, {1, 2, 2.5})}),
-                                 node<"b">(EulerImplicitSolver{},
-                                           SparseLDLSolver<>{},
-                                           MechanicalObject<Rigid3d>{.position = {b}, .velocity = {vb}},
-                                           UniformMass<Rigid3d>{.vertexMass = mass(3, {0.5, 0.3, 0.4})}))};
+  return RegistryScene{node<"root">(FreeMotionAnimationLoop{.solveVelocityConstraintFirst = velocityFirst},
+                                    gaussSeidel,
+                                    joint,
+                                    node<"a">(EulerExplicitSolver{},
+                                              MechanicalObject<Rigid3d>{.position = {a}, .velocity = {va}},
+                                              UniformMass<Rigid3d>{.vertexMass = mass(1, {1, 2, 2.5})}),
+                                    node<"b">(EulerImplicitSolver{},
+                                              SparseLDLSolver<>{},
+                                              MechanicalObject<Rigid3d>{.position = {b}, .velocity = {vb}},
+                                              UniformMass<Rigid3d>{.vertexMass = mass(3, {0.5, 0.3, 0.4})}))};
 }
 
 }  // namespace
@@ -80,9 +81,9 @@ TEST_CASE("joined bodies turn as one body with the sum of their inertias") {
   Vector6 v;
   v << 0, 0, 0, 0.8, 1.5, -0.4;
   auto sim = two_bodies(Joint<Rigid3d>{.first_point = {0}, .second_point = {0}}, Body{}, Body{}, v, v, false);
-  Simulation one{node<"body">(EulerExplicitSolver{},
-                              MechanicalObject<Rigid3d>{.position = {Body{}}, .velocity = {v}},
-                              UniformMass<Rigid3d>{.vertexMass = mass(4, {1.5, 2.3, 2.9})})};
+  RegistryScene one{node<"body">(EulerExplicitSolver{},
+                                 MechanicalObject<Rigid3d>{.position = {Body{}}, .velocity = {v}},
+                                 UniformMass<Rigid3d>{.vertexMass = mass(4, {1.5, 2.3, 2.9})})};
   auto differs = [&](double step) {
     auto joined = sim;
     auto single = one;
@@ -144,7 +145,7 @@ TEST_CASE("a chain of bodies of different solvers hangs, and each joint carries 
         .first_point = {0}, .second_point = {0}, .rest_vector = {{0, 0, -0.5}}};
   };
   auto point = [](double z) { return MechanicalObject<Vec3d>{.position = {{0, 0, z}}}; };
-  Simulation sim{node<"root">(
+  RegistryScene sim{node<"root">(
       Gravity{{0, 0, -g}},
       FreeMotionAnimationLoop{},
       gaussSeidel,
@@ -176,7 +177,7 @@ TEST_CASE("a chain of bodies of different solvers hangs, and each joint carries 
   CHECK(third == Approx(7 * g));
   CHECK(last == Approx(4 * g));
   // what each body feels is the difference of the joints at it
-  auto feels = [](auto& body, double z) {
+  auto feels = [](auto const& body, double z) {
     CHECK(body.state().position[0].template head<2>().norm() < 1e-12);
     CHECK((body.state().reaction[0] - Eigen::Vector3d(0, 0, z)).norm() < 1e-7);
   };
@@ -191,7 +192,7 @@ TEST_CASE(
     "points of one body are joined, or not where it is not active; a load takes a part of the violation") {
   using Inside = Joint<Vec3d, Within>;
   auto run = [](Inside joint) {
-    Simulation sim{
+    RegistryScene sim{
         node<"root">(FreeMotionAnimationLoop{},
                      gaussSeidel,
                      node<"body">(EulerExplicitSolver{},
@@ -224,12 +225,12 @@ namespace {
 
 template <class... C>
 auto points(BlockGaussSeidelConstraintSolver solver, Vec3d::VecCoord x, C... more) {
-  return Simulation{node<"root">(FreeMotionAnimationLoop{},
-                                 solver,
-                                 node<"body">(EulerExplicitSolver{},
-                                              MechanicalObject<Vec3d>{.position = x},
-                                              UniformMass<Vec3d>{.vertexMass = 1},
-                                              more...))};
+  return RegistryScene{node<"root">(FreeMotionAnimationLoop{},
+                                    solver,
+                                    node<"body">(EulerExplicitSolver{},
+                                                 MechanicalObject<Vec3d>{.position = x},
+                                                 UniformMass<Vec3d>{.vertexMass = 1},
+                                                 more...))};
 }
 Joint<Vec3d, Within> tie(std::vector<Eigen::Vector3d> rest = {}) {
   return {.first_point = {0}, .second_point = {1}, .rest_vector = rest};
@@ -294,7 +295,7 @@ TEST_CASE("joints that cannot be are refused") {
 
 TEST_CASE("what a movement leads, and no solver moves, leads what is joined to it") {
   for (const bool velocityFirst : {false, true}) {
-    Simulation sim{node<"root">(
+    RegistryScene sim{node<"root">(
         FreeMotionAnimationLoop{.solveVelocityConstraintFirst = velocityFirst},
         gaussSeidel,
         BilateralLagrangianConstraint<Vec3d, Between<"led", "leader/tip">>{.first_point = {0},

@@ -164,19 +164,19 @@ TEST_CASE(
 }
 
 TEST_CASE("without a loop that solves them, contacts by multipliers are refused with what to do") {
-  Simulation sim{node<"root">(DefaultPipeline{},
-                              BruteForceBroadPhase{},
-                              BVHNarrowPhase{},
-                              near_by(),
-                              DefaultContactManager{.response = "FrictionContact"},
-                              fixed_floor())};
+  RegistryScene sim{node<"root">(DefaultPipeline{},
+                                 BruteForceBroadPhase{},
+                                 BVHNarrowPhase{},
+                                 near_by(),
+                                 DefaultContactManager{.response = "FrictionContact"},
+                                 fixed_floor())};
   CHECK_THROWS_WITH(sim.init(), Catch::Contains("FreeMotionAnimationLoop") && Catch::Contains("/root"));
 }
 
 TEST_CASE("a coefficient of friction that is none is refused") {
   for (const std::string mu : {"-0.1", "nan", "", "0.5x", "inf"}) {
     INFO(mu);
-    Simulation sim{node<"root">(
+    RegistryScene sim{node<"root">(
         FreeMotionAnimationLoop{},
         BlockGaussSeidelConstraintSolver{},
         DefaultPipeline{},

@@ -6,6 +6,7 @@
 #include <sinew/mechanics.hpp>
 
 #include "catch.hpp"
+#include "registry_scene.hpp"
 
 #include <cmath>
 #include <string>
@@ -20,7 +21,7 @@ inline constexpr double g = 10;  // [m/s^2]
 /// 0.01 m.
 template <class Solver, class Intersection, class... Children>
 auto constrained_scene_by(Solver solver, Intersection intersection, double mu, Children... children) {
-  return Simulation{node<"root">(
+  return RegistryScene{node<"root">(
       FreeMotionAnimationLoop{},
       solver,
       DefaultPipeline{},

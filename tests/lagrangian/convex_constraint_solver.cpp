@@ -50,7 +50,7 @@ auto soft_block(Ode ode, Linear... linear) {
 // two balls fall onto a soft block on a floor; a third is joined to one of them by a ball joint
 template <class Solver>
 auto several(Solver solver, double mu) {
-  auto sim = Simulation{node<"root">(
+  auto sim = RegistryScene{node<"root">(
       FreeMotionAnimationLoop{},
       solver,
       DefaultPipeline{},
@@ -221,7 +221,7 @@ TEST_CASE("a step that the convex solver cannot solve is an Error with its resid
 
 TEST_CASE("what the convex solver has no system for is refused with the component to take instead") {
   // points on a line have no blocks of three
-  Simulation line{
+  RegistryScene line{
       node<"root">(FreeMotionAnimationLoop{},
                    ConvexConstraintSolver{},
                    node<"cart">(EulerExplicitSolver{},

@@ -2,6 +2,7 @@
 // What bodies answer to multipliers: by their solver, with a factor or without, or by compliances of their
 // own.
 #include "catch.hpp"
+#include "registry_scene.hpp"
 
 #include <sinew/lagrangian.hpp>
 #include <sinew/mechanics.hpp>
@@ -25,17 +26,18 @@ auto string_of(Linear linear, Correction... correction) {
     state.position.push_back({0.1 * i, 0.02 * (i % 3), 0});
     if (i > 0) springs.springs.push_back({i - 1, i, 500, 1, 0.1});
   }
-  return Simulation{node<"root">(FreeMotionAnimationLoop{},
-                                 BlockGaussSeidelConstraintSolver{.maxIterations = 10000, .tolerance = 1e-15},
-                                 Gravity{{0, -10, 0}},
-                                 node<"string">(EulerImplicitSolver{.rayleighStiffness = 0.01},
-                                                linear,
-                                                state,
-                                                UniformMass<Vec3d>{.totalMass = 1.2},
-                                                springs,
-                                                PartialFixedConstraint<Vec3d>{.indices = {1}},
-                                                FixedLagrangianConstraint<Vec3d>{.indices = {0, 5, n - 1}},
-                                                correction...))};
+  return RegistryScene{
+      node<"root">(FreeMotionAnimationLoop{},
+                   BlockGaussSeidelConstraintSolver{.maxIterations = 10000, .tolerance = 1e-15},
+                   Gravity{{0, -10, 0}},
+                   node<"string">(EulerImplicitSolver{.rayleighStiffness = 0.01},
+                                  linear,
+                                  state,
+                                  UniformMass<Vec3d>{.totalMass = 1.2},
+                                  springs,
+                                  PartialFixedConstraint<Vec3d>{.indices = {1}},
+                                  FixedLagrangianConstraint<Vec3d>{.indices = {0, 5, n - 1}},
+                                  correction...))};
 }
 template <class Sim>
 auto run(Sim sim) {
@@ -78,7 +80,7 @@ TEST_CASE("a body answers alike, whichever linear solver says how") {
 
 TEST_CASE("points that answer alone do what their compliance says") {
   // a heavy and a light point, joined: the impulse moves each by its compliance
-  Simulation sim{node<"root">(
+  RegistryScene sim{node<"root">(
       FreeMotionAnimationLoop{},
       BlockGaussSeidelConstraintSolver{.maxIterations = 10000, .tolerance = 1e-15},
       BilateralLagrangianConstraint<Vec3d, Between<"a", "b">>{.first_point = {0}, .second_point = {0}},
@@ -103,12 +105,12 @@ TEST_CASE("points that answer alone do what their compliance says") {
 
 TEST_CASE("compliances that move nothing, or are too few, are refused") {
   auto wrong = [](UncoupledConstraintCorrection<Rigid3d> correction, std::string const& words) {
-    Simulation sim{node<"root">(FreeMotionAnimationLoop{},
-                                BlockGaussSeidelConstraintSolver{},
-                                EulerExplicitSolver{},
-                                MechanicalObject<Rigid3d>{.position = {Rigid3d::Coord{}}},
-                                UniformMass<Rigid3d>{},
-                                correction)};
+    RegistryScene sim{node<"root">(FreeMotionAnimationLoop{},
+                                   BlockGaussSeidelConstraintSolver{},
+                                   EulerExplicitSolver{},
+                                   MechanicalObject<Rigid3d>{.position = {Rigid3d::Coord{}}},
+                                   UniformMass<Rigid3d>{},
+                                   correction)};
     CHECK_THROWS_WITH(sim.init(), Catch::Contains(words) && Catch::Contains("UncoupledConstraintCorrection"));
   };
   wrong({.compliance = {1, 2}}, "give 7");
@@ -127,13 +129,13 @@ Eigen::MatrixXd mobility_of(UniformMass<Rigid3d> const& mass, Quat<double> const
                             Correction... correction) {
   Rigid3d::Coord place;
   place.orientation = orientation;
-  Simulation sim{node<"root">(FreeMotionAnimationLoop{},
-                              BlockGaussSeidelConstraintSolver{},
-                              EulerExplicitSolver{},
-                              MechanicalObject<Rigid3d>{.position = {place}},
-                              mass,
-                              FixedLagrangianConstraint<Rigid3d>{.indices = {0}},
-                              correction...)};
+  RegistryScene sim{node<"root">(FreeMotionAnimationLoop{},
+                                 BlockGaussSeidelConstraintSolver{},
+                                 EulerExplicitSolver{},
+                                 MechanicalObject<Rigid3d>{.position = {place}},
+                                 mass,
+                                 FixedLagrangianConstraint<Rigid3d>{.indices = {0}},
+                                 correction...)};
   sim.init();
   sim.animate(dt);
   return sim.root().template get<FreeMotionAnimationLoop>().motion.problem.compliance / (dt * dt);
@@ -164,16 +166,16 @@ TEST_CASE("rigid bodies answer by their masses, with the inertia where it has tu
 
 TEST_CASE("positions and velocities take parts of what a compliance of positions says") {
   constexpr double c = 1e-4, part = 0.25, share = 0.5;
-  Simulation sim{node<"root">(FreeMotionAnimationLoop{},
-                              BlockGaussSeidelConstraintSolver{.tolerance = 1e-15},
-                              EulerExplicitSolver{},
-                              MechanicalObject<Vec3d>{.position = {{0, 0, 0}}, .velocity = {{2, 0, 0}}},
-                              UniformMass<Vec3d>{},
-                              UncoupledConstraintCorrection<Vec3d>{.defaultCompliance = c,
-                                                                   .useOdeSolverIntegrationFactors = false,
-                                                                   .correctionPositionFactor = part,
-                                                                   .correctionVelocityFactor = share},
-                              FixedLagrangianConstraint<Vec3d>{.indices = {0}})};
+  RegistryScene sim{node<"root">(FreeMotionAnimationLoop{},
+                                 BlockGaussSeidelConstraintSolver{.tolerance = 1e-15},
+                                 EulerExplicitSolver{},
+                                 MechanicalObject<Vec3d>{.position = {{0, 0, 0}}, .velocity = {{2, 0, 0}}},
+                                 UniformMass<Vec3d>{},
+                                 UncoupledConstraintCorrection<Vec3d>{.defaultCompliance = c,
+                                                                      .useOdeSolverIntegrationFactors = false,
+                                                                      .correctionPositionFactor = part,
+                                                                      .correctionVelocityFactor = share},
+                                 FixedLagrangianConstraint<Vec3d>{.indices = {0}})};
   sim.init();
   sim.animate(dt);
   // the free motion goes 2 dt, which the multiplier -2 dt / c would take back
@@ -184,7 +186,7 @@ TEST_CASE("positions and velocities take parts of what a compliance of positions
 
 TEST_CASE("bodies of one solver answer each in its own way") {
   auto share = [](auto ode, auto... linear) {
-    Simulation sim{node<"root">(
+    RegistryScene sim{node<"root">(
         FreeMotionAnimationLoop{},
         BlockGaussSeidelConstraintSolver{.maxIterations = 10000, .tolerance = 1e-15},
         ode,
@@ -207,7 +209,7 @@ TEST_CASE("bodies of one solver answer each in its own way") {
 
 TEST_CASE("the compliance of a system is scaled and made regular") {
   auto compliance = [](LinearSolverConstraintCorrection const& correction) {
-    Simulation sim = string_of(SparseLDLSolver<>{}, correction);
+    auto sim = string_of(SparseLDLSolver<>{}, correction);
     sim.init();
     sim.animate(dt);
     return Eigen::MatrixXd(sim.root().get<FreeMotionAnimationLoop>().motion.problem.compliance);
@@ -220,39 +222,39 @@ TEST_CASE("the compliance of a system is scaled and made regular") {
 }
 
 TEST_CASE("a correction of a mapped state is refused") {
-  Simulation sim{node<"root">(FreeMotionAnimationLoop{},
-                              BlockGaussSeidelConstraintSolver{},
-                              EulerExplicitSolver{},
-                              MechanicalObject<Vec3d>{.position = {{0, 0, 0}}},
-                              UniformMass<Vec3d>{},
-                              node<"same">(MechanicalObject<Vec3d>{},
-                                           IdentityMapping<Vec3d, Vec3d>{},
-                                           UncoupledConstraintCorrection<Vec3d>{}))};
+  RegistryScene sim{node<"root">(FreeMotionAnimationLoop{},
+                                 BlockGaussSeidelConstraintSolver{},
+                                 EulerExplicitSolver{},
+                                 MechanicalObject<Vec3d>{.position = {{0, 0, 0}}},
+                                 UniformMass<Vec3d>{},
+                                 node<"same">(MechanicalObject<Vec3d>{},
+                                              IdentityMapping<Vec3d, Vec3d>{},
+                                              UncoupledConstraintCorrection<Vec3d>{}))};
   CHECK_THROWS_WITH(sim.init(), Catch::Contains("/root/same") && Catch::Contains("mapping"));
 }
 
 TEST_CASE("a solver that asks the systems alone refuses a correction, which it would leave out") {
-  Simulation sim{node<"root">(FreeMotionAnimationLoop{},
-                              ConvexConstraintSolver{},
-                              EulerExplicitSolver{},
-                              MechanicalObject<Vec3d>{.position = {{0, 0, 1}}},
-                              UniformMass<Vec3d>{},
-                              FixedLagrangianConstraint<Vec3d>{.indices = {0}},
-                              UncoupledConstraintCorrection<Vec3d>{})};
+  RegistryScene sim{node<"root">(FreeMotionAnimationLoop{},
+                                 ConvexConstraintSolver{},
+                                 EulerExplicitSolver{},
+                                 MechanicalObject<Vec3d>{.position = {{0, 0, 1}}},
+                                 UniformMass<Vec3d>{},
+                                 FixedLagrangianConstraint<Vec3d>{.indices = {0}},
+                                 UncoupledConstraintCorrection<Vec3d>{})};
   sim.init();
   CHECK_THROWS_WITH(sim.animate(dt),
                     Catch::Contains("/root: UncoupledConstraintCorrection<Vec3d>") &&
                         Catch::Contains("leave this correction out"));
   // one that stands for the systems is refused where it changes them
   auto by_system = [](LinearSolverConstraintCorrection const& correction) {
-    return Simulation{node<"root">(FreeMotionAnimationLoop{},
-                                   ConvexConstraintSolver{},
-                                   EulerImplicitSolver{},
-                                   SparseLDLSolver<>{},
-                                   MechanicalObject<Vec3d>{.position = {{0, 0, 1}}},
-                                   UniformMass<Vec3d>{},
-                                   FixedLagrangianConstraint<Vec3d>{.indices = {0}},
-                                   correction)};
+    return RegistryScene{node<"root">(FreeMotionAnimationLoop{},
+                                      ConvexConstraintSolver{},
+                                      EulerImplicitSolver{},
+                                      SparseLDLSolver<>{},
+                                      MechanicalObject<Vec3d>{.position = {{0, 0, 1}}},
+                                      UniformMass<Vec3d>{},
+                                      FixedLagrangianConstraint<Vec3d>{.indices = {0}},
+                                      correction)};
   };
   for (auto const& correction : {LinearSolverConstraintCorrection{.regularizationTerm = 0.5},
                                  LinearSolverConstraintCorrection{.complianceFactor = 2}}) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "catch.hpp"
 #include "error_of.hpp"
+#include "registry_scene.hpp"
 
 #include <sinew/lagrangian.hpp>
 #include <sinew/mechanics.hpp>
@@ -19,7 +20,7 @@ const BlockGaussSeidelConstraintSolver gaussSeidel{
 
 template <class D, class... C>
 auto scene(bool velocityFirst, MechanicalObject<D> state, C... components) {
-  return Simulation{
+  return RegistryScene{
       node<"root">(FreeMotionAnimationLoop{.solveVelocityConstraintFirst = velocityFirst},
                    gaussSeidel,
                    node<"body">(EulerImplicitSolver{}, SparseLDLSolver<>{}, state, components...))};
@@ -46,7 +47,7 @@ TEST_CASE("a rigid body off its rest pose is brought there, and held against for
         FixedLagrangianConstraint<Rigid3d>{.indices = {1}});
     sim.init();
     sim.keepForces(true);
-    auto& body = sim.template at<"body">();
+    auto body = sim.template at<"body">();
     for (int i = 0; i < 1000; ++i) {
       sim.animate(dt);
       if (i >= 6) CHECK(Rigid3d::difference(rest, body.state().position[1]).norm() < 1e-10);
@@ -74,7 +75,7 @@ TEST_CASE("points in one, two and six dimensions stay at rest, all of them if wa
                         UniformMass<D>{.vertexMass = 2},
                         FixedLagrangianConstraint<D>{.indices = {2}, .fixAll = all});
     sim.init();
-    auto& body = sim.template at<"body">();
+    auto body = sim.template at<"body">();
     sim.animate(dt);
     auto const& f = body.template get<FixedLagrangianConstraint<D>>().multipliers;
     REQUIRE(f.size() == std::size_t(all ? 3 * D::size : D::size));
@@ -118,7 +119,7 @@ TEST_CASE("points that are not there, or that cannot move, are refused, and none
 TEST_CASE(
     "constraints and corrections of one state follow when elements are removed, as the free points do") {
   // two tetrahedra at a face whose points are held; the first point goes with the first of them
-  Simulation sim{node<"root">(
+  RegistryScene sim{node<"root">(
       Gravity{{0, 0, -10}},
       FreeMotionAnimationLoop{},
       gaussSeidel,
@@ -132,7 +133,7 @@ TEST_CASE(
   sim.init();
   sim.animate(dt);
   sim.removeElements("body", {.tetrahedra = {0}});
-  auto& body = sim.at<"body">();
+  auto body = sim.at<"body">();
   CHECK(body.get<FixedLagrangianConstraint<Vec3d>>().indices == std::vector<int>{0, 1, 2});
   CHECK(body.get<UncoupledConstraintCorrection<Vec3d>>().compliance == std::vector<double>{2, 3, 4, 5});
   for (int i = 0; i < 10; ++i) sim.animate(dt);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // Constraints on points that mappings move.
 #include "catch.hpp"
+#include "registry_scene.hpp"
 
 #include <sinew/lagrangian.hpp>
 #include <sinew/mechanics.hpp>
@@ -32,7 +33,7 @@ TEST_CASE("a rod that hangs on a point swings as a physical pendulum, and stays 
     start.center = start.orientation * Eigen::Vector3d(0, 0, -length / 2);
     using Joint = BilateralLagrangianConstraint<Vec3d, Between<"ceiling", "rod/end">>;
     const double inertia = mass * length * length / 12;
-    Simulation sim{node<"root">(
+    RegistryScene sim{node<"root">(
         Gravity{{0, 0, -g}},
         FreeMotionAnimationLoop{.solveVelocityConstraintFirst = velocityFirst},
         gaussSeidel,
@@ -83,7 +84,7 @@ TEST_CASE(
   va << 0, 1, 0, 0, 0, -1;
   vb << 0, -2, 1, 0, -1, -2;
   const Eigen::Vector3d inertia(0.1, 0.1, 0.1);
-  Simulation sim{node<"root">(
+  RegistryScene sim{node<"root">(
       FreeMotionAnimationLoop{},
       gaussSeidel,
       Joint{.first_point = {0}, .second_point = {0}},
@@ -125,7 +126,7 @@ TEST_CASE(
 TEST_CASE("a soft body hangs on a point inside it, which carries its weight") {
   using Joint = BilateralLagrangianConstraint<Vec3d, Between<"nail", "body/inside">>;
   const Eigen::Vector3d inside(0.2, 0.2, 0.3);
-  Simulation sim{node<"root">(
+  RegistryScene sim{node<"root">(
       Gravity{{0, 0, -g}},
       FreeMotionAnimationLoop{},
       gaussSeidel,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // SOFA's regularisation of those equations only that depend on others, against closed forms.
 #include "catch.hpp"
+#include "registry_scene.hpp"
 
 #include <sinew/lagrangian.hpp>
 #include <sinew/mechanics.hpp>
@@ -22,14 +23,14 @@ auto held_twice(Solver solver, bool dependentOnly) {
   solver.tolerance = 1e-15;
   solver.regularizationTerm = term / dt;  // of impulses
   solver.useSVDForRegularization = dependentOnly;
-  return Simulation{node<"root">(Gravity{{0, 0, -g}},
-                                 FreeMotionAnimationLoop{},
-                                 solver,
-                                 node<"body">(EulerExplicitSolver{},
-                                              MechanicalObject<Vec3d>{.position = {{0, 0, 0}, {1, 0, 0}}},
-                                              UniformMass<Vec3d>{.vertexMass = mass},
-                                              Fixed{.indices = {0, 1}},
-                                              Fixed{.indices = {0}}))};
+  return RegistryScene{node<"root">(Gravity{{0, 0, -g}},
+                                    FreeMotionAnimationLoop{},
+                                    solver,
+                                    node<"body">(EulerExplicitSolver{},
+                                                 MechanicalObject<Vec3d>{.position = {{0, 0, 0}, {1, 0, 0}}},
+                                                 UniformMass<Vec3d>{.vertexMass = mass},
+                                                 Fixed{.indices = {0, 1}},
+                                                 Fixed{.indices = {0}}))};
 }
 
 // The diagonal that is added to J J'.

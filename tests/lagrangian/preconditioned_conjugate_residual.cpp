@@ -2,6 +2,7 @@
 #include "catch.hpp"
 #include "error_of.hpp"
 #include "lagrangian/contact_scenes.hpp"
+#include "registry_scene.hpp"
 
 #include <Eigen/Cholesky>
 
@@ -111,15 +112,15 @@ TEST_CASE("conjugate residuals: a chain of points hangs as by sweeps, and a cont
     UnilateralLagrangianConstraint<Vec3d> stop{
         .first_point = {0}, .second_point = {5}, .normal = {{0, 0, 1}}};
     if (!stops) stop.first_point.clear(), stop.second_point.clear(), stop.normal.clear();
-    auto sim = Simulation{node<"root">(Gravity{{0, 0, -10}},
-                                       FreeMotionAnimationLoop{},
-                                       solver,
-                                       node<"chain">(EulerExplicitSolver{},
-                                                     MechanicalObject<Vec3d>{.position = x},
-                                                     UniformMass<Vec3d>{.vertexMass = 0.5},
-                                                     FixedLagrangianConstraint<Vec3d>{.indices = {0}},
-                                                     joints,
-                                                     stop))};
+    auto sim = RegistryScene{node<"root">(Gravity{{0, 0, -10}},
+                                          FreeMotionAnimationLoop{},
+                                          solver,
+                                          node<"chain">(EulerExplicitSolver{},
+                                                        MechanicalObject<Vec3d>{.position = x},
+                                                        UniformMass<Vec3d>{.vertexMass = 0.5},
+                                                        FixedLagrangianConstraint<Vec3d>{.indices = {0}},
+                                                        joints,
+                                                        stop))};
     sim.init();
     for (int i = 0; i < 5; ++i) sim.animate(0.01);
     return sim;

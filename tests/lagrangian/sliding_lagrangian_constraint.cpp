@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "catch.hpp"
 #include "error_of.hpp"
+#include "registry_scene.hpp"
 
 #include <sinew/lagrangian.hpp>
 #include <sinew/mechanics.hpp>
@@ -22,7 +23,7 @@ using Sliding = SlidingLagrangianConstraint<Vec3d, Between<"bead", "rail">>;
 // a bead on a rail of 2 m that no solver moves
 template <class Ode, class... Linear>
 auto incline(Sliding sliding, bool velocityFirst, Ode ode, Linear... linear) {
-  return Simulation{
+  return RegistryScene{
       node<"root">(Gravity{gravity},
                    FreeMotionAnimationLoop{.solveVelocityConstraintFirst = velocityFirst},
                    gaussSeidel,
@@ -79,7 +80,7 @@ TEST_CASE("a bead at a rail without length is held there") {
 
 TEST_CASE("a bead and the free rail on which it slides keep their momentum, and the bead its line") {
   using Joint = SlidingLagrangianConstraint<Vec3d>;
-  Simulation sim{
+  RegistryScene sim{
       node<"root">(FreeMotionAnimationLoop{},
                    gaussSeidel,
                    node<"all">(EulerImplicitSolver{},
@@ -120,14 +121,14 @@ TEST_CASE("a rigid body slides with its centre, and turns as it likes") {
   end.center = 10 * down;
   Eigen::Matrix<double, 6, 1> v;
   v << 0, 0, 0, 0, 3, 0;
-  Simulation sim{node<"root">(Gravity{gravity},
-                              FreeMotionAnimationLoop{},
-                              gaussSeidel,
-                              Joint{.axis_2 = 1},
-                              node<"bead">(EulerExplicitSolver{},
-                                           MechanicalObject<Rigid3d>{.position = {start}, .velocity = {v}},
-                                           UniformMass<Rigid3d>{.totalMass = mass}),
-                              node<"rail">(MechanicalObject<Rigid3d>{.position = {start, end}}))};
+  RegistryScene sim{node<"root">(Gravity{gravity},
+                                 FreeMotionAnimationLoop{},
+                                 gaussSeidel,
+                                 Joint{.axis_2 = 1},
+                                 node<"bead">(EulerExplicitSolver{},
+                                              MechanicalObject<Rigid3d>{.position = {start}, .velocity = {v}},
+                                              UniformMass<Rigid3d>{.totalMass = mass}),
+                                 node<"rail">(MechanicalObject<Rigid3d>{.position = {start, end}}))};
   sim.init();
   for (int i = 0; i < 50; ++i) sim.animate(dt);
   auto const& bead = sim.at<"bead">().state();
@@ -149,7 +150,7 @@ TEST_CASE("points that are not there are refused") {
 
 TEST_CASE("the points of a rail follow when elements are removed, and without one it holds nothing") {
   using Own = SlidingLagrangianConstraint<Vec3d>;
-  Simulation sim{node<"root">(
+  RegistryScene sim{node<"root">(
       Gravity{gravity},
       FreeMotionAnimationLoop{},
       gaussSeidel,

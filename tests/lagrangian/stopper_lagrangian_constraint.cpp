@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "catch.hpp"
 #include "error_of.hpp"
+#include "registry_scene.hpp"
 
 #include <sinew/lagrangian.hpp>
 #include <sinew/mechanics.hpp>
@@ -19,7 +20,7 @@ constexpr double mass = 2, dt = 0.01;
 template <class Ode, class... Linear>
 auto rail(StopperLagrangianConstraint<Vec1d> stopper, double speed, double force, bool velocityFirst, Ode ode,
           Linear... linear) {
-  return Simulation{node<"root">(
+  return RegistryScene{node<"root">(
       FreeMotionAnimationLoop{.solveVelocityConstraintFirst = velocityFirst},
       BlockGaussSeidelConstraintSolver{.tolerance = 1e-14},
       node<"cart">(ode,
@@ -37,7 +38,7 @@ TEST_CASE("a cart runs to its stop, and stays there as long as it is pushed") {
     auto sim =
         rail({.index = 1, .min = -0.5, .max = 0.25}, 3 * direction, 4 * direction, velocityFirst, solvers...);
     sim.init();
-    auto& cart = sim.template at<"cart">();
+    auto cart = sim.template at<"cart">();
     auto const& f = cart.template get<StopperLagrangianConstraint<Vec1d>>().multipliers;
     const double stop = direction > 0 ? 0.25 : -0.5;
     double impulse = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // Edges that keep their length, and tetrahedra that keep their volume.
 #include "catch.hpp"
+#include "registry_scene.hpp"
 
 #include <sinew/lagrangian.hpp>
 #include <sinew/mechanics.hpp>
@@ -26,7 +27,7 @@ auto chain(int links, double turned, UniformLagrangianConstraint<Vec1d> constrai
     x.push_back(length / links * i * Eigen::Vector3d(std::sin(turned), -std::cos(turned), 0));
     if (i > 0) edges.push_back({i - 1, i});
   }
-  return Simulation{node<"root">(
+  return RegistryScene{node<"root">(
       Gravity{{0, -g, 0}},
       loop,
       gaussSeidel,
@@ -167,7 +168,7 @@ TEST_CASE("a tetrahedron of constant volume lets its apex slide in parallel to i
   // V = A h / 3, so that the apex has the multiplier f A / 3 along the normal
   auto run = [](bool toRest, bool velocityFirst) {
     const Eigen::Vector3d gravity(1, 2, -4);
-    Simulation sim{node<"root">(
+    RegistryScene sim{node<"root">(
         Gravity{gravity},
         FreeMotionAnimationLoop{.solveVelocityConstraintFirst = velocityFirst},
         gaussSeidel,
@@ -207,7 +208,7 @@ TEST_CASE("a body of constant volume that turns freely keeps its momentum and it
     x.push_back(Eigen::Vector3d(i == 1, i == 2, i == 3));
     v.push_back(Eigen::Vector3d(1, 0.5, -1) + Eigen::Vector3d(0, 0, 2).cross(x.back()) + 0.3 * x.back());
   }
-  Simulation sim{node<"root">(
+  RegistryScene sim{node<"root">(
       FreeMotionAnimationLoop{},
       gaussSeidel,
       node<"cell">(EulerImplicitSolver{},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "catch.hpp"
 #include "error_of.hpp"
+#include "registry_scene.hpp"
 
 #include <sinew/lagrangian.hpp>
 #include <sinew/mechanics.hpp>
@@ -21,7 +22,7 @@ using Contact = UnilateralLagrangianConstraint<Vec3d, Between<"ground", "body">>
 // a point over another that no solver moves, with gravity turned by an angle
 template <class Ode, class... Linear>
 auto above(Contact contact, double height, double angle, bool velocityFirst, Ode ode, Linear... linear) {
-  return Simulation{
+  return RegistryScene{
       node<"root">(Gravity{g * Eigen::Vector3d(std::sin(angle), 0, -std::cos(angle))},
                    FreeMotionAnimationLoop{.solveVelocityConstraintFirst = velocityFirst},
                    gaussSeidel,
@@ -42,7 +43,7 @@ TEST_CASE("a body falls, is held at the contact distance, and let go when it is 
   auto run = [](bool velocityFirst, auto... solvers) {
     auto sim = above(touching, 0.6, 0, velocityFirst, solvers...);
     sim.init();
-    auto& body = sim.template at<"body">();
+    auto body = sim.template at<"body">();
     auto const& f = sim.root().template get<Contact>().multipliers;
     for (int i = 1; i <= 100; ++i) {
       sim.animate(dt);
@@ -95,7 +96,7 @@ TEST_CASE("a body on a slope sticks up to the angle of friction, and slides by g
 TEST_CASE("points of different solvers that strike each other go on together, with their momentum") {
   using Pair = UnilateralLagrangianConstraint<Vec3d, Between<"a", "b">>;
   for (const double mu : {0.0, 0.3}) {
-    Simulation sim{
+    RegistryScene sim{
         node<"root">(FreeMotionAnimationLoop{},
                      gaussSeidel,
                      Pair{.first_point = {0}, .second_point = {0}, .normal = {{1, 0, 0}}, .mu = {mu}},
@@ -121,7 +122,7 @@ TEST_CASE("points of different solvers that strike each other go on together, wi
 
 TEST_CASE("points of one body keep apart, each pair with its own settings") {
   using Inside = UnilateralLagrangianConstraint<Vec3d>;
-  Simulation sim{node<"root">(
+  RegistryScene sim{node<"root">(
       FreeMotionAnimationLoop{},
       gaussSeidel,
       node<"body">(EulerImplicitSolver{},

@@ -46,7 +46,7 @@ TEST_CASE("a skin stands at rest where it was given, whatever the frames, and mo
   const Points given{{0.1, 0.3, 0}, {0.8, 0.5, 0.5}, {-1, -1, 0}, {2, 2, 2}, {0.35, 0.1, -0.2}};
   for (const std::vector<Edge>& edges : {std::vector<Edge>{}, {{2, 1}, {0, 1}}, {{0, 2}}}) {
     Points out = given;
-    auto mapping = ready({}, parent, out, edges);
+    auto mapping = ready({.localCoord = false}, parent, out, edges);
     mapping.apply(out, parent);
     for (std::size_t i = 0; i < out.size(); ++i) CHECK((out[i] - given[i]).norm() < 1e-14);
     const Quaterniond rotation = Quaterniond(0.2, -0.5, 0.6, 0.7).normalized();
@@ -62,7 +62,7 @@ TEST_CASE("a skin stands at rest where it was given, whatever the frames, and mo
 
 TEST_CASE("points follow the beam that is nearest to them") {
   Points out{{0.4, 0.1, 0}, {2.5, 0, 1}, {-1, 0, 0}, {9, 0, 0}};
-  auto mapping = ready({}, line, out);
+  auto mapping = ready({.localCoord = false}, line, out);
   CHECK(mapping.carriers[0].frames == std::array{0, 1});
   CHECK(mapping.carriers[0].place == Approx(0.4));
   CHECK(mapping.carriers[1].frames == std::array{1, 2});
@@ -77,7 +77,7 @@ TEST_CASE("points follow the beam that is nearest to them") {
   CHECK((out[3] - Vector3d(3, 7, 0)).norm() < 1e-14);
   // the edges of a topology choose the beams
   Points across{{0.4, 0.1, 0}};
-  CHECK(ready({}, line, across, {{0, 2}}).carriers[0].frames == std::array{0, 2});
+  CHECK(ready({.localCoord = false}, line, across, {{0, 2}}).carriers[0].frames == std::array{0, 2});
 }
 
 // A beam bent into an arc by the angle a, of radius r = L/a: the middle line comes out with an error of order
@@ -90,7 +90,7 @@ TEST_CASE("a skin around a bent beam is bent with it") {
     Points out;
     for (const double t : {0.25, 0.5, 0.75})
       for (const double side : {-width, 0.0, width}) out.push_back({t, side, 0.1});
-    auto mapping = ready({}, {frame({0, 0, 0}), frame({1, 0, 0})}, out);
+    auto mapping = ready({.localCoord = false}, {frame({0, 0, 0}), frame({1, 0, 0})}, out);
     mapping.apply(
         out,
         {frame({0, 0, 0}),
@@ -112,14 +112,14 @@ TEST_CASE("a skin around a bent beam is bent with it") {
 
 TEST_CASE("twist turns a skin without thinning it") {
   Points out{{0.5, 0.3, 0}};
-  auto mapping = ready({}, {frame({0, 0, 0}), frame({1, 0, 0})}, out);
+  auto mapping = ready({.localCoord = false}, {frame({0, 0, 0}), frame({1, 0, 0})}, out);
   mapping.apply(out, {frame({0, 0, 0}), frame({1, 0, 0}, Quaterniond(AngleAxisd(2, Vector3d::UnitX())))});
   CHECK((out[0] - Vector3d(0.5, 0.3 * std::cos(1), 0.3 * std::sin(1))).norm() < 1e-14);
 }
 
 TEST_CASE("local coordinates count beams and parts of their length") {
   Points out{{1.25, 0.1, -0.2}, {0.5, 0, 0}, {-0.5, 0, 0}, {2.5, 0, 0}};
-  auto mapping = ready({.localCoord = true}, line, out);
+  auto mapping = ready({}, line, out);
   mapping.apply(out, line);
   const Points there{{1.5, 0.2, -0.4}, {0.5, 0, 0}, {-0.5, 0, 0}, {4, 0, 0}};
   for (std::size_t i = 0; i < out.size(); ++i) CHECK((out[i] - there[i]).norm() < 1e-14);
@@ -129,11 +129,11 @@ TEST_CASE("beams that carry nothing are refused") {
   Points out{{0, 0, 0}};
   says(
       [&] {
-        ready({}, {frame({0, 0, 0})}, out);
+        ready({.localCoord = false}, {frame({0, 0, 0})}, out);
       },
       {"child", "BeamLinearMapping<Rigid3d, Vec3d>", "parent has no beam", "two frames"});
-  says([&] { ready({}, line, out, {{0, 3}}); }, {"edge 0 refers to point 3", "3 points"});
-  says([&] { ready({}, {frame({0, 0, 0}), frame({0, 0, 0})}, out); }, {"have no length"});
+  says([&] { ready({.localCoord = false}, line, out, {{0, 3}}); }, {"edge 0 refers to point 3", "3 points"});
+  says([&] { ready({.localCoord = false}, {frame({0, 0, 0}), frame({0, 0, 0})}, out); }, {"have no length"});
 }
 
 }  // namespace test_beam_linear_mapping

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // Mappings that measure: lengths, volumes, the centre of mass.
+#include "registry_scene.hpp"
+
 #include <sinew/sinew.hpp>
 #include <sinew/topology/regular_grid.hpp>
 
@@ -26,14 +28,14 @@ template <class Linear>
 auto with_springs(Linear linear) {
   StiffSpringForceField<Vec3d> springs;
   for (auto const& [a, b] : edges) springs.springs.push_back({a, b, stiffness, 0, {}});
-  return Simulation{node<"root">(Gravity{{0, -9.81, 0}},
-                                 implicitEuler,
-                                 linear,
-                                 node<"body">(body(), UniformMass<Vec3d>{.totalMass = 2}, springs))};
+  return RegistryScene{node<"root">(Gravity{{0, -9.81, 0}},
+                                    implicitEuler,
+                                    linear,
+                                    node<"body">(body(), UniformMass<Vec3d>{.totalMass = 2}, springs))};
 }
 template <class Linear>
 auto with_lengths(Linear linear, GeometricStiffness option = GeometricStiffness::exact) {
-  return Simulation{node<"root">(
+  return RegistryScene{node<"root">(
       Gravity{{0, -9.81, 0}},
       implicitEuler,
       linear,
@@ -158,7 +160,7 @@ TEST_CASE("a stiff penalty on volumes keeps them where the body alone does not")
     weight.forces = {{0, 0, 10}};
     FixedPlaneConstraint<Vec3d> floor{.indices = {0, 1, 2, 3, 4, 5, 6, 7, 8}};
     floor.direction = {0, 0, 1};
-    Simulation sim{node<"root">(
+    RegistryScene sim{node<"root">(
         Gravity{{0, 0, 0}},
         EulerImplicitSolver{.rayleighStiffness = 0.1, .rayleighMass = 1},
         SparseLDLSolver<CompressedRowSparseMatrixMat3x3d>{},
@@ -190,7 +192,7 @@ TEST_CASE("a stiff penalty on volumes keeps them where the body alone does not")
 }
 
 TEST_CASE("the centre of mass falls as a point, and carries a force to all") {
-  Simulation sim{node<"root">(
+  RegistryScene sim{node<"root">(
       Gravity{{0, -10, 0}},
       EulerExplicitSolver{},
       node<"body">(MechanicalObject<Vec3d>{.position = {{0, 0, 0}, {3, 0, 0}}},
@@ -211,7 +213,7 @@ TEST_CASE("the centre of mass falls as a point, and carries a force to all") {
 
 TEST_CASE("the centre of mass of rigid bodies, and with a consistent mass of a mesh") {
   const Mesh mesh = regular_grid_tetrahedra(2, 3, 3, {0, 0, 0}, {2, 2, 2});
-  Simulation sim{node<"root">(
+  RegistryScene sim{node<"root">(
       EulerExplicitSolver{},
       node<"mesh">(TetrahedronTopology{mesh.tetrahedra},
                    MechanicalObject<Vec3d>{mesh.positions},
@@ -230,7 +232,7 @@ TEST_CASE("a rigid body held by forces on its points: the stiffness of turning a
   // a pendulum of one body, point r below the centre pulled down by f: its small swings have the stiffness r
   // f, all of which is geometric
   auto frequency = [](RotationalStiffness option) {
-    Simulation sim{node<"root">(
+    RegistryScene sim{node<"root">(
         Gravity{{0, 0, 0}},
         NewmarkImplicitSolver{.gamma = 0.5, .beta = 0.25},
         CGLinearSolver<>{.iterations = 50, .tolerance = 1e-14},
@@ -264,7 +266,7 @@ TEST_CASE("a rigid body held by forces on its points: the stiffness of turning a
 TEST_CASE("bad input of mappings that measure is named") {
   auto with = [](auto mapping, MechanicalObject<Vec1d> child, MeshTopology topology) {
     return [=] {
-      Simulation sim{node<"root">(
+      RegistryScene sim{node<"root">(
           EulerExplicitSolver{},
           node<"body">(
               MechanicalObject<Vec3d>{rest}, UniformMass<Vec3d>{}, node<"sub">(topology, child, mapping)))};
@@ -286,9 +288,9 @@ TEST_CASE("bad input of mappings that measure is named") {
   says(with(Volumes{}, {.position = {Vec1d::zero(), Vec1d::zero()}}, {.tetrahedra = {{0, 1, 2, 3}}}),
        {"2 points for 1 tetrahedra"});
   auto center = [](MechanicalObject<Vec3d> child) {
-    Simulation sim{node<"root">(EulerExplicitSolver{},
-                                MechanicalObject<Vec3d>{rest},
-                                node<"sub">(child, CenterOfMassMapping<Vec3d, Vec3d>{}))};
+    RegistryScene sim{node<"root">(EulerExplicitSolver{},
+                                   MechanicalObject<Vec3d>{rest},
+                                   node<"sub">(child, CenterOfMassMapping<Vec3d, Vec3d>{}))};
     sim.init();
   };
   says([&] { center({}); }, {"/root/sub", "no mass in the node /root"});

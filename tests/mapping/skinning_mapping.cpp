@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // Points carried by several frames.
+#include "registry_scene.hpp"
+
 #include <sinew/sinew.hpp>
 
 #include "one_component.hpp"
@@ -119,7 +121,7 @@ TEST_CASE("weights that are not given fall with the square of the distance, of t
 TEST_CASE("springs on a skin move its frames: matrix-free and assembled solvers agree") {
   auto moved = [](auto linear, SkinningMethod method) {
     linear.iterations = 300, linear.tolerance = 1e-14;
-    Simulation sim{node<"root">(
+    RegistryScene sim{node<"root">(
         Gravity{{0, -1, 0}},
         EulerImplicitSolver{.rayleighStiffness = 0.01},
         linear,

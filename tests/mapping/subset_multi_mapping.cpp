@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // Points of several bodies in one child.
+#include "registry_scene.hpp"
+
 #include <sinew/sinew.hpp>
 
 #include "one_component.hpp"
@@ -33,7 +35,7 @@ auto right() {
 // springs between points of both, as interactions
 template <class... Solvers>
 auto interacting(Solvers... solvers) {
-  return Simulation{node<"root">(
+  return RegistryScene{node<"root">(
       solvers...,
       StiffSpringForceField<Vec3d, Between<"left", "right/corner">>{{{1, 0, 30, 0.2, 1}, {1, 1, 30, 0.2, 1}}},
       left(),
@@ -42,7 +44,7 @@ auto interacting(Solvers... solvers) {
 // the same in a child of both
 template <class... Solvers>
 auto mapped(Solvers... solvers) {
-  return Simulation{
+  return RegistryScene{
       node<"root">(solvers...,
                    left(),
                    right(),
@@ -96,7 +98,7 @@ TEST_CASE("springs in a child of two bodies are springs between them: implicit, 
 TEST_CASE("a child of children: the way up is the way down reversed") {
   // force on a child of points that are mapped themselves, beside the node that carries them: all of it
   // arrives
-  Simulation sim{node<"root">(
+  RegistryScene sim{node<"root">(
       Gravity{{0, 0, 0}},
       EulerExplicitSolver{},
       MechanicalObject<Vec3d>{.position = {{0, 0, 0}, {1, 0, 0}}},
@@ -126,7 +128,7 @@ TEST_CASE("centres of rigid bodies and their frames in one child") {
     Rigid3d::increment(c, (Rigid3d::Deriv() << 0, 0, 0, 0, 0, x).finished());
     return MechanicalObject<Rigid3d>{.position = {c}, .velocity = {{0, x, 0, 0, 0, 1}}};
   };
-  Simulation sim{node<"root">(
+  RegistryScene sim{node<"root">(
       Gravity{{0, 0, 0}},
       EulerExplicitSolver{},
       node<"a">(body(1), UniformMass<Rigid3d>{}),
@@ -151,12 +153,12 @@ TEST_CASE("a surface over points of two bodies") {
   auto body = [](double x) {
     return MechanicalObject<Vec3d>{.position = {{x, 0, 0}}, .velocity = {{0, x, 0}}};
   };
-  Simulation sim{node<"root">(Gravity{{0, 0, 0}},
-                              node<"a">(EulerExplicitSolver{}, body(1), UniformMass<Vec3d>{}),
-                              node<"b">(EulerExplicitSolver{}, body(2), UniformMass<Vec3d>{}),
-                              node<"look">(VisualModel{triangle},
-                                           SubsetMultiMapping<Vec3d, Vec3f, Parents<"../a", "../b">>{
-                                               .indexPairs = {{0, 0}, {1, 0}, {0, 0}}}))};
+  RegistryScene sim{node<"root">(Gravity{{0, 0, 0}},
+                                 node<"a">(EulerExplicitSolver{}, body(1), UniformMass<Vec3d>{}),
+                                 node<"b">(EulerExplicitSolver{}, body(2), UniformMass<Vec3d>{}),
+                                 node<"look">(VisualModel{triangle},
+                                              SubsetMultiMapping<Vec3d, Vec3f, Parents<"../a", "../b">>{
+                                                  .indexPairs = {{0, 0}, {1, 0}, {0, 0}}}))};
   sim.init();
   sim.animate(0.5);
   auto const& x = sim.at<"look">().visual().position;
@@ -167,7 +169,7 @@ TEST_CASE("a surface over points of two bodies") {
 TEST_CASE("bad indexPairs are named") {
   auto with = [](std::vector<std::array<int, 2>> pairs, MechanicalObject<Vec3d> child = {}) {
     return [=] {
-      Simulation sim{
+      RegistryScene sim{
           node<"root">(EulerExplicitSolver{},
                        node<"a">(MechanicalObject<Vec3d>{{{0, 0, 0}, {1, 0, 0}}}, UniformMass<Vec3d>{}),
                        node<"b">(MechanicalObject<Vec3d>{{{0, 0, 0}}}, UniformMass<Vec3d>{}),

@@ -7,14 +7,14 @@ namespace test_carving_random {
 
 using namespace carving;
 
-TEST_CASE("after thousands of removals at random nothing refers to what has gone") {
+TEST_CASE("after hundreds of removals at random nothing refers to what has gone") {
   std::mt19937 random(11);
   auto number = [&](std::size_t n) { return Index(random() % n); };
   auto within = [&](double low, double high) {
     return low + (high - low) * double(random()) / double(std::mt19937::max());
   };
   long removals = 0, removed = 0, carved = 0, compared = 0, dropped = 0, kept = 0;
-  for (int round = 0; removals < 2500; ++round) {
+  for (int round = 0; removals < 600; ++round) {
     const Block block(2 + round % 2, 2);
     const bool surfaceCollides = round % 3 == 0;
     auto sim = scene(block, {0.1, 0.1, 1}, surfaceCollides);
@@ -49,11 +49,11 @@ TEST_CASE("after thousands of removals at random nothing refers to what has gone
       }
     }
   }
-  CHECK(removed > 4000);
-  CHECK(carved > 500);
-  CHECK(compared > 200);
-  CHECK(dropped > 50);
-  CHECK(kept > 500);
+  CHECK(removed > 900);
+  CHECK(carved > 100);
+  CHECK(compared > 40);
+  CHECK(dropped > 10);
+  CHECK(kept > 100);
 }
 
 }  // namespace test_carving_random

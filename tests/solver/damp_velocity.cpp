@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "catch.hpp"
+#include "registry_scene.hpp"
 
 #include <sinew/sinew.hpp>
 
@@ -9,7 +10,7 @@ using namespace sinew;
 
 TEST_CASE("without forces DampVelocitySolver lets velocities decay, and positions go on by them") {
   const double rate = 2, h = 0.01;
-  Simulation sim{
+  RegistryScene sim{
       node<"root">(EulerExplicitSolver{},
                    DampVelocitySolver{.rate = rate},
                    MechanicalObject<Vec2d>{.position = {{1, 2}, {3, 4}}, .velocity = {{1, -2}, {0.5, 0}}},
@@ -26,11 +27,11 @@ TEST_CASE("without forces DampVelocitySolver lets velocities decay, and position
 
 TEST_CASE("behind another solver it slows what that one moves: a fall to g h / (e^(rate h) - 1)") {
   const double rate = 3, h = 0.01, g = 10;
-  Simulation sim{node<"root">(Gravity{{0, -g, 0}},
-                              EulerExplicitSolver{},
-                              DampVelocitySolver{.rate = rate},
-                              MechanicalObject<Rigid3d>{.position = {{}}},
-                              UniformMass<Rigid3d>{.vertexMass = {{}}})};
+  RegistryScene sim{node<"root">(Gravity{{0, -g, 0}},
+                                 EulerExplicitSolver{},
+                                 DampVelocitySolver{.rate = rate},
+                                 MechanicalObject<Rigid3d>{.position = {{}}},
+                                 UniformMass<Rigid3d>{.vertexMass = {{}}})};
   sim.init();
   double v = 0, y = 0;
   for (int i = 0; i < 2000; ++i) {
@@ -46,7 +47,7 @@ TEST_CASE("behind another solver it slows what that one moves: a fall to g h / (
 }
 
 TEST_CASE("points slower than the threshold stand still; a velocity that is prescribed stays") {
-  Simulation sim{
+  RegistryScene sim{
       node<"root">(EulerImplicitSolver{},
                    CGLinearSolver<>{},
                    DampVelocitySolver{.rate = 0, .threshold = 0.1},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "catch.hpp"
 #include "error_of.hpp"
+#include "registry_scene.hpp"
 #include "solver/fem_bar.hpp"
 
 #include <sinew/solver/cholesky_solver.hpp>
@@ -21,7 +22,7 @@ Eigen::VectorXd bar(Linear linear) {
 /// A mass on a compressed spring: across the spring the stiffness is k (1 - L/|d|), here -100.
 template <class Linear>
 auto compressed_spring(Linear linear, double mass) {
-  Simulation sim{node<"root">(
+  RegistryScene sim{node<"root">(
       EulerImplicitSolver{},
       linear,
       MechanicalObject<Vec2d>{.position = {{0, 0}, {0.5, 0}}, .velocity = {{0, 0}, {0, 1}}},

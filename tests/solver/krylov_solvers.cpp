@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "catch.hpp"
+#include "registry_scene.hpp"
 #include "solver/fem_bar.hpp"
 
 #include <sinew/solver/min_res_linear_solver.hpp>
@@ -35,6 +36,29 @@ Eigen::VectorXd direct(bool graded = false) {
 
 }  // namespace
 
+TEST_CASE("a threshold that keeps a light body from moving is warned of") {
+  auto fallen = [](double threshold) {
+    RegistryScene sim{node<"root">(Gravity{{0, -10, 0}},
+                                   EulerImplicitSolver{},
+                                   CGLinearSolver<>{.threshold = threshold},
+                                   MechanicalObject<Vec3d>{.position = {{0, 0, 0}}},
+                                   UniformMass<Vec3d>{.totalMass = 1e-3})};
+    sim.init();
+    for (int i = 0; i < 3; ++i) sim.animate(0.01);
+    return std::pair(sim.warnings().list(), sim.root().state().velocity[0][1]);
+  };
+  // b = m g dt, p.A p = m b^2 = 1e-11
+  const auto [warned, stays] = fallen(1.1e-11);
+  REQUIRE(warned.size() == 1);
+  CHECK_THAT(warned[0].text(),
+             Catch::Contains("/root: the linear solver did not begin") && Catch::Contains("1.1e-11"));
+  CHECK(warned[0].count == 1);
+  CHECK(stays == 0);
+  const auto [silent, falls] = fallen(0.9e-11);
+  CHECK(silent.empty());
+  CHECK(falls == Approx(-0.3));
+}
+
 TEST_CASE("conjugate gradients that start from the last solution begin nearer, and find the same") {
   const Eigen::VectorXd exact = direct();
   auto compare = [&]<class Linear>(Linear linear) {
@@ -51,11 +75,11 @@ TEST_CASE("conjugate gradients that start from the last solution begin nearer, a
   compare(CGLinearSolver<>{.tolerance = 1e-12});
   compare(CGLinearSolver<Matrix3d>{.tolerance = 1e-12});
   // a system that is solved already takes no iteration
-  Simulation sim{node<"root">(EulerImplicitSolver{},
-                              CGLinearSolver<>{.tolerance = 1e-10, .warmStart = true},
-                              MechanicalObject<Vec1d>{{Vec1d::Coord(0.0)}},
-                              UniformMass<Vec1d>{.vertexMass = 2},
-                              ConstantForceField<Vec1d>{.forces = {Vec1d::Deriv(3.0)}})};
+  RegistryScene sim{node<"root">(EulerImplicitSolver{},
+                                 CGLinearSolver<>{.tolerance = 1e-10, .warmStart = true},
+                                 MechanicalObject<Vec1d>{{Vec1d::Coord(0.0)}},
+                                 UniformMass<Vec1d>{.vertexMass = 2},
+                                 ConstantForceField<Vec1d>{.forces = {Vec1d::Deriv(3.0)}})};
   sim.init();
   sim.animate(0.1);
   CHECK(sim.root().get<CGLinearSolver<>>().residuals.size() == 2);
@@ -92,12 +116,12 @@ TEST_CASE("the residual that MINRES reports is that of its solution, also of an 
     if (i > 0) springs.springs.push_back({.first = i - 1, .second = i, .stiffness = 100, .length = 1});
   }
   auto step = [&](auto linear) {
-    Simulation sim{node<"root">(EulerImplicitSolver{},
-                                linear,
-                                state,
-                                UniformMass<Vec2d>{.vertexMass = 1},
-                                springs,
-                                FixedConstraint<Vec2d>{.indices = {0, n - 1}})};
+    RegistryScene sim{node<"root">(EulerImplicitSolver{},
+                                   linear,
+                                   state,
+                                   UniformMass<Vec2d>{.vertexMass = 1},
+                                   springs,
+                                   FixedConstraint<Vec2d>{.indices = {0, n - 1}})};
     sim.init();
     sim.animate(0.2);
     return sim;

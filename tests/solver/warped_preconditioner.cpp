@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "catch.hpp"
+#include "registry_scene.hpp"
 #include "solver/fem_bar.hpp"
 
 #include <sinew/solver/pcg_linear_solver.hpp>
@@ -100,7 +101,7 @@ TEST_CASE("coordinates that are held stay held, though the rotation of their poi
     if (mesh.positions[i][1] < 1e-9) side.push_back(int(i));
   }
   auto bar = [&](auto linear) {
-    Simulation sim{node<"root">(
+    RegistryScene sim{node<"root">(
         Gravity{{0, -9.81, 0}},
         EulerImplicitSolver{.rayleighStiffness = 0.01, .rayleighMass = 0.1},
         linear,
@@ -127,7 +128,7 @@ TEST_CASE("coordinates that are held stay held, though the rotation of their poi
 TEST_CASE("rotations of points come from their neighbours, of bodies from their orientation") {
   const Eigen::AngleAxisd rotation(1.2, Eigen::Vector3d(2, 1, -1).normalized());
   // a square of springs, flat; a wire, whose twist is not seen; a rigid body
-  Simulation sim{node<"root">(
+  RegistryScene sim{node<"root">(
       EulerImplicitSolver{},
       ShewchukPCGLinearSolver<CompressedRowSparseMatrixd>{.updateStep = 0, .warp = true},
       node<"square">(MechanicalObject<Vec3d>{.position = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}},

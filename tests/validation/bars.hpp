@@ -3,6 +3,8 @@
 
 // Straight bars of a square section, from the origin along x, and the sums of beam theory.
 
+#include "registry_scene.hpp"
+
 #include <sinew/sinew.hpp>
 #include <sinew/solver/sparse_ldl_solver.hpp>
 #include <sinew/solver/static_solver.hpp>
@@ -75,13 +77,13 @@ inline StaticSolver to_rounding(int iterations = 30) {
 /// The linear answer to a load: one iteration of Newton's method, with L D L'.
 template <class Force, class... Held>
 auto loaded(Mesh const& mesh, Force const& fem, ConstantForceField<Vec3d> const& load, Held const&... held) {
-  Simulation sim{node<"root">(to_rounding(1),
-                              SparseLDLSolver<>{},
-                              MeshTopology{.tetrahedra = mesh.tetrahedra, .hexahedra = mesh.hexahedra},
-                              MechanicalObject<Vec3d>{mesh.positions},
-                              fem,
-                              load,
-                              held...)};
+  RegistryScene sim{node<"root">(to_rounding(1),
+                                 SparseLDLSolver<>{},
+                                 MeshTopology{.tetrahedra = mesh.tetrahedra, .hexahedra = mesh.hexahedra},
+                                 MechanicalObject<Vec3d>{mesh.positions},
+                                 fem,
+                                 load,
+                                 held...)};
   sim.init();
   sim.animate(1);
   return sim;

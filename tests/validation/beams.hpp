@@ -2,6 +2,7 @@
 #pragma once
 
 #include "catch.hpp"
+#include "registry_scene.hpp"
 
 #include <sinew/constraint/fixed_constraint.hpp>
 #include <sinew/force/beam_fem.hpp>
@@ -57,13 +58,13 @@ inline Loaded load(Beam const& beam, Rigid3d::VecCoord const& x, Rigid3d::VecDer
                    int steps = 1, double correction = 1e-8) {
   std::vector<int> all(x.size());
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = int(i);
-  Simulation sim{node<"root">(statics(correction),
-                              SparseLDLSolver<CompressedRowSparseMatrixd>{},
-                              MeshTopology{.edges = chain(int(x.size()) - 1)},
-                              MechanicalObject<Rigid3d>{.position = x},
-                              beam,
-                              ConstantForceField<Rigid3d>{.indices = all, .forces = forces},
-                              FixedConstraint<Rigid3d>{.indices = {0}})};
+  RegistryScene sim{node<"root">(statics(correction),
+                                 SparseLDLSolver<CompressedRowSparseMatrixd>{},
+                                 MeshTopology{.edges = chain(int(x.size()) - 1)},
+                                 MechanicalObject<Rigid3d>{.position = x},
+                                 beam,
+                                 ConstantForceField<Rigid3d>{.indices = all, .forces = forces},
+                                 FixedConstraint<Rigid3d>{.indices = {0}})};
   sim.init();
   auto& now = sim.root().template get<ConstantForceField<Rigid3d>>().forces;
   for (int s = 1; s <= steps; ++s) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "equilibrium.hpp"
+#include "registry_scene.hpp"
 #include "validation/beams.hpp"
 #include "validation/record.hpp"
 
@@ -161,11 +162,11 @@ TEST_CASE("a free beam in flight keeps its momenta and its energy") {
     state.velocity.push_back(v);
   }
   const double radius = 0.05;
-  Simulation sim{node<"root">(RungeKutta4Solver{},
-                              MeshTopology{.edges = chain(n)},
-                              state,
-                              BeamMass<Rigid3d>{.massDensity = density, .radius = radius},
-                              Beam{.poissonRatio = 0.3, .youngModulus = 1e5, .radius = radius})};
+  RegistryScene sim{node<"root">(RungeKutta4Solver{},
+                                 MeshTopology{.edges = chain(n)},
+                                 state,
+                                 BeamMass<Rigid3d>{.massDensity = density, .radius = radius},
+                                 Beam{.poissonRatio = 0.3, .youngModulus = 1e5, .radius = radius})};
   sim.init();
   auto const& s = sim.root().state();
   auto momenta = [&] {

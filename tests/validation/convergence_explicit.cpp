@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "catch.hpp"
+#include "registry_scene.hpp"
 #include "validation/closed_forms.hpp"
 
 #include <sinew/solver/central_difference.hpp>
@@ -31,9 +32,9 @@ double tumbling_error(int steps, RungeKutta45Solver solver) {
   const Eigen::Matrix3d inertia = Eigen::Vector3d(inertia3[0], inertia3[1], inertia3[2]).asDiagonal();
   Vec<double, 6> v;
   v << 0, 0, 0, 0.3, 2, 0.1;
-  Simulation sim{node<"root">(solver,
-                              MechanicalObject<Rigid3d>{.position = {{}}, .velocity = {v}},
-                              UniformMass<Rigid3d>{.vertexMass = RigidMass<double, 3>{2, inertia}})};
+  RegistryScene sim{node<"root">(solver,
+                                 MechanicalObject<Rigid3d>{.position = {{}}, .velocity = {v}},
+                                 UniformMass<Rigid3d>{.vertexMass = RigidMass<double, 3>{2, inertia}})};
   sim.init();
   for (int i = 0; i < steps; ++i) sim.animate(2.0 / steps);
   auto const& s = sim.root().state();

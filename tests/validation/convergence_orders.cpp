@@ -55,6 +55,7 @@ TEST_CASE("every solver of the registry has the order that it claims", "[page]")
   });
   measure("EulerExplicitSolver symplectic=0", EulerExplicitSolver{.symplectic = false}, 1);
   measure("EulerImplicitSolver trapezoidalScheme", EulerImplicitSolver{.trapezoidalScheme = true}, 2);
+  measure("BDFOdeSolver order=2", BDFOdeSolver{.order = 2}, 2);
   measure("BDFOdeSolver order=3", BDFOdeSolver{.order = 3}, 3);
 }
 

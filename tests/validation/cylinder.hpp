@@ -4,6 +4,7 @@
 // A cylinder along z that stands on rollers and is pulled at its top, as SOFA's tests have it.
 
 #include "bars.hpp"
+#include "registry_scene.hpp"
 
 #include <sinew/topology/hexahedra.hpp>
 
@@ -69,15 +70,15 @@ Stretches pulled(Mesh const& mesh, Force const& force, double p, int steps = 1) 
   using Held = PartialFixedConstraint<Vec3d>;
   const Held base{.indices = points_where(mesh, [](Vector3d const& x) { return x[2] < 1e-9; }),
                   .fixedDirections = {0, 0, 1}};
-  Simulation sim{node<"root">(solver,
-                              SparseLDLSolver<>{},
-                              MeshTopology{.tetrahedra = mesh.tetrahedra, .hexahedra = mesh.hexahedra},
-                              MechanicalObject<Vec3d>{mesh.positions},
-                              force,
-                              unit,
-                              base,
-                              Held{.indices = {center}, .fixedDirections = {1, 1, 0}},
-                              Held{.indices = {side}, .fixedDirections = {0, 1, 0}})};
+  RegistryScene sim{node<"root">(solver,
+                                 SparseLDLSolver<>{},
+                                 MeshTopology{.tetrahedra = mesh.tetrahedra, .hexahedra = mesh.hexahedra},
+                                 MechanicalObject<Vec3d>{mesh.positions},
+                                 force,
+                                 unit,
+                                 base,
+                                 Held{.indices = {center}, .fixedDirections = {1, 1, 0}},
+                                 Held{.indices = {side}, .fixedDirections = {0, 1, 0}})};
   sim.init();
   auto& load = sim.root().template get<ConstantForceField<Vec3d>>();
   for (int step = 1; step <= steps; ++step) {

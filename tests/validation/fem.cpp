@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "one_component.hpp"
+#include "registry_scene.hpp"
 
 #include <sinew/sinew.hpp>
 #include <sinew/topology/adjacency.hpp>
@@ -19,13 +20,13 @@ using Matrix3d = CompressedRowSparseMatrixMat3x3d;
 
 template <class... Extra>
 auto body(Mesh const& mesh, TetrahedronFEMForceField<Vec3d> fem, EulerImplicitSolver ode, Extra... extra) {
-  return Simulation{node<"root">(ode,
-                                 CGLinearSolver<Matrix3d>{.iterations = 3000, .tolerance = 1e-13},
-                                 TetrahedronTopology{mesh.tetrahedra},
-                                 MechanicalObject<Vec3d>{mesh.positions},
-                                 DiagonalMass<Vec3d>{.massDensity = 1000},
-                                 fem,
-                                 extra...)};
+  return RegistryScene{node<"root">(ode,
+                                    CGLinearSolver<Matrix3d>{.iterations = 3000, .tolerance = 1e-13},
+                                    TetrahedronTopology{mesh.tetrahedra},
+                                    MechanicalObject<Vec3d>{mesh.positions},
+                                    DiagonalMass<Vec3d>{.massDensity = 1000},
+                                    fem,
+                                    extra...)};
 }
 
 Mesh shaken_block(int n) {  // n cells a side
@@ -345,7 +346,7 @@ TEST_CASE("the rotation of a sheared corner is that of its edges, or of its defo
 TEST_CASE("momentum is constant under internal forces") {
   const Mesh mesh = shaken_block(2);
   auto run = [&](auto ode, auto... linear) {
-    auto sim = Simulation{node<"root">(
+    auto sim = RegistryScene{node<"root">(
         ode,
         linear...,
         TetrahedronTopology{mesh.tetrahedra},
@@ -386,14 +387,15 @@ TEST_CASE("matrix-free and assembled conjugate gradients agree") {
   auto run = [&](auto cg) {
     cg.iterations = 25;
     cg.tolerance = 0;
-    Simulation sim{node<"root">(Gravity{{0, -9.81, 0}},
-                                EulerImplicitSolver{.rayleighStiffness = 0.1, .rayleighMass = 0.1},
-                                cg,
-                                TetrahedronTopology{mesh.tetrahedra},
-                                MechanicalObject<Vec3d>{mesh.positions},
-                                DiagonalMass<Vec3d>{.massDensity = 1},
-                                TetrahedronFEMForceField<Vec3d>{.youngModulus = {3000}, .poissonRatio = 0.3},
-                                FixedConstraint<Vec3d>{.indices = {0, 1, 2}})};
+    RegistryScene sim{
+        node<"root">(Gravity{{0, -9.81, 0}},
+                     EulerImplicitSolver{.rayleighStiffness = 0.1, .rayleighMass = 0.1},
+                     cg,
+                     TetrahedronTopology{mesh.tetrahedra},
+                     MechanicalObject<Vec3d>{mesh.positions},
+                     DiagonalMass<Vec3d>{.massDensity = 1},
+                     TetrahedronFEMForceField<Vec3d>{.youngModulus = {3000}, .poissonRatio = 0.3},
+                     FixedConstraint<Vec3d>{.indices = {0, 1, 2}})};
     sim.init();
     for (int i = 0; i < 50; ++i) sim.animate(0.02);
     CHECK(sim.root().template get<decltype(cg)>().residuals.size() == 26);

@@ -4,6 +4,7 @@
 // A liver of which there is a skin, in a sparse grid of cells that carry it.
 
 #include "bars.hpp"
+#include "registry_scene.hpp"
 
 #include <sinew/topology/implicit_surface.hpp>
 #include <sinew/topology/surface_mesh.hpp>
@@ -33,7 +34,7 @@ inline double volume_of(SparseGridTopology grid) {
 /// A grid of cells with a force field, which carries the skin.
 template <class Force, class... More>
 auto carried(Mesh const& skin, SparseGridTopology const& cells, Force const& force, More const&... more) {
-  return Simulation{node<"grid">(
+  return RegistryScene{node<"grid">(
       to_rounding(),
       SparseLDLSolver<>{},
       cells,

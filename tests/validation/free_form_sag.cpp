@@ -2,6 +2,7 @@
 #include "catch.hpp"
 #include "free_form.hpp"
 #include "record.hpp"
+#include "registry_scene.hpp"
 
 #include <sinew/topology/isosurface_stuffing.hpp>
 
@@ -30,7 +31,7 @@ TEST_CASE("a liver in a grid of hexahedra sags as one of tetrahedra does", "[pag
   const Mesh volume = tetrahedralize_count(liver, liver.box_min(), liver.box_max(), 12000);
   TetrahedronFEMForceField<Vec3d> tetrahedra{.method = RotationMethod::small};
   tetrahedra.youngModulus = {E}, tetrahedra.poissonRatio = nu;
-  Simulation reference{node<"body">(
+  RegistryScene reference{node<"body">(
       Gravity{{0, -9.81, 0}},
       to_rounding(1),
       SparseLDLSolver<>{},

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "catch.hpp"
+#include "registry_scene.hpp"
 
 #include <sinew/force/tetrahedron_hyperelasticity.hpp>
 #include <sinew/sinew.hpp>
@@ -42,12 +43,12 @@ TEST_CASE("bodies with inverted elements come back to their shape") {
     body.materialName = material;
     body.parameterSet = parameters;
     body.matrixRegularization = true;
-    Simulation sim{node<"root">(EulerImplicitSolver{.rayleighMass = 2},
-                                SparseLDLSolver<CompressedRowSparseMatrixMat3x3d>{},
-                                TetrahedronTopology{cube.tetrahedra},
-                                MechanicalObject<Vec3d>{cube.positions},
-                                UniformMass<Vec3d>{.totalMass = 1},
-                                body)};
+    RegistryScene sim{node<"root">(EulerImplicitSolver{.rayleighMass = 2},
+                                   SparseLDLSolver<CompressedRowSparseMatrixMat3x3d>{},
+                                   TetrahedronTopology{cube.tetrahedra},
+                                   MechanicalObject<Vec3d>{cube.positions},
+                                   UniformMass<Vec3d>{.totalMass = 1},
+                                   body)};
     sim.init();
     auto& x = sim.root().state().position;
     x[13] = {1.15, 0.6, 0.55};  // the point in the middle, pushed out through a face

@@ -2,6 +2,7 @@
 #include "bars.hpp"
 #include "catch.hpp"
 #include "record.hpp"
+#include "registry_scene.hpp"
 
 #include <sinew/solver/pcg_linear_solver.hpp>
 
@@ -25,14 +26,14 @@ auto solved(Linear linear, double k) {
   fem.youngModulus = {bar.E}, fem.poissonRatio = bar.nu;
   RestShapeSpringsForceField<Vec3d> spring;
   spring.points = {changed}, spring.stiffness = {k};
-  Simulation sim{node<"root">(to_rounding(1),
-                              linear,
-                              MeshTopology{.hexahedra = mesh.hexahedra},
-                              MechanicalObject<Vec3d>{mesh.positions},
-                              fem,
-                              spring,
-                              on_end_face(mesh, bar, {2, -5, 1}),
-                              FixedConstraint<Vec3d>{.indices = points_at(mesh, 0)})};
+  RegistryScene sim{node<"root">(to_rounding(1),
+                                 linear,
+                                 MeshTopology{.hexahedra = mesh.hexahedra},
+                                 MechanicalObject<Vec3d>{mesh.positions},
+                                 fem,
+                                 spring,
+                                 on_end_face(mesh, bar, {2, -5, 1}),
+                                 FixedConstraint<Vec3d>{.indices = points_at(mesh, 0)})};
   sim.init();
   sim.animate(1);
   return sim;

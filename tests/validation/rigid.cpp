@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "catch.hpp"
+#include "registry_scene.hpp"
 
 #include <sinew/sinew.hpp>
 
@@ -22,9 +23,9 @@ template <class... Solvers>
 auto spinning(Solvers... solvers) {
   Vec<double, 6> v;
   v << 0, 0, 0, 0.3, 2, 0.1;  // about the middle axis, where free rotation tumbles
-  Simulation sim{node<"root">(solvers...,
-                              MechanicalObject<Rigid3d>{.position = {{}}, .velocity = {v}},
-                              UniformMass<Rigid3d>{.vertexMass = RigidMass<double, 3>{2, inertia}})};
+  RegistryScene sim{node<"root">(solvers...,
+                                 MechanicalObject<Rigid3d>{.position = {{}}, .velocity = {v}},
+                                 UniformMass<Rigid3d>{.vertexMass = RigidMass<double, 3>{2, inertia}})};
   sim.init();
   return sim;
 }
@@ -101,7 +102,7 @@ TEST_CASE("a spinning symmetric top precesses as Euler says") {
   // w_3
   Vec<double, 6> v;
   v << 0, 0, 0, 1, 0, 3;
-  Simulation sim{
+  RegistryScene sim{
       node<"root">(RungeKutta4Solver{},
                    MechanicalObject<Rigid3d>{.position = {{}}, .velocity = {v}},
                    UniformMass<Rigid3d>{.vertexMass = RigidMass<double, 3>{

@@ -2,6 +2,7 @@
 #include "bars.hpp"
 #include "catch.hpp"
 #include "record.hpp"
+#include "registry_scene.hpp"
 
 namespace test_settled {
 
@@ -16,14 +17,14 @@ template <class Solver, class Force>
 auto bent(Solver solver, Force fem, Cells cells, int steps, double dt) {
   const Mesh mesh = bar.mesh(cells);
   fem.youngModulus = {bar.E}, fem.poissonRatio = bar.nu;
-  Simulation sim{node<"root">(Gravity{{0, -9.81, 0}},
-                              solver,
-                              SparseLDLSolver<>{},
-                              MeshTopology{.tetrahedra = mesh.tetrahedra, .hexahedra = mesh.hexahedra},
-                              MechanicalObject<Vec3d>{mesh.positions},
-                              DiagonalMass<Vec3d>{.massDensity = {30}},
-                              fem,
-                              FixedConstraint<Vec3d>{.indices = points_at(mesh, 0)})};
+  RegistryScene sim{node<"root">(Gravity{{0, -9.81, 0}},
+                                 solver,
+                                 SparseLDLSolver<>{},
+                                 MeshTopology{.tetrahedra = mesh.tetrahedra, .hexahedra = mesh.hexahedra},
+                                 MechanicalObject<Vec3d>{mesh.positions},
+                                 DiagonalMass<Vec3d>{.massDensity = {30}},
+                                 fem,
+                                 FixedConstraint<Vec3d>{.indices = points_at(mesh, 0)})};
   sim.init();
   for (int i = 0; i < steps; ++i) sim.animate(dt);
   return sim;

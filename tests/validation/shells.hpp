@@ -2,6 +2,7 @@
 #pragma once
 
 #include "catch.hpp"
+#include "registry_scene.hpp"
 
 #include <sinew/constraint/fixed_constraint.hpp>
 #include <sinew/constraint/partial_fixed.hpp>
@@ -125,19 +126,19 @@ inline Settled settle(Shell const& shell, Sheet const& sheet, Rigid3d::VecCoord 
   auto hold = [](Held const& h) {
     return PartialFixedConstraint<Rigid3d>{.indices = h.frames, .fixedDirections = h.directions};
   };
-  Simulation sim{node<"root">(StaticSolver{.maxNbIterationsNewton = 60,
-                                           .relativeInitialStoppingThreshold = 0,
-                                           .absoluteResidualStoppingThreshold = 0,
-                                           .relativeEstimateDifferenceThreshold = 0,
-                                           .absoluteEstimateDifferenceThreshold = correction},
-                              SparseLDLSolver<CompressedRowSparseMatrixd>{},
-                              MeshTopology{.triangles = sheet.triangles},
-                              MechanicalObject<Rigid3d>{.position = start, .restPosition = sheet.x},
-                              shell,
-                              ConstantForceField<Rigid3d>{.indices = everywhere, .forces = loads},
-                              hold(held[0]),
-                              hold(held[1]),
-                              hold(held[2]))};
+  RegistryScene sim{node<"root">(StaticSolver{.maxNbIterationsNewton = 60,
+                                              .relativeInitialStoppingThreshold = 0,
+                                              .absoluteResidualStoppingThreshold = 0,
+                                              .relativeEstimateDifferenceThreshold = 0,
+                                              .absoluteEstimateDifferenceThreshold = correction},
+                                 SparseLDLSolver<CompressedRowSparseMatrixd>{},
+                                 MeshTopology{.triangles = sheet.triangles},
+                                 MechanicalObject<Rigid3d>{.position = start, .restPosition = sheet.x},
+                                 shell,
+                                 ConstantForceField<Rigid3d>{.indices = everywhere, .forces = loads},
+                                 hold(held[0]),
+                                 hold(held[1]),
+                                 hold(held[2]))};
   sim.init();
   auto& now = sim.root().template get<ConstantForceField<Rigid3d>>().forces;
   for (int s = 1; s <= steps; ++s) {

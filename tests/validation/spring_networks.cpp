@@ -2,6 +2,7 @@
 #include "bars.hpp"
 #include "catch.hpp"
 #include "record.hpp"
+#include "registry_scene.hpp"
 
 #include <Eigen/Cholesky>
 
@@ -49,12 +50,12 @@ struct Network {
   }
   template <class Linear>
   auto simulated(Linear linear, int iterations) const {
-    Simulation sim{node<"root">(to_rounding(iterations),
-                                linear,
-                                MechanicalObject<Vec3d>{points},
-                                StiffSpringForceField<Vec3d>{.springs = springs},
-                                ConstantForceField<Vec3d>{.force = load},
-                                FixedConstraint<Vec3d>{.indices = fixed})};
+    RegistryScene sim{node<"root">(to_rounding(iterations),
+                                   linear,
+                                   MechanicalObject<Vec3d>{points},
+                                   StiffSpringForceField<Vec3d>{.springs = springs},
+                                   ConstantForceField<Vec3d>{.force = load},
+                                   FixedConstraint<Vec3d>{.indices = fixed})};
     sim.init();
     sim.animate(1);
     return sim;
@@ -113,13 +114,13 @@ TEST_CASE("a grid of springs stretches as its lattice does") {
   // faces sqrt 2 and 1/2, diagonals of cells sqrt 3 and 1/3.
   const double K = 10, e = 1e-4;
   for (const int cells : {2, 5}) {
-    Simulation sim{node<"root">(EulerExplicitSolver{},
-                                RegularGridTopology{.n = {cells + 1, cells + 1, cells + 1},
-                                                    .min = {0, 0, 0},
-                                                    .max = {double(cells), double(cells), double(cells)}},
-                                MechanicalObject<Vec3d>{},
-                                UniformMass<Vec3d>{.vertexMass = 1},
-                                RegularGridSpringForceField<Vec3d>{.stiffness = K})};
+    RegistryScene sim{node<"root">(EulerExplicitSolver{},
+                                   RegularGridTopology{.n = {cells + 1, cells + 1, cells + 1},
+                                                       .min = {0, 0, 0},
+                                                       .max = {double(cells), double(cells), double(cells)}},
+                                   MechanicalObject<Vec3d>{},
+                                   UniformMass<Vec3d>{.vertexMass = 1},
+                                   RegularGridSpringForceField<Vec3d>{.stiffness = K})};
     sim.init();
     for (auto& x : sim.root().state().position) x[0] *= 1 + e;
     const double n = cells, m = cells + 1;

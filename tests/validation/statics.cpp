@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "catch.hpp"
+#include "registry_scene.hpp"
 
 #include <sinew/sinew.hpp>
 #include <sinew/solver/sparse_ldl_solver.hpp>
@@ -19,7 +20,7 @@ namespace {
 /// A spring of stiffness 8 and length 1 from the origin, pulled at its other end by a force F: it hangs along
 /// F, with length 1 + |F| / 8.
 auto pulled_spring(StaticSolver solver, Eigen::Vector2d start, Eigen::Vector2d force) {
-  Simulation sim{
+  RegistryScene sim{
       node<"root">(solver,
                    SparseLDLSolver<CompressedRowSparseMatrixd>{},
                    MechanicalObject<Vec2d>{.position = {{0, 0}, start}},
@@ -125,7 +126,7 @@ TEST_CASE("points inside an affine boundary come to the same affine map") {
   for (const RotationMethod method : {RotationMethod::small, RotationMethod::nearest}) {
     MechanicalObject<Vec3d> state{.position = mesh.positions, .restPosition = mesh.positions};
     for (const int i : boundary) state.position[std::size_t(i)] = f * mesh.positions[std::size_t(i)];
-    Simulation sim{node<"root">(
+    RegistryScene sim{node<"root">(
         exact,
         SparseLDLSolver<>{},
         TetrahedronTopology{mesh.tetrahedra},
@@ -143,13 +144,13 @@ TEST_CASE("points inside an affine boundary come to the same affine map") {
 
 TEST_CASE("a body that nothing holds has no equilibrium to find, and is an error") {
   const Mesh mesh = regular_grid_tetrahedra(3, 3, 3, {0, 0, 0}, {1, 1, 1});
-  Simulation loose{node<"root">(Gravity{{0, -9.81, 0}},
-                                StaticSolver{},
-                                SparseLDLSolver<>{},
-                                TetrahedronTopology{mesh.tetrahedra},
-                                MechanicalObject<Vec3d>{mesh.positions},
-                                DiagonalMass<Vec3d>{.massDensity = 1000},
-                                TetrahedronFEMForceField<Vec3d>{.youngModulus = {1e5}})};
+  RegistryScene loose{node<"root">(Gravity{{0, -9.81, 0}},
+                                   StaticSolver{},
+                                   SparseLDLSolver<>{},
+                                   TetrahedronTopology{mesh.tetrahedra},
+                                   MechanicalObject<Vec3d>{mesh.positions},
+                                   DiagonalMass<Vec3d>{.massDensity = 1000},
+                                   TetrahedronFEMForceField<Vec3d>{.youngModulus = {1e5}})};
   loose.init();
   try {
     loose.animate(1);

@@ -2,6 +2,7 @@
 #include "bars.hpp"
 #include "catch.hpp"
 #include "record.hpp"
+#include "registry_scene.hpp"
 #include "ring.hpp"
 
 namespace test_vibration {
@@ -20,15 +21,16 @@ double frequency(Bar const& bar, Cells cells, Mass mass, Force fem, std::vector<
   const Mesh mesh = bar.mesh(cells);
   mass.massDensity = {density};
   fem.youngModulus = {bar.E}, fem.poissonRatio = bar.nu;
-  Simulation sim{node<"root">(NewmarkImplicitSolver{},
-                              SparseLDLSolver<>{},
-                              MeshTopology{.tetrahedra = mesh.tetrahedra, .hexahedra = mesh.hexahedra},
-                              MechanicalObject<Vec3d>{mesh.positions},
-                              mass,
-                              fem,
-                              PartialFixedConstraint<Vec3d>{.indices = held, .fixedDirections = fixed},
-                              // the bar moves in its plane
-                              PartialFixedConstraint<Vec3d>{.fixAll = true, .fixedDirections = {0, 0, 1}})};
+  RegistryScene sim{
+      node<"root">(NewmarkImplicitSolver{},
+                   SparseLDLSolver<>{},
+                   MeshTopology{.tetrahedra = mesh.tetrahedra, .hexahedra = mesh.hexahedra},
+                   MechanicalObject<Vec3d>{mesh.positions},
+                   mass,
+                   fem,
+                   PartialFixedConstraint<Vec3d>{.indices = held, .fixedDirections = fixed},
+                   // the bar moves in its plane
+                   PartialFixedConstraint<Vec3d>{.fixAll = true, .fixedDirections = {0, 0, 1}})};
   sim.init();
   for (std::size_t i = 0; i < mesh.positions.size(); ++i)
     sim.root().state().position[i] += 1e-6 * mode(mesh.positions[i]);

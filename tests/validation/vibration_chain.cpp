@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "catch.hpp"
 #include "record.hpp"
+#include "registry_scene.hpp"
 #include "ring.hpp"
 
 #include <sinew/sinew.hpp>
@@ -20,12 +21,12 @@ TEST_CASE("a chain of springs rings in each of its modes as its dispersion says"
     std::vector<Spring> springs;
     for (int i = 0; i <= n; ++i) rest.push_back(Vec<double, 1>(i));
     for (int i = 0; i < n; ++i) springs.push_back({.first = i, .second = i + 1, .stiffness = k});
-    Simulation sim{node<"root">(NewmarkImplicitSolver{},
-                                SparseLDLSolver<CompressedRowSparseMatrixd>{},
-                                MechanicalObject<Vec1d>{rest},
-                                UniformMass<Vec1d>{.vertexMass = m},
-                                StiffSpringForceField<Vec1d>{.springs = springs},
-                                FixedConstraint<Vec1d>{.indices = {0, n}})};
+    RegistryScene sim{node<"root">(NewmarkImplicitSolver{},
+                                   SparseLDLSolver<CompressedRowSparseMatrixd>{},
+                                   MechanicalObject<Vec1d>{rest},
+                                   UniformMass<Vec1d>{.vertexMass = m},
+                                   StiffSpringForceField<Vec1d>{.springs = springs},
+                                   FixedConstraint<Vec1d>{.indices = {0, n}})};
     sim.init();
     for (int i = 0; i <= n; ++i)
       sim.root().state().position[std::size_t(i)][0] += 1e-3 * std::sin(pi * mode * i / n);

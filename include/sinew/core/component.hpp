@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/boundary_particles.hpp>
 #include <sinew/core/data_types.hpp>
 #include <sinew/core/fields.hpp>
 #include <sinew/core/renumbering.hpp>

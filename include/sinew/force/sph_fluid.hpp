@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/boundary_particles.hpp>
 #include <sinew/core/component.hpp>
+#include <sinew/force/sorted_particles.hpp>
 #include <sinew/force/sph_kernels.hpp>
-#include <sinew/topology/point_cells.hpp>
 
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,7 +26,10 @@ namespace sinew {
 /// Teschner (2007) (2). Forces are those at the start of a step, also for implicit solvers: no part of them
 /// is in a system, as in SOFA. Where pairs pull each other apart or together, momentum is kept to rounding,
 /// and with the cubic kernel and no viscosity energy is, by the order of the solver.
-/// Sums go over neighbours in the order of their cells, so that bits repeat.
+/// Boundary particles of bodies (FluidBoundary) are neighbours of the mass density V_k, V_k = 1 / sum_l W_kl
+/// over those of boundaries, at their velocity and without a pressure of their own (Akinci et al. 2012); they
+/// have the opposite force of the last evaluation, which is the mean over the step under an explicit Euler
+/// solver. Sums go over neighbours in the order of their cells, so that bits repeat.
 template <class D>
 struct SPHFluidForceField {
   using Role = role::ForceField;
@@ -87,27 +90,39 @@ struct SPHFluidForceField {
             .implicit = false};
   }
 
+  BoundaryParticles boundary{};
   std::string where{};
+  std::size_t size = 0;
 
   void init(InitContext<D> const& context) {
     where = text(context.where, ": ", component_name<SPHFluidForceField>());
-    const std::size_t n = context.rest.size();
-    cells.reserve(n);
-    resize(n);
+    size = context.rest.size();
+    boundary.clear();
+    reserveForBoundary();
+  }
+  void reserveForBoundary() {
+    const std::size_t all = size + boundary.size(), room = all + std::size_t(Particles::width);
+    particles.reserve(all);
+    joined.reserve(all);
+    for (auto& one : velocities) one.reserve(room);
+    for (auto* one : {&densities, &pressures, &volumes, &weights, &fluid}) one->reserve(room);
   }
 
   /// Shared among threads in three passes: the order of the particles, densities, forces.
   static constexpr bool sharesWork = true;
   static constexpr int passes = 3;
   int shares = 1;
-  void split(int most) { shares = positions[0].size() < 2000 ? 1 : most; }
+  void split(int most) { shares = size < 2000 ? 1 : most; }
 
   void addForce(MechanicalParams const& p, VecDeriv& f, VecCoord const& x, VecDeriv const& v) {
     const bool whole = p.share.count == 1;
     if (whole || (p.share.pass == 0 && p.share.index == 0)) {
       sort(x);
-      for (std::size_t k = 0; k < x.size(); ++k)
-        for (int c = 0; c < 3; ++c) velocities[std::size_t(c)][k] = v[std::size_t(cells.order()[k])][c];
+      for (std::size_t k = 0; k < particles.order().size(); ++k) {
+        const auto i = std::size_t(particles.order()[k]);
+        for (int c = 0; c < 3; ++c)
+          velocities[std::size_t(c)][k] = i < size ? v[i][c] : Real(boundary.velocities[i - size][c]);
+      }
     }
     withKernels([&](auto const& kernels) {
       if (whole || p.share.pass == 1) findDensities(kernels, p.share);
@@ -125,100 +140,77 @@ struct SPHFluidForceField {
     sort(x);
     double sum = 0;
     withKernels([&](auto const& kernels) { findDensities(kernels, {}); });
-    for (std::size_t k = 0; k < x.size(); ++k) {
+    for (std::size_t k = 0; k < particles.order().size(); ++k) {
+      if (fluid[k] == 0) continue;
       const double d = double(densities[k]) / density;
       sum += mass * pressure * (std::log(d) + 1 / d - 1);
     }
     return sum;
   }
 
-  // in the order of the cells, with room behind the last for lanes that reach over it
-  PointCells cells{};
-  std::array<std::vector<Real>, 3> positions{}, velocities{};
+  // in the order of the particles
+  SortedParticles<Real, lane_width<D>()> particles{};
+  std::array<std::vector<Real>, 3> velocities{};
   std::vector<Real> densities{}, pressures{}, volumes{};  // pressures: p / rho^2; volumes: m / rho
+  std::vector<Real> weights{}, fluid{};  // mass over that of the fluid's; 1 for the fluid, 0 for the boundary
+  VecCoord joined{};                     // the fluid, then the boundary
 
  private:
-  using L = lanes<Real, lane_width<D>()>;
-  static constexpr int width = lane_traits<L>::width;
+  using Particles = SortedParticles<Real, lane_width<D>()>;
+  using Pairs = typename Particles::Pairs;
+  using L = typename Particles::L;
 
   bool hasCurvature() const { return surfaceTension > 0 && surfaceTensionType == 1; }
   bool hasCohesion() const { return surfaceTension > 0 && surfaceTensionType == 2; }
 
-  void resize(std::size_t n) {
-    const std::size_t all = n + std::size_t(width);
-    for (auto* three : {&positions, &velocities})
-      for (auto& one : *three) one.resize(all, Real(0));
-    for (auto* one : {&densities, &pressures, &volumes}) one->resize(all, Real(1));
-  }
   void sort(VecCoord const& x) {
-    if (positions[0].size() != x.size() + std::size_t(width)) resize(x.size());
-    cells.sort(x, radius, where);
-    for (std::size_t k = 0; k < x.size(); ++k)
-      for (int c = 0; c < 3; ++c) positions[std::size_t(c)][k] = x[std::size_t(cells.order()[k])][c];
+    size = x.size();
+    if (boundary.size() == 0) {
+      particles.sort(x, radius, where);
+    } else {
+      joined.assign(x.begin(), x.end());
+      for (auto const& p : boundary.positions) joined.push_back(p.template cast<Real>());
+      particles.sort(joined, radius, where);
+    }
+    for (auto& one : velocities) one.resize(particles.room(), Real(0));
+    for (auto* one : {&densities, &pressures, &volumes}) one->resize(particles.room(), Real(1));
+    for (auto* one : {&weights, &fluid}) one->assign(particles.room(), Real(1));
+    if (boundary.size() > 0) withKernels([&](auto const& kernels) { findBoundary(kernels); });
   }
+  // masses and volumes of the boundary, at the density at rest and without pressure
+  template <class Kernels>
+  void findBoundary(Kernels const& kernels) {
+    for (std::size_t k = 0; k < particles.order().size(); ++k)
+      if (std::size_t(particles.order()[k]) >= size) fluid[k] = 0;
+    particles.forEach({}, [&](int i, auto const& each) {
+      const auto at = std::size_t(i);
+      if (fluid[at] != 0) return;
+      L around(0);
+      each([&](Pairs const& p) {
+        around += select(p.acts, (L(1) - load(fluid, p.first)) * kernels.density(p.q), L(0));
+      });
+      volumes[at] = 1 / sum(around);
+      weights[at] = Real(density / mass) * volumes[at];
+      densities[at] = Real(density);
+      pressures[at] = 0;
+    });
+  }
+  static L load(std::vector<Real> const& from, int place) { return Particles::load(from, place); }
+  static Real sum(L const& value) { return Particles::sum(value); }
   template <class F>
   void withKernels(F&& f) const {
     kernelType == 1 ? f(CubicKernels<Real>(Real(radius))) : f(MuellerKernels<Real>(Real(radius)));
   }
 
-  static L load(std::vector<Real> const& from, int k) {
-    L value;
-    std::memcpy(&value, from.data() + k, sizeof value);
-    return value;
-  }
-  static Real sum(L const& value) {
-    Real all = lane(value, 0);
-    for (int l = 1; l < width; ++l) all += lane(value, l);
-    return all;
-  }
-
-  // Neighbours of a particle and itself, as many at once as there are lanes: what is beyond the radius or the
-  // range has `acts` false and q = 1. q is not quite 0, so that slopes are numbers.
-  struct Pairs {
-    int first;           // place of the first in the order
-    std::array<L, 3> d;  // x_i - x_j
-    L q;
-    decltype(L(0) < L(1)) acts;
-  };
-  // f(place, each) for all particles of a share: each(g) calls g(pairs) for all that are around
-  template <class F>
-  void forEachParticle(WorkShare const& share, F&& f) const {
-    const Real perRadius = Real(1 / radius);
-    L numbers(0);
-    if constexpr (width > 1)
-      for (int l = 0; l < width; ++l) numbers.set(l, Real(l));
-    cells.forEachCell(
-        share, [&](PointCells::Range const& cell, std::array<PointCells::Range, 9> const& around) {
-          for (int i = cell.first; i < cell.second; ++i) {
-            std::array<L, 3> x;
-            for (std::size_t c = 0; c < 3; ++c) x[c] = L(positions[c][std::size_t(i)]);
-            f(i, [&](auto&& g) {
-              for (auto const& [begin, end] : around)
-                for (int j = begin; j < end; j += width) {
-                  Pairs pairs{.first = j, .d = {}, .q = L(0), .acts = numbers < L(Real(end - j))};
-                  L square(0);
-                  for (std::size_t c = 0; c < 3; ++c) {
-                    pairs.d[c] = x[c] - load(positions[c], j);
-                    square += pairs.d[c] * pairs.d[c];
-                  }
-                  using std::sqrt, sinew::sqrt;
-                  pairs.q = sqrt(square) * L(perRadius);
-                  pairs.acts = both(pairs.acts, pairs.q < L(1));
-                  if (!any(pairs.acts)) continue;
-                  pairs.q = select(pairs.acts, select(pairs.q > L(Real(1e-9)), pairs.q, L(Real(1e-9))), L(1));
-                  g(pairs);
-                }
-            });
-          }
-        });
-  }
-
   template <class Kernels>
   void findDensities(Kernels const& kernels, WorkShare const& share) {
     const Real m = Real(mass), atRest = Real(density), stiffness = Real(pressureType == 0 ? 0 : pressure);
-    forEachParticle(share, [&](int i, auto const& each) {
+    particles.forEach(share, [&](int i, auto const& each) {
+      if (fluid[std::size_t(i)] == 0) return;
       L around(0);
-      each([&](Pairs const& p) { around += select(p.acts, kernels.density(p.q), L(0)); });
+      each([&](Pairs const& p) {
+        around += select(p.acts, load(weights, p.first) * kernels.density(p.q), L(0));
+      });
       const Real rho = m * sum(around);
       densities[std::size_t(i)] = rho;
       pressures[std::size_t(i)] = stiffness * (rho - atRest) / (rho * rho);
@@ -254,12 +246,16 @@ struct SPHFluidForceField {
     const L square{Real(mass * mass)}, bulk{Real(2 * viscosity * radius * mass)},
         soft{Real(0.01 * radius * radius)};
     const L drag{Real(viscosity)}, cohesion{Real(-surfaceTension * mass)};
-    forEachParticle(share, [&](int i, auto const& each) {
+    particles.forEach(share, [&](int i, auto const& each) {
       const auto at = std::size_t(i);
       const L pushed(pressures[at]), rho(densities[at]), volume(volumes[at]);
       std::array<L, 3> v, sums{L(0), L(0), L(0)};
       for (std::size_t c = 0; c < 3; ++c) v[c] = L(velocities[c][at]);
+      const bool wall = fluid[at] == 0;
+      const L own(weights[at]);
       each([&](Pairs const& p) {
+        auto acts = p.acts;  // walls do not act on walls
+        if (wall) acts = both(acts, load(fluid, p.first) > L(0));
         L pushes = -square * (pushed + load(pressures, p.first));
         std::array<L, 3> slower;  // v_j - v_i
         if (viscous || artificial)
@@ -272,18 +268,23 @@ struct SPHFluidForceField {
         }
         L along = pushes * kernels.pressureSlope(p.q);
         if (coheres) along += cohesion * kernels.density(p.q);
-        along = select(p.acts, along, L(0));
+        along = select(acts, own * load(weights, p.first) * along, L(0));
         for (std::size_t c = 0; c < 3; ++c) sums[c] += along * p.d[c];
         if (viscous) {
           const L rubs =
-              select(p.acts, drag * volume * load(volumes, p.first) * kernels.viscosityLaplacian(p.q), L(0));
+              select(acts, drag * volume * load(volumes, p.first) * kernels.viscosityLaplacian(p.q), L(0));
           for (std::size_t c = 0; c < 3; ++c) sums[c] += rubs * slower[c];
         }
       });
       std::array<Real, 3> tension{};
+      const auto point = std::size_t(particles.order()[at]);
+      if (wall) {
+        for (std::size_t c = 0; c < 3; ++c)
+          boundary.forces[point - size][Eigen::Index(c)] = double(sum(sums[c]));
+        return;
+      }
       if (curved) tension = curvatureForce(kernels, i, each);
-      auto& force = f[std::size_t(cells.order()[at])];
-      for (std::size_t c = 0; c < 3; ++c) force[Eigen::Index(c)] += sum(sums[c]) + tension[c];
+      for (std::size_t c = 0; c < 3; ++c) f[point][Eigen::Index(c)] += sum(sums[c]) + tension[c];
     });
   }
 };

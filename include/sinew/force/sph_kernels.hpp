@@ -91,4 +91,29 @@ class CubicKernels {
   Real factor_, perSquare_;
 };
 
+/// The kernel of Wendland (1995) of class C2, (1 - q)^4 (1 + 4 q): its Fourier transform is positive, so that
+/// particles do not pair (Dehnen, Aly 2012).
+template <class Real>
+class WendlandKernel {
+ public:
+  /// `factor` times the kernel whose integral is 1.
+  explicit WendlandKernel(Real h, Real factor = 1)
+      : factor_(factor * 21 / (2 * std::numbers::pi_v<Real> * h * h * h)),
+        perSquare_(-20 * factor_ / (h * h)) {}
+
+  template <class T>
+  SINEW_INLINE T density(T q) const {
+    const T a = (T(1) - q) * (T(1) - q);
+    return T(factor_) * a * a * (T(1) + T(4) * q);
+  }
+  template <class T>
+  SINEW_INLINE T densitySlope(T q) const {
+    const T a = T(1) - q;
+    return T(perSquare_) * a * a * a;
+  }
+
+ private:
+  Real factor_, perSquare_;
+};
+
 }  // namespace sinew

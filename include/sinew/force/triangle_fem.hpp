@@ -163,7 +163,8 @@ struct TriangleFEM {
   }
 };
 
-/// Corotational membrane triangles: those of the topology, or two in each of its quads where it has none.
+/// An elastic membrane of corotational triangles: those of the topology, or two in each of its quads where it
+/// has none.
 template <class D>
 struct TriangleFEMForceField {
   using Role = role::ForceField;
@@ -173,7 +174,7 @@ struct TriangleFEMForceField {
   static constexpr std::string_view className = "TriangleFEMForceField";
   static constexpr std::string_view aliases = "TriangularFEMForceField TriangularFEMForceFieldOptim";
 
-  std::vector<double> youngModulus{1000}, poissonRatio{0.3};  // one for all triangles, or one for each
+  std::vector<double> youngModulus{5000}, poissonRatio{0.45};  // one for all triangles, or one for each
   double thickness = 1;
   bool planeStrain = false;
   TriangleMethod method = TriangleMethod::large;

@@ -30,7 +30,7 @@ struct BeamLinearMapping {
                 "BeamLinearMapping carries points by frames in space");
   static constexpr std::string_view className = "BeamLinearMapping";
 
-  bool localCoord = false;
+  bool localCoord = true;
 
   static constexpr auto fields() {
     return field_list(
@@ -75,7 +75,7 @@ struct BeamLinearMapping {
     carriers.clear();
     for (auto const& position : positions) {
       Eigen::Vector3d p = position.template cast<double>();
-      int beam = std::clamp(int(std::floor(p[0])), 0, int(beams.size()) - 1);
+      int beam = int(std::clamp(std::floor(p[0]), 0.0, double(beams.size() - 1)));
       double along = p[0] - beam;
       if (!localCoord) {
         const auto located = locator.locate(p);

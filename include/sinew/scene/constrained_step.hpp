@@ -6,6 +6,7 @@
 #include <sinew/scene/collision.hpp>
 #include <sinew/scene/constraint_response.hpp>
 #include <sinew/scene/contact_rows.hpp>
+#include <sinew/scene/fluid_boundaries.hpp>
 #include <sinew/scene/mechanical_operations.hpp>
 #include <sinew/scene/motion_problem.hpp>
 #include <sinew/scene/overlap_warnings.hpp>
@@ -96,6 +97,7 @@ struct ConstrainedStep {
     ode.solve(operations, dt);
     operations.projectPositionAndVelocity(time + dt, vec_id::position, vec_id::velocity);
     end_acted_forces<Ode>(operations);
+    FluidBoundaries<RootScope>{root}.giveForces(scope);
   }
   // states as they were, mappings as they were, and where all would come to be: what a mapping moves goes by
   // its Jacobian as far as its parents do

@@ -3,6 +3,7 @@
 
 #include <sinew/scene/carving.hpp>
 #include <sinew/scene/collision.hpp>
+#include <sinew/scene/fluid_boundaries.hpp>
 #include <sinew/scene/loose_interactions.hpp>
 #include <sinew/scene/mechanical_operations.hpp>
 #include <sinew/scene/solvers.hpp>
@@ -226,6 +227,7 @@ void Initialisation<RootScope>::run() {
   Collision<RootScope>{root_}.init(bool(again_));
   if constexpr (holds<typename RootScope::NodeType, role::Carving>())
     if (again_.touched.empty()) Carving<RootScope>{root_}.check();
+  FluidBoundaries<RootScope>{root_}.init();
   initSolvers();
   root_.raise();
   if constexpr (collides<RootScope>) Collision<RootScope>{root_}.findCarriers();

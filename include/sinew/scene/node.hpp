@@ -31,12 +31,15 @@ struct AnyRole;
 struct NoRole;
 /// Stands for all components that act before a step, whatever their roles.
 struct BeforeStep;
+/// Stands for all that are of a fluid and meet bodies, or are their boundary particles.
+struct OfFluids;
 /// Stands for all components that have a reset(), whatever their roles.
 struct WithReset;
 template <class C, class... Roles>
 inline constexpr bool has_any_role =
     ((std::is_same_v<typename C::Role, Roles> || std::is_same_v<Roles, AnyRole> ||
       (std::is_same_v<Roles, BeforeStep> && ActsBeforeStep<C>) ||
+      (std::is_same_v<Roles, OfFluids> && (MeetsBoundaries<C> || BoundsFluids<C>)) ||
       (std::is_same_v<Roles, WithReset> && Resettable<C>)) ||
      ...);
 

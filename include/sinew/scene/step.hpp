@@ -4,6 +4,7 @@
 #include <sinew/core/step_warnings.hpp>
 #include <sinew/scene/carving.hpp>
 #include <sinew/scene/collision.hpp>
+#include <sinew/scene/fluid_boundaries.hpp>
 #include <sinew/scene/loose_interactions.hpp>
 #include <sinew/scene/mechanical_operations.hpp>
 #include <sinew/scene/overlap_warnings.hpp>
@@ -96,10 +97,12 @@ struct Step {
   /// Each ODE solver integrates its subtree and propagates; where the scene has an animation loop,
   /// constraints by multipliers hold at the end.
   void integrate(bool keepsForces) const {
+    FluidBoundaries<RootScope>{root}.gather();
     const bool constrained =
         with_first<role::AnimationLoop>(root, [&](auto& loop) { integrateConstrained(loop, keepsForces); });
     if (!constrained)
       for_each_solver(root, [&](auto& ode, auto const& scope) { solve(ode, scope, keepsForces); });
+    if (number == 1) warnOfThresholds();
   }
 
   /// Checks states, and calls what watches them. The time is that of the end of the step.
@@ -120,6 +123,21 @@ struct Step {
              }));
   }
 
+  // A threshold above all that a light body may have leaves it where it is; later it may mean equilibrium.
+  void warnOfThresholds() const {
+    traverse(root, on<role::LinearSolver>([&](auto const& linear, auto const& scope) {
+               if constexpr (requires { linear.notBegun; })
+                 if (linear.notBegun)
+                   notes().warn(scope.path(), "the linear solver did not begin", [&] {
+                     return text(
+                         "the linear solver did not begin, since p.A p of its first direction is not "
+                         "above its threshold, ",
+                         linear.threshold,
+                         "; forces move nothing then: give a smaller one");
+                   });
+             }));
+  }
+
   // (a function, since the body of a generic lambda is looked at where there is no loop)
   template <class Loop>
   void integrateConstrained(Loop& loop, bool keepsForces) const {
@@ -131,13 +149,14 @@ struct Step {
           loop.motion, loop.solveVelocityConstraintFirst, keepsForces);
   }
 
-  // What no solver moves is, during a step, where its constraints put it at the end of the step.
+  // What no solver moves is, during a step, where its constraints put it at the end of the step, unless they
+  // have put it before the step themselves.
   template <class S>
   void placeUnsolved(S const& scope, bool& moved) const {
     if (scope.template has<role::OdeSolver>()) return;
     auto visit = on<role::ProjectiveConstraint>([&](auto& c) {
       using C = std::decay_t<decltype(c)>;
-      if constexpr (!JoinsTwo<C>) {
+      if constexpr (!JoinsTwo<C> && !ActsBeforeStep<C>) {
         auto& s = scope.template state<typename C::DataTypes>();
         if constexpr (requires { c.projectVelocity(time, s.velocity); })
           c.projectVelocity(time + dt, s.velocity);
@@ -170,6 +189,7 @@ struct Step {
     operations.projectPositionAndVelocity(time + dt, vec_id::position, vec_id::velocity);
     operations.propagate(vec_id::position, vec_id::velocity);
     end_acted_forces<Ode>(operations);
+    FluidBoundaries<RootScope>{root}.giveForces(scope);
   }
 
   template <class C, class S>

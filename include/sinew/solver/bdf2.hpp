@@ -5,9 +5,9 @@
 
 namespace sinew {
 
-/// Backward differentiation (Curtiss, Hirschfelder 1952) of order 1: implicit Euler, 2: stable for any
-/// stiffness, or 3: stable but for springs that hardly damp (angles of more than 86 degrees). From what the
-/// state moved by in the steps before, dx- and dv-, dx-- and dv--, of the lengths h- and h--,
+/// Backward differentiation (Curtiss, Hirschfelder 1952) of order 1 to 3. Order 1 is implicit Euler, 2 is
+/// stable for any stiffness, 3 is stable but for springs that hardly damp (angles of more than 86 degrees).
+/// From what the state moved by in the steps before, dx- and dv-, dx-- and dv--, of the lengths h- and h--,
 ///   x1 = x + c dx- + d dx-- + B v1,   M (v1 - v - c dv- - d dv--) = B (f(x1, v1) - rM M v1 + rK K v1),
 /// with B, c and d so that cubics x(t) are met exactly: with p = h + h-, q = h- + h--, s = p + h--,
 ///   1/B = 1/h + 1/p + 1/s,   c = B h/h- (1/p + (1 + p/q)/s),   d = -B h/h-- p/(q s)
@@ -21,12 +21,12 @@ struct BDFOdeSolver {
   static constexpr std::string_view className = "BDFOdeSolver";
   static constexpr std::string_view aliases = "BDF2OdeSolver BDF2";
   static constexpr bool implicit = true;
-  static constexpr int convergenceOrder = 2;
+  static constexpr int convergenceOrder = 1;
   static constexpr Auxiliary auxiliary{.coords = 1, .derivs = 8};
   /// The first four auxiliary derivs, dx-, dv-, dx-- and dv--, keep their values from step to step.
   static constexpr Auxiliary history{.derivs = 4};
 
-  int order = 2;
+  int order = 1;
   double rayleighStiffness = 0;
   double rayleighMass = 0;
   int maxNbIterationsNewton = 1;

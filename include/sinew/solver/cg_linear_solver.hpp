@@ -50,8 +50,9 @@ struct CGLinearSolver {
   }
 
   std::vector<double>
-      residuals{};       // |b - A x| / |b| of the last solve: at the start, then after each iteration
-  MatrixFactors last{};  // of the last solve
+      residuals{};        // |b - A x| / |b| of the last solve: at the start, then after each iteration
+  MatrixFactors last{};   // of the last solve
+  bool notBegun = false;  // the last solve ended at its first direction, by the threshold
 
   using Vector =
       Eigen::Matrix<typename std::conditional_t<matrixFree, CompressedRowSparseMatrixd, Matrix>::Real,
@@ -152,10 +153,14 @@ struct CGLinearSolver {
     residuals.clear();
     keep_residual(residuals, rho == whole ? 1 : std::sqrt(rho / whole));
     if (!std::isfinite(rho) || !std::isfinite(whole)) advance(notSolved);
+    notBegun = false;
     for (int i = 0; i < iterations; ++i) {
       if (!(rho > tolerance * tolerance * whole)) return;
       const double curvature = multiply();
-      if (std::abs(curvature) <= threshold) return;
+      if (std::abs(curvature) <= threshold) {
+        notBegun = i == 0 && threshold > 0;
+        return;
+      }
       const double next = advance(std::isfinite(curvature) ? rho / curvature : notSolved);
       xpay(next / rho);
       rho = next;

@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/boundary_particles.hpp>
+#include <sinew/core/component.hpp>
+#include <sinew/solver/dfsph_flow.hpp>
+#include <sinew/solver/multi_vec.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+namespace sinew {
+
+/// Moves the particles of a fluid that is not compressed, by divergence-free SPH (Bender, Koschier 2017: the
+/// formulas are those of DFSPHFlow), explicit, order 1. The masses of the node over `density` are the volumes
+/// of the particles; its forces (gravity, planes, the viscosity and surface tension of an SPHFluidForceField
+/// without pressure) act beside the pressure. A substep takes out the divergence of the velocities, adds the
+/// forces, takes out what would compress the fluid, and moves it. The step of the scene is divided so that
+/// none moves farther than cflFactor times the distance of particles in a substep.
+struct DFSPHSolver {
+  using Role = role::OdeSolver;
+  static constexpr std::string_view className = "DFSPHSolver";
+  static constexpr std::string_view header = "sinew/solver/dfsph.hpp";
+  static constexpr bool implicit = false;
+  static constexpr int convergenceOrder = 0;
+  static constexpr Auxiliary auxiliary{.derivs = 1};
+
+  double radius = 1, density = 1000;
+  double maxError = 1e-4, maxErrorV = 1e-3;
+  int maxIterations = 100, maxIterationsV = 100;
+  bool enableDivergenceSolver = true;
+  double cflFactor = 0.4;
+  int maxSubsteps = 20;
+
+  static constexpr auto fields() {
+    using S = DFSPHSolver;
+    return field_list(
+        field("radius",
+              &S::radius,
+              "m",
+              "how far particles act on each other: twice their distance",
+              range::positive),
+        field("density", &S::density, "kg/m^3", "at rest", range::positive),
+        field("maxError",
+              &S::maxError,
+              "",
+              "mean error of the density over that at rest at the end of a substep",
+              range::positive),
+        field("maxErrorV",
+              &S::maxErrorV,
+              "",
+              "mean of what the divergence would compress in a substep, over the density at rest",
+              range::positive),
+        field("maxIterations", &S::maxIterations, "", "for the density, at most", range::atLeast(2)),
+        field("maxIterationsV", &S::maxIterationsV, "", "for the divergence, at most", range::atLeast(2)),
+        field("enableDivergenceSolver",
+              &S::enableDivergenceSolver,
+              "",
+              "velocities are made free of divergence, too"),
+        field("cflFactor",
+              &S::cflFactor,
+              "",
+              "how far a particle moves in a substep at most, over the distance of particles",
+              Range{.low = 0, .high = 1, .openLow = true}),
+        field("maxSubsteps", &S::maxSubsteps, "", "more of them in a step are an error", range::atLeast(1)));
+  }
+
+  std::vector<double> pressures{}, pressuresV{};
+
+  /// What the next step starts from, besides positions and velocities.
+  static constexpr auto state() {
+    using S = DFSPHSolver;
+    return field_list(field("pressures", &S::pressures, "m^2/s^2", "over the density, of the last substep"),
+                      field("pressuresV", &S::pressuresV, "m^2/s^2", "the same of the divergence"));
+  }
+  void reset() {
+    pressures.assign(pressures.size(), 0.0);
+    pressuresV.assign(pressuresV.size(), 0.0);
+  }
+
+  BoundaryParticles boundary{};
+
+  DFSPHFlow flow{};
+  DFSPHFlow::Iteration ofDensity{}, ofDivergence{};  // of the last substep
+  int substeps = 0;                                  // of the last step
+  double distance = 0;                               // of particles, by the smallest volume [m]
+  std::string where{};
+
+  template <class Operations>
+  void init(Operations& operations) {
+    where = text(operations.root.path(), ": ", component_name<DFSPHSolver>());
+    int states = 0;
+    operations.forEachIndependent([&](auto& s) {
+      using D = typename std::decay_t<decltype(s)>::DataTypes;
+      if constexpr (is_fluid<D>)
+        ++states;
+      else
+        throw Error(where,
+                    "a state below is not one of points in space on the host (Vec3d, Vec3f); give bodies a "
+                    "solver of their own");
+    });
+    if (states != 1)
+      throw Error(
+          where,
+          text(states, " states are below, but a solver moves the particles of one; give each a solver"));
+    findVolumes(operations);
+    flow.reserve(flow.fluidSize(), boundary.size());
+    if (radius < distance || radius > 4 * distance)
+      throw Error(where,
+                  text("radius is ",
+                       radius,
+                       " m, and particles of their mass are ",
+                       distance,
+                       " m apart at rest; take twice that, or correct the mass or the density"));
+    flow.radius = radius;
+    flow.calibrate(distance);
+    flow.workers = {};
+    withFluid(operations, [&](auto& s) { read(s); });
+    flow.place(where);
+    if (const auto [i, j] = flow.coincident(); i >= 0)
+      throw Error(where, text("particles ", i, " and ", j, " are in one place; move one"));
+    for (auto* k : {&pressures, &pressuresV})
+      if (k->size() != flow.fluidSize()) k->assign(flow.fluidSize(), 0.0);
+  }
+
+  template <class Operations>
+  void solve(Operations& operations, double dt) {
+    MultiVecCoord pos(operations, vec_id::position);
+    MultiVecDeriv vel(operations, vec_id::velocity), acc(operations);
+    if constexpr (std::is_same_v<decltype(operations.workers()), SomeWorkers>)
+      flow.workers = operations.workers();
+    const double start = operations.time;
+    substeps = 0;
+    flow.impulses.assign(boundary.size(), Eigen::Vector3d::Zero());
+    for (double done = 0; done < dt;) {
+      operations.computeAcc(start + done, acc, pos, vel);
+      withFluid(operations, [&](auto& s) { read(s, s[acc.id]); });
+      const double h = substep(dt, done);
+      flow.place(where);
+      if (enableDivergenceSolver) {
+        ofDivergence.most = maxIterationsV, ofDivergence.tolerance = maxErrorV;
+        flow.solveDivergence(h, ofDivergence, pressuresV);
+      }
+      for (std::size_t i = 0; i < flow.fluidSize(); ++i) flow.velocities[i] += h * flow.accelerations[i];
+      ofDensity.most = maxIterations, ofDensity.tolerance = maxError;
+      flow.solveDensity(h, ofDensity, pressures);
+      withFluid(operations, [&](auto& s) { takePressure(s, s[acc.id], h); });
+      operations.acted.add(vec_id::force, h / dt);
+      operations.projectResponse(acc.id);
+      vel.peq(acc, h);
+      pos.peq(vel, h);
+      for (std::size_t i = 0; i < boundary.size(); ++i) boundary.positions[i] += h * boundary.velocities[i];
+      ++substeps;
+      done = h >= (dt - done) * (1 - 1e-12) ? dt : done + h;
+    }
+    for (std::size_t i = 0; i < boundary.size(); ++i) boundary.forces[i] = density / dt * flow.impulses[i];
+    operations.time = start;
+  }
+
+ private:
+  template <class D>
+  static constexpr bool is_fluid = [] {
+    if constexpr (requires { typename D::Coord; })
+      return D::size == 3 && !D::rigid &&
+             std::is_same_v<typename D::VecCoord, std::vector<typename D::Coord>>;
+    else
+      return false;
+  }();
+
+  template <class Operations, class F>
+  static void withFluid(Operations& operations, F&& f) {
+    operations.forEachIndependent([&](auto& s) {
+      if constexpr (is_fluid<typename std::decay_t<decltype(s)>::DataTypes>) f(s);
+    });
+  }
+  // masses over the density
+  template <class Operations>
+  void findVolumes(Operations& operations) {
+    withFluid(operations, [&](auto& s) {
+      using Deriv = typename std::decay_t<decltype(s)>::DataTypes::Deriv;
+      s.dx.assign(s.size(), Deriv::Unit(0));
+      s.force.assign(s.size(), Deriv::Zero());
+    });
+    operations.addMBKdx(vec_id::force, vec_id::dx, {.m = 1});
+    withFluid(operations, [&](auto& s) {
+      using Deriv = typename std::decay_t<decltype(s)>::DataTypes::Deriv;
+      flow.volumes.clear();
+      double least = std::numeric_limits<double>::infinity();
+      for (std::size_t i = 0; i < s.size(); ++i) {
+        const double mass = double(s.force[i][0]);
+        if (!(mass > 0))
+          throw Error(where,
+                      text("particle ", i, " has the mass ", mass, " kg; give the node a UniformMass"));
+        flow.volumes.push_back(mass / density);
+        least = std::min(least, mass / density);
+      }
+      distance = std::cbrt(least);
+      s.dx.assign(s.size(), Deriv::Zero());
+      s.force.assign(s.size(), Deriv::Zero());
+    });
+  }
+  template <class State>
+  void read(State const& s) {
+    const std::size_t n = flow.fluidSize();
+    for (auto* v : {&flow.positions, &flow.velocities}) v->resize(n + boundary.size());
+    std::copy(
+        boundary.positions.begin(), boundary.positions.end(), flow.positions.begin() + std::ptrdiff_t(n));
+    std::copy(
+        boundary.velocities.begin(), boundary.velocities.end(), flow.velocities.begin() + std::ptrdiff_t(n));
+    for (std::size_t i = 0; i < n; ++i) {
+      flow.positions[i] = s.position[i].template cast<double>();
+      flow.velocities[i] = s.velocity[i].template cast<double>();
+    }
+  }
+  template <class State, class VecDeriv>
+  void read(State const& s, VecDeriv const& acceleration) {
+    read(s);
+    flow.accelerations.resize(flow.fluidSize());
+    for (std::size_t i = 0; i < flow.fluidSize(); ++i)
+      flow.accelerations[i] = acceleration[i].template cast<double>();
+  }
+  // The length of the next substep: the rest of the step in as few as the CFL number lets.
+  double substep(double dt, double done) const {
+    const double longest = flow.longestStep(cflFactor * distance), rest = dt - done;
+    const double count = std::max(1.0, std::ceil(rest / longest * (1 - 1e-9)));
+    if (!(substeps + count <= maxSubsteps))
+      throw Error(where,
+                  text("a step of ",
+                       dt,
+                       " s is beyond the CFL limit: particles would move farther than ",
+                       cflFactor,
+                       " of their distance of ",
+                       distance,
+                       " m in ",
+                       longest,
+                       " s; take a step of less than ",
+                       maxSubsteps * longest,
+                       " s, more maxSubsteps, or look for what drives them"));
+    return rest / count;
+  }
+  // acceleration = (new velocity - velocity) / h, and the force of the pressure
+  template <class State, class VecDeriv>
+  void takePressure(State& s, VecDeriv& acceleration, double h) const {
+    using Deriv = typename State::DataTypes::Deriv;
+    using Real = typename State::DataTypes::Real;
+    for (std::size_t i = 0; i < flow.fluidSize(); ++i) {
+      const Eigen::Vector3d whole = (flow.velocities[i] - s.velocity[i].template cast<double>()) / h;
+      s.force[i] +=
+          Deriv((density * flow.volumes[i] * (whole - flow.accelerations[i])).template cast<Real>());
+      acceleration[i] = whole.template cast<Real>();
+    }
+  }
+};
+
+}  // namespace sinew
