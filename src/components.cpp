@@ -27,6 +27,8 @@
 #include <sinew/engine/sphere_loader.hpp>
 #include <sinew/engine/string_mesh_creator.hpp>
 #include <sinew/engine/topological_mapping.hpp>
+#include <sinew/fluid/fluid2d.hpp>
+#include <sinew/fluid/fluid3d.hpp>
 #include <sinew/force/element_pressure.hpp>
 #include <sinew/force/hyperelastic_material.hpp>
 #include <sinew/force/viscoelastic_material.hpp>

@@ -4,6 +4,8 @@
 #include <sinew/runtime/from_typed.hpp>
 #include <sinew/runtime/precompiled.hpp>
 
+#include <algorithm>
+#include <iterator>
 #include <type_traits>
 
 namespace sinew {
@@ -24,9 +26,14 @@ struct RegistryNode {
     else
       return std::type_identity<C>{};
   }
+  /// The component that stands where the first of class C does in the typed node.
   template <class C>
   auto& get() const {
-    return *node.get<typename decltype(registered<C>())::type>();
+    constexpr auto place = []<class... Cs>(hana::tuple<Cs...> const*) {
+      constexpr bool same[] = {std::is_same_v<C, Cs>...};
+      return std::size_t(std::find(std::begin(same), std::end(same), true) - std::begin(same));
+    }(static_cast<decltype(N::components)*>(nullptr));
+    return *node.components()[place].component.template getIf<typename decltype(registered<C>())::type>();
   }
   template <class Role>
   auto& first() const {

@@ -32,6 +32,11 @@ set(quick_runtime bad_places bake_text change contact dialect dialect_run every_
 set(quick_baked tetrahedra)
 set(quick_ccd collision/hull_pairs)
 set(quick_view picture)
+# pages of components, one of each role, whose C++ is compiled
+set(quick_component_examples BarycentricMapping BilateralLagrangianConstraint BoxROI CGLinearSolver ContinuousIntersection
+    ConvexConstraintSolver DiagonalMass FixedConstraint FreeMotionAnimationLoop Gravity MechanicalObject MeshGmshLoader MeshTopology
+    NewmarkImplicitSolver StiffSpringForceField TetrahedronFEMForceField Threads TreeBroadPhase TriangleCollisionModel
+    UncoupledConstraintCorrection VisualModel WriteState)
 set(quick_examples liver one_tetrahedron string_on_rigid)
 # the mistakes that beginners make
 set(quick_mistakes collision_without_pipeline force_misspelt force_no_add_force force_not_assembled force_of_other_types

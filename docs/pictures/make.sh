@@ -15,7 +15,9 @@ picture() {
   cp "$out/$name/000001.png" "docs/pictures/$name.png"
 }
 
-(cd "$out" && "$programs/guide_beam" >/dev/null && cp beam.png "$OLDPWD/docs/pictures/beam.png")
+for name in beam floor; do
+  (cd "$out" && "$programs/guide_$name" >/dev/null && cp "$name.png" "$OLDPWD/docs/pictures/$name.png")
+done
 picture stress liver 60 --colour vonMises
 picture contacts contacts 150 --arrows contacts
 picture fluid fluid 110 --colour speed --camera "10 7 24  0 2.5 -1"

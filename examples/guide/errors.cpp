@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// What is said of settings, files and steps that cannot be, and how a program goes on.
+// The messages of settings, files and steps that are wrong, and how a program goes on after them.
 #include <sinew/io/read_gmsh.hpp>
 #include <sinew/mechanics.hpp>
 

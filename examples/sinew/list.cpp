@@ -6,6 +6,10 @@
 #include <algorithm>
 #include <cstdio>
 
+namespace sinew {
+extern template std::vector<std::vector<CppMember>> cpp_members<Standard>();
+}
+
 namespace cli {
 
 using sinew::text;
@@ -107,7 +111,8 @@ int list(ListOptions const& options) {
   const auto table = sinew::make_class_table<sinew::Standard>();
   const auto entries = entries_of(table);
   if (!options.markdown.empty()) {
-    for (auto const& page : reference_pages(entries, options.headers))
+    const auto members = sinew::cpp_members<sinew::Standard>();
+    for (auto const& page : reference_pages(entries, {members, options.headers, options.scenes}))
       writing([&] { sinew::io::write_file(text(options.markdown, '/', page.name), page.text); });
     return ok;
   }

@@ -243,6 +243,9 @@ Options read_options(int argc, char** argv, int& status) {
   list->add_option("--headers", o.list.headers, "Folder of Sinew's headers, whose comments the pages have")
       ->type_name("FOLDER")
       ->capture_default_str();
+  list->add_option("--scenes", o.list.scenes, "Folder of Sinew's scenes, whose data files the examples read")
+      ->type_name("FOLDER")
+      ->capture_default_str();
 
   auto* bake = app.add_subcommand("bake", "Write a scene as C++, which runs faster than its file");
   bake->footer("Example:  sinew bake liver.scn -o liver.hpp");

@@ -70,7 +70,7 @@ struct CheckOptions {
   bool quiet = false;
 };
 struct ListOptions {
-  std::string component{}, markdown{}, headers{"include/sinew"};
+  std::string component{}, markdown{}, headers{"include/sinew"}, scenes{"examples/scenes"};
 };
 struct BakeOptions {
   SceneOptions scene{};

@@ -3,6 +3,8 @@
 
 #include "scene.hpp"
 
+#include <sinew/runtime/cpp_members.hpp>
+
 namespace cli {
 
 /// One class of components with all its instantiations.
@@ -22,6 +24,7 @@ std::vector<Entry> entries_of(std::vector<sinew::ClassInfo> const& table);
 
 struct RoleWords {
   std::string_view title, explanation;
+  std::string_view guide{}, guideTitle{};  // a page that leads on, as docs/components links to it
 };
 RoleWords words_of(sinew::RoleKind role);
 
@@ -36,14 +39,24 @@ struct FieldWords {
 };
 FieldWords words_of(Entry const& entry, std::string_view field, bool input);
 
+/// A scene with the component as its users write it: XML in SOFA's dialect. Empty where none is known, of a
+/// class that is not Sinew's.
+std::string example_of(Entry const& entry);
+
 std::string joined(std::vector<std::string> const& words, std::string_view between);
 
 /// A file of the reference: Markdown.
 struct Page {
   std::string name, text;
 };
-/// A page for each component, and README.md that lists them. What they are is taken from the comments in the
-/// headers in a folder. Throws Failure where a component or a field has no explanation.
-std::vector<Page> reference_pages(std::vector<Entry> const& entries, std::string const& headerFolder);
+/// What the pages are made of, beside the table of classes.
+struct ReferenceSources {
+  std::vector<std::vector<sinew::CppMember>> const& members;  // of each class of the table
+  std::string headers;                                        // folder whose comments say what components are
+  std::string scenes;                                         // folder of the data files that examples read
+};
+/// A page for each component, and README.md that lists them. Examples are loaded, stepped, and baked into
+/// C++. Throws Failure where a component or a field has no explanation, or an example does not run.
+std::vector<Page> reference_pages(std::vector<Entry> const& entries, ReferenceSources const& sources);
 
 }  // namespace cli

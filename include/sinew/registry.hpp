@@ -3,6 +3,8 @@
 
 #include <sinew/core/registry.hpp>
 #include <sinew/engine/mesh_vtk_loader.hpp>
+#include <sinew/fluid/fluid2d.hpp>
+#include <sinew/fluid/fluid3d.hpp>
 #include <sinew/lagrangian.hpp>
 #include <sinew/sinew.hpp>
 #include <sinew/solver/dfsph.hpp>
@@ -164,9 +166,11 @@ using StandardMultipliers =
              UncoupledConstraintCorrection<Rigid3d>, PrecomputedConstraintCorrection<Vec3d>,
              PrecomputedConstraintCorrection<Rigid3d>, LagrangianConstraints>;
 
+using GridFluids = Registry<Fluid2D, Fluid3D>;
+
 /// Every component that Sinew brings, over the DataTypes that scenes use.
 struct Standard : Registry<Gravity, Threads, StandardTopologies, MadeMeshes, VisualModel, StandardEngines,
-                           StandardForces, StandardMappings, StandardSolvers, StandardCollision,
+                           GridFluids, StandardForces, StandardMappings, StandardSolvers, StandardCollision,
                            StandardMultipliers, Playback<Vec3d>, Playback<Rigid3d>> {
   static constexpr bool proved = true;  // tests/runtime/promises.cpp
 };

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSL-1.0
 """Holds the pages against the tree: pages.py ROOT. Each link leads to a file, and each anchor to a heading; the programs of the guide
-are those of examples/guide, but for the line of the licence; each page is in the navigation of the site."""
+are those of examples/guide, but for the line of the licence; each page is in the navigation of the site; the newest version in
+CHANGELOG.md is that of the headers; each component has an example, in XML and in C++."""
 import pathlib
 import re
 import sys
@@ -58,11 +59,33 @@ def check_navigation(root, wrong):
         wrong.append(f"mkdocs.yml: there is no page docs/{page}")
 
 
+def check_version(root, wrong):
+    header = (root / "include/sinew/version.hpp").read_text()
+    version = ".".join(re.findall(r"define SINEW_VERSION_(?:MAJOR|MINOR|PATCH) (\d+)", header))
+    released = re.findall(r"^## (\d+\.\d+\.\d+) - \d{4}-\d{2}-\d{2}$", (root / "CHANGELOG.md").read_text(), flags=re.M)
+    if not released or released[0] != version:
+        wrong.append(f"CHANGELOG.md: its newest version is {released[:1]}, but include/sinew/version.hpp has {version}")
+
+
+def check_examples(root, wrong):
+    for page in sorted(root.glob("docs/components/*.md")):
+        text = page.read_text()
+        name = page.stem
+        if name == "README":
+            continue
+        for language, element in ("xml", rf"<{name}[ />]"), ("cpp", rf"\b{name}\b"):
+            blocks = re.findall(rf"^```{language}\n(.*?)^```", text, flags=re.M | re.S)
+            if not any(re.search(element, block) for block in blocks):
+                wrong.append(f"{page.relative_to(root)}: no example in {language} has a {name}")
+
+
 def main(root):
     wrong = []
     check_links(root, wrong)
     check_programs(root, wrong)
     check_navigation(root, wrong)
+    check_version(root, wrong)
+    check_examples(root, wrong)
     for line in wrong:
         print(line)
     return 1 if wrong else 0

@@ -496,12 +496,15 @@ elseif(CASE STREQUAL "list")
   expect_error("'sinew list' shows all")
   sinew(2 list --markdown pages --headers no/such/folder)
   expect_error("no/such/folder")
-  sinew(4 list --markdown no/such/folder --headers ${HEADERS})
+  sinew(2 list --markdown pages --headers ${HEADERS} --scenes no/such/folder)
+  expect_error("no/such/folder")
+  sinew(4 list --markdown no/such/folder --headers ${HEADERS} --scenes ${SCENES})
 
 elseif(CASE STREQUAL "page")
   # the reference pages in docs/ are what the program writes, all of them
   file(MAKE_DIRECTORY ${WORK}/pages)
-  sinew(0 list --markdown pages --headers ${HEADERS})
+  # examples in them are loaded and stepped
+  sinew(0 list --markdown pages --headers ${HEADERS} --scenes ${SCENES})
   file(GLOB names RELATIVE ${WORK}/pages ${WORK}/pages/*.md)
   file(GLOB committed RELATIVE ${PAGES} ${PAGES}/*.md)
   if(NOT names STREQUAL committed)

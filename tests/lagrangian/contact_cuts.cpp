@@ -95,8 +95,8 @@ TEST_CASE("where springs of a net are cut that lies on a ball, its edge slides d
                     PointCollisionModel<Vec3d>{}));
     sim.init();
     for (int i = 0; i < 100; ++i) sim.animate(dt);
-    auto const& state = sim.template at<"net">().state();
-    const double before = state.position[8 + 9 * 4][2];
+    auto place = [&](std::size_t i) { return sim.template at<"net">().state().position[i]; };
+    const double before = place(8 + 9 * 4)[2];
     // the springs between the columns 6 and 7
     auto const& edges = sim.template at<"net">().template get<MeshTopology>().edges;
     std::vector<int> out;
@@ -108,11 +108,12 @@ TEST_CASE("where springs of a net are cut that lies on a ball, its edge slides d
     sim.removeElements("net", {.edges = out});
     for (int i = 0; i < 100; ++i) {
       sim.animate(dt);
+      auto const& state = sim.template at<"net">().state();  // which a removal has moved
       REQUIRE(is_finite(state));
       for (auto const& x : state.position) CHECK(x.norm() > 0.51 - 2e-3);
     }
-    CHECK(state.position[8 + 9 * 4][2] < before - 0.1);
-    CHECK(state.position[40][2] > 0.5);
+    CHECK(place(8 + 9 * 4)[2] < before - 0.1);
+    CHECK(place(40)[2] > 0.5);
   };
   falls(gaussSeidel);
   falls(convex);
@@ -144,23 +145,23 @@ TEST_CASE("what a tool carves goes on to touch it, by multipliers") {
         node<"tool">(MechanicalObject<Vec3d>{.position = {{0.02, 0.03, 0.42}}},
                      SphereCollisionModel<Vec3d>{.simulated = false, .radius = 0.1}))};
     sim.init();
-    auto const& manager = sim.root().template get<DefaultContactManager>();
     auto press = [&](int steps, double by) {
       double force = 0;
       for (int i = 0; i < steps; ++i) {
         sim.template at<"tool">().state().position[0][2] -= by;  // which a removal may have moved
         sim.animate(dt);
         REQUIRE(is_finite(sim.template at<"block">().state()));
-        force = std::max(force, -force_on(manager, "/root/block")[2]);
+        force =
+            std::max(force, -force_on(sim.root().template get<DefaultContactManager>(), "/root/block")[2]);
       }
       return force;
     };
     const double pressed = press(20, 0.001);
-    auto& carving = sim.root().template get<CarvingManager>();
-    carving.active = true;
+    auto carving = [&]() -> CarvingManager& { return sim.root().template get<CarvingManager>(); };
+    carving().active = true;
     press(5, 0.001);
-    carving.active = false;
-    const long removed = carving.removed;
+    carving().active = false;
+    const long removed = carving().removed;
     const double again = press(60, 0.001);
     CHECK(pressed > 1);
     CHECK(removed > 0);

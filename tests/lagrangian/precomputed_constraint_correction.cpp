@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "catch.hpp"
 #include "io/files.hpp"
-#include "registry_scene.hpp"
 
 #include <sinew/lagrangian.hpp>
 #include <sinew/mechanics.hpp>
@@ -28,17 +27,16 @@ auto held_block(Linear linear, Eigen::Matrix3d const& R, Constraint constraint, 
   for (auto const& x : mesh.positions) turned.push_back(R * x + Eigen::Vector3d(1, 2, 3));
   MechanicalObject<Vec3d> state{.position = turned};
   state.restPosition = mesh.positions;
-  return RegistryScene{
-      node<"root">(FreeMotionAnimationLoop{},
-                   BlockGaussSeidelConstraintSolver{.maxIterations = 10000, .tolerance = 1e-15},
-                   EulerImplicitSolver{.rayleighStiffness = 0.01},
-                   linear,
-                   TetrahedronTopology{mesh.tetrahedra},
-                   state,
-                   DiagonalMass<Vec3d>{.massDensity = 1000},
-                   TetrahedronFEMForceField<Vec3d>{.youngModulus = {1e5}, .poissonRatio = 0.3},
-                   constraint,
-                   correction...)};
+  return Simulation{node<"root">(FreeMotionAnimationLoop{},
+                                 BlockGaussSeidelConstraintSolver{.maxIterations = 10000, .tolerance = 1e-15},
+                                 EulerImplicitSolver{.rayleighStiffness = 0.01},
+                                 linear,
+                                 TetrahedronTopology{mesh.tetrahedra},
+                                 state,
+                                 DiagonalMass<Vec3d>{.massDensity = 1000},
+                                 TetrahedronFEMForceField<Vec3d>{.youngModulus = {1e5}, .poissonRatio = 0.3},
+                                 constraint,
+                                 correction...)};
 }
 template <class Linear, class... Correction>
 auto block(Linear linear, Eigen::Matrix3d const& R, Correction... correction) {
@@ -93,7 +91,7 @@ TEST_CASE("the inertia of a precomputed rigid body turns with it") {
     now.orientation = Quat<double>(Eigen::AngleAxisd(1.3, Eigen::Vector3d(1, 2, -1).normalized()));
     MechanicalObject<Rigid3d> state{.position = {now}};
     state.restPosition = {rest};
-    RegistryScene sim{node<"root">(
+    Simulation sim{node<"root">(
         FreeMotionAnimationLoop{},
         BlockGaussSeidelConstraintSolver{},
         EulerExplicitSolver{},
@@ -171,12 +169,12 @@ TEST_CASE("a compliance is read from the file to which it was written, and from 
 }
 
 TEST_CASE("points that no elements join do not say how they turn") {
-  RegistryScene sim{node<"root">(FreeMotionAnimationLoop{},
-                                 BlockGaussSeidelConstraintSolver{},
-                                 EulerExplicitSolver{},
-                                 MechanicalObject<Vec3d>{.position = {{0, 0, 0}}},
-                                 UniformMass<Vec3d>{},
-                                 Precomputed{.rotations = true})};
+  Simulation sim{node<"root">(FreeMotionAnimationLoop{},
+                              BlockGaussSeidelConstraintSolver{},
+                              EulerExplicitSolver{},
+                              MechanicalObject<Vec3d>{.position = {{0, 0, 0}}},
+                              UniformMass<Vec3d>{},
+                              Precomputed{.rotations = true})};
   CHECK_THROWS_WITH(sim.init(), Catch::Contains("rotations: no elements join the points"));
 }
 

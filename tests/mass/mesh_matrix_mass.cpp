@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "catch.hpp"
-#include "registry_scene.hpp"
 
 #include <sinew/mass/mesh_matrix_mass.hpp>
 #include <sinew/sinew.hpp>
@@ -257,13 +256,13 @@ TEST_CASE("a bar of springs rings at the frequency of its mass matrix") {
                                        : 6 / (h * h) * (1 - std::cos(k * h)) / (2 + std::cos(k * h)));
     const double end = std::acos(-1) / w / 2;  // a quarter of the period: the end passes its rest position
     auto run = [&](auto solver, int steps) {
-      RegistryScene sim{node<"root">(solver,
-                                     SparseLDLSolver<CompressedRowSparseMatrixd>{},
-                                     state,
-                                     springs,
-                                     EdgeChain{n},
-                                     MeshMatrixMass<Vec1d>{.totalMass = 1, .lumping = lumping},
-                                     FixedConstraint<Vec1d>{.indices = {0}})};
+      Simulation sim{node<"root">(solver,
+                                  SparseLDLSolver<CompressedRowSparseMatrixd>{},
+                                  state,
+                                  springs,
+                                  EdgeChain{n},
+                                  MeshMatrixMass<Vec1d>{.totalMass = 1, .lumping = lumping},
+                                  FixedConstraint<Vec1d>{.indices = {0}})};
       sim.init();
       for (int i = 0; i < steps; ++i) sim.animate(end / steps);
       return (sim.root().state().position[std::size_t(n)][0] - 1) / 1e-3;
@@ -282,7 +281,7 @@ TEST_CASE("a bar of springs rings at the frequency of its mass matrix") {
 // are left.
 TEST_CASE("EulerExplicitSolver solves with the mass that is not lumped where a linear solver is in reach") {
   auto accelerations = [](bool lumping, bool fixed, auto... linear) {
-    RegistryScene sim{node<"root">(
+    Simulation sim{node<"root">(
         linear...,
         node<"body">(EulerExplicitSolver{},
                      EdgeChain{1},
@@ -315,14 +314,14 @@ TEST_CASE("EulerExplicitSolver solves with the mass that is not lumped where a l
 TEST_CASE("EulerExplicitSolver counts masses of mapped states where a linear solver is in reach") {
   auto speed = [](auto... linear) {
     const Vec1d::VecCoord place{Vec<double, 1>(0)};
-    RegistryScene sim{node<"root">(linear...,
-                                   EulerExplicitSolver{},
-                                   MechanicalObject<Vec1d>{.position = place},
-                                   UniformMass<Vec1d>{.vertexMass = 1},
-                                   ConstantForceField<Vec1d>{.indices = {0}, .forces = {Vec<double, 1>(12)}},
-                                   node<"mapped">(MechanicalObject<Vec1d>{.position = place},
-                                                  UniformMass<Vec1d>{.vertexMass = 3},
-                                                  IdentityMapping<Vec1d, Vec1d>{}))};
+    Simulation sim{node<"root">(linear...,
+                                EulerExplicitSolver{},
+                                MechanicalObject<Vec1d>{.position = place},
+                                UniformMass<Vec1d>{.vertexMass = 1},
+                                ConstantForceField<Vec1d>{.indices = {0}, .forces = {Vec<double, 1>(12)}},
+                                node<"mapped">(MechanicalObject<Vec1d>{.position = place},
+                                               UniformMass<Vec1d>{.vertexMass = 3},
+                                               IdentityMapping<Vec1d, Vec1d>{}))};
     sim.init();
     sim.animate(1);
     return sim.root().state().velocity[0][0];
@@ -335,7 +334,7 @@ TEST_CASE("EulerExplicitSolver counts masses of mapped states where a linear sol
 TEST_CASE("steps with the consistent mass do not depend on how the system is formed") {
   const Mesh mesh = regular_grid_tetrahedra(4, 3, 3, {0, 0, 0}, {2, 1, 1});
   auto run = [&](auto linear, int before) {
-    RegistryScene sim{node<"root">(
+    Simulation sim{node<"root">(
         Gravity{{0, -9.81, 0}},
         EulerImplicitSolver{.rayleighMass = 0.1},
         linear,

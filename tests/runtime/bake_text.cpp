@@ -167,4 +167,14 @@ TEST_CASE("what does not run is not baked") {
   CHECK_THROWS_WITH(bake_text<Standard>(named, "t.scn", {}), Contains("has no '/'"));
 }
 
+TEST_CASE("an optional field links to the value that it holds") {
+  const std::string cpp = bake(R"(<Node name="root"><EulerExplicitSolver/>
+    <GenerateRigidMass name="inside" density="12" position="0 0 0 1 0 0 0 1 0 0 0 1"
+                       triangles="0 2 1 0 1 3 1 2 3 0 3 2"/>
+    <MechanicalObject template="Rigid3d"/><UniformMass vertexMass="@inside.rigidMass"/></Node>)");
+  check_shape(cpp);
+  CHECK_THAT(cpp, Contains("  inside.update(\"/root: inside\");\n"));
+  CHECK_THAT(cpp, Contains("UniformMass<Rigid3d>{.vertexMass = inside.rigidMass}"));
+}
+
 }  // namespace test_bake_text

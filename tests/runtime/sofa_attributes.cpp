@@ -83,6 +83,8 @@ namespace {
 
 // two values in words are the same where their numbers are, or their words in whatever case
 bool same_value(std::string const& a, std::string const& b) {
+  const auto zeros = [](std::string const& words) { return words.find_first_not_of(" 0.") == words.npos; };
+  if (!a.empty() && zeros(a) && zeros(b)) return true;  // of other DataTypes
   std::istringstream first(a), second(b);
   std::string x, y;
   while (first >> x) {
@@ -112,6 +114,8 @@ TEST_CASE("what a scene leaves out has SOFA's default, or the exception has a re
       {"Gravity.gravity", "that of a node without one, which SOFA's nodes have"},
       {"MeshSpringForceField.stiffness", "the factory lists that of StiffSpringForceField; MeshSpringForceField.inl has 0"},
       {"MeshSpringForceField.damping", "the same"},
+      {"RestShapeSpringsForceField.activeDirections", "none given are all"},
+      {"UncoupledConstraintCorrection.defaultCompliance", "rigid bodies answer by their masses"},
       {"RigidMapping.geometricStiffness", "the factory lists that of all mappings; RigidMapping.inl selects none"}};
   const auto table = make_class_table<Standard>();
   std::set<std::string> other;

@@ -122,7 +122,7 @@ std::vector<Method> methods() {
       {"<VariationalSymplecticSolver explicitIntegration=\"1\"/>" + linear, {}, true},
       {"<NewmarkImplicitSolver/>" + linear, trapezoid},
       {"<NewmarkImplicitSolver gamma=\"0.7\" beta=\"0.4\" rayleighStiffness=\"0.01\"/>" + linear, newmark},
-      {"<BDFOdeSolver/>" + linear, bdf},
+      {"<BDFOdeSolver order=\"2\"/>" + linear, bdf},
       {"<BDFOdeSolver order=\"1\" maxNbIterationsNewton=\"30\" relativeInitialStoppingThreshold=\"1e-13\"/>" +
        linear}};
 }

@@ -24,15 +24,21 @@ double order(Error&& error, int steps) {
 
 template <class Solver>
 auto mass_on_spring(Solver solver, Eigen::Vector2d x, Eigen::Vector2d v) {
-  RegistryScene sim{node<"root">(
+  const auto scene = node<"root">(
       solver,
       SparseLDLSolver<CompressedRowSparseMatrixd>{},
       MechanicalObject<Vec2d>{.position = {{0, 0}, x}, .velocity = {{0, 0}, v}},
       UniformMass<Vec2d>{.vertexMass = 2},
       StiffSpringForceField<Vec2d>{.springs = {{.first = 0, .second = 1, .stiffness = 8, .length = 1}}},
-      FixedConstraint<Vec2d>{.indices = {0}})};
-  sim.init();
-  return sim;
+      FixedConstraint<Vec2d>{.indices = {0}});
+  auto started = [](auto sim) {
+    sim.init();
+    return sim;
+  };
+  if constexpr (registered_index<Standard, Solver> >= 0)
+    return started(RegistryScene{scene});
+  else
+    return started(Simulation{scene});
 }
 
 /// Along the spring: x = 1 + e^-ct (cos wt + c/w sin wt) / 2 with c = (rM + 4 rK) / 2, w^2 = 4 - c^2. The

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "catch.hpp"
-#include "registry_scene.hpp"
 
 #include <sinew/sinew.hpp>
 
@@ -29,7 +28,7 @@ double order(double coarse, double fine) { return std::log2(coarse / fine); }
 template <class... Solver>
 double oscillator_error(int steps, Solver... solver) {
   const double end = 1.3;
-  RegistryScene sim{node<"root">(
+  Simulation sim{node<"root">(
       solver...,
       MechanicalObject<Vec3d>{.position = {{0, 0, 0}, {1.5, 0, 0}}},
       UniformMass<Vec3d>{.vertexMass = 1},
@@ -62,7 +61,7 @@ double quarter_period(double w, double phi0) {
 template <class... Solver>
 double pendulum_error(int steps, Solver... solver) {
   const double phi0 = 1, g = 10, inertia = 0.25;
-  RegistryScene sim{node<"root">(
+  Simulation sim{node<"root">(
       Gravity{{0, -g, 0}},
       solver...,
       MechanicalObject<Rigid2d>{.position = {{{0, 0}, phi0}}},
@@ -80,10 +79,10 @@ double pendulum_error(int steps, Solver... solver) {
 }  // namespace
 
 TEST_CASE("free fall follows the recurrence of symplectic Euler exactly") {
-  RegistryScene sim{node<"root">(Gravity{{0, -10, 0}},
-                                 EulerExplicitSolver{},
-                                 MechanicalObject<Vec3d>{.position = {{0, 0, 0}}, .velocity = {{1, 0, 0}}},
-                                 UniformMass<Vec3d>{.vertexMass = 2})};
+  Simulation sim{node<"root">(Gravity{{0, -10, 0}},
+                              EulerExplicitSolver{},
+                              MechanicalObject<Vec3d>{.position = {{0, 0, 0}}, .velocity = {{1, 0, 0}}},
+                              UniformMass<Vec3d>{.vertexMass = 2})};
   sim.init();
   const double h = 0.125;  // a power of two, so that the sums below are exact
   for (int n = 1; n <= 64; ++n) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "catch.hpp"
 #include "record.hpp"
-#include "registry_scene.hpp"
 
 #include <sinew/sinew.hpp>
 #include <sinew/solver/central_difference.hpp>
@@ -100,12 +99,11 @@ class Planet {
   double h, lag;
   static auto scene(Solver const& solver, double lag) {
     const Eigen::Vector2d x(1 + eccentricity, 0), v(0, std::sqrt((1 - eccentricity) / (1 + eccentricity)));
-    RegistryScene sim{
-        node<"sun">(solver,
-                    SparseLDLSolver<CompressedRowSparseMatrixd>{},
-                    MechanicalObject<Vec2d>{.position = {x}, .velocity = {v - lag * pull_at(x)}},
-                    UniformMass<Vec2d>{.vertexMass = 1},
-                    CentralForce{})};
+    Simulation sim{node<"sun">(solver,
+                               SparseLDLSolver<CompressedRowSparseMatrixd>{},
+                               MechanicalObject<Vec2d>{.position = {x}, .velocity = {v - lag * pull_at(x)}},
+                               UniformMass<Vec2d>{.vertexMass = 1},
+                               CentralForce{})};
     sim.init();
     return sim;
   }

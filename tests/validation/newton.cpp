@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "catch.hpp"
-#include "registry_scene.hpp"
 #include "validation/closed_forms.hpp"
 
 #include <sinew/constraint/linear_movement.hpp>
@@ -160,7 +159,7 @@ TEST_CASE("with damping, at the midpoint and without inertia, the equation is so
 
 TEST_CASE("a support that moves is where it is at the end of the step") {
   const double h = 0.5;
-  RegistryScene sim{node<"root">(
+  Simulation sim{node<"root">(
       exact,
       SparseLDLSolver<CompressedRowSparseMatrixd>{},
       MechanicalObject<Vec2d>{.position = {{0, 0}, {1.5, 0}}},
@@ -190,7 +189,7 @@ TEST_CASE("BDF of order 1 solves the same equation") {
 TEST_CASE("a line search that finds nothing shorter takes the whole correction") {
   for (const int lengths : {4, std::numeric_limits<int>::max()}) {
     CAPTURE(lengths);
-    RegistryScene sim{node<"root">(
+    Simulation sim{node<"root">(
         StaticSolver{.maxNbIterationsNewton = 1, .maxNbIterationsLineSearch = lengths},
         Backwards{},
         MechanicalObject<Vec2d>{.position = {{0, 0}, {1.5, 0}}},

@@ -18,7 +18,8 @@ struct CollisionLines {
   }
 };
 
-/// The edges of the topology; of its faces, where it has no edges; or of the surface of its volume.
+/// The edges of the topology as lines that collide; of its faces, where it has no edges; or of the surface of
+/// its volume.
 template <class D>
 using LineCollisionModel = MeshCollisionModel<D, CollisionLines>;
 

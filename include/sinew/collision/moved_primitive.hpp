@@ -18,7 +18,7 @@ struct MovedPrimitive {
   using V = Eigen::Vector3d;
   CollisionSurface const& surface;
   int element;
-  std::array<V, isHull ? 1 : corners_of(S)> corners;  // of a hull its centre
+  std::array<V, std::size_t(isHull ? 1 : corners_of(S))> corners;  // of a hull its centre
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
 
   MovedPrimitive(CollisionSurface const& s, int e, double time) : surface(s), element(e) {

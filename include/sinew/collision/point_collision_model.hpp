@@ -18,7 +18,7 @@ struct CollisionPoints {
   }
 };
 
-/// Each point of the state.
+/// Each point of the state as a point that collides.
 template <class D>
 using PointCollisionModel = MeshCollisionModel<D, CollisionPoints>;
 

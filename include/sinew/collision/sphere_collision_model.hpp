@@ -6,7 +6,7 @@
 
 namespace sinew {
 
-/// A sphere around each point of the state, with a radius of its own or one for all.
+/// A sphere around each point of the state that collides, with a radius of its own or one for all.
 template <class D>
 struct SphereCollisionModel {
   using Role = role::CollisionModel;

@@ -21,7 +21,8 @@ struct CollisionTriangles {
   }
 };
 
-/// The triangles of the topology, quads as two; or of the surface of its volume.
+/// The triangles of the topology, and its quads as two each, as a surface that collides; or of the surface of
+/// its volume.
 template <class D>
 using TriangleCollisionModel = MeshCollisionModel<D, CollisionTriangles>;
 

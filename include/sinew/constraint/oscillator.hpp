@@ -27,7 +27,7 @@ struct Oscillator {
   }
 };
 
-/// Points on sines: x = mean + amplitude sin(pulsation t + phase), and the velocity of that.
+/// Points that swing about a place: x = mean + amplitude sin(pulsation t + phase), and the velocity of that.
 template <class D>
 struct OscillatorConstraint {
   using Role = role::ProjectiveConstraint;

@@ -7,6 +7,7 @@
 #include <sinew/core/renumbering.hpp>
 #include <sinew/core/role.hpp>
 #include <sinew/core/roles/animation_loop.hpp>
+#include <sinew/core/roles/behavior_model.hpp>
 #include <sinew/core/roles/broad_phase.hpp>
 #include <sinew/core/roles/carving.hpp>
 #include <sinew/core/roles/collision_model.hpp>

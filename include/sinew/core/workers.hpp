@@ -127,6 +127,10 @@ struct SomeWorkers {
   double* sums() const { return workers ? workers->sums() : nullptr; }
 };
 
+/// The workers of a scope, whatever their type.
+inline SomeWorkers some_workers(SomeWorkers const& workers) { return workers; }
+inline SomeWorkers some_workers(OneThread const&) { return {}; }
+
 }  // namespace sinew
 
 #if SINEW_DEFINES

@@ -8,8 +8,8 @@
 
 namespace sinew {
 
-/// A sheet in the place of a file: resolution[0] x resolution[1] points over the unit square of the xy plane,
-/// x fastest, and quads or triangles between them.
+/// A flat sheet, made without a file: resolution[0] x resolution[1] points over the unit square of the xy
+/// plane, x fastest, and quads or triangles between them.
 struct GridMeshCreator {
   using Role = role::Engine;
   static constexpr std::string_view className = "GridMeshCreator";

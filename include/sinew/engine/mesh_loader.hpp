@@ -165,8 +165,11 @@ struct StlFormat {
 };
 }  // namespace detail
 
+/// Reads a mesh from a Gmsh file (.msh, version 2 or 4.1).
 using MeshGmshLoader = MeshLoader<detail::GmshFormat>;
+/// Reads a surface from a Wavefront OBJ file (.obj).
 using MeshOBJLoader = MeshLoader<detail::ObjFormat>;
+/// Reads a surface of triangles from an STL file (.stl), whose equal corners become one point.
 using MeshSTLLoader = MeshLoader<detail::StlFormat>;
 
 }  // namespace sinew

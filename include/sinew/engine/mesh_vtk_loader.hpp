@@ -19,7 +19,7 @@ struct VtkFormat {
 };
 }  // namespace detail
 
-/// Reads legacy VTK files, and VTK XML files of unstructured grids (.vtu).
+/// Reads a mesh from a legacy VTK file (.vtk), or from a VTK XML file of an unstructured grid (.vtu).
 using MeshVTKLoader = MeshLoader<detail::VtkFormat>;
 
 }  // namespace sinew

@@ -8,8 +8,8 @@
 
 namespace sinew {
 
-/// Pairs of points of two states: for each of the second the nearest of the first, where it is nearer than
-/// `radius`. Of several at one distance the first counts.
+/// Pairs of points of two states that are near each other: for each of the second the nearest of the first,
+/// where it is nearer than `radius`. Of several at one distance the first counts.
 template <class D>
 struct NearestPointROI {
   using Role = role::Engine;

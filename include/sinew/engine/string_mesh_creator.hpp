@@ -8,7 +8,8 @@
 
 namespace sinew {
 
-/// A string in the place of a file: `resolution` points from 0 to 1 m along x, and the edges between them.
+/// A straight string, made without a file: `resolution` points from 0 to 1 m along x, and the edges between
+/// them.
 struct StringMeshCreator {
   using Role = role::Engine;
   static constexpr std::string_view className = "StringMeshCreator";

@@ -168,10 +168,15 @@ struct TopologicalMapping {
   }
 };
 
+/// Makes six tetrahedra of each hexahedron of another topology.
 using Hexa2TetraTopologicalMapping = TopologicalMapping<detail::Hexa2Tetra>;
+/// Makes the triangles of the surface of the tetrahedra of another topology.
 using Tetra2TriangleTopologicalMapping = TopologicalMapping<detail::Tetra2Triangle>;
+/// Makes the quads of the surface of the hexahedra of another topology.
 using Hexa2QuadTopologicalMapping = TopologicalMapping<detail::Hexa2Quad>;
+/// Makes two triangles of each quad of another topology.
 using Quad2TriangleTopologicalMapping = TopologicalMapping<detail::Quad2Triangle>;
+/// Makes the edges of the border of the triangles of another topology.
 using Triangle2EdgeTopologicalMapping = TopologicalMapping<detail::Triangle2Edge>;
 
 }  // namespace sinew

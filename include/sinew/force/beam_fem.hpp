@@ -145,9 +145,9 @@ struct BeamFEM {
   }
 };
 
-/// Beams along the edges of the topology, or those of `listSegment`: straight between frames, which may stand
-/// in any way to the beam. The sides of a rectangular cross-section are along the second and third axes of
-/// the frames at rest.
+/// Elastic beams along the edges of the topology, or those of `listSegment`: straight between frames, which
+/// may stand in any way to the beam. The sides of a rectangular cross-section are along the second and third
+/// axes of the frames at rest.
 template <class D>
 struct BeamFEMForceField {
   static_assert(D::rigid && D::spatial == 3, "Sinew: BeamFEMForceField is for frames in space (Rigid3d).");

@@ -13,15 +13,15 @@
 
 namespace sinew {
 
-/// Which faces bend, whether points that lie across two edges have one spring or two, and SOFA's settings:
-/// its four classes differ in nothing else.
+// which faces bend, whether points that lie across two edges have one spring or two, and SOFA's settings: its
+// four classes differ in nothing else.
 namespace bending {
 struct Triangular {
   static constexpr std::string_view className = "TriangularBendingSprings";
   static constexpr double stiffness = 1e5, damping = 1;
   static constexpr bool triangles = true, quads = false, once = false;
 };
-/// Quads are two triangles each, which bend too.
+// quads are two triangles each, which bend too
 struct Triangle {
   static constexpr std::string_view className = "TriangleBendingSprings";
   static constexpr double stiffness = 100, damping = 5;
@@ -108,12 +108,18 @@ struct BendingSprings {
   }
 };
 
+/// Springs across the edges of the triangles, so that a surface resists bending.
 template <class D>
 using TriangularBendingSprings = BendingSprings<D, bending::Triangular>;
+/// Springs across the edges of the triangles, and of quads as two triangles each, so that a surface resists
+/// bending.
 template <class D>
 using TriangleBendingSprings = BendingSprings<D, bending::Triangle>;
+/// Springs across the edges of the quads, one for each edge that two points lie across, so that a surface
+/// resists bending.
 template <class D>
 using QuadularBendingSprings = BendingSprings<D, bending::Quadular>;
+/// Springs across the edges of the quads, one for two points, so that a surface resists bending.
 template <class D>
 using QuadBendingSprings = BendingSprings<D, bending::Quad>;
 

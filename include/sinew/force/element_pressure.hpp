@@ -10,7 +10,7 @@
 
 namespace sinew {
 
-/// What bears the load, and how SOFA's three classes call it.
+// what bears the load, and how SOFA's three classes call it.
 namespace pressed {
 struct Triangles {
   static constexpr std::string_view className = "TrianglePressureForceField", list = "triangleList",
@@ -26,7 +26,7 @@ struct Quads {
   static constexpr Of what = Of::quads;
   static std::vector<Quad> of(TopologyView const& t) { return {t.quads.begin(), t.quads.end()}; }
 };
-/// The sides of the triangles, or of the quads, where the topology has no edges.
+// the sides of the triangles, or of the quads, where the topology has no edges
 struct Edges {
   static constexpr std::string_view className = "EdgePressureForceField", list = "edgeIndices",
                                     older = "edgeList", kind = "edge", unit = "N/m",
@@ -225,10 +225,14 @@ struct ElementPressure {
   }
 };
 
+/// A load on chosen triangles that keeps its direction, as a force per area at rest.
 template <class D>
 using TrianglePressureForceField = ElementPressure<D, pressed::Triangles>;
+/// A load on chosen quads that keeps its direction, as a force per area at rest.
 template <class D>
 using QuadPressureForceField = ElementPressure<D, pressed::Quads>;
+/// A load on chosen edges, as a force per length. Where the topology has no edges, the sides of its triangles
+/// or quads are the edges.
 template <class D>
 using EdgePressureForceField = ElementPressure<D, pressed::Edges>;
 

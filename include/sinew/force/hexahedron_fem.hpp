@@ -264,8 +264,8 @@ struct HexahedronFEM {
   }
 };
 
-/// Corotational linear hexahedra. Those of a SparseGridTopology that touch its surface are half as stiff, as
-/// in SOFA, unless its fillWeighted is off.
+/// An elastic body of corotational linear hexahedra. Those of a SparseGridTopology that touch its surface are
+/// half as stiff, as in SOFA, unless its fillWeighted is off.
 template <class D>
 struct HexahedronFEMForceField {
   using Role = role::ForceField;

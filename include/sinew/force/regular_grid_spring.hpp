@@ -8,9 +8,10 @@
 
 namespace sinew {
 
-/// Springs of a regular grid: lines between neighbours, both diagonals of each face (quads) and the four
-/// through each cell (cubes). Where the topology has hexahedra and is no grid, those of its hexahedra. A
-/// stiffness is a force per relative extension [N]: a spring of length L has stiffness / L [N/m].
+/// Springs along the lines and diagonals of a regular grid: lines between neighbours, both diagonals of each
+/// face (quads) and the four through each cell (cubes). Where the topology has hexahedra and is no grid,
+/// those of its hexahedra. A stiffness is a force per relative extension [N]: a spring of length L has
+/// stiffness / L [N/m].
 template <class D>
 struct RegularGridSpringForceField {
   using Role = role::ForceField;

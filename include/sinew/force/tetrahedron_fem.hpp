@@ -176,7 +176,8 @@ struct TetrahedronFEM {
   }
 };
 
-/// Corotational linear tetrahedra: those of the topology, or six in each of its hexahedra where it has none.
+/// An elastic body of corotational linear tetrahedra: those of the topology, or six in each of its hexahedra
+/// where it has none.
 template <class D>
 struct TetrahedronFEMForceField {
   using Role = role::ForceField;

@@ -202,7 +202,8 @@ struct TetrahedronHyperelasticity {
   }
 };
 
-/// Hyperelastic tetrahedra: those of the topology, or six in each of its hexahedra where it has none.
+/// A hyperelastic body, for large strains, of tetrahedra: those of the topology, or six in each of its
+/// hexahedra where it has none.
 template <class D>
 struct TetrahedronHyperelasticityFEMForceField {
   using Role = role::ForceField;

@@ -163,9 +163,9 @@ struct TetrahedronViscoelasticity {
   }
 };
 
-/// Viscoelastic tetrahedra: those of the topology, or six in each of its hexahedra where it has none. Beside
-/// another force field over the same tetrahedra, Maxwell's materials with lambda = 0 are terms that relax for
-/// any elasticity.
+/// A viscoelastic body of tetrahedra: those of the topology, or six in each of its hexahedra where it has
+/// none. Beside another force field over the same tetrahedra, Maxwell's materials with lambda = 0 are terms
+/// that relax for any elasticity.
 ///
 /// The history, Q_n and E_n, is that of the last step. The field learns of steps by the times that
 /// it is asked for: a step ends when a force is wanted a whole step, MechanicalParams::dt, after its start or

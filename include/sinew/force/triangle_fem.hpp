@@ -163,7 +163,8 @@ struct TriangleFEM {
   }
 };
 
-/// Corotational membrane triangles: those of the topology, or two in each of its quads where it has none.
+/// An elastic membrane of corotational triangles: those of the topology, or two in each of its quads where it
+/// has none.
 template <class D>
 struct TriangleFEMForceField {
   using Role = role::ForceField;

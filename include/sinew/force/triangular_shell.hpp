@@ -202,8 +202,8 @@ struct TriangularShell {
   }
 };
 
-/// Thin shells: the triangles of the topology, or two in each of its quads where it has none. They stretch,
-/// shear, bend, and hold the rotation of their frames about the normal.
+/// An elastic thin shell of triangles: the triangles of the topology, or two in each of its quads where it
+/// has none. They stretch, shear, bend, and hold the rotation of their frames about the normal.
 template <class D>
 struct TriangularShellForceField {
   static_assert(D::rigid && D::spatial == 3,

@@ -5,7 +5,8 @@
 
 namespace sinew {
 
-/// f = -c v on every degree of freedom [N]; B = -c I, which implicit steps see only with `implicit`.
+/// Damping that slows every degree of freedom: f = -c v [N]; B = -c I, which implicit steps see only with
+/// `implicit`.
 template <class D>
 struct UniformVelocityDampingForceField {
   using Role = role::ForceField;

@@ -9,8 +9,9 @@
 
 namespace sinew {
 
-/// The simulation's side of a virtual coupling (Colgate, Stanley and Brown 1995, Issues in the haptic display
-/// of tool use): a spring and damper that draws the tool, points or rigid bodies, to where a device is.
+/// A spring and damper that draws a tool to where a haptic device is: the simulation's side of a virtual
+/// coupling (Colgate, Stanley and Brown 1995, Issues in the haptic display of tool use). A tool is points or
+/// rigid bodies.
 ///   E = k/2 |d|^2 + k_a/2 |t|^2                                                                [J]
 ///   f = -k d - c (v - v_t),  torque = -k_a t - c_a (w - w_t),  d = x - x_t                     [N], [N m]
 /// with t the rotation vector of q q_t^-1. An implicit step has all of it in its matrix, so that any

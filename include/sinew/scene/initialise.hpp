@@ -92,6 +92,8 @@ class Initialisation {
   void initComponent(C& c, S const& scope) {
     if constexpr (HasRole<C, role::Execution>) {
       c.init();
+    } else if constexpr (HasRole<C, role::BehaviorModel>) {
+      c.init(scope.path());
     } else if constexpr (ActsOnState<C>) {
       if constexpr (CorrectsState<C>)
         if (scope.stateScope().mapped())

@@ -276,6 +276,7 @@ void Simulation<Root>::animate(double dt) {
       if (step.carve([&](auto const& path, auto const& elements) { removeElements(path, elements); }))
         step.detectContacts();
     step.computeLoose();
+    step.stepModels();
     step.integrate(keepsForces_);
     time_ += dt;
     ++step_;
@@ -314,7 +315,11 @@ void Simulation<Root>::finish() {
 
 template <class Root>
 double Simulation<Root>::kineticEnergy() {
-  return over([](auto& o) { return o.kineticEnergy(); });
+  double models = 0;
+  if constexpr (holds<Root, role::BehaviorModel>())
+    traverse(rootScope(),
+             on<role::BehaviorModel>([&](auto& model, auto const&) { models += model.kineticEnergy(); }));
+  return models + over([](auto& o) { return o.kineticEnergy(); });
 }
 
 template <class Root>

@@ -81,6 +81,19 @@ struct Step {
   /// The external forces of interactions between solvers.
   void computeLoose() const { LooseInteractions<RootScope>{root}.compute({.time = time, .dt = dt}); }
 
+  /// What has degrees of freedom of its own goes on by the step.
+  void stepModels() const {
+    if constexpr (holds<typename RootScope::NodeType, role::BehaviorModel>()) {
+      const StepAhead ahead{number, time, time + dt, dt, false};
+      traverse(root, on<role::BehaviorModel>([&](auto& model, auto const& scope) {
+                 model.step(ahead, scope.gravity(), scope.workers());
+                 if constexpr (Notices<std::decay_t<decltype(model)>>)
+                   if (const std::string_view what = model.notice(); !what.empty())
+                     notes().warn(scope.path(), what, [&] { return std::string(what); });
+               }));
+    }
+  }
+
   /// Each ODE solver integrates its subtree and propagates; where the scene has an animation loop,
   /// constraints by multipliers hold at the end.
   void integrate(bool keepsForces) const {

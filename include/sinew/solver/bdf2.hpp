@@ -5,9 +5,9 @@
 
 namespace sinew {
 
-/// Backward differentiation (Curtiss, Hirschfelder 1952) of order 1: implicit Euler, 2: stable for any
-/// stiffness, or 3: stable but for springs that hardly damp (angles of more than 86 degrees). From what the
-/// state moved by in the steps before, dx- and dv-, dx-- and dv--, of the lengths h- and h--,
+/// Backward differentiation (Curtiss, Hirschfelder 1952) of order 1 to 3. Order 1 is implicit Euler, 2 is
+/// stable for any stiffness, 3 is stable but for springs that hardly damp (angles of more than 86 degrees).
+/// From what the state moved by in the steps before, dx- and dv-, dx-- and dv--, of the lengths h- and h--,
 ///   x1 = x + c dx- + d dx-- + B v1,   M (v1 - v - c dv- - d dv--) = B (f(x1, v1) - rM M v1 + rK K v1),
 /// with B, c and d so that cubics x(t) are met exactly: with p = h + h-, q = h- + h--, s = p + h--,
 ///   1/B = 1/h + 1/p + 1/s,   c = B h/h- (1/p + (1 + p/q)/s),   d = -B h/h-- p/(q s)

@@ -6,11 +6,11 @@
 
 namespace sinew {
 
-/// Euler's method, order 1. Symplectic: v += a dt, then x += v dt with the new velocity (Stoermer-Verlet's
-/// first order kin, energy stays bounded; bodies that rotate have the gyroscopic torque of the end of the
-/// step, which adds no energy). Otherwise both use the old values. a = M^-1 f: where M is not diagonal, as
-/// that of MeshMatrixMass or with masses of mapped states, the linear solver in reach finds it; without one
-/// it is taken with the sums of the rows of M, and without those masses.
+/// The explicit method of Euler, order 1. Symplectic: v += a dt, then x += v dt with the new velocity
+/// (Stoermer-Verlet's first order kin, energy stays bounded; bodies that rotate have the gyroscopic torque of
+/// the end of the step, which adds no energy). Otherwise both use the old values. a = M^-1 f: where M is not
+/// diagonal, as that of MeshMatrixMass or with masses of mapped states, the linear solver in reach finds it;
+/// without one it is taken with the sums of the rows of M, and without those masses.
 struct EulerExplicitSolver {
   using Role = role::OdeSolver;
   static constexpr std::string_view className = "EulerExplicitSolver";

@@ -298,6 +298,19 @@ SeenScene seen_scene(Simulation& simulation, SeenSettings const& settings = {},
       body.values = values.of(&visual);
       seen.bodies.push_back(std::move(body));
     });
+  if (settings.visualModels)
+    simulation.template visit<role::BehaviorModel>([&](auto const& model, auto const& scope) {
+      if (Eigen::Vector3d const g = scope.gravity(); g.norm() > 0) seen.up = -g.normalized();
+      if constexpr (HasBorder<std::decay_t<decltype(model)>>) {
+        Mesh mesh = model.border();
+        seen.bodies.push_back({.path = scope.path(),
+                               .kind = SeenBody::Kind::visual,
+                               .points = std::move(mesh.positions),
+                               .triangles = std::move(mesh.triangles),
+                               .quads = std::move(mesh.quads),
+                               .edges = std::move(mesh.edges)});
+      }
+    });
   std::vector<SeenBody> states;
   simulation.template visit<role::State>([&](auto const& state, auto const& scope) {
     SeenBody body{.path = scope.path()};

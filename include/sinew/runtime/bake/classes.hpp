@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/runtime/bake/type_code.hpp>
+#include <sinew/runtime/cpp_members.hpp>
 #include <sinew/runtime/node.hpp>
 
 #include <array>
@@ -18,6 +19,7 @@ namespace detail {
 struct FieldCode {
   std::string_view spelled;
   TypeCode const& (*type)();
+  std::string (*typeName)();
 };
 /// And of a class: its fields are those of its ClassInfo.
 struct ClassCode {
@@ -49,7 +51,8 @@ inline std::string class_name(ClassInfo const& info, ClassCode const& code) {
 template <class C, auto const& List, std::size_t... I>
 constexpr void add_field_codes(FieldCode*& to, std::index_sequence<I...>) {
   ((*to++ = {spelled_member<boost::hana::at_c<I>(List).member>(),
-             &type_code<std::decay_t<decltype(std::declval<C&>().*(boost::hana::at_c<I>(List).member))>>}),
+             &type_code<std::decay_t<decltype(std::declval<C&>().*(boost::hana::at_c<I>(List).member))>>,
+             &cpp_type<std::decay_t<decltype(std::declval<C&>().*(boost::hana::at_c<I>(List).member))>>}),
    ...);
 }
 template <class C, auto const& List>
@@ -65,10 +68,10 @@ inline constexpr auto field_codes = [] {
   add_field_codes<C, state_fields_of_class<C>>(to);
   add_field_codes<C, outputs_of_class<C>>(to);
   if constexpr (HoldsMesh<C>) {
-    *to++ = {"mesh.positions", &type_code<decltype(Mesh::positions)>};
-    *to++ = {"mesh.edges", &type_code<decltype(Mesh::edges)>};
-    *to++ = {"mesh.triangles", &type_code<decltype(Mesh::triangles)>};
-    *to++ = {"mesh.quads", &type_code<decltype(Mesh::quads)>};
+    *to++ = {"mesh.positions", &type_code<decltype(Mesh::positions)>, &cpp_type<decltype(Mesh::positions)>};
+    *to++ = {"mesh.edges", &type_code<decltype(Mesh::edges)>, &cpp_type<decltype(Mesh::edges)>};
+    *to++ = {"mesh.triangles", &type_code<decltype(Mesh::triangles)>, &cpp_type<decltype(Mesh::triangles)>};
+    *to++ = {"mesh.quads", &type_code<decltype(Mesh::quads)>, &cpp_type<decltype(Mesh::quads)>};
   }
   return codes;
 }();
@@ -93,5 +96,20 @@ struct BakeClasses {
 };
 
 }  // namespace detail
+
+template <class R>
+std::vector<std::vector<CppMember>> cpp_members() {
+  const detail::BakeClasses<R> classes;
+  std::vector<std::vector<CppMember>> all;
+  for (auto const& info : classes.table) {
+    auto const* code = classes.codes[std::size_t(info.type)].fields;
+    auto& members = all.emplace_back();
+    for (auto const& field : info.fields) {
+      members.push_back({detail::member_name(code->spelled, field.name), code->typeName()});
+      ++code;
+    }
+  }
+  return all;
+}
 
 }  // namespace sinew

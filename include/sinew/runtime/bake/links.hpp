@@ -51,8 +51,8 @@ class BakeLinks {
     return path;
   }
 
-  /// The first of the chain of links that ends at this field which holds the same value in the same type.
-  /// Those of `busy`, which are being written, are passed over.
+  /// The first of the chain of links that ends at this field which holds the same value in the same type, or
+  /// in that of what an optional field holds. Those of `busy`, which are being written, are passed over.
   std::optional<Source> source(Node& node, Entry& entry, std::size_t field,
                                std::set<Entry const*> const& busy, std::size_t depth = 0) const {
     ClassInfo const& info = classes_.infoOf(entry);
@@ -76,9 +76,11 @@ class BakeLinks {
       std::optional<std::size_t> found;
       for (std::size_t f = 0; f < fields.size(); ++f)
         if (fields[f].known(name) && (!found || !fields[f].isInput)) found = f;
-      if (!found ||
-          *classes_.codeOf(*place).fields[*found].type().type !=
-              *classes_.codeOf(entry).fields[field].type().type ||
+      if (!found) continue;
+      // an optional takes what it holds, too
+      std::type_info const& offered = *classes_.codeOf(*place).fields[*found].type().type;
+      TypeCode const& wanted = classes_.codeOf(entry).fields[field].type();
+      if ((offered != *wanted.type && offered != *wanted.held) ||
           fields[*found].write(place->component.address()) != value)
         continue;
       if (fields[*found].isInput)

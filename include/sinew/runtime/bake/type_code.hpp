@@ -16,17 +16,52 @@ namespace detail {
 /// What C++ text needs of the type of a field.
 struct TypeCode {
   std::type_info const* type = nullptr;
+  std::type_info const* held = nullptr;  // of what an optional holds; else the same
   bool optional = false;
   // of a list: "Vec<double, 3>", and the array of constants that it is made from: "double values[][3]"
   std::string element{}, array{};
   bool copied = false;  // the constants are the elements
 };
 
+/// A type as C++ text names it that is `using namespace sinew`: "std::vector<Vec<double, 3>>".
+template <class T>
+std::string cpp_type() {
+  auto unqualified = [](std::string_view spelled) {
+    std::string name(spelled);
+    for (std::size_t at = 0; (at = name.find("sinew::", at)) != name.npos;) name.erase(at, 7);
+    for (std::size_t at = 0; (at = name.find("> >", at)) != name.npos;) name.erase(at + 1, 1);
+    return name;
+  };
+  if constexpr (std::is_same_v<T, std::string>)
+    return "std::string";
+  else if constexpr (requires(T value) { value.has_value(); })
+    return text("std::optional<", cpp_type<typename T::value_type>(), '>');
+  else if constexpr (is_eigen<T>)
+    return T::ColsAtCompileTime == 1
+               ? text("Vec<", cpp_type<typename T::Scalar>(), ", ", int(T::RowsAtCompileTime), '>')
+               : text("Mat<",
+                      cpp_type<typename T::Scalar>(),
+                      ", ",
+                      int(T::RowsAtCompileTime),
+                      ", ",
+                      int(T::ColsAtCompileTime),
+                      '>');
+  else if constexpr (DynamicList<T>)
+    return text("std::vector<", cpp_type<typename T::value_type>(), '>');
+  else if constexpr (requires { std::tuple_size<T>::value; } && !HasFields<T>)
+    return text("std::array<", cpp_type<typename T::value_type>(), ", ", std::tuple_size_v<T>, '>');
+  else
+    return unqualified(type_name<T>());
+}
+
 template <class T>
 TypeCode const& type_code() {
   static const TypeCode code = [] {
-    TypeCode made{.type = &typeid(T)};
-    made.optional = requires(T value) { value.has_value(); };
+    TypeCode made{.type = &typeid(T), .held = &typeid(T)};
+    if constexpr (requires(T value) { value.has_value(); }) {
+      made.optional = true;
+      made.held = &typeid(typename T::value_type);
+    }
     auto number = []<class S>(std::type_identity<S>) -> std::string_view {
       return std::is_same_v<S, bool>  ? "bool"
              : std::is_same_v<S, int> ? "int"
@@ -36,16 +71,21 @@ TypeCode const& type_code() {
     if constexpr (DynamicList<T>) {
       using E = typename T::value_type;
       if constexpr (std::is_arithmetic_v<E>) {
-        made = {made.type, false, std::string(number(std::type_identity<E>{})), "", true};
+        made = {made.type, made.held, false, std::string(number(std::type_identity<E>{})), "", true};
       } else if constexpr (is_eigen<E>) {
         constexpr int n = E::SizeAtCompileTime;
         const std::string_view real = number(std::type_identity<typename E::Scalar>{});
         if (E::ColsAtCompileTime == 1 && n > 1)
-          made = {
-              made.type, false, text("Vec<", real, ", ", n, '>'), text(real, " values[][", n, ']'), false};
+          made = {made.type,
+                  made.held,
+                  false,
+                  text("Vec<", real, ", ", n, '>'),
+                  text(real, " values[][", n, ']'),
+                  false};
       } else if constexpr (requires { std::tuple_size<E>::value; } && !HasFields<E>) {
         const std::string_view one = number(std::type_identity<typename E::value_type>{});
-        made = {made.type, false, text("std::array<", one, ", ", std::tuple_size_v<E>, '>'), "", true};
+        made = {
+            made.type, made.held, false, text("std::array<", one, ", ", std::tuple_size_v<E>, '>'), "", true};
       } else {
         made.element = std::string(type_name<E>());
       }

@@ -1,0 +1,1116 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "reference.hpp"
+
+#include <algorithm>
+
+namespace cli {
+
+using sinew::text;
+
+namespace {
+
+// Whole scenes, each a body as users compose it. A component takes the place of the element that stands for
+// its role, or stands beside it.
+constexpr std::string_view softBody = R"(
+<Node name="body" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <SparseLDLSolver/>
+  <RegularGridTopology n="5 3 3" max="0.4 0.1 0.1"/>
+  <MechanicalObject/>
+  <UniformMass totalMass="4"/>
+  <TetrahedronFEMForceField youngModulus="50000" poissonRatio="0.3"/>
+  <FixedConstraint indices="0 5 10 15 20 25 30 35 40"/>
+</Node>)";
+constexpr std::string_view sheet = R"(
+<Node name="sheet" gravity="0 0 -9.81">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <RegularGridTopology n="5 5 1" max="1 1 0"/>
+  <MechanicalObject/>
+  <UniformMass totalMass="0.2"/>
+  <TriangleFEMForceField youngModulus="5000" poissonRatio="0.3" thickness="0.01"/>
+  <FixedConstraint indices="20 24"/>
+</Node>)";
+constexpr std::string_view chain = R"(
+<Node name="chain" gravity="0 -9.81 0">
+  <EulerImplicitSolver/>
+  <SparseLDLSolver/>
+  <MechanicalObject position="0 0 0  0.5 0 0  1 0 0"/>
+  <UniformMass vertexMass="0.1"/>
+  <StiffSpringForceField spring="0 1 100 0.1 0.5  1 2 100 0.1 0.5"/>
+  <FixedConstraint indices="0"/>
+</Node>)";
+constexpr std::string_view beams = R"(
+<Node name="hose" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <SparseLDLSolver template="CompressedRowSparseMatrixd"/>
+  <RegularGridTopology n="6 1 1" max="1 0 0"/>
+  <MechanicalObject template="Rigid3d"/>
+  <BeamMass massDensity="1100" radius="0.01"/>
+  <BeamFEMForceField youngModulus="1e7" poissonRatio="0.45" radius="0.01"/>
+  <FixedConstraint indices="0"/>
+</Node>)";
+// a body that another one follows
+constexpr std::string_view carrier = R"(
+<Node name="body" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <SparseLDLSolver/>
+  <RegularGridTopology n="5 3 3" max="0.4 0.1 0.1"/>
+  <MechanicalObject/>
+  <UniformMass totalMass="4"/>
+  <TetrahedronFEMForceField youngModulus="50000" poissonRatio="0.3"/>
+  <FixedConstraint indices="0 5 10 15 20 25 30 35 40"/>
+  <Node name="inside">
+    <MechanicalObject position="0.35 0.05 0.05"/>
+    <BarycentricMapping/>
+    <ConstantForceField force="0 0 2"/>
+  </Node>
+</Node>)";
+constexpr std::string_view contact = R"(
+<Node name="root" gravity="0 -9.81 0">
+  <DefaultPipeline/>
+  <BruteForceBroadPhase/>
+  <BVHNarrowPhase/>
+  <MinProximityIntersection alarmDistance="0.05" contactDistance="0.01"/>
+  <DefaultContactManager/>
+  <Node name="floor">
+    <MeshTopology triangles="0 1 2  0 2 3"/>
+    <MechanicalObject position="-1 0 1  1 0 1  1 0 -1  -1 0 -1"/>
+    <TriangleCollisionModel moving="false" simulated="false" contactStiffness="100"/>
+  </Node>
+  <Node name="balls">
+    <EulerImplicitSolver/>
+    <CGLinearSolver iterations="50" tolerance="1e-8"/>
+    <MechanicalObject position="0 0.12 0  0.3 0.12 0"/>
+    <UniformMass vertexMass="0.5"/>
+    <SphereCollisionModel radius="0.1" contactStiffness="20"/>
+  </Node>
+</Node>)";
+constexpr std::string_view multipliers = R"(
+<Node name="root" gravity="0 -9.81 0">
+  <FreeMotionAnimationLoop/>
+  <BlockGaussSeidelConstraintSolver maxIterations="1000" tolerance="1e-8"/>
+  <Node name="chain">
+    <EulerImplicitSolver/>
+    <SparseLDLSolver/>
+    <MechanicalObject position="0 0 0  0.5 0 0  1 0 0"/>
+    <UniformMass vertexMass="0.1"/>
+    <StiffSpringForceField spring="0 1 100 0.1 0.5  1 2 100 0.1 0.5"/>
+    <FixedLagrangianConstraint indices="0"/>
+  </Node>
+</Node>)";
+constexpr std::string_view friction = R"(
+<Node name="root" gravity="0 -9.81 0">
+  <FreeMotionAnimationLoop/>
+  <BlockGaussSeidelConstraintSolver maxIterations="1000" tolerance="1e-8"/>
+  <DefaultPipeline/>
+  <BruteForceBroadPhase/>
+  <BVHNarrowPhase/>
+  <MinProximityIntersection alarmDistance="0.05" contactDistance="0.01"/>
+  <DefaultContactManager response="FrictionContactConstraint" responseParams="mu=0.5"/>
+  <Node name="floor">
+    <MeshTopology triangles="0 1 2  0 2 3"/>
+    <MechanicalObject position="-1 0 1  1 0 1  1 0 -1  -1 0 -1"/>
+    <TriangleCollisionModel moving="false" simulated="false"/>
+  </Node>
+  <Node name="block">
+    <EulerImplicitSolver/>
+    <SparseLDLSolver/>
+    <RegularGridTopology n="3 3 3" min="-0.1 0.02 -0.1" max="0.1 0.22 0.1"/>
+    <MechanicalObject/>
+    <UniformMass totalMass="8"/>
+    <HexahedronFEMForceField youngModulus="100000" poissonRatio="0.3"/>
+    <PointCollisionModel/>
+  </Node>
+</Node>)";
+
+/// f(line) for each line of a text but the empty one at its beginning.
+template <class F>
+void each_line(std::string_view all, F&& f) {
+  while (!all.empty()) {
+    const std::size_t end = std::min(all.find('\n'), all.size());
+    if (end > 0) f(all.substr(0, end));
+    all.remove_prefix(std::min(end + 1, all.size()));
+  }
+}
+
+enum class Place { instead, beside };
+
+/// What a component of a role looks like where its class says nothing else.
+struct RoleExample {
+  sinew::RoleKind role;
+  std::string_view scene, standIn;
+  Place place = Place::instead;
+};
+constexpr auto roleExamples = std::to_array<RoleExample>(
+    {{sinew::RoleKind::topology, softBody, "RegularGridTopology"},
+     {sinew::RoleKind::mass, softBody, "UniformMass"},
+     {sinew::RoleKind::forceField, softBody, "TetrahedronFEMForceField"},
+     {sinew::RoleKind::projectiveConstraint, softBody, "FixedConstraint"},
+     {sinew::RoleKind::mapping, carrier, "BarycentricMapping"},
+     {sinew::RoleKind::odeSolver, softBody, "EulerImplicitSolver"},
+     {sinew::RoleKind::linearSolver, softBody, "SparseLDLSolver"},
+     {sinew::RoleKind::engine, softBody, "FixedConstraint"},
+     {sinew::RoleKind::collisionPipeline, contact, "DefaultPipeline"},
+     {sinew::RoleKind::broadPhase, contact, "BruteForceBroadPhase"},
+     {sinew::RoleKind::narrowPhase, contact, "BVHNarrowPhase"},
+     {sinew::RoleKind::intersection, contact, "MinProximityIntersection"},
+     {sinew::RoleKind::contactManager, contact, "DefaultContactManager"},
+     {sinew::RoleKind::collisionModel, contact, "SphereCollisionModel"},
+     {sinew::RoleKind::animationLoop, friction, "FreeMotionAnimationLoop"},
+     {sinew::RoleKind::lagrangianConstraint, multipliers, "FixedLagrangianConstraint"},
+     {sinew::RoleKind::constraintSolver, friction, "BlockGaussSeidelConstraintSolver"},
+     {sinew::RoleKind::constraintCorrection, friction, "SparseLDLSolver", Place::beside}});
+
+/// What stands in the scene for a class: `scene` and `standIn` are those of its role where they are empty; a
+/// scene without a stand-in is shown as it is.
+struct ClassExample {
+  std::string_view name, xml{}, scene{}, standIn{};
+  Place place = Place::instead;
+};
+constexpr auto classExamples = std::to_array<ClassExample>({
+    {"Gravity", R"(
+<Node name="root" gravity="0 -9.81 0">
+  <EulerExplicitSolver/>
+  <Node name="earth">
+    <MechanicalObject position="0 1 0"/>
+    <UniformMass vertexMass="1"/>
+  </Node>
+  <Node name="moon">
+    <Gravity gravity="0 -1.62 0"/>
+    <MechanicalObject position="1 1 0"/>
+    <UniformMass vertexMass="1"/>
+  </Node>
+</Node>)"},
+    {"Threads", R"(<Threads count="4"/>)", softBody, "EulerImplicitSolver", Place::beside},
+
+    {"RegularGridTopology", "", softBody, ""},
+    {"CubeTopology", R"(
+<Node name="box" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <CubeTopology nx="4" ny="4" nz="4" max="0.2 0.2 0.2"/>
+  <MechanicalObject/>
+  <UniformMass totalMass="0.5"/>
+  <MeshSpringForceField stiffness="500" damping="1"/>
+  <FixedConstraint indices="0 1 2 3"/>
+</Node>)"},
+    {"CylinderGridTopology", R"(<CylinderGridTopology n="5 5 9" radius="0.05" length="0.4" axis="1 0 0"/>)"},
+    {"SphereGridTopology", R"(<SphereGridTopology n="5 5 5" center="0.2 0.05 0.05" radius="0.2"/>)"},
+    {"MeshTopology", R"(
+<Node name="body" gravity="0 -9.81 0">
+  <EulerImplicitSolver/>
+  <SparseLDLSolver/>
+  <MeshTopology tetrahedra="0 1 2 3  1 2 3 4"/>
+  <MechanicalObject position="0 0 0  1 0 0  0.5 0 0.9  0.5 -0.8 0.3  0.5 -1 1.2"/>
+  <DiagonalMass massDensity="10"/>
+  <TetrahedronFEMForceField youngModulus="2000" poissonRatio="0.3"/>
+  <FixedConstraint indices="0 1 2"/>
+</Node>)"},
+    {"TetrahedronTopology", R"(
+<Node name="body" gravity="0 -9.81 0">
+  <EulerImplicitSolver/>
+  <SparseLDLSolver/>
+  <TetrahedronTopology tetrahedra="0 1 2 3  1 2 3 4"/>
+  <MechanicalObject position="0 0 0  1 0 0  0.5 0 0.9  0.5 -0.8 0.3  0.5 -1 1.2"/>
+  <DiagonalMass massDensity="10"/>
+  <TetrahedronFEMForceField youngModulus="2000" poissonRatio="0.3"/>
+  <FixedConstraint indices="0 1 2"/>
+</Node>)"},
+    {"SparseGridTopology", R"(
+<Node name="organ" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <SparseGridTopology n="8 4 6" fileTopology="data/organ.obj"/>
+  <MechanicalObject/>
+  <UniformMass totalMass="0.7"/>
+  <HexahedronFEMForceField youngModulus="5000" poissonRatio="0.3"/>
+  <FixedConstraint indices="0 1 2"/>
+  <Node name="skin">
+    <MeshOBJLoader name="surface" filename="data/organ.obj"/>
+    <VisualModel src="@surface"/>
+    <BarycentricMapping/>
+  </Node>
+</Node>)"},
+
+    {"MechanicalObject", R"(
+<Node name="root" gravity="0 -9.81 0">
+  <EulerExplicitSolver/>
+  <Node name="points">
+    <MechanicalObject position="0 0 0  1 0 0" velocity="0 1 0  0 2 0"/>
+    <UniformMass vertexMass="0.1"/>
+  </Node>
+  <Node name="frame">
+    <MechanicalObject template="Rigid3d" position="2 0 0  0 0 0 1" velocity="0 0 0  0 0 3"/>
+    <UniformMass vertexMass="1 1  0.1 0 0  0 0.1 0  0 0 0.1"/>
+  </Node>
+</Node>)"},
+    {"VisualModel",
+     R"(
+<VisualModel position="0 0 0  0.4 0 0  0.4 0.1 0  0 0.1 0" quads="0 3 2 1"/>
+<BarycentricMapping/>)",
+     R"(
+<Node name="body" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <SparseLDLSolver/>
+  <RegularGridTopology n="5 3 3" max="0.4 0.1 0.1"/>
+  <MechanicalObject/>
+  <UniformMass totalMass="4"/>
+  <TetrahedronFEMForceField youngModulus="50000" poissonRatio="0.3"/>
+  <FixedConstraint indices="0 5 10 15 20 25 30 35 40"/>
+  <Node name="skin">
+    <HERE/>
+  </Node>
+</Node>)",
+     "HERE"},
+
+    {"BeamMass", "", beams, ""},
+    {"DiagonalMass", R"(<DiagonalMass massDensity="1000"/>)"},
+    {"MeshMatrixMass", R"(<MeshMatrixMass massDensity="1000"/>)"},
+    {"UniformMass", "", softBody, ""},
+
+    {"AngularSpringForceField", R"(
+<Node name="shaft">
+  <EulerImplicitSolver/>
+  <SparseLDLSolver template="CompressedRowSparseMatrixd"/>
+  <MechanicalObject template="Rigid3d" position="0 0 0  0 0 0 1   0.2 0 0  0 0 0 1   0.4 0 0  0 0 0 1"
+                    velocity="0 0 0  10 0 0   0 0 0  0 0 0   0 0 0  0 0 0"/>
+  <UniformMass vertexMass="1 1  0.02 0 0  0 0.01 0  0 0 0.01"/>
+  <AngularSpringForceField indices="0 1 2" angularStiffness="5"/>
+</Node>)"},
+    {"BeamFEMForceField", "", beams, ""},
+    {"ConstantForceField",
+     R"(<ConstantForceField indices="4 9" totalForce="0 0 5"/>)",
+     softBody,
+     "TetrahedronFEMForceField",
+     Place::beside},
+    {"EdgePressureForceField",
+     R"(<EdgePressureForceField pressure="0 0 2" edgeIndices="0 1 2 3"/>)",
+     sheet,
+     "TriangleFEMForceField",
+     Place::beside},
+    {"FastTriangularBendingSprings",
+     R"(<FastTriangularBendingSprings bendingStiffness="0.02"/>)",
+     sheet,
+     "TriangleFEMForceField",
+     Place::beside},
+    {"HexahedronFEMForceField", R"(<HexahedronFEMForceField youngModulus="50000" poissonRatio="0.3"/>)"},
+    {"LinearForceField",
+     R"(<LinearForceField points="4 9" times="0 0.5 1" forces="0 0 0  0 0 3  0 0 0"/>)",
+     softBody,
+     "TetrahedronFEMForceField",
+     Place::beside},
+    {"MeshSpringForceField", R"(<MeshSpringForceField stiffness="2000" damping="1"/>)"},
+    {"PlaneForceField",
+     R"(<PlaneForceField normal="0 1 0" d="-0.05" stiffness="500" damping="5"/>)",
+     softBody,
+     "TetrahedronFEMForceField",
+     Place::beside},
+    {"PolynomialSpringsForceField",
+     R"(
+<PolynomialSpringsForceField firstObjectPoints="0 1" secondObjectPoints="1 2"
+                             polynomialDegree="3" polynomialStiffness="5 0 400"/>)",
+     chain,
+     "StiffSpringForceField"},
+    {"QuadBendingSprings",
+     R"(
+<MeshSpringForceField stiffness="50" damping="0.1"/>
+<QuadBendingSprings stiffness="20" damping="0.05"/>)",
+     sheet,
+     "TriangleFEMForceField"},
+    {"QuadPressureForceField",
+     R"(<QuadPressureForceField pressure="0 0 2" quadList="0 1 2 3"/>)",
+     sheet,
+     "TriangleFEMForceField",
+     Place::beside},
+    {"QuadularBendingSprings",
+     R"(
+<MeshSpringForceField stiffness="50" damping="0.1"/>
+<QuadularBendingSprings stiffness="20" damping="0.05"/>)",
+     sheet,
+     "TriangleFEMForceField"},
+    {"RegularGridSpringForceField", R"(<RegularGridSpringForceField stiffness="200" damping="1"/>)"},
+    {"RestShapeSpringsForceField",
+     R"(<RestShapeSpringsForceField points="0" stiffness="200"/>)",
+     chain,
+     "FixedConstraint"},
+    {"SPHFluidForceField", R"(
+<Node name="water" gravity="0 -10 0">
+  <EulerExplicitSolver symplectic="true"/>
+  <RegularGridTopology n="5 10 5" max="2 4.5 2" computeHexaList="false" computeQuadList="false"
+                       computeTriangleList="false" computeEdgeList="false"/>
+  <MechanicalObject/>
+  <UniformMass vertexMass="1"/>
+  <SPHFluidForceField radius="0.745" density="15" pressure="1000" viscosity="10" kernelType="1" viscosityType="2"/>
+  <PlaneForceField normal="0 1 0" d="-1"/>
+</Node>)"},
+    {"SphereForceField",
+     R"(<SphereForceField center="0.4 -0.15 0.05" radius="0.1" stiffness="500"/>)",
+     softBody,
+     "TetrahedronFEMForceField",
+     Place::beside},
+    {"StiffSpringForceField", R"(
+<Node name="root" gravity="0 -9.81 0">
+  <EulerImplicitSolver/>
+  <SparseLDLSolver/>
+  <Node name="upper">
+    <MechanicalObject name="points" position="0 1 0"/>
+    <UniformMass vertexMass="0.1"/>
+    <FixedConstraint indices="0"/>
+  </Node>
+  <Node name="chain">
+    <MechanicalObject name="points" position="0 0.5 0  0.5 0.5 0"/>
+    <UniformMass vertexMass="0.1"/>
+    <StiffSpringForceField spring="0 1 100 0.1 0.5"/>
+  </Node>
+  <StiffSpringForceField object1="@upper/points" object2="@chain/points" spring="0 0 100 0.1 0.5"/>
+</Node>)"},
+    {"SurfacePressureForceField",
+     R"(<SurfacePressureForceField pressure="2"/>)",
+     sheet,
+     "TriangleFEMForceField",
+     Place::beside},
+    {"TetrahedronFEMForceField", "", softBody, ""},
+    {"TetrahedronHyperelasticityFEMForceField", R"(
+<TetrahedronHyperelasticityFEMForceField materialName="NeoHookean" ParameterSet="20000 30000"/>)"},
+    {"TetrahedronViscoelasticityFEMForceField", R"(
+<TetrahedronViscoelasticityFEMForceField materialName="SLSMaxwellFirstOrder" ParameterSet="20000 10000 0.1 30000"/>)"},
+    {"TriangleBendingSprings",
+     R"(
+<MeshSpringForceField stiffness="50" damping="0.1"/>
+<TriangleBendingSprings stiffness="20" damping="0.05"/>)",
+     sheet,
+     "TriangleFEMForceField"},
+    {"TriangleFEMForceField", "", sheet, ""},
+    {"TrianglePressureForceField",
+     R"(<TrianglePressureForceField pressure="0 0 2" triangleList="0 1 2 3"/>)",
+     sheet,
+     "TriangleFEMForceField",
+     Place::beside},
+    {"TriangularBendingSprings",
+     R"(
+<MeshSpringForceField stiffness="50" damping="0.1"/>
+<TriangularBendingSprings stiffness="20" damping="0.05"/>)",
+     sheet,
+     "TriangleFEMForceField"},
+    {"TriangularShellForceField", R"(
+<Node name="sheet" gravity="0 0 -9.81">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <SparseLDLSolver template="CompressedRowSparseMatrixd"/>
+  <RegularGridTopology n="6 4 1" max="1 0.5 0"/>
+  <MechanicalObject template="Rigid3d"/>
+  <UniformMass vertexMass="0.1 1  2e-4 0 0  0 2e-4 0  0 0 4e-4"/>
+  <TriangularShellForceField youngModulus="1e7" poissonRatio="0.3" thickness="0.01"/>
+  <FixedConstraint indices="0 6 12 18"/>
+</Node>)"},
+    {"UniformVelocityDampingForceField",
+     R"(<UniformVelocityDampingForceField dampingCoefficient="0.05"/>)",
+     chain,
+     "StiffSpringForceField",
+     Place::beside},
+    {"VirtualCoupling", R"(
+<Node name="tool">
+  <EulerImplicitSolver/>
+  <SparseLDLSolver template="CompressedRowSparseMatrixd"/>
+  <MechanicalObject template="Rigid3d" position="0 0.15 0  0 0 0 1"/>
+  <UniformMass vertexMass="0.05 1  0.002 0 0  0 0.002 0  0 0 0.002"/>
+  <VirtualCoupling stiffness="100" damping="2" angularStiffness="0.5" target="0.03 0.18 0  0 0.5 0 0.866025"/>
+</Node>)"},
+
+    {"AffineMovementConstraint",
+     R"(
+<AffineMovementConstraint indices="4 9 14 19 24 29 34 39 44" translation="0.1 0 0" endConstraintTime="1"/>)",
+     softBody,
+     "FixedConstraint",
+     Place::beside},
+    {"AttachProjectiveConstraint", R"(
+<Node name="root" gravity="0 -9.81 0">
+  <EulerImplicitSolver/>
+  <SparseLDLSolver/>
+  <AttachProjectiveConstraint object1="@upper" object2="@lower" indices1="1" indices2="0" twoWay="true"/>
+  <Node name="upper">
+    <MechanicalObject position="0 0 0  0 -0.5 0.2"/>
+    <UniformMass vertexMass="0.1"/>
+    <StiffSpringForceField spring="0 1 100 0.1 0.5"/>
+    <FixedConstraint indices="0"/>
+  </Node>
+  <Node name="lower">
+    <MechanicalObject position="0 -0.5 0.2  0 -1 0"/>
+    <UniformMass vertexMass="0.1"/>
+    <StiffSpringForceField spring="0 1 100 0.1 0.5"/>
+  </Node>
+</Node>)"},
+    {"FixedConstraint", "", softBody, ""},
+    {"FixedPlaneConstraint",
+     R"(<FixedPlaneConstraint direction="1 0 0" dmin="-0.01" dmax="0.01"/>)",
+     softBody,
+     "FixedConstraint",
+     Place::beside},
+    {"FixedRotationConstraint",
+     R"(<FixedRotationConstraint FixedXRotation="true"/>)",
+     beams,
+     "FixedConstraint",
+     Place::beside},
+    {"HermiteSplineConstraint",
+     R"(
+<HermiteSplineConstraint indices="0" X0="0 0 0" dX0="0 2 0" X1="1 0 0" dX1="0 2 0" SX0="0 0" SX1="0 0"
+                         BeginTime="0" EndTime="1"/>)",
+     chain,
+     "FixedConstraint"},
+    {"LinearMovementConstraint",
+     R"(
+<LinearMovementConstraint indices="0" keyTimes="0 0.5 1" movements="0 0 0  0.3 0.2 0  0 0.4 0"/>)",
+     chain,
+     "FixedConstraint"},
+    {"LinearVelocityConstraint",
+     R"(
+<LinearVelocityConstraint indices="0" keyTimes="0 0.5 1" velocities="0 0 0  0 1 0  0 0 0"/>)",
+     chain,
+     "FixedConstraint"},
+    {"OscillatorConstraint",
+     R"(<OscillatorConstraint oscillators="0  0 0 0  0 0.1 0  6.28 0"/>)",
+     chain,
+     "FixedConstraint"},
+    {"ParabolicConstraint",
+     R"(
+<ParabolicConstraint indices="0" P1="0 0 0" P2="0.5 1 0" P3="1 0 0" BeginTime="0" EndTime="0.8"/>)",
+     chain,
+     "FixedConstraint"},
+    {"PartialFixedConstraint",
+     R"(<PartialFixedConstraint indices="0" fixedDirections="1 1 0"/>)",
+     chain,
+     "FixedConstraint"},
+    {"ProjectDirectionConstraint",
+     R"(<ProjectDirectionConstraint indices="0" direction="1 0 0"/>)",
+     chain,
+     "FixedConstraint"},
+    {"ProjectToLineConstraint",
+     R"(
+<ProjectToLineConstraint indices="0" origin="0 0 0" direction="1 -0.2 0"/>)",
+     chain,
+     "FixedConstraint"},
+    {"ProjectToPlaneConstraint",
+     R"(
+<ProjectToPlaneConstraint indices="0" origin="0 0 0" normal="0 1 0"/>)",
+     chain,
+     "FixedConstraint"},
+    {"ProjectToPointConstraint",
+     R"(<ProjectToPointConstraint indices="0" point="0 0.1 0"/>)",
+     chain,
+     "FixedConstraint"},
+    {"ReadState", R"(
+<Node name="root" gravity="0 -9.81 0">
+  <Node name="hand">
+    <MechanicalObject name="points" position="0 0 0"/>
+    <ReadState keyTimes="0 0.5 1" keyPositions="0 0 0  0.5 0.2 0  0 0 0" loop="true"/>
+  </Node>
+  <Node name="weight">
+    <EulerImplicitSolver/>
+    <SparseLDLSolver/>
+    <MechanicalObject name="points" position="0 -0.5 0"/>
+    <UniformMass vertexMass="0.1"/>
+  </Node>
+  <StiffSpringForceField object1="@hand/points" object2="@weight/points" spring="0 0 50 0.1 0.5"/>
+</Node>)"},
+
+    {"BarycentricMapping", "", carrier, ""},
+    {"BeamLinearMapping",
+     R"(
+<Node name="hook">
+  <MechanicalObject position="0.75 0.01 0"/>
+  <BeamLinearMapping localCoord="false"/>
+  <ConstantForceField force="0 0 0.5"/>
+</Node>)",
+     beams,
+     "FixedConstraint",
+     Place::beside},
+    {"CenterOfMassMapping", R"(<CenterOfMassMapping/>)"},
+    {"DistanceMapping", R"(
+<Node name="net" gravity="0 -9.81 0">
+  <EulerImplicitSolver/>
+  <SparseLDLSolver template="CompressedRowSparseMatrixd"/>
+  <RegularGridTopology name="grid" n="5 1 5" max="1 0 1"/>
+  <MechanicalObject/>
+  <UniformMass totalMass="0.2"/>
+  <FixedConstraint indices="0 4 20 24"/>
+  <Node name="lengths">
+    <MeshTopology edges="0 1  1 2  2 3  3 4"/>
+    <MechanicalObject template="Vec1d"/>
+    <DistanceMapping/>
+    <RestShapeSpringsForceField stiffness="80"/>
+  </Node>
+</Node>)"},
+    {"IdentityMapping",
+     R"(
+<Node name="skin">
+  <MechanicalObject/>
+  <IdentityMapping/>
+  <ConstantForceField indices="44" force="0 0 2"/>
+</Node>)",
+     softBody,
+     "FixedConstraint",
+     Place::beside},
+    {"RigidMapping", R"(
+<Node name="tool" gravity="0 -9.81 0">
+  <EulerImplicitSolver/>
+  <CGLinearSolver iterations="50" tolerance="1e-8"/>
+  <MechanicalObject template="Rigid3d" position="0 1 0  0 0 0 1"/>
+  <UniformMass vertexMass="1 1  0.1 0 0  0 0.1 0  0 0 0.1"/>
+  <Node name="tips">
+    <MechanicalObject position="-0.1 -0.3 0  0.1 -0.3 0"/>
+    <RigidMapping/>
+    <PlaneForceField normal="0 1 0" d="0.65" stiffness="200" damping="5"/>
+  </Node>
+</Node>)"},
+    {"SkinningMapping", R"(
+<Node name="bones">
+  <EulerExplicitSolver/>
+  <MechanicalObject template="Rigid3d" position="0 0 0  0 0 0 1   1 0 0  0 0 0 1"
+                    velocity="0 0 0  0 0 0   0 0 0  2 0 0"/>
+  <UniformMass vertexMass="1 1  0.1 0 0  0 0.1 0  0 0 0.1"/>
+  <Node name="skin">
+    <MechanicalObject position="0.5 0.2 0  0.5 0 0.2  0.5 -0.2 0"/>
+    <SkinningMapping nbRef="2" method="dualQuaternion"/>
+  </Node>
+</Node>)"},
+    {"SubsetMapping",
+     R"(
+<Node name="corners">
+  <MechanicalObject/>
+  <SubsetMapping indices="4 44"/>
+  <ConstantForceField force="0 0 2"/>
+</Node>)",
+     softBody,
+     "FixedConstraint",
+     Place::beside},
+    {"SubsetMultiMapping", R"(
+<Node name="root" gravity="0 -9.81 0">
+  <EulerImplicitSolver/>
+  <SparseLDLSolver/>
+  <Node name="upper">
+    <MechanicalObject position="0 0 0  0 -0.5 0"/>
+    <UniformMass vertexMass="0.1"/>
+    <StiffSpringForceField spring="0 1 100 0.1 0.5"/>
+    <FixedConstraint indices="0"/>
+  </Node>
+  <Node name="lower">
+    <MechanicalObject position="0 -1 0"/>
+    <UniformMass vertexMass="0.1"/>
+  </Node>
+  <Node name="joint">
+    <MechanicalObject/>
+    <SubsetMultiMapping input="@../upper @../lower" indexPairs="0 1  1 0"/>
+    <StiffSpringForceField spring="0 1 50 0.2 0.5"/>
+  </Node>
+</Node>)"},
+    {"VolumeMapping", R"(
+<Node name="body" gravity="0 -9.81 0">
+  <EulerImplicitSolver/>
+  <SparseLDLSolver template="CompressedRowSparseMatrixd"/>
+  <TetrahedronTopology tetrahedra="0 1 2 3  1 2 3 4"/>
+  <MechanicalObject position="0 0 0  1 0 0  0.5 0 0.9  0.5 -0.8 0.3  0.5 -1 1.2"/>
+  <UniformMass totalMass="0.5"/>
+  <TetrahedronFEMForceField youngModulus="200" poissonRatio="0.2"/>
+  <FixedConstraint indices="0 1 2"/>
+  <Node name="volumes">
+    <MechanicalObject template="Vec1d"/>
+    <VolumeMapping/>
+    <RestShapeSpringsForceField stiffness="20000"/>
+  </Node>
+</Node>)"},
+
+    {"BDFOdeSolver", R"(<BDFOdeSolver order="2"/>)"},
+    {"NewmarkImplicitSolver", R"(<NewmarkImplicitSolver gamma="0.5" beta="0.25"/>)"},
+    {"EulerImplicitSolver", "", softBody, ""},
+    {"StaticSolver", R"(<StaticSolver newton_iterations="20"/>)"},
+    {"DampVelocitySolver",
+     R"(<DampVelocitySolver rate="0.5"/>)",
+     softBody,
+     "EulerImplicitSolver",
+     Place::beside},
+    {"EulerExplicitSolver", R"(<EulerExplicitSolver/>)", chain, "EulerImplicitSolver"},
+    {"CentralDifferenceSolver",
+     R"(<CentralDifferenceSolver rayleighMass="0.1"/>)",
+     chain,
+     "EulerImplicitSolver"},
+    {"RungeKutta2Solver", R"(<RungeKutta2Solver/>)", chain, "EulerImplicitSolver"},
+    {"RungeKutta4Solver", R"(<RungeKutta4Solver/>)", chain, "EulerImplicitSolver"},
+    {"RungeKutta45Solver", R"(<RungeKutta45Solver tolerance="1e-6"/>)", chain, "EulerImplicitSolver"},
+
+    {"CGLinearSolver", R"(
+<CGLinearSolver template="CompressedRowSparseMatrixMat3x3d" iterations="100" tolerance="1e-8"/>)"},
+    {"MinResLinearSolver", R"(<MinResLinearSolver iterations="100" tolerance="1e-8"/>)"},
+    {"ShewchukPCGLinearSolver", R"(
+<ShewchukPCGLinearSolver template="CompressedRowSparseMatrixMat3x3d" iterations="100" tolerance="1e-8"
+                         precondition="incompleteCholesky"/>)"},
+    {"SparseLDLSolver", "", softBody, ""},
+
+    {"WriteState",
+     R"(<WriteState filename="body.state" writeV="true" period="0.1"/>)",
+     softBody,
+     "FixedConstraint",
+     Place::beside},
+
+    {"BoxROI", R"(
+<BoxROI name="end" box="-0.01 -1 -1  0.01 1 1"/>
+<FixedConstraint indices="@end.indices"/>)"},
+    {"SphereROI", R"(
+<SphereROI name="end" centers="0 0.05 0.05" radii="0.08"/>
+<FixedConstraint indices="@end.indices"/>)"},
+    {"PlaneROI", R"(
+<PlaneROI name="end" plane="0 -1 -1  0 1 -1  0 1 1  0.1"/>
+<FixedConstraint indices="@end.indices"/>)"},
+    {"PairBoxROI", R"(
+<PairBoxROI name="shell" inclusiveBox="-1 -1 -1  1 1 1" includedBox="0.05 0.01 0.01  0.35 0.09 0.09"/>
+<FixedConstraint indices="@shell.indices"/>)"},
+    {"NearestPointROI", R"(
+<Node name="root" gravity="0 -9.81 0">
+  <EulerImplicitSolver/>
+  <SparseLDLSolver/>
+  <Node name="hooks">
+    <MechanicalObject name="points" position="0 1 0  0.5 1 0"/>
+    <UniformMass vertexMass="0.1"/>
+    <FixedConstraint indices="0 1"/>
+  </Node>
+  <Node name="drops">
+    <MechanicalObject name="points" position="0.5 0.8 0  0 0.8 0"/>
+    <UniformMass vertexMass="0.1"/>
+  </Node>
+  <NearestPointROI name="near" position1="@hooks/points.rest_position" position2="@drops/points.rest_position"
+                   radius="0.4"/>
+  <StiffSpringForceField object1="@hooks/points" object2="@drops/points" springsIndices1="@near.indices1"
+                         springsIndices2="@near.indices2" lengths="@near.distances" stiffness="50" damping="0.1"/>
+</Node>)"},
+    {"GenerateRigidMass", R"(
+<Node name="brick" gravity="0 -9.81 0">
+  <EulerImplicitSolver/>
+  <CGLinearSolver iterations="50" tolerance="1e-8"/>
+  <MeshSTLLoader name="cube" filename="data/cube.stl" scale3d="1 0.5 0.25"/>
+  <GenerateRigidMass name="inside" density="1000" position="@cube.position" triangles="@cube.triangles"/>
+  <MechanicalObject template="Rigid3d" position="0 1 0  0 0 0 1" velocity="0 0 0  0 5 1"/>
+  <UniformMass vertexMass="@inside.rigidMass"/>
+</Node>)"},
+    {"GridMeshCreator",
+     R"(
+<GridMeshCreator name="grid" resolution="6 6" trianglePattern="1"/>
+<MeshTopology src="@grid"/>
+<MechanicalObject src="@grid"/>)",
+     R"(
+<Node name="sheet" gravity="0 0 -9.81">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <HERE/>
+  <UniformMass totalMass="0.2"/>
+  <TriangleFEMForceField youngModulus="5000" poissonRatio="0.3" thickness="0.01"/>
+  <FixedConstraint indices="0 5"/>
+</Node>)",
+     "HERE"},
+    {"StringMeshCreator", R"(
+<Node name="string" gravity="0 -9.81 0">
+  <EulerImplicitSolver/>
+  <SparseLDLSolver/>
+  <StringMeshCreator name="line" resolution="10"/>
+  <MeshTopology src="@line"/>
+  <MechanicalObject src="@line"/>
+  <UniformMass totalMass="0.1"/>
+  <MeshSpringForceField stiffness="100" damping="0.1"/>
+  <FixedConstraint indices="0"/>
+</Node>)"},
+    {"MeshSubdivision", R"(
+<Node name="body" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <MeshGmshLoader name="coarse" filename="data/beam.msh"/>
+  <MeshSubdivision name="fine" src="@coarse" levels="1"/>
+  <MeshTopology src="@fine"/>
+  <MechanicalObject src="@fine"/>
+  <DiagonalMass massDensity="1"/>
+  <TetrahedronFEMForceField youngModulus="3000" poissonRatio="0.3"/>
+  <FixedConstraint indices="0 1 2"/>
+</Node>)"},
+    {"MeshGmshLoader", R"(
+<Node name="body" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <MeshGmshLoader name="beam" filename="data/beam.msh"/>
+  <MeshTopology src="@beam"/>
+  <MechanicalObject src="@beam"/>
+  <DiagonalMass massDensity="1"/>
+  <TetrahedronFEMForceField youngModulus="3000" poissonRatio="0.3"/>
+  <FixedConstraint indices="0 1 2"/>
+</Node>)"},
+    {"MeshVTKLoader", R"(
+<Node name="tower" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <MeshVTKLoader name="mesh" filename="data/tower.vtk"/>
+  <MeshTopology src="@mesh"/>
+  <MechanicalObject src="@mesh"/>
+  <UniformMass totalMass="1"/>
+  <HexahedronFEMForceField youngModulus="500" poissonRatio="0.3"/>
+  <FixedConstraint indices="0 1 2 3"/>
+</Node>)"},
+    {"MeshOBJLoader",
+     R"(
+<Node name="skin">
+  <MeshOBJLoader name="surface" filename="data/ball.obj" scale="0.05" translation="0.2 0.05 0.05"/>
+  <VisualModel src="@surface"/>
+  <BarycentricMapping/>
+</Node>)",
+     softBody,
+     "FixedConstraint",
+     Place::beside},
+    {"MeshSTLLoader",
+     R"(
+<Node name="skin">
+  <MeshSTLLoader name="surface" filename="data/cube.stl" scale3d="0.4 0.1 0.1"/>
+  <VisualModel src="@surface"/>
+  <BarycentricMapping/>
+</Node>)",
+     softBody,
+     "FixedConstraint",
+     Place::beside},
+    {"SphereLoader", R"(
+<Node name="root" gravity="0 -9.81 0">
+  <DefaultPipeline/>
+  <BruteForceBroadPhase/>
+  <BVHNarrowPhase/>
+  <MinProximityIntersection alarmDistance="0.1" contactDistance="0.02"/>
+  <DefaultContactManager/>
+  <Node name="balls">
+    <EulerImplicitSolver/>
+    <CGLinearSolver iterations="50" tolerance="1e-8"/>
+    <SphereLoader name="spheres" filename="data/beam.sph"/>
+    <MechanicalObject position="@spheres.position"/>
+    <UniformMass vertexMass="0.1"/>
+    <SphereCollisionModel listRadius="@spheres.listRadius" selfCollision="true"/>
+  </Node>
+</Node>)"},
+    {"TransformEngine", R"(
+<Node name="ball" gravity="0 -9.81 0">
+  <EulerImplicitSolver/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <MeshOBJLoader name="ball" filename="data/ball.obj"/>
+  <TransformEngine name="placed" input_position="@ball.position" translation="6 1 0" rotation="0 0 45"
+                   scale="0.5 1 0.5"/>
+  <MeshTopology triangles="@ball.triangles"/>
+  <MechanicalObject position="@placed.output_position"/>
+  <UniformMass totalMass="1"/>
+  <MeshSpringForceField stiffness="50" damping="0.5"/>
+</Node>)"},
+    {"Hexa2TetraTopologicalMapping",
+     R"(
+<Node name="volume">
+  <TetrahedronTopology name="container"/>
+  <Hexa2TetraTopologicalMapping input="@../grid" output="@container"/>
+  <TetrahedronFEMForceField youngModulus="20000" poissonRatio="0.3"/>
+</Node>)",
+     R"(
+<Node name="beam" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <SparseLDLSolver/>
+  <RegularGridTopology name="grid" n="5 3 3" max="0.4 0.1 0.1"/>
+  <MechanicalObject/>
+  <UniformMass totalMass="4"/>
+  <FixedConstraint indices="0 5 10 15 20 25 30 35 40"/>
+  <HERE/>
+</Node>)",
+     "HERE"},
+    {"Tetra2TriangleTopologicalMapping",
+     R"(
+<TetrahedronFEMForceField youngModulus="2000" poissonRatio="0.3"/>
+<Node name="surface">
+  <MeshTopology name="container"/>
+  <Tetra2TriangleTopologicalMapping input="@../volume" output="@container"/>
+  <SurfacePressureForceField pressure="5"/>
+</Node>)",
+     R"(
+<Node name="body" gravity="0 -9.81 0">
+  <EulerImplicitSolver/>
+  <SparseLDLSolver/>
+  <TetrahedronTopology name="volume" tetrahedra="0 1 2 3  1 2 3 4"/>
+  <MechanicalObject position="0 0 0  1 0 0  0.5 0 0.9  0.5 -0.8 0.3  0.5 -1 1.2"/>
+  <UniformMass totalMass="0.5"/>
+  <FixedConstraint indices="0 1 2"/>
+  <HERE/>
+</Node>)",
+     "HERE"},
+    {"Hexa2QuadTopologicalMapping",
+     R"(
+<Node name="surface">
+  <MeshTopology name="container"/>
+  <Hexa2QuadTopologicalMapping input="@../grid" output="@container"/>
+  <SurfacePressureForceField pressure="50"/>
+</Node>)",
+     R"(
+<Node name="beam" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <SparseLDLSolver/>
+  <RegularGridTopology name="grid" n="5 3 3" max="0.4 0.1 0.1"/>
+  <MechanicalObject/>
+  <UniformMass totalMass="4"/>
+  <HexahedronFEMForceField youngModulus="50000" poissonRatio="0.3"/>
+  <FixedConstraint indices="0 5 10 15 20 25 30 35 40"/>
+  <HERE/>
+</Node>)",
+     "HERE"},
+    {"Quad2TriangleTopologicalMapping",
+     R"(
+<Node name="triangles">
+  <MeshTopology name="container"/>
+  <Quad2TriangleTopologicalMapping input="@../grid" output="@container"/>
+  <TriangleFEMForceField youngModulus="5000" poissonRatio="0.3" thickness="0.01"/>
+</Node>)",
+     R"(
+<Node name="sheet" gravity="0 0 -9.81">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <RegularGridTopology name="grid" n="5 5 1" max="1 1 0"/>
+  <MechanicalObject/>
+  <UniformMass totalMass="0.2"/>
+  <FixedConstraint indices="20 24"/>
+  <HERE/>
+</Node>)",
+     "HERE"},
+    {"Triangle2EdgeTopologicalMapping",
+     R"(
+<Node name="border">
+  <MeshTopology name="container"/>
+  <Triangle2EdgeTopologicalMapping input="@../grid" output="@container"/>
+  <MeshSpringForceField stiffness="100" damping="1"/>
+</Node>)",
+     R"(
+<Node name="sheet" gravity="0 0 -9.81">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <RegularGridTopology name="grid" n="5 5 1" max="1 1 0"/>
+  <MechanicalObject/>
+  <UniformMass totalMass="0.2"/>
+  <TriangleFEMForceField youngModulus="5000" poissonRatio="0.3" thickness="0.01"/>
+  <FixedConstraint indices="20 24"/>
+  <HERE/>
+</Node>)",
+     "HERE"},
+
+    {"LocalMinDistance", R"(<LocalMinDistance alarmDistance="0.05" contactDistance="0.01"/>)"},
+    {"MinProximityIntersection", "", contact, ""},
+    {"ContinuousIntersection", R"(<ContinuousIntersection alarmDistance="0.05" contactDistance="0.01"/>)"},
+    {"DefaultContactManager", "", friction, ""},
+    {"SphereCollisionModel", "", contact, ""},
+    {"PointCollisionModel", R"(<PointCollisionModel contactStiffness="20"/>)"},
+    {"LineCollisionModel",
+     R"(
+<TriangleCollisionModel contactStiffness="20"/>
+<LineCollisionModel contactStiffness="20"/>
+<PointCollisionModel contactStiffness="20"/>)",
+     friction,
+     "PointCollisionModel"},
+    {"TriangleCollisionModel",
+     R"(
+<TriangleCollisionModel contactStiffness="20"/>
+<PointCollisionModel contactStiffness="20"/>)",
+     friction,
+     "PointCollisionModel"},
+    {"ConvexCollisionModel", R"(
+<Node name="root" gravity="0 -9.81 0">
+  <DefaultPipeline/>
+  <BruteForceBroadPhase/>
+  <BVHNarrowPhase/>
+  <MinProximityIntersection alarmDistance="0.05" contactDistance="0.01"/>
+  <DefaultContactManager/>
+  <Node name="floor">
+    <MeshTopology triangles="0 1 2  0 2 3"/>
+    <MechanicalObject position="-1 0 1  1 0 1  1 0 -1  -1 0 -1"/>
+    <TriangleCollisionModel moving="false" simulated="false" contactStiffness="100"/>
+  </Node>
+  <Node name="brick">
+    <EulerImplicitSolver/>
+    <CGLinearSolver iterations="50" tolerance="1e-8"/>
+    <MechanicalObject template="Rigid3d" position="0 0.22 0  0 0 0 1"/>
+    <UniformMass vertexMass="1 1  0.01 0 0  0 0.01 0  0 0 0.01"/>
+    <ConvexCollisionModel contactStiffness="100"
+                          points="-0.2 -0.1 -0.1  0.2 -0.1 -0.1  0.2 0.1 -0.1  -0.2 0.1 -0.1
+                                  -0.2 -0.1 0.1  0.2 -0.1 0.1  0.2 0.1 0.1  -0.2 0.1 0.1"/>
+  </Node>
+</Node>)"},
+    {"CarvingManager", R"(
+<Node name="root" gravity="0 0 -9.81">
+  <DefaultPipeline/>
+  <BruteForceBroadPhase/>
+  <BVHNarrowPhase/>
+  <MinProximityIntersection alarmDistance="0.1" contactDistance="0.02"/>
+  <DefaultContactManager/>
+  <CarvingManager active="true" carvingDistance="0.01" toolModel="@tool/ball"/>
+  <Node name="sheet">
+    <EulerImplicitSolver rayleighStiffness="0.05"/>
+    <CGLinearSolver iterations="50" tolerance="1e-8"/>
+    <GridMeshCreator name="grid" resolution="8 8"/>
+    <MeshTopology src="@grid"/>
+    <MechanicalObject src="@grid"/>
+    <UniformMass totalMass="1"/>
+    <TriangleFEMForceField youngModulus="2000" poissonRatio="0.3" thickness="0.01"/>
+    <FixedConstraint indices="0 7 56 63"/>
+    <TriangleCollisionModel contactStiffness="10"/>
+  </Node>
+  <Node name="tool">
+    <MechanicalObject position="0.5 0.5 0.4"/>
+    <LinearMovementConstraint indices="0" keyTimes="0 1" movements="0 0 0  0 0 -0.4"/>
+    <SphereCollisionModel name="ball" radius="0.2" simulated="false"/>
+  </Node>
+</Node>)"},
+
+    {"FreeMotionAnimationLoop", "", multipliers, ""},
+    {"FixedLagrangianConstraint", "", multipliers, ""},
+    {"BilateralLagrangianConstraint", R"(
+<Node name="root" gravity="0 -9.81 0">
+  <FreeMotionAnimationLoop/>
+  <BlockGaussSeidelConstraintSolver maxIterations="1000" tolerance="1e-8"/>
+  <BilateralLagrangianConstraint object1="@arm" object2="@weight" first_point="2" second_point="0"/>
+  <Node name="arm">
+    <EulerImplicitSolver/>
+    <SparseLDLSolver/>
+    <MechanicalObject position="0 0 0  0.5 0 0  1 0 0"/>
+    <UniformMass vertexMass="0.1"/>
+    <StiffSpringForceField spring="0 1 100 0.1 0.5  1 2 100 0.1 0.5"/>
+    <FixedConstraint indices="0"/>
+  </Node>
+  <Node name="weight">
+    <EulerExplicitSolver/>
+    <MechanicalObject position="1 0 0"/>
+    <UniformMass vertexMass="0.1"/>
+  </Node>
+</Node>)"},
+    {"SlidingLagrangianConstraint",
+     R"(
+<FixedConstraint indices="0 2"/>
+<SlidingLagrangianConstraint sliding_point="1" axis_1="0" axis_2="2"/>)",
+     R"(
+<Node name="root" gravity="0 -9.81 0">
+  <FreeMotionAnimationLoop/>
+  <BlockGaussSeidelConstraintSolver maxIterations="1000" tolerance="1e-8"/>
+  <Node name="bead">
+    <EulerImplicitSolver/>
+    <SparseLDLSolver/>
+    <MechanicalObject position="0 0 0  0.5 -0.1 0  1 -0.2 0"/>
+    <UniformMass vertexMass="0.1"/>
+    <HERE/>
+  </Node>
+</Node>)",
+     "HERE"},
+    {"UnilateralLagrangianConstraint",
+     R"(
+<UnilateralLagrangianConstraint first_point="0" second_point="1" normal="0 1 0" contactDistance="0.05" mu="0.5"/>)",
+     R"(
+<Node name="root" gravity="0 -9.81 0">
+  <FreeMotionAnimationLoop/>
+  <BlockGaussSeidelConstraintSolver maxIterations="1000" tolerance="1e-8"/>
+  <Node name="points">
+    <EulerImplicitSolver/>
+    <SparseLDLSolver/>
+    <MechanicalObject position="0 0 0  0 0.1 0"/>
+    <UniformMass vertexMass="0.1"/>
+    <FixedConstraint indices="0"/>
+    <HERE/>
+  </Node>
+</Node>)",
+     "HERE"},
+    {"AugmentedLagrangianConstraint",
+     R"(
+<AugmentedLagrangianConstraint first_point="0" second_point="1" normal="0 1 0" contactDistance="0.05" mu="0.5"/>)",
+     R"(
+<Node name="root" gravity="0 -9.81 0">
+  <FreeMotionAnimationLoop/>
+  <BlockGaussSeidelConstraintSolver maxIterations="1000" tolerance="1e-8"/>
+  <Node name="points">
+    <EulerImplicitSolver/>
+    <SparseLDLSolver/>
+    <MechanicalObject position="0 0 0  0 0.1 0"/>
+    <UniformMass vertexMass="0.1"/>
+    <FixedConstraint indices="0"/>
+    <HERE/>
+  </Node>
+</Node>)",
+     "HERE"},
+    {"UniformLagrangianConstraint", R"(
+<Node name="root" gravity="0 -9.81 0">
+  <FreeMotionAnimationLoop/>
+  <BlockGaussSeidelConstraintSolver maxIterations="1000" tolerance="1e-8"/>
+  <Node name="rope">
+    <EulerImplicitSolver/>
+    <SparseLDLSolver/>
+    <MechanicalObject position="0 0 0  0.5 0 0  1 0 0"/>
+    <UniformMass vertexMass="0.1"/>
+    <FixedLagrangianConstraint indices="0"/>
+    <Node name="lengths">
+      <MeshTopology edges="0 1  1 2"/>
+      <MechanicalObject template="Vec1d"/>
+      <DistanceMapping/>
+      <UniformLagrangianConstraint constrainToRestPos="true"/>
+    </Node>
+  </Node>
+</Node>)"},
+    {"StopperLagrangianConstraint", R"(
+<Node name="root">
+  <FreeMotionAnimationLoop/>
+  <BlockGaussSeidelConstraintSolver maxIterations="1000" tolerance="1e-8"/>
+  <Node name="hinge">
+    <EulerImplicitSolver/>
+    <SparseLDLSolver template="CompressedRowSparseMatrixd"/>
+    <MechanicalObject template="Vec1d" position="0" velocity="2"/>
+    <UniformMass vertexMass="0.1"/>
+    <StopperLagrangianConstraint index="0" min="-0.5" max="0.5"/>
+  </Node>
+</Node>)"},
+    {"BlockGaussSeidelConstraintSolver", "", friction, ""},
+    {"LCPConstraintSolver", R"(<LCPConstraintSolver mu="0.5" tolerance="1e-8"/>)"},
+    {"ConvexConstraintSolver", R"(<ConvexConstraintSolver tolerance="1e-7"/>)"},
+    {"PreconditionedConjugateResidual",
+     R"(<PreconditionedConjugateResidual tolerance="1e-8"/>)",
+     multipliers,
+     "BlockGaussSeidelConstraintSolver"},
+    {"UncoupledConstraintCorrection",
+     R"(<UncoupledConstraintCorrection/>)",
+     friction,
+     "SparseLDLSolver",
+     Place::beside},
+});
+
+/// A scene with text in the place of the line with an element, or below it, as far to the right as that; as
+/// it is where no element is named.
+std::string placed(std::string_view scene, std::string_view standIn, std::string_view xml, Place place) {
+  std::string out;
+  bool found = standIn.empty();
+  auto add = [&](std::string_view line) { out += text(line, '\n'); };
+  each_line(scene, [&](std::string_view line) {
+    const std::size_t indent = std::min(line.find_first_not_of(' '), line.size());
+    const std::string_view element = line.substr(indent);
+    const bool here = !found && element.starts_with(text('<', standIn)) &&
+                      std::string_view(" />").find(element[standIn.size() + 1]) != std::string_view::npos;
+    if (!here || place == Place::beside) add(line);
+    if (!here) return;
+    found = true;
+    each_line(xml, [&](std::string_view below) { add(text(line.substr(0, indent), below)); });
+  });
+  if (!found) throw Failure{badUsage, {text("no example has an element ", standIn, " to stand beside")}};
+  return out;
+}
+
+}  // namespace
+
+std::string example_of(Entry const& entry) {
+  const std::string_view name = entry.first().name;
+  const std::string alone = text('<', name, "/>");
+  auto same = [&](ClassExample const& e) { return e.name == name; };
+  const auto of = std::find_if(classExamples.begin(), classExamples.end(), same);
+  ClassExample example = of == classExamples.end() ? ClassExample{.name = name} : *of;
+  if (example.scene.empty()) {
+    if (example.xml.starts_with("\n<Node")) return placed(example.xml, {}, {}, Place::beside);
+    for (auto const& role : roleExamples)
+      if (role.role == entry.first().role)
+        example = {name, example.xml, role.scene, role.standIn, role.place};
+  }
+  if (example.scene.empty()) return {};
+  return placed(example.scene, example.standIn, example.xml.empty() ? alone : example.xml, example.place);
+}
+
+}  // namespace cli

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/compiled.hpp>
+#include <sinew/core/component.hpp>
+#include <sinew/fluid/grid_fluid.hpp>
+
+#include <string>
+#include <vector>
+
+namespace sinew {
+
+/// An incompressible fluid in a rectangle of cells across the z axis, with a free surface: Fluid3D in two
+/// dimensions, with the names of SOFA's Fluid2D. The rectangle is around `center`; the cells at its border
+/// are its walls.
+struct Fluid2D {
+  using Role = role::BehaviorModel;
+  static constexpr std::string_view className = "Fluid2D", header = "sinew/fluid/fluid2d.hpp";
+  using Grid = fluid::GridFluid<double, 2>;
+
+  int nx = 16, ny = 16;
+  double cellwidth = 1;
+  Eigen::Vector3d center{0, 0, 0};
+  double height = 5;
+  Eigen::Vector2d dir{0, 1};
+  double tstart = 0, tstop = 60;
+  double density = 1000, viscosity = 0;
+  fluid::Walls walls = fluid::Walls::slip;
+  fluid::Advection advection = fluid::Advection::macCormack;
+  std::vector<Vec<double, 4>> obstacle{};
+  Eigen::Vector2d source{0, 0};
+  double sourceRadius = 0;
+  Eigen::Vector2d sourceVelocity{0, 0};
+  bool keepVolume = true;
+  double tolerance = 1e-6;
+  int iterations = 100;
+
+  static constexpr auto fields() {
+    using F = Fluid2D;
+    return field_list(
+        field("nx", &F::nx, "", "cells along x, with the two of the walls", range::atLeast(3)),
+        field("ny", &F::ny, "", "cells along y, with the two of the walls", range::atLeast(3)),
+        field("cellwidth", &F::cellwidth, "m", "width of each cell", range::positive),
+        field("center", &F::center, "m", "position of the centre of the grid"),
+        field("height",
+              &F::height,
+              "",
+              "how far the surface is at first from the centre of the first cell, which belongs to the "
+              "walls, along dir [cells]; 0: the fluid fills the box and has no surface"),
+        field("dir", &F::dir, "", "normal of the surface at first, out of the fluid"),
+        field("tstart", &F::tstart, "s", "from when on the source pours fluid"),
+        field("tstop", &F::tstop, "s", "until when"),
+        field("density", &F::density, "kg/m^3", "of the fluid", range::positive),
+        field("viscosity",
+              &F::viscosity,
+              "Pa s",
+              "dynamic viscosity; that of water is 0.001",
+              range::nonNegative),
+        field("walls", &F::walls, "", "whether fluid slips along walls and obstacles, or sticks to them"),
+        field("advection", &F::advection, "", "how velocity and surface are carried along"),
+        field("obstacle",
+              &F::obstacle,
+              "m",
+              "solid boxes, by two corners each: xmin ymin xmax ymax; cells whose centres are inside are "
+              "solid"),
+        field("source", &F::source, "m", "centre of the source"),
+        field("sourceRadius",
+              &F::sourceRadius,
+              "m",
+              "radius of the source; 0: there is none",
+              range::nonNegative),
+        field("sourceVelocity", &F::sourceVelocity, "m/s", "of what it pours"),
+        field("keepVolume",
+              &F::keepVolume,
+              "",
+              "moves the whole surface by a small part of a cell after each step, so that the fluid keeps "
+              "its volume"),
+        field("tolerance", &F::tolerance, "", "of the pressure: residual over right side", range::open(0, 1)),
+        field("iterations", &F::iterations, "", "most iterations for the pressure", range::atLeast(1)));
+  }
+
+  /// Velocity, surface and pressure (GridFluid::save).
+  std::vector<double> flow{};
+  static constexpr auto state() {
+    return field_list(
+        field("flow",
+              &Fluid2D::flow,
+              "",
+              "velocity [m/s], distances from the surface [cells], pressure times dt over "
+              "density and cellwidth [m/s], of all cells; cells along each axis, dt [s], volume [cells]"));
+  }
+
+  // after init
+  Grid grid{};
+  std::string where{};
+
+  /// Throws Error where the settings are wrong, and where there is no fluid.
+  void init(std::string const& path);
+  void reset();
+  template <class Workers>
+  void step(StepAhead const& ahead, Eigen::Vector3d const& gravity, Workers const& workers) {
+    advance(ahead, gravity, some_workers(workers));
+  }
+  void advance(StepAhead const& ahead, Eigen::Vector3d const& gravity, SomeWorkers workers);
+  /// [J], of a metre across the plane.
+  double kineticEnergy();
+  /// - rho g.x summed up over the fluid [J], of a metre across the plane.
+  double gravityEnergy(Eigen::Vector3d const& gravity);
+  /// Of the fluid [m^2].
+  double volume();
+  std::string_view notice() const;
+  /// What is seen of it: edges around the fluid.
+  Mesh border() const;
+};
+
+}  // namespace sinew
+
+#if SINEW_DEFINES
+#include <sinew/fluid/grid_component.hpp>
+
+namespace sinew {
+
+SINEW_ONCE void Fluid2D::init(std::string const& path) {
+  where = text(path, ": Fluid2D");
+  fluid::start<2>(*this, where);
+}
+SINEW_ONCE void Fluid2D::reset() {
+  flow.clear();
+  fluid::start<2>(*this, where);
+}
+SINEW_ONCE void Fluid2D::advance(StepAhead const& ahead, Eigen::Vector3d const& gravity,
+                                 SomeWorkers workers) {
+  fluid::advance<2>(*this, ahead, gravity, workers);
+}
+SINEW_ONCE double Fluid2D::kineticEnergy() { return grid.kineticEnergy(); }
+SINEW_ONCE double Fluid2D::gravityEnergy(Eigen::Vector3d const& gravity) {
+  return grid.gravityEnergy(gravity.head<2>());
+}
+SINEW_ONCE double Fluid2D::volume() { return grid.volume(); }
+SINEW_ONCE std::string_view Fluid2D::notice() const { return fluid::notice_of(grid); }
+SINEW_ONCE Mesh Fluid2D::border() const {
+  Mesh mesh = grid.border();
+  for (Eigen::Vector3d& position : mesh.positions) position[2] = center[2];
+  return mesh;
+}
+
+}  // namespace sinew
+#endif
