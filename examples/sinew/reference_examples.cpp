@@ -344,6 +344,47 @@ constexpr auto classExamples = std::to_array<ClassExample>({
   <SPHFluidForceField radius="0.745" density="15" pressure="1000" viscosity="10" kernelType="1" viscosityType="2"/>
   <PlaneForceField normal="0 1 0" d="-1"/>
 </Node>)"},
+    {"DFSPHSolver", R"(
+<Node name="water" gravity="0 -9.81 0">
+  <DFSPHSolver radius="0.1" density="1000"/>
+  <RegularGridTopology n="4 4 4" min="0.025 0.025 0.025" max="0.175 0.175 0.175" computeHexaList="false"
+                       computeQuadList="false" computeTriangleList="false" computeEdgeList="false"/>
+  <MechanicalObject/>
+  <UniformMass vertexMass="0.125"/>
+  <PlaneForceField normal="0 1 0" d="0.025" stiffness="500"/>
+</Node>)"},
+    {"FluidBoundary", R"(
+<Node name="root" gravity="0 -9.81 0">
+  <Node name="water">
+    <DFSPHSolver radius="0.1" density="1000"/>
+    <RegularGridTopology n="4 4 4" min="0.025 0.025 0.025" max="0.175 0.175 0.175" computeHexaList="false"
+                         computeQuadList="false" computeTriangleList="false" computeEdgeList="false"/>
+    <MechanicalObject/>
+    <UniformMass vertexMass="0.125"/>
+  </Node>
+  <Node name="tank">
+    <CubeTopology name="walls" min="-0.025 -0.025 -0.025" max="0.225 0.425 0.225"/>
+    <SurfaceSampling position="@walls.position" quads="@walls.quads" spacing="0.05"/>
+    <MechanicalObject/>
+    <FluidBoundary/>
+  </Node>
+</Node>)"},
+    {"SurfaceSampling", R"(
+<Node name="root" gravity="0 -9.81 0">
+  <Node name="water">
+    <DFSPHSolver radius="0.1" density="1000"/>
+    <RegularGridTopology n="4 4 4" min="0.025 0.025 0.025" max="0.175 0.175 0.175" computeHexaList="false"
+                         computeQuadList="false" computeTriangleList="false" computeEdgeList="false"/>
+    <MechanicalObject/>
+    <UniformMass vertexMass="0.125"/>
+  </Node>
+  <Node name="tank">
+    <CubeTopology name="walls" min="-0.025 -0.025 -0.025" max="0.225 0.425 0.225"/>
+    <SurfaceSampling position="@walls.position" quads="@walls.quads" spacing="0.05"/>
+    <MechanicalObject/>
+    <FluidBoundary/>
+  </Node>
+</Node>)"},
     {"SphereForceField",
      R"(<SphereForceField center="0.4 -0.15 0.05" radius="0.1" stiffness="500"/>)",
      softBody,

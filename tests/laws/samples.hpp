@@ -18,6 +18,7 @@
 #include "samples/fast_triangular_bending_springs.hpp"
 #include "samples/fixed_plane.hpp"
 #include "samples/fixed_rotation.hpp"
+#include "samples/fluid_boundary.hpp"
 #include "samples/hermite_spline.hpp"
 #include "samples/linear_movement.hpp"
 #include "samples/linear_velocity.hpp"

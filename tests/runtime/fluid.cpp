@@ -22,7 +22,7 @@ struct Mine : Registry<Gravity, DFSPHSolver, EulerExplicitSolver, CubeTopology, 
 TEST_CASE("a drop falls on a box, in a scene file and in a typed scene, with the same bits") {
   Simulation read{parse_scene<Mine>("test.scn", R"(<Node gravity="0 -10 0">
       <Node name="water"><DFSPHSolver radius="0.2"/>
-        <MechanicalObject position="0 0.3 0  0.1 0.3 0  0 0.4 0  0.1 0.4 0  0.05 0.35 0.1"/>
+        <MechanicalObject position="0 0.3 0  0.1 0.3 0  0 0.4 0  0.1 0.4 0  0.05 0.35 0.1" velocity="0 -1 0"/>
         <UniformMass vertexMass="1"/></Node>
       <Node name="box"><EulerExplicitSolver/>
         <MechanicalObject template="Rigid3d" position="0 0 0 0 0 0 1"/><UniformMass template="Rigid3d" vertexMass="3"/>
@@ -38,7 +38,8 @@ TEST_CASE("a drop falls on a box, in a scene file and in a typed scene, with the
       node<"water">(
           DFSPHSolver{.radius = 0.2},
           MechanicalObject<Vec3d>{
-              .position = {{0, 0.3, 0}, {0.1, 0.3, 0}, {0, 0.4, 0}, {0.1, 0.4, 0}, {0.05, 0.35, 0.1}}},
+              .position = {{0, 0.3, 0}, {0.1, 0.3, 0}, {0, 0.4, 0}, {0.1, 0.4, 0}, {0.05, 0.35, 0.1}},
+              .velocity = {{0, -1, 0}}},
           UniformMass<Vec3d>{.vertexMass = 1}),
       node<"box">(
           EulerExplicitSolver{},

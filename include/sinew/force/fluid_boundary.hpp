@@ -10,11 +10,11 @@
 namespace sinew {
 
 /// Makes the points of its state boundary particles (Akinci, Ihmsen, Akinci, Solenthaler, Teschner 2012): all
-/// fluids of the scene meet them, as neighbours of volume 1 / sum_l W_kl over all boundary particles, and the
-/// force of the fluids over the step acts on them. In a node below a body, which a mapping moves, it goes
-/// back to that body, rigid or soft. Points are to cover the surface at the distance of the particles of the
-/// fluid (SurfaceSampling). The solver of the fluid comes before that of the body, so that the two have the
-/// same impulse in the same step.
+/// fluids of the scene meet them, as neighbours of the volume c / sum_l W_kl, over all boundary particles,
+/// and the force of the fluids over the step acts on them. In a node below a body, which a mapping moves, it
+/// goes back to that body, rigid or soft. Points are to cover the surface at the distance of the particles of
+/// the fluid (SurfaceSampling). The solver of the fluid comes before that of the body, so that the two have
+/// the same impulse in the same step.
 template <class D>
 struct FluidBoundary {
   using Role = role::ForceField;
@@ -34,7 +34,7 @@ struct FluidBoundary {
 
   VecDeriv forces{};  // of the fluids, over the last step [N]
 
-  void init(InitContext<D> const& context) { forces.assign(context.rest.size(), D::Deriv::Zero()); }
+  void init(InitContext<D> const& context) { forces.resize(context.rest.size(), D::Deriv::Zero()); }
   void reset() { std::fill(forces.begin(), forces.end(), typename D::Deriv(D::Deriv::Zero())); }
 
   void addForce(MechanicalParams const&, VecDeriv& f, VecCoord const&, VecDeriv const&) const {

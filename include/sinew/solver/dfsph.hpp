@@ -16,12 +16,17 @@
 
 namespace sinew {
 
-/// Moves the particles of a fluid that is not compressed, by divergence-free SPH (Bender, Koschier 2017: the
-/// formulas are those of DFSPHFlow), explicit, order 1. The masses of the node over `density` are the volumes
-/// of the particles; its forces (gravity, planes, the viscosity and surface tension of an SPHFluidForceField
-/// without pressure) act beside the pressure. A substep takes out the divergence of the velocities, adds the
-/// forces, takes out what would compress the fluid, and moves it. The step of the scene is divided so that
-/// none moves farther than cflFactor times the distance of particles in a substep.
+/// Moves the particles of a fluid that is not compressed, by divergence-free SPH (Bender, Koschier 2017).
+/// The mass of a particle over `density` is its volume V_i, and with a kernel W
+///   d_i = sum_j V_j W_ij                       density over that at rest
+///   D_i = sum_j V_j (v_i - v_j).grad W_ij      its rate [1/s]
+///   a_i = -sum_j V_j (k_i + k_j) grad W_ij     acceleration by k = pressure / density >= 0 [m^2/s^2]
+/// In a substep h one iteration finds the k that take out the divergence, D <= 0; forces of the node act
+/// (gravity, planes, the viscosity and surface tension of an SPHFluidForceField without pressure); another
+/// one finds the k that take out what would compress the fluid, d + h D <= 1; and the fluid moves, all
+/// explicit and of first order in h. Both start from the k of the last substep. The step of the scene is
+/// divided so that none moves farther than cflFactor times the distance of particles in a substep. Boundary
+/// particles of bodies are met as FluidBoundary says.
 struct DFSPHSolver {
   using Role = role::OdeSolver;
   static constexpr std::string_view className = "DFSPHSolver";
