@@ -353,6 +353,14 @@ constexpr auto classExamples = std::to_array<ClassExample>({
   <UniformMass vertexMass="0.125"/>
   <PlaneForceField normal="0 1 0" d="0.025" stiffness="500"/>
 </Node>)"},
+    {"Fluid2D", R"(
+<Node name="pool" gravity="0 -9.81 0">
+  <Fluid2D nx="42" ny="22" cellwidth="0.05" height="10" dir="0.3 1"/>
+</Node>)"},
+    {"Fluid3D", R"(
+<Node name="pool" gravity="0 -9.81 0">
+  <Fluid3D nx="22" ny="14" nz="12" cellwidth="0.1" height="6" dir="0.3 1 0"/>
+</Node>)"},
     {"FluidBoundary", R"(
 <Node name="root" gravity="0 -9.81 0">
   <Node name="water">
