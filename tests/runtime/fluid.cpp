@@ -44,7 +44,8 @@ TEST_CASE("a drop falls on a box, in a scene file and in a typed scene, with the
       node<"box">(
           EulerExplicitSolver{},
           MechanicalObject<Rigid3d>{.position = {at}},
-          UniformMass<Rigid3d>{.vertexMass = Rigid3d::MassType{.mass = 3}},
+          UniformMass<Rigid3d>{.vertexMass =
+                                   Rigid3d::MassType{.mass = 3, .inertia = 3 * Eigen::Matrix3d::Identity()}},
           node<"surface">(SurfaceSampling{.position = cube.position, .quads = cube.quads, .spacing = 0.1},
                           MechanicalObject<Vec3d>{},
                           RigidMapping<Rigid3d, Vec3d>{},
