@@ -48,6 +48,10 @@ TEST_CASE("a surface that is none is refused") {
   CHECK_THAT(wrong({.position = corners}),
              Catch::Contains("/root/box: SurfaceSampling") && Catch::Contains("no triangles"));
   CHECK_THAT(wrong({.position = corners, .triangles = {{0, 1, 3}}}), Catch::Contains("the point 3"));
+  // a sliver without an area
+  CHECK_THAT(
+      wrong({.position = {{0, 0, 0}, {1e9, 0, 0}, {2e9, 0, 0}}, .triangles = {{0, 1, 2}}, .spacing = 1e-3}),
+      Catch::Contains("2^24"));
   CHECK_THAT(wrong({.position = corners, .triangles = {{0, 1, 2}}, .spacing = 1e-6}),
              Catch::Contains("2^24"));
 }

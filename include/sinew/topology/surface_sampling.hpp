@@ -73,7 +73,7 @@ SINEW_ONCE void SurfaceSampling::generate(std::string_view where) {
     all.push_back({q[0], q[2], q[3]});
   }
   if (all.empty()) throw Error(at, "the surface has no triangles and no quads; give some");
-  double area = 0;
+  double area = 0, sides = 0;
   for (Triangle const& t : all) {
     for (const Index i : t)
       if (i < 0 || std::size_t(i) >= position.size())
@@ -86,11 +86,17 @@ SINEW_ONCE void SurfaceSampling::generate(std::string_view where) {
     auto const &a = position[std::size_t(t[0])], &b = position[std::size_t(t[1])],
                &c = position[std::size_t(t[2])];
     area += (b - a).cross(c - a).norm() / 2;
+    sides += (b - a).norm() + (c - b).norm() + (a - c).norm();
   }
-  if (!(area / (spacing * spacing) < double(1 << 24)))
-    throw Error(
-        at,
-        text("an area of ", area, " m^2 has more than 2^24 samples ", spacing, " m apart; take them wider"));
+  if (!(area / (spacing * spacing) + sides / spacing < double(1 << 24)))
+    throw Error(at,
+                text("an area of ",
+                     area,
+                     " m^2 with sides of ",
+                     sides,
+                     " m has more than 2^24 samples ",
+                     spacing,
+                     " m apart; take them wider"));
 
   // candidates, the best first: corners, sides, insides
   std::vector<Eigen::Vector3d> found;
