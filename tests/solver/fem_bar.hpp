@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include "registry_scene.hpp"
-
 #include <sinew/sinew.hpp>
 #include <sinew/topology/regular_grid.hpp>
 
@@ -22,14 +20,14 @@ auto simulation(Linear linear, int cells = 8, bool held = true, bool graded = fa
   if (graded)
     for (std::size_t t = 0; t < young.size(); ++t)
       young[t] *= std::pow(1000.0, mesh.positions[std::size_t(mesh.tetrahedra[t][0])][0] / (cells / 2.0));
-  RegistryScene sim{node<"root">(Gravity{{0, -9.81, 0}},
-                                 EulerImplicitSolver{.rayleighStiffness = 0.01, .rayleighMass = 0.1},
-                                 linear,
-                                 TetrahedronTopology{mesh.tetrahedra},
-                                 MechanicalObject<Vec3d>{mesh.positions},
-                                 DiagonalMass<Vec3d>{.massDensity = 1000},
-                                 TetrahedronFEMForceField<Vec3d>{.youngModulus = young, .poissonRatio = 0.4},
-                                 FixedConstraint<Vec3d>{.indices = fixed})};
+  Simulation sim{node<"root">(Gravity{{0, -9.81, 0}},
+                              EulerImplicitSolver{.rayleighStiffness = 0.01, .rayleighMass = 0.1},
+                              linear,
+                              TetrahedronTopology{mesh.tetrahedra},
+                              MechanicalObject<Vec3d>{mesh.positions},
+                              DiagonalMass<Vec3d>{.massDensity = 1000},
+                              TetrahedronFEMForceField<Vec3d>{.youngModulus = young, .poissonRatio = 0.4},
+                              FixedConstraint<Vec3d>{.indices = fixed})};
   sim.init();
   return sim;
 }
