@@ -72,7 +72,13 @@ TEST_CASE("a runtime tree is timed while it has a profile") {
         all.emplace_back(line.depth, line.isPhase ? line.name : line.className, line.calls);
       return all;
     };
-    CHECK(counts(typed.root().profile()) == counts(profile));
+    // from the first step on, too
+    Profile again;
+    sim.reset();
+    sim.root().profileWith(&again);
+    for (int i = 0; i < 3; ++i) sim.animate(0.01);
+    CHECK(counts(typed.root().profile()) == counts(again));
+    sim.root().profileWith(nullptr);
   }
   SECTION("lines go on when the scene changes, and what is new has its own") {
     sim.change([](auto& top) { fill(top.addChild("second")); });
