@@ -66,6 +66,22 @@ constexpr std::string_view carrier = R"(
     <ConstantForceField force="0 0 2"/>
   </Node>
 </Node>)";
+constexpr std::string_view waterInTank = R"(
+<Node name="root" gravity="0 -9.81 0">
+  <Node name="water">
+    <DFSPHSolver radius="0.1" density="1000"/>
+    <RegularGridTopology n="4 4 4" min="0.025 0.025 0.025" max="0.175 0.175 0.175" computeHexaList="false"
+                         computeQuadList="false" computeTriangleList="false" computeEdgeList="false"/>
+    <MechanicalObject/>
+    <UniformMass vertexMass="0.125"/>
+  </Node>
+  <Node name="tank">
+    <CubeTopology name="walls" min="-0.025 -0.025 -0.025" max="0.225 0.425 0.225"/>
+    <SurfaceSampling position="@walls.position" quads="@walls.quads" spacing="0.05"/>
+    <MechanicalObject/>
+    <FluidBoundary/>
+  </Node>
+</Node>)";
 constexpr std::string_view contact = R"(
 <Node name="root" gravity="0 -9.81 0">
   <DefaultPipeline/>
@@ -361,38 +377,8 @@ constexpr auto classExamples = std::to_array<ClassExample>({
 <Node name="pool" gravity="0 -9.81 0">
   <Fluid3D nx="22" ny="14" nz="12" cellwidth="0.1" height="6" dir="0.3 1 0"/>
 </Node>)"},
-    {"FluidBoundary", R"(
-<Node name="root" gravity="0 -9.81 0">
-  <Node name="water">
-    <DFSPHSolver radius="0.1" density="1000"/>
-    <RegularGridTopology n="4 4 4" min="0.025 0.025 0.025" max="0.175 0.175 0.175" computeHexaList="false"
-                         computeQuadList="false" computeTriangleList="false" computeEdgeList="false"/>
-    <MechanicalObject/>
-    <UniformMass vertexMass="0.125"/>
-  </Node>
-  <Node name="tank">
-    <CubeTopology name="walls" min="-0.025 -0.025 -0.025" max="0.225 0.425 0.225"/>
-    <SurfaceSampling position="@walls.position" quads="@walls.quads" spacing="0.05"/>
-    <MechanicalObject/>
-    <FluidBoundary/>
-  </Node>
-</Node>)"},
-    {"SurfaceSampling", R"(
-<Node name="root" gravity="0 -9.81 0">
-  <Node name="water">
-    <DFSPHSolver radius="0.1" density="1000"/>
-    <RegularGridTopology n="4 4 4" min="0.025 0.025 0.025" max="0.175 0.175 0.175" computeHexaList="false"
-                         computeQuadList="false" computeTriangleList="false" computeEdgeList="false"/>
-    <MechanicalObject/>
-    <UniformMass vertexMass="0.125"/>
-  </Node>
-  <Node name="tank">
-    <CubeTopology name="walls" min="-0.025 -0.025 -0.025" max="0.225 0.425 0.225"/>
-    <SurfaceSampling position="@walls.position" quads="@walls.quads" spacing="0.05"/>
-    <MechanicalObject/>
-    <FluidBoundary/>
-  </Node>
-</Node>)"},
+    {"FluidBoundary", waterInTank},
+    {"SurfaceSampling", waterInTank},
     {"SphereForceField",
      R"(<SphereForceField center="0.4 -0.15 0.05" radius="0.1" stiffness="500"/>)",
      softBody,
