@@ -1,5 +1,5 @@
 # cmake -DCOMMAND=compiler;arguments -DSOURCE=file.cpp -P: the file must not compile, its first error must be the sentence
-# that the file expects, within three lines (those that say who includes whom not counted), and all of it at most 24 lines.
+# that the file expects, within three lines, and all of it at most 24 lines, those that say who includes whom not counted.
 file(STRINGS ${SOURCE} expect REGEX "^// expect: ")
 string(REPLACE "// expect: " "" expect "${expect}")
 execute_process(COMMAND ${COMMAND} -fsyntax-only ${SOURCE} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
@@ -11,11 +11,11 @@ string(FIND "${first}" "${expect}" at)
 if(at EQUAL -1)
   message(FATAL_ERROR "the first error of ${SOURCE} should be '${expect}', but is\n${first}\n\nall of it:\n${output}")
 endif()
-string(REGEX MATCHALL "\n" lines "${output}")
-list(LENGTH lines count)
 # In file included from a.hpp:5,
 #                  from b.cpp:3:
 string(REGEX REPLACE "(In file included| +) from [^\n]*[,:]\n" "" said "${output}")
+string(REGEX MATCHALL "\n" lines "${said}")
+list(LENGTH lines count)
 string(FIND "${said}" "${expect}" at)
 string(SUBSTRING "${said}" 0 ${at} before)
 string(REGEX MATCHALL "\n" before "${before}")
