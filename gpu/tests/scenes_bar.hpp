@@ -16,7 +16,7 @@ namespace gpu_test {
 /// A bar of tetrahedra that bends under its weight.
 struct Bar : OneBody {
   static constexpr double dt = 0.02;
-  static constexpr int steps = 100;
+  static constexpr int steps = 50;
   static constexpr bool onDevice = true;
   template <class D>
   static auto make() {

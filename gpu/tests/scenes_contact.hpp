@@ -17,7 +17,7 @@ namespace gpu_test {
 /// A soft block of 1 x 1 x 0.5 m and `mass` kg on the plane z = 0, whose lowest points touch it.
 struct BlockOnPlane {
   static constexpr double mass = 500, g = 9.81;
-  int cells = 4;
+  int cells = 3;
   double slope = 0, mu = 0.2;  // of the plane [rad]: gravity is turned
   double linearTolerance = 1e-12;
 
@@ -84,7 +84,7 @@ struct BlockOnPlane {
 /// It slides.
 struct SlidingBlock : OneBody {
   static constexpr double dt = 0.01;
-  static constexpr int steps = 60;
+  static constexpr int steps = 30;
   static constexpr bool onDevice = false;  // the host looks at the contacts
   template <class D>
   static auto make() {
@@ -95,7 +95,7 @@ struct SlidingBlock : OneBody {
 /// It is held at a side and, in one direction, at another one; some contacts stick, some slide, some open.
 struct HeldBlock : OneBody {
   static constexpr double dt = 0.01;
-  static constexpr int steps = 60;
+  static constexpr int steps = 30;
   static constexpr bool onDevice = false;
   template <class D>
   static auto make() {

@@ -12,6 +12,7 @@ namespace gpu_test {
 
 /// The soft block of BlockOnPlane slides over hills of triangles that stand, its points over D meeting them.
 struct BlockOnFloor {
+  int cells = 3;
   double slope = 0.3, mu = 0.2;
   bool velocityFirst = false;
   int capacity = 1000;
@@ -33,7 +34,7 @@ struct BlockOnFloor {
   }
   template <class D, class Model, class... More>
   auto make(Model model, More... more) const {
-    const BlockOnPlane b{.slope = slope};
+    const BlockOnPlane b{.cells = cells, .slope = slope};
     const Mesh m = b.mesh();
     return Simulation{
         node<"root">(FreeMotionAnimationLoop{.solveVelocityConstraintFirst = velocityFirst},

@@ -17,7 +17,7 @@ namespace gpu_test {
 /// Hexahedra, with a solver that goes on to a tolerance.
 struct HexahedraBar : OneBody {
   static constexpr double dt = 0.01;
-  static constexpr int steps = 100;
+  static constexpr int steps = 40;
   static constexpr bool onDevice = true;
   template <class D>
   static auto make() {
