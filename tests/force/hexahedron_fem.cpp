@@ -5,6 +5,7 @@
 #include <sinew/topology/regular_grid.hpp>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 namespace test_hexahedron_fem {
@@ -93,6 +94,61 @@ TEST_CASE("the stiffness of a hexahedron is the integral of B'CB") {
     force(fem, x);
     CHECK((one::stiffness(fem, 8) + K).norm() < 1e-13 * K.norm());
   }
+}
+
+TEST_CASE("parallelepipeds are integrated as other hexahedra are") {
+  // sheared, deformed much; their sums have other orders: rounding
+  Matrix3d shear;
+  shear << 1, 0.3, -0.2, 0.1, 1.2, 0.25, -0.15, 0.05, 0.8;
+  Mesh mesh = regular_grid(3, 3, 3, {0, 0, 0}, {1, 1, 1});
+  for (auto& p : mesh.positions) p = shear * p + Vector3d(3, -2, 1);
+  Vec3d::VecCoord x = mesh.positions;
+  Vec3d::VecDeriv dx;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double t = double(i);
+    x[i] += 0.2 * Vector3d(std::sin(3 * t), std::cos(5 * t), std::sin(7 * t));
+    dx.push_back({std::cos(2 * t), std::sin(3 * t), std::cos(4 * t)});
+  }
+  auto same = [](auto const& a, auto const& b) {
+    double difference = 0, size = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      difference = std::max(difference, (a[i] - b[i]).norm());
+      size = std::max(size, a[i].norm());
+    }
+    return size > 1 && difference < 1e-13 * size;
+  };
+  for (const HexahedronMethod method : methods) {
+    auto fem = ready(Hexahedra{.youngModulus = {1e3}, .poissonRatio = 0.3, .method = method},
+                     mesh.positions,
+                     {.hexahedra = mesh.hexahedra});
+    REQUIRE(fem.parallelepipeds);
+    auto general = fem;
+    general.parallelepipeds = false;
+    CHECK(same(force(general, x), force(fem, x)));
+    CHECK(same(one::product(general, dx, 1, 0), one::product(fem, dx, 1, 0)));
+
+    const Hexahedron& element = mesh.hexahedra[5];
+    Vector3d rest[8], at[8], v[8], f[8];
+    for (std::size_t i = 0; i < 8; ++i) {
+      rest[i] = mesh.positions[std::size_t(element[i])];
+      at[i] = x[std::size_t(element[i])];
+      v[i].setZero();
+    }
+    const auto constants = HexahedronFEM<Vec3d>::restOf(rest, 400, 600, method);
+    const HexahedronFEM<Vec3d> terms{method, true}, points{method, false};
+    HexahedronFEM<Vec3d>::Tangent tangent;
+    points.force(constants, at, v, f, tangent);
+    CHECK(terms.energy(constants, at) == Approx(points.energy(constants, at)).epsilon(1e-13));
+    for (int i = 0; i < 8; ++i)
+      for (int j = i; j < 8; ++j) {
+        CAPTURE(i, j);
+        const Matrix3d expected = points.block(constants, tangent, i, j, 1, 0);
+        CHECK((terms.block(constants, tangent, i, j, 1, 0) - expected).norm() < 1e-13 * 1e3);
+      }
+  }
+  // a corner moved by more than rounding makes it one of the others
+  mesh.positions[13][0] += 1e-12;
+  CHECK_FALSE(ready(Hexahedra{}, mesh.positions, {.hexahedra = mesh.hexahedra}).parallelepipeds);
 }
 
 TEST_CASE("patch test: points inside an affine boundary settle to the same affine map") {

@@ -8,8 +8,10 @@
 #include <sinew/force/rotations.hpp>
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string_view>
 #include <vector>
 
@@ -35,6 +37,14 @@ inline constexpr std::array<std::string_view, 4> enum_names(HexahedronMethod) {
 /// F = [c_0 c_1 c_2] J^-1, where column c_k is the derivative by the k-th coordinate of the reference cube: a
 /// mean of the four edges of that direction, with the weights (1 +- 1/sqrt 3)/2 across. So no product with a
 /// matrix of 24 x 24 is made, and 91 scalars of an element are kept in the place of the 300 of its stiffness.
+///
+/// Where all elements are parallelepipeds at rest, J is one for all Gauss points. With
+///   u = h_0 + xi h_xi + eta h_eta + ... + xi eta h_xi_eta + ... + xi eta zeta h_xi_eta_zeta
+/// the positions in the coordinates of the reference cube and r_k the rows of J^-1, e is a sum of terms
+///   1: sym(h_xi r_0' + h_eta r_1' + h_zeta r_2') - I,   xi: sym(h_xi_eta r_1' + h_xi_zeta r_2'),   ...,
+///   eta zeta: sym(h_xi_eta_zeta r_0'),   ...
+/// which are orthogonal under the quadrature, so that with q = mu e:e + lambda/2 tr(e)^2
+///   E = 8 w (q(1) + (q(xi) + q(eta) + q(zeta))/3 + (q(xi eta) + q(xi zeta) + q(eta zeta))/9)
 template <class D>
 struct HexahedronFEM {
   using Real = typename D::Real;
@@ -56,18 +66,24 @@ struct HexahedronFEM {
   };
 
   HexahedronMethod method = HexahedronMethod::large;
+  bool parallelepipeds = false;  // all elements at rest
 
   SINEW_HD Real energy(Rest const& rest, Coord const (&x)[8]) const {
     Vec3 y[8], column[3][4];
     rotateBack(rotation(rest, x), x, y);
-    columns(y, column);
     Real sum(0);
+    if (parallelepipeds) {
+      Vec3 h[8];
+      expand(y, h);
+      for (const int term : {0, 1, 2, 4})
+        sum += Real(term == 0 ? 1.0 : 1.0 / 3) * density(rest, strainTerm(rest, h, term, Real(1)));
+      for (int i = 0; i < 3; ++i) sum += Real(1.0 / 18) * h[7][i] * twist(rest, h[7])[i];
+      return Real(8) * rest.weight[0] * sum;
+    }
+    columns(y, column);
     for (int g = 0; g < 8; ++g) {
       const Mat3 e = strain(rest, column, g, Real(1));
-      const Real trace = e(0, 0) + e(1, 1) + e(2, 2);
-      Real square(0);
-      for (int i = 0; i < 9; ++i) square += e(i) * e(i);
-      sum += rest.weight[g] * (rest.mu * square + Real(0.5) * rest.lambda * trace * trace);
+      sum += rest.weight[g] * density(rest, e);
     }
     return sum;
   }
@@ -86,11 +102,15 @@ struct HexahedronFEM {
   /// -k R sum_g w (lambda h_i h_j' + mu h_j h_i' + mu h_i.h_j I) R',  h_i = grad N_i
   SINEW_HD Mat3 block(Rest const& rest, Tangent const& tangent, int i, int j, Real k, Real /*b*/) const {
     Mat3 m, rotated, block;  // m = sum_g w h_i h_j'
-    for (int c = 0; c < 9; ++c) m(c) = Real(0);
-    for (int g = 0; g < 8; ++g) {
-      const Vec3 hi = gradient(rest, g, i) * rest.weight[g], hj = gradient(rest, g, j);
-      for (int c = 0; c < 3; ++c)
-        for (int r = 0; r < 3; ++r) m(r, c) += hi[r] * hj[c];
+    if (parallelepipeds) {
+      m = slopes(rest, i, j);
+    } else {
+      for (int c = 0; c < 9; ++c) m(c) = Real(0);
+      for (int g = 0; g < 8; ++g) {
+        const Vec3 hi = gradient(rest, g, i) * rest.weight[g], hj = gradient(rest, g, j);
+        for (int c = 0; c < 3; ++c)
+          for (int r = 0; r < 3; ++r) m(r, c) += hi[r] * hj[c];
+      }
     }
     const Real trace = rest.mu * (m(0, 0) + m(1, 1) + m(2, 2));
     Mat3 s;
@@ -106,6 +126,19 @@ struct HexahedronFEM {
       for (int r = 0; r < 3; ++r)
         block(r, c) = q(r, 0) * rotated(0, c) + q(r, 1) * rotated(1, c) + q(r, 2) * rotated(2, c);
     return block;
+  }
+
+  /// Whether opposite edges of the element are equal, to the rounding of its corners.
+  static bool isParallelepiped(Coord const (&x)[8]) {
+    Vec3 y[8], h[8];
+    Real largest(0), bent(0);
+    for (int i = 0; i < 8; ++i) {
+      largest = std::max(largest, x[i].cwiseAbs().maxCoeff());
+      y[i] = x[i] - x[0];
+    }
+    expand(y, h);
+    for (const int term : {3, 5, 6, 7}) bent = std::max(bent, h[term].cwiseAbs().maxCoeff());
+    return bent <= 4 * std::numeric_limits<Real>::epsilon() * largest;
   }
 
   /// Rest data of the element with rest positions x; a weight that is not positive tells of a bad shape.
@@ -182,37 +215,141 @@ struct HexahedronFEM {
     Mat3 const& inverse = rest.inverse[g];
     Vec3 const &c0 = column[0][columnOf(0, g)], &c1 = column[1][columnOf(1, g)],
                &c2 = column[2][columnOf(2, g)];
-    Mat3 f, e;
+    Mat3 f;
     for (int j = 0; j < 3; ++j)
       for (int i = 0; i < 3; ++i)
         f(i, j) = c0[i] * inverse(0, j) + c1[i] * inverse(1, j) + c2[i] * inverse(2, j);
+    return symmetric(f, one);
+  }
+  // sym(f) - one I
+  SINEW_INLINE static Mat3 symmetric(Mat3 const& f, Real one) {
+    Mat3 e;
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j <= i; ++j)
         e(i, j) = e(j, i) = i == j ? f(i, i) - one : Real(0.5) * (f(i, j) + f(j, i));
     return e;
   }
+  // mu e:e + lambda/2 tr(e)^2
+  SINEW_INLINE static Real density(Rest const& rest, Mat3 const& e) {
+    const Real trace = e(0, 0) + e(1, 1) + e(2, 2);
+    Real square(0);
+    for (int i = 0; i < 9; ++i) square += e(i) * e(i);
+    return rest.mu * square + Real(0.5) * rest.lambda * trace * trace;
+  }
+  // s = weight (2 mu e + lambda tr(e) I)
+  SINEW_INLINE static Mat3 stress(Rest const& rest, Mat3 const& e, Real weight) {
+    const Real mu2 = Real(2) * rest.mu * weight,
+               pressure = rest.lambda * weight * (e(0, 0) + e(1, 1) + e(2, 2));
+    Mat3 s;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j <= i; ++j) s(i, j) = s(j, i) = i == j ? mu2 * e(i, i) + pressure : mu2 * e(i, j);
+    return s;
+  }
+
+  // Parallelepipeds. A term is numbered by bits of the coordinates in it: 0 is 1, 1 xi, 2 eta, 4 zeta, 3 xi
+  // eta, ...
+  SINEW_INLINE static void expand(Vec3 const (&y)[8], Vec3 (&h)[8]) {
+    for (int bits = 0; bits < 8; ++bits) h[bits] = y[corner(bits)] * Real(0.125);
+#pragma GCC unroll 3
+    for (int k = 1; k < 8; k *= 2)
+#pragma GCC unroll 8
+      for (int low = 0; low < 8; ++low)
+        if (!(low & k)) {
+          const Vec3 a = h[low], b = h[low | k];
+          h[low] = a + b;
+          h[low | k] = b - a;
+        }
+  }
+  // forces on the corners of forces on the terms, the transpose of it; that on the term 1 is zero
+  SINEW_INLINE static void collect(Vec3 (&p)[8], Vec3 (&y)[8]) {
+    for (int i = 0; i < 3; ++i) p[0][i] = Real(0);
+#pragma GCC unroll 3
+    for (int k = 1; k < 8; k *= 2)
+#pragma GCC unroll 8
+      for (int low = 0; low < 8; ++low)
+        if (!(low & k)) {
+          const Vec3 a = p[low], b = p[low | k];
+          p[low] = a - b;
+          p[low | k] = a + b;
+        }
+    for (int bits = 0; bits < 8; ++bits) y[corner(bits)] = p[bits] * Real(0.125);
+  }
+  // of the terms 1, xi, eta and zeta
+  SINEW_INLINE static Mat3 strainTerm(Rest const& rest, Vec3 const (&h)[8], int term, Real one) {
+    Mat3 const& inverse = rest.inverse[0];
+    Mat3 f;
+    for (int i = 0; i < 9; ++i) f(i) = Real(0);
+#pragma GCC unroll 3
+    for (int k = 0; k < 3; ++k)
+      if (!(term >> k & 1)) {
+        Vec3 const& c = h[term | 1 << k];
+        for (int j = 0; j < 3; ++j)
+          for (int i = 0; i < 3; ++i) f(i, j) += c[i] * inverse(k, j);
+      }
+    return symmetric(f, term == 0 ? one : Real(0));
+  }
+  // sum_k s_k r_k over e_k = sym(h r_k'), with s_k r_k = mu |r_k|^2 h + (mu + lambda) (r_k.h) r_k; and
+  // sum_k q(e_k) = h.twist(h)/2
+  SINEW_INLINE static Vec3 twist(Rest const& rest, Vec3 const& h) {
+    Mat3 const& inverse = rest.inverse[0];
+    Vec3 sum;
+    Real square(0);
+    for (int i = 0; i < 9; ++i) square += inverse(i) * inverse(i);
+    for (int i = 0; i < 3; ++i) sum[i] = rest.mu * square * h[i];
+    for (int k = 0; k < 3; ++k) {
+      const Real along =
+          (rest.mu + rest.lambda) * (inverse(k, 0) * h[0] + inverse(k, 1) * h[1] + inverse(k, 2) * h[2]);
+      for (int i = 0; i < 3; ++i) sum[i] += along * inverse(k, i);
+    }
+    return sum;
+  }
+  // w J^-T C J^-1 with C = sum_g of the products of the slopes of two corners' shape functions by the
+  // coordinates of the reference cube. Over the two Gauss points of a coordinate the products of (1 +- xi)/2
+  // sum to 2/3 for the same sign and 1/3 for opposite ones, the functions themselves to 1.
+  SINEW_INLINE static Mat3 slopes(Rest const& rest, int i, int j) {
+    const int first = i ^ (i >> 1 & 1), second = j ^ (j >> 1 & 1);
+    auto sign = [](int bits, int k) { return (bits >> k & 1) ? 0.5 : -0.5; };
+    auto overlap = [&](int k) { return ((first ^ second) >> k & 1) ? 1.0 / 3 : 2.0 / 3; };
+    Mat3 const& inverse = rest.inverse[0];
+    Mat3 half, m;  // C J^-1
+    for (int k = 0; k < 3; ++k) {
+      for (int c = 0; c < 3; ++c) half(k, c) = Real(0);
+      for (int l = 0; l < 3; ++l) {
+        const double sum = k == l ? 2 * overlap(across(k, 0)) * overlap(across(k, 1)) : overlap(3 - k - l);
+        const Real entry(sign(first, k) * sign(second, l) * sum);
+        for (int c = 0; c < 3; ++c) half(k, c) += entry * inverse(l, c);
+      }
+    }
+    for (int c = 0; c < 3; ++c)
+      for (int r = 0; r < 3; ++r)
+        m(r, c) = rest.weight[0] *
+                  (inverse(0, r) * half(0, c) + inverse(1, r) * half(1, c) + inverse(2, r) * half(2, c));
+    return m;
+  }
 
   // f = factor R sum_g w s grad N at the strain of positions (one = 1) or displacements (one = 0)
-  SINEW_HD static void internalForce(Rest const& rest, Mat3 const& r, Coord const (&x)[8], Real one,
-                                     Real factor, Deriv (&f)[8]) {
-    Vec3 y[8], column[3][4], pull[3][4];
+  SINEW_HD void internalForce(Rest const& rest, Mat3 const& r, Coord const (&x)[8], Real one, Real factor,
+                              Deriv (&f)[8]) const {
+    Vec3 y[8];
     rotateBack(r, x, y);
+    if (parallelepipeds)
+      forceOfTerms(rest, one, factor * rest.weight[0], y);
+    else
+      forceOfPoints(rest, one, factor, y);
+    for (int i = 0; i < 8; ++i)
+      for (int c = 0; c < 3; ++c) f[i][c] = r(c, 0) * y[i][0] + r(c, 1) * y[i][1] + r(c, 2) * y[i][2];
+  }
+
+  // from positions in the frame of the element to forces
+  SINEW_INLINE static void forceOfPoints(Rest const& rest, Real one, Real factor, Vec3 (&y)[8]) {
+    Vec3 column[3][4], pull[3][4];
     columns(y, column);
     for (int k = 0; k < 3; ++k)
       for (int uv = 0; uv < 4; ++uv)
         for (int i = 0; i < 3; ++i) pull[k][uv][i] = Real(0);
     for (int g = 0; g < 8; ++g) {
-      const Mat3 e = strain(rest, column, g, one);
-      const Real weight = factor * rest.weight[g], mu2 = Real(2) * rest.mu * weight,
-                 pressure = rest.lambda * weight * (e(0, 0) + e(1, 1) + e(2, 2));
-      Mat3 s;
-      for (int i = 0; i < 3; ++i)
-        for (int j = 0; j <= i; ++j) s(i, j) = s(j, i) = i == j ? mu2 * e(i, i) + pressure : mu2 * e(i, j);
-      Mat3 const& inverse = rest.inverse[g];
-      for (int k = 0; k < 3; ++k)
-        for (int i = 0; i < 3; ++i)
-          pull[k][columnOf(k, g)][i] +=
-              s(i, 0) * inverse(k, 0) + s(i, 1) * inverse(k, 1) + s(i, 2) * inverse(k, 2);
+      const Mat3 s = stress(rest, strain(rest, column, g, one), factor * rest.weight[g]);
+      for (int k = 0; k < 3; ++k) addColumn(s, rest.inverse[g], k, pull[k][columnOf(k, g)]);
     }
     for (int i = 0; i < 8; ++i)
       for (int c = 0; c < 3; ++c) y[i][c] = Real(0);
@@ -224,8 +361,27 @@ struct HexahedronFEM {
         y[end(k, uv, 0)] -= half;
       }
     }
-    for (int i = 0; i < 8; ++i)
-      for (int c = 0; c < 3; ++c) f[i][c] = r(c, 0) * y[i][0] + r(c, 1) * y[i][1] + r(c, 2) * y[i][2];
+  }
+  SINEW_INLINE static void forceOfTerms(Rest const& rest, Real one, Real weight, Vec3 (&y)[8]) {
+    Vec3 h[8], p[8];
+    expand(y, h);
+    p[7] = twist(rest, h[7]) * (Real(8.0 / 9) * weight);
+    for (int term = 1; term < 7; ++term)
+      for (int i = 0; i < 3; ++i) p[term][i] = Real(0);
+#pragma GCC unroll 5
+    for (int term = 0; term < 5; ++term)
+      if (term != 3) {
+        const Mat3 s = stress(rest, strainTerm(rest, h, term, one), Real(term == 0 ? 8.0 : 8.0 / 3) * weight);
+#pragma GCC unroll 3
+        for (int k = 0; k < 3; ++k)
+          if (!(term >> k & 1)) addColumn(s, rest.inverse[0], k, p[term | 1 << k]);
+      }
+    collect(p, y);
+  }
+  // sum += s r_k
+  SINEW_INLINE static void addColumn(Mat3 const& s, Mat3 const& inverse, int k, Vec3& sum) {
+    for (int i = 0; i < 3; ++i)
+      sum[i] += s(i, 0) * inverse(k, 0) + s(i, 1) * inverse(k, 1) + s(i, 2) * inverse(k, 2);
   }
 
   // gradient of shape function i in Gauss point g
@@ -309,8 +465,9 @@ struct HexahedronFEMForceField {
   using Driver = ElementDriver<HexahedronFEM, D>;
   using Law = typename Driver::Law;
   Driver driver{};
+  bool parallelepipeds = false;  // all of them, at rest; set by init
 
-  Law law() const { return Law{method}; }
+  Law law() const { return Law{method, parallelepipeds}; }
 
   void init(InitContext<D> const& context) {
     auto const& hexahedra = context.topology.hexahedra;
@@ -322,12 +479,14 @@ struct HexahedronFEMForceField {
     check_one_or_each(where, "youngModulus", youngModulus.size(), hexahedra.size(), "hexahedra");
     std::vector<typename Driver::Rest> rest;
     rest.reserve(hexahedra.size());
+    parallelepipeds = true;
     for (std::size_t e = 0; e < hexahedra.size(); ++e) {
       typename D::Coord x[8];
       for (std::size_t k = 0; k < 8; ++k) x[k] = context.rest[std::size_t(hexahedra[e][k])];
       const double E = one_or_each(youngModulus, e) * (fill.size() == hexahedra.size() ? fill[e] : 1.0);
       const LameModuli moduli = lame_moduli(E, poissonRatio);
       rest.push_back(HexahedronFEM<D>::restOf(x, Real(moduli.mu), Real(moduli.lambda), method));
+      parallelepipeds = parallelepipeds && HexahedronFEM<D>::isParallelepiped(x);
       const Real longest = (x[6] - x[0]).norm();
       for (const Real w : rest.back().weight)
         if (!(w > Real(1e-12) * longest * longest * longest))
