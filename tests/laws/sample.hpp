@@ -49,10 +49,10 @@ struct Body {
       auto corner = [&](int k) { return (x + k % 2) + 3 * (y + k / 2 % 2) + 9 * (z + k / 4); };
       for (auto const& t : (x + y + z) % 2 == 0 ? even : odd) {
         Tetrahedron e{corner(t[0]), corner(t[1]), corner(t[2]), corner(t[3])};
-        Eigen::Matrix3d edges;
+        Eigen::Matrix3d sides;
         for (int k = 0; k < 3; ++k)
-          edges.col(k) = points[std::size_t(e[std::size_t(k) + 1])] - points[std::size_t(e[0])];
-        if (edges.determinant() < 0) std::swap(e[2], e[3]);
+          sides.col(k) = points[std::size_t(e[std::size_t(k) + 1])] - points[std::size_t(e[0])];
+        if (sides.determinant() < 0) std::swap(e[2], e[3]);
         tetrahedra.push_back(e);
       }
       hexahedra.push_back(

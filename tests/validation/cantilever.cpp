@@ -109,16 +109,16 @@ TEST_CASE("linear tetrahedra and hexahedra lock as Poisson's ratio nears 1/2", "
   };
   auto six = [](Bar const& bar) { return tetrahedra_tip(bar, Cells::six); };
   for (const int across : {2, 4}) {
-    const auto tetrahedra = at("TetrahedronFEM", across, six),
-               hexahedra = at("HexahedronFEM", across, hexahedra_tip);
-    for (std::size_t i = 1; i < tetrahedra.size(); ++i) {
-      CHECK(tetrahedra[i] < tetrahedra[i - 1]);
-      CHECK(hexahedra[i] < hexahedra[i - 1]);
+    const auto ofTetrahedra = at("TetrahedronFEM", across, six),
+               ofHexahedra = at("HexahedronFEM", across, hexahedra_tip);
+    for (std::size_t i = 1; i < ofTetrahedra.size(); ++i) {
+      CHECK(ofTetrahedra[i] < ofTetrahedra[i - 1]);
+      CHECK(ofHexahedra[i] < ofHexahedra[i - 1]);
     }
-    CHECK(tetrahedra.front() > 0.4);
-    CHECK(tetrahedra.back() < 0.05);
-    CHECK(hexahedra.front() > 0.85);
-    CHECK(hexahedra.back() < 0.9 * hexahedra.front());
+    CHECK(ofTetrahedra.front() > 0.4);
+    CHECK(ofTetrahedra.back() < 0.05);
+    CHECK(ofHexahedra.front() > 0.85);
+    CHECK(ofHexahedra.back() < 0.9 * ofHexahedra.front());
   }
 }
 

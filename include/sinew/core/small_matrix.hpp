@@ -102,7 +102,7 @@ template <class A, class S>
 requires ScalarOf<S, A>
 SINEW_INLINE detail::Value<A> operator*(A const& matrix, S const& factor) {
   auto const& a = detail::entries(matrix);
-  const typename A::Scalar s(factor);
+  const auto s = static_cast<typename A::Scalar>(factor);
   return detail::matrix_of<detail::Value<A>>([&](int i, int j) { return a.coeff(i, j) * s; });
 }
 template <class S, class A>
@@ -115,7 +115,7 @@ template <class A, class S>
 requires ScalarOf<S, A>
 SINEW_INLINE detail::Value<A> operator/(A const& matrix, S const& divisor) {
   auto const& a = detail::entries(matrix);
-  const typename A::Scalar s(divisor);
+  const auto s = static_cast<typename A::Scalar>(divisor);
   return detail::matrix_of<detail::Value<A>>([&](int i, int j) { return a.coeff(i, j) / s; });
 }
 
