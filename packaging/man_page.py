@@ -41,7 +41,7 @@ def main(program):
         if page.foot:
             lines += [".PP", *paragraph(page.foot)]
     lines += [".SH EXIT STATUS", *map(escaped, top.foot), ".SH SEE ALSO",
-              "The package libsinew\\-dev has the library; its documentation says what scenes may have."]
+              "\\fBsinew list\\fR says what scenes may have. The package libsinew\\-dev has the library."]
     print("\n".join(lines))
 
 
