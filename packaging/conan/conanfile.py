@@ -18,6 +18,7 @@ class Sinew(ConanFile):
     package_type = "header-library"
     settings = "os", "compiler", "build_type", "arch"
     requires = ("eigen/[>=3.4 <6]", "boost/[>=1.74]")
+    default_options = {"boost/*:header_only": True}  # of Boost, Hana is all that is needed
     no_copy_source = True
 
     @property
