@@ -1,19 +1,18 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSL-1.0
 """Completion of the program sinew for bash, made of what it says of itself: completion.py SINEW."""
-import re
 import sys
 
 import help_text
 
 
 def names(entries):
-    return " ".join(name for words, _ in entries for name in re.findall(r"(?<![\w-])-{1,2}[\w-]+", words.split(" ")[0]))
+    return " ".join(name for entry in entries for name in entry.names)
 
 
 def main(program):
     top = help_text.read(program)
-    commands = [command for command, _ in top.sections["Subcommands"]]
+    commands = [entry.names[0] for entry in top.sections["Subcommands"]]
     cases = [f'    {c}) options="{names(help_text.read(program, c).sections["Options"])}" ;;' for c in commands]
     print("\n".join([
         "# bash completion of sinew", "_sinew() {", "  local word=${COMP_WORDS[COMP_CWORD]} options", "  if [ \"$COMP_CWORD\" = 1 ]; then",

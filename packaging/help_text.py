@@ -5,11 +5,32 @@ import re
 import subprocess
 
 
+COLUMN = 30  # where explanations begin; longer words have theirs on the next line
+
+
+@dataclasses.dataclass
+class Entry:
+    names: list  # of an option ["-h", "--help"], otherwise one word
+    value: str  # what follows the name: "SECONDS"
+    excludes: list  # names that cannot stand beside it
+    explanation: str
+
+
+def entry(line):
+    """One line of a section: names, value, what it excludes, and, from the column on, the explanation."""
+    words, explanation = line[:COLUMN], line[COLUMN:]
+    if not words.endswith(" ") or words.endswith(" Excludes: ") or explanation.startswith("--"):
+        words, explanation = line, ""
+    words, _, excludes = words.strip().partition(" Excludes: ")
+    names, _, value = words.removesuffix(" REQUIRED").partition(" ")
+    return Entry(names.split(","), value, excludes.split(), explanation.strip())
+
+
 @dataclasses.dataclass
 class Help:
     head: list  # lines above the usage
     usage: str
-    sections: dict  # of each section ("Options", "Positionals", "Subcommands"): [(words, explanation)]
+    sections: dict  # of each section ("Options", "Positionals", "Subcommands"), its entries
     foot: list  # lines below
 
 
@@ -24,12 +45,12 @@ def read(program, *command):
         elif re.fullmatch(r"(Options|Positionals|Subcommands):", line):
             section = help.sections.setdefault(line[:-1], [])
         elif section is not None and line.startswith("  "):
-            words, _, explanation = line.strip().partition("  ")
             if line.startswith("   "):  # goes on
-                before = section.pop()
-                section.append((before[0], f"{before[1]} {line.strip()}".strip()))
+                section[-1].explanation = f"{section[-1].explanation} {line.strip()}".strip()
             else:
-                section.append((words, explanation.strip()))
-        elif line.strip():
+                section.append(entry(line))
+        elif not line.strip():
+            section = None
+        else:
             (help.head if not help.usage else help.foot).append(line)
     return help
