@@ -2,6 +2,7 @@
 // Where the time of a step goes: a bar for each component, and tables and pictures of that.
 
 const number = (value) => Number(value.toPrecision(3));
+const timeOf = (milliseconds) => (milliseconds < 0.1 ? `${number(1000 * milliseconds)} µs` : `${number(milliseconds)} ms`);
 
 export const csvOf = ({ shares }) =>
   ['component or phase,class,time in a step [ms],share [%]']
@@ -50,7 +51,7 @@ export class ProfileList {
       const [bar, name, time] = item.children;
       bar.value = share.milliseconds / most;
       name.textContent = share.name;
-      time.textContent = `${number(share.milliseconds)} ms`;
+      time.textContent = timeOf(share.milliseconds);
       item.title = `${share.class || 'a phase, outside of components'}: ${(100 * share.share).toFixed(1)} % of the step`;
     });
   }
