@@ -2,6 +2,7 @@
 #include "catch.hpp"
 
 #include <sinew/mechanics.hpp>
+#include <sinew/runtime/from_typed.hpp>
 #include <sinew/runtime/runtime.hpp>
 #include <sinew/scene/profiled.hpp>
 #include <sinew/topology/regular_grid.hpp>
@@ -98,10 +99,12 @@ auto hanging() {
       node<"block">(TetrahedronTopology{mesh.tetrahedra},
                     MechanicalObject<Vec3d>{mesh.positions},
                     UniformMass<Vec3d>{.totalMass = 1},
-                    TetrahedronFEMForceField<Vec3d>{.youngModulus = 1000, .poissonRatio = 0.3}));
+                    TetrahedronFEMForceField<Vec3d>{.youngModulus = {1000}, .poissonRatio = {0.3}}));
 }
 view::StageState profiled_state(view::Stage& stage) {
   stage.profile(true);
+  stage.settle();
+  if (!stage.state().error.empty()) return stage.state();
   stage.play(true);
   for (int i = 0; i < 1000 && !stage.state().profile && stage.state().error.empty(); ++i) {
     stage.scene();
@@ -172,6 +175,7 @@ TEST_CASE("a runtime tree is timed through changes of its fields; a typed scene 
     view::Stage stage(tree, 0.01, 0);
     for (int round = 0; round < 2; ++round) {
       const view::StageState state = profiled_state(stage);
+      INFO("round " << round << ", step " << state.step << ": " << state.error);
       REQUIRE(state.profile);
       CHECK(state.profile->shares[0].className == "TetrahedronFEMForceField<Vec3d>");
       stage.profile(false);

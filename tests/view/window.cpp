@@ -5,11 +5,18 @@
 
 #include <sinew/contact.hpp>
 #include <sinew/mechanics.hpp>
+#include <sinew/topology/regular_grid.hpp>
 #include <sinew/view/window.hpp>
 
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <memory>
 #include <string>
+#include <thread>
+#include <vector>
 
 namespace test_window {
 
@@ -268,6 +275,101 @@ TEST_CASE("a window opens another scene in the place of that which is seen") {
     window.turnTo(part);
     window.frame();
   }
+}
+
+double median_of(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + long(values.size() / 2), values.end());
+  return values[values.size() / 2];
+}
+double seconds_now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+// A measurement, which fails nothing and says its numbers:
+//   xvfb-run -a -s "-screen 0 1280x800x24 -noreset" test_window "[.speed]"
+TEST_CASE("frame time at 100,000 triangles", "[.speed]") {
+  if (!std::getenv("DISPLAY")) return;
+  Mesh sheet;
+  constexpr Index n = 224;
+  for (Index i = 0; i <= n; ++i)
+    for (Index j = 0; j <= n; ++j)
+      sheet.positions.push_back(
+          {double(i) / n, 0.05 * std::sin(0.1 * double(i)) * std::cos(0.1 * double(j)), double(j) / n});
+  for (Index i = 0; i < n; ++i)
+    for (Index j = 0; j < n; ++j) {
+      const Index a = i * (n + 1) + j, b = a + n + 1;
+      sheet.triangles.push_back({a, a + 1, b + 1});
+      sheet.triangles.push_back({a, b + 1, b});
+    }
+  Simulation sim{node<"root">(VisualModel{.mesh = sheet})};
+  sim.init();
+  view::Stage stage(sim, 0.01, 0);
+  view::Window window(stage);
+  // still: the picture alone; moving: what is seen is made and brought to the card again for each picture
+  for (const bool moving : {false, true}) {
+    std::vector<double> times;
+    for (int k = 0; k < 60; ++k) {
+      if (moving) {
+        stage.step();
+        stage.settle();
+      }
+      const double start = seconds_now();
+      window.frame();
+      times.push_back(1e3 * (seconds_now() - start));
+    }
+    std::printf("%zu triangles, %s: %.1f ms a frame (median), %.1f ms (least)\n",
+                sheet.triangles.size(),
+                moving ? "each frame another scene" : "still",
+                median_of(times),
+                *std::min_element(times.begin(), times.end()));
+  }
+}
+
+TEST_CASE("step time with and without a window", "[.speed]") {
+  if (!std::getenv("DISPLAY")) return;
+  Mesh mesh = regular_grid_tetrahedra(7, 8, 8, {0, 0, 0}, {1, 1, 1});  // 1,470 tetrahedra
+  Simulation sim{node<"root">(
+      Gravity{{0, -10, 0}},
+      EulerImplicitSolver{},
+      CGLinearSolver<>{.iterations = 25, .tolerance = 1e-20, .threshold = 1e-30},
+      node<"block">(TetrahedronTopology{mesh.tetrahedra},
+                    MechanicalObject<Vec3d>{mesh.positions},
+                    UniformMass<Vec3d>{.totalMass = 1},
+                    FixedConstraint<Vec3d>{.indices = {0, 1, 2, 3, 4, 5, 6}},
+                    TetrahedronFEMForceField<Vec3d>{.youngModulus = {1000}, .poissonRatio = {0.3}}))};
+  sim.init();
+  view::Stage stage(sim, 0.01, 0);
+  view::Window window(stage);
+  window.frame();
+  auto rate = [&](bool seen) {
+    stage.play(true);
+    stage.settle();
+    const long first = stage.state().step;
+    const double start = seconds_now();
+    while (seconds_now() < start + 2) {
+      if (seen) window.frame();
+      std::this_thread::sleep_for(std::chrono::milliseconds(seen ? 12 : 16));
+    }
+    const long steps = stage.state().step - first;
+    const double seconds = seconds_now() - start;
+    stage.play(false);
+    stage.settle();
+    return double(steps) / seconds;
+  };
+  rate(false);
+  std::vector<double> with, without, ratios;
+  for (int k = 0; k < 9; ++k) {
+    without.push_back(rate(false));
+    with.push_back(rate(true));
+    ratios.push_back(without.back() / with.back());
+  }
+  std::printf(
+      "%zu tetrahedra: %.0f steps/s without the window, %.0f with it; a step takes %.1f %% longer "
+      "(medians)\n",
+      mesh.tetrahedra.size(),
+      median_of(without),
+      median_of(with),
+      100 * (median_of(ratios) - 1));
 }
 
 }  // namespace test_window
