@@ -54,12 +54,20 @@ TEST_CASE("the faces of a convex hull close around its volume") {
     const Eigen::Vector3d n = (at(b) - at(a)).cross(at(c) - at(a)).normalized();
     for (auto const& p : ball) CHECK(n.dot(p - at(a)) < 1e-9);
   }
-  // what is flat, straight, one place, or too few points has none
-  CHECK(
-      view::HullFaces(Points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0.5, 0.5, 0}}).triangles().empty());
+  // what is flat has the polygon around it, here of 2 m^2
+  const Points plate{{0, 0, 1}, {1, 0, 1}, {0, 2, 1}, {1, 2, 1}, {0.5, 0.5, 1}, {0, 1, 1}};
+  faces = view::HullFaces(plate).triangles();
+  CHECK(faces.size() == 2);
+  double area = 0;
+  for (auto const& [a, b, c] : faces) {
+    auto at = [&](Index i) { return plate[std::size_t(i)]; };
+    area += (at(b) - at(a)).cross(at(c) - at(a)).norm() / 2;
+  }
+  CHECK(area == Approx(2));
+  CHECK(view::HullFaces(Points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}).triangles().size() == 1);
+  // what is straight, one place, or too few points has none
   CHECK(view::HullFaces(Points{{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {3, 3, 3}}).triangles().empty());
   CHECK(view::HullFaces(Points(5, Eigen::Vector3d(1, 2, 3))).triangles().empty());
-  CHECK(view::HullFaces(Points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}).triangles().empty());
   CHECK(view::HullFaces(Points{}).triangles().empty());
 }
 

@@ -16,9 +16,9 @@
 
 namespace sinew::view {
 
-/// The faces of the convex hull of points, as triangles that look outwards; none where all points lie in a
-/// plane (quickhull: Barber, Dobkin, Huhdanpaa 1996). Points that are farther out than 1e-9 of the size are
-/// corners.
+/// The faces of the convex hull of points, as triangles that look outwards; where all points lie in a plane,
+/// the polygon around them, on one side; none where they lie on a line (quickhull: Barber, Dobkin, Huhdanpaa
+/// 1996). Points that are farther out than 1e-9 of the size are corners.
 class HullFaces {
  public:
   explicit HullFaces(std::vector<Eigen::Vector3d> const& points) : points_(points) {
@@ -74,7 +74,7 @@ class HullFaces {
   }
   // a tetrahedron of points far from each other
   bool begin() {
-    if (points_.size() < 4) return false;
+    if (points_.size() < 3) return false;
     using V = Eigen::Vector3d;
     const int a = farthest([](V const& p) { return p.allFinite() ? 1. : 0.; }).first;
     const auto [b, size] = farthest([&](V const& p) { return (p - at(a)).norm(); });
@@ -85,7 +85,7 @@ class HullFaces {
     if (!(width > tolerance_)) return false;
     const V normal = along.cross(at(c) - at(a)).normalized();
     const auto [d, height] = farthest([&](V const& p) { return std::abs(normal.dot(p - at(a))); });
-    if (!(height > tolerance_)) return false;
+    if (!(height > tolerance_)) return flat(along, normal.cross(along));
     const bool upwards = normal.dot(at(d) - at(a)) > 0;
     const int second = upwards ? c : b, third = upwards ? b : c;
     add(a, second, third);
@@ -96,6 +96,33 @@ class HullFaces {
     for (int i = 0; i < int(points_.size()); ++i)
       if (i != a && i != b && i != c && i != d) all.push_back(i);
     share(all, 0);
+    return true;
+  }
+  // the polygon of points in a plane with these axes, as a fan (monotone chain: Andrew 1979)
+  bool flat(Eigen::Vector3d const& x, Eigen::Vector3d const& y) {
+    std::vector<std::pair<Eigen::Vector2d, int>> sorted;
+    for (int i = 0; i < int(points_.size()); ++i)
+      sorted.push_back({{x.dot(at(i) - at(0)), y.dot(at(i) - at(0))}, i});
+    std::sort(sorted.begin(), sorted.end(), [](auto const& a, auto const& b) {
+      return a.first[0] != b.first[0] ? a.first[0] < b.first[0] : a.first[1] < b.first[1];
+    });
+    std::vector<std::pair<Eigen::Vector2d, int>> polygon;
+    for (const bool back : {false, true}) {
+      const std::size_t first = polygon.size();
+      for (auto const& p : sorted) {
+        while (polygon.size() >= first + 2) {
+          const Eigen::Vector2d u = polygon.back().first - polygon[polygon.size() - 2].first,
+                                v = p.first - polygon.back().first;
+          if (u[0] * v[1] - u[1] * v[0] > tolerance_ * u.norm()) break;  // it turns left
+          polygon.pop_back();
+        }
+        polygon.push_back(p);
+      }
+      polygon.pop_back();
+      if (!back) std::reverse(sorted.begin(), sorted.end());
+    }
+    for (std::size_t k = 2; k < polygon.size(); ++k)
+      add(polygon[0].second, polygon[k - 1].second, polygon[k].second);
     return true;
   }
   // the farthest point outside of a face takes the place of all that it sees
