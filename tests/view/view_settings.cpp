@@ -157,16 +157,21 @@ TEST_CASE("a scene file keeps how it is looked at, also through a change and in 
   auto scene = parse_scene<Few>("a.scn", R"(<Node name="root">
     <VisualStyle displayFlags="showVisual"/>
     <BackgroundSetting color="0 0 0"/>
+    <LightManager ambient="0.2 0.2 0.2"/>
     <Node name="v">
+      <DirectionalLight direction="0 0 1"/>
       <OglModel color="0 1 0" position="0 0 0  1 0 0  0 1 0" triangles="0 1 2"/>
     </Node></Node>)");
-  REQUIRE(scene.root.view.size() == 3);
+  CHECK(scene.ignored.empty());
+  REQUIRE(scene.root.view.size() == 5);
   CHECK(scene.root.view[0].origin == "a.scn:2:5");
   auto sim = start(std::move(scene));
   sim.change([](auto&) {});
   auto check = [](auto& simulation) {
     const ViewSettings settings = view::view_settings_of(simulation);
     CHECK(settings.warnings.empty());
+    CHECK(settings.seen.lights.size() == 1);
+    CHECK(settings.seen.ambient);
     const view::Image image =
         view::Picture(simulation, {.width = 40, .height = 30, .camera = {}, .seen = settings.seen}).image();
     CHECK(image.at(1, 1) == std::array<unsigned char, 3>{0, 0, 0});
