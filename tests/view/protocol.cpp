@@ -126,7 +126,7 @@ TEST_CASE("what is no command is refused, with a sentence") {
   CHECK(refusal(R"({"do":"fly"})") ==
         "command: nothing is called 'fly'; there are play, step, reset, speed, press, move, release, "
         "component, "
-        "setField, undo, redo and colour");
+        "setField, undo, redo, colour and profile");
   CHECK(refusal(R"({"do":"colour","by":"mood"})") ==
         "command: 'by' is 'mood' and must be one of: none, displacement, speed, vonMises, strainEnergy, "
         "stretch");
@@ -244,12 +244,21 @@ TEST_CASE("what a page is told is JSON") {
   SeenScene seen;
   seen.settings.colour = Quantity::speed;
   seen.legend = Legend{"speed", "m/s", 0, 2};
-  CHECK(write_state(state, seen) ==
-        R"({"colour":"speed","error":"a \"word\"\n)"
-        "\xef\xbf\xbd"
-        R"(","held":{"force":[0.0,0.0,7.0],"path":"a","point":[1.0,2.0,3.0],"target":[4.0,5.0,6.0]},)"
-        R"("is":"state","legend":{"high":2.0,"low":0.0,"title":"speed","unit":"m/s"},"playing":false,)"
-        R"("redo":null,"step":25,"stepsPerSecond":null,"time":0.5,"undo":null})");
+  CHECK(
+      write_state(state, seen) ==
+      R"({"colour":"speed","error":"a \"word\"\n)"
+      "\xef\xbf\xbd"
+      R"(","held":{"force":[0.0,0.0,7.0],"path":"a","point":[1.0,2.0,3.0],"target":[4.0,5.0,6.0]},)"
+      R"("is":"state","legend":{"high":2.0,"low":0.0,"title":"speed","unit":"m/s"},"playing":false,)"
+      R"("profile":null,"profiling":false,"redo":null,"step":25,"stepsPerSecond":null,"time":0.5,"undo":null})");
+  state.profiling = true;
+  state.profile = std::make_shared<StepProfile>(
+      StepProfile{.steps = 3, .shares = {{"fem", "Force<Vec3d>", 1.5, 0.75, 2}, {"step", "", 0.5, 0.25, 1}}});
+  CHECK_THAT(
+      write_state(state, seen),
+      Catch::Matchers::Contains(
+          R"("profile":{"shares":[{"class":"Force<Vec3d>","milliseconds":1.5,"name":"fem","share":0.75},)"
+          R"({"class":"","milliseconds":0.5,"name":"step","share":0.25}],"steps":3},"profiling":true)"));
   CHECK(write_scene("t", 0.01, {{0, "root", ""}, {1, "fem", "Force<Vec3d>"}}) ==
         R"({"dt":0.01,"is":"scene","protocol":1,"title":"t","tree":[{"depth":0,"name":"root"},)"
         R"({"class":"Force<Vec3d>","depth":1,"name":"fem"}]})");
