@@ -287,7 +287,7 @@ double seconds_now() {
 
 // A measurement, which fails nothing and says its numbers:
 //   xvfb-run -a -s "-screen 0 1280x800x24 -noreset" test_window "[.speed]"
-TEST_CASE("frame time at 100,000 triangles", "[.speed]") {
+TEST_CASE("frame time at 1e5 triangles", "[.speed]") {
   if (!std::getenv("DISPLAY")) return;
   Mesh sheet;
   constexpr Index n = 224;

@@ -303,6 +303,7 @@ class Stage {
   Measures measures_{};
   std::vector<std::pair<int, std::string>> measuredFields_{};
   bool measuring_ = false, profiling_ = false;
+  bool changed_ = false;  // since the scene was last looked at
   std::shared_ptr<StepProfile const> profile_{};
   UserActions recorded_{}, replayed_{};
   bool records_ = false, replays_ = false;
@@ -458,6 +459,7 @@ class Stage {
     for (auto const& what : mine) careful([&] { what(*this); });
     if (stood) next = measured = Clock::now(), steps = 0;
     if (playing_ && Clock::now() >= next) {
+      changed_ = true;
       if (!careful([&] { animate(); })) playing_ = false;
       ++steps;
       // after a slow step the time that is lost is not made up for
@@ -473,7 +475,8 @@ class Stage {
       nextProfile = Clock::now() + std::chrono::milliseconds(500);
     }
     Scene seen;
-    if (look || told)
+    changed_ = changed_ || told;
+    if ((look || told) && std::exchange(changed_, false))
       careful([&] {
         seen = std::make_shared<SeenScene>(actor_->see(seen_));
         if (selectedLine_ >= 0)
