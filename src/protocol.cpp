@@ -214,10 +214,11 @@ Command read_command(std::string_view json) {
       refuse(text("'by' is '", Members::shown(by), "' and must be one of: ", listed_names()));
     return command::Colour{Quantity(at - names.begin())};
   }
+  if (has("profile", {"on"})) return command::Profile{m.flag("on")};
   refuse(text("nothing is called '",
               m.name,
               "'; there are play, step, reset, speed, press, move, release, component, setField, undo, "
-              "redo and colour"));
+              "redo, colour and profile"));
 }
 
 std::string write_command(Command const& said) {
@@ -245,6 +246,7 @@ std::string write_command(Command const& said) {
     Json operator()(command::Colour const& c) {
       return {{"do", "colour"}, {"by", enum_names(c.by)[std::size_t(c.by)]}};
     }
+    Json operator()(command::Profile const& c) { return {{"do", "profile"}, {"on", c.on}}; }
   } json;
   return dumped(std::visit(json, said));
 }
@@ -270,7 +272,21 @@ std::string write_state(StageState const& state, SeenScene const& scene) {
             {"redo", state.redo ? Json(state.redo->field) : Json()},
             {"error", state.error},
             {"colour", enum_names(Quantity{})[std::size_t(scene.settings.colour)]},
-            {"legend", nullptr}};
+            {"legend", nullptr},
+            {"profiling", state.profiling},
+            {"profile", nullptr}};
+  if (state.profile) {
+    constexpr std::size_t most = 24;  // the largest
+    Json shares = Json::array();
+    for (std::size_t i = 0; i < state.profile->shares.size() && i < most; ++i) {
+      TimeShare const& one = state.profile->shares[i];
+      shares.push_back({{"name", one.name},
+                        {"class", one.className},
+                        {"milliseconds", one.milliseconds},
+                        {"share", one.share}});
+    }
+    json["profile"] = {{"steps", state.profile->steps}, {"shares", std::move(shares)}};
+  }
   if (scene.legend)
     json["legend"] = {{"title", scene.legend->title},
                       {"unit", scene.legend->unit},
@@ -408,6 +424,103 @@ void read_frame(std::string_view message, ReadTopology& into) {
     body.values.resize(values == 0 ? 0 : body.points.size());
     for (double& value : body.values) value = double(bytes.number<float>());
   }
+}
+
+namespace {
+
+// a path of plain names, which stays below the folder that it is looked for in
+void check_file_name(std::string const& name) {
+  auto refuse_name = [&](char const* why) {
+    throw Error("upload", text("the name '", Members::shown(name), "' ", why, "; take another"));
+  };
+  if (name.empty() || name.size() > longestFileName) refuse_name("is empty or too long");
+  for (const char c : name)
+    if (static_cast<unsigned char>(c) < ' ' || c == 127 || c == '\\' || c == ':')
+      refuse_name("has a character that names of files of a scene do not have");
+  for (std::size_t at = 0; at <= name.size();) {
+    const std::size_t end = std::min(name.find('/', at), name.size());
+    const std::string_view part = std::string_view(name).substr(at, end - at);
+    if (part.empty() || part == "." || part == "..") refuse_name("does not lead to a file below a folder");
+    at = end + 1;
+  }
+}
+bool ends_in(std::string_view name, std::string_view ending) {
+  if (name.size() <= ending.size()) return false;
+  name.remove_prefix(name.size() - ending.size());
+  return std::equal(name.begin(), name.end(), ending.begin(), [](char a, char b) {
+    return (a >= 'A' && a <= 'Z' ? char(a - 'A' + 'a') : a) == b;
+  });
+}
+
+}  // namespace
+
+std::string write_upload(std::vector<SceneFile> const& files) {
+  Json list = Json::array();
+  for (SceneFile const& file : files) list.push_back({{"name", file.name}, {"bytes", file.content.size()}});
+  std::string bytes = dumped({{"files", std::move(list)}}) + '\n';
+  for (SceneFile const& file : files) bytes += file.content;
+  return bytes;
+}
+
+std::vector<SceneFile> read_upload(std::string_view bytes) {
+  constexpr char const* what = "upload";
+  if (bytes.size() > longestUpload)
+    throw Error(what, text("it has ", bytes.size(), " bytes, and ", longestUpload, " are allowed"));
+  constexpr std::size_t longestHeader = mostFiles * (2 * longestFileName + 64);
+  const std::size_t line = bytes.substr(0, longestHeader).find('\n');
+  if (line == bytes.npos) throw Error(what, "it begins with no line that names its files");
+  Json header;
+  try {
+    header = Json::parse(
+        bytes.begin(), bytes.begin() + std::ptrdiff_t(line), [](int deep, Json::parse_event_t, Json&) {
+          if (deep > int(deepestCommand)) throw Error(what, "its first line is nested too deep");
+          return true;
+        });
+  } catch (Json::exception const&) {
+    throw Error(what, "its first line is no JSON (RFC 8259)");
+  }
+  const auto list = header.is_object() ? header.find("files") : header.end();
+  if (!header.is_object() || list == header.end() || !list->is_array() || header.size() != 1)
+    throw Error(what, "its first line lacks the list 'files', or has more");
+  if (list->empty() || list->size() > mostFiles)
+    throw Error(what, text("it has ", list->size(), " files, and must have 1 to ", mostFiles));
+  std::vector<SceneFile> files;
+  Bytes left{bytes.substr(line + 1), what};
+  for (Json const& one : *list) {
+    const auto name = one.is_object() ? one.find("name") : one.end();
+    const auto size = one.is_object() ? one.find("bytes") : one.end();
+    if (!one.is_object() || one.size() != 2 || name == one.end() || size == one.end() || !name->is_string() ||
+        !size->is_number_unsigned())
+      throw Error(what, "a file has a 'name' and a number of 'bytes', and no more");
+    SceneFile file{.name = name->get<std::string>()};
+    check_file_name(file.name);
+    for (SceneFile const& other : files)
+      // a file cannot be where another one has its folder
+      if (other.name == file.name || other.name.starts_with(file.name + '/') ||
+          file.name.starts_with(other.name + '/'))
+        throw Error(what, text("two files are called '", Members::shown(file.name), "'"));
+    const auto count = size->get<std::uint64_t>();
+    if (count > left.left.size()) left.refuse("it ends too early");
+    file.content = left.take(std::size_t(count));
+    files.push_back(std::move(file));
+  }
+  left.end();
+  return files;
+}
+
+std::size_t scene_among(std::vector<SceneFile> const& files) {
+  for (std::string_view ending : {".scn", ".xml"}) {
+    std::size_t count = 0, last = 0;
+    for (std::size_t i = 0; i < files.size(); ++i)
+      if (ends_in(files[i].name, ending)) ++count, last = i;
+    if (count == 1) return last;
+    if (count > 1)
+      throw Error(
+          "upload",
+          text("there are ", count, " scenes (", ending, "); take one, with the files that it needs"));
+  }
+  throw Error("upload",
+              "there is no scene among the files (.scn or .xml); take one, with the files that it needs");
 }
 
 void SceneWriter::write(SeenScene const& scene) {

@@ -23,6 +23,7 @@
 #include <random>
 #include <set>
 #include <sstream>
+#include <thread>
 
 namespace sinew::view {
 
@@ -91,7 +92,7 @@ std::filesystem::path usual_page() {
 }
 
 // all files of a folder are read once: what is asked for later is one of them or nothing
-Page read_page(std::string const& asked) {
+Page read_page(std::string const& asked, bool opens) {
   const std::filesystem::path folder = asked.empty() ? usual_page() : std::filesystem::path(asked);
   std::error_code missing;
   if (!std::filesystem::exists(folder / "index.html", missing))
@@ -114,19 +115,21 @@ Page read_page(std::string const& asked) {
     page.emplace(entry.path().filename().string(), std::move(read));
   }
   // the page asks what runs its scene; as a folder of files it is Sinew in WebAssembly
-  page["engine.json"] = {type_of("engine.json"), R"({"engine": "socket"})"};
+  page["engine.json"] = {type_of("engine.json"),
+                         opens ? R"({"engine": "socket", "opens": true})" : R"({"engine": "socket"})"};
   return page;
 }
 
 // ---- who looks
 
 class Viewer;
+class Visitor;
 
 // What all connections share; they are in one thread.
 struct Shared {
-  Stage& stage;
+  Stage* stage;
   ServeSettings settings;
-  Page page = read_page(settings.page);
+  Page page = read_page(settings.page, bool(settings.open));
   std::string word = random_word();
   std::set<std::string> hosts{};  // by which browsers may call it; empty: by any
   Text scene{};
@@ -134,6 +137,8 @@ struct Shared {
   std::size_t connections = 0;
   Viewer* puller = nullptr;  // whose pointer holds something
   std::function<void()> look{};
+  std::function<void(std::vector<SceneFile>, std::shared_ptr<Visitor>)> open{};
+  bool opens = false;  // a scene is being opened, or one that was seen goes
 
   std::uint32_t topologyNumber = 0;
   Text topology{}, frame{}, state{};
@@ -167,6 +172,12 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
       self->read();
       self->all().look();
     });
+  }
+  // there is another scene to be seen
+  void restart() {
+    scene_ = all().scene;
+    frame_.reset(), state_.reset(), topology_.reset();
+    offer();
   }
   // the latest of what is to be seen
   void offer() {
@@ -208,7 +219,7 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
           if (const auto self = weak.lock()) self->reply(text);
         });
       };
-      tell(all().stage, said, answer);
+      tell(*all().stage, said, answer);
       all().look();
     } catch (Error const& error) {
       reply(shared(write_error(error.what())));
@@ -224,7 +235,7 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
     if (!all().viewers.erase(this)) return;
     if (all().puller == this) {
       all().puller = nullptr;
-      all().stage.release();
+      all().stage->release();
     }
     replies_.clear();
   }
@@ -264,12 +275,26 @@ class Visitor : public std::enable_shared_from_this<Visitor> {
   void read() {
     parser_.emplace();
     parser_->header_limit(16384);
-    parser_->body_limit(1024);
+    parser_->body_limit(longestUpload);  // which its header is compared with
     stream_.expires_after(std::chrono::seconds(20));
-    http::async_read(stream_, buffer_, *parser_, [self = shared_from_this()](error_code error, std::size_t) {
-      if (error) return;
-      self->answer(self->parser_->release());
-    });
+    http::async_read_header(
+        stream_, buffer_, *parser_, [self = shared_from_this()](error_code error, std::size_t) {
+          if (error == http::error::body_limit && self->isUpload(self->parser_->get()))
+            return self->refuseSize();
+          if (error) return;
+          if (self->isUpload(self->parser_->get())) {
+            self->stream_.expires_after(std::chrono::seconds(60));
+          } else {
+            constexpr std::size_t most = 1024;
+            if (self->parser_->content_length().value_or(0) > most) return;
+            self->parser_->body_limit(most);
+          }
+          self->readBody();
+        });
+  }
+  // what has come of the scene that it sent: what was noticed, or an error
+  void opened(bool good, std::string const& words) {
+    reply(request_, good ? http::status::ok : http::status::unprocessable_entity, words);
   }
 
  private:
@@ -278,12 +303,54 @@ class Visitor : public std::enable_shared_from_this<Visitor> {
   beast::flat_buffer buffer_{};
   std::optional<http::request_parser<http::string_body>> parser_{};
   http::response<http::string_body> response_{};
+  Request request_{};  // whose answer takes time
 
   Shared& all() { return *counted_.all; }
 
+  void readBody() {
+    http::async_read(stream_, buffer_, *parser_, [self = shared_from_this()](error_code error, std::size_t) {
+      if (error == http::error::body_limit && self->isUpload(self->parser_->get())) return self->refuseSize();
+      if (error) return;
+      self->answer(self->parser_->release());
+    });
+  }
+  void refuseSize() {
+    reply(parser_->get(),
+          http::status::payload_too_large,
+          text("these files are too large; ", longestUpload >> 20, " MB are allowed\n"));
+  }
+  // a scene from the page of this server itself
+  bool isUpload(Request const& request) {
+    const std::string_view host = view(request[http::field::host]);
+    std::string_view target = view(request.target());
+    if (request.method() != http::verb::post || !target.starts_with('/')) return false;
+    target.remove_prefix(1);
+    const std::size_t slash = target.find('/');
+    return slash != target.npos && target.substr(slash) == "/scene" && all().settings.open &&
+           (all().hosts.empty() || all().hosts.contains(std::string(host))) &&
+           same_word(target.substr(0, slash), all().word) &&
+           view(request[http::field::origin]) == "http://" + std::string(host);
+  }
+
   static std::string_view view(beast::string_view s) { return {s.data(), s.size()}; }
 
+  void take(Request request) {
+    if (all().opens)
+      return reply(
+          request, http::status::service_unavailable, "another scene is being opened; wait for it\n");
+    std::vector<SceneFile> files;
+    try {
+      files = read_upload(request.body());
+    } catch (Error const& error) {
+      return reply(request, http::status::bad_request, text(error.what(), '\n'));
+    }
+    request.body().clear();
+    request_ = std::move(request);
+    stream_.expires_never();  // it takes as long as the scene needs
+    all().open(std::move(files), shared_from_this());
+  }
   void answer(Request request) {
+    if (isUpload(request)) return take(std::move(request));
     const std::string_view host = view(request[http::field::host]);
     std::string_view target = view(request.target());
     target = target.substr(0, target.find('?'));
@@ -326,13 +393,14 @@ class Visitor : public std::enable_shared_from_this<Visitor> {
     stream_.expires_never();
     std::make_shared<Viewer>(stream_.release_socket(), counted_.all)->accept(request);
   }
-  void reply(Request const& request, http::status status, char const* why) {
+  void reply(Request const& request, http::status status, std::string const& why) {
     response_ = {status, request.version()};
     response_.set(http::field::content_type, "text/plain; charset=utf-8");
     response_.body() = why;
     send(request);
   }
   void send(Request const& request) {
+    stream_.expires_after(std::chrono::seconds(20));
     response_.set(http::field::server, "sinew/" SINEW_VERSION);
     response_.set(http::field::cache_control, "no-store");
     response_.set("X-Content-Type-Options", "nosniff");
@@ -363,10 +431,15 @@ struct Server::Parts {
   SceneWriter writer{};
   bool waits = false;  // for the time to look again
   std::chrono::steady_clock::time_point changed{};
+  std::shared_ptr<Stage> own{};  // of a scene that was opened
+  std::thread worker{};          // opens one, and lets the one before go
 
-  Parts(Stage& stage, ServeSettings const& settings) : all(new Shared{stage, settings}) {
+  Parts(Stage& stage, ServeSettings const& settings) : all(new Shared{&stage, settings}) {
     all->scene = shared(write_scene(settings.title, stage.dt(), stage.tree));
     all->look = [this] { lookSoon(); };
+    all->open = [this](std::vector<SceneFile> files, std::shared_ptr<Visitor> from) {
+      open(std::move(files), std::move(from));
+    };
     listen();
     accept();
     if (settings.untilInterrupted) {
@@ -378,6 +451,7 @@ struct Server::Parts {
     }
   }
   ~Parts() {
+    if (worker.joinable()) worker.join();
     // what still waits in the context refers to all of this
     for (Viewer* viewer : std::set<Viewer*>(all->viewers)) viewer->close();
     all->viewers.clear();
@@ -440,6 +514,47 @@ struct Server::Parts {
     });
   }
 
+  // the others look on meanwhile
+  void open(std::vector<SceneFile> files, std::shared_ptr<Visitor> from) {
+    all->opens = true;
+    if (worker.joinable()) worker.join();  // it has ended
+    worker = std::thread([this, files = std::move(files), from = std::move(from)]() mutable {
+      auto scene = std::make_shared<OpenedScene>();
+      std::string words;
+      try {
+        *scene = all->settings.open(files);
+        for (std::string const& note : scene->notes) words += note + '\n';
+      } catch (std::exception const& error) {
+        words = text(error.what(), '\n');
+        scene.reset();
+      }
+      // the visitor belongs to the thread of the server, here and where nobody answers any more
+      asio::post(context, [this, scene, words, from = std::move(from)] {
+        if (scene) show(*scene);
+        if (!scene) all->opens = false;
+        from->opened(bool(scene), words);
+      });
+    });
+  }
+  void show(OpenedScene const& scene) {
+    all->stage->release();
+    all->stage->play(false);
+    all->puller = nullptr;
+    std::shared_ptr<Stage> gone = std::exchange(own, scene.stage);
+    all->stage = own.get();
+    all->scene = shared(write_scene(scene.title, own->dt(), own->tree));
+    seen.reset();
+    all->frame.reset(), all->state.reset();
+    for (Viewer* viewer : all->viewers) viewer->restart();
+    lookSoon();
+    // it waits for the step that goes on
+    worker.join();
+    worker = std::thread([this, gone = std::move(gone)]() mutable {
+      gone.reset();
+      asio::post(context, [this] { all->opens = false; });
+    });
+  }
+
   // at the rate of displays while something changes, and now and then otherwise
   void lookSoon() {
     constexpr std::chrono::milliseconds soon(2);
@@ -456,8 +571,8 @@ struct Server::Parts {
   }
   void look() {
     if (all->viewers.empty()) return;  // until somebody comes
-    const StageState state = all->stage.state();
-    if (Stage::Scene latest = all->stage.scene(); latest != seen) {
+    const StageState state = all->stage->state();
+    if (Stage::Scene latest = all->stage->scene(); latest != seen) {
       seen = std::move(latest);
       writer.write(*seen);
       if (writer.number() != all->topologyNumber) {

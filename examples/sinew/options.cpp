@@ -104,7 +104,8 @@ void add_seen(CLI::App& app, SeenOptions& seen) {
       ->delimiter(',')
       ->allow_extra_args(false);
   constexpr char const* things =
-      "visuals, states, collision, springs, constraints, normals, wireframe, axes, grid, legend, shadows";
+      "visuals, states, collision, boxes, springs, constraints, normals, wireframe, axes, grid, legend, "
+      "shadows";
   app.add_option("--show", seen.show, std::string("What to show besides, apart by commas: ") + things)
       ->type_name("THINGS")
       ->delimiter(',')

@@ -66,7 +66,9 @@ void limit_allocations(std::size_t asked) {
 
 void limit_memory(std::size_t asked) {
   sinew::memory_limit = asked > 0 ? asked : std::size_t(512) << 20;
-  limit_allocations(asked);
+  // once: what the scenes that are there have taken is free no more
+  static bool limited = false;
+  if (!std::exchange(limited, true)) limit_allocations(asked);
 }
 
 }  // namespace

@@ -50,9 +50,10 @@ std::array<double, N> numbers_of(std::string words, char const* option, char con
 }
 
 bool* flag_of(SeenSettings& seen, std::string const& word) {
-  const std::array<std::pair<std::string_view, bool*>, 11> all{{{"visuals", &seen.visualModels},
+  const std::array<std::pair<std::string_view, bool*>, 12> all{{{"visuals", &seen.visualModels},
                                                                 {"states", &seen.states},
                                                                 {"collision", &seen.collisionModels},
+                                                                {"boxes", &seen.boxes},
                                                                 {"springs", &seen.springs},
                                                                 {"constraints", &seen.constraints},
                                                                 {"normals", &seen.normals},
@@ -83,10 +84,11 @@ ViewSettings seen_settings(SeenOptions const& options, Scene& scene) {
   for (auto const& thing : options.show) {
     bool* const flag = flag_of(seen, thing);
     if (!flag)
-      refuse(text("--show: '",
-                  thing,
-                  "' is not one of visuals, states, collision, springs, constraints, normals, wireframe, "
-                  "axes, grid, legend, shadows"));
+      refuse(
+          text("--show: '",
+               thing,
+               "' is not one of visuals, states, collision, boxes, springs, constraints, normals, wireframe, "
+               "axes, grid, legend, shadows"));
     *flag = true;
   }
   for (auto const& thing : options.hide) {

@@ -2,25 +2,30 @@
 #include "scene.hpp"
 
 #ifdef SINEW_WINDOW
-#include "seen.hpp"
+#include "opened.hpp"
 
 #include <sinew/view/window.hpp>
 
 namespace cli {
 
 int view(ViewOptions const& options) {
-  Scene scene = load(options.scene);
-  const sinew::view::ViewSettings settings = seen_settings(options.seen, scene);
-  scene.warnings.insert(scene.warnings.end(), settings.warnings.begin(), settings.warnings.end());
-  print_notes(scene.ignored, scene.warnings);
+  StagedScene staged(load(options.scene), options.seen);
+  print_notes(staged.scene.ignored, staged.scene.warnings);
+  auto title = [](std::string const& path) { return path + " - Sinew"; };
   try {
-    sinew::view::view(
-        scene.simulation,
-        scene.dt,
-        {.title = options.scene.path + " - Sinew",
-         .camera = settings.camera,
-         .seen = settings.seen,
-         .save = [&scene](std::string const& path) { sinew::save_scene(scene.simulation, scene.dt, path); }});
+    sinew::view::Window(staged.stage,
+                        {.title = title(options.scene.path),
+                         .camera = staged.settings.camera,
+                         .save = [&staged](std::string const& path) { staged.save(path); },
+                         .open =
+                             [&](std::string const& path) {
+                               SceneOptions other = options.scene;
+                               other.path = path;
+                               other.set.clear();  // of the scene of the command line
+                               other.dt = 0;
+                               return opening([&] { return opened(load(other), title(path)); });
+                             }})
+        .run();
   } catch (sinew::Error const& error) {
     throw Failure{notWritten, {error.what()}};
   }

@@ -5,10 +5,13 @@
 
 #include <sinew/collision/contact_responses.hpp>
 #include <sinew/contact.hpp>
+#include <sinew/control/write_state.hpp>
 #include <sinew/mechanics.hpp>
 #include <sinew/runtime/runtime.hpp>
 #include <sinew/topology/regular_grid.hpp>
 #include <sinew/view/stage.hpp>
+
+#include <filesystem>
 
 namespace test_seen_fields {
 
@@ -139,6 +142,25 @@ TEST_CASE("what a field cannot be, and what cannot be changed") {
   other.init();
   for (auto* s : {&sim, &other}) s->animate(0.01);
   CHECK(sim.at<"block">().state().position == other.at<"block">().state().position);
+}
+
+TEST_CASE("files that a component writes keep their names") {
+  const std::string file = (std::filesystem::temp_directory_path() / "sinew_fields.state").string(),
+                    other = file + ".other";
+  {
+    Simulation sim{node<"root">(EulerExplicitSolver{},
+                                node<"body">(MechanicalObject<Vec3d>{.position = {{0, 0, 0}}},
+                                             UniformMass<Vec3d>{},
+                                             WriteState<Vec3d>{.filename = file}))};
+    sim.init();
+    const int line = line_of(sim, "WriteState<Vec3d>");
+    CHECK(error_of([&] { view::set_field(sim, line, "filename", other); })
+              .ends_with("filename cannot be changed while the scene is there: files are read and written by "
+                         "the scene as it starts"));
+    sim.animate(0.01);
+  }
+  CHECK(std::filesystem::remove(file));
+  CHECK_FALSE(std::filesystem::exists(other));
 }
 
 TEST_CASE("a scene that is composed while the program runs has the same fields") {

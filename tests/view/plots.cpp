@@ -2,10 +2,16 @@
 #include "catch.hpp"
 
 #include <sinew/mechanics.hpp>
+#include <sinew/runtime/from_typed.hpp>
+#include <sinew/runtime/runtime.hpp>
+#include <sinew/scene/profiled.hpp>
+#include <sinew/topology/regular_grid.hpp>
 #include <sinew/view/stage.hpp>
 
+#include <chrono>
 #include <pugixml.hpp>
 #include <sstream>
+#include <thread>
 
 namespace test_plots {
 
@@ -81,6 +87,105 @@ TEST_CASE("what is measured of a falling body, as a table and as a picture") {
   CHECK(many.times.size() <= Measures::most);
   CHECK(many.times.back() == double(3 * Measures::most - 1));
   CHECK(many.series[0].values.size() == many.times.size());
+}
+
+// a block that hangs, so that its force takes more than all else
+auto hanging() {
+  Mesh mesh = regular_grid_tetrahedra(6, 6, 6, {0, 0, 0}, {1, 1, 1});
+  return node<"root">(
+      Gravity{{0, -10, 0}},
+      EulerImplicitSolver{},
+      CGLinearSolver<>{.iterations = 20, .tolerance = 1e-12},
+      node<"block">(TetrahedronTopology{mesh.tetrahedra},
+                    MechanicalObject<Vec3d>{mesh.positions},
+                    UniformMass<Vec3d>{.totalMass = 1},
+                    TetrahedronFEMForceField<Vec3d>{.youngModulus = {1000}, .poissonRatio = {0.3}}));
+}
+view::StageState profiled_state(view::Stage& stage) {
+  stage.profile(true);
+  stage.settle();
+  if (!stage.state().error.empty()) return stage.state();
+  stage.play(true);
+  for (int i = 0; i < 1000 && !stage.state().profile && stage.state().error.empty(); ++i) {
+    stage.scene();
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  stage.play(false);
+  stage.settle();
+  return stage.state();
+}
+
+TEST_CASE("the time of each component, as a table and as a picture") {
+  Simulation sim{profiled(hanging())};
+  sim.init();
+  view::Stage stage(sim, 0.01, 0);
+  const view::StageState state = profiled_state(stage);
+  REQUIRE(state.profile);
+  CHECK(state.profiling);
+  auto const& shares = state.profile->shares;
+  CHECK(state.profile->steps > 1);
+  double sum = 0, of = 0;
+  for (auto const& one : shares) {
+    sum += one.share;
+    of += one.milliseconds;
+    CHECK(one.milliseconds <= shares[0].milliseconds);
+  }
+  CHECK(sum == Approx(1));
+  CHECK(of > 0);
+  CHECK(shares[0].className == "TetrahedronFEMForceField<Vec3d>");
+  CHECK(shares[0].share > 0.2);
+  CHECK(shares[0].calls >= 2);
+  const std::string csv = view::csv_of(*state.profile);
+  CHECK(csv.starts_with("component or phase,class,time in a step [ms],share [%],calls in a step\n"));
+  CHECK(std::count(csv.begin(), csv.end(), '\n') == long(shares.size()) + 1);
+  CHECK(std::count(csv.begin(), csv.end(), ',') == 4 * (long(shares.size()) + 1));
+  pugi::xml_document document;
+  REQUIRE(document.load_string(view::svg_of(*state.profile).c_str()));
+  std::vector<double> bars;
+  for (auto const& bar : document.child("svg").children("rect"))
+    bars.push_back(bar.attribute("width").as_double());
+  REQUIRE(bars.size() == shares.size());
+  CHECK(bars[0] == Approx(330));
+  CHECK(bars[1] == Approx(330 * shares[1].milliseconds / shares[0].milliseconds).epsilon(1e-3));
+  // and no more of it
+  stage.profile(false);
+  stage.settle();
+  CHECK_FALSE(stage.state().profile);
+  CHECK_FALSE(stage.state().profiling);
+}
+
+TEST_CASE("a runtime tree is timed through changes of its fields; a typed scene without timers says so") {
+  Simulation sim{hanging()};
+  sim.init();
+  {
+    view::Stage stage(sim, 0.01, 0);
+    CHECK(profiled_state(stage).error.find("profiled(node<...>(...))") != std::string::npos);
+    CHECK_FALSE(stage.state().profiling);
+  }
+  struct Mine : Registry<EulerImplicitSolver,
+                         CGLinearSolver<>,
+                         Gravity,
+                         TetrahedronTopology,
+                         MechanicalObject<Vec3d>,
+                         UniformMass<Vec3d>,
+                         TetrahedronFEMForceField<Vec3d>> {};
+  Simulation tree{to_runtime<Mine>(hanging())};
+  tree.init();
+  {
+    view::Stage stage(tree, 0.01, 0);
+    for (int round = 0; round < 2; ++round) {
+      const view::StageState state = profiled_state(stage);
+      INFO("round " << round << ", step " << state.step << ": " << state.error);
+      REQUIRE(state.profile);
+      CHECK(state.profile->shares[0].className == "TetrahedronFEMForceField<Vec3d>");
+      stage.profile(false);
+      // a field makes it another tree
+      for (std::size_t i = 0; i < stage.tree.size(); ++i)
+        if (stage.tree[i].className == "UniformMass<Vec3d>") stage.setField(int(i), "totalMass", "2");
+    }
+    stage.profile(true);
+  }
+  CHECK(tree.root().profile == nullptr);  // nothing is left of it
 }
 
 }  // namespace test_plots

@@ -27,7 +27,9 @@ const std::vector<Command> every{command::Play{true},
                                  command::SetField{4, "youngModulus", "1000 \"2\"\n"},
                                  command::Undo{},
                                  command::Redo{},
-                                 command::Colour{Quantity::vonMises}};
+                                 command::Colour{Quantity::vonMises},
+                                 command::Profile{true},
+                                 command::Profile{false}};
 
 // two bodies, one of them a visual model
 SeenScene scene() {
@@ -53,6 +55,58 @@ std::string refusal(std::string_view json) {
   return error_of([&] { read_command(json); });
 }
 
+TEST_CASE("files of a scene are read as they were sent, and lead nowhere else") {
+  const std::vector<SceneFile> files{
+      {"liver.SCN", "<Node/>\n"}, {"data/organ.obj", std::string("v 0\0 0", 7)}, {"empty.txt", ""}};
+  CHECK(read_upload(write_upload(files)) == files);
+  CHECK(scene_among(files) == 0);
+  CHECK(scene_among({{"a.xml", ""}, {"b.scn", ""}}) == 1);
+  CHECK(scene_among({{"a.obj", ""}, {"b.xml", ""}}) == 1);
+  auto none = [](std::vector<SceneFile> const& some) { return error_of([&] { scene_among(some); }); };
+  CHECK(none({{"a.obj", ""}}) ==
+        "upload: there is no scene among the files (.scn or .xml); take one, with the files that it needs");
+  CHECK(none({{"a.scn", ""}, {"b.scn", ""}}) ==
+        "upload: there are 2 scenes (.scn); take one, with the files that it needs");
+  CHECK(none({{".scn", ""}}) == none({}));
+
+  auto named = [](std::string name) { return error_of([&] { read_upload(write_upload({{name, "x"}})); }); };
+  for (char const* name : {"a.scn", "a b/c-1.obj", "a..b", "\xc3\xa4.scn", ".a"}) CHECK(named(name) == "");
+  for (char const* name :
+       {"", "/etc/passwd", "..", "../a", "a/../b", "a/..", "a//b", "a/", ".", "a\\b", "C:a", "a\nb", "a\x7f"})
+    CHECK(named(name).starts_with("upload: the name '"));
+  CHECK(named(std::string(longestFileName, 'a')) == "");
+  CHECK(named(std::string(longestFileName + 1, 'a')).ends_with("is empty or too long; take another"));
+  auto wrong = [](std::string const& bytes) { return error_of([&] { read_upload(bytes); }); };
+  CHECK(wrong(write_upload({{"a", ""}, {"a", ""}})) == "upload: two files are called 'a'");
+  CHECK(wrong(write_upload({{"a", ""}, {"a/b", ""}})) == "upload: two files are called 'a/b'");
+  CHECK(wrong("") == "upload: it begins with no line that names its files");
+  CHECK(wrong("[\n") == "upload: its first line is no JSON (RFC 8259)");
+  CHECK(wrong(std::string(100, '[') + std::string(100, ']') + '\n') ==
+        "upload: its first line is nested too deep");
+  for (char const* line : {"[]", "{}", R"({"files": {}})", R"({"files": [], "more": 1})"})
+    CHECK(wrong(std::string(line) + '\n') == "upload: its first line lacks the list 'files', or has more");
+  CHECK(wrong("{\"files\": []}\n") == "upload: it has 0 files, and must have 1 to 64");
+  for (char const* file : {"1",
+                           "{}",
+                           R"({"name": "a"})",
+                           R"({"name": "a", "bytes": -1})",
+                           R"({"name": "a", "bytes": 0.5})",
+                           R"({"name": 1, "bytes": 1})",
+                           R"({"name": "a", "bytes": 1, "more": 1})"})
+    CHECK(wrong(std::string("{\"files\": [") + file + "]}\nx") ==
+          "upload: a file has a 'name' and a number of 'bytes', and no more");
+  const std::string good = write_upload(files);
+  CHECK(wrong(good.substr(0, good.size() - 1)) == "upload: it ends too early");
+  CHECK(wrong(good + 'x') == "upload: bytes are left at its end");
+  CHECK(wrong("{\"files\": [{\"name\": \"a\", \"bytes\": 18446744073709551615}]}\nx") ==
+        "upload: it ends too early");
+  CHECK(
+      error_of([&] { read_upload(std::string(longestUpload + 1, ' ')); }).ends_with("16777216 are allowed"));
+  CHECK(error_of([&] {
+          read_upload(write_upload(std::vector<SceneFile>(mostFiles + 1, {"a", ""})));
+        }).starts_with("upload: it has 65 files"));
+}
+
 TEST_CASE("commands are read as they were written") {
   for (Command const& said : every) CHECK(read_command(write_command(said)) == said);
   CHECK(read_command(R"({"do": "speed", "times": 0})") == Command(command::Speed{0}));
@@ -72,7 +126,7 @@ TEST_CASE("what is no command is refused, with a sentence") {
   CHECK(refusal(R"({"do":"fly"})") ==
         "command: nothing is called 'fly'; there are play, step, reset, speed, press, move, release, "
         "component, "
-        "setField, undo, redo and colour");
+        "setField, undo, redo, colour and profile");
   CHECK(refusal(R"({"do":"colour","by":"mood"})") ==
         "command: 'by' is 'mood' and must be one of: none, displacement, speed, vonMises, strainEnergy, "
         "stretch");
@@ -190,12 +244,21 @@ TEST_CASE("what a page is told is JSON") {
   SeenScene seen;
   seen.settings.colour = Quantity::speed;
   seen.legend = Legend{"speed", "m/s", 0, 2};
-  CHECK(write_state(state, seen) ==
-        R"({"colour":"speed","error":"a \"word\"\n)"
-        "\xef\xbf\xbd"
-        R"(","held":{"force":[0.0,0.0,7.0],"path":"a","point":[1.0,2.0,3.0],"target":[4.0,5.0,6.0]},)"
-        R"("is":"state","legend":{"high":2.0,"low":0.0,"title":"speed","unit":"m/s"},"playing":false,)"
-        R"("redo":null,"step":25,"stepsPerSecond":null,"time":0.5,"undo":null})");
+  CHECK(
+      write_state(state, seen) ==
+      R"({"colour":"speed","error":"a \"word\"\n)"
+      "\xef\xbf\xbd"
+      R"(","held":{"force":[0.0,0.0,7.0],"path":"a","point":[1.0,2.0,3.0],"target":[4.0,5.0,6.0]},)"
+      R"("is":"state","legend":{"high":2.0,"low":0.0,"title":"speed","unit":"m/s"},"playing":false,)"
+      R"("profile":null,"profiling":false,"redo":null,"step":25,"stepsPerSecond":null,"time":0.5,"undo":null})");
+  state.profiling = true;
+  state.profile = std::make_shared<StepProfile>(
+      StepProfile{.steps = 3, .shares = {{"fem", "Force<Vec3d>", 1.5, 0.75, 2}, {"step", "", 0.5, 0.25, 1}}});
+  CHECK_THAT(
+      write_state(state, seen),
+      Catch::Matchers::Contains(
+          R"("profile":{"shares":[{"class":"Force<Vec3d>","milliseconds":1.5,"name":"fem","share":0.75},)"
+          R"({"class":"","milliseconds":0.5,"name":"step","share":0.25}],"steps":3},"profiling":true)"));
   CHECK(write_scene("t", 0.01, {{0, "root", ""}, {1, "fem", "Force<Vec3d>"}}) ==
         R"({"dt":0.01,"is":"scene","protocol":1,"title":"t","tree":[{"depth":0,"name":"root"},)"
         R"({"class":"Force<Vec3d>","depth":1,"name":"fem"}]})");
@@ -239,6 +302,7 @@ struct Told {
   void undo() { last = "undo"; }
   void redo() { last = "redo"; }
   std::shared_ptr<SeenScene const> scene() const { return std::make_shared<SeenScene>(); }
+  void profile(bool on) { last = on ? "profile" : "no profile"; }
   void show(SeenSettings const& seen) { last = enum_names(seen.colour)[std::size_t(seen.colour)]; }
 };
 
@@ -262,7 +326,9 @@ TEST_CASE("a command does with a stage what it says") {
                                           "youngModulus=1000 \"2\"\n",
                                           "undo",
                                           "redo",
-                                          "vonMises"});
+                                          "vonMises",
+                                          "profile",
+                                          "no profile"});
   tell(told, command::Component{5}, answer);
   CHECK(answers == std::vector<std::string>{write_component({.line = 3}),
                                             write_error("it is no number"),
@@ -279,6 +345,7 @@ TEST_CASE("any bytes are refused or understood") {
   const std::size_t commands = samples.size();
   samples.push_back(write_topology(scene(), 1));
   samples.push_back(write_frame(scene(), 1));
+  samples.push_back(write_upload({{"a.scn", "<Node/>"}, {"data/b.obj", "v 0 0 0"}}));
   const ReadTopology topology = read_topology(samples[commands]);
   long understood = 0, refused = 0;
   auto tried = [&](auto&& read) {
@@ -333,6 +400,10 @@ TEST_CASE("any bytes are refused or understood") {
     tried([&] {
       ReadTopology into = topology;
       read_frame(bytes, into);
+    });
+    tried([&] {
+      for (SceneFile const& file : read_upload(bytes))
+        if (("/" + file.name + "/").find("/../") != file.name.npos) FAIL(file.name);
     });
   }
   CHECK(understood > (sanitized ? 4000 : 20000));

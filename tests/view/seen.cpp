@@ -225,6 +225,19 @@ TEST_CASE("arrows of velocities, reactions and contacts, and the collision model
   CHECK(body_of(scene, "/root/floor", SeenBody::Kind::collision).triangles.size() == 2);
   view::Painter({.width = 64, .height = 48}).paint(scene);
   CHECK(view::seen_scene(sim).arrows.empty());
+  // the boxes by which they were found: of both balls and around them, of both triangles and around them
+  CHECK(scene.boxes.empty());
+  settings.boxes = true;
+  const SeenScene boxed = view::seen_scene(sim, settings);
+  REQUIRE(boxed.boxes.size() == 6);
+  int around = 0;
+  for (auto const& [low, high] : boxed.boxes)
+    for (std::size_t i = 0; i < 2; ++i) {
+      const Eigen::Vector3d ball = sim.at<"ball">().state().position[i];
+      around += (low.array() <= ball.array() - 0.1).all() && (high.array() >= ball.array() + 0.1).all();
+    }
+  CHECK(around == 4);  // each by its own, and by that of the model
+  CHECK(view::drawn_marks(boxed, 1).mesh.lines.at.size() == 6 * 12 * 2);
 }
 
 }  // namespace test_seen

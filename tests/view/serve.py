@@ -45,11 +45,13 @@ def connect(port):
     return s
 
 
-def request(port, path, method="GET", host=None, more=""):
+def request(port, path, method="GET", host=None, more="", content=b""):
     """Status, headers and content of an answer."""
     with connect(port) as s:
         host = host or f"127.0.0.1:{port}"
-        s.sendall(f"{method} {path} HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\n{more}\r\n".encode())
+        if content:
+            more += f"Content-Length: {len(content)}\r\n"
+        s.sendall(f"{method} {path} HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\n{more}\r\n".encode() + content)
         answer = b""
         while part := s.recv(65536):
             answer += part
@@ -179,6 +181,7 @@ class Server:
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
             text=True,
+            env=dict(os.environ, TMPDIR=os.path.join(os.path.dirname(scene), "tmp")),
         )
         self.link = self.process.stdout.readline().strip()
         found = re.fullmatch(r"http://127\.0\.0\.1:(\d+)/([0-9a-f]{32})/", self.link)
@@ -210,7 +213,7 @@ def files(server, page):
     check("text/html" in head and "nosniff" in head, "what a file is is said")
     check(request(port, f"/{word}")[0] == 301, "a folder without its slash leads on")
     status, head, content = request(port, f"/{word}/engine.json?1")
-    check(status == 200 and json.loads(content) == {"engine": "socket"}, "the page learns what runs the scene")
+    check(status == 200 and json.loads(content) == {"engine": "socket", "opens": True}, "the page learns what runs the scene")
     status, head, content = request(port, f"/{word}/", "HEAD")
     check(status == 200 and content == b"" and "content-length: 11" in head, "HEAD gives no content")
     for path in ["/", "/index.html", "/0123456789abcdef0123456789abcdef/", f"/{word}0/", f"/{word[:-1]}/", "//"]:
@@ -291,6 +294,111 @@ def scene(server):
     other.send({"do": "reset"})
     other.said("state", lambda m: m["step"] == 0)
     other.close()
+
+
+def bundle(**files):
+    files = {name.replace("__", "/").replace("_", "."): content.encode() for name, content in files.items()}
+    names = [{"name": name, "bytes": len(content)} for name, content in files.items()]
+    return json.dumps({"files": names}).encode() + b"\n" + b"".join(files.values())
+
+
+def opening(server, folder):
+    """Scenes that are dropped onto the page."""
+
+    def drop(content, word=None, origin=None, **options):
+        origin = f"http://127.0.0.1:{server.port}" if origin is None else origin
+        more = f"Origin: {origin}\r\n" if origin else ""
+        status, _, answer = request(
+            server.port, f"/{word or server.word}/scene", "POST", more=more, content=content, **options
+        )
+        return status, answer.decode()
+
+    ball = """<Node name="ball" gravity="0 0 -9.81" dt="0.02"><EulerExplicitSolver/>
+  <MechanicalObject template="Vec3d" position="1 2 3"/><UniformMass totalMass="1"/>%s</Node>"""
+    good = bundle(ball_scn=ball % "")
+    one, other = server.client(), server.client()
+    for each in (one, other):
+        each.said("scene")
+    one.send({"do": "play", "on": False})
+    one.send({"do": "reset"})
+    one.said("state", lambda m: m["step"] == 0 and not m["playing"])
+    # not from elsewhere, nor by who does not know the word
+    for options, status in [
+        ({"origin": ""}, 405),
+        ({"origin": "http://example.com"}, 405),
+        ({"word": "0" * 32}, 403),
+        ({"host": "example.com"}, 403),
+    ]:
+        check(drop(good, **options)[0] == status, f"a scene with {options} is refused")
+
+    # what is wrong is said, and changes nothing
+    def refused(status, words, **files):
+        got, answer = drop(bundle(**files))
+        check(got == status and words in answer, f"{files} is refused by {status}, {words}: {got}, {answer}")
+        check("sinew-scene" not in answer, f"nobody learns where the files were: {answer}")
+
+    for content in [b"x", b"{}\n", bundle(_etc_scn="")[:-3]]:
+        check(drop(content)[0] == 400, f"{content} is no files")
+    refused(400, "does not lead to a file below a folder", **{"..__a_scn": ball % ""})
+    refused(422, "no scene among the files", a_obj="v 0 0 0")
+    refused(422, "a.scn:1:", a_scn="<Node")
+    refused(422, "a.scn:2:", a_scn="<Node>\n<EulerSolverr/></Node>")
+    refused(422, "data/organ.obj", a_scn='<Node><MeshOBJLoader filename="data/organ.obj"/></Node>')
+    # no other files of this machine
+    for name in ["/etc/passwd", "../scene.scn", "data/../../scene.scn", "@../a.name"]:
+        for element in [f'<MeshOBJLoader name="a" filename="{name}"/>', f'<include href="{name}"/>']:
+            refused(422, "finds its files beside itself", a_scn=f"<Node>{element}</Node>")
+    refused(422, "finds its files", a_scn='<Node><include href="b.txt"/></Node>', b_txt='<Node><include href="/etc/x"/></Node>')
+    written = os.path.join(folder, "written.state")
+    refused(422, "finds its files", a_scn=ball % f'<WriteState filename="{written}"/>')
+    refused(422, "writes none", a_scn=ball % '<WriteState filename="written.state"/>')
+    check(not os.path.exists(written) and not os.path.exists("written.state"), "a scene writes no files")
+    status, _, _ = request(
+        server.port,
+        f"/{server.word}/scene",
+        "POST",
+        more=f"Origin: http://127.0.0.1:{server.port}\r\nContent-Length: 99999999\r\n",
+    )
+    check(status == 413, f"files that are too large are refused: {status}")
+    one.send({"do": "step"})
+    one.said("state", lambda m: m["step"] == 1)
+    check(not os.listdir(os.path.join(folder, "tmp")), "nothing is left behind")
+
+    # a scene is seen by all, in the place of the first
+    one.send({"do": "press", "origin": [0.3, 0.3, 1], "direction": [0, 0, -1], "stiffness": 200})
+    other.said("state", lambda m: m["held"])
+    check(drop(good) == (200, ""), "a scene is taken")
+    for each in (one, other):
+        told = each.said("scene")
+        check(told["title"] == "ball.scn" and told["dt"] == 0.02, f"it is told: {told}")
+        each.until(lambda m: isinstance(m, bytes) and m[0] == 1)
+        each.frame()
+        check(struct.unpack_from("<3f", each.last, 32) == (1, 2, 3), "it is seen")
+        state = each.said("state")
+        check(state["step"] == 0 and not state["playing"] and state["held"] is None, "it stands at first")
+    one.send({"do": "step"})
+    other.said("state", lambda m: m["step"] == 1 and m["time"] == 0.02)
+    # with files of its own
+    scene = '<Node><MeshOBJLoader name="l" filename="data/o.obj"/><VisualModel src="@l"/></Node>'
+    for _ in range(100):  # until that before has gone
+        status, answer = drop(bundle(a__b_scn=scene, a__data__o_obj="v 0 0 7\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"))
+        if status != 503:
+            break
+        time.sleep(0.05)
+    check(status == 200, f"its files come with it: {status} {answer}")
+    told = one.said("scene")
+    check(told["title"] == "b.scn", "a scene of a folder is named")
+    one.until(lambda m: isinstance(m, bytes) and m[0] == 1)
+    one.frame()
+    check(struct.unpack_from("<3f", one.last, 32) == (0, 0, 7), "and its mesh is seen")
+    for _ in range(100):  # until those of the scene before have gone
+        left = os.listdir(os.path.join(folder, "tmp"))
+        if len(left) == 1:
+            break
+        time.sleep(0.05)
+    check(len(left) == 1, f"its files are there as long as it is: {left}")
+    for each in (one, other):
+        each.close()
 
 
 def garbage(server):
@@ -399,6 +507,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         page, path = os.path.join(folder, "page"), os.path.join(folder, "scene.scn")
         os.mkdir(page)
+        os.mkdir(os.path.join(folder, "tmp"))
         for name, content in [
             (path, SCENE),
             (os.path.join(page, "index.html"), "<p>page</p>"),
@@ -426,7 +535,9 @@ def main():
             watching.said("scene")
             watching.send({"do": "play", "on": True})
             watching.said("state", lambda m: m["playing"])
+            opening(server, folder)
             server.interrupt()
+            check(not os.listdir(os.path.join(folder, "tmp")), "no file of a scene is left behind")
             check(watching.ends(), "who looks learns that it has ended")
         finally:
             server.process.kill()

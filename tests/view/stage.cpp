@@ -9,6 +9,9 @@
 #include <sinew/view/picture.hpp>
 #include <sinew/view/stage.hpp>
 
+#include <chrono>
+#include <thread>
+
 namespace test_stage {
 
 using namespace sinew;
@@ -109,6 +112,29 @@ TEST_CASE("what goes wrong stops a stage, which says so and goes on to be told")
   stage.settle();
   CHECK(stage.state().error.empty());
   CHECK_FALSE(stage.state().playing);
+}
+
+TEST_CASE("a scene that stands is not made again for those who look") {
+  auto sim = test_view::triangle();
+  sim.init();
+  view::Stage stage(sim, 0.01, 0);
+  auto looked = [&] {
+    stage.scene();
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    stage.settle();
+    return stage.scene();
+  };
+  const view::Stage::Scene first = looked();
+  CHECK(looked() == first);
+  stage.step();
+  stage.settle();
+  const view::Stage::Scene second = looked();
+  CHECK(second != first);
+  CHECK(second->step == 1);
+  CHECK(looked() == second);
+  stage.show({.axes = true});
+  stage.settle();
+  CHECK(looked()->settings.axes);
 }
 
 TEST_CASE("a stage without a thread does what it is told when it has its turn") {

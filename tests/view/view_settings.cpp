@@ -104,22 +104,74 @@ TEST_CASE("cameras, axes, grids and planes") {
   CHECK_FALSE(of("ClipPlane", {{"active", "0"}}).seen.clip);
 }
 
+TEST_CASE("lights") {
+  using Kind = view::SeenLight::Kind;
+  auto light = [](std::string const& tag, std::vector<std::pair<std::string, std::string>> attributes) {
+    const auto settings = of(tag, std::move(attributes));
+    REQUIRE(settings.seen.lights.size() == 1);
+    return settings.seen.lights[0];
+  };
+  const auto plain = light("DirectionalLight", {});
+  CHECK(plain.kind == Kind::parallel);
+  CHECK(plain.direction == Eigen::Vector3d(0, 0, -1));
+  CHECK(plain.colour == Eigen::Vector3d(1, 1, 1));
+  CHECK(light("DirectionalLight", {{"direction", "0 3 0"}, {"color", "1 0.5 0 1"}}).direction ==
+        Eigen::Vector3d(0, 1, 0));
+  const auto point =
+      light("PositionalLight", {{"position", "1 2 3"}, {"attenuation", "0.5"}, {"fixed", "true"}});
+  CHECK(point.kind == Kind::point);
+  CHECK(point.position == Eigen::Vector3d(1, 2, 3));
+  CHECK(point.attenuation == 0.5);
+  CHECK(point.movesWithCamera);
+  const auto spot = light(
+      "SpotLight",
+      {{"position", "0 5 0"}, {"direction", "0 1 0"}, {"lookat", "1"}, {"cutoff", "40"}, {"exponent", "2"}});
+  CHECK(spot.kind == Kind::spot);
+  CHECK(spot.direction == Eigen::Vector3d(0, -1, 0));  // towards the point that it looks at
+  CHECK(spot.cutoff == 40);
+  CHECK(spot.exponent == 2);
+  CHECK(*of("LightManager", {{"ambient", "0.1 0.2 0.3 1"}}).seen.ambient == Eigen::Vector3d(0.1, 0.2, 0.3));
+  CHECK_FALSE(of("LightManager", {{"shadows", "0"}}).seen.shadows);
+  CHECK(of("LightManager", {}).seen.shadows);
+  CHECK(of("VisualStyle", {{"displayFlags", "showBoundingCollisionModels"}}).seen.boxes);
+  auto wrong = [](std::string const& tag, std::string const& name, std::string const& value) {
+    const auto settings = of(tag, {{name, value}});
+    CHECK(settings.seen.lights.empty());
+    return settings.warnings.size() == 1 ? settings.warnings[0] : std::string();
+  };
+  CHECK(wrong("DirectionalLight", "direction", "0 0 0") ==
+        "a.scn:3:5: <DirectionalLight>: direction: the light shines to nowhere; it is left out");
+  CHECK_THAT(wrong("DirectionalLight", "color", "bright"), Contains("color: "));
+  CHECK_THAT(wrong("SpotLight", "cutoff", "120"), Contains("cutoff: it is above 0 and up to 90 degrees"));
+  CHECK_THAT(wrong("PositionalLight", "attenuation", "-1"), Contains("attenuation: it is at least 0"));
+  const std::vector<ViewElement> nine(9, {.tag = "DirectionalLight"});
+  const auto many = view_settings(nine);
+  CHECK(many.seen.lights.size() == 8);
+  REQUIRE(many.warnings.size() == 1);
+  CHECK_THAT(many.warnings[0], Contains("up to 8 lights"));
+}
+
 TEST_CASE("a scene file keeps how it is looked at, also through a change and in a checkpoint") {
   using Few =
       Registry<Gravity, MechanicalObject<Vec3d>, UniformMass<Vec3d>, EulerExplicitSolver, VisualModel>;
   auto scene = parse_scene<Few>("a.scn", R"(<Node name="root">
     <VisualStyle displayFlags="showVisual"/>
     <BackgroundSetting color="0 0 0"/>
+    <LightManager ambient="0.2 0.2 0.2"/>
     <Node name="v">
+      <DirectionalLight direction="0 0 1"/>
       <OglModel color="0 1 0" position="0 0 0  1 0 0  0 1 0" triangles="0 1 2"/>
     </Node></Node>)");
-  REQUIRE(scene.root.view.size() == 3);
+  CHECK(scene.ignored.empty());
+  REQUIRE(scene.root.view.size() == 5);
   CHECK(scene.root.view[0].origin == "a.scn:2:5");
   auto sim = start(std::move(scene));
   sim.change([](auto&) {});
   auto check = [](auto& simulation) {
     const ViewSettings settings = view::view_settings_of(simulation);
     CHECK(settings.warnings.empty());
+    CHECK(settings.seen.lights.size() == 1);
+    CHECK(settings.seen.ambient);
     const view::Image image =
         view::Picture(simulation, {.width = 40, .height = 30, .camera = {}, .seen = settings.seen}).image();
     CHECK(image.at(1, 1) == std::array<unsigned char, 3>{0, 0, 0});

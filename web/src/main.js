@@ -3,7 +3,9 @@
 import { socketEngine, workerEngine } from './engines.js';
 import { Fields } from './fields.js';
 import { frameKind, kindOf, readFrame, readTopology, topologyKind } from './messages.js';
+import { takeScenes } from './open.js';
 import { Pointer } from './pointer.js';
+import { csvOf, ProfileList, save, svgOf } from './profile.js';
 import { StageView, viridis } from './stage_view.js';
 import { Tree } from './tree.js';
 
@@ -49,6 +51,11 @@ const tree = new Tree($('tree'), $('search'), {
   },
 });
 
+const profile = new ProfileList($('profileList'), $('profileNote'));
+$('profile').addEventListener('toggle', () => send({ do: 'profile', on: $('profile').open }));
+$('profileCsv').addEventListener('click', () => save('profile.csv', 'text/csv', csvOf(profile.profile)));
+$('profileSvg').addEventListener('click', () => save('profile.svg', 'image/svg+xml', svgOf(profile.profile)));
+
 // ---- what comes from the engine
 
 function receive(message) {
@@ -76,6 +83,9 @@ function receive(message) {
     $('engine').textContent = engine.name;
     $('engine').className = 'ready';
     tell('');
+    tree.choose(-1);
+    view.forget(); // another scene is seen as a whole
+    $('profile').open = false;
     tree.set(said.tree);
     tree.setBodies(view.bodies);
   } else if (said.is === 'state') {
@@ -116,6 +126,8 @@ function showState() {
     $('legendHigh').textContent = Number(high.toPrecision(3));
   }
   if (document.activeElement !== $('colour') || state.colour === $('colour').value) $('colour').value = state.colour ?? 'none';
+  profile.show(state.profile ?? null, state.profiling);
+  $('profileCsv').disabled = $('profileSvg').disabled = !state.profile;
   $('undo').disabled = !state.undo;
   $('redo').disabled = !state.redo;
   $('undo').title = state.undo ? `Take back: ${state.undo}` : 'Nothing was changed';
@@ -245,11 +257,12 @@ const page = {
 globalThis.sinew = page;
 
 // `sinew serve` says here that it runs the scene; a folder of files, that the page does, and which scenes it has
-const { engine: kind, scenes } = await fetch('engine.json').then((answer) => (answer.ok ? answer.json() : {}));
+const { engine: kind, scenes, opens } = await fetch('engine.json').then((answer) => (answer.ok ? answer.json() : {}));
 if (kind === 'socket') {
   const address = new URL('stage', document.baseURI);
   address.protocol = address.protocol === 'https:' ? 'wss:' : 'ws:';
   engine = socketEngine(address, receive, lost);
+  $('open').hidden = !opens;
 } else if (kind === 'worker') {
   const asked = new URLSearchParams(location.search).get('scene');
   const chosen = scenes.includes(asked) ? asked : scenes[0];
@@ -261,3 +274,27 @@ if (kind === 'socket') {
 } else {
   lost('This page has nothing that runs a scene: open it by the link of sinew serve, or build it with ./dev page.');
 }
+takeScenes(
+  $('files'),
+  {
+    address: kind === 'socket' && opens ? new URL('scene', document.baseURI) : null,
+    refusal:
+      kind === 'socket'
+        ? 'This program shows its own scene only.'
+        : 'This page runs the scenes of its list only. A scene file needs the program: start "sinew serve FILE", open its link, and drop scenes there.',
+  },
+  {
+    waits(on) {
+      if (on) tell('The scene is opened.');
+      else if ($('message').textContent === 'The scene is opened.') tell('');
+    },
+    opened(notes) {
+      refused = notes;
+      showState();
+    },
+    failed(why) {
+      refused = why;
+      showState();
+    },
+  },
+);

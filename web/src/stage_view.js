@@ -97,6 +97,10 @@ export class StageView {
       objects: [],
     }));
   }
+  /** The next frame is the first of another scene. */
+  forget() {
+    this.frame = null;
+  }
   clear() {
     for (const body of this.bodies)
       for (const object of body.objects) {

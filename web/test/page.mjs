@@ -157,6 +157,62 @@ async function use(page, name, native) {
   check(page.messages.length === 0, `the console is empty: ${page.messages.join('\n')}`);
 }
 
+// what a user drops onto the page: one or several files
+const drop = (page, files) =>
+  page.evaluate(`(() => {
+    const carried = new DataTransfer();
+    for (const [name, content] of ${JSON.stringify(Object.entries(files))}) carried.items.add(new File([content], name));
+    const tell = (kind) => document.querySelector('main').dispatchEvent(new DragEvent(kind, { dataTransfer: carried, bubbles: true, cancelable: true }));
+    tell('dragenter');
+    const marked = getComputedStyle(document.getElementById('dropHint')).display !== 'none';
+    tell('drop');
+    return marked;
+  })()`);
+const ball = `<Node name="ball" gravity="0 0 -9.81" dt="0.02"><EulerExplicitSolver/>
+  <MechanicalObject template="Vec3d" position="1 2 3  2 2 3"/><UniformMass totalMass="1"/></Node>`;
+
+// another scene in the place of that of the command line, and the time of its components
+async function opens(page) {
+  const said = (words) => page.until(`document.getElementById('error').textContent.includes(${JSON.stringify(words)})`, 20);
+  check(!(await page.evaluate(`document.getElementById('open').hidden`)), 'scenes can be chosen');
+  check(await drop(page, { 'a.scn': '<Node>\n<EulerSolverr/></Node>' }), 'the place to drop is shown');
+  await said('a.scn:2:');
+  await drop(page, { 'organ.obj': 'v 0 0 0' });
+  await said('there is no scene among the files');
+  await page.evaluate(`sinew.send({ do: 'step' })`);
+  await page.until(`document.getElementById('error').hidden`);
+  await drop(page, { 'ball.scn': ball });
+  await page.until(`document.getElementById('title').textContent === 'ball.scn' && sinew.view.frame?.positions.length === 6`, 20);
+  check(await page.evaluate(`sinew.tree[0].name === 'ball' && sinew.state.step === 0`), 'another scene is there');
+  check(await page.evaluate(`Math.hypot(...sinew.view.orbit.target.toArray().map((x, k) => x - [1.5, 2, 3][k])) < 1e-6`), 'and seen as a whole');
+  await page.key('n');
+  await page.until('sinew.state.step === 1 && sinew.view.frame.positions[2] < 3');
+  check(await page.evaluate(`document.getElementById('message').hidden && !document.body.classList.contains('over')`), 'nothing is in front of it');
+  // the time of its components
+  await page.evaluate(`document.querySelector('#profile summary').click()`);
+  await page.until('sinew.state.profiling');
+  await page.key(' ');
+  await page.until(`document.querySelectorAll('#profileList li').length > 2`, 20);
+  const shares = await page.evaluate('sinew.state.profile.shares');
+  check(Math.abs(shares.reduce((sum, s) => sum + s.share, 0) - 1) < 1e-9, 'the times of all are the whole');
+  check(shares.some((s) => s.class === 'UniformMass<Vec3d>'), 'components have their times');
+  const saved = await page.evaluate(`(async () => {
+    const kept = [];
+    const { createObjectURL } = URL;
+    URL.createObjectURL = (blob) => (kept.push(blob.text()), createObjectURL(blob));
+    document.getElementById('profileCsv').click();
+    document.getElementById('profileSvg').click();
+    URL.createObjectURL = createObjectURL;
+    return Promise.all(kept);
+  })()`);
+  check(saved[0].startsWith('component or phase,class,') && saved[0].includes('UniformMass<Vec3d>'), `they are a table: ${saved[0]}`);
+  check(saved[1].startsWith('<svg') && saved[1].split('<rect').length - 1 === shares.length, 'and a picture');
+  keep('profile.png', await page.picture());
+  await page.evaluate(`document.querySelector('#profile summary').click()`);
+  await page.until('!sinew.state.profiling && !sinew.state.profile');
+  check(page.messages.filter((m) => !/422/.test(m)).length === 0, `the console is empty: ${page.messages.join('\n')}`);
+}
+
 async function served() {
   console.log('the page of sinew serve');
   const folder = mkdtempSync(join(tmpdir(), 'sinew-native-'));
@@ -169,6 +225,7 @@ async function served() {
     const page = await openPage(link);
     try {
       await use(page, 'served', native);
+      await opens(page);
     } finally {
       await page.close();
     }
@@ -228,6 +285,10 @@ async function alone() {
     const to = await page.evaluate(tool);
     check(Math.hypot(...to.map((x, k) => x - from[k])) > 0.001, 'the tool of the vitrectomy moves');
     keep('vitrectomy.png', await page.picture());
+    // without the program it opens no scenes, and says so
+    check(await page.evaluate(`document.getElementById('open').hidden`), 'there is nothing to choose');
+    await drop(page, { 'ball.scn': ball });
+    await page.until(`document.getElementById('error').textContent.includes('needs the program')`);
     check(page.messages.length === 0, `the console is empty: ${page.messages.join('\n')}`);
   } finally {
     await page.close();

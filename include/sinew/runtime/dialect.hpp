@@ -107,7 +107,11 @@ inline constexpr std::array ofViews = std::to_array<std::string_view>({"VisualSt
                                                                        "OglGrid",
                                                                        "VisualGrid",
                                                                        "LineAxis",
-                                                                       "ClipPlane"});
+                                                                       "ClipPlane",
+                                                                       "LightManager",
+                                                                       "SpotLight",
+                                                                       "PositionalLight",
+                                                                       "DirectionalLight"});
 
 /// Classes that are not there, by names with blanks between, and what follows from it for a scene.
 struct ClassesLeftOut {

@@ -121,6 +121,19 @@ inline DrawnMarks drawn_marks(SeenScene const& scene, double radius) {
   }
   for (Eigen::Vector3d const& p : scene.constrained) drawn.mesh.points.add(p, {0.55, 0.0, 0.4});
   if (scene.settings.constraints) drawn.words.push_back(text("held points: ", scene.constrained.size()));
+  for (auto const& [lowest, highest] : scene.boxes)
+    for (int axis = 0; axis < 3; ++axis)
+      for (int side = 0; side < 4; ++side) {
+        // an edge along the axis, at one of the four sides
+        Eigen::Vector3d from = lowest, to;
+        if (side & 1) from[(axis + 1) % 3] = highest[(axis + 1) % 3];
+        if (side & 2) from[(axis + 2) % 3] = highest[(axis + 2) % 3];
+        to = from;
+        to[axis] = highest[axis];
+        drawn.mesh.lines.add(from, {0.55, 0.45, 0.1});
+        drawn.mesh.lines.add(to, {0.55, 0.45, 0.1});
+      }
+  if (scene.settings.boxes) drawn.words.push_back(text("boxes: ", scene.boxes.size()));
   auto const [least, most] = scene.box();
   if (scene.settings.axes)
     for (int c = 0; c < 3; ++c) {

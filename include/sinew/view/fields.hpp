@@ -43,14 +43,17 @@ struct FieldChange {
 
 namespace detail {
 
+/// Whether a field is the path of a file or folder, to read or to write.
+inline bool names_file(FieldInfo const& field) {
+  return field.isFile || (field.kind == "text" && field.name.starts_with("file"));
+}
+
 /// Why a field keeps its value while a scene runs; empty where it may have another.
 inline std::string why_fixed(FoundLine const& line, FieldInfo const& field) {
   if (!field.isInput) return "the component makes it";
-  if (field.isFile) return "files are read and written by the scene as it starts";
+  if (names_file(field)) return "files are read and written by the scene as it starts";
   ClassInfo const& info = *line.info;
-  auto has_file = [&] {
-    return std::any_of(info.fields.begin(), info.fields.end(), [](FieldInfo const& f) { return f.isFile; });
-  };
+  auto has_file = [&] { return std::any_of(info.fields.begin(), info.fields.end(), names_file); };
   switch (info.role) {
     case RoleKind::engine:
       return "what it makes was made when the scene was read";

@@ -35,15 +35,21 @@ struct Measures {
   }
 };
 
+namespace detail {
+// what a table has in one column
+inline std::string in_csv(std::string name) {
+  for (char& c : name)
+    if (c == ',' || c == '"' || c == '\n' || c == '\r') c = ' ';
+  return name;
+}
+}  // namespace detail
+
 /// One line for each step, with the time and all series, as comma separated values.
 inline std::string csv_of(Measures const& measures) {
   std::string words = "time [s]";
-  for (Series const& one : measures.series) {
-    std::string name = one.name;
-    for (char& c : name)
-      if (c == ',' || c == '"' || c == '\n' || c == '\r') c = ' ';
-    words += text(',', name, one.unit.empty() ? std::string() : text(" [", one.unit, ']'));
-  }
+  for (Series const& one : measures.series)
+    words +=
+        text(',', detail::in_csv(one.name), one.unit.empty() ? std::string() : text(" [", one.unit, ']'));
   words += '\n';
   for (std::size_t i = 0; i < measures.times.size(); ++i) {
     words += write_value(measures.times[i]);

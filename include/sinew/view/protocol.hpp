@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/view/opened_scene.hpp>
 #include <sinew/view/scene_tree.hpp>
 #include <sinew/view/seen_scene.hpp>
 #include <sinew/view/stage.hpp>
@@ -67,10 +68,15 @@ struct Colour {
   Quantity by = Quantity::none;
   bool operator==(Colour const&) const = default;
 };
+/// Times all components during steps from now on, or no more.
+struct Profile {
+  bool on = true;
+  bool operator==(Profile const&) const = default;
+};
 }  // namespace command
 using Command = std::variant<command::Play, command::Step, command::Reset, command::Speed, command::Press,
                              command::Move, command::Release, command::Component, command::SetField,
-                             command::Undo, command::Redo, command::Colour>;
+                             command::Undo, command::Redo, command::Colour, command::Profile>;
 
 /// Commands longer than that [bytes], or nested deeper, are refused.
 inline constexpr std::size_t longestCommand = 16384, deepestCommand = 4;
@@ -118,6 +124,7 @@ void tell(Stage& stage, Command const& said, Answer const& answer) {
       seen.colour = c.by;
       stage.show(seen);
     }
+    void operator()(command::Profile const& c) { stage.profile(c.on); }
   } doing{stage, answer};
   std::visit(doing, said);
 }
@@ -143,6 +150,16 @@ struct ReadTopology {
 /// The inverse functions; throw Error where bytes are no topology, or no frame of this one.
 ReadTopology read_topology(std::string_view bytes);
 void read_frame(std::string_view bytes, ReadTopology& into);
+
+/// Files that a page sends, one of which is a scene: a line of JSON, {"files": [{"name": "a.scn", "bytes":
+/// 12}]}, and behind it the bytes of all files, one after the other.
+inline constexpr std::size_t longestUpload = 16u << 20, mostFiles = 64, longestFileName = 200;
+std::string write_upload(std::vector<SceneFile> const& files);
+/// Throws Error where bytes are no such files, and where a name might lead out of the folder of the scene.
+std::vector<SceneFile> read_upload(std::string_view bytes);
+/// Which of them is the scene: the one that ends in .scn, or else in .xml. Throws Error where none is, or
+/// several are.
+std::size_t scene_among(std::vector<SceneFile> const& files);
 
 /// Messages for scenes that follow each other: their topology again only when it has changed.
 class SceneWriter {

@@ -12,8 +12,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -40,26 +42,44 @@ void main() {
   gl_Position = toClip * p;
 })";
 
-// Blinn and Phong's light from one side, with its shadow, and light from all sides that is brighter from
-// above. Both sides of a face are seen.
+// Blinn and Phong's light from up to mostLights places, one of them with its shadow, and light from all sides
+// that may be brighter from above. Both sides of a face are seen.
 inline constexpr char const* surfaceFragment = R"(#version 330 core
 in vec3 atEye, normalAtEye, atLight, own;
-uniform vec3 lightAtEye, upAtEye;
-uniform float shadowed;
+uniform vec4 place[8];   // at the eye: of a light, or the direction to it (w = 0)
+uniform vec3 colour[8];
+uniform vec4 cone[8];    // where a spot shines to, and the cosine of its cone; -1: to all sides
+uniform vec4 fall[8];    // attenuation, exponent of a spot
+uniform float count, shadowOf;
+uniform vec3 upAtEye, around;
+uniform float fromAbove;
 uniform sampler2DShadow shadow;
 out vec4 pixel;
 void main() {
   vec3 n = normalize(normalAtEye), toEye = normalize(-atEye);
   if (!gl_FrontFacing) n = -n;
-  float slope = clamp(dot(n, lightAtEye), 0.0, 1.0);
-  float bias = 0.002 + 0.006 * (1.0 - slope), lit = 1.0 - shadowed;
-  vec2 texel = 1.0 / vec2(textureSize(shadow, 0));
-  if (shadowed > 0.0) for (int i = -1; i <= 1; ++i)
-    for (int j = -1; j <= 1; ++j)
-      lit += texture(shadow, vec3(atLight.xy + vec2(i, j) * texel, atLight.z - bias)) / 9.0;
-  float around = 0.42 + 0.18 * dot(n, upAtEye);
-  float shine = pow(max(dot(n, normalize(lightAtEye + toEye)), 0.0), 40.0);
-  vec3 linear = pow(own, vec3(2.2)) * (around + 0.75 * slope * lit) + 0.12 * shine * lit;
+  vec3 sum = around * (1.0 + fromAbove * dot(n, upAtEye)), shine = vec3(0.0);
+  for (int k = 0; k < int(count); ++k) {
+    vec3 to = place[k].xyz - place[k].w * atEye;
+    float far = length(to), lit = place[k].w > 0.0 ? 1.0 / (1.0 + fall[k].x * far) : 1.0;
+    to /= far;
+    if (cone[k].w >= 0.0) {
+      float inside = dot(-to, cone[k].xyz);
+      lit *= inside > cone[k].w ? pow(inside, fall[k].y) : 0.0;
+    }
+    float slope = clamp(dot(n, to), 0.0, 1.0);
+    if (float(k) == shadowOf) {
+      float bias = 0.002 + 0.006 * (1.0 - slope), seen = 0.0;
+      vec2 texel = 1.0 / vec2(textureSize(shadow, 0));
+      for (int i = -1; i <= 1; ++i)
+        for (int j = -1; j <= 1; ++j)
+          seen += texture(shadow, vec3(atLight.xy + vec2(i, j) * texel, atLight.z - bias)) / 9.0;
+      lit *= seen;
+    }
+    sum += 0.75 * slope * lit * colour[k];
+    shine += 0.12 * pow(max(dot(n, normalize(to + toEye)), 0.0), 40.0) * lit * colour[k];
+  }
+  vec3 linear = pow(own, vec3(2.2)) * sum + shine;
   pixel = vec4(pow(linear, vec3(1.0 / 2.2)), 1);
 })";
 
@@ -118,20 +138,30 @@ class Renderer {
     up_ = scene.up;
     clip_ = scene.settings.clip;
     shadows_ = scene.settings.shadows;
+    lights_ = scene.settings.lights;
+    if (lights_.size() > mostLights) lights_.resize(mostLights);
+    ambient_ = scene.settings.ambient;
     colour_ = scene.settings.background.value_or(Eigen::Vector3d(background.data()));
   }
 
   /// `left`: the pixels that are left free beside the picture.
   void draw(Camera const& camera, int width, int height, int left = 0) {
     const Eigen::Matrix4d toView = camera.toView(), toClip = camera.toClip(double(width) / height);
-    // from the left above the eye
-    const Eigen::Vector3d light =
-        (0.6 * camera.toEye - 0.5 * camera.right() + 0.7 * camera.above()).normalized();
-    const Eigen::Matrix4d toLight = lightOf(light);
+    std::vector<SeenLight> lights = lights_;
+    if (lights.empty())  // from the left above the eye
+      lights.push_back(
+          {.direction = (0.6 * camera.toEye - 0.5 * camera.right() + 0.7 * camera.above()).normalized()});
+    // the first one from far away has a shadow
+    const auto first = std::find_if(lights.begin(), lights.end(), [](SeenLight const& light) {
+      return light.kind == SeenLight::Kind::parallel && !light.movesWithCamera;
+    });
+    const bool hasShadow = shadows_ && first != lights.end();
+    const Eigen::Matrix4d toLight =
+        first != lights.end() ? lightOf(first->direction) : Eigen::Matrix4d::Identity().eval();
     GLint target = 0;
     glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &target);
     if (clip_) glEnable(GL_CLIP_DISTANCE0);
-    if (shadows_) drawShadow(toLight);
+    if (hasShadow) drawShadow(toLight);
     glBindFramebuffer(GL_FRAMEBUFFER, GLuint(target));
 
     glViewport(left, 0, width, height);
@@ -145,9 +175,9 @@ class Renderer {
     surface_.set("toClip", toClip);
     surface_.set("toLight", toLight);
     surface_.set("clip", clipped());
-    surface_.set("lightAtEye", toView.topLeftCorner<3, 3>() * light);
+    setLights(lights, toView);
+    surface_.set("shadowOf", hasShadow ? double(first - lights.begin()) : -1);
     surface_.set("upAtEye", toView.topLeftCorner<3, 3>() * up_);
-    surface_.set("shadowed", shadows_ ? 1 : 0);
     surface_.setTexture("shadow", 0);
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, shadow_.depth);
@@ -216,7 +246,33 @@ class Renderer {
   Eigen::Vector3d up_{0, 1, 0}, centre_{0, 0, 0}, colour_{1, 1, 1};
   double radius_ = 1;
   bool shadows_ = true;
+  std::vector<SeenLight> lights_{};
+  std::optional<Eigen::Vector3d> ambient_{};
 
+  void setLights(std::vector<SeenLight> const& lights, Eigen::Matrix4d const& toView) {
+    surface_.set("count", double(lights.size()));
+    for (std::size_t k = 0; k < lights.size(); ++k) {
+      SeenLight const& light = lights[k];
+      const Eigen::Matrix4d own = light.movesWithCamera ? Eigen::Matrix4d::Identity().eval() : toView;
+      const Eigen::Vector3d direction = own.topLeftCorner<3, 3>() * light.direction;
+      const bool parallel = light.kind == SeenLight::Kind::parallel,
+                 spot = light.kind == SeenLight::Kind::spot;
+      Eigen::Vector4d place = direction.homogeneous(), cone = direction.homogeneous();
+      place[3] = 0;
+      if (!parallel) place = own * light.position.homogeneous();
+      cone[3] = spot ? std::cos(light.cutoff * std::numbers::pi / 180) : -1;
+      auto set = [&](char const* name, auto const& value) {
+        surface_.set(text(name, '[', k, ']').c_str(), value);
+      };
+      set("place", place);
+      set("colour", light.colour);
+      set("cone", cone);
+      set("fall", Eigen::Vector4d(light.attenuation, light.exponent, 0, 0));
+    }
+    // with lights of the scene there is less of what has no place
+    surface_.set("around", ambient_.value_or(Eigen::Vector3d::Constant(lights_.empty() ? 0.42 : 0.2)));
+    surface_.set("fromAbove", ambient_ ? 0. : 0.18 / 0.42);
+  }
   // positive where something is seen
   static Eigen::Vector4d everything() { return {0, 0, 0, 1}; }
   Eigen::Vector4d clipped() const {

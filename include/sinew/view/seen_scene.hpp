@@ -12,6 +12,7 @@
 #include <sinew/scene/path.hpp>
 #include <sinew/scene/states_of.hpp>
 #include <sinew/topology/border.hpp>
+#include <sinew/view/hull_faces.hpp>
 #include <sinew/view/seen_settings.hpp>
 #include <sinew/view/seen_values.hpp>
 
@@ -75,7 +76,8 @@ struct SeenScene {
   std::vector<SeenBody> bodies{};
   std::vector<SeenArrow> arrows{};
   std::vector<SeenLine> springs{};
-  std::vector<Eigen::Vector3d> constrained{};  // points that are held
+  std::vector<Eigen::Vector3d> constrained{};                        // points that are held
+  std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> boxes{};  // of collision models: low, high corner
   std::optional<Legend> legend{};
   SeenSettings settings{};
   Eigen::Vector3d up{0, 1, 0};  // against gravity
@@ -113,9 +115,18 @@ class KnownBorders {
     if (isNew) found->second = border_of(topology.tetrahedra, topology.hexahedra);
     return found->second;
   }
+  /// The faces of the convex hull of points.
+  std::vector<Triangle> const& ofHull(std::vector<Eigen::Vector3d> const& points) {
+    std::vector<double> key;
+    for (Eigen::Vector3d const& p : points) key.insert(key.end(), {p[0], p[1], p[2]});
+    const auto [found, isNew] = hulls_.try_emplace(std::move(key));
+    if (isNew) found->second = HullFaces(points).triangles();
+    return found->second;
+  }
 
  private:
   std::map<std::uint64_t, Border> known_{};
+  std::map<std::vector<double>, std::vector<Triangle>> hulls_{};  // hulls do not change while a scene runs
 };
 
 namespace detail {
@@ -169,14 +180,19 @@ inline void add_ball(Eigen::Vector3d const& centre, double radius, SeenBody& bod
 
 // the primitives of a collision model where its state is now
 template <class Model, class State>
-void show_collision(Model const& model, State const& state, SeenBody& body) {
+void show_collision(Model const& model, State const& state, KnownBorders& borders, SeenBody& body) {
   CollisionSurface const& surface = model.surface;
-  if (surface.hull) {  // by the points of the hull, since its faces are not known
+  if (surface.hull) {  // its corners where it has faces; flat ones by all of their points
     using D = typename State::DataTypes;
-    if constexpr (D::rigid && D::spatial == 3)
-      for (auto const& x : state.position)
+    if constexpr (D::rigid && D::spatial == 3) {
+      auto const& faces = borders.ofHull(surface.hull->points());
+      for (auto const& x : state.position) {
+        const auto first = Index(body.points.size());
         for (auto const& p : surface.hull->points())
           body.points.push_back(x.center.template cast<double>() + x.orientation.template cast<double>() * p);
+        for (auto const& [a, b, c] : faces) body.triangles.push_back({first + a, first + b, first + c});
+      }
+    }
     return;
   }
   if (surface.shape == Shape::sphere) {
@@ -196,6 +212,16 @@ void show_collision(Model const& model, State const& state, SeenBody& body) {
     for (auto const& element : surface.elements) own.push_back(body.points[std::size_t(element[0])]);
     body.points = std::move(own);
   }
+}
+
+// the outermost boxes of a model and those of its elements, as they were in the last search
+inline void show_boxes(CollisionSurface const& surface, SeenScene& seen) {
+  auto add = [&](AxisBox const& box) {
+    if (!box.empty() && box.min.allFinite() && box.max.allFinite()) seen.boxes.emplace_back(box.min, box.max);
+  };
+  add(surface.box);
+  if (surface.boxes.size() > 1)
+    for (AxisBox const& box : surface.boxes) add(box);
 }
 
 template <class Simulation>
@@ -339,9 +365,12 @@ SeenScene seen_scene(Simulation& simulation, SeenSettings const& settings = {},
     simulation.template visit<role::CollisionModel>([&](auto const& model, auto const& scope) {
       SeenBody body{.path = scope.path(), .kind = SeenBody::Kind::collision};
       detail::show_collision(
-          model, scope.template state<typename std::decay_t<decltype(model)>::DataTypes>(), body);
+          model, scope.template state<typename std::decay_t<decltype(model)>::DataTypes>(), *borders, body);
       seen.bodies.push_back(std::move(body));
     });
+  if (settings.boxes)
+    simulation.template visit<role::CollisionModel>(
+        [&](auto const& model, auto const&) { detail::show_boxes(model.surface, seen); });
   std::stable_sort(seen.bodies.begin(), seen.bodies.end(), [](SeenBody const& a, SeenBody const& b) {
     return a.path < b.path;
   });

@@ -50,6 +50,19 @@ struct ClipPlane {
   double offset = 0;  // [m]
 };
 
+/// A light of a scene.
+struct SeenLight {
+  enum class Kind { parallel, point, spot };
+  Kind kind = Kind::parallel;
+  Eigen::Vector3d colour{1, 1, 1};     // red, green, blue
+  Eigen::Vector3d position{0, 0, 0};   // of a point or spot [m]
+  Eigen::Vector3d direction{0, 0, 1};  // of length 1: towards a parallel light; of a spot where it shines to
+  double attenuation = 0;              // at a distance d a point or spot has 1 / (1 + attenuation d) [1/m]
+  double cutoff = 30, exponent = 20;  // of a spot: half the angle of its cone [degrees]; (cos angle)^exponent
+  bool movesWithCamera = false;       // its place is relative to the eye, which looks along -z
+};
+inline constexpr std::size_t mostLights = 8;
+
 /// How one body is to be seen, whatever the others are.
 struct BodyLook {
   std::string path{};
@@ -68,6 +81,9 @@ struct SeenSettings {
   std::optional<ClipPlane> clip{};
   std::vector<BodyLook> looks{};
   std::optional<Eigen::Vector3d> background{};
+  std::vector<SeenLight> lights{};           // none: one from the left above the eye
+  std::optional<Eigen::Vector3d> ambient{};  // what comes from all sides; without it white, more from above
+  bool boxes = false;  // of collision models and their elements, by which collisions are found
 
   bool shows(ArrowKind kind) const { return arrows[std::size_t(kind)]; }
   /// Whether the simulation has to keep forces for it.

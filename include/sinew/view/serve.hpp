@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/view/opened_scene.hpp>
 #include <sinew/view/stage.hpp>
 
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace sinew::view {
 
@@ -16,6 +18,10 @@ struct ServeSettings {
   std::string page{};                 // the folder of the page; empty: where it was built or installed
   int clients = 16;                   // the most that look at a time
   bool untilInterrupted = true;       // Ctrl-C ends it
+  // Makes a scene of the files that somebody drops onto the page, which then takes the place of that which is
+  // seen; one at a time, in a thread of its own. What it throws as Error is shown there. Without it a page
+  // cannot open scenes.
+  std::function<OpenedScene(std::vector<SceneFile> const& files)> open{};
 };
 
 /// Shows a stage in browsers: a web server for the page, and a WebSocket for what view/protocol.hpp says. All

@@ -57,6 +57,7 @@ class ShowPanel {
     check("visual models", settings_.visualModels);
     check("states", settings_.states);
     check("collision models", settings_.collisionModels);
+    check("their boxes", settings_.boxes);
     check("springs", settings_.springs);
     check("held points", settings_.constraints);
     check("normals", settings_.normals);

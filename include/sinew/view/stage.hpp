@@ -206,6 +206,17 @@ class Stage {
   void measures(std::function<void(Measures const&)> answer) {
     ask([answer = std::move(answer)](Stage& s) { answer(s.measures_); });
   }
+  /// Times all components during steps from now on, or no more (StageState::profile). An error is that of the
+  /// state: a typed scene has timers where it is `profiled(...)`.
+  void profile(bool on) {
+    ask([on](Stage& s) {
+      s.profiling_ = false;
+      s.profile_.reset();
+      s.actor_->profile(on);
+      s.profiling_ = on;
+      s.pace_.nextProfile = Clock::now() + std::chrono::milliseconds(500);
+    });
+  }
   /// The component at a line of the tree is looked at from now on (StageState::selected); -1: none is.
   void select(int line) {
     ask([line](Stage& s) {
@@ -291,14 +302,16 @@ class Stage {
   std::size_t changesDone_ = 0;
   Measures measures_{};
   std::vector<std::pair<int, std::string>> measuredFields_{};
-  bool measuring_ = false;
+  bool measuring_ = false, profiling_ = false;
+  bool changed_ = false;  // since the scene was last looked at
+  std::shared_ptr<StepProfile const> profile_{};
   UserActions recorded_{}, replayed_{};
   bool records_ = false, replays_ = false;
   long stepped_ = 0;            // since a record or a replay has begun
   std::size_t replayedTo_ = 0;  // of its actions
   struct Pace {
     // when a step is due; since when steps count; when measures are shown again
-    Clock::time_point next = Clock::now(), measured = next, nextMeasures = next;
+    Clock::time_point next = Clock::now(), measured = next, nextMeasures = next, nextProfile = next;
     long steps = 0;
     double rate = 0;
     std::string error{};
@@ -436,7 +449,7 @@ class Stage {
       }
       return true;
     };
-    auto& [next, measured, nextMeasures, steps, rate, error] = pace_;
+    auto& [next, measured, nextMeasures, nextProfile, steps, rate, error] = pace_;
     std::vector<std::function<void(Stage&)>> mine = std::exchange(asked_, {});
     busy_ = true;
     const bool look = std::exchange(wanted_, false);
@@ -446,6 +459,7 @@ class Stage {
     for (auto const& what : mine) careful([&] { what(*this); });
     if (stood) next = measured = Clock::now(), steps = 0;
     if (playing_ && Clock::now() >= next) {
+      changed_ = true;
       if (!careful([&] { animate(); })) playing_ = false;
       ++steps;
       // after a slow step the time that is lost is not made up for
@@ -455,8 +469,14 @@ class Stage {
       const double since = std::chrono::duration<double>(Clock::now() - measured).count();
       if (since > 0.5) rate = double(steps) / since, steps = 0, measured = Clock::now();
     }
+    if (profiling_ && Clock::now() >= nextProfile) {
+      if (StepProfile latest = actor_->takeProfile(); latest.steps > 0)
+        profile_ = std::make_shared<StepProfile const>(std::move(latest));
+      nextProfile = Clock::now() + std::chrono::milliseconds(500);
+    }
     Scene seen;
-    if (look || told)
+    changed_ = changed_ || told;
+    if ((look || told) && std::exchange(changed_, false))
       careful([&] {
         seen = std::make_shared<SeenScene>(actor_->see(seen_));
         if (selectedLine_ >= 0)
@@ -471,6 +491,8 @@ class Stage {
       nextMeasures = Clock::now() + std::chrono::milliseconds(200);
     }
     state_.measuring = measuring_;
+    state_.profiling = profiling_;
+    state_.profile = profile_;
     state_.recording = records_;
     state_.replaying = replays_;
     if (told) {

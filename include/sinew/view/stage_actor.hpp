@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/profile.hpp>
 #include <sinew/scene/mouse_interactor.hpp>
 #include <sinew/view/fields.hpp>
 #include <sinew/view/seen_scene.hpp>
@@ -24,6 +25,8 @@ struct StageActor {
   virtual void move(Eigen::Vector3d const& origin, Eigen::Vector3d const& direction) = 0;
   virtual void release() = 0;
   virtual std::array<double, 2> energies() = 0;
+  virtual void profile(bool on) = 0;
+  virtual StepProfile takeProfile() = 0;
   virtual void keep() = 0;
   virtual bool restore() = 0;
   virtual void keepForces(bool keep) = 0;
@@ -39,11 +42,47 @@ struct StageActorOf final : StageActor {
   std::unique_ptr<Simulation> kept{};
   KnownBorders borders{};
   MouseInteractor mouse{};
+  std::unique_ptr<Profile> timer{};  // of a runtime tree, while it is timed
 
   StageActorOf(Simulation& s, bool forces) : simulation(s) {
     if (forces) simulation.keepForces(true);
   }
-  void animate(double dt) override { simulation.animate(dt); }
+  ~StageActorOf() override {
+    if constexpr (canBeTimed)
+      if (timer) simulation.root().profileWith(nullptr);
+  }
+  static constexpr bool canBeTimed = requires(Simulation& s) { s.root().profileWith(nullptr); };
+  static constexpr bool isTimed = requires(Simulation& s) { s.root().profile().clear(); };
+  void profile(bool on) override {
+    if constexpr (canBeTimed) {
+      if (on == bool(timer)) return;
+      timer = on ? std::make_unique<Profile>() : nullptr;
+      simulation.root().profileWith(timer.get());
+    } else if constexpr (isTimed) {
+      simulation.root().profile().clear();
+    } else if (on) {
+      throw Error(
+          "view",
+          "this typed scene has no timers; write Simulation sim{profiled(node<...>(...))} to see where "
+          "its time goes");
+    }
+  }
+  StepProfile takeProfile() override {
+    Profile* now = nullptr;
+    if constexpr (canBeTimed)
+      now = timer.get();
+    else if constexpr (isTimed)
+      now = &simulation.root().profile();
+    if (!now) return {};
+    StepProfile made = step_profile(*now);
+    now->clear();
+    return made;
+  }
+  void animate(double dt) override {
+    if constexpr (canBeTimed)  // a scene that has changed, or that was gone back to, is another one
+      if (timer && simulation.root().profile != timer.get()) simulation.root().profileWith(timer.get());
+    simulation.animate(dt);
+  }
   void reset() override {
     mouse.release(simulation);
     simulation.reset();

@@ -3,6 +3,7 @@
 
 #include <sinew/view/fields.hpp>
 #include <sinew/view/plots.hpp>
+#include <sinew/view/step_profile.hpp>
 
 #include <Eigen/Core>
 #include <memory>
@@ -21,12 +22,14 @@ struct Held {
 struct StageState {
   double time = 0, stepsPerSecond = 0;
   long step = 0;
-  bool playing = false, recording = false, replaying = false, measuring = false;
+  bool playing = false, recording = false, replaying = false, measuring = false, profiling = false;
   std::optional<Held> held{};
   std::shared_ptr<SeenComponent const> selected{};  // as it was when the scene was last looked at; or none
   std::shared_ptr<Measures const> measures{};       // a few times a second, while it is measured
-  std::optional<FieldChange> undo{}, redo{};        // what undo() would take back, and redo() do again
-  std::string error{};  // of the last thing that went wrong; empty where nothing has
+  std::shared_ptr<StepProfile const>
+      profile{};                              // of the steps of the last half second, while it is asked for
+  std::optional<FieldChange> undo{}, redo{};  // what undo() would take back, and redo() do again
+  std::string error{};                        // of the last thing that went wrong; empty where nothing has
 };
 
 }  // namespace sinew::view

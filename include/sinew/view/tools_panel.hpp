@@ -14,6 +14,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,21 +24,31 @@ namespace sinew::view {
 /// Keeping and going back, records of what was done, and plots, in a window of Dear ImGui that is open.
 class ToolsPanel {
  public:
-  /// save(path) writes the simulation to a file, between two steps; without it there is no button for that.
-  ToolsPanel(Stage& stage, std::function<void(std::string const&)> save)
-      : stage_(stage), save_(std::move(save)) {
+  /// save(path) writes the simulation to a file, between two steps; without it there is no button for that,
+  /// nor one to open a scene unless `opens`.
+  ToolsPanel(Stage& stage, std::function<void(std::string const&)> save, bool opens = false)
+      : stage_(stage), save_(std::move(save)), opens_(opens) {
     std::strcpy(scene_.data(), "checkpoint.scn");
     std::strcpy(actions_.data(), "scene.actions");
     std::strcpy(plots_.data(), "plots.csv");
+    std::strcpy(profile_.data(), "profile.csv");
   }
 
-  void drawTools(StageState const& state) {
+  /// The scene to open, where one is asked for.
+  std::optional<std::string> drawTools(StageState const& state) {
+    std::optional<std::string> open;
     ImGui::TextDisabled("the simulation as it is");
     if (ImGui::Button("Keep")) stage_.keep();
     ImGui::SameLine();
     if (ImGui::Button("Go back to it")) stage_.restore();
+    if (save_ || opens_) ImGui::InputText("##scene", scene_.data(), scene_.size());
+    if (opens_) {
+      if (ImGui::Button("Open")) open = scene_.data();
+      if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("a scene, or one that was saved, in the place of this; a file may be dropped, too");
+      if (save_) ImGui::SameLine();
+    }
     if (save_) {
-      ImGui::InputText("##scene", scene_.data(), scene_.size());
       if (ImGui::Button("Save as a scene")) {
         answer_ = std::make_shared<Answer>();
         const std::string path = scene_.data();
@@ -66,6 +77,7 @@ class ToolsPanel {
     }
     finishSaving();
     say();
+    return open;
   }
   void drawPlots(StageState const& state) {
     bool on = state.measuring;
@@ -80,6 +92,7 @@ class ToolsPanel {
           }
       ImGui::EndCombo();
     }
+    drawProfile(state);
     if (!state.measures) return say();
     Measures const& all = *state.measures;
     for (Series const& one : all.series) {
@@ -109,6 +122,39 @@ class ToolsPanel {
     say();
   }
 
+  /// The time of each component, as bars.
+  void drawProfile(StageState const& state) {
+    bool on = state.profiling;
+    if (ImGui::Checkbox("time of each component", &on)) stage_.profile(on);
+    if (!state.profile) return;
+    StepProfile const& profile = *state.profile;
+    ImGui::TextDisabled("in a step, mean of %ld steps", profile.steps);
+    constexpr std::size_t most = 16;
+    const double longest = profile.shares.empty() ? 0 : profile.shares.front().milliseconds;
+    for (std::size_t i = 0; i < profile.shares.size() && i < most; ++i) {
+      TimeShare const& one = profile.shares[i];
+      const std::string number = text(detail::short_number(one.milliseconds), " ms");
+      ImGui::ProgressBar(longest > 0 ? float(one.milliseconds / longest) : 0,
+                         {ImGui::GetContentRegionAvail().x * 0.42f, ImGui::GetTextLineHeight() + 4},
+                         number.c_str());
+      ImGui::SameLine();
+      ImGui::TextUnformatted(one.name.c_str());
+      if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("%s\n%.1f %% of the step, %.3g calls in it",
+                          one.className.empty() ? "a phase, outside of components" : one.className.c_str(),
+                          100 * one.share,
+                          one.calls);
+    }
+    ImGui::InputText("##profile", profile_.data(), profile_.size());
+    const bool picture = std::string_view(profile_.data()).ends_with(".svg");
+    if (ImGui::Button(picture ? "Save the times as SVG" : "Save the times as CSV"))
+      careful([&] {
+        io::write_file(profile_.data(), picture ? svg_of(profile) : csv_of(profile));
+        message_ = text("wrote ", profile_.data());
+      });
+    ImGui::Separator();
+  }
+
  private:
   // what the thread of the simulation answers
   struct Answer {
@@ -118,7 +164,8 @@ class ToolsPanel {
   };
   Stage& stage_;
   std::function<void(std::string const&)> save_;
-  std::array<char, 256> scene_{}, actions_{}, plots_{};
+  bool opens_;
+  std::array<char, 256> scene_{}, actions_{}, plots_{}, profile_{};
   std::string message_{};
   std::shared_ptr<Answer> answer_{};
 

@@ -104,6 +104,8 @@ inline void apply_flags(std::string_view flags, ViewElement const& element, View
       seen.springs = on;
     else if (flag == "Collision" || flag == "CollisionModels")
       seen.collisionModels = on;
+    else if (flag == "BoundingCollisionModels" || flag == "BoundingTree")
+      seen.boxes = on;
     else if (flag == "DetectionOutputs")
       seen.arrows[std::size_t(ArrowKind::contact)] = on;
     else if (flag == "Wireframe")
@@ -111,8 +113,8 @@ inline void apply_flags(std::string_view flags, ViewElement const& element, View
     else if (flag == "Normals")
       seen.normals = on;
     else
-      return flag == "BoundingCollisionModels" || flag == "BoundingTree" || flag == "Mapping" ||
-             flag == "Mappings" || flag == "MechanicalMappings" || flag == "Options" || flag == "Rendering";
+      return flag == "Mapping" || flag == "Mappings" || flag == "MechanicalMappings" || flag == "Options" ||
+             flag == "Rendering";
     return true;
   };
   for (Words words(flags); !words.end();) {
@@ -174,6 +176,41 @@ inline void apply_camera(ViewElement const& element, ViewSettings& settings) {
   settings.camera = camera;
 }
 
+inline void apply_light(ViewElement const& element, ViewSettings& settings) {
+  SeenLight light{.kind = element.tag == "DirectionalLight"  ? SeenLight::Kind::parallel
+                          : element.tag == "PositionalLight" ? SeenLight::Kind::point
+                                                             : SeenLight::Kind::spot};
+  auto each = [&](std::string_view name, auto&& f) {
+    if (std::string const* value = element.find(name)) try {
+        f(*value);
+      } catch (Error const& error) {
+        throw Error("", text(name, ": ", error.what()));
+      }
+  };
+  bool looksAt = false;
+  light.direction = {0, 0, -1};  // as in SOFA
+  each("color", [&](auto const& words) { light.colour = colour_of_words(words); });
+  each("position", [&](auto const& words) { read_value(words, light.position); });
+  each("direction", [&](auto const& words) { read_value(words, light.direction); });
+  each("attenuation", [&](auto const& words) { read_value(words, light.attenuation); });
+  each("cutoff", [&](auto const& words) { read_value(words, light.cutoff); });
+  each("exponent", [&](auto const& words) { read_value(words, light.exponent); });
+  each("fixed", [&](auto const& words) { read_value(words, light.movesWithCamera); });
+  each("lookat", [&](auto const& words) { read_value(words, looksAt); });
+  if (looksAt) light.direction -= light.position;
+  if (light.kind != SeenLight::Kind::point && !(light.direction.norm() > 0 && light.direction.allFinite()))
+    throw Error("", "direction: the light shines to nowhere");
+  light.direction.normalize();
+  if (!light.position.allFinite()) throw Error("", "position: it is not finite");
+  if (!(light.attenuation >= 0)) throw Error("", "attenuation: it is at least 0");
+  if (!(light.cutoff > 0 && light.cutoff <= 90))
+    throw Error("", "cutoff: it is above 0 and up to 90 degrees");
+  if (!(light.exponent >= 0)) throw Error("", "exponent: it is at least 0");
+  if (settings.seen.lights.size() == mostLights)
+    throw Error("", text("a scene has up to ", mostLights, " lights"));
+  settings.seen.lights.push_back(light);
+}
+
 inline void apply_element(ViewElement const& element, ViewSettings& settings) {
   auto each = [&](std::string_view name, auto&& f) {
     if (std::string const* value = element.find(name)) try {
@@ -187,7 +224,12 @@ inline void apply_element(ViewElement const& element, ViewSettings& settings) {
     each("displayFlags", [&](auto const& flags) { apply_flags(flags, element, settings); });
   else if (tag == "BackgroundSetting")
     each("color", [&](auto const& words) { settings.seen.background = colour_of_words(words); });
-  else if (tag == "OglSceneFrame")
+  else if (tag == "DirectionalLight" || tag == "PositionalLight" || tag == "SpotLight")
+    apply_light(element, settings);
+  else if (tag == "LightManager") {
+    each("ambient", [&](auto const& words) { settings.seen.ambient = colour_of_words(words); });
+    each("shadows", [&](auto const& words) { read_value(words, settings.seen.shadows); });
+  } else if (tag == "OglSceneFrame")
     settings.seen.axes = true;
   else if (tag == "LineAxis")
     settings.seen.axes = true;

@@ -3,6 +3,7 @@
 
 #include <sinew/view/controls.hpp>
 #include <sinew/view/image.hpp>
+#include <sinew/view/opened_scene.hpp>
 #include <sinew/view/picture.hpp>
 #include <sinew/view/renderer.hpp>
 #include <sinew/view/scene_panel.hpp>
@@ -16,8 +17,11 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <functional>
+#include <future>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -30,6 +34,9 @@ struct WindowSettings {
   std::optional<Camera> camera{};                       // without one, that which sees all of the scene
   SeenSettings seen{};                                  // what view() shows at first
   std::function<void(std::string const& path)> save{};  // writes the simulation to a file, between two steps
+  // Reads a scene, a checkpoint, too, which then takes the place of that which is seen, in a thread of its
+  // own. What it throws as Error is shown. Without it the window opens no scenes.
+  std::function<OpenedScene(std::string const& path)> open{};
 };
 
 /// A window onto a stage: the scene, its tree, and what it may be told. Of a process one at a time, in its
@@ -38,13 +45,12 @@ class Window {
  public:
   /// Throws Error where there is no display, or no OpenGL 3.3.
   explicit Window(Stage& stage, WindowSettings const& settings = {})
-      : stage_(stage),
-        system_(settings),
-        scene_(stage.scene()),
-        show_(stage, scene_->settings),
-        tools_(stage, settings.save) {
-    if (settings.camera) controls_.setHome(*settings.camera);
-    renderer_.show(*scene_);
+      : system_(settings), open_(settings.open), scene_(stage.scene()) {
+    face(stage, settings.camera, settings.save);
+    glfwSetWindowUserPointer(system_.window, this);
+    glfwSetDropCallback(system_.window, [](GLFWwindow* window, int count, char const** paths) {
+      if (count > 0) static_cast<Window*>(glfwGetWindowUserPointer(window))->open(std::string(paths[0]));
+    });
   }
 
   /// Until it is closed.
@@ -66,11 +72,30 @@ class Window {
     glfwSwapBuffers(system_.window);
     return image;
   }
-  Controls& controls() { return controls_; }
+  Controls& controls() { return face_->controls; }
   /// A part of the panel: "Scene", "Show", "Tools" or "Plots".
-  void open(std::string part) { tab_ = std::move(part); }
-  ScenePanel& scenePanel() { return panel_; }
-  ShowPanel& showPanel() { return show_; }
+  void turnTo(std::string part) { tab_ = std::move(part); }
+  ScenePanel& scenePanel() { return face_->panel; }
+  ShowPanel& showPanel() { return face_->show; }
+  /// Reads a scene by WindowSettings::open, which is seen as soon as it is there; as a file that is dropped
+  /// onto the window.
+  void open(std::string path) {
+    if (opening_.valid()) return;
+    message_.clear();
+    if (!open_) {
+      message_ = "this window shows one scene; sinew view opens others";
+      return;
+    }
+    openingPath_ = path;
+    opening_ = std::async(std::launch::async, [read = open_, path] { return read(path); });
+  }
+  /// What the pointer and the keys do beside those of the user, asked before each picture: for demonstrations
+  /// and tests.
+  std::function<void(ImGuiIO& io)> input{};
+  /// The stage that is seen: that of the start, or of a scene that was opened.
+  Stage& stage() { return face_->stage; }
+  /// What was noticed when a scene was opened, or why it was not.
+  std::string const& message() const { return message_; }
   void close() { glfwSetWindowShouldClose(system_.window, GLFW_TRUE); }
 
  private:
@@ -122,28 +147,67 @@ class Window {
                "; start it in a desktop session, or make pictures without a window (sinew run --png)"));
     }
   };
-  Stage& stage_;
+  // what belongs to a stage
+  struct Face {
+    Stage& stage;
+    Controls controls;
+    ScenePanel panel;
+    ShowPanel show;
+    ToolsPanel tools;
+
+    Face(Stage& of, Camera const& camera, SeenSettings const& seen,
+         std::function<void(std::string const&)> const& save, bool opens)
+        : stage(of), controls(of, camera), panel(of), show(of, seen), tools(of, save, opens) {}
+  };
   System system_;
+  std::function<OpenedScene(std::string const&)> open_;
+  OpenedScene opened_{};  // before the face, which uses it
   Stage::Scene scene_;
   Renderer renderer_{};
   StageState state_{};
-  Controls controls_{stage_, camera_of(*scene_, region().width, region().height)};
-  ScenePanel panel_{stage_};
-  ShowPanel show_;
-  ToolsPanel tools_;
-  std::string tab_{};
+  std::optional<Face> face_{};
+  std::string tab_{}, message_{}, openingPath_{};
+  std::future<OpenedScene> opening_{};
   int speed_ = 0;
   bool help_ = false;
 
+  void face(Stage& stage, std::optional<Camera> const& camera,
+            std::function<void(std::string const&)> const& save) {
+    scene_ = stage.scene();
+    const Region seen = region();
+    face_.emplace(stage, camera_of(*scene_, seen.width, seen.height), scene_->settings, save, bool(open_));
+    if (camera) face_->controls.setHome(*camera);
+    speed_ = 0;
+    renderer_.show(*scene_);
+  }
+  // another scene takes the place as soon as it is there
+  void takeOpened() {
+    if (!opening_.valid() || opening_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+    try {
+      OpenedScene next = opening_.get();
+      for (std::string const& note : next.notes) message_ += text(message_.empty() ? "" : "\n", note);
+      face_->stage.release();
+      face_->stage.play(false);
+      face_.reset();
+      face(*next.stage, next.camera, next.save);
+      opened_ = std::move(next);
+      glfwSetWindowTitle(system_.window, opened_.title.c_str());
+    } catch (std::exception const& error) {
+      message_ = error.what();
+    }
+  }
+
   void draw() {
     glfwPollEvents();
-    if (auto latest = stage_.scene(); latest != scene_) {
+    takeOpened();
+    if (auto latest = stage().scene(); latest != scene_) {
       scene_ = std::move(latest);
       renderer_.show(*scene_);
     }
-    state_ = stage_.state();
+    state_ = stage().state();
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
+    if (input) input(ImGui::GetIO());
     ImGui::NewFrame();
     point();
     keys();
@@ -157,7 +221,7 @@ class Window {
       glBindFramebuffer(GL_FRAMEBUFFER, 0);
       const Region seen = region();  // in the unit of the mouse, of which a picture may have more
       const int left = int(double(width) * seen.left / (seen.left + seen.width));
-      renderer_.draw(controls_.camera, width - left, height, left);
+      renderer_.draw(face_->controls.camera, width - left, height, left);
       ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
     }
   }
@@ -178,29 +242,29 @@ class Window {
     if (!io.WantCaptureMouse) {
       for (const int button : {0, 1}) {
         if (!ImGui::IsMouseClicked(button)) continue;
-        const auto [origin, direction] = controls_.camera.ray(x, y, width, height);
-        controls_.press(button == 0 ? Controls::Button::left : Controls::Button::right,
-                        x,
-                        y,
-                        width,
-                        height,
-                        meets(*scene_, origin, direction));
+        const auto [origin, direction] = face_->controls.camera.ray(x, y, width, height);
+        face_->controls.press(button == 0 ? Controls::Button::left : Controls::Button::right,
+                              x,
+                              y,
+                              width,
+                              height,
+                              meets(*scene_, origin, direction));
       }
-      if (io.MouseWheel != 0) controls_.zoom(double(io.MouseWheel));
+      if (io.MouseWheel != 0) face_->controls.zoom(double(io.MouseWheel));
     }
-    if (ImGui::IsMousePosValid()) controls_.move(x, y, width, height);
-    if (ImGui::IsMouseReleased(0) || ImGui::IsMouseReleased(1)) controls_.release();
+    if (ImGui::IsMousePosValid()) face_->controls.move(x, y, width, height);
+    if (ImGui::IsMouseReleased(0) || ImGui::IsMouseReleased(1)) face_->controls.release();
   }
   void keys() {
     if (ImGui::GetIO().WantCaptureKeyboard) return;
     auto pressed = [](int key) { return ImGui::IsKeyPressed(key, false); };
-    if (pressed(GLFW_KEY_SPACE)) stage_.play(!state_.playing);
-    if (pressed(GLFW_KEY_N)) stage_.step();
-    if (pressed(GLFW_KEY_R)) stage_.reset();
-    if (pressed(GLFW_KEY_F)) controls_.home();
+    if (pressed(GLFW_KEY_SPACE)) stage().play(!state_.playing);
+    if (pressed(GLFW_KEY_N)) stage().step();
+    if (pressed(GLFW_KEY_R)) stage().reset();
+    if (pressed(GLFW_KEY_F)) face_->controls.home();
     for (int axis = 0; axis < 3; ++axis)
-      if (pressed(GLFW_KEY_X + axis)) controls_.lookAlong(axis);
-    if (pressed(GLFW_KEY_U)) stage_.undo();
+      if (pressed(GLFW_KEY_X + axis)) face_->controls.lookAlong(axis);
+    if (pressed(GLFW_KEY_U)) stage().undo();
     if (pressed(GLFW_KEY_H)) help_ = !help_;
     if (pressed(GLFW_KEY_Q)) close();
   }
@@ -213,46 +277,49 @@ class Window {
     ImGui::SetNextWindowSize({float(seen.left), float(seen.height)});
     ImGui::Begin(
         "panel", nullptr, ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize);
-    if (ImGui::Button(state_.playing ? "Pause" : "Play")) stage_.play(!state_.playing);
+    if (ImGui::Button(state_.playing ? "Pause" : "Play")) stage().play(!state_.playing);
     ImGui::SameLine();
-    if (ImGui::Button("Step")) stage_.step();
+    if (ImGui::Button("Step")) stage().step();
     ImGui::SameLine();
-    if (ImGui::Button("Reset")) stage_.reset();
+    if (ImGui::Button("Reset")) stage().reset();
     ImGui::SameLine();
-    if (ImGui::Button("Fit")) controls_.home();
+    if (ImGui::Button("Fit")) face_->controls.home();
     ImGui::SameLine();
     if (ImGui::Button("Help")) help_ = !help_;
     constexpr double speeds[] = {1, 0.1, 0};
     if (ImGui::Combo("speed", &speed_, "as the clock\0a tenth of it\0as fast as it can\0"))
-      stage_.setSpeed(speeds[speed_]);
-    float stiffness = float(controls_.stiffness);
+      stage().setSpeed(speeds[speed_]);
+    float stiffness = float(face_->controls.stiffness);
     if (ImGui::SliderFloat("pull", &stiffness, 1, 1e5f, "%.0f N/m", ImGuiSliderFlags_Logarithmic))
-      controls_.stiffness = double(stiffness);
-    ImGui::Text("%.3f s, step %ld of %g s", state_.time, state_.step, stage_.dt());
+      face_->controls.stiffness = double(stiffness);
+    ImGui::Text("%.3f s, step %ld of %g s", state_.time, state_.step, stage().dt());
     ImGui::Text("%.0f steps/s, %.0f pictures/s", state_.stepsPerSecond, double(ImGui::GetIO().Framerate));
-    if (!state_.error.empty()) {
+    for (std::string const* wrong : {&state_.error, &message_}) {
+      if (wrong->empty()) continue;
       ImGui::PushStyleColor(ImGuiCol_Text, {0.7f, 0.1f, 0.1f, 1});
-      ImGui::TextWrapped("%s", state_.error.c_str());
+      ImGui::TextWrapped("%s", wrong->c_str());
       ImGui::PopStyleColor();
     }
+    if (!message_.empty() && ImGui::SmallButton("Close the message")) message_.clear();
+    if (opening_.valid()) ImGui::TextWrapped("opens %s", openingPath_.c_str());
     if (ImGui::BeginTabBar("tabs")) {
       if (ImGui::BeginTabItem("Scene", nullptr, selected("Scene"))) {
-        panel_.draw(state_);
+        face_->panel.draw(state_);
         ImGui::EndTabItem();
       }
       if (ImGui::BeginTabItem("Show", nullptr, selected("Show"))) {
         ImGui::BeginChild("show");
-        show_.draw(*scene_);
+        face_->show.draw(*scene_);
         ImGui::EndChild();
         ImGui::EndTabItem();
       }
       if (ImGui::BeginTabItem("Tools", nullptr, selected("Tools"))) {
-        tools_.drawTools(state_);
+        if (auto path = face_->tools.drawTools(state_)) open(*path);
         ImGui::EndTabItem();
       }
       if (ImGui::BeginTabItem("Plots", nullptr, selected("Plots"))) {
         ImGui::BeginChild("plots");
-        tools_.drawPlots(state_);
+        face_->tools.drawPlots(state_);
         ImGui::EndChild();
         ImGui::EndTabItem();
       }
@@ -283,7 +350,7 @@ class Window {
     if (!state_.held) return;
     const Region seen = region();
     auto at = [&](Eigen::Vector3d const& p) {
-      const Eigen::Vector3d pixel = controls_.camera.project(p, seen.width, seen.height);
+      const Eigen::Vector3d pixel = face_->controls.camera.project(p, seen.width, seen.height);
       return ImVec2(float(pixel[0] + seen.left), float(pixel[1]));
     };
     constexpr ImU32 colour = IM_COL32(20, 20, 20, 255);
