@@ -112,9 +112,9 @@ def roofline(rows):
 
 
 def growth(rows):
-    return markdown(["tetrahedra", "points", "ns a step", "ns an iteration", "bytes after init", "at most", "of a step's arrays", "at least", "ratio"],
+    return markdown(["tetrahedra", "points", "ns a step", "ns an iteration", "bytes after init", "of a step's arrays", "at least", "ratio"],
                     [[f"{r['tetrahedra']:,.0f}", f"{r['points']:,.0f}", digits(1e9 * r["step"] / r["tetrahedra"]), digits(1e9 * r["iteration"] / r["tetrahedra"], 2),
-                      *(f"{r[key] / r['tetrahedra']:,.0f}" for key in ("resident", "most", "arrays", "least")), f"{r['arrays'] / r['least']:.1f}"] for r in rows])
+                      *(f"{r[key] / r['tetrahedra']:,.0f}" for key in ("resident", "arrays", "least")), f"{r['arrays'] / r['least']:.1f}"] for r in rows])
 
 
 def threads(rows):
@@ -142,7 +142,7 @@ def portability(rows):
 
 def by_hand(rows):
     return markdown(["scene", "typed, us a step", "by hand, us a step", "ratio", "apart [m]"],
-                    [[r["scene"], digits(r["typed_us"]), digits(r["hand_us"]), f"{r['ratio']:.2f}", f"{r['distance']:.0e}"] for r in rows])
+                    [[r["scene"], digits(r["typed_us"]), digits(r["hand_us"]), f"{r['ratio']:.2f}", f"{r['distance']:.0e}" if r.get("distance") is not None else "-"] for r in rows])
 
 
 def vitrectomy(rows):
