@@ -140,9 +140,12 @@ def portability(rows):
     return markdown(["steps a second", *(f"{BUILDS.get(build, build)}, {of(rows, build=build)['register_bytes']} bytes" for build in builds)], lines)
 
 
+BY_HAND = {"string": "string of 10 masses", "string-4": "the same, springs in four lanes", "liver": "body of tetrahedra"}
+
+
 def by_hand(rows):
     return markdown(["scene", "typed, us a step", "by hand, us a step", "ratio", "apart [m]"],
-                    [[r["scene"], digits(r["typed_us"]), digits(r["hand_us"]), f"{r['ratio']:.2f}", f"{r['distance']:.0e}" if r.get("distance") is not None else "-"] for r in rows])
+                    [[BY_HAND.get(r["scene"], r["scene"]), digits(r["typed_us"], 4), digits(r["hand_us"], 4), f"{r['ratio']:.2f}", f"{r['distance']:.0e}" if r.get("distance") is not None else "-"] for r in rows])
 
 
 def vitrectomy(rows):

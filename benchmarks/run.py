@@ -16,7 +16,6 @@ import re
 import subprocess
 import sys
 import tempfile
-import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent / "compile"))
 import contact_table  # noqa: E402
@@ -24,7 +23,7 @@ import measure  # noqa: E402
 import pages  # noqa: E402
 import programs_table  # noqa: E402
 import table  # noqa: E402
-from tools import Yardstick, fail  # noqa: E402
+from tools import Yardstick, fail, spent  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 # the programs of each table, which must be there for a page
@@ -184,15 +183,15 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         runs = Runs(arguments, pathlib.Path(folder))
         for name in wanted:
-            began = time.monotonic()
+            began = spent()
             results[name] = runs.rows(name)
-            run["seconds"][name] = round(time.monotonic() - began, 1)
+            run["seconds"][name] = round(spent() - began, 1)
             if results[name]:
-                print(f"\n{name}, measured in {run['seconds'][name]:.0f} s\n\n{pages.TABLES[name](results[name])}", flush=True)
+                print(f"\n{name}, measured in {run['seconds'][name]:.0f} s of the processor\n\n{pages.TABLES[name](results[name])}", flush=True)
     run["load"].append(os.getloadavg()[0])
     arguments.json.parent.mkdir(parents=True, exist_ok=True)
     arguments.json.write_text(pages.record(results))
-    print(f"\nall of it took {sum(run['seconds'].values()):.0f} s; figures written to {arguments.json}")
+    print(f"\nall of it took {sum(run['seconds'].values()):.0f} s of the processor; figures written to {arguments.json}")
     for page in arguments.pages or []:
         pages.write(page, {"run": run} | {name: results[name] for name in pages.PAGES[page]})
         print(f"docs/{page}.md and its plots are written")

@@ -17,10 +17,14 @@ def output(*command):
     return output_and_time(*command)[0]
 
 
+def spent():
+    """Seconds of the processor that all programs took together which were run and have ended."""
+    return sum(resource.getrusage(resource.RUSAGE_CHILDREN)[:2])
+
+
 def output_and_time(*command):
     """What a program prints, and the seconds of the processor that it takes."""
     command = [str(c) for c in command]
-    spent = lambda: sum(resource.getrusage(resource.RUSAGE_CHILDREN)[:2])
     before = spent()
     try:
         done = subprocess.run(command, capture_output=True, text=True)

@@ -17,6 +17,7 @@ sys.path.insert(0, str(root / "benchmarks"))
 sys.path.insert(0, str(root / "benchmarks/compile"))
 import gpu  # noqa: E402
 import pages  # noqa: E402
+import programs_table  # noqa: E402
 import run  # noqa: E402
 
 wrong = []
@@ -104,6 +105,31 @@ def gpu_output():
 PHYSICS = {("vitrectomy", '| time | springs to cut | traction of the scar | tension in the retina | energy in it | off its shape, rms |')}
 
 
+def program_output():
+    """Rows of what programs of the processor print."""
+    def rows(table, text, *arguments):
+        programs_table.output = lambda *command: text
+        return table(root, *arguments)
+    found = rows(programs_table.by_hand, "string   scene      0.135 us/step, by hand      0.062 us/step, ratio 2.167, positions differ by 0.0e+00\n")
+    check(found == [{"scene": "string", "typed_us": 0.135, "hand_us": 0.062, "ratio": 2.167, "distance": 0}], f"by hand: {found}")
+    found = rows(programs_table.vitrectomy, "240 points, 1200 springs, 288 to cut\n  one by one  scene     103.7 us/step, by hand     113.7 us/step, ratio 0.912; the same springs are "
+                 "cut: yes; points of the retina differ by 6e-08 m before the cut, 1e-06 during it, 1e-13 in the end\n", 3)
+    check(found == [{"points": 240, "springs": 1200, "kind": "one by one", "typed_us": 103.7, "hand_us": 113.7, "ratio": 0.912}], f"vitrectomy: {found}")
+    line = "FEM block 4^3, assembled               64 points  runtime     22.200 us/step  typed     22.000 us/step  ratio 1.009  "
+    found = rows(programs_table.runtime, line + "same bits\n")
+    check(found == [{"scene": "FEM block 4^3, assembled", "points": 64, "runtime_us": 22.2, "typed_us": 22, "ratio": 1.009, "bits": "same"}], f"runtime: {found}")
+    refused(lambda: rows(programs_table.runtime, line + "other bits\n"), "other bits")
+    refused(lambda: rows(programs_table.by_hand, "something else\n"), "does not know", "something else")
+    found = rows(programs_table.siconos, f"{'':28} contacts | Gauss-Seidel\nstack of 20 rigid boxes            80 | 100000   1469.00! |  21133    311.00  | 100000   3505.00!   1836.00!\n")
+    check(found == [{"problem": "stack of 20 rigid boxes", "contacts": 80, "sweeps": 100000, "sweeps_ms": 1469, "nncg": 21133, "nncg_ms": 311, "siconos": 100000,
+                     "dense_ms": 3505, "sparse_ms": 1836, "unsolved": ["sweeps_ms", "dense_ms", "sparse_ms"]}], f"Siconos: {found}")
+    found = rows(programs_table.bounds, "fastest point 0.215 m/s, kinetic energy up to 0.0014 J, elastic up to 0.027 J\n"
+                 "up to 60 contacts, deepest penetration 0.98 mm (tool and liver); skins at least 2.1 mm inside of the wall\n"
+                 "volumes of skins 0.99 to 1.00 of those at rest, of elements at least -1.53; up to 2 elements inverted, for up to 0.6 s; ribs or tool inside an organ: 0 times\n", 120)
+    check(len(found) == 5 and found[0] == {"model": "fem", "resolution": "1800", "fastest": 0.215, "kinetic": 0.0014, "elastic": 0.027, "penetration": 0.98, "inside": 2.1,
+                                           "smallest": 0.99, "largest": 1, "element": -1.53, "inverted": 2, "inverted_for": 0.6, "passed": 0}, f"bounds: {found}")
+
+
 def figures_by_hand():
     """Rows of tables outside of the markers of the pages that benchmarks write, that have a cell which is a figure."""
     for name in pages.PAGES:
@@ -125,6 +151,7 @@ def figures_by_hand():
 tables()
 refusals()
 gpu_output()
+program_output()
 figures_by_hand()
 wrong += pages.differences()
 print("\n".join(wrong))
