@@ -40,6 +40,11 @@ def digits(value, count=3):
     return f"{float(f'{value:.{count}g}'):g}"
 
 
+def power(value, count=0):
+    """A number as digits and a power of ten: 1e-6."""
+    return re.sub(r"e([-+])0*(\d)", lambda m: "e" + m[1].replace("+", "") + m[2], f"{value:.{count}e}") if value else "0"
+
+
 def percent(share):
     return f"{100 * share:.0f} %"
 
@@ -136,7 +141,7 @@ def portability(rows):
     lines = []
     for scene in kinds(rows, "scene"):
         found = [of(rows, scene=scene, build=build) for build in builds]
-        lines.append([SCENES.get(scene, scene), *(digits(r["steps_per_second"], 4) + (f" ({r['distance']:.0e} m)" if r["build"] != builds[0] else "") for r in found)])
+        lines.append([SCENES.get(scene, scene), *(digits(r["steps_per_second"], 4) + (f" ({power(r['distance'])} m)" if r["build"] != builds[0] else "") for r in found)])
     return markdown(["steps a second", *(f"{BUILDS.get(build, build)}, {of(rows, build=build)['register_bytes']} bytes" for build in builds)], lines)
 
 
@@ -145,7 +150,7 @@ BY_HAND = {"string": "string of 10 masses", "string-4": "the same, springs in fo
 
 def by_hand(rows):
     return markdown(["scene", "typed, us a step", "by hand, us a step", "ratio", "apart [m]"],
-                    [[BY_HAND.get(r["scene"], r["scene"]), digits(r["typed_us"], 4), digits(r["hand_us"], 4), f"{r['ratio']:.2f}", f"{r['distance']:.0e}" if r.get("distance") is not None else "-"] for r in rows])
+                    [[BY_HAND.get(r["scene"], r["scene"]), digits(r["typed_us"], 4), digits(r["hand_us"], 4), f"{r['ratio']:.2f}", power(r["distance"]) if r.get("distance") is not None else "-"] for r in rows])
 
 
 def vitrectomy(rows):
@@ -184,8 +189,8 @@ def compiling(rows):
 
 def contact(rows):
     return markdown(["workload", "contacts", "solver", "tolerance [m]", "ms a step", "iterations", "residual [m]", "penetration [m]", "detection"],
-                    [[r["workload"], f"{r['contacts']:,.0f}", r["solver"].removesuffix("ConstraintSolver"), f"{r['tolerance']:.0e}" if r["tolerance"] else "-",
-                      digits(1e3 / r["steps_per_second"]), f"{r['iterations']:,.0f}", f"{r['residual']:.1e}", f"{r['penetration']:.1e}",
+                    [[r["workload"], f"{r['contacts']:,.0f}", r["solver"].removesuffix("ConstraintSolver"), power(r["tolerance"]) if r["tolerance"] else "-",
+                      digits(1e3 / r["steps_per_second"]), f"{r['iterations']:,.0f}", power(r["residual"], 1), power(r["penetration"], 1),
                       percent(r["detection"]) if r["detection"] else "-"] for r in rows])
 
 
@@ -258,7 +263,7 @@ def gpu_copies(rows):
 def gpu_contact(rows):
     return markdown(["`gpu_contact`", "tetrahedra", "contacts", "", "steps/s", "iterations a step", "residual [m]", "forces against the weight"],
                     [[f"`{r['arguments']}`", f"{r['tetrahedra']:,}", f"{r['contacts']:,}", r["real"], digits(r["steps_per_second"], 4), digits(r["iterations"]),
-                      f"{r['residual']:.0e}", f"{r['forces']:.0e}"] for r in rows])
+                      power(r["residual"]), power(r["forces"])] for r in rows])
 
 
 TABLES = {"fem": fem, "grids": grids, "small": small, "accuracy": accuracy, "roofline": roofline, "growth": growth, "threads": threads, "portability": portability,
