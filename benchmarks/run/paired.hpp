@@ -2,20 +2,13 @@
 #pragma once
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <ctime>
 #include <vector>
 
 namespace bench {
 
-inline double seconds(auto&& work) {
-  const auto start = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-/// The same of the processor time of this thread: where other work runs on the machine, it counts less.
+/// Processor time of this thread for some work [s]: where other work runs on the machine, it counts less.
 inline double processor_seconds(auto&& work) {
   auto now = [] {
     timespec t;
@@ -44,8 +37,8 @@ Pair paired(int rounds, A&& a, B&& b) {
   b();
   std::vector<double> first, second, ratio;
   for (int r = 0; r < rounds; ++r) {
-    first.push_back(seconds(a));
-    second.push_back(seconds(b));
+    first.push_back(processor_seconds(a));
+    second.push_back(processor_seconds(b));
     ratio.push_back(first.back() / second.back());
   }
   return {median(first), median(second), median(ratio)};
