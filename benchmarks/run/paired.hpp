@@ -2,13 +2,21 @@
 #pragma once
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <ctime>
 #include <vector>
 
 namespace bench {
 
-/// Processor time of this thread for some work [s]: where other work runs on the machine, it counts less.
+/// Time of some work by the clock [s], for what several threads do together.
+inline double seconds(auto&& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// The same of the processor time of this thread: where other work runs on the machine, it counts less.
 inline double processor_seconds(auto&& work) {
   auto now = [] {
     timespec t;
