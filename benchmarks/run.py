@@ -179,7 +179,7 @@ def main():
     run = {"date": day(), "commit": commit(), "command": command_line(sys.argv[1:]), "machine": f"{processor()}, {os.cpu_count()} cores",
            "compiler": compiler_of(arguments.build), "rounds": arguments.rounds, "load": [os.getloadavg()[0]], "seconds": {}}
     results = {"run": run}
-    print(f"{run['machine']}, {run['compiler']}, load {run['load'][0]:.1f}; {run['rounds']} rounds", flush=True)
+    print(f"{run['machine']}, {run['compiler']}, load {run['load'][0]:.1f}; rounds: {run['rounds']}", flush=True)
     with tempfile.TemporaryDirectory() as folder:
         runs = Runs(arguments, pathlib.Path(folder))
         for name in wanted:
