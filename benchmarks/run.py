@@ -1,29 +1,40 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSL-1.0
-"""Runs the benchmarks and prints their tables; writes the figures to a JSON file, and a picture of them beside it.
+"""Runs the benchmarks and prints their tables; writes the figures to a JSON file. With --pages the tables and plots of pages
+in docs/ are written, each page from this one run.
 
-Speed is given as a ratio of two programs that take turns on the same machine, as the median over the rounds. A body is
-compared with the same scene in a yardstick program, where one is named: a C++ source that prints steps a second for
-MESH STEPS. Where that is the one that SOFA was measured with, so are bodies, grids and small scenes with SOFA (table.py).
+Programs that are compared take turns on the same machine; figures are medians over the rounds. A body is compared with the
+same scene in a yardstick program, where one is named: a C++ source that prints steps a second for MESH STEPS. Where that is
+the one that SOFA was measured with, so are bodies, grids and small scenes with SOFA (table.py).
 """
 import argparse
-import json
+import datetime
 import os
 import pathlib
 import platform
 import re
+import subprocess
 import sys
 import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent / "compile"))
 import contact_table  # noqa: E402
 import measure  # noqa: E402
-import picture  # noqa: E402
+import pages  # noqa: E402
+import programs_table  # noqa: E402
 import table  # noqa: E402
-from tools import Yardstick, fail, output  # noqa: E402
+from tools import Yardstick, fail, spent  # noqa: E402
 
-TABLES = ["fem", "grids", "small", "accuracy", "roofline", "growth", "threads", "portability", "by-hand", "vitrectomy", "runtime", "families", "collision", "contact",
-          "laparoscopy", "compile"]
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+# the programs of each table, which must be there for a page
+PROGRAMS = {"fem": ["fem"], "grids": ["grid"], "small": ["small"], "accuracy": ["accuracy"], "roofline": ["roofline"], "growth": ["growth"], "threads": ["threads"],
+            "portability": ["portable_native", "portable_native_fast"], "by-hand": ["by_hand"], "vitrectomy": ["vitrectomy"], "runtime": ["runtime"],
+            "families": ["families"], "collision": ["collision", "collision_portable"], "contact": ["contact_block", "contact_bodies", "contact_pile"],
+            "siconos": ["siconos"], "laparoscopy": ["laparoscopy"], "bounds": ["laparoscopy_bounds"], "compile": []}
+TABLES = list(PROGRAMS)
+# what takes minutes and is no figure of speed, or needs a package, is measured when it is asked for
+DEFAULT = [name for name in TABLES if name not in ("siconos", "bounds")]
+WRITTEN = [name for name in pages.PAGES if name != "gpu"]
 
 
 def processor():
@@ -33,135 +44,160 @@ def processor():
     return platform.processor()
 
 
-def families(build, rounds):
-    kinds = ["double", "double_one_by_one", "float", "float_one_by_one"]
-    print(f"\nnanoseconds an element of a body of 1,331 points, medians of {rounds} rounds in turn")
-    print(f"  {'':36} {'':18} {'double,':>10} {'double,':>10} {'float,':>10} {'float,':>10}")
-    print(f"  {'family':36} {'operation':18} {'lanes':>10} {'one by one':>10} {'lanes':>10} {'one by one':>10}")
-    rows = []
-    for line in output(build / "bench_families", rounds).splitlines():
-        family, operation, count, *times = line.split("; ")
-        row = {"family": family, "operation": operation, "count": int(count)}
-        row.update({kind: float(time) for kind, time in zip(kinds, times) if time != "-"})
-        rows.append(row)
-        print(f"  {family:36} {operation:18}" + "".join(f" {row[k]:10.2f}" if k in row else f" {'-':>10}" for k in kinds))
-    return rows
+def said_by(*command):
+    done = subprocess.run(command, capture_output=True, text=True, cwd=ROOT)
+    return done.stdout.strip() if done.returncode == 0 else ""
 
 
-def collision(build, rounds):
-    rows = []
-    for program, target in (("bench_collision", "this processor"), ("bench_collision_portable", "any x86-64, as the other two are")):
-        print(f"\ncollision: microseconds of the processor a step, medians of {rounds} rounds in turn; Sinew compiled for {target}")
-        print(f"  {'scene':22} {'boxes':>8} {'pairs':>7} {'Sinew':>10} {'Bullet':>10} {'FCL':>10}  ns a box")
-        for line in output(build / program, rounds).splitlines():
-            scene, boxes, pairs, *times = line.split("; ")
-            row = {"scene": scene, "for": target, "boxes": int(boxes), "pairs": int(pairs)}
-            row.update({name: float(time) for name, time in zip(("sinew", "bullet", "fcl"), times) if time != "-"})
-            rows.append(row)
-            print(f"  {scene:22} {boxes:>8} {pairs:>7}" + "".join(f" {row[k]:10.1f}" if k in row else f" {'-':>10}" for k in ("sinew", "bullet", "fcl"))
-                  + f" {1000 * row['sinew'] / row['boxes']:9.1f}")
-    return rows
+def compiler_of(build):
+    """The compiler of a build and its version, with what it was told, as cmake keeps them."""
+    try:
+        cache = dict(re.findall(r"^(\w+):\w+=(.*)$", (build / "CMakeCache.txt").read_text(), flags=re.M))
+    except OSError as error:
+        fail(f"{build} is no build folder ({error}); build the benchmarks with ./dev bench, or name their folder with --build")
+    program = cache.get("CMAKE_CXX_COMPILER", "c++")
+    flags = [cache.get("CMAKE_CXX_FLAGS", ""), cache.get("CMAKE_CXX_FLAGS_RELEASE", ""), "-march=native" if cache.get("SINEW_NATIVE") == "ON" else ""]
+    kind = pathlib.Path(program).name.replace("c++", "g++") if "clang" not in program else "clang++"
+    return " ".join(filter(None, [kind, said_by(program, "-dumpfullversion") or said_by(program, "-dumpversion"), *flags]))
 
 
-# steps a second that Faure et al. 2007 give for their laparoscopy, on a processor of that time
-PAPER_2007 = {"1800": 65, "30000": 4, "17x8x10": 110, "20x10x12": 67, "24x13x15": 37}
+def commit():
+    """The commit of what was measured; what differs from it in pages alone does not count."""
+    name = said_by("git", "describe", "--always", "--abbrev=7", "--exclude=*")
+    changed = said_by("git", "status", "--porcelain", "--untracked-files=no", "--", "include", "src", "gpu", "examples", "benchmarks", "cmake", "CMakeLists.txt")
+    return name + (" with changes" if changed else "") if name else "unknown"
 
 
-def laparoscopy(build, steps):
-    print(f"\nlaparoscopy: steps a second over the first {steps} steps of the script (a tenth of them for 30000 tetrahedra)")
-    print(f"  {'liver':16} {'paper 2007':>10} {'steps/s':>10} {'detection':>10} {'contacts':>10} {'the rest':>10}")
-    rows = []
-    for line in output(build / "bench_laparoscopy", steps).splitlines():
-        model, resolution, *figures = line.split("; ")
-        rate, detection, response, rest = (float(x) for x in figures)
-        rows.append({"model": model, "resolution": resolution, "steps_per_second": rate, "paper": PAPER_2007[resolution],
-                     "detection": detection, "response": response, "rest": rest})
-        print(f"  {model + ' ' + resolution:16} {PAPER_2007[resolution]:10} {rate:10.1f}" + "".join(f" {100 * x:8.1f} %" for x in (detection, response, rest)))
-    return rows
+def day():
+    today = datetime.date.today()
+    return f"{today.day} {today:%B %Y}"
 
 
-def main():
-    here = pathlib.Path(__file__).resolve().parent
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--build", type=pathlib.Path, default=here.parent / "build/bench", help="build folder of the benchmarks")
-    parser.add_argument("--meshes", type=pathlib.Path, nargs="+", metavar="FILE", help="tetrahedral meshes (.msh); default: blocks made here")
+def command_line(words):
+    """What a run was called with, as ./dev has it; of paths the names of the files."""
+    shown, skip = ["./dev bench"], False
+    for word in words:
+        if skip or word.startswith(("--build=", "--json=")):
+            skip = False
+        elif word in ("--build", "--json"):
+            skip = True
+        else:
+            shown.append(pathlib.Path(word).name if "/" in word else word)
+    return " ".join(shown)
+
+
+class Runs:
+    """What makes the rows of each table; meshes and the yardstick are made when the first one asks for them."""
+
+    def __init__(self, arguments, folder):
+        self.a, self.folder, self.build, self.rounds = arguments, folder, arguments.build, arguments.rounds
+        self.made = {}
+
+    def once(self, name, make):
+        if name not in self.made:
+            self.made[name] = make()
+        return self.made[name]
+
+    def meshes(self):
+        return self.once("meshes", lambda: table.meshes_of(self.a.meshes, self.folder))
+
+    def yardstick(self):
+        return self.once("yardstick", lambda: Yardstick(self.a.yardstick, self.a.compiler, self.folder)) if self.a.yardstick else None
+
+    def reference(self):
+        return self.once("reference", lambda: table.Reference(self.yardstick(), self.a.meshes or [], self.folder)) if self.a.yardstick else None
+
+    def rows(self, name):
+        build, rounds = self.build, self.rounds
+        makers = {
+            "fem": lambda: table.fem(build, self.meshes(), self.yardstick(), self.reference(), rounds),
+            "grids": lambda: table.grids(build, self.reference(), rounds),
+            "small": lambda: table.small(build, self.reference(), rounds),
+            # factors of the largest body take seconds
+            "accuracy": lambda: table.accuracy(build, self.meshes()[:2], rounds),
+            "roofline": lambda: table.roofline(build, rounds),
+            "growth": lambda: table.growth(build, rounds),
+            "threads": lambda: table.threads(build, self.a.cells, self.a.threads),
+            "portability": lambda: table.portability(build, rounds),
+            "by-hand": lambda: programs_table.by_hand(build),
+            "vitrectomy": lambda: programs_table.vitrectomy(build, rounds),
+            "runtime": lambda: programs_table.runtime(build),
+            "families": lambda: programs_table.families(build, 2 * rounds + 1),
+            "collision": lambda: programs_table.collision(build, rounds),
+            "contact": lambda: contact_table.contact(build, self.a.long),
+            "siconos": lambda: programs_table.siconos(build),
+            "laparoscopy": lambda: programs_table.laparoscopy(build, 1000),
+            "bounds": lambda: programs_table.bounds(build, 40),
+            "compile": lambda: measure.examples(1),
+        }
+        return makers[name]()
+
+
+def parsed():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter, prog="./dev bench",
+                                     epilog="On a machine with a GPU, './dev bench --gpu' measures and writes docs/gpu.md (benchmarks/gpu.py).")
+    parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build/bench", help="build folder of the benchmarks")
+    parser.add_argument("--meshes", type=pathlib.Path, nargs="+", metavar="FILE",
+                        help="tetrahedral meshes (.msh), in place of those of the blocks made here that have their size")
     parser.add_argument("--yardstick", type=pathlib.Path, metavar="SOURCE", help="C++ source of a program to compare bodies with")
     parser.add_argument("--compiler", default="g++", help="what compiles the yardstick (default: g++)")
     parser.add_argument("--cells", type=int, nargs="+", default=[17, 55], metavar="N", help="cells along the cubes of the table of threads (default: 17 55)")
     parser.add_argument("--threads", type=int, nargs="+", metavar="N", help="numbers of threads in it (default: 1, 2, 4, ... all)")
-    parser.add_argument("--rounds", type=int, default=5)
+    parser.add_argument("--rounds", type=int, default=3)
     parser.add_argument("--only", choices=TABLES, action="append", help="this table instead of all; may be repeated")
+    parser.add_argument("--pages", nargs="*", metavar="PAGE", help=f"measure all tables of these pages and write them (default: all of {', '.join(WRITTEN)})")
     parser.add_argument("--long", action="store_true", help="contact: also what takes minutes for one line")
     parser.add_argument("--json", type=pathlib.Path, default=pathlib.Path("out/bench.json"))
-    arguments = parser.parse_args()
-    if arguments.rounds < 1:
-        fail(f"{arguments.rounds} rounds cannot be run; give --rounds at least 1")
-    for mesh in arguments.meshes or []:
+    a = parser.parse_args()
+    if a.rounds < 1:
+        fail(f"{a.rounds} rounds cannot be run; give --rounds at least 1")
+    for mesh in a.meshes or []:
         if not mesh.is_file():
             fail(f"there is no mesh {mesh}; name files after --meshes")
-    wanted = lambda *names: any(name in (arguments.only or TABLES) for name in names)
-    build, rounds = arguments.build, arguments.rounds
+    if a.pages is not None:
+        if a.only:
+            fail("a page is of one run of all its tables; leave --only out to write pages, or --pages to print a table")
+        a.pages = a.pages or WRITTEN
+        for page in a.pages:
+            if page not in WRITTEN:
+                fail(f"there is no page '{page}' to write; name some of {', '.join(WRITTEN)}" +
+                     (" (docs/gpu.md is written by --gpu)" if page == "gpu" else ""))
+    return a
 
-    results = {"machine": processor(), "cores": os.cpu_count(), "rounds": rounds}
-    print(f"machine: {results['machine']}, {results['cores']} cores, load {os.getloadavg()[0]:.1f}; one thread")
+
+def main():
+    arguments = parsed()
+    wanted = arguments.only or DEFAULT
+    if arguments.pages:
+        wanted = [name for name in TABLES if any(name in pages.PAGES[page] for page in arguments.pages)]
+        missing = [f"bench_{program}" for name in wanted for program in PROGRAMS[name] if not (arguments.build / f"bench_{program}").is_file()]
+        if missing:
+            fail(f"pages need all of their benchmarks, but {arguments.build} has no {', '.join(missing)}; ./dev bench builds what the packages "
+                 "that are installed allow (Debian: libbullet-dev libfcl-dev libccd-dev libsiconos-numerics-dev catch2)")
+        for page in arguments.pages:
+            pages.check_blocks(page, (pages.DOCS / f"{page}.md").read_text())
+    run = {"date": day(), "commit": commit(), "command": command_line(sys.argv[1:]), "machine": f"{processor()}, {os.cpu_count()} cores",
+           "compiler": compiler_of(arguments.build), "rounds": arguments.rounds, "load": [os.getloadavg()[0]], "seconds": {}}
+    results = {"run": run}
+    print(f"{run['machine']}, {run['compiler']}, load {run['load'][0]:.1f}; rounds: {run['rounds']}", flush=True)
     with tempfile.TemporaryDirectory() as folder:
-        folder = pathlib.Path(folder)
-        yardstick = reference = None
-        if wanted("fem", "accuracy"):
-            meshes = table.meshes_of(arguments.meshes, folder)
-        if arguments.yardstick and wanted("fem", "grids", "small"):
-            yardstick = Yardstick(arguments.yardstick, arguments.compiler, folder)
-            reference = table.Reference(yardstick, arguments.meshes or [], folder)
-        if wanted("fem"):
-            results["fem"] = table.fem(build, meshes, yardstick, reference, rounds)
-        if wanted("grids"):
-            results["grids"] = table.grids(build, reference, rounds)
-        if wanted("small"):
-            results["small"] = table.small(build, reference, rounds)
-        if wanted("accuracy"):
-            results["accuracy"] = table.accuracy(build, meshes, rounds)
-        if wanted("roofline"):
-            results["roofline"] = table.roofline(build, rounds)
-        if wanted("growth"):
-            results["growth"] = table.growth(build, rounds)
-        if wanted("threads"):
-            results["threads"] = table.threads(build, arguments.cells, arguments.threads)
-        if wanted("contact"):
-            results["contact"] = contact_table.contact(build, arguments.long)
-        if wanted("portability"):
-            results["portability"] = table.portability(build, rounds)
-        if wanted("by-hand"):
-            print("\ntyped scene against the same simulation by hand, medians of 21 rounds in turn")
-            text = output(arguments.build / "bench_by_hand")
-            print("  " + text.replace("\n", "\n  ").rstrip())
-            results["by_hand"] = [
-                {"name": line.split()[0], "ratio": float(re.search(r"ratio ([\d.]+)", line)[1])} for line in text.splitlines()
-            ]
-        if wanted("vitrectomy"):
-            print(f"\nthe vitrectomy against the same by hand, medians of {arguments.rounds} rounds in turn")
-            text = output(arguments.build / "bench_vitrectomy", arguments.rounds)
-            print("  " + text.replace("\n", "\n  ").rstrip())
-            results["vitrectomy"] = [float(ratio) for ratio in re.findall(r"ratio ([\d.]+)", text)]
-        if wanted("runtime"):
-            print("\nruntime tree against typed tree of the same scene, medians of 11 rounds in turn")
-            text = output(arguments.build / "bench_runtime")
-            print("  " + text.replace("\n", "\n  ").rstrip())
-            results["runtime"] = [
-                {"name": line[:34].strip(), "ratio": float(re.search(r"ratio ([\d.]+)", line)[1])} for line in text.splitlines()
-            ]
-        if wanted("families"):
-            results["families"] = families(arguments.build, 2 * arguments.rounds + 1)
-        if wanted("collision"):
-            results["collision"] = collision(arguments.build, arguments.rounds)
-        if wanted("laparoscopy"):
-            results["laparoscopy"] = laparoscopy(arguments.build, 200 * arguments.rounds)
-        if wanted("compile"):
-            results["compile"] = measure.table()
+        runs = Runs(arguments, pathlib.Path(folder))
+        for name in wanted:
+            began = spent()
+            results[name] = runs.rows(name)
+            run["seconds"][name] = round(spent() - began, 1)
+            if results[name]:
+                print(f"\n{name}, measured in {run['seconds'][name]:.0f} s of the processor\n\n{pages.TABLES[name](results[name])}", flush=True)
+    run["load"].append(os.getloadavg()[0])
     arguments.json.parent.mkdir(parents=True, exist_ok=True)
-    arguments.json.write_text(json.dumps(results, indent=1))
-    drawing = arguments.json.with_suffix(".svg")
-    drawing.write_text(picture.svg(results))
-    print(f"\nfigures written to {arguments.json}, a picture to {drawing}")
+    arguments.json.write_text(pages.record(results))
+    print(f"\nall of it took {sum(run['seconds'].values()):.0f} s of the processor; figures written to {arguments.json}")
+    for page in arguments.pages or []:
+        # only some tables are made in rounds
+        of_page = run if page in ("performance", "vitrectomy") else {key: value for key, value in run.items() if key != "rounds"}
+        seconds = {name: run["seconds"][name] for name in pages.PAGES[page]}
+        pages.write(page, {"run": of_page | {"seconds": seconds}} | {name: results[name] for name in pages.PAGES[page]})
+        print(f"docs/{page}.md and its plots are written")
 
 
 if __name__ == "__main__":

@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: BSL-1.0
-"""The table: speed against a yardstick and against SOFA, time to one accuracy, shares of what the processor can do, growth
-with the size, and builds for other processors. Each function runs its programs, prints a table and returns its rows."""
+"""Speed against a yardstick and against SOFA, time to one accuracy, shares of what the processor can do, growth with the size,
+threads, and builds for other processors. Each function runs its programs and returns the rows of its table; pages.py writes it."""
+import math
 import os
 import pathlib
 import statistics
 
-from tools import block_mesh, fail, output, print_table, programs
+from tools import block_mesh, fail, mesh_size, output, programs
 
 # SOFA v26 (-O3 -march=native, double, one thread), in times of the steps a second that the yardstick makes with
 # liver2.msh: measured on one machine in one run. By tetrahedra, by grid, by scene
@@ -19,13 +20,24 @@ LIVER2 = (507, 1493)
 BLOCKS = {"block-600": (5, 5, 4), "block-1500": (25, 5, 2), "block-29478": (17, 17, 17)}
 
 
-def meshes_of(named, folder):
-    return named or [block_mesh(folder / f"{name}.msh", *cells) for name, cells in BLOCKS.items()]
-
-
 def nearest(sizes, size):
     """The one of `sizes` that is within 5 % of a size, or None."""
     return next((known for known in sizes if abs(known - size) < 0.05 * known), None)
+
+
+def meshes_of(named, folder):
+    """(file, points, tetrahedra) of the meshes that are named, and of blocks of the sizes that these leave out."""
+    found = []
+    for mesh in named or []:
+        size = mesh_size(mesh)
+        if not size:
+            fail(f"{mesh} has no nodes and elements of Gmsh's versions 1 or 2; name such a file after --meshes")
+        found.append((mesh, *size))
+    for name, cells in BLOCKS.items():
+        if not any(nearest(SOFA_FEM, tetrahedra) == nearest(SOFA_FEM, 6 * math.prod(cells)) for _, _, tetrahedra in found):
+            mesh = block_mesh(folder / f"{name}.msh", *cells)
+            found.append((mesh, *mesh_size(mesh)))
+    return sorted(found, key=lambda mesh: mesh[2])
 
 
 class Reference:
@@ -81,83 +93,59 @@ def against_sofa(row, factor, aim):
     return row
 
 
-def times(value, digits=2):
-    return f"{value:.{digits}f}" if value is not None else "-"
-
-
 def distance(a, b):
     return max(abs(x - y) for x, y in zip(a, b))
 
 
 def fem(build, meshes, yardstick, reference, rounds):
-    all_rows, lines = [], []
-    for mesh in meshes:
+    all_rows = []
+    for mesh, points, tetrahedra in meshes:
         output(build / "bench_fem", mesh, 1)  # says what is wrong with a mesh
         rows, others = in_turn([build / "bench_fem", mesh], rounds, reference, (lambda steps: yardstick.run(mesh, steps)) if yardstick else None)
-        size = None
+        size = {"points": points, "tetrahedra": tetrahedra}
         if others:
-            size = others[-1][1]
-            rate = statistics.median(o[2] for o in others)
-            lines.append([mesh.name, "yardstick", f"{rate:,.1f}", "1", "-", "-", "-"])
-            all_rows.append({"mesh": mesh.name, "kind": "yardstick", "steps_per_second": rate})
-        factor = SOFA_FEM.get(nearest(SOFA_FEM, size)) if size else None
+            all_rows.append(size | {"kind": "yardstick", "steps_per_second": statistics.median(o[2] for o in others)})
+        factor = SOFA_FEM.get(nearest(SOFA_FEM, tetrahedra))
         for row in rows:
-            single = row["kind"].startswith("float")
-            against_sofa(row, factor, AIM_FEM_FLOAT if single else AIM_FEM)
-            row |= {"mesh": mesh.name, "times_yardstick": row["by_other"]}
+            against_sofa(row, factor, AIM_FEM_FLOAT if row["kind"].startswith("float") else AIM_FEM)
+            row |= size | {"times_yardstick": row["by_other"]}
             if others:
                 row["distance"] = distance(row["place"], others[-1][3])
-            lines.append([mesh.name, row["kind"], f"{row['steps_per_second']:,.1f}", times(row["by_other"]), times(row.get("times_sofa"), 1), row["aim"],
-                          f"{row['distance']:.0e}" if others else "-"])
+                if row["kind"] == "double" and row["distance"] > 1e-6:
+                    fail(f"{mesh}: point 100 is {row['distance']:.1e} m from that of the yardstick; one of the two is another scene")
             all_rows.append(row)
-    print_table(f"one corotational body, 25 iterations a step, medians of {rounds} rounds in turn",
-                ["mesh", "kind", "steps/s", "x yardstick", "x SOFA", "aim", "point 100 is off by [m]"], lines)
     return all_rows
 
 
 def grids(build, reference, rounds):
-    all_rows, lines = [], []
+    all_rows = []
     for name, factor in SOFA_GRID.items():
         rows, _ = in_turn([build / "bench_grid", *name.split("x")], rounds, reference)
         for row in rows:
             against_sofa(row, factor, AIM_GRID)
             row |= {"grid": name, "distance": distance(row["place"], rows[0]["place"])}
-            lines.append([name, row["kind"], f"{row['steps_per_second']:,.1f}", times(row.get("times_sofa"), 1), row["aim"], f"{row['distance']:.0e}"])
             all_rows.append(row)
-    print_table(f"grids of springs, 25 iterations a step, medians of {rounds} rounds in turn",
-                ["grid", "kind", "steps/s", "x SOFA", "aim", "point 100 is off by [m]"], lines)
     return all_rows
 
 
 def small(build, reference, rounds):
     rows, _ = in_turn([build / "bench_small"], rounds, reference)
-    lines = []
-    for row in rows:
-        against_sofa(row, SOFA_SMALL[row["kind"].split("-")[0]], AIM_SMALL)
-        lines.append([row["kind"], f"{row['steps_per_second']:,.0f}", times(row.get("times_sofa"), 1), row["aim"]])
-    print_table(f"scenes of a few points, medians of {rounds} rounds in turn", ["scene", "steps/s", "x SOFA", "aim"], lines)
-    return rows
+    return [against_sofa(row, SOFA_SMALL[row["kind"].split("-")[0]], AIM_SMALL) for row in rows]
 
 
 def accuracy(build, meshes, rounds):
-    rows, lines = [], []
-    for mesh in meshes:
+    rows = []
+    for mesh, points, tetrahedra in meshes:
         for young in (3000, 300000):
-            found = [line.split() for line in output(build / "bench_accuracy", mesh, young, rounds).splitlines()]
-            plain = float(found[0][1])
-            best = min(float(f[1]) for f in found)
-            for name, seconds, iterations, off in found:
-                seconds = float(seconds)
-                rows.append({"mesh": mesh.name, "young": young, "solver": name, "seconds": seconds, "iterations": float(iterations), "distance": float(off)})
-                words = f"{1e3 * seconds:.3g}"
-                lines.append([mesh.name, young, name, f"**{words}**" if seconds == best else words, "-" if name == "ldl" else iterations, f"{plain / seconds:.2f}", off])
-    print_table(f"a step to a relative residual of 1e-6, medians of {rounds} rounds of 10 steps in turn",
-                ["mesh", "E [Pa]", "solver", "ms/step", "iterations", "x plain CG", "off by [m]"], lines)
+            for line in output(build / "bench_accuracy", mesh, young, rounds).splitlines():
+                name, seconds, iterations, off = line.split()
+                rows.append({"points": points, "tetrahedra": tetrahedra, "young": young, "solver": name, "seconds": float(seconds),
+                             "iterations": float(iterations), "distance": float(off)})
     return rows
 
 
 def roofline(build, rounds, sizes=(17, 55)):
-    rows, lines = [], []
+    rows = []
     for cells in sizes:
         first, *found = [line.split() for line in output(build / "bench_roofline", cells, rounds).splitlines()]
         peak = float(first[1])
@@ -166,23 +154,15 @@ def roofline(build, rounds, sizes=(17, 55)):
             of_memory, of_peak = size / seconds / bandwidth, flops / seconds / peak
             rows.append({"tetrahedra": 6 * cells**3, "loop": name, "seconds": seconds, "flops": flops, "bytes": size, "bandwidth": bandwidth, "peak": peak,
                          "share": max(of_memory, of_peak), "bound": "memory" if of_memory > of_peak else "peak"})
-            lines.append([f"{6 * cells**3:,}", name, f"{1e6 * seconds:,.0f}", f"{size / 1e6:.1f}", f"{flops / 1e6:.1f}", f"{size / seconds / 1e9:.1f}",
-                          f"{bandwidth / 1e9:.1f}", f"{flops / seconds / 1e9:.1f}", f"{peak / 1e9:.0f}", f"{100 * max(of_memory, of_peak):.0f} % of {rows[-1]['bound']}"])
-    print_table(f"what the loops of a step reach, medians of {rounds} rounds", ["tetrahedra", "loop", "us", "MB", "Mflop", "GB/s", "triad GB/s", "Gflop/s", "peak", "share"],
-                lines)
     return rows
 
 
 def growth(build, rounds, sizes=(6, 12, 26, 55)):
-    rows, lines = [], []
+    rows = []
     for cells in sizes:
         runs = [[float(x) for x in output(build / "bench_growth", cells).split()] for _ in range(rounds if cells < 30 else 1)]
         n, points, step, iteration, resident, most, arrays, least = (statistics.median(column) for column in zip(*runs))
         rows.append({"tetrahedra": n, "points": points, "step": step, "iteration": iteration, "resident": resident, "most": most, "arrays": arrays, "least": least})
-        lines.append([f"{n:,.0f}", f"{points:,.0f}", f"{1e9 * step / n:.0f}", f"{1e9 * iteration / n:.1f}", *(f"{x / n:,.0f}" for x in (resident, most, arrays, least)),
-                      f"{arrays / least:.2f}"])
-    print_table("growth: nanoseconds and bytes a tetrahedron", ["tetrahedra", "points", "ns, step", "ns, iteration", "bytes after init", "bytes at most", "of a step's arrays",
-                                                                "the method needs", "ratio"], lines)
     return rows
 
 
@@ -190,7 +170,7 @@ def threads(build, cells, counts, seconds=1):
     if not counts:
         most = len(os.sched_getaffinity(0))
         counts = sorted({1, most, *(2**k for k in range(9) if 2**k < most)})
-    rows, lines = [], []
+    rows = []
     for size in cells:
         found = [line.split() for line in output(build / "bench_threads", size, seconds, *counts).splitlines()]
         first = {}
@@ -199,9 +179,6 @@ def threads(build, cells, counts, seconds=1):
             first.setdefault(kind, (count * time, bits))
             speedup = first[kind][0] / time
             rows.append({"tetrahedra": int(tetrahedra), "kind": kind, "threads": count, "step": time, "speedup": speedup, "same_bits": bits == first[kind][1]})
-            lines.append([f"{int(tetrahedra):,}", kind, count, f"{1e3 * time:.3g}", f"{speedup:.2f}", f"{100 * speedup / count:.0f} %",
-                          "same" if rows[-1]["same_bits"] else "OTHER"])
-    print_table("one corotational body by several threads, 25 iterations a step, medians of steps", ["tetrahedra", "kind", "threads", "ms/step", "speed-up", "efficiency", "bits"], lines)
     if not all(row["same_bits"] for row in rows):
         fail("positions after the same steps differ between numbers of threads; this is a mistake in Sinew")
     return rows
@@ -243,17 +220,12 @@ def portability(build, rounds):
                 else:
                     speed.setdefault((first, kind), []).append(float(rest[0]))
     names = [program.removeprefix("bench_portable_") for program in kinds]
-    rows, lines = [], []
+    rows = []
     for scene in dict.fromkeys(scene for scene, _ in speed):
-        line = [scene]
         for kind in names:
             off = distance(places[kind, scene], places[names[0], scene])
             if off > APART["float" if "float" in scene else "double"]:
                 fail(f"{scene}: the build for {kind} is {off:.1e} m away from that for {names[0]}")
-            rate = statistics.median(speed[scene, kind])
-            rows.append({"scene": scene, "build": kind, "register_bytes": registers[kind], "steps_per_second": rate, "distance": off})
-            line.append(f"{rate:,.1f} ({off:.0e})")
-        lines.append(line)
-    print_table(f"steps a second of builds for levels of x86-64 (how far off the first after 20 steps [m]), medians of {rounds} rounds in turn",
-                ["scene", *(f"{kind}, {registers[kind]} bytes" for kind in names)], lines)
+            rows.append({"scene": scene, "build": kind, "register_bytes": registers[kind], "steps_per_second": statistics.median(speed[scene, kind]),
+                         "distance": off})
     return rows

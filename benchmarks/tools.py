@@ -17,10 +17,14 @@ def output(*command):
     return output_and_time(*command)[0]
 
 
+def spent():
+    """Seconds of the processor that all programs took together which were run and have ended."""
+    return sum(resource.getrusage(resource.RUSAGE_CHILDREN)[:2])
+
+
 def output_and_time(*command):
     """What a program prints, and the seconds of the processor that it takes."""
     command = [str(c) for c in command]
-    spent = lambda: sum(resource.getrusage(resource.RUSAGE_CHILDREN)[:2])
     before = spent()
     try:
         done = subprocess.run(command, capture_output=True, text=True)
@@ -33,15 +37,29 @@ def output_and_time(*command):
     return done.stdout, spent() - before
 
 
-def print_table(title, header, rows):
-    """A table as Markdown has it, aligned."""
-    rows = [[str(cell) for cell in row] for row in [header, *rows]]
-    widths = [max(len(row[i]) for row in rows) for i in range(len(header))]
-    print(f"\n{title}\n")
-    for number, row in enumerate(rows):
-        print("| " + " | ".join(cell.ljust(width) for cell, width in zip(row, widths)) + " |")
-        if number == 0:
-            print("|" + "|".join("-" * (width + 2) for width in widths) + "|")
+def markdown(header, rows):
+    """A table of Markdown; cells that are figures, in all rows but the first column, stand to the right."""
+    rows = [[str(cell) for cell in row] for row in rows]
+    figure = lambda cell: not cell or cell[0].isdigit() or cell[0] in "-*"
+    rules = ["---" if i == 0 or not all(figure(row[i]) for row in rows) else "--:" for i in range(len(header))]
+    return "\n".join("| " + " | ".join(cells) + " |" for cells in [[str(cell) for cell in header], rules, *rows])
+
+
+def mesh_size(path):
+    """Points and tetrahedra of a Gmsh file of the versions 1 and 2, or None."""
+    try:
+        lines = pathlib.Path(path).read_text().split("\n")
+    except (OSError, UnicodeDecodeError) as error:
+        fail(f"the mesh {path} cannot be read ({error}); name a Gmsh file (.msh)")
+    counts = {}
+    for number, line in enumerate(lines):
+        word = line.strip()
+        if word in ("$NOD", "$Nodes") and number + 1 < len(lines):
+            counts["points"] = int(lines[number + 1])
+        if word in ("$ELM", "$Elements") and number + 1 < len(lines):
+            first = number + 2
+            counts["tetrahedra"] = sum(row.split()[1:2] == ["4"] for row in lines[first:first + int(lines[number + 1])])
+    return (counts["points"], counts["tetrahedra"]) if len(counts) == 2 else None
 
 
 def block_mesh(path, nx, ny, nz):

@@ -80,6 +80,25 @@ def compile_once(compiler, flags, source):
     return usage.ru_utime, usage.ru_maxrss / 1024
 
 
+def examples(rounds=3, compiler="g++", level="-O2"):
+    """Of headers and programs as users have them: header-only, and with sinew::compiled."""
+    rows = []
+    with tempfile.TemporaryDirectory() as folder:
+        source = pathlib.Path(folder) / "subject.cpp"
+        subjects = [(f"`{name}.hpp` alone", f"#include <sinew/{name}.hpp>\n") for name in ("sinew", "mechanics", "contact", "lagrangian")]
+        subjects += [("the liver of README.md", readme())]
+        subjects += [(f"`examples/{name}`", root / f"examples/{name}/main.cpp") for name in ("liver", "vitrectomy")]
+        for name, subject in subjects:
+            if isinstance(subject, str):
+                source.write_text(subject)
+            for compiled in (False, True):
+                flags = [level, "-DSINEW_COMPILED"] if compiled else [level]
+                runs = [compile_once(compiler, flags, source if isinstance(subject, str) else subject) for _ in range(rounds)]
+                seconds, memory = (statistics.median(column) for column in zip(*runs))
+                rows.append({"subject": name, "compiled": compiled, "compiler": compiler, "level": level, "cpu_s": seconds, "memory_mb": memory})
+    return rows
+
+
 def longest_of_tests(build, count=5):
     """The files of the tests that took longest, [s] of the clock, as ninja noted it at its last build."""
     log = build / ".ninja_log"

@@ -5,6 +5,7 @@
 
 #include "bodies.hpp"
 
+#include <sinew/lagrangian.hpp>
 #include <sinew/scene/profile_report.hpp>
 #include <sinew/scene/profiled.hpp>
 

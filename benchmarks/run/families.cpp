@@ -27,10 +27,10 @@ int main(int argc, char** argv) {
         // of about 2 ms, after a first run that warms up
         if (r < 0) {
           work.run();
-          repeats[k] = 1 + int(0.002 / bench::seconds(work.run));
+          repeats[k] = 1 + int(0.002 / bench::processor_seconds(work.run));
           continue;
         }
-        const double time = bench::seconds([&] {
+        const double time = bench::processor_seconds([&] {
           for (int i = 0; i < repeats[k]; ++i) work.run();
         });
         times[k].push_back(1e9 * time / repeats[k] / double(work.count));

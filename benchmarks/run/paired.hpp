@@ -9,6 +9,7 @@
 
 namespace bench {
 
+/// Time of some work by the clock [s], for what several threads do together.
 inline double seconds(auto&& work) {
   const auto start = std::chrono::steady_clock::now();
   work();
@@ -44,8 +45,8 @@ Pair paired(int rounds, A&& a, B&& b) {
   b();
   std::vector<double> first, second, ratio;
   for (int r = 0; r < rounds; ++r) {
-    first.push_back(seconds(a));
-    second.push_back(seconds(b));
+    first.push_back(processor_seconds(a));
+    second.push_back(processor_seconds(b));
     ratio.push_back(first.back() / second.back());
   }
   return {median(first), median(second), median(ratio)};

@@ -27,7 +27,8 @@ void compare(char const* name, Sim typed, double dt) {
   const RuntimeScope<Standard> scope(runtime.root());
   MechanicalOperations<RuntimeScope<Standard>> operations(scope);
   operations.forEachState([&](auto& s) { points += s.size(); });
-  const int steps = std::max(1, int(0.03 / bench::seconds([&] { typed.animate(dt), runtime.animate(dt); })));
+  const int steps =
+      std::max(1, int(0.03 / bench::processor_seconds([&] { typed.animate(dt), runtime.animate(dt); })));
   const auto pair = bench::paired(
       11,
       [&] {
