@@ -60,7 +60,7 @@ inline std::optional<RecordLayout> record_layout(std::string_view dataTypes) {
   dataTypes.remove_suffix(1);
   if (dataTypes == "Rigid3") return RecordLayout{7, 6, 3, isFloat};
   if (dataTypes == "Rigid2") return RecordLayout{3, 3, 2, isFloat};
-  for (const std::size_t n : {1, 2, 3, 6})
+  for (const std::size_t n : {1u, 2u, 3u, 6u})
     if (dataTypes == text("Vec", n)) return RecordLayout{n, n, std::min<std::size_t>(n, 3), isFloat};
   return {};
 }
