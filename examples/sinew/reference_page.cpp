@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "reference.hpp"
+#include "temporary_folder.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -211,21 +212,16 @@ std::string as_markdown(std::vector<std::string> const& comment, Prose& prose) {
 /// A folder of its own to work in, for scenes that write files, until the end of the scope.
 class WorkingFolder {
  public:
-  WorkingFolder() {
-    auto path = (fs::temp_directory_path() / "sinew-reference-XXXXXX").string();
-    if (!mkdtemp(path.data())) throw Failure{notWritten, {text(path, ": the folder cannot be made")}};
-    fs::current_path(path);
-  }
+  WorkingFolder() { fs::current_path(folder_.path); }
   ~WorkingFolder() {
     std::error_code failed;
-    const fs::path here = fs::current_path(failed);
     fs::current_path(before_, failed);
-    fs::remove_all(here, failed);
   }
   WorkingFolder(WorkingFolder const&) = delete;
   WorkingFolder& operator=(WorkingFolder const&) = delete;
 
  private:
+  TemporaryFolder folder_{"reference"};
   fs::path before_ = fs::current_path();
 };
 

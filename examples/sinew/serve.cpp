@@ -3,13 +3,12 @@
 
 #ifdef SINEW_SERVE
 #include "opened.hpp"
+#include "temporary_folder.hpp"
 
 #include <sinew/view/protocol.hpp>
 #include <sinew/view/serve.hpp>
 
 #include <pugixml.hpp>
-
-#include <stdlib.h>
 
 #include <algorithm>
 #include <cctype>
@@ -22,23 +21,6 @@ namespace {
 namespace fs = std::filesystem;
 using sinew::text;
 using sinew::view::SceneFile;
-
-// A folder that goes with what is in it.
-struct Folder {
-  fs::path path;
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "sinew-scene-XXXXXX").string();
-    if (!::mkdtemp(name.data()))
-      throw sinew::Error("", text("no folder can be made in ", fs::temp_directory_path().string()));
-    path = name;
-  }
-  Folder(Folder const&) = delete;
-  Folder& operator=(Folder const&) = delete;
-  ~Folder() {
-    std::error_code ignored;
-    fs::remove_all(path, ignored);
-  }
-};
 
 bool names_file(std::string_view attribute) {
   std::string small(attribute);
@@ -103,7 +85,7 @@ void check_writes(Node& root) {
 sinew::view::OpenedScene open_files(ServeOptions const& options, std::vector<SceneFile> const& files) {
   std::string const& name = files[sinew::view::scene_among(files)].name;
   check_reads(files);
-  const auto folder = std::make_shared<Folder>();
+  const auto folder = opening([] { return std::make_shared<TemporaryFolder>("scene"); });
   for (SceneFile const& file : files) {
     const fs::path path = folder->path / file.name;
     fs::create_directories(path.parent_path());

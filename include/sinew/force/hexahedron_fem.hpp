@@ -250,29 +250,31 @@ struct HexahedronFEM {
   // eta, ...
   SINEW_INLINE static void expand(Vec3 const (&y)[8], Vec3 (&h)[8]) {
     for (int bits = 0; bits < 8; ++bits) h[bits] = y[corner(bits)] * Real(0.125);
-#pragma GCC unroll 3
-    for (int k = 1; k < 8; k *= 2)
-#pragma GCC unroll 8
-      for (int low = 0; low < 8; ++low)
-        if (!(low & k)) {
-          const Vec3 a = h[low], b = h[low | k];
-          h[low] = a + b;
-          h[low | k] = b - a;
-        }
+    butterflies<false>(h);
   }
   // forces on the corners of forces on the terms, the transpose of it; that on the term 1 is zero
   SINEW_INLINE static void collect(Vec3 (&p)[8], Vec3 (&y)[8]) {
     for (int i = 0; i < 3; ++i) p[0][i] = Real(0);
+    butterflies<true>(p);
+    for (int bits = 0; bits < 8; ++bits) y[corner(bits)] = p[bits] * Real(0.125);
+  }
+  // along each coordinate, sums and differences of the values that lie opposite
+  template <bool transposed>
+  SINEW_INLINE static void butterflies(Vec3 (&h)[8]) {
 #pragma GCC unroll 3
     for (int k = 1; k < 8; k *= 2)
 #pragma GCC unroll 8
       for (int low = 0; low < 8; ++low)
         if (!(low & k)) {
-          const Vec3 a = p[low], b = p[low | k];
-          p[low] = a - b;
-          p[low | k] = a + b;
+          const Vec3 sum = h[low] + h[low | k];
+          if constexpr (transposed) {
+            h[low] = h[low] - h[low | k];
+            h[low | k] = sum;
+          } else {
+            h[low | k] = h[low | k] - h[low];
+            h[low] = sum;
+          }
         }
-    for (int bits = 0; bits < 8; ++bits) y[corner(bits)] = p[bits] * Real(0.125);
   }
   // of the terms 1, xi, eta and zeta
   SINEW_INLINE static Mat3 strainTerm(Rest const& rest, Vec3 const (&h)[8], int term, Real one) {

@@ -110,13 +110,7 @@ class ToolsPanel {
                        FLT_MAX,
                        {ImGui::GetContentRegionAvail().x, 70});
     }
-    ImGui::InputText("##plots", plots_.data(), plots_.size());
-    const bool picture = std::string_view(plots_.data()).ends_with(".svg");
-    if (ImGui::Button(picture ? "Save as SVG" : "Save as CSV"))
-      careful([&] {
-        io::write_file(plots_.data(), picture ? svg_of(all) : csv_of(all));
-        message_ = text("wrote ", plots_.data());
-      });
+    offerFile("Save", "##plots", plots_, all);
     ImGui::SameLine();
     ImGui::TextDisabled("(.csv or .svg)");
     say();
@@ -145,13 +139,7 @@ class ToolsPanel {
                           100 * one.share,
                           one.calls);
     }
-    ImGui::InputText("##profile", profile_.data(), profile_.size());
-    const bool picture = std::string_view(profile_.data()).ends_with(".svg");
-    if (ImGui::Button(picture ? "Save the times as SVG" : "Save the times as CSV"))
-      careful([&] {
-        io::write_file(profile_.data(), picture ? svg_of(profile) : csv_of(profile));
-        message_ = text("wrote ", profile_.data());
-      });
+    offerFile("Save the times", "##profile", profile_, profile);
     ImGui::Separator();
   }
 
@@ -162,10 +150,11 @@ class ToolsPanel {
     std::optional<UserActions> actions{};
     std::string message{};
   };
+  using Name = std::array<char, 256>;
   Stage& stage_;
   std::function<void(std::string const&)> save_;
   bool opens_;
-  std::array<char, 256> scene_{}, actions_{}, plots_{}, profile_{};
+  Name scene_{}, actions_{}, plots_{}, profile_{};
   std::string message_{};
   std::shared_ptr<Answer> answer_{};
 
@@ -191,6 +180,17 @@ class ToolsPanel {
         });
     }
     answer_.reset();
+  }
+  // a name of a file, and a button that writes there as its end says: a picture, or a table
+  template <class Of>
+  void offerFile(char const* words, char const* id, Name& name, Of const& of) {
+    ImGui::InputText(id, name.data(), name.size());
+    const bool picture = std::string_view(name.data()).ends_with(".svg");
+    if (ImGui::Button(text(words, picture ? " as SVG" : " as CSV").c_str()))
+      careful([&] {
+        io::write_file(name.data(), picture ? svg_of(of) : csv_of(of));
+        message_ = text("wrote ", name.data());
+      });
   }
   template <class Act>
   void careful(Act&& act) {
