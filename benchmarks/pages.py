@@ -109,9 +109,12 @@ def accuracy(rows):
     return markdown(["ms a step (iterations)", *(f"{tetrahedra:,} tetrahedra, {young / 1e3:g} kPa" for tetrahedra, young in bodies)], lines)
 
 
+LOOPS = {"matrix-vector": "matrix-vector product", "force": "force pass", "matrix-free-product": "product without matrix"}
+
+
 def roofline(rows):
     return markdown(["tetrahedra", "loop", "us", "MB", "Mflop", "GB/s", "triad, GB/s", "Gflop/s", "peak, Gflop/s", "share"],
-                    [[f"{r['tetrahedra']:,}", r["loop"], digits(1e6 * r["seconds"]), digits(r["bytes"] / 1e6), digits(r["flops"] / 1e6),
+                    [[f"{r['tetrahedra']:,}", LOOPS.get(r["loop"], r["loop"]), digits(1e6 * r["seconds"]), digits(r["bytes"] / 1e6), digits(r["flops"] / 1e6),
                       digits(r["bytes"] / r["seconds"] / 1e9, 2), digits(r["bandwidth"] / 1e9), digits(r["flops"] / r["seconds"] / 1e9, 2),
                       digits(r["peak"] / 1e9), f"{percent(r['share'])} of {r['bound']}"] for r in rows])
 
@@ -127,7 +130,7 @@ def threads(rows):
     for tetrahedra in kinds(rows, "tetrahedra"):
         for kind in kinds(rows, "kind"):
             found = [of(rows, tetrahedra=tetrahedra, kind=kind, threads=count) for count in counts]
-            lines.append([f"{tetrahedra:,}", kind, *(digits(1e3 * row["step"]) for row in found), f"{found[-1]['speedup']:.2f}"])
+            lines.append([f"{tetrahedra:,}", kind.replace(",", ", "), *(digits(1e3 * row["step"]) for row in found), f"{found[-1]['speedup']:.2f}"])
     return markdown(["tetrahedra", "", *(f"ms a step, {count} thread{'s' if count > 1 else ''}" for count in counts), f"speed-up by {counts[-1]}"], lines)
 
 

@@ -73,7 +73,7 @@ auto scene(Bodies const& b, Solver solver, Linear linear) {
       DefaultPipeline{},
       BruteForceBroadPhase{},
       BVHNarrowPhase{},
-      MinProximityIntersection{.alarmDistance = 4 * b.skin, .contactDistance = b.skin},
+      ContinuousIntersection{.alarmDistance = 4 * b.skin, .contactDistance = b.skin},  // 8 mm a step at most
       contact_manager(4 * int(b.surface.positions.size())),
       wide_floor(),
       node<"bodies">(EulerImplicitSolver{.rayleighStiffness = 0.01, .rayleighMass = 0.01},
