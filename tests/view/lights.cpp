@@ -111,4 +111,45 @@ TEST_CASE("the first parallel light of a scene throws shadows") {
   CHECK(brightness(shaded.at(-0.6, 0)) > 150);
 }
 
+TEST_CASE("light computed at the corners of small faces is that of the pixels of large ones") {
+  SeenScene coarse = plate(true);
+  coarse.settings.shadows = true;
+  coarse.settings.lights = {
+      {.colour = {1, 0.8, 0.6}, .direction = Eigen::Vector3d(1, 0.3, 1).normalized()},
+      {.kind = SeenLight::Kind::point, .colour = {0.1, 0.15, 0.2}, .position = {0.5, 0.5, 2}}};
+  coarse.settings.ambient = Eigen::Vector3d(0.1, 0.1, 0.1);
+  SeenScene fine = coarse;
+  view::SeenBody& body = fine.bodies[0];
+  body.points.clear();
+  body.triangles.clear();
+  constexpr Index n = 120;
+  for (Index i = 0; i <= n; ++i)
+    for (Index j = 0; j <= n; ++j) body.points.push_back({2. * i / n - 1, 2. * j / n - 1, 0});
+  for (Index i = 0; i < n; ++i)
+    for (Index j = 0; j < n; ++j) {
+      const Index a = i * (n + 1) + j, b = a + n + 1;
+      body.triangles.insert(body.triangles.end(), {{a, b, b + 1}, {a, b + 1, a + 1}});
+    }
+  // from each side, with lights there
+  for (const double side : {1., -1.}) {
+    for (SeenScene* scene : {&coarse, &fine})
+      for (SeenLight& light : scene->settings.lights)
+        light.direction[2] = side * std::abs(light.direction[2]), light.position[2] = 2 * side;
+    const view::Camera camera{.target = {0, 0, 0}, .toEye = {0, 0, side}, .distance = 4, .angle = 40};
+    view::Painter painter({.width = 200, .height = 200, .camera = camera});
+    const view::Image expected = painter.paint(coarse), image = painter.paint(fine);
+    int bright = 0, dark = 0;
+    double apart = 0;
+    for (int y = 50; y < 150; ++y)
+      for (int x = 50; x < 150; ++x) {
+        (brightness(expected.at(x, y)) > 150 ? bright : dark) += 1;
+        for (std::size_t c = 0; c < 3; ++c)
+          apart += std::abs(int(expected.at(x, y)[c]) - int(image.at(x, y)[c])) / 30000.;
+      }
+    CHECK(bright > 1000);
+    if (side > 0) CHECK(dark > 100);  // the shadow
+    CHECK(apart < 2);                 // of 255; the edges of the shadow are less sharp between corners
+  }
+}
+
 }  // namespace test_lights

@@ -121,6 +121,50 @@ TEST_CASE("normals are smooth where a surface is, and sharp at edges") {
   CHECK(mesh.corners.size() == 6);
 }
 
+TEST_CASE("the mesh of a body is made again where the body has changed, its shadow by fewer faces") {
+  view::SeenBody body{.kind = view::SeenBody::Kind::visual};
+  constexpr Index n = 40;
+  for (Index i = 0; i <= n; ++i)
+    for (Index j = 0; j <= n; ++j) body.points.push_back({double(i), double(j), 0});
+  for (Index i = 0; i < n; ++i)
+    for (Index j = 0; j < n; ++j)
+      body.quads.push_back(
+          {i * (n + 1) + j, (i + 1) * (n + 1) + j, (i + 1) * (n + 1) + j + 1, i * (n + 1) + j + 1});
+  view::ShadedBody shaded;
+  CHECK(shaded.update(body, {}, {}, 2));
+  CHECK(!shaded.update(body, {}, {}, 2));
+  CHECK(shaded.mesh().triangles.size() == 6 * n * n);
+  CHECK(shaded.mesh().longest == Approx(std::sqrt(2)));
+  // squares of 2 m, from 0 to 40 m
+  auto area = [&] {
+    double sum = 0;
+    auto const& mesh = shaded.mesh();
+    for (std::size_t k = 0; k < mesh.casters.size(); k += 3) {
+      auto at = [&](std::size_t c) { return mesh.corners[mesh.casters[k + c]]; };
+      sum += double((at(1) - at(0)).cross(at(2) - at(0)).norm()) / 2;
+    }
+    return sum;
+  };
+  CHECK(shaded.mesh().casters.size() == 6 * n * n / 4);
+  CHECK(area() == Approx(n * n));
+  // what moves takes its shadow along
+  for (Eigen::Vector3d& p : body.points) p *= 1.5;
+  CHECK(shaded.update(body, {}, {}, 2));
+  CHECK(area() == Approx(2.25 * n * n));
+  CHECK(shaded.mesh().high == Eigen::Vector3d(60, 60, 0));
+  // other colours, another look, other elements, points that are nowhere
+  body.colour = {1, 0, 0};
+  CHECK(shaded.update(body));
+  CHECK(!shaded.update(body));
+  CHECK(shaded.mesh().colours[7] == Eigen::Vector3f(1, 0, 0));
+  CHECK(shaded.update(body, {}, {.wireframe = true}));
+  CHECK(shaded.mesh().triangles.empty());
+  body.quads.pop_back();
+  body.points[0] = {1e300, std::nan(""), 0};
+  CHECK(shaded.update(body, {}, {}, 2));
+  CHECK(shaded.mesh().triangles.size() == 6 * n * n - 12);
+}
+
 TEST_CASE("files of pictures, and what cannot be pictured") {
   auto sim = block_at({0, 0, 0});
   sim.init();

@@ -20,6 +20,7 @@ struct Camera {
   double angle = 40;               // between the upper and the lower edge of the picture [degrees]
   double near = 0.01, far = 100;   // what is nearer or farther than that is not seen [m]
 
+  bool operator==(Camera const&) const = default;
   Eigen::Vector3d eye() const { return target + distance * toEye; }
   Eigen::Vector3d right() const { return up.cross(toEye).normalized(); }
   Eigen::Vector3d above() const { return toEye.cross(right()); }

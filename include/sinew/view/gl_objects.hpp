@@ -6,7 +6,11 @@
 #include <epoxy/gl.h>
 
 #include <Eigen/Core>
+#include <cstddef>
+#include <functional>
+#include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -56,15 +60,16 @@ using GlFrame = GlObject<detail::release_frame>;
 using GlStore = GlObject<detail::release_store>;
 using GlProgram = GlObject<detail::release_program>;
 
-/// Lists of vectors as the attributes 0, 1, ... of vertices, kept between frames.
+/// Lists of vectors as the attributes 0, 1, ... of vertices, kept between frames. A list goes to the graphics
+/// card where it differs from the one that is there.
 class GlMesh {
  public:
   explicit GlMesh(int attributes)
       : vertices_(detail::made<GlVertices>([](auto n, auto* id) { glGenVertexArrays(n, id); })) {
     glBindVertexArray(vertices_);
     for (int a = 0; a < attributes; ++a) {
-      buffers_.push_back(detail::made<GlBuffer>([](auto n, auto* id) { glGenBuffers(n, id); }));
-      glBindBuffer(GL_ARRAY_BUFFER, buffers_.back());
+      lists_.emplace_back();
+      glBindBuffer(GL_ARRAY_BUFFER, lists_.back().buffer);
       glEnableVertexAttribArray(GLuint(a));
       glVertexAttribPointer(GLuint(a), 3, GL_FLOAT, GL_FALSE, 0, nullptr);
     }
@@ -72,42 +77,49 @@ class GlMesh {
   template <class... Lists>
   void set(std::vector<Eigen::Vector3f> const& first, Lists const&... more) {
     std::size_t a = 0;
-    for (auto const* list : {&first, &more...}) {
-      glBindBuffer(GL_ARRAY_BUFFER, buffers_[a++]);
-      glBufferData(
-          GL_ARRAY_BUFFER, GLsizeiptr(list->size() * sizeof(Eigen::Vector3f)), list->data(), GL_STREAM_DRAW);
-    }
+    for (auto const* list : {&first, &more...}) lists_[a++].set(GL_ARRAY_BUFFER, *list);
     count_ = GLsizei(first.size());
   }
-  /// Which of them make the primitives; without that they are taken in their order.
-  void setIndices(std::vector<GLuint> const& indices) {
-    if (!indices_) indices_ = detail::made<GlBuffer>([](auto n, auto* id) { glGenBuffers(n, id); });
+  /// Which of them make the primitives; without that they are taken in their order. There may be several such
+  /// lists, of which one is drawn.
+  void setIndices(std::vector<GLuint> const& indices, std::size_t which = 0) {
+    if (indices_.size() <= which) indices_.resize(which + 1);
     glBindVertexArray(vertices_);
-    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_);
-    glBufferData(
-        GL_ELEMENT_ARRAY_BUFFER, GLsizeiptr(indices.size() * sizeof(GLuint)), indices.data(), GL_STREAM_DRAW);
-    count_ = GLsizei(indices.size());
+    indices_[which].set(GL_ELEMENT_ARRAY_BUFFER, indices);
   }
-  void draw(GLenum kind) const {
-    if (count_ == 0) return;
+  void draw(GLenum kind, std::size_t which = 0) const {
     glBindVertexArray(vertices_);
-    if (indices_)
-      glDrawElements(kind, count_, GL_UNSIGNED_INT, nullptr);
-    else
+    if (indices_.empty()) {
       glDrawArrays(kind, 0, count_);
+    } else if (auto const& indices = indices_[which]; !indices.values.empty()) {
+      glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices.buffer);
+      glDrawElements(kind, GLsizei(indices.values.size()), GL_UNSIGNED_INT, nullptr);
+    }
   }
 
  private:
+  template <class Value>
+  struct List {
+    GlBuffer buffer = detail::made<GlBuffer>([](auto n, auto* id) { glGenBuffers(n, id); });
+    std::vector<Value> values{};  // that are there
+
+    void set(GLenum kind, std::vector<Value> const& wanted) {
+      if (values == wanted) return;
+      values = wanted;
+      glBindBuffer(kind, buffer);
+      glBufferData(kind, GLsizeiptr(values.size() * sizeof(Value)), values.data(), GL_DYNAMIC_DRAW);
+    }
+  };
   GlVertices vertices_{};
-  std::vector<GlBuffer> buffers_{};
-  GlBuffer indices_{};
+  std::vector<List<Eigen::Vector3f>> lists_{};
+  std::vector<List<GLuint>> indices_{};
   GLsizei count_ = 0;
 };
 
 /// A program of a vertex and a fragment shader.
 class GlShaders {
  public:
-  GlShaders(char const* vertex, char const* fragment) : program_(glCreateProgram()) {
+  GlShaders(std::string const& vertex, std::string const& fragment) : program_(glCreateProgram()) {
     const GLuint parts[] = {compiled(GL_VERTEX_SHADER, vertex), compiled(GL_FRAGMENT_SHADER, fragment)};
     for (const GLuint part : parts) glAttachShader(program_, part);
     glLinkProgram(program_);
@@ -133,15 +145,25 @@ class GlShaders {
     const Eigen::Vector4f value = v.cast<float>();
     glUniform4fv(at(name), 1, value.data());
   }
+  /// A list in the shader.
+  void set(char const* name, std::vector<Eigen::Vector4f> const& list) const {
+    if (!list.empty()) glUniform4fv(at(name), GLsizei(list.size()), list.front().data());
+  }
   void set(char const* name, double value) const { glUniform1f(at(name), float(value)); }
   void setTexture(char const* name, int unit) const { glUniform1i(at(name), unit); }
 
  private:
   GlProgram program_;
+  mutable std::map<std::string, GLint, std::less<>> places_{};  // of uniforms that were asked for
 
-  GLint at(char const* name) const { return glGetUniformLocation(program_, name); }
-  static GLuint compiled(GLenum kind, char const* source) {
+  GLint at(char const* name) const {
+    auto found = places_.find(std::string_view(name));
+    if (found == places_.end()) found = places_.emplace(name, glGetUniformLocation(program_, name)).first;
+    return found->second;
+  }
+  static GLuint compiled(GLenum kind, std::string const& words) {
     const GLuint shader = glCreateShader(kind);
+    char const* source = words.c_str();
     glShaderSource(shader, 1, &source, nullptr);
     glCompileShader(shader);
     GLint good = 0;

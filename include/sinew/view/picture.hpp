@@ -6,6 +6,7 @@
 #include <sinew/view/offscreen.hpp>
 #include <sinew/view/renderer.hpp>
 #include <sinew/view/seen_scene.hpp>
+#include <sinew/view/smooth_target.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -53,33 +54,16 @@ class Painter {
  public:
   /// Throws Error where the size is none, and where there is no OpenGL 3.3.
   explicit Painter(PictureSettings const& settings = {}) : settings_(checked(settings)) {
-    GLint largest = 0, samples = 0;
-    glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
-    if (settings_.width > largest || settings_.height > largest)
-      throw Error("pictures",
-                  text("a picture of ",
-                       settings_.width,
-                       " x ",
-                       settings_.height,
-                       " pixels is larger than the ",
-                       largest,
-                       " that OpenGL has room for here; ask for a smaller one"));
-    glGetIntegerv(GL_MAX_SAMPLES, &samples);
-    attach(smooth_, std::min(samples, 8));
-    attach(plain_, 0);
+    target_.resize(settings_.width, settings_.height, 8);
   }
 
   Image paint(SeenScene const& scene) {
     if (!settings_.camera) settings_.camera = camera_of(scene, settings_.width, settings_.height);
     renderer_.show(scene);
-    glBindFramebuffer(GL_FRAMEBUFFER, smooth_.frame);
+    target_.begin();
     renderer_.draw(*settings_.camera, settings_.width, settings_.height);
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, smooth_.frame);
-    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, plain_.frame);
-    const int w = settings_.width, h = settings_.height;
-    glBlitFramebuffer(0, 0, w, h, 0, 0, w, h, GL_COLOR_BUFFER_BIT, GL_NEAREST);
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, plain_.frame);
-    Image image = read_image(w, h);
+    target_.end();
+    Image image = read_image(settings_.width, settings_.height);
     if (const GLenum wrong = glGetError(); wrong != GL_NO_ERROR)
       throw Error("pictures", text("OpenGL says error ", wrong, "; is there enough memory?"));
     return image;
@@ -88,15 +72,10 @@ class Painter {
   std::optional<Camera> const& camera() const { return settings_.camera; }
 
  private:
-  struct Target {
-    GlFrame frame = detail::made<GlFrame>([](auto n, auto* id) { glGenFramebuffers(n, id); });
-    GlStore colour = detail::made<GlStore>([](auto n, auto* id) { glGenRenderbuffers(n, id); });
-    GlStore depth = detail::made<GlStore>([](auto n, auto* id) { glGenRenderbuffers(n, id); });
-  };
   PictureSettings settings_;
   OffscreenContext context_{};  // before what is made in it
   Renderer renderer_{};
-  Target smooth_{}, plain_{};
+  SmoothTarget target_{};
 
   static PictureSettings const& checked(PictureSettings const& settings) {
     if (settings.width < 1 || settings.height < 1)
@@ -107,23 +86,6 @@ class Painter {
                        settings.height,
                        " pixels has none; width and height are at least 1"));
     return settings;
-  }
-  void attach(Target const& to, GLint samples) {
-    glBindFramebuffer(GL_FRAMEBUFFER, to.frame);
-    auto store = [&](GLuint id, GLenum format, GLenum place) {
-      glBindRenderbuffer(GL_RENDERBUFFER, id);
-      glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, format, settings_.width, settings_.height);
-      glFramebufferRenderbuffer(GL_FRAMEBUFFER, place, GL_RENDERBUFFER, id);
-    };
-    store(to.colour, GL_RGB8, GL_COLOR_ATTACHMENT0);
-    store(to.depth, GL_DEPTH_COMPONENT24, GL_DEPTH_ATTACHMENT);
-    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-      throw Error("pictures",
-                  text("OpenGL has no room for a picture of ",
-                       settings_.width,
-                       " x ",
-                       settings_.height,
-                       " pixels; ask for a smaller one"));
   }
 };
 

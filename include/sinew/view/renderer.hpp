@@ -7,6 +7,7 @@
 #include <sinew/view/overlay.hpp>
 #include <sinew/view/seen_scene.hpp>
 #include <sinew/view/shaded_mesh.hpp>
+#include <sinew/view/smooth_target.hpp>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -14,74 +15,143 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstring>
 #include <numbers>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
+
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
 
 namespace sinew::view {
 
 namespace detail {
 
+// Blinn and Phong's light from up to mostLights places, one of them with its shadow, and light from all sides
+// that may be brighter from above. The words of the lights that there are stand between these two parts.
+inline constexpr std::string_view lightWords = R"(#version 330 core
+uniform vec4 place[8];   // at the eye: of a light, or the direction to it
+uniform vec4 colour[8];
+uniform vec4 cone[8];    // where a spot shines to, and the cosine of its cone
+uniform vec4 fall[8];    // attenuation, exponent of a spot
+uniform vec3 upAtEye, around;
+uniform float fromAbove;
+uniform mat4 toLight;    // from the eye
+uniform sampler2DShadow shadow;
+// How much of nine places around one is seen by the light that has a shadow. Of neighbours in a row with the
+// weights 1 - f, 1, 1, f, the card's filter takes two at a time.
+float seenBy(vec3 to, vec3 n, vec3 atEye) {
+  vec3 p = (toLight * vec4(atEye, 1)).xyz * 0.5 + 0.5;
+  p.z -= 0.002 + 0.006 * (1.0 - abs(dot(n, to)));
+  vec2 size = vec2(textureSize(shadow, 0)), f = fract(p.xy * size - 0.5), middle = p.xy * size - f;
+  vec2 a = 2.0 - f, b = 1.0 + f, low = (middle - 1.0 + 1.0 / a) / size, high = (middle + 1.0 + f / b) / size;
+  return (a.x * a.y * textureLod(shadow, vec3(low, p.z), 0.0) +
+          b.x * a.y * textureLod(shadow, vec3(high.x, low.y, p.z), 0.0) +
+          a.x * b.y * textureLod(shadow, vec3(low.x, high.y, p.z), 0.0) +
+          b.x * b.y * textureLod(shadow, vec3(high, p.z), 0.0)) / 9.0;
+}
+float fallen(float far, vec4 fall) { return 1.0 / (1.0 + fall.x * far); }
+float inCone(vec3 to, vec4 cone, vec4 fall) {
+  float inside = dot(-to, cone.xyz);
+  return inside > cone.w ? pow(inside, fall.y) : 0.0;
+}
+struct Light { vec3 diffuse, shine; };
+void add(inout Light sum, vec3 n, vec3 toEye, vec3 to, vec3 colour) {
+  sum.diffuse += 0.75 * clamp(dot(n, to), 0.0, 1.0) * colour;
+  float s = max(dot(n, normalize(to + toEye)), 0.0);
+  s *= s * s * s * s;  // to the 40th power
+  s *= s, s *= s, s *= s;
+  sum.shine += 0.12 * s * colour;
+}
+vec3 linear(vec3 colour) { return pow(colour, vec3(2.2)); }
+)";
+inline constexpr std::string_view litWords = R"(
+vec3 lit(vec3 n, vec3 atEye, vec3 own, float seen) {
+  Light sum = Light(around * (1.0 + fromAbove * dot(n, upAtEye)), vec3(0.0));
+  addAll(sum, n, atEye, normalize(-atEye), seen);
+  return pow(own * sum.diffuse + sum.shine, vec3(1.0 / 2.2));
+}
+)";
+// What adds all lights, and how much of the one with a shadow is seen.
+inline std::string words_of_lights(std::vector<SeenLight> const& lights,
+                                   std::optional<std::size_t> shadowOf) {
+  std::string words =
+      "void addAll(inout Light sum, vec3 n, vec3 atEye, vec3 toEye, float seen) {\n  vec3 to;\n";
+  for (std::size_t k = 0; k < lights.size(); ++k) {
+    const bool parallel = lights[k].kind == SeenLight::Kind::parallel,
+               spot = lights[k].kind == SeenLight::Kind::spot;
+    words += text("  to = place[", k, "].xyz", parallel ? "" : " - atEye", ";\n");
+    words += text("  add(sum, n, toEye, normalize(to), colour[",
+                  k,
+                  "].rgb",
+                  shadowOf == k ? " * seen" : "",
+                  parallel ? std::string() : text(" * fallen(length(to), fall[", k, "])"),
+                  spot ? text(" * inCone(normalize(to), cone[", k, "], fall[", k, "])") : std::string(),
+                  ");\n");
+  }
+  return words + "}\nfloat seenByLight(vec3 n, vec3 atEye) { return " +
+         (shadowOf ? text("seenBy(place[", *shadowOf, "].xyz, n, atEye)") : std::string("1.0")) + "; }\n";
+}
+
+// Both sides of a face are seen. The light is computed for each pixel,
 inline constexpr char const* surfaceVertex = R"(#version 330 core
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec3 colour;
-uniform mat4 toClip, toView, toLight;
+uniform mat4 toClip, toView;
 uniform vec4 clip;
-out vec3 atEye, normalAtEye, atLight, own;
+out vec3 atEye, normalAtEye, own;
 void main() {
   own = colour;
   gl_ClipDistance[0] = dot(clip, vec4(position, 1));
   vec4 p = toView * vec4(position, 1);
   atEye = p.xyz;
   normalAtEye = mat3(toView) * normal;
-  atLight = (toLight * vec4(position, 1)).xyz * 0.5 + 0.5;
   gl_Position = toClip * p;
 })";
-
-// Blinn and Phong's light from up to mostLights places, one of them with its shadow, and light from all sides
-// that may be brighter from above. Both sides of a face are seen.
-inline constexpr char const* surfaceFragment = R"(#version 330 core
-in vec3 atEye, normalAtEye, atLight, own;
-uniform vec4 place[8];   // at the eye: of a light, or the direction to it (w = 0)
-uniform vec3 colour[8];
-uniform vec4 cone[8];    // where a spot shines to, and the cosine of its cone; -1: to all sides
-uniform vec4 fall[8];    // attenuation, exponent of a spot
-uniform float count, shadowOf;
-uniform vec3 upAtEye, around;
-uniform float fromAbove;
-uniform sampler2DShadow shadow;
+inline constexpr std::string_view surfaceFragment = R"(
+in vec3 atEye, normalAtEye, own;
 out vec4 pixel;
 void main() {
-  vec3 n = normalize(normalAtEye), toEye = normalize(-atEye);
-  if (!gl_FrontFacing) n = -n;
-  vec3 sum = around * (1.0 + fromAbove * dot(n, upAtEye)), shine = vec3(0.0);
-  for (int k = 0; k < int(count); ++k) {
-    vec3 to = place[k].xyz - place[k].w * atEye;
-    float far = length(to), lit = place[k].w > 0.0 ? 1.0 / (1.0 + fall[k].x * far) : 1.0;
-    to /= far;
-    if (cone[k].w >= 0.0) {
-      float inside = dot(-to, cone[k].xyz);
-      lit *= inside > cone[k].w ? pow(inside, fall[k].y) : 0.0;
-    }
-    float slope = clamp(dot(n, to), 0.0, 1.0);
-    if (float(k) == shadowOf) {
-      float bias = 0.002 + 0.006 * (1.0 - slope), seen = 0.0;
-      vec2 texel = 1.0 / vec2(textureSize(shadow, 0));
-      for (int i = -1; i <= 1; ++i)
-        for (int j = -1; j <= 1; ++j)
-          seen += texture(shadow, vec3(atLight.xy + vec2(i, j) * texel, atLight.z - bias)) / 9.0;
-      lit *= seen;
-    }
-    sum += 0.75 * slope * lit * colour[k];
-    shine += 0.12 * pow(max(dot(n, normalize(to + toEye)), 0.0), 40.0) * lit * colour[k];
-  }
-  vec3 linear = pow(own, vec3(2.2)) * sum + shine;
-  pixel = vec4(pow(linear, vec3(1.0 / 2.2)), 1);
+  vec3 n = normalize(gl_FrontFacing ? normalAtEye : -normalAtEye);
+  pixel = vec4(lit(n, atEye, linear(own), seenByLight(n, atEye)), 1);
 })";
+// or, where the triangles are as small as a few pixels, for each of their corners.
+inline constexpr std::string_view fineVertex = R"(
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec3 colourAtCorner;
+uniform mat4 toClip, toView;
+uniform vec4 clip;
+noperspective out vec3 front, back;
+void main() {
+  gl_ClipDistance[0] = dot(clip, vec4(position, 1));
+  vec4 p = toView * vec4(position, 1);
+  vec3 n = normalize(mat3(toView) * normal);
+  vec3 own = linear(colourAtCorner);
+  float seen = seenByLight(n, p.xyz);
+  front = lit(n, p.xyz, own, seen);
+  back = lit(-n, p.xyz, own, seen);
+  gl_Position = toClip * p;
+})";
+inline constexpr char const* fineFragment = R"(#version 330 core
+noperspective in vec3 front, back;
+out vec4 pixel;
+void main() { pixel = vec4(gl_FrontFacing ? front : back, 1); })";
+
+inline constexpr char const* shadowVertex = R"(#version 330 core
+layout(location = 0) in vec3 position;
+uniform mat4 toLight;  // from the scene
+uniform vec4 clip;
+void main() {
+  gl_ClipDistance[0] = dot(clip, vec4(position, 1));
+  gl_Position = toLight * vec4(position, 1);
+})";
+inline constexpr char const* shadowFragment = R"(#version 330 core
+void main() {})";
 
 inline constexpr char const* plainVertex = R"(#version 330 core
 layout(location = 0) in vec3 position;
@@ -112,25 +182,28 @@ void main() {
 /// current.
 class Renderer {
  public:
+  Renderer() {
+#if defined(__GLIBC__)
+    // what Mesa's software needs for a picture, some 10 MB, is kept for the next one
+    if (drawn_by_software()) mallopt(M_TRIM_THRESHOLD, 256 << 20), mallopt(M_MMAP_THRESHOLD, 32 << 20);
+#endif
+  }
   /// Brings what is seen onto the graphics card.
   void show(SeenScene const& scene) {
     auto const& [low, high] = scene.box();
     centre_ = (low + high) / 2;
     radius_ = std::max((high - low).norm() / 2, 1e-9);
     std::size_t used = 0;
-    auto upload = [&](ShadedMesh const& mesh) {
+    for (SeenBody const& seen : scene.bodies) {
+      if (!seen.visible) continue;
       if (used == bodies_.size()) bodies_.emplace_back();
       Body& body = bodies_[used++];
-      body.faces.set(mesh.corners, mesh.normals, mesh.colours);
-      body.faces.setIndices(mesh.triangles);
-      body.lines.set(mesh.lines.at, mesh.lines.colours);
-      body.points.set(mesh.points.at, mesh.points.colours);
-    };
-    for (SeenBody const& body : scene.bodies)
-      if (body.visible) upload(shaded_mesh(body, scene.legend, scene.settings));
-    DrawnMarks marks = drawn_marks(scene, radius_);
-    upload(marks.mesh);
+      if (body.shaded.update(seen, scene.legend, scene.settings, 6 * shadow_.texel(radius_)))
+        body.drawn.set(body.shaded.mesh());
+    }
     bodies_.resize(used);
+    DrawnMarks marks = drawn_marks(scene, radius_);
+    marks_.set(marks.mesh);
     labels_ = std::move(marks.labels);
     words_ = std::move(marks.words);
     legend_ = scene.settings.legend ? scene.legend : std::nullopt;
@@ -170,36 +243,46 @@ class Renderer {
     glEnable(GL_PROGRAM_POINT_SIZE);
     glClearColor(GLfloat(colour_[0]), GLfloat(colour_[1]), GLfloat(colour_[2]), 1);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    surface_.use();
-    surface_.set("toView", toView);
-    surface_.set("toClip", toClip);
-    surface_.set("toLight", toLight);
-    surface_.set("clip", clipped());
-    setLights(lights, toView);
-    surface_.set("shadowOf", hasShadow ? double(first - lights.begin()) : -1);
-    surface_.set("upAtEye", toView.topLeftCorner<3, 3>() * up_);
-    surface_.setTexture("shadow", 0);
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, shadow_.depth);
+    const std::string words = detail::words_of_lights(
+        lights, hasShadow ? std::optional(std::size_t(first - lights.begin())) : std::nullopt);
+    if (!lit_ || lit_->words != words) lit_.emplace(words);
+    auto const& [surface, fine, _] = *lit_;
+    for (GlShaders const* shaders : {&surface, &fine}) {
+      shaders->use();
+      shaders->set("toView", toView);
+      shaders->set("toClip", toClip);
+      shaders->set("toLight", Eigen::Matrix4d(toLight * toView.inverse()));
+      shaders->set("clip", clipped());
+      setLights(*shaders, lights, toView);
+      shaders->set("upAtEye", toView.topLeftCorner<3, 3>() * up_);
+      shaders->setTexture("shadow", 0);
+    }
     glEnable(GL_POLYGON_OFFSET_FILL);  // edges are seen on the faces they belong to
     glPolygonOffset(1, 1);
     for (Body const& body : bodies_) {
-      if (&body == &bodies_.back()) surface_.set("clip", everything());  // marks are seen as a whole
-      body.faces.draw(GL_TRIANGLES);
+      (isFine(body.shaded.mesh(), camera, height) ? fine : surface).use();
+      body.drawn.faces.draw(GL_TRIANGLES);
     }
+    surface.use();
+    surface.set("clip", everything());  // marks are seen as a whole
+    marks_.faces.draw(GL_TRIANGLES);
     glDisable(GL_POLYGON_OFFSET_FILL);
     plain_.use();
     plain_.set("toView", toView);
     plain_.set("toClip", toClip);
     plain_.set("clip", clipped());
     plain_.set("pointSize", std::max(4., height / 90.));
-    for (Body const& body : bodies_) {
-      if (&body == &bodies_.back()) plain_.set("clip", everything());
+    auto drawThin = [&](Drawn const& drawn) {
       plain_.set("roundPoints", 0);
-      body.lines.draw(GL_LINES);
+      drawn.lines.draw(GL_LINES);
       plain_.set("roundPoints", 1);
-      body.points.draw(GL_POINTS);
-    }
+      drawn.points.draw(GL_POINTS);
+    };
+    for (Body const& body : bodies_) drawThin(body.drawn);
+    plain_.set("clip", everything());
+    drawThin(marks_);
     glDisable(GL_CLIP_DISTANCE0);
     drawWords(camera, width, height);
   }
@@ -207,18 +290,30 @@ class Renderer {
   std::array<double, 3> background{1, 1, 1};
 
  private:
-  struct Body {
+  struct Drawn {
     GlMesh faces{3}, lines{2}, points{2};
+
+    void set(ShadedMesh const& mesh) {
+      faces.set(mesh.corners, mesh.normals, mesh.colours);
+      faces.setIndices(mesh.triangles);
+      faces.setIndices(mesh.casters, 1);
+      lines.set(mesh.lines.at, mesh.lines.colours);
+      points.set(mesh.points.at, mesh.points.colours);
+    }
+  };
+  struct Body {
+    ShadedBody shaded{};
+    Drawn drawn{};
   };
   struct Shadow {
+    static constexpr double margin = 1.05;  // seen around the scene, times its radius
     int size = 2048;
     GlTexture depth = detail::made<GlTexture>([](auto n, auto* id) { glGenTextures(n, id); });
     GlFrame frame = detail::made<GlFrame>([](auto n, auto* id) { glGenFramebuffers(n, id); });
 
     Shadow() {
       // without a graphics card a finer one takes most of the time
-      auto const* renderer = reinterpret_cast<char const*>(glGetString(GL_RENDERER));
-      if (renderer && std::strstr(renderer, "llvmpipe")) size = 1024;
+      if (drawn_by_software()) size = 1024;
       glBindTexture(GL_TEXTURE_2D, depth);
       glTexImage2D(
           GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, size, size, 0, GL_DEPTH_COMPONENT, GL_FLOAT, nullptr);
@@ -233,11 +328,27 @@ class Renderer {
       glDrawBuffer(GL_NONE);
       glReadBuffer(GL_NONE);
     }
+    double texel(double radius) const { return 2 * margin * radius / size; }  // [m]
   };
-  GlShaders surface_{detail::surfaceVertex, detail::surfaceFragment};
+  // for the lights that there are: a shader that asks which ones is slow without a graphics card
+  struct Lit {
+    GlShaders surface, fine;
+    std::string words;
+
+    explicit Lit(std::string const& lights)
+        : surface(detail::surfaceVertex, light(lights, detail::surfaceFragment)),
+          fine(light(lights, detail::fineVertex), detail::fineFragment),
+          words(lights) {}
+    static std::string light(std::string const& lights, std::string_view main) {
+      return text(detail::lightWords, lights, detail::litWords, main);
+    }
+  };
+  std::optional<Lit> lit_{};
+  GlShaders depth_{detail::shadowVertex, detail::shadowFragment};
   GlShaders plain_{detail::plainVertex, detail::plainFragment};
   Shadow shadow_{};
   std::vector<Body> bodies_{};
+  Drawn marks_{};
   GlMesh overlay_{2};
   std::vector<std::pair<Eigen::Vector3d, std::string>> labels_{};
   std::vector<std::string> words_{};
@@ -249,10 +360,10 @@ class Renderer {
   std::vector<SeenLight> lights_{};
   std::optional<Eigen::Vector3d> ambient_{};
 
-  void setLights(std::vector<SeenLight> const& lights, Eigen::Matrix4d const& toView) {
-    surface_.set("count", double(lights.size()));
-    for (std::size_t k = 0; k < lights.size(); ++k) {
-      SeenLight const& light = lights[k];
+  void setLights(GlShaders const& shaders, std::vector<SeenLight> const& lights,
+                 Eigen::Matrix4d const& toView) const {
+    std::vector<Eigen::Vector4f> places, colours, cones, falls;
+    for (SeenLight const& light : lights) {
       const Eigen::Matrix4d own = light.movesWithCamera ? Eigen::Matrix4d::Identity().eval() : toView;
       const Eigen::Vector3d direction = own.topLeftCorner<3, 3>() * light.direction;
       const bool parallel = light.kind == SeenLight::Kind::parallel,
@@ -261,17 +372,25 @@ class Renderer {
       place[3] = 0;
       if (!parallel) place = own * light.position.homogeneous();
       cone[3] = spot ? std::cos(light.cutoff * std::numbers::pi / 180) : -1;
-      auto set = [&](char const* name, auto const& value) {
-        surface_.set(text(name, '[', k, ']').c_str(), value);
-      };
-      set("place", place);
-      set("colour", light.colour);
-      set("cone", cone);
-      set("fall", Eigen::Vector4d(light.attenuation, light.exponent, 0, 0));
+      places.push_back(place.cast<float>());
+      colours.push_back(light.colour.homogeneous().cast<float>());
+      cones.push_back(cone.cast<float>());
+      falls.push_back({float(light.attenuation), float(light.exponent), 0, 0});
     }
+    shaders.set("place", places);
+    shaders.set("colour", colours);
+    shaders.set("cone", cones);
+    shaders.set("fall", falls);
     // with lights of the scene there is less of what has no place
-    surface_.set("around", ambient_.value_or(Eigen::Vector3d::Constant(lights_.empty() ? 0.42 : 0.2)));
-    surface_.set("fromAbove", ambient_ ? 0. : 0.18 / 0.42);
+    shaders.set("around", ambient_.value_or(Eigen::Vector3d::Constant(lights_.empty() ? 0.42 : 0.2)));
+    shaders.set("fromAbove", ambient_ ? 0. : 0.18 / 0.42);
+  }
+  // Whether no edge of a mesh is seen longer than a few pixels: its light may be computed at corners.
+  static bool isFine(ShadedMesh const& mesh, Camera const& camera, int height) {
+    constexpr double most = 8;  // [pixels]
+    const Eigen::Vector3d eye = camera.eye(), nearest = eye.cwiseMax(mesh.low).cwiseMin(mesh.high);
+    const double wide = 2 * std::tan(camera.angle / 2 * std::numbers::pi / 180) * (nearest - eye).norm();
+    return mesh.longest * height < most * wide;
   }
   // positive where something is seen
   static Eigen::Vector4d everything() { return {0, 0, 0, 1}; }
@@ -285,7 +404,7 @@ class Renderer {
     m.block<1, 3>(0, 0) = light.unitOrthogonal().transpose();
     m.block<1, 3>(1, 0) = light.cross(light.unitOrthogonal()).transpose();
     m.block<1, 3>(2, 0) = -light.transpose();
-    m.topLeftCorner<3, 3>() /= 1.05 * radius_;
+    m.topLeftCorner<3, 3>() /= Shadow::margin * radius_;
     m.block<3, 1>(0, 3) = -(m.topLeftCorner<3, 3>() * centre_);
     return m;
   }
@@ -294,11 +413,12 @@ class Renderer {
     glViewport(0, 0, shadow_.size, shadow_.size);
     glEnable(GL_DEPTH_TEST);
     glClear(GL_DEPTH_BUFFER_BIT);
-    plain_.use();
-    plain_.set("toView", Eigen::Matrix4d(Eigen::Matrix4d::Identity()));
-    plain_.set("toClip", toLight);
-    plain_.set("clip", clipped());
-    for (Body const& body : bodies_) body.faces.draw(GL_TRIANGLES);
+    depth_.use();
+    depth_.set("toLight", toLight);
+    depth_.set("clip", clipped());
+    for (Body const& body : bodies_) body.drawn.faces.draw(GL_TRIANGLES, 1);
+    depth_.set("clip", everything());
+    marks_.faces.draw(GL_TRIANGLES);
   }
   // legend, words and labels, in front of everything
   void drawWords(Camera const& camera, int width, int height) {

@@ -55,6 +55,16 @@ struct SeenBody {
   std::vector<Edge> edges{};
   std::vector<double> values{};           // of the quantity that colours show, one a point; or none
   Eigen::Vector3d colour{0.5, 0.5, 0.5};  // red, green, blue from 0 to 1
+
+  /// The corners of the smallest box around all points that are finite; where there is none, the lower one is
+  /// above the higher one.
+  std::pair<Eigen::Vector3d, Eigen::Vector3d> box() const {
+    constexpr double most = std::numeric_limits<double>::infinity();
+    Eigen::Vector3d low = Eigen::Vector3d::Constant(most), high = -low;
+    for (Eigen::Vector3d const& p : points)
+      if (p.allFinite()) low = low.cwiseMin(p), high = high.cwiseMax(p);
+    return {low, high};
+  }
 };
 
 /// A vector at a place.
@@ -88,9 +98,10 @@ struct SeenScene {
   std::pair<Eigen::Vector3d, Eigen::Vector3d> box() const {
     constexpr double most = std::numeric_limits<double>::infinity();
     Eigen::Vector3d low = Eigen::Vector3d::Constant(most), high = -low;
-    for (SeenBody const& body : bodies)
-      for (Eigen::Vector3d const& p : body.points)
-        if (p.allFinite()) low = low.cwiseMin(p), high = high.cwiseMax(p);
+    for (SeenBody const& body : bodies) {
+      auto const [least, greatest] = body.box();
+      low = low.cwiseMin(least), high = high.cwiseMax(greatest);
+    }
     if (!(low.array() <= high.array()).all()) low = high = Eigen::Vector3d::Zero();
     return {low, high};
   }

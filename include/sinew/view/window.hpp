@@ -8,6 +8,7 @@
 #include <sinew/view/renderer.hpp>
 #include <sinew/view/scene_panel.hpp>
 #include <sinew/view/show_panel.hpp>
+#include <sinew/view/smooth_target.hpp>
 #include <sinew/view/stage.hpp>
 #include <sinew/view/tools_panel.hpp>
 
@@ -18,15 +19,48 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstddef>
 #include <cstdio>
+#include <filesystem>
 #include <functional>
 #include <future>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
+#include <system_error>
+#include <thread>
 #include <utility>
+#include <vector>
+
+#if defined(__linux__)
+#include <sys/resource.h>
+#endif
 
 namespace sinew::view {
+
+namespace detail {
+
+// by their numbers in the system; empty where these are not known
+inline std::set<std::string> threads_of_process() {
+  std::set<std::string> all;
+#if defined(__linux__)
+  std::error_code none;
+  for (auto const& entry : std::filesystem::directory_iterator("/proc/self/task", none))
+    all.insert(entry.path().filename().string());
+#endif
+  return all;
+}
+/// Mesa's software draws by the processor that simulates: the threads it has started since `before` give way.
+inline void spare_simulation(std::set<std::string> const& before) {
+#if defined(__linux__)
+  constexpr int lower = 10;  // a tenth of the share of others
+  for (std::string const& thread : threads_of_process())
+    if (!before.count(thread)) setpriority(PRIO_PROCESS, id_t(std::stoul(thread)), lower);
+#endif
+}
+
+}  // namespace detail
 
 struct WindowSettings {
   std::string title = "Sinew";
@@ -48,22 +82,32 @@ class Window {
       : system_(settings), open_(settings.open), scene_(stage.scene()) {
     face(stage, settings.camera, settings.save);
     glfwSetWindowUserPointer(system_.window, this);
+    glfwSetWindowRefreshCallback(system_.window, [](GLFWwindow* window) {
+      static_cast<Window*>(glfwGetWindowUserPointer(window))->damaged_ = true;
+    });
     glfwSetDropCallback(system_.window, [](GLFWwindow* window, int count, char const** paths) {
       if (count > 0) static_cast<Window*>(glfwGetWindowUserPointer(window))->open(std::string(paths[0]));
     });
   }
 
-  /// Until it is closed.
+  /// Until it is closed; up to 60 pictures a second, also where the display waits for none.
   void run() {
-    while (!glfwWindowShouldClose(system_.window)) frame();
+    while (!glfwWindowShouldClose(system_.window)) {
+      const auto next = std::chrono::steady_clock::now() + std::chrono::microseconds(16600);
+      frame();
+      std::this_thread::sleep_until(next);
+    }
   }
-  /// One picture of what there is now; what the user has done meanwhile is passed on.
+  /// One picture of what there is now, where it differs from the last one; what the user has done meanwhile
+  /// is passed on.
   void frame() {
+    if (!prepare()) return;
     draw();
     glfwSwapBuffers(system_.window);
   }
   /// The same, and what the window then shows.
   Image image() {
+    prepare();
     draw();
     int width = 0, height = 0;
     glfwGetFramebufferSize(system_.window, &width, &height);
@@ -72,6 +116,8 @@ class Window {
     glfwSwapBuffers(system_.window);
     return image;
   }
+  /// How many pictures were drawn.
+  long drawn() const { return drawn_; }
   Controls& controls() { return face_->controls; }
   /// A part of the panel: "Scene", "Show", "Tools" or "Plots".
   void turnTo(std::string part) { tab_ = std::move(part); }
@@ -109,7 +155,7 @@ class Window {
       glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
       glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
       glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
-      glfwWindowHint(GLFW_SAMPLES, 4);
+      const std::set<std::string> before = detail::threads_of_process();
       window = glfwCreateWindow(settings.width, settings.height, settings.title.c_str(), nullptr, nullptr);
       if (!window) {
         glfwTerminate();
@@ -117,6 +163,7 @@ class Window {
       }
       glfwMakeContextCurrent(window);
       glfwSwapInterval(1);
+      if (drawn_by_software()) detail::spare_simulation(before);
       ImGui::CreateContext();
       ImGui::GetIO().IniFilename = nullptr;  // leaves no file behind
       float scale = 1;
@@ -159,11 +206,30 @@ class Window {
          std::function<void(std::string const&)> const& save, bool opens)
         : stage(of), controls(of, camera), panel(of), show(of, seen), tools(of, save, opens) {}
   };
+  // the picture of the scene that there is
+  struct Shown {
+    Stage::Scene scene{};
+    Camera camera{};
+    int width = 0, height = 0;
+    bool operator==(Shown const&) const = default;
+  };
   System system_;
+  const bool software_ = drawn_by_software();
   std::function<OpenedScene(std::string const&)> open_;
   OpenedScene opened_{};  // before the face, which uses it
   Stage::Scene scene_;
   Renderer renderer_{};
+  SmoothTarget smooth_{};
+  Shown shown_{};
+  bool isSmooth_ = false;   // what smooth_ has is what is shown
+  bool damaged_ = true;     // the window has lost what it showed
+  std::vector<char> ui_{};  // the panel as it was drawn last
+  long drawn_ = 0;
+  struct {
+    std::chrono::steady_clock::time_point at = std::chrono::steady_clock::now();
+    long drawn = 0;
+    double rate = 0;
+  } counted_{};
   StageState state_{};
   std::optional<Face> face_{};
   std::string tab_{}, message_{}, openingPath_{};
@@ -197,7 +263,8 @@ class Window {
     }
   }
 
-  void draw() {
+  // All but the drawing. False: it would be the last picture again.
+  bool prepare() {
     glfwPollEvents();
     takeOpened();
     if (auto latest = stage().scene(); latest != scene_) {
@@ -215,15 +282,49 @@ class Window {
     if (help_) showHelp();
     showHeld();
     ImGui::Render();
-    int width = 0, height = 0;
-    glfwGetFramebufferSize(system_.window, &width, &height);
-    if (width > 0 && height > 0) {
-      glBindFramebuffer(GL_FRAMEBUFFER, 0);
-      const Region seen = region();  // in the unit of the mouse, of which a picture may have more
-      const int left = int(double(width) * seen.left / (seen.left + seen.width));
-      renderer_.draw(face_->controls.camera, width - left, height, left);
-      ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    const bool sameUi = bytes_of_ui() == ui_;
+    return !(sameUi && isSmooth_ && shown() == shown_ && !std::exchange(damaged_, false));
+  }
+  Shown shown() const {
+    Shown now{.scene = scene_, .camera = face_->controls.camera};
+    glfwGetFramebufferSize(system_.window, &now.width, &now.height);
+    return now;
+  }
+  static std::vector<char> bytes_of_ui() {
+    std::vector<char> bytes;
+    auto add = [&](auto const& list) {
+      auto const* first = reinterpret_cast<char const*>(list.Data);
+      bytes.insert(bytes.end(), first, first + std::size_t(list.Size) * sizeof *list.Data);
+    };
+    ImDrawData const* data = ImGui::GetDrawData();
+    for (int k = 0; k < data->CmdListsCount; ++k)
+      add(data->CmdLists[k]->VtxBuffer), add(data->CmdLists[k]->IdxBuffer);
+    return bytes;
+  }
+  void draw() {
+    const Shown now = shown();
+    if (now.width < 1 || now.height < 1) return;
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    drawScene(now);
+    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    ui_ = bytes_of_ui();
+    ++drawn_;
+  }
+  // With smooth edges; without a graphics card these take long, and only what stands has them.
+  void drawScene(Shown const& now) {
+    const Region seen = region();  // in the unit of the mouse, of which a picture may have more
+    const int left = int(double(now.width) * seen.left / (seen.left + seen.width));
+    const bool stands = std::exchange(shown_, now) == now;
+    isSmooth_ = isSmooth_ && stands;
+    if (software_ && !stands) return renderer_.draw(now.camera, now.width - left, now.height, left);
+    if (!isSmooth_) {
+      smooth_.resize(now.width, now.height, 4);
+      smooth_.begin();
+      renderer_.draw(now.camera, now.width - left, now.height, left);
+      smooth_.end();
+      isSmooth_ = true;
     }
+    smooth_.show();
   }
   // where the scene is seen, beside the panel
   struct Region {
@@ -268,6 +369,13 @@ class Window {
     if (pressed(GLFW_KEY_H)) help_ = !help_;
     if (pressed(GLFW_KEY_Q)) close();
   }
+  // of the last half second, so that the number does not make a picture of its own each time
+  double picturesPerSecond() {
+    const auto now = std::chrono::steady_clock::now();
+    const double since = std::chrono::duration<double>(now - counted_.at).count();
+    if (since > 0.5) counted_ = {now, drawn_, double(drawn_ - counted_.drawn) / since};
+    return counted_.rate;
+  }
   ImGuiTabItemFlags selected(char const* tab) const {
     return tab_ == tab ? ImGuiTabItemFlags_SetSelected : ImGuiTabItemFlags_None;
   }
@@ -293,7 +401,7 @@ class Window {
     if (ImGui::SliderFloat("pull", &stiffness, 1, 1e5f, "%.0f N/m", ImGuiSliderFlags_Logarithmic))
       face_->controls.stiffness = double(stiffness);
     ImGui::Text("%.3f s, step %ld of %g s", state_.time, state_.step, stage().dt());
-    ImGui::Text("%.0f steps/s, %.0f pictures/s", state_.stepsPerSecond, double(ImGui::GetIO().Framerate));
+    ImGui::Text("%.0f steps/s, %.0f pictures/s", state_.stepsPerSecond, picturesPerSecond());
     for (std::string const* wrong : {&state_.error, &message_}) {
       if (wrong->empty()) continue;
       ImGui::PushStyleColor(ImGuiCol_Text, {0.7f, 0.1f, 0.1f, 1});
