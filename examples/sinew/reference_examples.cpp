@@ -492,6 +492,22 @@ constexpr auto classExamples = std::to_array<ClassExample>({
                          BeginTime="0" EndTime="1"/>)",
      chain,
      "FixedConstraint"},
+    {"ParticleSink", R"(
+<Node name="drops" gravity="0 -10 0">
+  <EulerExplicitSolver symplectic="true"/>
+  <MechanicalObject/>
+  <UniformMass vertexMass="1"/>
+  <ParticleSource center="0 0 0  1 0 0" velocity="0 -1 0" delay="0.02"/>
+  <ParticleSink normal="0 1 0" d0="-3" d1="-1"/>
+</Node>)"},
+    {"ParticleSource", R"(
+<Node name="drops" gravity="0 -10 0">
+  <EulerExplicitSolver symplectic="true"/>
+  <MechanicalObject/>
+  <UniformMass vertexMass="1"/>
+  <ParticleSource center="0 0 0  1 0 0" radius="0.1 0.1 0.1" velocity="0 -1 0" delay="0.02" stop="2" capacity="200"/>
+  <PlaneForceField normal="0 1 0" d="-1"/>
+</Node>)"},
     {"LinearMovementConstraint",
      R"(
 <LinearMovementConstraint indices="0" keyTimes="0 0.5 1" movements="0 0 0  0.3 0.2 0  0 0.4 0"/>)",

@@ -20,6 +20,8 @@
 #include <sinew/constraint/oscillator.hpp>
 #include <sinew/constraint/parabolic.hpp>
 #include <sinew/constraint/partial_fixed.hpp>
+#include <sinew/constraint/particle_sink.hpp>
+#include <sinew/constraint/particle_source.hpp>
 #include <sinew/constraint/project_direction.hpp>
 #include <sinew/constraint/project_to_line.hpp>
 #include <sinew/constraint/project_to_plane.hpp>

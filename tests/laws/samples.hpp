@@ -24,6 +24,8 @@
 #include "samples/linear_velocity.hpp"
 #include "samples/parabolic.hpp"
 #include "samples/partial_fixed.hpp"
+#include "samples/particle_sink.hpp"
+#include "samples/particle_source.hpp"
 #include "samples/polynomial_springs.hpp"
 #include "samples/project_direction.hpp"
 #include "samples/project_to_line.hpp"

@@ -60,6 +60,26 @@ struct ElementDriver {
     for (std::size_t p = 0; p < packs.size(); ++p) packs[p].fill(elements, rest, p * W, last);
   }
 
+  /// One element of the same rest for each of the first n points. Allocates nothing where there were as many
+  /// before.
+  void initPoints(std::size_t n, Rest const& rest) {
+    static_assert(arity == 1);
+    struct Points {
+      std::size_t n;
+      std::size_t size() const { return n; }
+      Indices operator[](std::size_t i) const { return {int(i)}; }
+    };
+    struct Same {
+      Rest const& rest;
+      Rest operator[](std::size_t) const { return rest; }
+    };
+    packs.clear();
+    packs.resize((n + W - 1) / W);
+    slots.clear();
+    forget();
+    for (std::size_t p = 0; p < packs.size(); ++p) packs[p].fill(Points{n}, Same{rest}, p * W, int(n) - 1);
+  }
+
   /// Prepares for so many shares at once, with at least so many elements each; where there are too few, there
   /// are fewer shares. Elements that are taken one by one are not split: there the compiler may make one
   /// operation of the last product and the sum, which has other bits.
@@ -324,5 +344,10 @@ struct ElementDriver {
     }
   }
 };
+
+/// Whether a driver can have as many elements as there are points from step to step.
+template <class Driver>
+inline constexpr bool counts_points =
+    requires(Driver d, typename Driver::Rest const rest) { d.initPoints(std::size_t(), rest); };
 
 }  // namespace sinew

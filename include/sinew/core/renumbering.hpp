@@ -16,6 +16,8 @@ struct Renumbering {
   std::vector<Index> now{};   // new numbers, by old ones; -1 for what has gone
 
   static Renumbering of(std::vector<bool> const& stays);
+  /// The same in place: allocates nothing for as many as there were room for.
+  void set(std::vector<bool> const& stays);
 
   std::vector<bool> stays() const {
     std::vector<bool> all;
@@ -101,12 +103,18 @@ struct TopologyChange {
 #if SINEW_DEFINES
 namespace sinew {
 
+SINEW_ONCE void Renumbering::set(std::vector<bool> const& stays) {
+  kept.clear();
+  now.clear();
+  for (std::size_t i = 0; i < stays.size(); ++i) {
+    now.push_back(stays[i] ? Index(kept.size()) : -1);
+    if (stays[i]) kept.push_back(Index(i));
+  }
+}
+
 SINEW_ONCE Renumbering Renumbering::of(std::vector<bool> const& stays) {
   Renumbering r;
-  for (std::size_t i = 0; i < stays.size(); ++i) {
-    r.now.push_back(stays[i] ? Index(r.kept.size()) : -1);
-    if (stays[i]) r.kept.push_back(Index(i));
-  }
+  r.set(stays);
   return r;
 }
 

@@ -149,6 +149,11 @@ struct PlaneForceField {
     for (std::size_t i = 0; i < points.size(); ++i) points[i] = {int(i)};
     driver.init(points, std::vector<typename Driver::Rest>(points.size(), {Real(stiffness), Real(damping)}));
   }
+  void followPoints(Renumbering const&, std::size_t points)
+  requires(counts_points<Driver>)
+  {
+    driver.initPoints(points, {Real(stiffness), Real(damping)});
+  }
 
   /// The plane as it stands now, for lanes or one element at a time: it may move from step to step.
   template <class L>

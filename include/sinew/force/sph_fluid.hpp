@@ -6,6 +6,7 @@
 #include <sinew/force/sorted_particles.hpp>
 #include <sinew/force/sph_kernels.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -92,16 +93,21 @@ struct SPHFluidForceField {
 
   BoundaryParticles boundary{};
   std::string where{};
-  std::size_t size = 0;
+  std::size_t size = 0, most = 0;  // of particles, now and at one time
 
   void init(InitContext<D> const& context) {
     where = text(context.where, ": ", component_name<SPHFluidForceField>());
-    size = context.rest.size();
+    size = most = context.rest.size();
     boundary.clear();
     reserveForBoundary();
   }
+  void followPoints(Renumbering const&, std::size_t points) {
+    size = points;
+    most = std::max(most, points);
+    reserveForBoundary();
+  }
   void reserveForBoundary() {
-    const std::size_t all = size + boundary.size(), room = all + std::size_t(Particles::width);
+    const std::size_t all = most + boundary.size(), room = all + std::size_t(Particles::width);
     particles.reserve(all);
     joined.reserve(all);
     for (auto& one : velocities) one.reserve(room);
@@ -112,7 +118,7 @@ struct SPHFluidForceField {
   static constexpr bool sharesWork = true;
   static constexpr int passes = 3;
   int shares = 1;
-  void split(int most) { shares = size < 2000 ? 1 : most; }
+  void split(int threads) { shares = most < 2000 ? 1 : threads; }
 
   void addForce(MechanicalParams const& p, VecDeriv& f, VecCoord const& x, VecDeriv const& v) {
     const bool whole = p.share.count == 1;

@@ -32,6 +32,7 @@ struct UniformVelocityDampingForceField {
   std::size_t size = 0;
 
   void init(InitContext<D> const& context) { size = context.rest.size(); }
+  void followPoints(Renumbering const&, std::size_t points) { size = points; }
 
   void addForce(MechanicalParams const&, VecDeriv& f, VecCoord const&, VecDeriv const& v) const {
     for (std::size_t i = 0; i < v.size(); ++i) f[i] -= Real(dampingCoefficient) * v[i];

@@ -46,7 +46,9 @@ struct UniformMass {
   LumpedMass<D> lumped{};
 
   /// What a point weighs stays, not the total.
-  void follow(Followed const&) {
+  void follow(Followed const&) { keepMassOfPoint(); }
+  void followPoints(Renumbering const&, std::size_t) { keepMassOfPoint(); }
+  void keepMassOfPoint() {
     if (!totalMass) return;
     vertexMass = lumped.mass[0];
     totalMass.reset();

@@ -52,6 +52,7 @@ struct ClassTraits {
   std::string_view endings;   // of the files that a loader of meshes reads: ".vtk .vtu"
   bool samePoints = false;    // point i below a mapping is point i above it
   bool movesState = false;    // where no solver does
+  bool changesPoints = false;  // by changePoints: a state in its node may start without points
   bool takenByDefault = false;  // by a scene that has to have one of its role and has none
   bool joinsTopologies = false;  // an engine that makes the elements of its `output` of those of its `input`
 };
@@ -229,6 +230,7 @@ constexpr ClassTraits class_traits() {
   if constexpr (requires { C::endings; }) traits.endings = C::endings;
   if constexpr (requires { C::samePoints; }) traits.samePoints = C::samePoints;
   if constexpr (requires { C::movesState; }) traits.movesState = C::movesState;
+  traits.changesPoints = ChangesPoints<C>;
   if constexpr (requires { C::takenByDefault; }) traits.takenByDefault = C::takenByDefault;
   if constexpr (requires { C::joinsTopologies; }) traits.joinsTopologies = C::joinsTopologies;
   return traits;

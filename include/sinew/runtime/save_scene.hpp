@@ -72,6 +72,7 @@ class SceneWriter {
     for (auto const& entry : node.components()) {
       ClassInfo const& info = table_[std::size_t(entry.component.type())];
       if (info.role == RoleKind::engine) continue;  // what it made is in the fields of others
+      if (info.role == RoleKind::topology && pointsChange(node)) continue;  // it has no more than the points
       if (info.role == RoleKind::context && !node.parent()) {
         set(to, "gravity", info.field("gravity")->write(entry.component.address()));
         continue;
@@ -109,6 +110,12 @@ class SceneWriter {
     }
   }
 
+  static bool pointsChange(RuntimeNode<R> const& node) {
+    bool change = false;
+    for (auto const& entry : node.components())
+      entry.component.template visit<role::State>([&](auto const& state) { change = state.capacity > 0; });
+    return change;
+  }
   // a mapped state is what its mapping makes of what it was given
   static AnyComponent<R> stateToWrite(AnyComponent<R> copy, bool mapped, Kept kept) {
     copy.template visit<role::State>([&](auto& state) {

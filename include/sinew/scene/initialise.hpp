@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/scene/carving.hpp>
+#include <sinew/scene/changing_points.hpp>
 #include <sinew/scene/collision.hpp>
 #include <sinew/scene/fluid_boundaries.hpp>
 #include <sinew/scene/loose_interactions.hpp>
@@ -222,8 +223,10 @@ void Initialisation<RootScope>::run() {
   root_.check();
   root_.raise();
   checkFields();
+  ChangingPoints<RootScope>{root_}.begin();
   initStates();
   initComponents();
+  ChangingPoints<RootScope>{root_}.init();
   Collision<RootScope>{root_}.init(bool(again_));
   if constexpr (holds<typename RootScope::NodeType, role::Carving>())
     if (again_.touched.empty()) Carving<RootScope>{root_}.check();

@@ -35,12 +35,15 @@ struct BeforeStep;
 struct OfFluids;
 /// Stands for all components that have a reset(), whatever their roles.
 struct WithReset;
+/// Stands for all before whose steps points go and come, whatever their roles.
+struct PointsComing;
 template <class C, class... Roles>
 inline constexpr bool has_any_role =
     ((std::is_same_v<typename C::Role, Roles> || std::is_same_v<Roles, AnyRole> ||
       (std::is_same_v<Roles, BeforeStep> && ActsBeforeStep<C>) ||
       (std::is_same_v<Roles, OfFluids> && (MeetsBoundaries<C> || BoundsFluids<C>)) ||
-      (std::is_same_v<Roles, WithReset> && Resettable<C>)) ||
+      (std::is_same_v<Roles, WithReset> && Resettable<C>) ||
+      (std::is_same_v<Roles, PointsComing> && ChangesPoints<C>)) ||
      ...);
 
 /// Whether there may be a component with one of the roles in a subtree; runtime nodes may hold any.

@@ -56,10 +56,10 @@ class Simulation {
   }
 
   /// Back to the scene as it was after init, at time 0, so that the next steps have the bits of the first
-  /// ones: positions and velocities (those that states were given for a reset), springs that were cut, what
-  /// materials and solvers remember. Contacts are forgotten, what was attached is released. What was changed
-  /// from outside stays: by change() and removeElements(), and so what tools have carved; fields, and targets
-  /// of couplings.
+  /// ones: points, positions and velocities (those that states were given for a reset), springs that were
+  /// cut, what materials and solvers remember. Contacts are forgotten, what was attached is released. What
+  /// was changed from outside stays: by change() and removeElements(), and so what tools have carved; fields,
+  /// and targets of couplings.
   void reset();
 
   /// What records completes its files. Throws Error where one could not be written. Without that, the end of
@@ -295,6 +295,7 @@ void Simulation<Root>::reset() {
              else
                c.reset();
            }));
+  if constexpr (proved) ChangingPoints<RootScope>{rootScope()}.reset();
   traverse(rootScope(), on<role::LagrangianConstraint>([](auto& c, auto const&) {
              if constexpr (KeepsMultipliers<std::decay_t<decltype(c)>>) c.multipliers.clear();
            }));

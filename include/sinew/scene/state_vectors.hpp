@@ -42,7 +42,8 @@ struct StateVectors {
     std::size_t scalars = 0;
     forEachState([&](auto& state) {
       state.reserve(needed);
-      scalars = std::max(scalars, state.size() * std::size_t(DataTypesOf<decltype(state)>::size));
+      const std::size_t points = std::max(state.size(), state.capacity);
+      scalars = std::max(scalars, points * std::size_t(DataTypesOf<decltype(state)>::size));
     });
     reserveSums(scalars);
   }

@@ -3,6 +3,7 @@
 
 #include <sinew/core/step_warnings.hpp>
 #include <sinew/scene/carving.hpp>
+#include <sinew/scene/changing_points.hpp>
 #include <sinew/scene/collision.hpp>
 #include <sinew/scene/fluid_boundaries.hpp>
 #include <sinew/scene/loose_interactions.hpp>
@@ -30,13 +31,14 @@ struct Step {
   double time, dt;  // at its start, and its length [s]
   StepWarnings& warnings;
 
-  /// What acts before a step: all may look at the scene, then they may move it.
+  /// What acts before a step: all may look at the scene, points go and come, then it may be moved.
   void begin() const {
     [[maybe_unused]] const auto span = root.span(Phase::beforeStep);
     const StepAhead ahead{number, time, time + dt, dt, false};
     forEachAhead(root, ahead, [](auto& c, auto& state, StepAhead const& step) {
       if constexpr (requires { c.beforeStep(step, state); }) c.beforeStep(step, state);
     });
+    ChangingPoints<RootScope>{root}.change(ahead);
     bool moved = false;
     forEachAhead(root, ahead, [&](auto& c, auto& state, StepAhead const& step) {
       if constexpr (requires { c.beginStep(step, state); }) moved = c.beginStep(step, state) || moved;

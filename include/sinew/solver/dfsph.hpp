@@ -75,6 +75,8 @@ struct DFSPHSolver {
         field("maxSubsteps", &S::maxSubsteps, "", "more of them in a step are an error", range::atLeast(1)));
   }
 
+  static constexpr bool keepsPoints = true;  // has the volume and the pressures of each
+
   std::vector<double> pressures{}, pressuresV{};
 
   /// What the next step starts from, besides positions and velocities.

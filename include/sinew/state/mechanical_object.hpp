@@ -3,6 +3,7 @@
 
 #include <sinew/core/component.hpp>
 #include <sinew/core/placement.hpp>
+#include <sinew/core/point_change.hpp>
 #include <sinew/state/vector_operations.hpp>
 
 #include <algorithm>
@@ -38,6 +39,8 @@ struct MechanicalObject {
   VecDeriv lastSolution{};  // the last dx, of solvers that start from it
   // position has the points of the node's topology, moved as the fields above say
   bool pointsOfTopology = false;
+  // a reset leaves no points: all came while the scene ran
+  bool startsEmpty = false;
 
   static constexpr auto fields() {
     using M = MechanicalObject;
@@ -73,7 +76,11 @@ struct MechanicalObject {
         field("points_of_topology",
               &M::pointsOfTopology,
               "",
-              "whether positions are those of the node's topology, moved; found out at the start"));
+              "whether positions are those of the node's topology, moved; found out at the start"),
+        field("starts_empty",
+              &M::startsEmpty,
+              "",
+              "whether a reset leaves no points, in a checkpoint of one whose points come and go"));
   }
 
   // after init
@@ -91,8 +98,10 @@ struct MechanicalObject {
   std::vector<VecDeriv> auxiliaryDerivs{};
   std::optional<VecCoord> given{};  // positions that the mapping of a mapped state was given
   SolverWorkspace<D> solverWorkspace{};
-  int dofOffset = -1;  // first scalar of this state in the assembled system of its solver
-  int solver = -1;     // which of the ODE solvers of the scene moves it, in their order; -1: none
+  std::size_t capacity = 0;      // how many points there may be, where they come and go; 0: they do not
+  PointChange<D> pointChange{};  // before a step
+  int dofOffset = -1;            // first scalar of this state in the assembled system of its solver
+  int solver = -1;               // which of the ODE solvers of the scene moves it, in their order; -1: none
 
   std::size_t size() const { return position.size(); }
 
@@ -169,8 +178,18 @@ struct MechanicalObject {
     };
     if (velocity.size() > n) same(velocity.size(), "velocity");
     same(restPosition.size(), "rest_position");
-    same(resetPosition.size(), "reset_position");
-    same(resetVelocity.size(), "reset_velocity");
+    if (capacity == 0) {
+      same(resetPosition.size(), "reset_position");
+      same(resetVelocity.size(), "reset_velocity");
+    } else if (!resetVelocity.empty() && resetVelocity.size() != resetPosition.size()) {
+      throw Error(where,
+                  text(component_name<MechanicalObject>(),
+                       ": reset_velocity has ",
+                       resetVelocity.size(),
+                       " entries, reset_position has ",
+                       resetPosition.size(),
+                       "; give as many of both"));
+    }
     if constexpr (D::rigid && D::spatial == 3)
       for (std::size_t i = 0; i < n; ++i) {
         const auto norm = position[i].orientation.norm();
@@ -199,15 +218,23 @@ struct MechanicalObject {
       history.clear();
     }
     if (multiplierForce.size() != n) multiplierForce.clear();
-    if (resetPosition.empty()) resetPosition = position;
-    if (resetVelocity.empty()) resetVelocity = velocity;
+    startsEmpty = capacity > 0 && (startsEmpty || n == 0) && resetPosition.empty();
+    if (resetPosition.empty() && !startsEmpty) resetPosition = position;
+    if (resetVelocity.empty() && !startsEmpty) {
+      resetVelocity = velocity;
+      resetVelocity.resize(resetPosition.size(), D::Deriv::Zero());
+    }
   }
 
   void reserve(Auxiliary needed) {
-    while (auxiliaryCoords.size() < std::size_t(needed.coords)) auxiliaryCoords.push_back(position);
+    while (auxiliaryCoords.size() < std::size_t(needed.coords)) {
+      auxiliaryCoords.push_back(position);
+      if (capacity > 0) auxiliaryCoords.back().reserve(capacity);
+    }
     while (auxiliaryDerivs.size() < std::size_t(needed.derivs)) {
       const std::size_t n = position.size(), first = auxiliaryDerivs.size() * n;
       auxiliaryDerivs.emplace_back(n, D::Deriv::Zero());
+      if (capacity > 0) auxiliaryDerivs.back().reserve(capacity);
       if (first + n <= history.size())
         std::copy_n(history.begin() + std::ptrdiff_t(first), n, auxiliaryDerivs.back().begin());
     }
@@ -225,9 +252,42 @@ struct MechanicalObject {
     history.clear();
   }
 
+  /// Room for `capacity` points in all that has an entry for each, but in forces that are kept.
+  void reserveCapacity() {
+    pointChange.reserve(std::max(size(), capacity));
+    for (VecCoord* v : {&position, &restPosition, &freePosition}) v->reserve(capacity);
+    for (VecDeriv* v : {&velocity, &force, &dx}) v->reserve(capacity);
+    for (VecCoord& v : auxiliaryCoords) v.reserve(capacity);
+    for (VecDeriv& v : auxiliaryDerivs) v.reserve(capacity);
+  }
+  /// Points go and come, as pointChange has it. The rest position of one that comes is that at which it
+  /// comes, and what solvers keep of it from step to step is zero.
+  void changePoints() {
+    auto change = [this](auto& list, auto const& added) {
+      pointChange.points.filter(list);
+      list.insert(list.end(), added.begin(), added.end());
+    };
+    for (VecCoord* v : {&position, &restPosition, &freePosition}) change(*v, pointChange.positions);
+    for (VecCoord& v : auxiliaryCoords) change(v, pointChange.positions);
+    change(velocity, pointChange.velocities);
+    const std::size_t n = position.size();
+    auto changeToZero = [&](VecDeriv& list) {
+      pointChange.points.filter(list);
+      list.resize(n, D::Deriv::Zero());
+    };
+    for (VecDeriv* v : {&force, &dx}) changeToZero(*v);
+    for (VecDeriv& v : auxiliaryDerivs) changeToZero(v);
+  }
+
   void reset() {
     position = resetPosition;
     velocity = resetVelocity;
+    if (capacity > 0) {
+      restPosition = freePosition = position;
+      for (VecCoord& v : auxiliaryCoords) v = position;
+      for (VecDeriv* v : {&force, &dx}) v->resize(position.size(), D::Deriv::Zero());
+      for (VecDeriv& v : auxiliaryDerivs) v.resize(position.size(), D::Deriv::Zero());
+    }
     for (VecDeriv* v : {&force, &dx, &applied, &reaction}) v->assign(v->size(), D::Deriv::Zero());
     for (VecDeriv& v : auxiliaryDerivs) v.assign(v.size(), D::Deriv::Zero());
   }

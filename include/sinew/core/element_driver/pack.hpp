@@ -67,8 +67,8 @@ struct ElementPack {
   bool hasLast;  // one of the points may be the last of its state: nothing may be read behind it
 
   /// Takes the elements from `first` on, of which one may have the point `last`.
-  void fill(std::vector<Indices> const& elements, std::vector<Rest> const& restOf, std::size_t first,
-            int last) {
+  template <class Elements, class Rests>
+  void fill(Elements const& elements, Rests const& restOf, std::size_t first, int last) {
     static_assert(sizeof(typename Law::Rest) == W * sizeof(Rest),
                   "a law's Rest holds only scalars of its Real");
     constexpr std::size_t reals = sizeof(Rest) / sizeof(Real);
@@ -77,7 +77,8 @@ struct ElementPack {
     for (int l = 0; l < W; ++l) {
       const std::size_t e = first + std::size_t(std::min(l, active - 1));
       Real one[reals];
-      std::memcpy(one, &restOf[e], sizeof one);
+      const Rest own = restOf[e];
+      std::memcpy(one, &own, sizeof one);
       for (std::size_t r = 0; r < reals; ++r) interleaved[r * W + std::size_t(l)] = one[r];
       for (int k = 0; k < arity; ++k) {
         index[k][l] = elements[e][std::size_t(k)];

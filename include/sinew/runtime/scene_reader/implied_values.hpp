@@ -75,16 +75,23 @@ class ImpliedValues {
   }
 
   /// A state that is given no points takes, at init, those of the topology of its node; here it takes those
-  /// of another where that has none. One of its own without any topology has one point, at the origin.
+  /// of another where that has none. One of its own without any topology has one point, at the origin, and
+  /// none beside what makes points while the scene runs.
   void statePoints(SceneItem& item, std::set<std::string_view> const& given) {
     if (given.count("position")) return movedPoints(item);
     SceneItem const* const used = item.place->ofRole(RoleKind::topology);
     if (SceneItem* topology = values_.withPoints(*item.place)) {
       if (topology != used) values_.takeFrom(item, "position", *topology, "position");
-    } else if (!used && !item.place->ofRole(RoleKind::mapping)) {
+    } else if (!used && !item.place->ofRole(RoleKind::mapping) && !pointsChange(*item.place)) {
       values_.component(item).template visit<role::State>(
           [&](auto& state) { state.position.push_back(std::decay_t<decltype(state)>::DataTypes::zero()); });
     }
+  }
+
+  static bool pointsChange(ScenePlace const& place) {
+    return std::any_of(place.items.begin(), place.items.end(), [](auto const& other) {
+      return other->info && other->info->traits.changesPoints;
+    });
   }
 
   /// A visual model without vertices has, below a mapping of the same points, those of the state above,

@@ -76,7 +76,7 @@ inline constexpr std::string_view fused_fields<Gravity> = "gravity";
 template <class D>
 inline constexpr std::string_view fused_fields<MechanicalObject<D>> =
     "position velocity rest_position reset_position reset_velocity translation rotation scale3d history "
-    "last_solution points_of_topology";
+    "last_solution points_of_topology starts_empty";
 template <class D>
 inline constexpr std::string_view fused_fields<UniformMass<D>> = "vertexMass totalMass";
 template <class D>
