@@ -6,6 +6,13 @@
 
 namespace sinew::gpu {
 
+/// recording(), as long as it lives.
+struct Recording {
+  Recording() { recording() = true; }
+  Recording(Recording const&) = delete;
+  ~Recording() { recording() = false; }
+};
+
 /// The step of a simulation as a CUDA graph: recorded once, then launched as one piece of work. What the host
 /// computes in a step is recorded as the device sees it then, so a scene whose step asks the device for a
 /// result, moves points by its clock, collides or writes files cannot be recorded (CUDA says so, or the same
@@ -19,23 +26,24 @@ class RecordedStep {
   /// Makes one step to warm up, and records another without making it. Throws Error where that cannot be.
   RecordedStep(Simulation<Root>& simulation, double dt) : simulation_(simulation), dt_(dt) {
     refuseAcross();
-    simulation_.animate(dt);
+    {
+      const Recording now;  // what a recorded step does is what needs its memory
+      simulation_.animate(dt);
+    }
 #if SINEW_CUDA
     const double time = simulation_.time();
     const long step = simulation_.step();
     char const* const what = "RecordedStep";
     cudaGraph_t graph = nullptr;
     check(cudaStreamBeginCapture(stream(), cudaStreamCaptureModeThreadLocal), what);
-    recording() = true;
     try {
+      const Recording now;
       simulation_.animate(dt);
     } catch (...) {
-      recording() = false;
       cudaStreamEndCapture(stream(), &graph);
       if (graph) cudaGraphDestroy(graph);
       throw;
     }
-    recording() = false;
     check(cudaStreamEndCapture(stream(), &graph), what);
     const cudaError_t made = cudaGraphInstantiate(&step_, graph, 0);
     cudaGraphDestroy(graph);
