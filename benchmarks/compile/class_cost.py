@@ -6,6 +6,7 @@ source, and their difference for one class. Ten minutes of one core."""
 import argparse
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -28,8 +29,8 @@ def with_copies(folder, count):
         includes += f"#include <sinew/extra{i}.hpp>\n"
         classes += f"ExtraForce{i}<Vec3d>, "
     registry = registry.replace("#include <sinew/sinew.hpp>\n", f"#include <sinew/sinew.hpp>\n{includes}")
-    registry = registry.replace("struct Standard\n    : Registry<", f"struct Standard\n    : Registry<{classes}")
-    if count and classes not in registry:
+    registry, found = re.subn(r"(struct Standard\s*: Registry<)", rf"\g<1>{classes}", registry)
+    if found != 1:
         sys.exit("class_cost: the list Standard does not begin as this script expects it")
     (include / "registry.hpp").write_text(registry)
     return pathlib.Path(folder)
