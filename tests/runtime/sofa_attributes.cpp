@@ -97,7 +97,9 @@ bool same_value(std::string const& a, std::string const& b) {
                               [](unsigned char i, unsigned char j) { return std::tolower(i) == std::tolower(j); }))
       return false;
   }
-  return !(second >> y);
+  while (second >> y)
+    if (a.empty() || !zeros(y)) return false;  // a vector of fewer coordinates
+  return true;
 }
 std::string in_sofas_words(std::string const& value) {
   return value == "true" ? "1" : value == "false" ? "0" : value;
