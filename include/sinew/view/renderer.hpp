@@ -22,10 +22,6 @@
 #include <utility>
 #include <vector>
 
-#if defined(__GLIBC__)
-#include <malloc.h>
-#endif
-
 namespace sinew::view {
 
 namespace detail {
@@ -182,12 +178,6 @@ void main() {
 /// current.
 class Renderer {
  public:
-  Renderer() {
-#if defined(__GLIBC__)
-    // what Mesa's software needs for a picture, some 10 MB, is kept for the next one
-    if (drawn_by_software()) mallopt(M_TRIM_THRESHOLD, 256 << 20), mallopt(M_MMAP_THRESHOLD, 32 << 20);
-#endif
-  }
   /// Brings what is seen onto the graphics card.
   void show(SeenScene const& scene) {
     auto const& [low, high] = scene.box();
