@@ -89,8 +89,7 @@ struct BeamLinearMapping {
       if (localCoord)
         c.offset = c.length * Vec3(Real(along) - c.place, Real(p[1]), Real(p[2]));
       else
-        c.offset =
-            rotationOf(c, parent.rest).conjugate() * (p.template cast<Real>() - lineOf(c, parent.rest));
+        c.offset = Section(c, parent.rest).placeOf(p.template cast<Real>());
     }
     rotationJacobians.resize(carriers.size());
   }
@@ -98,17 +97,17 @@ struct BeamLinearMapping {
   void apply(typename Out::VecCoord& out, typename In::VecCoord const& in) {
     for (std::size_t i = 0; i < carriers.size(); ++i) {
       Carrier const& c = carriers[i];
-      Quat<Real> sum;
-      const Quat<Real> mean = rotationOf(c, in, &sum);
-      const Vec3 arm = mean * c.offset;
-      out[i] = (lineOf(c, in) + arm).template cast<typename Out::Real>();
+      const Section section(c, in);
+      const Vec3 arm = section.rotation * c.offset;
+      out[i] = (section.middle + arm).template cast<typename Out::Real>();
+      const Quat<Real> inverse = section.sum.inverse();
       for (std::size_t k = 0; k < 2; ++k) {
         // the section spins by l (q_w - [q]x) w, q = q_k / sum, when frame k, which has the weight l, spins
         // by w
-        const Quat<Real> part = sideOf(c, in, k) * sum.inverse();
+        const Quat<Real> part = section.sides[k] * inverse;
         const Real weight = k == 0 ? 1 - c.place : c.place;
         const Mat<Real, 3> spin = weight * (part.w() * Mat<Real, 3>::Identity() - cross(part.vec()));
-        rotationJacobians[i][k] = -cross(tangentOf(c, in, k)) - cross(arm) * spin;
+        rotationJacobians[i][k] = -cross(section.tangents[k]) - cross(arm) * spin;
       }
     }
   }
@@ -161,29 +160,31 @@ struct BeamLinearMapping {
     const Real f = c.place * c.place * (3 - 2 * c.place);
     return k == 0 ? 1 - f : f;
   }
-  // q_k, of the two quaternions of that rotation the one on the side of the other end
-  static Quat<Real> sideOf(Carrier const& c, typename In::VecCoord const& x, std::size_t k) {
-    Quat<Real> q = x[std::size_t(c.frames[k])].orientation * c.toBeam[k];
-    if (k == 1 && q.dot(sideOf(c, x, 0)) < 0) q.coeffs() = -q.coeffs();
-    return q;
-  }
-  static Quat<Real> rotationOf(Carrier const& c, typename In::VecCoord const& x, Quat<Real>* sum = nullptr) {
-    Quat<Real> mean;
-    mean.coeffs() = (1 - c.place) * sideOf(c, x, 0).coeffs() + c.place * sideOf(c, x, 1).coeffs();
-    if (sum) *sum = mean;
-    return mean.normalized();
-  }
-  static Vec3 tangentOf(Carrier const& c, typename In::VecCoord const& x, std::size_t k) {
-    const Real t = c.place, factor = k == 0 ? t * (1 - t) * (1 - t) : t * t * (t - 1);
-    return factor * c.length *
-           (x[std::size_t(c.frames[k])].orientation * (c.toBeam[k] * Vec3(Vec3::UnitX())));
-  }
-  static Vec3 lineOf(Carrier const& c, typename In::VecCoord const& x) {
-    Vec3 p = Vec3::Zero();
-    for (std::size_t k = 0; k < 2; ++k)
-      p += weightOf(c, k) * x[std::size_t(c.frames[k])].center + tangentOf(c, x, k);
-    return p;
-  }
+  /// Where a point's section of its beam is.
+  struct Section {
+    std::array<Quat<Real>, 2> sides;  // q_k, of the two quaternions of T_k those on one side
+    std::array<Vec3, 2> tangents;     // L (t - 2t^2 + t^3) T_0 e_x, L (t^3 - t^2) T_1 e_x
+    Quat<Real> sum, rotation;         // (1 - t) q_0 + t q_1, and R
+    Vec3 middle;                      // on the middle line
+
+    Section(Carrier const& c, typename In::VecCoord const& x) : middle(Vec3::Zero()) {
+      const Real t = c.place, factors[2]{t * (1 - t) * (1 - t), t * t * (t - 1)};
+      for (std::size_t k = 0; k < 2; ++k) {
+        auto const& frame = x[std::size_t(c.frames[k])];
+        Quat<Real>& q = sides[k] = frame.orientation * c.toBeam[k];
+        tangents[k] = factors[k] * c.length *
+                      Vec3(1 - 2 * (q.y() * q.y() + q.z() * q.z()),
+                           2 * (q.x() * q.y() + q.w() * q.z()),
+                           2 * (q.x() * q.z() - q.w() * q.y()));
+        middle += weightOf(c, k) * frame.center + tangents[k];
+      }
+      if (sides[1].dot(sides[0]) < 0) sides[1].coeffs() = -sides[1].coeffs();
+      sum.coeffs() = (1 - t) * sides[0].coeffs() + t * sides[1].coeffs();
+      rotation = sum.normalized();
+    }
+    /// s of a point in the world.
+    Vec3 placeOf(Vec3 const& p) const { return rotation.conjugate() * (p - middle); }
+  };
   static Mat<Real, 3> cross(Vec3 const& a) {
     return (Mat<Real, 3>() << 0, -a[2], a[1], a[2], 0, -a[0], -a[1], a[0], 0).finished();
   }
