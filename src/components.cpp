@@ -9,6 +9,7 @@
 #include <sinew/collision/broad_phase.hpp>
 #include <sinew/collision/collision_surface.hpp>
 #include <sinew/collision/contact_assembly.hpp>
+#include <sinew/collision/contact_limit.hpp>
 #include <sinew/collision/contact_rules.hpp>
 #include <sinew/collision/convex_hull.hpp>
 #include <sinew/collision/default_pipeline.hpp>

@@ -106,6 +106,29 @@ TEST_CASE("the default contact manager does not know the response of another one
                     Catch::Contains("'ConstantContact'") && Catch::Contains("StickContactForceField"));
 }
 
+TEST_CASE("more contacts in a step than are allowed end it with the models named, and change nothing") {
+  std::string three = balls("DefaultContactManager maximumContacts='1'");
+  three.replace(three.find("0.9 0 0"), 7, "0.9 0 0  1.8 0 0");
+  Simulation sim{parse_scene<Mine>("balls.scn", three).root};
+  sim.init();
+  auto& state = *sim.root().find_node("balls")->get<MechanicalObject<Vec3d>>();
+  const auto before = state.position;
+  CHECK_THROWS_WITH(sim.animate(0.01),
+                    Catch::Contains("DefaultContactManager") && Catch::Contains("more than 1 contacts") &&
+                        Catch::Contains("parts of /root/balls") && Catch::Contains("raise maximumContacts"));
+  CHECK(state.position == before);
+  CHECK(sim.time() == 0);
+
+  state.position[2][0] = 10;  // only the first two touch now, as without the third
+  sim.animate(0.01);
+  Simulation two{parse_scene<Mine>("balls.scn", balls("DefaultContactManager maximumContacts='1'")).root};
+  CHECK(state.velocity[1][0] == Approx(pushed(two)).epsilon(1e-9));
+
+  Simulation none{parse_scene<Mine>("balls.scn", balls("DefaultContactManager maximumContacts='2'")).root};
+  none.root().get<DefaultContactManager>()->maximumContacts = 0;
+  CHECK_THROWS_WITH(none.init(), Catch::Contains("maximumContacts"));
+}
+
 // a ball of 2 kg that slides at 4 m/s over a fixed one of 1000 m, which it touches
 std::string sliding(std::string const& manager, std::string const& model = "",
                     std::string const& loop = "<FreeMotionAnimationLoop/>") {

@@ -3,6 +3,7 @@
 
 #include <sinew/collision/attachment.hpp>
 #include <sinew/collision/contact_assembly.hpp>
+#include <sinew/collision/contact_limit.hpp>
 #include <sinew/collision/contact_responses.hpp>
 #include <sinew/collision/contact_rules.hpp>
 #include <sinew/collision/friction_contact_constraint.hpp>
@@ -43,7 +44,7 @@ struct ContactManager {
       ownName.empty() ? "CollisionResponse RuleBasedContactManager" : "";
 
   std::string response = "PenalityContactForceField", responseParams{}, rules{};
-  int capacity = 1000;
+  int capacity = 1000, maximumContacts = 200000;
   std::tuple<Responses...> responses{};
 
   static constexpr auto fields() {
@@ -65,7 +66,12 @@ struct ContactManager {
               &M::capacity,
               "",
               "contacts for which there is room from the start; more are allowed, and make a step allocate",
-              range::atLeast(0)));
+              range::atLeast(0)),
+        field("maximumContacts",
+              &M::maximumContacts,
+              "",
+              "contacts of a step; more are an error, since so many are hardly meant",
+              range::atLeast(1)));
   }
 
   std::vector<Contact> contacts{};  // rising by key
@@ -76,6 +82,7 @@ struct ContactManager {
   }
 
   // of the steps
+  std::string path{};  // of itself, for errors
   std::vector<Contact> found{};
   std::vector<CollisionSurface*> surfaces{};  // in the order of the scene, of this step
   std::vector<int> bodies{};                  // of each surface, the first one that is on the same state
@@ -97,6 +104,7 @@ struct ContactManager {
   int lastAttachment = 0;
 
   void init(std::string const& where, std::vector<CollisionSurface*> const& all, bool again = false) {
+    path = where;
     check_memory(where, text("room for ", capacity, " contacts (capacity)"), capacity);
     surfaces = all;
     bodies.clear();
@@ -210,12 +218,13 @@ struct ContactManager {
   double coneOf(int a, int b) const {
     return All::isConstraint(answers.find(a, b).place) ? 0.02 : CollisionSurface::leastCone;
   }
+  /// Throws Error where there are maximumContacts already.
   void add(Contact const& c) {
-    if (found.size() == found.capacity()) ++grown;
+    checkRoom();
     found.push_back(c);
   }
   Contact& addNew() {
-    if (found.size() == found.capacity()) ++grown;
+    checkRoom();
     return found.emplace_back();
   }
 
@@ -357,6 +366,12 @@ struct ContactManager {
   }
 
  private:
+  void checkRoom() {
+    if (found.size() == found.capacity()) ++grown;
+    if (found.size() < std::size_t(maximumContacts)) return;
+    const auto all = std::exchange(found, {});
+    refuse_contacts(text(path, ": ", component_name<ContactManager>()), maximumContacts, all, surfaces);
+  }
   // rising by key, each key once: the same vertices meet in several pairs of primitives
   void sortFound() {
     order.clear();
