@@ -335,6 +335,7 @@ std::string write_topology(SeenScene const& scene, std::uint32_t number) {
   for (SeenBody const& body : scene.bodies) {
     put(to, std::uint32_t(body.kind) + (body.visible ? 0u : hiddenKind));
     for (int k = 0; k < 3; ++k) put(to, float(body.colour[k]));
+    put(to, float(body.opacity));
     for (const std::size_t n :
          {body.path.size(), body.points.size(), body.triangles.size(), body.quads.size(), body.edges.size()})
       put_count(to, n);
@@ -378,7 +379,7 @@ ReadTopology read_topology(std::string_view message) {
   ReadTopology read{.number = bytes.word()};
   for (int k = 0; k < 3; ++k) read.scene.up[k] = double(bytes.number<float>());
   std::size_t all = 0;
-  constexpr std::size_t header = 9 * sizeof(std::uint32_t);
+  constexpr std::size_t header = 10 * sizeof(std::uint32_t);
   const std::size_t bodies = bytes.count(bytes.word(), header);
   for (std::size_t b = 0; b < bodies; ++b) {
     const std::uint32_t kind = bytes.word();
@@ -386,6 +387,8 @@ ReadTopology read_topology(std::string_view message) {
       bytes.refuse("a body is of no kind that there is");
     SeenBody body{.kind = SeenBody::Kind(kind % hiddenKind), .visible = kind < hiddenKind};
     for (int k = 0; k < 3; ++k) body.colour[k] = double(bytes.number<float>());
+    body.opacity = double(bytes.number<float>());
+    if (!(body.opacity >= 0 && body.opacity <= 1)) bytes.refuse("an opacity is not from 0 to 1");
     const std::uint32_t path = bytes.word(), points = bytes.word(), triangles = bytes.word(),
                         quads = bytes.word(), edges = bytes.word();
     // a frame of them would be longer than what is sent

@@ -39,6 +39,48 @@ struct Seen {
 };
 int brightness(std::array<unsigned char, 3> pixel) { return (pixel[0] + pixel[1] + pixel[2]) / 3; }
 
+TEST_CASE("what is behind a body shows through by what its opacity leaves, in the order of depth") {
+  // a white plate, and before it others at z, listed in any order
+  struct Pane {
+    double z, opacity;
+    Eigen::Vector3d colour;
+  };
+  auto seen = [](std::vector<Pane> const& panes, bool shadows = false) {
+    SeenScene scene = plate();
+    for (Pane const& pane : panes) {
+      scene.bodies.push_back(scene.bodies[0]);
+      view::SeenBody& body = scene.bodies.back();
+      for (auto& p : body.points) p = {p[0] / 2, p[1] / 2, pane.z};
+      body.colour = pane.colour, body.opacity = pane.opacity;
+    }
+    scene.settings.ambient = Eigen::Vector3d::Constant(shadows ? 0.1 : 0.8);
+    scene.settings.shadows = shadows;
+    if (shadows) scene.settings.lights = {{.direction = Eigen::Vector3d(-1, 0, 1).normalized()}};
+    return Seen(scene);
+  };
+  auto alone = [&](Eigen::Vector3d const& colour, double z) { return seen({{z, 1, colour}}).at(0, 0); };
+  const Eigen::Vector3d red(1, 0.1, 0.1), blue(0.1, 0.2, 1);
+  const auto white = seen({}).at(0, 0);
+  for (const double opacity : {0., 0.25, 0.7}) {
+    const auto through = seen({{0.3, opacity, red}}).at(0, 0), front = alone(red, 0.3);
+    for (std::size_t c = 0; c < 3; ++c)
+      CHECK(through[c] == Approx(opacity * front[c] + (1 - opacity) * white[c]).margin(1.5));
+  }
+  // the far one first, whichever is listed first
+  for (const bool farFirst : {true, false}) {
+    const Pane far{0.2, 0.5, red}, near{0.4, 0.5, blue};
+    const auto both = (farFirst ? seen({far, near}) : seen({near, far})).at(0, 0);
+    const auto ofFar = alone(red, 0.2), ofNear = alone(blue, 0.4);
+    for (std::size_t c = 0; c < 3; ++c)
+      CHECK(both[c] == Approx(0.5 * ofNear[c] + 0.25 * ofFar[c] + 0.25 * white[c]).margin(1.5));
+  }
+  // what is opaque before it hides it, and it throws no shadow
+  CHECK(seen({{0.2, 0.5, red}, {0.4, 1, blue}}).at(0, 0) == alone(blue, 0.4));
+  const double aside = 0.5 + 0.3 / 2;  // beside the pane, in the middle of its shadow there
+  CHECK(brightness(seen({{0.3, 1, red}}, true).at(aside, 0)) < brightness(seen({}, true).at(aside, 0)) - 40);
+  CHECK(seen({{0.3, 0.5, red}}, true).at(aside, 0) == seen({}, true).at(aside, 0));
+}
+
 TEST_CASE("lights of a scene shine from where they are, in their colours") {
   SeenScene scene = plate();
   // none, and nothing from all sides: the light of the eye alone; a parallel one from the front is brighter

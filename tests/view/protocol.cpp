@@ -47,7 +47,8 @@ SeenScene scene() {
                          .points = {{1, 2, 3}, {4, 5, 6}},
                          .edges = {{0, 1}},
                          .values = {0.5, 0.25},
-                         .colour = {1, 0.5, 0}});
+                         .colour = {1, 0.5, 0},
+                         .opacity = 0.25});
   return seen;
 }
 
@@ -166,6 +167,8 @@ TEST_CASE("a topology and its frames are read as they were written") {
   CHECK(read.scene.bodies[1].kind == SeenBody::Kind::state);
   CHECK_FALSE(read.scene.bodies[1].visible);
   CHECK(read.scene.bodies[1].colour == Eigen::Vector3d(1, 0.5, 0));
+  CHECK(read.scene.bodies[0].opacity == 1);
+  CHECK(read.scene.bodies[1].opacity == 0.25);
   CHECK(read.scene.bodies[1].edges == seen.bodies[1].edges);
   const std::string frame = write_frame(seen, 7);
   CHECK(frame.size() == 32 + 6 * 16);

@@ -52,6 +52,14 @@ TEST_CASE("colours and materials") {
   CHECK(colour("[0.2, 0.4, 0.6]") == Eigen::Vector3d(0.2, 0.4, 0.6));
   CHECK(colour("#ff0033") == Eigen::Vector3d(1, 0, 0.2));
   CHECK(colour("#FF003380") == Eigen::Vector3d(1, 0, 0.2));
+  auto opacity = [](std::string const& name, std::string const& words) {
+    const auto settings = of("OglModel", {{name, words}});
+    return settings.seen.looks.at(0).opacity.value();
+  };
+  CHECK(opacity("color", "red") == 1);
+  CHECK(opacity("color", "1 0 0 0.3") == 0.3);
+  CHECK(opacity("color", "#FF003380") == Approx(128 / 255.));
+  CHECK(opacity("material", "Default Diffuse 1 1 0 0 0.5 Ambient 1 0 0 0 1") == 0.5);
   CHECK(colour("") == Eigen::Vector3d(-1, -1, -1));
   for (char const* wrong : {"reddish", "#ff00", "#gg0000", "1 2 3", "1 0", "nan 0 0", "-1 0 0"}) {
     const auto settings = of("OglModel", {{"color", wrong}});

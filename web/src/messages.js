@@ -16,8 +16,9 @@ export function readTopology(buffer) {
   for (let b = 0; b < words[5]; ++b) {
     const kind = words[at];
     const colour = [...new Float32Array(buffer, 4 * (at + 1), 3)];
-    const [pathBytes, points, triangles, quads, edges] = words.subarray(at + 4, at + 9);
-    at += 9;
+    const [opacity] = new Float32Array(buffer, 4 * (at + 4), 1);
+    const [pathBytes, points, triangles, quads, edges] = words.subarray(at + 5, at + 10);
+    at += 10;
     const path = text.decode(new Uint8Array(buffer, 4 * at, pathBytes));
     at += Math.ceil(pathBytes / 4);
     const take = (count) => words.subarray(at, (at += count));
@@ -26,6 +27,7 @@ export function readTopology(buffer) {
       visual: kind % 4 === 1,
       visible: kind < 4,
       colour,
+      opacity,
       first, // of its points among those of all bodies
       points,
       triangles: take(3 * triangles),

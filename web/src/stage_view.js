@@ -130,6 +130,7 @@ export class StageView {
       body.objects.push(object);
       this.scene.add(object);
     };
+    const through = body.opacity < 1 ? { transparent: true, opacity: body.opacity, depthWrite: false } : {};
     const faces = facesOf(body);
     if (faces.length) {
       body.surface = new SmoothSurface(faces, points);
@@ -145,9 +146,11 @@ export class StageView {
         polygonOffset: true, // edges are seen on the faces they belong to
         polygonOffsetFactor: 1,
         polygonOffsetUnits: 1,
+        ...through,
       });
       body.mesh = new Mesh(geometry, material);
-      body.mesh.castShadow = body.mesh.receiveShadow = true;
+      body.mesh.castShadow = body.opacity === 1;
+      body.mesh.receiveShadow = true;
       add(body.mesh);
     }
     const edges = edgesOf(body);
@@ -156,12 +159,12 @@ export class StageView {
       geometry.setAttribute('position', body.places);
       geometry.setIndex(new BufferAttribute(edges, 1));
       const color = faces.length ? body.colour.clone().multiplyScalar(0.25) : body.colour;
-      add(new LineSegments(geometry, new LineBasicMaterial({ color })));
+      add(new LineSegments(geometry, new LineBasicMaterial({ color, ...through })));
     }
     if (!faces.length && !edges.length) {
       const geometry = new BufferGeometry();
       geometry.setAttribute('position', body.places);
-      const material = new PointsMaterial({ color: body.colour, sizeAttenuation: false });
+      const material = new PointsMaterial({ color: body.colour, sizeAttenuation: false, ...through });
       material.onBeforeCompile = (shader) => {
         shader.fragmentShader = shader.fragmentShader.replace(
           '#include <clipping_planes_fragment>',

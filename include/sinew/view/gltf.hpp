@@ -225,11 +225,13 @@ class GltfFile {
   static std::string materialOf(SeenBody const& body, int number) {
     std::vector<double> linear;  // glTF's colours are linear in light
     for (int c = 0; c < 3; ++c) linear.push_back(std::pow(std::clamp(body.colour[c], 0., 1.), 2.2));
+    linear.push_back(std::clamp(body.opacity, 0., 1.));
     return text("{\"name\":\"colour ",
                 number,
                 "\",\"doubleSided\":true,\"pbrMetallicRoughness\":{\"baseColorFactor\":[",
                 numbers(linear),
-                ",1],\"metallicFactor\":0,\"roughnessFactor\":0.6}}");
+                "],\"metallicFactor\":0,\"roughnessFactor\":0.6}",
+                body.opacity < 1 ? ",\"alphaMode\":\"BLEND\"}" : "}");
   }
   std::string meshOf(Shape const& shape, int material) {
     SeenBody const& body = shape.first;

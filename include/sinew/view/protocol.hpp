@@ -131,8 +131,8 @@ void tell(Stage& stage, Command const& said, Answer const& answer) {
 
 /// The elements of what is seen, known by a number; of its points only how many there are. Words of four
 /// bytes, the lowest first: 1 for a topology, its number, three floats upwards, how many bodies; for each
-/// body its kind (SeenBody::Kind, and 4 more where it is hidden), three floats of its colour, lengths of path
-/// [bytes], points, triangles, quads, edges; the path, filled up to a word, and the numbers of the points of
+/// body its kind (SeenBody::Kind, and 4 more where it is hidden), three floats of its colour and one of its opacity,
+/// lengths of path [bytes], points, triangles, quads, edges; the path, filled up to a word, and the numbers of the points of
 /// each element.
 std::string write_topology(SeenScene const& scene, std::uint32_t number);
 /// A moment of it: the words 2, the number of its topology, how many points all bodies have, how many values:

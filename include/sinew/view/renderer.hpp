@@ -35,6 +35,7 @@ uniform vec4 cone[8];    // where a spot shines to, and the cosine of its cone
 uniform vec4 fall[8];    // attenuation, exponent of a spot
 uniform vec3 upAtEye, around;
 uniform float fromAbove;
+uniform float opacity;
 uniform mat4 toLight;    // from the eye
 uniform sampler2DShadow shadow;
 // How much of nine places around one is seen by the light that has a shadow. Of neighbours in a row with the
@@ -113,7 +114,7 @@ in vec3 atEye, normalAtEye, own;
 out vec4 pixel;
 void main() {
   vec3 n = normalize(gl_FrontFacing ? normalAtEye : -normalAtEye);
-  pixel = vec4(lit(n, atEye, linear(own), seenByLight(n, atEye)), 1);
+  pixel = vec4(lit(n, atEye, linear(own), seenByLight(n, atEye)), opacity);
 })";
 // or, where the triangles are as small as a few pixels, for each of their corners.
 inline constexpr std::string_view fineVertex = R"(
@@ -135,8 +136,9 @@ void main() {
 })";
 inline constexpr char const* fineFragment = R"(#version 330 core
 noperspective in vec3 front, back;
+uniform float opacity;
 out vec4 pixel;
-void main() { pixel = vec4(gl_FrontFacing ? front : back, 1); })";
+void main() { pixel = vec4(gl_FrontFacing ? front : back, opacity); })";
 
 inline constexpr char const* shadowVertex = R"(#version 330 core
 layout(location = 0) in vec3 position;
@@ -165,11 +167,11 @@ void main() {
 
 inline constexpr char const* plainFragment = R"(#version 330 core
 in vec3 own;
-uniform float roundPoints;
+uniform float roundPoints, opacity;
 out vec4 pixel;
 void main() {
   if (roundPoints > 0.0 && length(gl_PointCoord - 0.5) > 0.5) discard;
-  pixel = vec4(own, 1);
+  pixel = vec4(own, opacity);
 })";
 
 }  // namespace detail
@@ -188,6 +190,7 @@ class Renderer {
       if (!seen.visible) continue;
       if (used == bodies_.size()) bodies_.emplace_back();
       Body& body = bodies_[used++];
+      body.opacity = seen.opacity;
       if (body.shaded.update(seen, scene.legend, scene.settings, 6 * shadow_.texel(radius_)))
         body.drawn.set(body.shaded.mesh());
     }
@@ -251,11 +254,16 @@ class Renderer {
     }
     glEnable(GL_POLYGON_OFFSET_FILL);  // edges are seen on the faces they belong to
     glPolygonOffset(1, 1);
-    for (Body const& body : bodies_) {
-      (isFine(body.shaded.mesh(), camera, height) ? fine : surface).use();
+    auto drawFaces = [&](Body const& body) {
+      GlShaders const& shaders = isFine(body.shaded.mesh(), camera, height) ? fine : surface;
+      shaders.use();
+      shaders.set("opacity", body.opacity);
       body.drawn.faces.draw(GL_TRIANGLES);
-    }
+    };
+    for (Body const& body : bodies_)
+      if (!body.seenThrough()) drawFaces(body);
     surface.use();
+    surface.set("opacity", 1);
     surface.set("clip", everything());  // marks are seen as a whole
     marks_.faces.draw(GL_TRIANGLES);
     glDisable(GL_POLYGON_OFFSET_FILL);
@@ -264,15 +272,24 @@ class Renderer {
     plain_.set("toClip", toClip);
     plain_.set("clip", clipped());
     plain_.set("pointSize", std::max(4., height / 90.));
-    auto drawThin = [&](Drawn const& drawn) {
+    auto drawThin = [&](Drawn const& drawn, double opacity) {
+      plain_.set("opacity", opacity);
       plain_.set("roundPoints", 0);
       drawn.lines.draw(GL_LINES);
       plain_.set("roundPoints", 1);
       drawn.points.draw(GL_POINTS);
     };
-    for (Body const& body : bodies_) drawThin(body.drawn);
+    for (Body const& body : bodies_)
+      if (!body.seenThrough()) drawThin(body.drawn, 1);
     plain_.set("clip", everything());
-    drawThin(marks_);
+    drawThin(marks_, 1);
+    plain_.set("clip", clipped());
+    surface.use();
+    surface.set("clip", clipped());
+    drawSeenThrough(camera, drawFaces, [&](Body const& body) {
+      plain_.use();
+      drawThin(body.drawn, body.opacity);
+    });
     glDisable(GL_CLIP_DISTANCE0);
     drawWords(camera, width, height);
   }
@@ -294,6 +311,8 @@ class Renderer {
   struct Body {
     ShadedBody shaded{};
     Drawn drawn{};
+    double opacity = 1;
+    bool seenThrough() const { return opacity < 1; }
   };
   struct Shadow {
     static constexpr double margin = 1.05;  // seen around the scene, times its radius
@@ -406,9 +425,37 @@ class Renderer {
     depth_.use();
     depth_.set("toLight", toLight);
     depth_.set("clip", clipped());
-    for (Body const& body : bodies_) body.drawn.faces.draw(GL_TRIANGLES, 1);
+    for (Body const& body : bodies_)
+      if (!body.seenThrough()) body.drawn.faces.draw(GL_TRIANGLES, 1);
     depth_.set("clip", everything());
     marks_.faces.draw(GL_TRIANGLES);
+  }
+  // Bodies that one sees through, the farthest first, of each the side that looks away first: each colour
+  // goes onto what is behind it.
+  template <class Faces, class Thin>
+  void drawSeenThrough(Camera const& camera, Faces&& drawFaces, Thin&& drawThin) const {
+    std::vector<std::pair<double, Body const*>> order;
+    for (Body const& body : bodies_)
+      if (body.seenThrough()) {
+        ShadedMesh const& mesh = body.shaded.mesh();
+        order.emplace_back(((mesh.low + mesh.high) / 2 - camera.eye()).norm(), &body);
+      }
+    if (order.empty()) return;
+    std::sort(order.begin(), order.end(), [](auto const& a, auto const& b) { return a.first > b.first; });
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    glDepthMask(GL_FALSE);
+    for (auto const& [_, body] : order) {
+      glEnable(GL_CULL_FACE);
+      for (const GLenum hidden : {GLenum(GL_FRONT), GLenum(GL_BACK)}) {
+        glCullFace(hidden);
+        drawFaces(*body);
+      }
+      glDisable(GL_CULL_FACE);
+      drawThin(*body);
+    }
+    glDepthMask(GL_TRUE);
+    glDisable(GL_BLEND);
   }
   // legend, words and labels, in front of everything
   void drawWords(Camera const& camera, int width, int height) {
@@ -430,6 +477,7 @@ class Renderer {
     plain_.set("toClip", toClip);
     plain_.set("clip", everything());
     plain_.set("roundPoints", 0);
+    plain_.set("opacity", 1);
     overlay_.set(overlay.triangles().at, overlay.triangles().colours);
     overlay_.draw(GL_TRIANGLES);
     glEnable(GL_DEPTH_TEST);

@@ -55,6 +55,7 @@ struct SeenBody {
   std::vector<Edge> edges{};
   std::vector<double> values{};           // of the quantity that colours show, one a point; or none
   Eigen::Vector3d colour{0.5, 0.5, 0.5};  // red, green, blue from 0 to 1
+  double opacity = 1;                     // what is behind shows through where it is less
 
   /// The corners of the smallest box around all points that are finite; where there is none, the lower one is
   /// above the higher one.
@@ -393,6 +394,7 @@ SeenScene seen_scene(Simulation& simulation, SeenSettings const& settings = {},
       if (look.path == body.path && body.kind != SeenBody::Kind::collision) {
         body.visible = look.visible;
         if (look.colour) body.colour = *look.colour;
+        if (look.opacity) body.opacity = *look.opacity;
       }
   }
   if (settings.springs || settings.colour == Quantity::stretch) seen.springs = seen_springs(simulation);

@@ -68,6 +68,7 @@ struct BodyLook {
   std::string path{};
   bool visible = true;
   std::optional<Eigen::Vector3d> colour{};  // red, green, blue from 0 to 1
+  std::optional<double> opacity{};          // from 0 to 1; what is behind shows through where it is less
 };
 
 /// What is asked for. What nobody asks for is not computed.

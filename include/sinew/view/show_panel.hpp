@@ -120,9 +120,13 @@ class ShowPanel {
       changed = true;
     }
     ImGui::SameLine();
-    float colour[3] = {float(body.colour[0]), float(body.colour[1]), float(body.colour[2])};
-    if (ImGui::ColorEdit3("##colour", colour, ImGuiColorEditFlags_NoInputs)) {
-      lookOf(body).colour = Eigen::Vector3d(double(colour[0]), double(colour[1]), double(colour[2]));
+    float colour[4] = {
+        float(body.colour[0]), float(body.colour[1]), float(body.colour[2]), float(body.opacity)};
+    if (ImGui::ColorEdit4(
+            "##colour", colour, ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_AlphaPreview)) {
+      BodyLook& look = lookOf(body);
+      look.colour = Eigen::Vector3d(double(colour[0]), double(colour[1]), double(colour[2]));
+      look.opacity = double(colour[3]);
       changed = true;
     }
     ImGui::SameLine();

@@ -44,25 +44,30 @@ inline constexpr std::array<NamedColour, 9> namedColours{{{"white", {1, 1, 1}},
                                                           {"yellow", {1, 1, 0}},
                                                           {"gray", {0.5, 0.5, 0.5}}}};
 
+/// Red, green, blue, and opacity.
+struct SaidColour {
+  Eigen::Vector3d colour{0, 0, 0};
+  double opacity = 1;
+};
+
 /// A colour as SOFA writes it: "red", "#ff0000", "#ff0000ff", or three or four numbers from 0 to 1, of which
 /// the last is opacity. Throws Error where it is none.
-inline Eigen::Vector3d colour_of_words(std::string_view words) {
+inline SaidColour colour_of_words(std::string_view words) {
   const std::string_view word = Words(words).peek();
   for (NamedColour const& named : namedColours)
-    if (named.name == word) return Eigen::Vector3d(named.colour.data());
-  if (word == "grey") return {0.5, 0.5, 0.5};
+    if (named.name == word) return {Eigen::Vector3d(named.colour.data())};
+  if (word == "grey") return {{0.5, 0.5, 0.5}};
   if (word.starts_with('#')) {
     const std::string_view digits = word.substr(1);
     if ((digits.size() != 6 && digits.size() != 8) ||
         digits.find_first_not_of("0123456789abcdefABCDEF") != digits.npos)
       throw Error("", text(sinew::detail::shown(word), " is no colour; write #rrggbb"));
-    Eigen::Vector3d colour;
-    for (std::size_t c = 0; c < 3; ++c) {
+    auto part = [&](std::size_t c) {
       int value = 0;
       std::from_chars(digits.data() + 2 * c, digits.data() + 2 * c + 2, value, 16);
-      colour[Eigen::Index(c)] = value / 255.;
-    }
-    return colour;
+      return value / 255.;
+    };
+    return {{part(0), part(1), part(2)}, digits.size() == 8 ? part(3) : 1};
   }
   std::vector<double> numbers;
   read_value(words, numbers);
@@ -71,20 +76,22 @@ inline Eigen::Vector3d colour_of_words(std::string_view words) {
   for (const double number : numbers)
     if (!(number >= 0 && number <= 1))
       throw Error("", text("a colour has ", number, ", but its numbers are from 0 to 1"));
-  return {numbers[0], numbers[1], numbers[2]};
+  return {{numbers[0], numbers[1], numbers[2]}, numbers.size() == 4 ? numbers[3] : 1};
 }
 
 /// The diffuse colour of a material as SOFA writes it: "Default Diffuse 1 1 0 0 1 Ambient 0 ...", where the
 /// number behind a word says whether it is used. None where there is no such colour.
-inline std::optional<Eigen::Vector3d> diffuse_of_material(std::string_view material) {
+inline std::optional<SaidColour> diffuse_of_material(std::string_view material) {
   for (Words words(material); !words.end();)
     if (words.next() == "Diffuse") {
-      std::array<double, 4> numbers{};
+      std::array<double, 5> numbers{};
       for (double& number : numbers)
-        number = sinew::detail::read_number<double>(
-            sinew::detail::need_word(words, "whether there is a colour, and red, green, blue"));
+        number = std::clamp(sinew::detail::read_number<double>(sinew::detail::need_word(
+                                words, "whether there is a colour, and red, green, blue, opacity")),
+                            0.,
+                            1.);
       if (numbers[0] == 0) return {};
-      return Eigen::Vector3d(numbers[1], numbers[2], numbers[3]).cwiseMax(0).cwiseMin(1).eval();
+      return SaidColour{{numbers[1], numbers[2], numbers[3]}, numbers[4]};
     }
   return {};
 }
@@ -189,7 +196,7 @@ inline void apply_light(ViewElement const& element, ViewSettings& settings) {
   };
   bool looksAt = false;
   light.direction = {0, 0, -1};  // as in SOFA
-  each("color", [&](auto const& words) { light.colour = colour_of_words(words); });
+  each("color", [&](auto const& words) { light.colour = colour_of_words(words).colour; });
   each("position", [&](auto const& words) { read_value(words, light.position); });
   each("direction", [&](auto const& words) { read_value(words, light.direction); });
   each("attenuation", [&](auto const& words) { read_value(words, light.attenuation); });
@@ -223,11 +230,11 @@ inline void apply_element(ViewElement const& element, ViewSettings& settings) {
   if (tag == "VisualStyle" || tag == "DisplayFlagsSetting")
     each("displayFlags", [&](auto const& flags) { apply_flags(flags, element, settings); });
   else if (tag == "BackgroundSetting")
-    each("color", [&](auto const& words) { settings.seen.background = colour_of_words(words); });
+    each("color", [&](auto const& words) { settings.seen.background = colour_of_words(words).colour; });
   else if (tag == "DirectionalLight" || tag == "PositionalLight" || tag == "SpotLight")
     apply_light(element, settings);
   else if (tag == "LightManager") {
-    each("ambient", [&](auto const& words) { settings.seen.ambient = colour_of_words(words); });
+    each("ambient", [&](auto const& words) { settings.seen.ambient = colour_of_words(words).colour; });
     each("shadows", [&](auto const& words) { read_value(words, settings.seen.shadows); });
   } else if (tag == "OglSceneFrame")
     settings.seen.axes = true;
@@ -249,12 +256,13 @@ inline void apply_element(ViewElement const& element, ViewSettings& settings) {
   } else if (tag.find("Camera") != tag.npos)
     apply_camera(element, settings);
   else {
-    BodyLook look{.path = element.path};
-    each("material", [&](auto const& words) { look.colour = diffuse_of_material(words); });
+    std::optional<SaidColour> said;
+    each("material", [&](auto const& words) { said = diffuse_of_material(words); });
     each("color", [&](auto const& words) {
-      if (!Words(words).end()) look.colour = colour_of_words(words);
+      if (!Words(words).end()) said = colour_of_words(words);
     });
-    if (look.colour) settings.seen.looks.push_back(look);
+    if (said)
+      settings.seen.looks.push_back({.path = element.path, .colour = said->colour, .opacity = said->opacity});
   }
 }
 
