@@ -115,6 +115,11 @@ void add_seen(CLI::App& app, SeenOptions& seen) {
       ->type_name("THINGS")
       ->delimiter(',')
       ->allow_extra_args(false);
+  app.add_option("--box-level",
+                 seen.boxLevel,
+                 "Of the boxes of --show boxes those of one level: 0 is around a model, 1 its halves, ...")
+      ->type_name("K")
+      ->check(at_least(0).description(""));
   app.add_option("--clip", seen.clip, "Plane that cuts bodies open: what is seen has X*x + Y*y + Z*z <= D")
       ->type_name("\"X Y Z D\"");
   app.add_option("--camera",

@@ -40,6 +40,7 @@ struct Duration {
 struct SeenOptions {
   std::string colour{}, range{}, clip{}, camera{};
   std::vector<std::string> arrows{}, show{}, hide{};
+  int boxLevel = -1;  // all
 };
 
 enum class Output { words, quiet, json };

@@ -102,6 +102,7 @@ ViewSettings seen_settings(SeenOptions const& options, Scene& scene) {
       refuse(text("--hide: there is no node '", thing, "', and it is nothing that can be shown"));
     seen.looks.push_back({.path = node->path(), .visible = false});
   }
+  if (options.boxLevel >= 0) seen.boxLevel = options.boxLevel, seen.boxes = true;
   if (!options.clip.empty()) {
     const auto [x, y, z, d] = numbers_of<4>(options.clip, "--clip", "as in '1 0 0 0.5'");
     const double length = Eigen::Vector3d(x, y, z).norm();

@@ -46,6 +46,32 @@ TEST_CASE("pairs within a sheet that deforms, over 200 steps: none missed, none 
   }
 }
 
+TEST_CASE("the boxes of all levels of a tree are in those above, and all primitives in those of each") {
+  Balls balls(400, 8, 3);
+  const auto boxes = balls.boxes();
+  BoundingTree tree;
+  tree.each_box([](auto const&, int) { FAIL("there is none"); });
+  tree.build(boxes);
+  std::vector<AxisBox> around;  // of the levels above
+  std::size_t count = 0, halves = 0;
+  tree.each_box([&](AxisBox const& box, int level) {
+    REQUIRE(std::size_t(level) <= around.size());
+    around.resize(std::size_t(level));
+    if (level > 0) {
+      CHECK((around.back().min.array() <= box.min.array()).all());
+      CHECK((around.back().max.array() >= box.max.array()).all());
+    }
+    around.push_back(box);
+    ++count;
+    halves += level == 1;
+  });
+  CHECK(halves == 2);
+  CHECK(count % 2 == 1);  // each inner box has two in it
+  CHECK(count >= 2 * 400 / 12 - 1);
+  CHECK(around.front().min == tree.bounds().min);
+  CHECK(around.front().max == tree.bounds().max);
+}
+
 TEST_CASE("a tree refitted for balls that fly far degrades, and is built anew") {
   Balls balls(400, 8, 3);
   BoundingTree tree;

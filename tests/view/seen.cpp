@@ -231,13 +231,19 @@ TEST_CASE("arrows of velocities, reactions and contacts, and the collision model
   const SeenScene boxed = view::seen_scene(sim, settings);
   REQUIRE(boxed.boxes.size() == 6);
   int around = 0;
-  for (auto const& [low, high] : boxed.boxes)
+  for (auto const& [low, high, level] : boxed.boxes)
     for (std::size_t i = 0; i < 2; ++i) {
       const Eigen::Vector3d ball = sim.at<"ball">().state().position[i];
       around += (low.array() <= ball.array() - 0.1).all() && (high.array() >= ball.array() + 0.1).all();
     }
   CHECK(around == 4);  // each by its own, and by that of the model
   CHECK(view::drawn_marks(boxed, 1).mesh.lines.at.size() == 6 * 12 * 2);
+  settings.boxLevel = 0;
+  CHECK(view::seen_scene(sim, settings).boxes.size() == 2);
+  settings.boxLevel = 1;  // trees of so few have no boxes between
+  CHECK(view::seen_scene(sim, settings).boxes.size() == 4);
+  settings.boxLevel = 2;
+  CHECK(view::seen_scene(sim, settings).boxes.empty());
 }
 
 }  // namespace test_seen

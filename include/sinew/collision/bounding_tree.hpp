@@ -77,13 +77,24 @@ class BasicBoundingTree {
     return true;
   }
 
+  /// f(box, level) for all boxes of the tree, each before those in it: the outermost is of level 0.
+  template <class F>
+  void each_box(F&& f) const {
+    std::vector<int> ends;  // of the nodes around one
+    for (int node = 0; node < int(nodes.size()); ++node) {
+      while (!ends.empty() && ends.back() <= node) ends.pop_back();
+      f(nodes[std::size_t(node)].box(), int(ends.size()));
+      ends.push_back(links[std::size_t(node)].next);
+    }
+  }
+
   /// report(i) for each primitive whose box is within `margin` of `box` along every axis.
   template <class F>
   void near(Box const& box, Real margin, F&& report) const {
     const Packed query = Packed::of(box);
     leaves_near(0, query, margin, [&](Link const& leaf, Packed const&) {
       for (int s = leaf.first; s < leaf.last; ++s)
-        if (slots[s].overlaps(query, margin)) report(numbers[s]);
+        if (slots[std::size_t(s)].overlaps(query, margin)) report(numbers[std::size_t(s)]);
     });
   }
 

@@ -121,7 +121,12 @@ inline DrawnMarks drawn_marks(SeenScene const& scene, double radius) {
   }
   for (Eigen::Vector3d const& p : scene.constrained) drawn.mesh.points.add(p, {0.55, 0.0, 0.4});
   if (scene.settings.constraints) drawn.words.push_back(text("held points: ", scene.constrained.size()));
-  for (auto const& [lowest, highest] : scene.boxes)
+  int levels = 1;
+  for (SeenBox const& box : scene.boxes) levels = std::max(levels, box.level);
+  for (auto const& [lowest, highest, level] : scene.boxes) {
+    // the deeper, the lighter
+    const Eigen::Vector3d colour =
+        Eigen::Vector3d(0.45, 0.35, 0.05) + double(level) / levels * Eigen::Vector3d(0.4, 0.4, 0.45);
     for (int axis = 0; axis < 3; ++axis)
       for (int side = 0; side < 4; ++side) {
         // an edge along the axis, at one of the four sides
@@ -130,9 +135,10 @@ inline DrawnMarks drawn_marks(SeenScene const& scene, double radius) {
         if (side & 2) from[(axis + 2) % 3] = highest[(axis + 2) % 3];
         to = from;
         to[axis] = highest[axis];
-        drawn.mesh.lines.add(from, {0.55, 0.45, 0.1});
-        drawn.mesh.lines.add(to, {0.55, 0.45, 0.1});
+        drawn.mesh.lines.add(from, colour);
+        drawn.mesh.lines.add(to, colour);
       }
+  }
   if (scene.settings.boxes) drawn.words.push_back(text("boxes: ", scene.boxes.size()));
   auto const [least, most] = scene.box();
   if (scene.settings.axes)

@@ -74,6 +74,12 @@ struct SeenArrow {
   Eigen::Vector3d from{0, 0, 0}, vector{0, 0, 0};  // [m], and [m/s] or [N]
 };
 
+/// A box by which collisions are found: level 0 is around a model, the highest level around its elements.
+struct SeenBox {
+  Eigen::Vector3d low{0, 0, 0}, high{0, 0, 0};  // corners [m]
+  int level = 0;
+};
+
 /// What colours mean.
 struct Legend {
   std::string title{}, unit{};
@@ -87,8 +93,8 @@ struct SeenScene {
   std::vector<SeenBody> bodies{};
   std::vector<SeenArrow> arrows{};
   std::vector<SeenLine> springs{};
-  std::vector<Eigen::Vector3d> constrained{};                        // points that are held
-  std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> boxes{};  // of collision models: low, high corner
+  std::vector<Eigen::Vector3d> constrained{};  // points that are held
+  std::vector<SeenBox> boxes{};                // of collision models
   std::optional<Legend> legend{};
   SeenSettings settings{};
   Eigen::Vector3d up{0, 1, 0};  // against gravity
@@ -226,14 +232,22 @@ void show_collision(Model const& model, State const& state, KnownBorders& border
   }
 }
 
-// the outermost boxes of a model and those of its elements, as they were in the last search
+// The boxes of a model as they were in the last search: the outermost one, those of the tree in it, and those
+// of the elements.
 inline void show_boxes(CollisionSurface const& surface, SeenScene& seen) {
-  auto add = [&](AxisBox const& box) {
-    if (!box.empty() && box.min.allFinite() && box.max.allFinite()) seen.boxes.emplace_back(box.min, box.max);
+  std::optional<int> const& wanted = seen.settings.boxLevel;
+  auto add = [&](auto const& box, int level) {
+    if (box.empty() || !box.min.allFinite() || !box.max.allFinite() || (wanted && *wanted != level)) return;
+    seen.boxes.push_back({box.min.template cast<double>(), box.max.template cast<double>(), level});
   };
-  add(surface.box);
+  int deepest = 0;
+  add(surface.box, 0);
+  surface.tree.each_box([&](auto const& box, int level) {
+    if (level > 0) add(box, level);
+    deepest = std::max(deepest, level);
+  });
   if (surface.boxes.size() > 1)
-    for (AxisBox const& box : surface.boxes) add(box);
+    for (AxisBox const& box : surface.boxes) add(box, deepest + 1);
 }
 
 template <class Simulation>

@@ -84,7 +84,8 @@ struct SeenSettings {
   std::optional<Eigen::Vector3d> background{};
   std::vector<SeenLight> lights{};           // none: one from the left above the eye
   std::optional<Eigen::Vector3d> ambient{};  // what comes from all sides; without it white, more from above
-  bool boxes = false;  // of collision models and their elements, by which collisions are found
+  bool boxes = false;             // of collision models and their elements, by which collisions are found
+  std::optional<int> boxLevel{};  // of these only those of one level; 0: around a model
 
   bool shows(ArrowKind kind) const { return arrows[std::size_t(kind)]; }
   /// Whether the simulation has to keep forces for it.

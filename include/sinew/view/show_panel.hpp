@@ -58,6 +58,14 @@ class ShowPanel {
     check("states", settings_.states);
     check("collision models", settings_.collisionModels);
     check("their boxes", settings_.boxes);
+    if (settings_.boxes) {
+      int level = settings_.boxLevel.value_or(-1);
+      ImGui::SetNextItemWidth(-1);
+      if (ImGui::SliderInt("##level", &level, -1, 20, level < 0 ? "of all levels" : "of level %d")) {
+        settings_.boxLevel = level < 0 ? std::nullopt : std::optional(level);
+        changed = true;
+      }
+    }
     check("springs", settings_.springs);
     check("held points", settings_.constraints);
     check("normals", settings_.normals);
