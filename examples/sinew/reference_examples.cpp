@@ -360,6 +360,31 @@ constexpr auto classExamples = std::to_array<ClassExample>({
   <SPHFluidForceField radius="0.745" density="15" pressure="1000" viscosity="10" kernelType="1" viscosityType="2"/>
   <PlaneForceField normal="0 1 0" d="-1"/>
 </Node>)"},
+    {"SPHFluidSurfaceMapping", R"(
+<Node name="water" gravity="0 -10 0">
+  <EulerExplicitSolver symplectic="true"/>
+  <RegularGridTopology n="5 10 5" max="2 4.5 2" computeHexaList="false" computeQuadList="false"
+                       computeTriangleList="false" computeEdgeList="false"/>
+  <MechanicalObject/>
+  <UniformMass vertexMass="1"/>
+  <SPHFluidForceField radius="0.745" density="15" pressure="1000" viscosity="10" kernelType="1" viscosityType="2"/>
+  <PlaneForceField normal="0 1 0" d="-1"/>
+  <Node name="surface">
+    <VisualModel/>
+    <SPHFluidSurfaceMapping radius="0.745" step="0.25"/>
+  </Node>
+</Node>)"},
+    {"ParticlesRepulsionForceField", R"(
+<Node name="grains" gravity="0 -10 0">
+  <EulerImplicitSolver rayleighMass="0.1"/>
+  <CGLinearSolver iterations="25" tolerance="1e-9"/>
+  <RegularGridTopology n="3 6 3" min="-0.1 0 -0.1" max="0.1 0.5 0.1" computeHexaList="false" computeQuadList="false"
+                       computeTriangleList="false" computeEdgeList="false"/>
+  <MechanicalObject/>
+  <UniformMass vertexMass="0.01"/>
+  <ParticlesRepulsionForceField distance="0.1" stiffness="100"/>
+  <PlaneForceField normal="0 1 0" d="0" stiffness="100"/>
+</Node>)"},
     {"DFSPHSolver", R"(
 <Node name="water" gravity="0 -9.81 0">
   <DFSPHSolver radius="0.1" density="1000"/>

@@ -37,6 +37,7 @@
 #include <sinew/force/hexahedron_fem.hpp>
 #include <sinew/force/linear_force_field.hpp>
 #include <sinew/force/mesh_spring.hpp>
+#include <sinew/force/particles_repulsion.hpp>
 #include <sinew/force/plane_force_field.hpp>
 #include <sinew/force/polynomial_springs.hpp>
 #include <sinew/force/regular_grid_spring.hpp>
@@ -59,6 +60,7 @@
 #include <sinew/mapping/identity_mapping.hpp>
 #include <sinew/mapping/rigid_mapping.hpp>
 #include <sinew/mapping/skinning_mapping.hpp>
+#include <sinew/mapping/sph_fluid_surface_mapping.hpp>
 #include <sinew/mapping/subset_mapping.hpp>
 #include <sinew/mapping/subset_multi_mapping.hpp>
 #include <sinew/mapping/volume_mapping.hpp>

@@ -29,7 +29,8 @@ using PointLoads = Registry<RigidLoads<D>, SphereForceField<D>>;
 template <class D>
 using Particles = Registry<ParticleSource<D>, ParticleSink<D>>;
 template <class D>
-using Fluids = Registry<SPHFluidForceField<D>, FluidBoundary<D>, Particles<D>>;
+using Fluids =
+    Registry<SPHFluidForceField<D>, FluidBoundary<D>, ParticlesRepulsionForceField<D>, Particles<D>>;
 template <class D>
 using ElementForces =
     Registry<TetrahedronFEMForceField<D>, HexahedronFEMForceField<D>, TriangleFEMForceField<D>,
@@ -101,13 +102,15 @@ using MeasuringMappings = Registry<DistanceMapping<Vec3d, Vec1d>, DistanceMappin
 using MultiMappings = Registry<SubsetMultiMapping<Vec3d, Vec3d>, SubsetMultiMapping<Vec2d, Vec2d>,
                                SubsetMultiMapping<Vec1d, Vec1d>, SubsetMultiMapping<Rigid3d, Rigid3d>,
                                SubsetMultiMapping<Rigid3d, Vec3d>, SubsetMultiMapping<Vec3d, Vec3f>>;
+using SurfaceMappings = Registry<SPHFluidSurfaceMapping<Vec3d, Vec3f>>;
 using SkinningMappings = Registry<SkinningMapping<Rigid3d, Vec3d>, SkinningMapping<Rigid3d, Vec3f>>;
 using StandardMappings =
-    Registry<MultiMappings, SkinningMappings, MeasuringMappings, SpatialMappings<Vec3d, Vec3d>,
-             SpatialMappings<Vec3d, Vec3f>, SpatialMappings<Vec3f, Vec3f>, SpatialMappings<Vec3f, Vec3d>,
-             PointMappings<Vec1d, Vec1d>, PointMappings<Vec2d, Vec2d>, PointMappings<Vec6d, Vec6d>,
-             RigidMappings<Rigid3d, Vec3d, Vec3f>, RigidMappings<Rigid3f, Vec3f, Vec3d>,
-             IdentityMapping<Rigid2d, Rigid2d>, RigidMapping<Rigid2d, Rigid2d>, RigidMapping<Rigid2d, Vec2d>>;
+    Registry<MultiMappings, SkinningMappings, SurfaceMappings, MeasuringMappings,
+             SpatialMappings<Vec3d, Vec3d>, SpatialMappings<Vec3d, Vec3f>, SpatialMappings<Vec3f, Vec3f>,
+             SpatialMappings<Vec3f, Vec3d>, PointMappings<Vec1d, Vec1d>, PointMappings<Vec2d, Vec2d>,
+             PointMappings<Vec6d, Vec6d>, RigidMappings<Rigid3d, Vec3d, Vec3f>,
+             RigidMappings<Rigid3f, Vec3f, Vec3d>, IdentityMapping<Rigid2d, Rigid2d>,
+             RigidMapping<Rigid2d, Rigid2d>, RigidMapping<Rigid2d, Vec2d>>;
 template <template <class> class Solver>
 using AssembledSolvers =
     Registry<Solver<CompressedRowSparseMatrixMat3x3d>, Solver<CompressedRowSparseMatrixd>>;

@@ -210,7 +210,7 @@ template <class R, bool Rigid>
 void check_mappings() {
   int found = 0;
   for_each_registered<R>([&]<class C>() {
-    if constexpr (HasRole<C, role::Mapping>)
+    if constexpr (HasRole<C, role::Mapping> && !MakesFaces<C>)  // a surface has no velocities
       if constexpr (C::In::rigid == Rigid) {
         ++found;
         if constexpr (HasParents<C>)

@@ -26,6 +26,7 @@
 #include "samples/partial_fixed.hpp"
 #include "samples/particle_sink.hpp"
 #include "samples/particle_source.hpp"
+#include "samples/particles_repulsion.hpp"
 #include "samples/polynomial_springs.hpp"
 #include "samples/project_direction.hpp"
 #include "samples/project_to_line.hpp"

@@ -8,7 +8,7 @@ namespace sinew {
 
 struct CollisionPoints {
   static constexpr std::string_view className = "PointCollisionModel";
-  static constexpr std::string_view aliases = "Point PointModel PointMeshModel PointSetModel TPointModel";
+  static constexpr std::string_view aliases = "Point PointModel PointMeshModel PointSetModel TPointModel SpatialGridPointModel";
   static constexpr std::string_view noun = "point";
   static constexpr Shape shape = Shape::point;
 

@@ -161,6 +161,7 @@ inline constexpr std::array suffixesWithoutMeaning =
 inline constexpr std::array nodeAttributesWithoutMeaning =
     std::to_array<std::string_view>({"printLog",
                                      "tags",
+                                     "id",  // nothing refers to it
                                      "bbox",
                                      "componentState",
                                      "listening",

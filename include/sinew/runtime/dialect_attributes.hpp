@@ -75,7 +75,7 @@ inline constexpr std::array withoutEffectOf = std::to_array<AttributeOf>({
     {"MeshOBJLoader", "pyramids"}, {"MeshSTLLoader", "polygons"}, {"MeshSTLLoader", "polylines"},
     {"MeshSTLLoader", "prisms"}, {"MeshSTLLoader", "pyramids"}, {"MeshVTKLoader", "polygons"},
     {"MeshVTKLoader", "polylines"}, {"MeshVTKLoader", "prisms"}, {"MeshVTKLoader", "pyramids"}, {"VisualModel", "dfactor"}, {"VisualModel", "sfactor"},
-    {"NNCGConstraintSolver", "sor"}, {"PreconditionedConjugateResidual", "sor"}, {"ParticleSink", "fixed"}, {"ParticleSource", "lastparticles"}, {"RegularGridTopology", "position"}, {"RegularGridTopology", "tetrahedra"},
+    {"NNCGConstraintSolver", "sor"}, {"PreconditionedConjugateResidual", "sor"}, {"ParticleSink", "fixed"}, {"PointCollisionModel", "leafScale"}, {"ParticleSource", "lastparticles"}, {"RegularGridTopology", "position"}, {"RegularGridTopology", "tetrahedra"},
     {"RestShapeSpringsForceField", "recompute_indices"}, {"SparseGridTopology", "tetrahedra"},
     {"StringMeshCreator", "filename"}, {"StringMeshCreator", "hexahedra"}, {"StringMeshCreator", "polygons"},
     {"StringMeshCreator", "polylines"}, {"StringMeshCreator", "prisms"}, {"StringMeshCreator", "pyramids"},

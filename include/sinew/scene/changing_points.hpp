@@ -56,6 +56,10 @@ struct ChangingPoints {
         c.followPoints(Renumbering{}, std::max(s.size(), s.capacity));
         c.followPoints(Renumbering{}, s.size());
       });
+      eachFollowingSolver([](auto& ode, auto& s) {
+        ode.followPoints(Renumbering{}, s.capacity);
+        ode.followPoints(Renumbering{}, s.size());
+      });
     }
   }
 
@@ -78,6 +82,9 @@ struct ChangingPoints {
       eachFollower([](auto& c, auto& s) {
         if (s.pointChange.changes()) c.followPoints(s.pointChange.points, s.size());
       });
+      eachFollowingSolver([](auto& ode, auto& s) {
+        if (s.pointChange.changes()) ode.followPoints(s.pointChange.points, s.size());
+      });
       // what a solver remembers of the last step is not that of other points
       for_each_solver(root, [](auto& ode, auto const& scope) {
         if constexpr (requires { ode.lastEnd; })
@@ -90,7 +97,10 @@ struct ChangingPoints {
 
   /// When states are as they started.
   void reset() const {
-    if constexpr (any) eachFollower([](auto& c, auto& s) { c.followPoints(Renumbering{}, s.size()); });
+    if constexpr (any) {
+      eachFollower([](auto& c, auto& s) { c.followPoints(Renumbering{}, s.size()); });
+      eachFollowingSolver([](auto& ode, auto& s) { ode.followPoints(Renumbering{}, s.size()); });
+    }
   }
 
  private:
@@ -108,9 +118,21 @@ struct ChangingPoints {
   template <class F>
   void eachFollower(F&& f) const {
     traverse(root, on<AnyRole>([&](auto& c, auto const& scope) {
-               if constexpr (FollowsPoints<std::decay_t<decltype(c)>>)
+               using C = std::decay_t<decltype(c)>;
+               if constexpr (FollowsPoints<C> && !HasRole<C, role::OdeSolver>)
                  if (auto& s = stateOf(c, scope); s.capacity > 0) f(c, s);
              }));
+  }
+
+  // f(solver, state) for the solvers that have values of each point
+  template <class F>
+  void eachFollowingSolver(F&& f) const {
+    for_each_solver(root, [&](auto& ode, auto const& scope) {
+      if constexpr (FollowsPoints<std::decay_t<decltype(ode)>>)
+        traverse(scope, on<role::State>([&](auto& s, auto const&) {
+                   if (s.capacity > 0) f(ode, s);
+                 }));
+    });
   }
 
   // whether the points of the state at an address go and come
@@ -134,7 +156,8 @@ struct ChangingPoints {
       throw Error(text(scope.path(), ": ", component_name<C>()),
                   text(why, " whose points go and come while the scene runs (ParticleSource, ParticleSink)"));
     };
-    if constexpr (HasRole<C, role::Mapping>) {
+    if constexpr (MakesFaces<C>) {
+    } else if constexpr (HasRole<C, role::Mapping>) {
       scope.withMapped(c, [&](auto&, auto&, auto& parent) {
         if (changes(&parent)) refuse("a mapping has an entry for each point; take it away from a state");
       });
@@ -147,8 +170,7 @@ struct ChangingPoints {
               "a matrix is made for as many points as there are at the start; take a CGLinearSolver without "
               "matrix, or an explicit solver, for a state");
     } else if constexpr (HasRole<C, role::OdeSolver>) {
-      if constexpr (requires { requires C::keepsPoints; })
-        if (changesBelow(scope)) refuse("it has values of each point; take another solver for a state");
+      // those with values of each point follow
     } else if constexpr (JoinsTwo<C>) {
       scope.withEnds(c, [&](auto const& a, auto const& b) {
         if (changes(a.stateAddress()) || changes(b.stateAddress()))

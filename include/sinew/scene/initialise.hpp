@@ -60,6 +60,11 @@ class Initialisation {
         child.init(scope.path());
         initMapping(c, scope, child.position, child.position);
       } else {
+        if constexpr (MakesFaces<C>)
+          throw Error(
+              text(scope.path(), ": ", component_name<C>()),
+              "it makes a surface to look at, which no state can follow; put a visual model in the place "
+              "of the state of its node");
         child.place(scope.path(), scope.topology().positions);
         child.takeGiven();
         initMapping(c, scope, child.position, child.position);
@@ -67,9 +72,12 @@ class Initialisation {
       }
     });
     scope.withMapped(c, [&](auto& mapping, auto& child, auto& parent) {
-      if constexpr (HasRole<std::decay_t<decltype(child)>, role::State>)
+      if constexpr (HasRole<std::decay_t<decltype(child)>, role::State>) {
         mapping.apply(child.restPosition, parent.restPosition);
-      mapping.apply(child.position, parent.position);
+        mapping.apply(child.position, parent.position);
+      } else {
+        follow_mapping(mapping, child, parent);
+      }
     });
     scope.withChild(c, [&](auto& child) {
       if constexpr (HasRole<std::decay_t<decltype(child)>, role::State>) child.init(scope.path());

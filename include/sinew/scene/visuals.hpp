@@ -7,6 +7,17 @@
 
 namespace sinew {
 
+/// A visual model follows its mapping now.
+template <class M, class Child, class Parent>
+void follow_mapping(M& mapping, Child& child, Parent const& parent) {
+  mapping.apply(child.position, parent.position);
+  if constexpr (MakesFaces<M>) {
+    child.mesh = {};
+    child.mesh.quads = mapping.faces();
+    child.mesh = child.current();
+  }
+}
+
 /// Visual models follow their mappings. Those whose parents are on a device are all asked for before the
 /// first is waited for.
 template <class RootScope>
@@ -22,7 +33,7 @@ void update_visuals(RootScope const& root) {
     if constexpr (requires { m.ask(child.position, parent.position); })
       m.ask(child.position, parent.position);
   });
-  each([](auto& m, auto& child, auto& parent) { m.apply(child.position, parent.position); });
+  each([](auto& m, auto& child, auto& parent) { follow_mapping(m, child, parent); });
 }
 
 }  // namespace sinew

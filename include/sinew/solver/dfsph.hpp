@@ -12,6 +12,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace sinew {
@@ -75,8 +76,6 @@ struct DFSPHSolver {
         field("maxSubsteps", &S::maxSubsteps, "", "more of them in a step are an error", range::atLeast(1)));
   }
 
-  static constexpr bool keepsPoints = true;  // has the volume and the pressures of each
-
   std::vector<double> pressures{}, pressuresV{};
 
   /// What the next step starts from, besides positions and velocities.
@@ -90,22 +89,33 @@ struct DFSPHSolver {
     pressuresV.assign(pressuresV.size(), 0.0);
   }
 
+  /// Points that come have no pressure.
+  void followPoints(Renumbering const& points, std::size_t count) {
+    for (auto* k : {&pressures, &pressuresV}) {
+      points.filter(*k);
+      k->resize(count, 0.0);
+    }
+    pointsChanged = true;
+  }
+
   BoundaryParticles boundary{};
 
   DFSPHFlow flow{};
   DFSPHFlow::Iteration ofDensity{}, ofDivergence{};  // of the last substep
   int substeps = 0;                                  // of the last step
   double distance = 0;                               // of particles, by the smallest volume [m]
+  bool pointsChanged = false;                        // since the last step
   std::string where{};
 
   template <class Operations>
   void init(Operations& operations) {
     where = text(operations.root.path(), ": ", component_name<DFSPHSolver>());
     int states = 0;
+    std::size_t room = 0;
     operations.forEachIndependent([&](auto& s) {
       using D = typename std::decay_t<decltype(s)>::DataTypes;
       if constexpr (is_fluid<D>)
-        ++states;
+        ++states, room = std::max(s.size(), s.capacity);
       else
         throw Error(where,
                     "a state below is not one of points in space on the host (Vec3d, Vec3f); give bodies a "
@@ -115,35 +125,38 @@ struct DFSPHSolver {
       throw Error(
           where,
           text(states, " states are below, but a solver moves the particles of one; give each a solver"));
+    flow.reserve(room, boundary.size());
+    pointsChanged = false;
     findVolumes(operations);
-    flow.reserve(flow.fluidSize(), boundary.size());
-    if (radius < distance || radius > 4 * distance)
-      throw Error(where,
-                  text("radius is ",
-                       radius,
-                       " m, and particles of their mass are ",
-                       distance,
-                       " m apart at rest; take twice that, or correct the mass or the density"));
     flow.radius = radius;
-    flow.calibrate(distance);
     flow.workers = {};
+    if (flow.fluidSize() > 0 || room == 0) calibrate();
     withFluid(operations, [&](auto& s) { read(s); });
-    flow.place(where);
-    if (const auto [i, j] = flow.coincident(); i >= 0)
-      throw Error(where, text("particles ", i, " and ", j, " are in one place; move one"));
+    if (flow.fluidSize() > 0) {
+      flow.place(where);
+      if (const auto [i, j] = flow.coincident(); i >= 0)
+        throw Error(where, text("particles ", i, " and ", j, " are in one place; move one"));
+    }
     for (auto* k : {&pressures, &pressuresV})
       if (k->size() != flow.fluidSize()) k->assign(flow.fluidSize(), 0.0);
   }
 
   template <class Operations>
   void solve(Operations& operations, double dt) {
+    if (std::exchange(pointsChanged, false)) {
+      const double before = distance;
+      findVolumes(operations);
+      if (flow.fluidSize() > 0 && distance != before) calibrate();
+    }
+    flow.impulses.assign(boundary.size(), Eigen::Vector3d::Zero());
+    for (auto& f : boundary.forces) f.setZero();
+    substeps = 0;
+    if (flow.fluidSize() == 0) return;
     MultiVecCoord pos(operations, vec_id::position);
     MultiVecDeriv vel(operations, vec_id::velocity), acc(operations);
     if constexpr (std::is_same_v<decltype(operations.workers()), SomeWorkers>)
       flow.workers = operations.workers();
     const double start = operations.time;
-    substeps = 0;
-    flow.impulses.assign(boundary.size(), Eigen::Vector3d::Zero());
     for (double done = 0; done < dt;) {
       operations.computeAcc(start + done, acc, pos, vel);
       withFluid(operations, [&](auto& s) { read(s, s[acc.id]); });
@@ -184,6 +197,17 @@ struct DFSPHSolver {
     operations.forEachIndependent([&](auto& s) {
       if constexpr (is_fluid<typename std::decay_t<decltype(s)>::DataTypes>) f(s);
     });
+  }
+  // the kernel, by the distance of the particles
+  void calibrate() {
+    if (radius < distance || radius > 4 * distance)
+      throw Error(where,
+                  text("radius is ",
+                       radius,
+                       " m, and particles of their mass are ",
+                       distance,
+                       " m apart at rest; take twice that, or correct the mass or the density"));
+    flow.calibrate(distance);
   }
   // masses over the density
   template <class Operations>

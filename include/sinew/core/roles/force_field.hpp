@@ -89,6 +89,8 @@ struct ForceProperties {
   bool conservative = true;  // f = -dE/dx
   bool exactTangent =
       true;  // addDForce is the derivative of addForce everywhere, not only in the undeformed body
+  bool inMatrix =
+      true;  // addToMatrix has what addDForce has; else nothing, for solvers that assemble a matrix
   bool implicit = true;  // addDForce has it; else forces are those at the start of a step, and it is nothing
 };
 template <class C>

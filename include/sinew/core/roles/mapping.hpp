@@ -94,6 +94,12 @@ concept HasGeometricStiffness =
 /// says which stay when elements are removed.
 template <class C>
 inline constexpr bool over_parent = requires { C::overParent; };
+/// A mapping that makes the faces of its visual model, too, whose points have no fixed number: faces() are
+/// those of the last apply. A state cannot follow it.
+template <class C>
+concept MakesFaces = requires(C const c) {
+  { c.faces() } -> std::same_as<std::vector<Quad> const&>;
+};
 /// f(point of the parent, block of J) for each block in the rows of a point: what solvers need that assemble
 /// a matrix.
 template <class PartMapping>
