@@ -10,6 +10,7 @@
 #include <sinew/context/gravity.hpp>
 #include <sinew/control/threads.hpp>
 #include <sinew/force/fluid_boundary.hpp>
+#include <sinew/force/particles_repulsion.hpp>
 #include <sinew/force/plane_force_field.hpp>
 #include <sinew/force/sph_fluid.hpp>
 #include <sinew/mass/uniform_mass.hpp>
@@ -74,4 +75,7 @@ TEST_CASE("no step in which particles come and go allocates, up to the capacity 
   };
   CHECK(count(EulerExplicitSolver{}) == 0);
   CHECK(count(EulerImplicitSolver{}, CGLinearSolver<>{}) == 0);
+  CHECK(count(DFSPHSolver{.radius = 0.1, .density = 1000}) == 0);
+  const ParticlesRepulsionForceField<Vec3d> apart{.distance = 0.04, .stiffness = 10};
+  CHECK(count(EulerImplicitSolver{}, CGLinearSolver<>{}, apart) == 0);
 }

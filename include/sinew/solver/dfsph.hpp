@@ -24,10 +24,10 @@ namespace sinew {
 ///   a_i = -sum_j V_j (k_i + k_j) grad W_ij     acceleration by k = pressure / density >= 0 [m^2/s^2]
 /// In a substep h one iteration finds the k that take out the divergence, D <= 0; forces of the node act
 /// (gravity, planes, the viscosity and surface tension of an SPHFluidForceField without pressure); another
-/// one finds the k that take out what would compress the fluid, d + h D <= 1; and the fluid moves, all
-/// explicit and of first order in h. Both start from the k of the last substep. The step of the scene is
-/// divided so that none moves farther than cflFactor times the distance of particles in a substep. Boundary
-/// particles of bodies are met as FluidBoundary says.
+/// one finds the k that take out what would compress the fluid, d + h D <= 1; and the fluid moves, explicit
+/// but for its own viscosity (DFSPHFlow), and of first order in h. Both start from the k of the last substep.
+/// The step of the scene is divided so that none moves farther than cflFactor times the distance of particles
+/// in a substep. Boundary particles of bodies are met as FluidBoundary says.
 struct DFSPHSolver {
   using Role = role::OdeSolver;
   static constexpr std::string_view className = "DFSPHSolver";
@@ -36,9 +36,9 @@ struct DFSPHSolver {
   static constexpr int convergenceOrder = 0;
   static constexpr Auxiliary auxiliary{.derivs = 1};
 
-  double radius = 1, density = 1000;
-  double maxError = 1e-4, maxErrorV = 1e-3;
-  int maxIterations = 100, maxIterationsV = 100;
+  double radius = 1, density = 1000, viscosity = 0;
+  double maxError = 1e-4, maxErrorV = 1e-3, maxErrorViscosity = 1e-3;
+  int maxIterations = 100, maxIterationsV = 100, maxIterationsViscosity = 100;
   bool enableDivergenceSolver = true;
   double cflFactor = 0.4;
   int maxSubsteps = 20;
@@ -52,6 +52,11 @@ struct DFSPHSolver {
               "how far particles act on each other: twice their distance",
               range::positive),
         field("density", &S::density, "kg/m^3", "at rest", range::positive),
+        field("viscosity",
+              &S::viscosity,
+              "Pa s",
+              "dynamic viscosity, implicit, so that it does not limit steps",
+              range::nonNegative),
         field("maxError",
               &S::maxError,
               "",
@@ -64,6 +69,16 @@ struct DFSPHSolver {
               range::positive),
         field("maxIterations", &S::maxIterations, "", "for the density, at most", range::atLeast(2)),
         field("maxIterationsV", &S::maxIterationsV, "", "for the divergence, at most", range::atLeast(2)),
+        field("maxErrorViscosity",
+              &S::maxErrorViscosity,
+              "",
+              "residual of the velocities under viscosity, over the first one",
+              range::positive),
+        field("maxIterationsViscosity",
+              &S::maxIterationsViscosity,
+              "",
+              "for the viscosity, at most",
+              range::atLeast(1)),
         field("enableDivergenceSolver",
               &S::enableDivergenceSolver,
               "",
@@ -101,10 +116,10 @@ struct DFSPHSolver {
   BoundaryParticles boundary{};
 
   DFSPHFlow flow{};
-  DFSPHFlow::Iteration ofDensity{}, ofDivergence{};  // of the last substep
-  int substeps = 0;                                  // of the last step
-  double distance = 0;                               // of particles, by the smallest volume [m]
-  bool pointsChanged = false;                        // since the last step
+  DFSPHFlow::Iteration ofDensity{}, ofDivergence{}, ofViscosity{};  // of the last substep
+  int substeps = 0;                                                 // of the last step
+  double distance = 0;         // of particles, by the smallest volume [m]
+  bool pointsChanged = false;  // since the last step
   std::string where{};
 
   template <class Operations>
@@ -167,6 +182,10 @@ struct DFSPHSolver {
         flow.solveDivergence(h, ofDivergence, pressuresV);
       }
       for (std::size_t i = 0; i < flow.fluidSize(); ++i) flow.velocities[i] += h * flow.accelerations[i];
+      if (viscosity > 0) {
+        ofViscosity.most = maxIterationsViscosity, ofViscosity.tolerance = maxErrorViscosity;
+        flow.solveViscosity(h, viscosity / density, ofViscosity);
+      }
       ofDensity.most = maxIterations, ofDensity.tolerance = maxError;
       flow.solveDensity(h, ofDensity, pressures);
       withFluid(operations, [&](auto& s) { takePressure(s, s[acc.id], h); });

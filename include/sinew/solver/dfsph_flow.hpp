@@ -28,6 +28,14 @@ namespace sinew {
 /// volumes V_k = c / sum_l W_kl over those of boundaries, velocities of their own and k = 0. The constant c
 /// (Band, Gissler, Ihmsen, Cornelis, Peer, Teschner 2018) is such that a plane of points at distances of half
 /// the radius is a layer of the fluid.
+/// Viscosity is implicit, too (Weiler, Koschier, Brand, Bender 2018): with nu = viscosity / density the new
+/// velocities are those of
+///   v_i = v*_i - h nu sum_j V_j w_ij (v_ij.x_ij) x_ij,  w_ij = -c 10 W'_ij / (r^2 + radius^2 / 100) / r,
+/// by conjugate gradients with the inverse of the blocks of the diagonal. Pairs have opposite forces along
+/// x_ij, so that momentum and angular momentum are kept to the tolerance of the iteration, and a body that
+/// turns as a whole is not slowed down.
+/// Boundary particles hold the fluid that touches them. The constant c is such that waves across a cubic
+/// lattice that are long to its distance decay as those of the continuum.
 class DFSPHFlow {
  public:
   struct Iteration {
@@ -40,6 +48,7 @@ class DFSPHFlow {
 
   double radius = 1;  // of the kernel [m]
   double factor = 1;  // of the kernel
+  double viscosityFactor = 1;
   SomeWorkers workers{};
 
   // of particles, the fluid's first, then those of the boundary
@@ -69,6 +78,9 @@ class DFSPHFlow {
   void solveDensity(double h, Iteration& iteration, std::vector<double>& pressures) {
     solve(h, true, iteration, pressures);
   }
+  /// Velocities of the fluid behind h of a kinematic viscosity [m^2/s]. The error is that of the residual,
+  /// over the first one.
+  void solveViscosity(double h, double kinematic, Iteration& iteration);
   /// Two particles of the fluid that are in one place, or {-1, -1}; behind place().
   std::pair<int, int> coincident() const;
 
@@ -82,31 +94,29 @@ class DFSPHFlow {
 
   // in the order of the particles
   Particles particles_{};
-  std::array<std::vector<double>, 3> velocity_{}, pushed_{};  // at first, and by the pressures
-  std::vector<double> fluid_{}, volume_{};                    // fluid: 1, boundary: 0
+  std::array<std::vector<double>, 3> velocity_{}, pushed_{};                 // at first, and by the pressures
+  std::array<std::vector<double>, 3> residual_{}, direction_{}, product_{};  // of conjugate gradients
+  std::array<std::vector<double>, 6> inverse_{};  // of the blocks of the diagonal: xx, yy, zz, xy, xz, yz
+  std::vector<double> fluid_{}, volume_{};        // fluid: 1, boundary: 0
   std::vector<double> density_{}, diagonal_{}, pressure_{}, next_{}, error_{};
   std::vector<char> whole_{};  // has neighbours all around
 
-  auto arrays() {
-    return std::array{&velocity_[0],
-                      &velocity_[1],
-                      &velocity_[2],
-                      &pushed_[0],
-                      &pushed_[1],
-                      &pushed_[2],
-                      &fluid_,
-                      &volume_,
-                      &density_,
-                      &diagonal_,
-                      &pressure_,
-                      &next_,
-                      &error_};
+  // f(array) for those with an entry for each particle
+  template <class F>
+  void forEachArray(F&& f) {
+    for (auto* vectors : {&velocity_, &pushed_, &residual_, &direction_, &product_})
+      for (auto& one : *vectors) f(one);
+    for (auto& one : inverse_) f(one);
+    for (auto* one : {&fluid_, &volume_, &density_, &diagonal_, &pressure_, &next_, &error_}) f(*one);
   }
   void findBoundaryVolumes(WorkShare const& share);
   void findDensities(WorkShare const& share);
   void push(WorkShare const& share, double h);
   void correct(WorkShare const& share, double h, bool ofDensity);
   void pushBoundary(WorkShare const& share, double h);
+  void invertViscosity(WorkShare const& share, double strength);
+  void drag(WorkShare const& share, double strength, std::array<std::vector<double>, 3> const& of);
+  void dragBoundary(WorkShare const& share, double strength);
   void solve(double h, bool ofDensity, Iteration& iteration, std::vector<double>& pressures);
 
   // f(share), by threads where that pays
@@ -139,12 +149,23 @@ SINEW_ONCE void DFSPHFlow::calibrate(double distance) {
       for (int z = -reach; z <= reach; ++z)
         sum += kernel.density(std::min(1.0, std::sqrt(double(x * x + y * y + z * z)) * distance / radius));
   factor = 1 / (sum * distance * distance * distance);
+  // v_x = f(y) has the acceleration nu f'' sum_j V_j w_ij x^2 y^2 / 2
+  const WendlandKernel<double> scaled(radius, factor);
+  double along = 0;
+  for (int x = -reach; x <= reach; ++x)
+    for (int y = -reach; y <= reach; ++y)
+      for (int z = -reach; z <= reach; ++z) {
+        const double square = double(x * x + y * y + z * z) * distance * distance;
+        along -= 10 * scaled.densitySlope(std::min(1.0, std::sqrt(square) / radius)) /
+                 (square + radius * radius / 100) * double(x * x * y * y);
+      }
+  viscosityFactor = 2 / (along * std::pow(distance, 7));
 }
 
 SINEW_ONCE void DFSPHFlow::reserve(std::size_t fluid, std::size_t boundary) {
   const std::size_t all = fluid + boundary, room = all + std::size_t(Particles::width);
   particles_.reserve(all);
-  for (auto* v : arrays()) v->reserve(room);
+  forEachArray([room](auto& v) { v.reserve(room); });
   whole_.reserve(room);
   positions.reserve(all);
   velocities.reserve(all);
@@ -156,7 +177,7 @@ SINEW_ONCE void DFSPHFlow::reserve(std::size_t fluid, std::size_t boundary) {
 SINEW_ONCE void DFSPHFlow::place(std::string_view where) {
   const std::size_t n = fluidSize(), all = positions.size();
   particles_.sort(positions, radius, where);
-  for (auto* v : arrays()) v->resize(particles_.room(), 0.0);
+  forEachArray([room = particles_.room()](auto& v) { v.resize(room, 0.0); });
   whole_.resize(particles_.room());
   densities.resize(n);
   for (std::size_t k = 0; k < all; ++k) {
@@ -297,6 +318,157 @@ SINEW_ONCE void DFSPHFlow::pushBoundary(WorkShare const& share, double h) {
     auto& impulse = impulses[std::size_t(particles_.order()[at]) - fluidSize()];
     for (std::size_t c = 0; c < 3; ++c) impulse[Eigen::Index(c)] -= h * volume_[at] * Particles::sum(sums[c]);
   });
+}
+
+namespace detail {
+// w_ij of a pair, with the volume of its other particle
+template <class Pairs, class L>
+L viscous_weight(WendlandKernel<double> const& kernels, Pairs const& p, L const& volume, double factor,
+                 double radius) {
+  const L square = p.q * p.q * L(radius * radius);
+  return select(p.acts,
+                volume * L(-10 * factor) * kernels.densitySlope(p.q) / (square + L(radius * radius / 100)),
+                L(0));
+}
+}  // namespace detail
+
+// the inverse of 1 + strength sum_j V_j w_ij x x'
+SINEW_ONCE void DFSPHFlow::invertViscosity(WorkShare const& share, double strength) {
+  const WendlandKernel<double> kernels(radius, factor);
+  particles_.forEach(share, [&](int i, auto const& each) {
+    const auto at = std::size_t(i);
+    if (fluid_[at] == 0) return;
+    std::array<L, 6> sums{L(0), L(0), L(0), L(0), L(0), L(0)};
+    each([&](Pairs const& p) {
+      const L w =
+          detail::viscous_weight(kernels, p, Particles::load(volume_, p.first), viscosityFactor, radius);
+      for (std::size_t c = 0; c < 3; ++c) sums[c] += w * p.d[c] * p.d[c];
+      sums[3] += w * p.d[0] * p.d[1];
+      sums[4] += w * p.d[0] * p.d[2];
+      sums[5] += w * p.d[1] * p.d[2];
+    });
+    std::array<double, 6> s;
+    for (std::size_t c = 0; c < 6; ++c) s[c] = strength * Particles::sum(sums[c]);
+    Eigen::Matrix3d block;
+    block << 1 + s[0], s[3], s[4], s[3], 1 + s[1], s[5], s[4], s[5], 1 + s[2];
+    const Eigen::Matrix3d inverse = block.inverse();
+    for (std::size_t c = 0; c < 3; ++c) inverse_[c][at] = inverse(Eigen::Index(c), Eigen::Index(c));
+    inverse_[3][at] = inverse(0, 1), inverse_[4][at] = inverse(0, 2), inverse_[5][at] = inverse(1, 2);
+  });
+}
+
+// product = strength sum_j V_j w_ij (v_ij.x_ij) x_ij of the fluid
+SINEW_ONCE void DFSPHFlow::drag(WorkShare const& share, double strength,
+                                std::array<std::vector<double>, 3> const& of) {
+  const WendlandKernel<double> kernels(radius, factor);
+  particles_.forEach(share, [&](int i, auto const& each) {
+    const auto at = std::size_t(i);
+    if (fluid_[at] == 0) return;
+    std::array<L, 3> v, sums{L(0), L(0), L(0)};
+    for (std::size_t c = 0; c < 3; ++c) v[c] = L(of[c][at]);
+    each([&](Pairs const& p) {
+      L along(0);
+      for (std::size_t c = 0; c < 3; ++c) along += (v[c] - Particles::load(of[c], p.first)) * p.d[c];
+      along *= detail::viscous_weight(kernels, p, Particles::load(volume_, p.first), viscosityFactor, radius);
+      for (std::size_t c = 0; c < 3; ++c) sums[c] += along * p.d[c];
+    });
+    for (std::size_t c = 0; c < 3; ++c) product_[c][at] = strength * Particles::sum(sums[c]);
+  });
+}
+
+SINEW_ONCE void DFSPHFlow::dragBoundary(WorkShare const& share, double strength) {
+  const WendlandKernel<double> kernels(radius, factor);
+  particles_.forEach(share, [&](int i, auto const& each) {
+    const auto at = std::size_t(i);
+    if (fluid_[at] != 0) return;
+    std::array<L, 3> v, sums{L(0), L(0), L(0)};
+    for (std::size_t c = 0; c < 3; ++c) v[c] = L(pushed_[c][at]);
+    each([&](Pairs const& p) {
+      L along(0);
+      for (std::size_t c = 0; c < 3; ++c) along += (Particles::load(pushed_[c], p.first) - v[c]) * p.d[c];
+      along *= detail::viscous_weight(kernels,
+                                      p,
+                                      Particles::load(volume_, p.first) * Particles::load(fluid_, p.first),
+                                      viscosityFactor,
+                                      radius);
+      for (std::size_t c = 0; c < 3; ++c) sums[c] += along * p.d[c];
+    });
+    auto& impulse = impulses[std::size_t(particles_.order()[at]) - fluidSize()];
+    for (std::size_t c = 0; c < 3; ++c)
+      impulse[Eigen::Index(c)] += strength * volume_[at] * Particles::sum(sums[c]);
+  });
+}
+
+SINEW_ONCE void DFSPHFlow::solveViscosity(double h, double kinematic, Iteration& iteration) {
+  const std::size_t n = fluidSize(), all = positions.size();
+  const double strength = h * kinematic;
+  impulses.resize(all - n, Eigen::Vector3d::Zero());
+  iteration.taken = 0;
+  iteration.error = 0;
+  auto const& order = particles_.order();
+  for (std::size_t k = 0; k < all; ++k)
+    for (int c = 0; c < 3; ++c) pushed_[std::size_t(c)][k] = velocities[std::size_t(order[k])][c];
+  // sum_i V_i a_i.b_i, in the order of the particles
+  auto dot = [&](auto const& a, auto const& b) {
+    double sum = 0;
+    for (std::size_t k = 0; k < all; ++k) {
+      const double one = a[0][k] * b[0][k] + a[1][k] * b[1][k] + a[2][k] * b[2][k];
+      sum += fluid_[k] * volume_[k] * one;
+    }
+    return sum;
+  };
+  // z = inverse r
+  auto precondition = [&](std::size_t k) {
+    auto const& [xx, yy, zz, xy, xz, yz] = inverse_;
+    const double x = residual_[0][k], y = residual_[1][k], z = residual_[2][k];
+    return std::array{xx[k] * x + xy[k] * y + xz[k] * z,
+                      xy[k] * x + yy[k] * y + yz[k] * z,
+                      xz[k] * x + yz[k] * y + zz[k] * z};
+  };
+  inShares([&](WorkShare share) {
+    invertViscosity(share, strength);
+    drag(share, strength, pushed_);
+  });
+  for (std::size_t c = 0; c < 3; ++c)
+    for (std::size_t k = 0; k < all; ++k) {
+      residual_[c][k] = fluid_[k] == 0 ? 0 : -product_[c][k];
+      direction_[c][k] = 0;
+    }
+  const double first = dot(residual_, residual_);
+  double before = 0;
+  while (first > 0 && iteration.taken < iteration.most) {
+    double slope = 0;
+    for (std::size_t k = 0; k < all; ++k) {
+      if (fluid_[k] == 0) continue;
+      const auto z = precondition(k);
+      slope += volume_[k] * (residual_[0][k] * z[0] + residual_[1][k] * z[1] + residual_[2][k] * z[2]);
+    }
+    const double again = before > 0 ? slope / before : 0;
+    before = slope;
+    for (std::size_t k = 0; k < all; ++k) {
+      if (fluid_[k] == 0) continue;
+      const auto z = precondition(k);
+      for (std::size_t c = 0; c < 3; ++c) direction_[c][k] = z[c] + again * direction_[c][k];
+    }
+    inShares([&](WorkShare share) { drag(share, strength, direction_); });
+    for (std::size_t c = 0; c < 3; ++c)
+      for (std::size_t k = 0; k < all; ++k)
+        if (fluid_[k] != 0) product_[c][k] += direction_[c][k];
+    const double length = slope / dot(direction_, product_);
+    for (std::size_t c = 0; c < 3; ++c)
+      for (std::size_t k = 0; k < all; ++k) {
+        if (fluid_[k] == 0) continue;
+        pushed_[c][k] += length * direction_[c][k];
+        residual_[c][k] -= length * product_[c][k];
+      }
+    ++iteration.taken;
+    iteration.error = std::sqrt(dot(residual_, residual_) / first);
+    if (iteration.error <= iteration.tolerance) break;
+  }
+  if (all > n) inShares([&](WorkShare share) { dragBoundary(share, strength); });
+  for (std::size_t k = 0; k < all; ++k)
+    if (const auto i = std::size_t(order[k]); i < n)
+      for (int c = 0; c < 3; ++c) velocities[i][c] = pushed_[std::size_t(c)][k];
 }
 
 SINEW_ONCE void DFSPHFlow::solve(double h, bool ofDensity, Iteration& iteration,

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: BSL-1.0
+// Implicit viscosity of incompressible fluids of particles: waves decay as those of the continuum, what turns
+// as a whole goes on, what is very thick becomes rigid, walls bear what they take.
+#include "catch.hpp"
+#include "error_of.hpp"
+#include "fluid_tank.hpp"
+
+#include <sinew/control/threads.hpp>
+#include <sinew/force/fluid_boundary.hpp>
+#include <sinew/mechanics.hpp>
+#include <sinew/solver/dfsph.hpp>
+
+#include <Eigen/Dense>
+#include <numbers>
+
+namespace test_dfsph_viscosity {
+
+using namespace sinew;
+using tank::Points;
+
+namespace {
+
+DFSPHFlow flow_of(double d, Points const& x, Points const& v, std::size_t boundary = 0) {
+  DFSPHFlow flow;
+  flow.radius = 2 * d;
+  flow.calibrate(d);
+  flow.volumes.assign(x.size() - boundary, d * d * d);
+  flow.positions = x;
+  flow.velocities = v;
+  flow.impulses.assign(boundary, Eigen::Vector3d::Zero());
+  flow.place("test");
+  return flow;
+}
+Eigen::Vector3d angular(Points const& x, Points const& v) {
+  Eigen::Vector3d sum(0, 0, 0);
+  for (std::size_t i = 0; i < x.size(); ++i) sum += x[i].cross(v[i]);
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("waves across a fluid decay by nu k^2 from where its viscosity acts, with the second order of d") {
+  // v_x = sin k y: in a step v / (1 + h nu k^2), for particles whose neighbours' neighbours are all there; a
+  // short step, in which what happens at the border does not come there
+  const double length = 1, k = 2 * std::numbers::pi / length, nu = 0.3;
+  std::array<double, 2> errors{};
+  for (std::size_t level = 0; level < 2; ++level) {
+    const int n = level == 0 ? 10 : 20;
+    const double d = length / n, h = 1e-6;
+    const Points x = tank::block(d, 10, 3 * n, 10);
+    Points v;
+    for (auto const& p : x) v.push_back({std::sin(k * p[1]), 0, 0});
+    DFSPHFlow flow = flow_of(d, x, v);
+    DFSPHFlow::Iteration iteration{.most = 100, .tolerance = 1e-12};
+    flow.solveViscosity(h, nu, iteration);
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      bool inside = true;
+      for (const int c : {0, 2}) inside = inside && x[i][c] > 3 * d && x[i][c] < 7 * d;
+      if (!inside || std::abs(v[i][0]) < 0.5 || x[i][1] < length || x[i][1] > 2 * length) continue;
+      const double decay = (flow.velocities[i][0] / v[i][0] - 1) / h;
+      errors[level] = std::max(errors[level], std::abs(decay / (-nu * k * k) - 1));
+    }
+  }
+  CHECK(errors[0] < 0.1);  // (k d)^2 / 4
+  CHECK(errors[0] / errors[1] == Approx(4).margin(0.4));
+}
+
+TEST_CASE("viscosity keeps momentum and angular momentum, and does nothing to what moves as a whole") {
+  const double d = 0.1;
+  Points x = tank::block(d, 6, 5, 4), v;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    x[i] += 0.01 * Eigen::Vector3d(std::sin(double(i)), std::cos(3. * double(i)), std::sin(2. * double(i)));
+  const Eigen::Vector3d turn(1, -2, 0.5), move(3, 0, 1);
+  for (auto const& p : x) v.push_back(turn.cross(p) + move);
+  DFSPHFlow flow = flow_of(d, x, v);
+  DFSPHFlow::Iteration iteration{.tolerance = 1e-10};
+  flow.solveViscosity(0.01, 100, iteration);
+  for (std::size_t i = 0; i < x.size(); ++i) CHECK((flow.velocities[i] - v[i]).norm() < 1e-11);
+
+  Points other = v;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    other[i] += Eigen::Vector3d(x[i][1], std::sin(9 * x[i][2]), x[i][0] * x[i][1]);
+  for (const double strength : {1e-3, 1., 1e6}) {
+    flow = flow_of(d, x, other);
+    iteration = {.most = 1000, .tolerance = 1e-10};
+    flow.solveViscosity(0.01, strength, iteration);
+    CHECK(iteration.error <= iteration.tolerance);
+    // what the residual leaves: of the first one, some h nu / d^2 of each velocity
+    const double left = 1e-10 * (1 + 0.01 * strength / (d * d)) * double(x.size());
+    CHECK((tank::sum(flow.velocities) - tank::sum(other)).norm() < left);
+    CHECK((angular(x, flow.velocities) - angular(x, other)).norm() < left);
+    if (strength < 1e6) continue;
+    // rigid: the linear and angular momentum there was
+    Eigen::Vector3d centre = tank::sum(x) / double(x.size()), mean = tank::sum(other) / double(x.size());
+    Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d spin = Eigen::Vector3d::Zero();
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const Eigen::Vector3d r = x[i] - centre;
+      inertia += r.squaredNorm() * Eigen::Matrix3d::Identity() - r * r.transpose();
+      spin += r.cross(other[i]);
+    }
+    const Eigen::Vector3d rate = inertia.inverse() * spin;
+    for (std::size_t i = 0; i < x.size(); ++i)
+      CHECK((flow.velocities[i] - mean - rate.cross(x[i] - centre)).norm() < 1e-4);  // strain ~ d^2 / (h nu)
+  }
+}
+
+TEST_CASE("walls take from a fluid what it loses, and hold what is thick") {
+  const double d = 0.1;
+  Points x = tank::block(d, 5, 5, 5);
+  const std::size_t fluid = x.size();
+  for (auto const& p : tank::walls(d, 5, 7, 5)) x.push_back(p);
+  Points v(x.size(), Eigen::Vector3d::Zero());
+  for (std::size_t i = 0; i < fluid; ++i) v[i] = {1, 0, 0.3};
+  double last = 10;
+  for (const double nu : {0.01, 1., 1e4}) {
+    DFSPHFlow flow = flow_of(d, x, v, x.size() - fluid);
+    DFSPHFlow::Iteration iteration{.most = 1000, .tolerance = 1e-12};
+    flow.solveViscosity(0.01, nu, iteration);
+    Eigen::Vector3d lost = Eigen::Vector3d::Zero();
+    double fastest = 0;
+    for (std::size_t i = 0; i < fluid; ++i) {
+      lost += d * d * d * (v[i] - flow.velocities[i]);
+      fastest = std::max(fastest, flow.velocities[i].norm());
+    }
+    CHECK((tank::sum(flow.impulses) - lost).norm() < 1e-12);
+    CHECK(fastest < last);
+    last = fastest;
+  }
+  CHECK(last < 0.01);
+}
+
+TEST_CASE("a thick fluid in a scene: long steps, the same bits by threads, forces that balance") {
+  const double d = 0.05, mass = 1000 * d * d * d;
+  auto run = [&](int threads, double viscosity) {
+    Points v;
+    const Points x = tank::block(d, 14, 12, 14);
+    for (auto const& p : x) v.push_back({p[1], -0.2, 0});
+    Simulation sim{node<"root">(Threads{.count = threads},
+                                Gravity{{0, -10, 0}},
+                                node<"honey">(DFSPHSolver{.radius = 2 * d, .viscosity = viscosity},
+                                              MechanicalObject<Vec3d>{.position = x, .velocity = v},
+                                              UniformMass<Vec3d>{.vertexMass = mass}))};
+    sim.init();
+    const Eigen::Vector3d before = tank::sum(v);
+    for (int i = 0; i < 10; ++i) sim.animate(0.01);
+    auto const& state = sim.template at<"honey">().state();
+    const Eigen::Vector3d fallen = double(x.size()) * Eigen::Vector3d(0, -10 * 0.1, 0);
+    CHECK((tank::sum(state.velocity) - before - fallen).norm() < 1e-9 * double(x.size()));
+    return state.position;
+  };
+  // h nu / d^2 = 400: explicit viscosity is stable up to some 0.1
+  const auto one = run(1, 1e5), two = run(2, 1e5);
+  CHECK(one == two);
+  for (auto const& p : one) REQUIRE(p.allFinite());
+  Simulation wrong{node<"root">(DFSPHSolver{.radius = 2 * d, .viscosity = -1},
+                                MechanicalObject<Vec3d>{.position = tank::block(d, 3, 3, 3)},
+                                UniformMass<Vec3d>{.vertexMass = mass})};
+  CHECK_THAT(error_of([&] { wrong.init(); }), Catch::Contains("DFSPHSolver") && Catch::Contains("viscosity"));
+}
+
+}  // namespace test_dfsph_viscosity
