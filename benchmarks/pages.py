@@ -139,6 +139,20 @@ SCENES = {"fem-double": "body of 6,000 tetrahedra, double", "fem-float": "the sa
           "grid-double": "grid 17x8x10, double"}
 
 
+FLUIDS = {"sph": "particles, SPHFluidForceField", "dfsph": "particles, DFSPHSolver", "grid": "cells, Fluid3D"}
+
+
+def fluids(rows):
+    lines = []
+    for kind, parts in dict.fromkeys((row["kind"], row["parts"]) for row in rows):
+        runs = [row for row in rows if (row["kind"], row["parts"]) == (kind, parts)]
+        one, many = runs[0], runs[-1]
+        lines.append([f"{parts:,} {FLUIDS[kind]}", digits(1e3 * one["step"]), digits(1e3 * many["step"]), digits(1 / many["step"]), digits(1e6 * one["step"] / parts),
+                      one["iterations"] or "-"])
+    most = max(row["threads"] for row in rows)
+    return markdown(["fluid", "ms a step, 1 thread", f"ms a step, {most} threads", f"steps a second, {most} threads", "us a step and particle or cell, 1 thread", "iterations"], lines)
+
+
 def portability(rows):
     builds = kinds(rows, "build")
     lines = []
@@ -269,7 +283,7 @@ def gpu_contact(rows):
                       power(r["residual"]), power(r["forces"])] for r in rows])
 
 
-TABLES = {"fem": fem, "grids": grids, "small": small, "accuracy": accuracy, "roofline": roofline, "growth": growth, "threads": threads, "portability": portability,
+TABLES = {"fem": fem, "grids": grids, "small": small, "accuracy": accuracy, "roofline": roofline, "growth": growth, "threads": threads, "fluids": fluids, "portability": portability,
           "by-hand": by_hand, "vitrectomy": vitrectomy, "runtime": runtime, "families": families, "collision": collision, "compile": compiling, "contact": contact,
           "siconos": siconos, "laparoscopy": laparoscopy, "bounds": bounds, "gpu-float": gpu_float, "gpu-double": gpu_double, "gpu-iterations": gpu_iterations,
           "gpu-copies": gpu_copies, "gpu-contact": gpu_contact}
@@ -277,7 +291,7 @@ TABLES = {"fem": fem, "grids": grids, "small": small, "accuracy": accuracy, "roo
 SOURCE = {"gpu-float": "gpu-scenes", "gpu-double": "gpu-scenes"}
 # the tables of each page; all of them are of one run
 PAGES = {"performance": ["fem", "grids", "small", "accuracy", "roofline", "growth", "threads", "portability", "by-hand", "runtime", "families", "collision", "compile"],
-         "contact": ["contact", "siconos"], "laparoscopy": ["laparoscopy", "bounds"], "vitrectomy": ["vitrectomy"],
+         "contact": ["contact", "siconos"], "fluids": ["fluids"], "laparoscopy": ["laparoscopy", "bounds"], "vitrectomy": ["vitrectomy"],
          "gpu": ["gpu-float", "gpu-double", "gpu-iterations", "gpu-copies", "gpu-contact"]}
 
 

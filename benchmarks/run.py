@@ -27,7 +27,7 @@ from tools import Yardstick, fail, spent  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 # the programs of each table, which must be there for a page
-PROGRAMS = {"fem": ["fem"], "grids": ["grid"], "small": ["small"], "accuracy": ["accuracy"], "roofline": ["roofline"], "growth": ["growth"], "threads": ["threads"],
+PROGRAMS = {"fem": ["fem"], "grids": ["grid"], "small": ["small"], "accuracy": ["accuracy"], "roofline": ["roofline"], "growth": ["growth"], "threads": ["threads"], "fluids": ["fluids"],
             "portability": ["portable_native", "portable_native_fast"], "by-hand": ["by_hand"], "vitrectomy": ["vitrectomy"], "runtime": ["runtime"],
             "families": ["families"], "collision": ["collision", "collision_portable"], "contact": ["contact_block", "contact_bodies", "contact_pile"],
             "siconos": ["siconos"], "laparoscopy": ["laparoscopy"], "bounds": ["laparoscopy_bounds"], "compile": []}
@@ -118,6 +118,7 @@ class Runs:
             "roofline": lambda: table.roofline(build, rounds),
             "growth": lambda: table.growth(build, rounds),
             "threads": lambda: table.threads(build, self.a.cells, self.a.threads),
+            "fluids": lambda: table.fluids(build),
             "portability": lambda: table.portability(build, rounds),
             "by-hand": lambda: programs_table.by_hand(build),
             "vitrectomy": lambda: programs_table.vitrectomy(build, rounds),

@@ -184,6 +184,19 @@ def threads(build, cells, counts, seconds=1):
     return rows
 
 
+def fluids(build, cases=(("sph", 10000), ("sph", 100000), ("sph", 1000000), ("dfsph", 10000), ("dfsph", 100000), ("grid", 32), ("grid", 64), ("grid", 128)), seconds=3):
+    counts = sorted({1, len(os.sched_getaffinity(0))})
+    rows = []
+    for kind, size in cases:
+        found = [line.split() for line in output(build / "bench_fluids", kind, size, seconds, *counts).splitlines()]
+        for name, parts, count, time, substeps, iterations, bits in found:
+            rows.append({"kind": name, "parts": int(parts), "threads": int(count), "step": float(time), "substeps": int(substeps), "iterations": int(iterations),
+                         "same_bits": bits == found[0][-1]})
+    if not all(row["same_bits"] for row in rows):
+        fail("fluids after the same steps differ between numbers of threads; this is a mistake in Sinew")
+    return rows
+
+
 # levels of x86-64: what /proc/cpuinfo lists for those that have them
 LEVELS = {"v2": {"sse4_2", "ssse3", "popcnt", "cx16"}, "v3": {"avx2", "bmi1", "bmi2", "f16c", "fma", "movbe"},
           "v4": {"avx512f", "avx512bw", "avx512cd", "avx512dq", "avx512vl"}}

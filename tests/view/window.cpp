@@ -13,10 +13,13 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <memory>
 #include <string>
 #include <thread>
 #include <vector>
+
+#include <unistd.h>
 
 namespace test_window {
 
@@ -412,6 +415,56 @@ TEST_CASE("step time with and without a window", "[.speed]") {
       median_of(without),
       median_of(with),
       100 * (median_of(ratios) - 1));
+}
+
+// A measurement of ten minutes:
+//   xvfb-run -a -s "-screen 0 1280x800x24 -noreset" test_window "[.memory]"
+TEST_CASE("memory of a window over ten minutes, while a body moves, is pulled and coloured", "[.memory]") {
+  if (!std::getenv("DISPLAY")) return;
+  Mesh mesh = regular_grid_tetrahedra(7, 8, 8, {0, 0, 0}, {1, 1, 1});
+  Simulation sim{node<"root">(
+      Gravity{{0, -10, 0}},
+      EulerImplicitSolver{},
+      CGLinearSolver<>{},
+      node<"block">(TetrahedronTopology{mesh.tetrahedra},
+                    MechanicalObject<Vec3d>{mesh.positions},
+                    UniformMass<Vec3d>{.totalMass = 1},
+                    FixedConstraint<Vec3d>{.indices = {0, 1, 2, 3, 4, 5, 6}},
+                    TetrahedronFEMForceField<Vec3d>{.youngModulus = {1000}, .poissonRatio = 0.3}))};
+  sim.init();
+  view::Stage stage(sim, 0.01, 0);
+  view::Window window(stage);
+  view::SeenSettings seen;
+  auto megabytes = [] {
+    std::ifstream file("/proc/self/statm");
+    long all = 0, resident = 0;
+    file >> all >> resident;
+    return double(resident) * double(sysconf(_SC_PAGESIZE)) / 1e6;
+  };
+  std::vector<double> minutes;
+  stage.play(true);
+  const double start = seconds_now();
+  for (long frame = 0; minutes.size() <= 10; ++frame) {
+    if (frame % 100 == 0) {  // other quantities, a scene that starts again
+      seen.colour = view::Quantity(frame / 100 % 5);
+      seen.wireframe = frame / 100 % 7 == 0;
+      stage.show(seen);
+      if (frame % 1000 == 0) stage.reset();
+    }
+    window.frame();
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    if (seconds_now() - start >= 60 * double(minutes.size())) {
+      minutes.push_back(megabytes());
+      std::printf("minute %zu, frame %ld, step %ld: %.1f MB\n",
+                  minutes.size() - 1,
+                  frame,
+                  stage.state().step,
+                  minutes.back());
+      std::fflush(stdout);
+    }
+  }
+  // constant but for what allocators keep
+  CHECK(minutes[10] < 1.05 * minutes[2]);
 }
 
 }  // namespace test_window

@@ -263,7 +263,7 @@ struct SPHFluidForceField {
         auto acts = p.acts;  // walls do not act on walls
         if (wall) acts = both(acts, load(fluid, p.first) > L(0));
         L pushes = -square * (pushed + load(pressures, p.first));
-        std::array<L, 3> slower;  // v_j - v_i
+        std::array<L, 3> slower{L(0), L(0), L(0)};  // v_j - v_i
         if (viscous || artificial)
           for (std::size_t c = 0; c < 3; ++c) slower[c] = load(velocities[c], p.first) - v[c];
         if (artificial) {

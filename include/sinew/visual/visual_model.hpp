@@ -40,10 +40,14 @@ struct VisualModel {
 namespace sinew {
 
 SINEW_ONCE Mesh VisualModel::current() const {
-  Mesh now = mesh;
-  now.positions.resize(position.size());
-  for (std::size_t i = 0; i < position.size(); ++i)
-    now.positions[i] = {position[i][0], position[i][1], position[i][2]};
+  Mesh now{.positions = {},
+           .edges = mesh.edges,
+           .triangles = mesh.triangles,
+           .quads = mesh.quads,
+           .tetrahedra = mesh.tetrahedra,
+           .hexahedra = mesh.hexahedra};
+  now.positions.reserve(position.size());
+  for (auto const& x : position) now.positions.emplace_back(x[0], x[1], x[2]);
   return now;
 }
 
