@@ -46,6 +46,7 @@ class SortedParticles {
     for (std::size_t k = 0; k < points.size(); ++k)
       for (int c = 0; c < 3; ++c) positions_[std::size_t(c)][k] = Real(points[std::size_t(order()[k])][c]);
   }
+  std::array<std::vector<Real>, 3> const& positions() const { return positions_; }
   /// The number of the particle in each place.
   std::vector<int> const& order() const { return cells_.order(); }
 

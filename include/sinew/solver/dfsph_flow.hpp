@@ -3,7 +3,7 @@
 
 #include <sinew/core/compiled.hpp>
 #include <sinew/core/workers.hpp>
-#include <sinew/force/sorted_particles.hpp>
+#include <sinew/force/listed_particles.hpp>
 
 #include <Eigen/Core>
 
@@ -85,7 +85,7 @@ class DFSPHFlow {
   std::pair<int, int> coincident() const;
 
  private:
-  using Particles = SortedParticles<double, native_width<double>>;
+  using Particles = ListedParticles<double, native_width<double>>;
   using L = Particles::L;
   using Pairs = Particles::Pairs;
 
@@ -176,7 +176,7 @@ SINEW_ONCE void DFSPHFlow::reserve(std::size_t fluid, std::size_t boundary) {
 
 SINEW_ONCE void DFSPHFlow::place(std::string_view where) {
   const std::size_t n = fluidSize(), all = positions.size();
-  particles_.sort(positions, radius, where);
+  particles_.sort(positions, radius, where, [&](auto&& f) { inShares(f); });
   forEachArray([room = particles_.room()](auto& v) { v.resize(room, 0.0); });
   whole_.resize(particles_.room());
   densities.resize(n);
@@ -197,7 +197,7 @@ SINEW_ONCE void DFSPHFlow::findBoundaryVolumes(WorkShare const& share) {
     if (fluid_[std::size_t(i)] != 0) return;
     L around(0);
     each([&](Pairs const& p) {
-      around += select(p.acts, (L(1) - Particles::load(fluid_, p.first)) * kernels.density(p.q), L(0));
+      around += select(p.acts, (L(1) - Particles::load(fluid_, p)) * kernels.density(p.q), L(0));
     });
     volume_[std::size_t(i)] = boundaryLayer / Particles::sum(around);
   });
@@ -212,7 +212,7 @@ SINEW_ONCE void DFSPHFlow::findDensities(WorkShare const& share) {
     L around(0), squares(0), count(0);
     std::array<L, 3> gradient{L(0), L(0), L(0)};
     each([&](Pairs const& p) {
-      const L volume = Particles::load(volume_, p.first);
+      const L volume = Particles::load(volume_, p);
       around += select(p.acts, volume * kernels.density(p.q), L(0));
       count += select(p.acts, L(1), L(0));
       L square(0);
@@ -223,7 +223,7 @@ SINEW_ONCE void DFSPHFlow::findDensities(WorkShare const& share) {
         square += along * along;
       }
       // V_i V_j |grad W|^2 from (V_j grad W)^2, of the fluid
-      squares += select(p.acts, Particles::load(fluid_, p.first) * square / volume, L(0));
+      squares += select(p.acts, Particles::load(fluid_, p) * square / volume, L(0));
     });
     density_[at] = Particles::sum(around);
     double diagonal = volume_[at] * Particles::sum(squares);
@@ -254,7 +254,7 @@ SINEW_ONCE std::pair<int, int> DFSPHFlow::coincident() const {
     if (fluid_[std::size_t(i)] == 0) return;
     each([&](Pairs const& p) {
       for (int l = 0; l < Particles::width; ++l)
-        if (const int j = p.first + l; j > i && lane(p.q, l) < 1e-6 && fluid_[std::size_t(j)] != 0)
+        if (const int j = p.places[l]; j > i && lane(p.q, l) < 1e-6 && fluid_[std::size_t(j)] != 0)
           found = std::minmax(particles_.order()[std::size_t(i)], particles_.order()[std::size_t(j)]);
     });
   });
@@ -270,10 +270,10 @@ SINEW_ONCE void DFSPHFlow::push(WorkShare const& share, double h) {
     const L own(pressure_[at]);
     std::array<L, 3> sums{L(0), L(0), L(0)};
     each([&](Pairs const& p) {
-      const L along = select(p.acts,
-                             Particles::load(volume_, p.first) * (own + Particles::load(pressure_, p.first)) *
-                                 kernels.densitySlope(p.q),
-                             L(0));
+      const L along = select(
+          p.acts,
+          Particles::load(volume_, p) * (own + Particles::load(pressure_, p)) * kernels.densitySlope(p.q),
+          L(0));
       for (std::size_t c = 0; c < 3; ++c) sums[c] += along * p.d[c];
     });
     for (std::size_t c = 0; c < 3; ++c) pushed_[c][at] = velocity_[c][at] - h * Particles::sum(sums[c]);
@@ -292,8 +292,8 @@ SINEW_ONCE void DFSPHFlow::correct(WorkShare const& share, double h, bool ofDens
     L rate(0);
     each([&](Pairs const& p) {
       L closing(0);
-      for (std::size_t c = 0; c < 3; ++c) closing += (v[c] - Particles::load(pushed_[c], p.first)) * p.d[c];
-      rate += select(p.acts, Particles::load(volume_, p.first) * kernels.densitySlope(p.q) * closing, L(0));
+      for (std::size_t c = 0; c < 3; ++c) closing += (v[c] - Particles::load(pushed_[c], p)) * p.d[c];
+      rate += select(p.acts, Particles::load(volume_, p) * kernels.densitySlope(p.q) * closing, L(0));
     });
     const double residual = h * Particles::sum(rate) + (ofDensity ? density_[at] - 1 : 0);
     const double strength = h * h * diagonal_[at];
@@ -309,10 +309,10 @@ SINEW_ONCE void DFSPHFlow::pushBoundary(WorkShare const& share, double h) {
     if (fluid_[at] != 0) return;
     std::array<L, 3> sums{L(0), L(0), L(0)};
     each([&](Pairs const& p) {
-      const L along = select(
-          p.acts,
-          Particles::load(volume_, p.first) * Particles::load(pressure_, p.first) * kernels.densitySlope(p.q),
-          L(0));
+      const L along =
+          select(p.acts,
+                 Particles::load(volume_, p) * Particles::load(pressure_, p) * kernels.densitySlope(p.q),
+                 L(0));
       for (std::size_t c = 0; c < 3; ++c) sums[c] += along * p.d[c];
     });
     auto& impulse = impulses[std::size_t(particles_.order()[at]) - fluidSize()];
@@ -340,8 +340,7 @@ SINEW_ONCE void DFSPHFlow::invertViscosity(WorkShare const& share, double streng
     if (fluid_[at] == 0) return;
     std::array<L, 6> sums{L(0), L(0), L(0), L(0), L(0), L(0)};
     each([&](Pairs const& p) {
-      const L w =
-          detail::viscous_weight(kernels, p, Particles::load(volume_, p.first), viscosityFactor, radius);
+      const L w = detail::viscous_weight(kernels, p, Particles::load(volume_, p), viscosityFactor, radius);
       for (std::size_t c = 0; c < 3; ++c) sums[c] += w * p.d[c] * p.d[c];
       sums[3] += w * p.d[0] * p.d[1];
       sums[4] += w * p.d[0] * p.d[2];
@@ -368,8 +367,8 @@ SINEW_ONCE void DFSPHFlow::drag(WorkShare const& share, double strength,
     for (std::size_t c = 0; c < 3; ++c) v[c] = L(of[c][at]);
     each([&](Pairs const& p) {
       L along(0);
-      for (std::size_t c = 0; c < 3; ++c) along += (v[c] - Particles::load(of[c], p.first)) * p.d[c];
-      along *= detail::viscous_weight(kernels, p, Particles::load(volume_, p.first), viscosityFactor, radius);
+      for (std::size_t c = 0; c < 3; ++c) along += (v[c] - Particles::load(of[c], p)) * p.d[c];
+      along *= detail::viscous_weight(kernels, p, Particles::load(volume_, p), viscosityFactor, radius);
       for (std::size_t c = 0; c < 3; ++c) sums[c] += along * p.d[c];
     });
     for (std::size_t c = 0; c < 3; ++c) product_[c][at] = strength * Particles::sum(sums[c]);
@@ -385,12 +384,9 @@ SINEW_ONCE void DFSPHFlow::dragBoundary(WorkShare const& share, double strength)
     for (std::size_t c = 0; c < 3; ++c) v[c] = L(pushed_[c][at]);
     each([&](Pairs const& p) {
       L along(0);
-      for (std::size_t c = 0; c < 3; ++c) along += (Particles::load(pushed_[c], p.first) - v[c]) * p.d[c];
-      along *= detail::viscous_weight(kernels,
-                                      p,
-                                      Particles::load(volume_, p.first) * Particles::load(fluid_, p.first),
-                                      viscosityFactor,
-                                      radius);
+      for (std::size_t c = 0; c < 3; ++c) along += (Particles::load(pushed_[c], p) - v[c]) * p.d[c];
+      along *= detail::viscous_weight(
+          kernels, p, Particles::load(volume_, p) * Particles::load(fluid_, p), viscosityFactor, radius);
       for (std::size_t c = 0; c < 3; ++c) sums[c] += along * p.d[c];
     });
     auto& impulse = impulses[std::size_t(particles_.order()[at]) - fluidSize()];
