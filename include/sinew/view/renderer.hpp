@@ -241,7 +241,7 @@ class Renderer {
     const std::string words = detail::words_of_lights(
         lights, hasShadow ? std::optional(std::size_t(first - lights.begin())) : std::nullopt);
     if (!lit_ || lit_->words != words) lit_.emplace(words);
-    auto const& [surface, fine, _] = *lit_;
+    GlShaders const &surface = lit_->surface, &fine = lit_->fine;
     for (GlShaders const* shaders : {&surface, &fine}) {
       shaders->use();
       shaders->set("toView", toView);
