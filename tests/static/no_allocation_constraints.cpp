@@ -55,6 +55,9 @@ TEST_CASE("a step with constraints by multipliers allocates nothing") {
   const BlockGaussSeidelConstraintSolver sweeps{};
   const EulerImplicitSolver implicit{};
   CHECK(allocations_of(joined(sweeps, implicit, SparseLDLSolver<>{})) == 0);
+  auto turning = joined(sweeps, implicit, SparseLDLSolver<>{});
+  turning.root().get<FreeMotionAnimationLoop>().newtonIterations = 20;
+  CHECK(allocations_of(turning) == 0);
   CHECK(allocations_of(joined(sweeps, implicit, CGLinearSolver<>{})) == 0);
   CHECK(allocations_of(joined(sweeps, implicit, CholeskySolver<>{})) == 0);
   CHECK(allocations_of(joined(sweeps, implicit, MinResLinearSolver<>{})) == 0);

@@ -247,8 +247,12 @@ struct ContactManager {
       while (old < keys.size() && keys[old] < key) ++old;
       const bool again = old < keys.size() && keys[old] == key;
       describe(c, *surfaces[std::size_t(c.a.surface)], *surfaces[std::size_t(c.b.surface)]);
-      couplingChanged = couplingChanged || (!again && !All::isConstraint(c.response));
       c.start = displacement(c);
+      if (isThroughBody(c, key, again ? &contacts[old] : nullptr)) {
+        c.response = -1;
+        continue;
+      }
+      couplingChanged = couplingChanged || (!again && !All::isConstraint(c.response));
       const int other = again ? -1 : ofVertices.find(key, bodies);
       if (again)
         remember(c, contacts[old]);
@@ -410,6 +414,22 @@ struct ContactManager {
   Eigen::Vector3d displacement(Contact const& c) const {
     return position_of(c.b, *surfaces[std::size_t(c.b.surface)]) -
            position_of(c.a, *surfaces[std::size_t(c.a.surface)]);
+  }
+  // Whether what is between the two places of a body, one of them behind a triangle, is the body itself: so
+  // it is unless the same contact, or another one of its vertex, was on that side in the last step, for
+  // nothing gets behind a triangle from outside without having been near its front. `before` is the same one.
+  bool isThroughBody(Contact const& c, ContactKey const& key, Contact const* before) const {
+    if (bodies[std::size_t(c.a.surface)] != bodies[std::size_t(c.b.surface)]) return false;
+    auto isOfFace = [&](ContactSide const& side) {
+      return side.corners() == 3 && !surfaces[std::size_t(side.surface)]->settings.bothSide;
+    };
+    // (where an edge crosses a triangle, the two places are one, to rounding)
+    const double rounding =
+        1e-12 * surfaces[std::size_t(c.b.surface)]->position[std::size_t(c.b.vertices[0])].norm();
+    if ((!isOfFace(c.a) && !isOfFace(c.b)) || c.normal.dot(c.start) > rounding) return false;
+    auto goesOn = [&c](Contact const& last) { return last.normal.dot(c.normal) > 0; };
+    if (before && goesOn(*before)) return false;
+    return ofVertices.find(key, bodies, [&](int i) { return goesOn(contacts[std::size_t(i)]); }) < 0;
   }
   // of the force, where the vertices go by dx; what the solver does not move stays where it is
   Eigen::Vector3d change(Contact const& c, double k, double b) const {

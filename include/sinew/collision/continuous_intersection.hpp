@@ -30,6 +30,9 @@ struct ContinuousIntersection {
     const auto b = pair.cornersB();
     const double limit = contactDistance + pair.proximity();
     auto now = contact_at(pair, a, b);
+    // as far behind a one-sided triangle as in front of it: what is farther is on the other side of the body
+    const double far = reach() + pair.proximity() + pair.thickness();
+    if (now && (now->start.norm() > far || !is_of_pair(pair, *now))) now.reset();
     if (now) now->limit = limit;
     if (now && now->distance <= limit) return now;
     // what no solver moves stands where it will be at the end of the step, and comes from before
@@ -44,18 +47,23 @@ struct ContinuousIntersection {
                                        moved(b, pair.b, pair.elementB, 0),
                                        moved(b, pair.b, pair.elementB, pair.dt),
                                        pair.thickness() + limit);
-    if (!impact) {
-      if (!now || now->distance > reach() + pair.proximity()) return std::nullopt;
-      return now;
-    }
+    if (!impact) return now;
     const double time = *impact * pair.dt;
     auto then =
         contact_at(pair, moved(a, pair.a, pair.elementA, time), moved(b, pair.b, pair.elementB, time), false);
-    if (!then) return std::nullopt;
+    if (!then || !is_of_pair(pair, *then)) return std::nullopt;
     then->limit = limit;
     then->distance =
         then->normal.dot(position_of(then->b, pair.b) - position_of(then->a, pair.a)) - then->thickness;
+    // one-sided triangles stop what comes from outside, and let out what comes from behind
+    if (then->distance < -then->thickness && (isOfFace(then->a, pair.a) || isOfFace(then->b, pair.b)))
+      return std::nullopt;
     return then;
+  }
+
+ private:
+  static bool isOfFace(ContactSide const& side, CollisionSurface const& s) {
+    return side.corners() == 3 && !s.settings.bothSide;
   }
 };
 

@@ -200,7 +200,11 @@ SINEW_HD bool find_contact(PrimitivePair<A, B, SA, SB> const& pair, ShapeCorners
     return false;
   const Eigen::Vector3d outOfA = detail::outer_normal(pair.a, a, closest.weightsA, between),
                         outOfB = detail::outer_normal(pair.b, b, closest.weightsB, between);
-  const bool faceA = outOfA.squaredNorm() > 0, faceB = outOfB.squaredNorm() > 0;
+  // where an edge crosses a triangle, that is the face
+  const bool insideA = A == Shape::triangle && closest.weightsA.minCoeff() > 0,
+             insideB = B == Shape::triangle && closest.weightsB.minCoeff() > 0;
+  const bool faceA = outOfA.squaredNorm() > 0 && insideA >= insideB,
+             faceB = outOfB.squaredNorm() > 0 && insideB >= insideA;
   set_normal(contact,
              pair,
              faceA == faceB ? Eigen::Vector3d(contact_direction(a, b, closest))

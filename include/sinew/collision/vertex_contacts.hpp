@@ -4,6 +4,7 @@
 #include <sinew/collision/contact.hpp>
 #include <sinew/core/compiled.hpp>
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -19,8 +20,23 @@ class VertexContacts {
   /// `bodies`: of each surface, the first one that is on the same state.
   void list(std::vector<ContactKey> const& keys, std::vector<int> const& bodies);
 
-  /// The number of the first contact that has a vertex of this one for itself; -1: there is none.
-  int find(ContactKey const& key, std::vector<int> const& bodies) const;
+  /// The number of the first contact that has a vertex of this one for itself, and for which
+  /// accepts(number); -1: there is none.
+  template <class Accepts>
+  int find(ContactKey const& key, std::vector<int> const& bodies, Accepts&& accepts) const {
+    for (std::size_t side = 0; side < 2; ++side) {
+      if (!key.ofOneVertex(side)) continue;
+      const Identity wanted = identity(key, side, bodies);
+      auto at = std::lower_bound(
+          list_.begin(), list_.end(), wanted, [](Entry const& x, Identity const& k) { return x.vertex < k; });
+      for (; at != list_.end() && at->vertex == wanted; ++at)
+        if (accepts(at->contact)) return at->contact;
+    }
+    return -1;
+  }
+  int find(ContactKey const& key, std::vector<int> const& bodies) const {
+    return find(key, bodies, [](int) { return true; });
+  }
 
   /// A vertex above the border of two triangles is near the one, and near the edge of the other, at the same
   /// place: once is enough. The list is that of `found`, and so are the keys.
@@ -69,17 +85,6 @@ SINEW_ONCE void VertexContacts::list(std::vector<ContactKey> const& keys, std::v
   std::sort(list_.begin(), list_.end(), [](Entry const& x, Entry const& y) {
     return std::pair(x.vertex, x.contact) < std::pair(y.vertex, y.contact);
   });
-}
-
-SINEW_ONCE int VertexContacts::find(ContactKey const& key, std::vector<int> const& bodies) const {
-  for (std::size_t side = 0; side < 2; ++side) {
-    if (!key.ofOneVertex(side)) continue;
-    const Identity wanted = identity(key, side, bodies);
-    const auto first = std::lower_bound(
-        list_.begin(), list_.end(), wanted, [](Entry const& x, Identity const& k) { return x.vertex < k; });
-    if (first != list_.end() && first->vertex == wanted) return first->contact;
-  }
-  return -1;
 }
 
 SINEW_ONCE void VertexContacts::dropSamePlaces(std::vector<Contact>& found, std::vector<ContactKey>& keys,

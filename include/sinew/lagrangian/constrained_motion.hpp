@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/lagrangian/anderson_acceleration.hpp>
 #include <sinew/lagrangian/constraint_problem.hpp>
 #include <sinew/lagrangian/constraint_rows.hpp>
 #include <sinew/lagrangian/jacobian_rows.hpp>
@@ -97,6 +98,16 @@ struct MotionRows {
   }
 };
 
+/// The rows that are to hold where the bodies end (scene/turning_constraints.hpp).
+struct TurningRows {
+  std::vector<int> rows{};           // which of all they are, rising
+  Eigen::VectorXd free{}, linear{};  // violations of the free motion, and what the tangent makes of them
+  Eigen::VectorXd shift{}, found{};  // what the tangent leaves out, as it is taken and as it was found
+  Eigen::VectorXd weights{};         // all alike
+  AndersonAcceleration acceleration{};
+  ConstraintRows seen{};  // of a constraint, at the end of the step
+};
+
 /// What a scene with constraints by multipliers keeps from step to step: the rows of the last step, their
 /// multipliers, and room.
 struct ConstrainedMotion {
@@ -110,7 +121,10 @@ struct ConstrainedMotion {
   MotionRows motionRows{};
   JacobianRows room{};
   FactoredRows factored{};
-  bool hasMotion = false;  // the solver has found the motion of systems with the multipliers
+  bool hasMotion = false;    // the solver has found the motion of systems with the multipliers
+  int newtonIterations = 0;  // of constraints that turn within a step
+  double newtonTolerance = 0;
+  TurningRows turning{};
   // violations of contacts that states have found are theirs to say: those in `rows` are of no motion
   bool owesViolations = false;
   // whether all rows are theirs, in a form that may stand, and whether those of the last step do so

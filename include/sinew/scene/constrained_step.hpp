@@ -13,6 +13,7 @@
 #include <sinew/scene/row_names.hpp>
 #include <sinew/scene/solvers.hpp>
 #include <sinew/scene/states_of.hpp>
+#include <sinew/scene/turning_constraints.hpp>
 #include <sinew/solver/multi_vec.hpp>
 
 #include <algorithm>
@@ -404,6 +405,8 @@ void ConstrainedStep<RootScope>::integrate(ConstrainedMotion& m, bool velocityFi
   collectRows(m, velocityFirst, keepsForces, mayStand);
   m.hasMotion = false;
   if (m.rows.count() > 0) solve(m);
+  if (m.newtonIterations > 0 && m.rows.count() > 0)
+    TurningConstraints<RootScope>{root, time, dt, notes}.hold(m, [&] { solve(m); });
   giveBack(m);
   std::size_t number = 0;
   for_each_integrator(root, [&](auto& ode, auto const& scope) {

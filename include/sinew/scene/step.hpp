@@ -146,6 +146,10 @@ struct Step {
     static_assert(IsComplete<ConstrainedStep<RootScope>>,
                   "Sinew: a scene with an animation loop needs what solves constraints; include "
                   "<sinew/lagrangian.hpp>, or <sinew/scene/constrained_step.hpp>.");
+    if constexpr (requires { loop.newtonIterations, loop.newtonTolerance; }) {
+      loop.motion.newtonIterations = loop.newtonIterations;
+      loop.motion.newtonTolerance = loop.newtonTolerance;
+    }
     if constexpr (IsComplete<ConstrainedStep<RootScope>>)
       ConstrainedStep<RootScope>{root, time, dt, notes()}.integrate(
           loop.motion, loop.solveVelocityConstraintFirst, keepsForces);

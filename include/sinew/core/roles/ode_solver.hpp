@@ -79,7 +79,7 @@ struct MultiplierResponse {
     return {factors, (Ode::implicit && ofForces) || SolvesMass<Ode>, Ode::auxiliary.derivs};
   }
   /// Vectors that it takes beside those of the solvers.
-  static constexpr Auxiliary auxiliary{.derivs = 2};
+  static constexpr Auxiliary auxiliary{.coords = 1, .derivs = 2};
   DerivId force() const { return {DerivId::reserved + derivs}; }
   DerivId motion() const { return {DerivId::reserved + derivs + 1}; }
 };
