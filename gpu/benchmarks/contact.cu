@@ -3,7 +3,7 @@
 // multipliers (ConvexConstraintSolver):
 //   contact NX NY NZ [--given] [--double] [--steps N] [--tolerance METRES] [--linear RELATIVE] [--mu
 //   FRICTION]
-//           [--profile] [--host]
+//           [--profile] [--host] [--fused] [--copies N]
 // The block has NX x NY points that touch, and NZ layers of them: 32 32 6 are 1,024 contacts and 28,830
 // tetrahedra. They are found in each step, between all points of the block and a floor of 3,200 triangles;
 // with --given they are a list of points above a plane (UnilateralLagrangianConstraint). With --mu 0 the
@@ -14,8 +14,11 @@
 // residuals, of the constraints [m] and of the momentum; steps that were not solved; and how far the sum of
 // the normal forces is from the weight, relative. --profile prints how long the host was in each part of a
 // step (work of the GPU counts where the host waits for it); --host how far points are from where the
-// processor has them after the first 20 steps.
+// processor has them after the first 20 steps. With --fused all steps are one launch (FusedSimulation), which
+// says how many steps were not solved and no more of them; --copies of the block may be made by it.
 #include <sinew/gpu/gpu.hpp>
+
+#include <sinew/gpu/fused/simulation.hpp>
 
 #include <sinew/contact.hpp>
 #include <sinew/context/gravity.hpp>
@@ -51,7 +54,8 @@ struct Options {
   std::array<int, 3> n{};
   int steps = 200;
   double tolerance = 1e-6, linear = 1e-2, mu = 0.5;
-  bool inDouble = false, profile = false, host = false, given = false;
+  int copies = 1;
+  bool inDouble = false, profile = false, host = false, given = false, fused = false;
 };
 
 int whole_number(std::string const& text) {
@@ -72,16 +76,16 @@ double volume_of(Options const& o) {
 }
 
 // the block, with more components
-template <class D, class... More>
+using Assembled = CGLinearSolver<CompressedRowSparseMatrixMat3x3d>;
+template <class D, class Linear = Assembled, class... More>
 auto block(Options const& o, Mesh const& mesh, More... more) {
-  return node<"block">(
-      EulerImplicitSolver{.rayleighStiffness = 0.01, .rayleighMass = 0.01},
-      CGLinearSolver<CompressedRowSparseMatrixMat3x3d>{.iterations = 200, .tolerance = o.linear},
-      MeshTopology{.position = mesh.positions, .tetrahedra = mesh.tetrahedra},
-      MechanicalObject<D>{.velocity = {{1, 0, 0}}},
-      UniformMass<D>{.totalMass = density * volume_of(o)},
-      TetrahedronFEMForceField<D>{.youngModulus = {1e5}, .poissonRatio = 0.4},
-      more...);
+  return node<"block">(EulerImplicitSolver{.rayleighStiffness = 0.01, .rayleighMass = 0.01},
+                       Linear{.iterations = 200, .tolerance = o.linear},
+                       MeshTopology{.position = mesh.positions, .tetrahedra = mesh.tetrahedra},
+                       MechanicalObject<D>{.velocity = {{1, 0, 0}}},
+                       UniformMass<D>{.totalMass = density * volume_of(o)},
+                       TetrahedronFEMForceField<D>{.youngModulus = {1e5}, .poissonRatio = 0.4},
+                       more...);
 }
 
 template <class D>
@@ -101,7 +105,7 @@ auto scene_given(Options const& o) {
                       node<"ground">(MechanicalObject<D>{.position = {{0, 0, 0}}}),
                       block<D>(o, mesh));
 }
-template <class D>
+template <class D, class Linear = Assembled>
 auto scene_found(Options const& o) {
   constexpr int cells = 40;
   MeshTopology floor;
@@ -126,7 +130,7 @@ auto scene_found(Options const& o) {
                       node<"floor">(floor,
                                     MechanicalObject<Vec3d>{},
                                     TriangleCollisionModel<Vec3d>{.moving = false, .simulated = false}),
-                      block<D>(o, mesh_of(o), PointCollisionModel<D>{}));
+                      block<D, Linear>(o, mesh_of(o), PointCollisionModel<D>{}));
 }
 
 // of a scene: how many contacts, and the sum of their normal forces
@@ -227,6 +231,50 @@ void measure(Options const& o) {
   std::printf("%s\n", profile_table(timed.root().profile()).c_str());
 }
 
+template <class H>
+void measure_fused(Options const& o) {
+  using D = CudaTypes<H>;
+  Simulation sim{scene_found<D, CGLinearSolver<>>(o)};
+  sim.init();
+  gpu::FusedSimulation fused(sim, o.copies);
+  fused.animate(dt, settling);
+  fused.finish();
+  if (o.host) {
+    Options tight = o;
+    tight.linear = 1e-8;
+    Simulation reference{scene_found<H>(tight)};
+    reference.init();
+    for (int i = 0; i < settling; ++i) reference.animate(dt);
+    fused.store(0, sim);
+    auto const& x = std::as_const(sim.template at<"block">().state()).position;
+    auto const& y = reference.template at<"block">().state().position;
+    double far = 0;
+    for (std::size_t i = 0; i < y.size(); ++i)
+      for (int c = 0; c < 3; ++c) far = std::max(far, std::abs(double(x[i][c]) - double(y[i][c])));
+    std::printf("# %.2e m from the processor after %d steps\n", far, settling);
+  }
+  gpu::wait();
+  const double begin = now();
+  fused.animate(dt, o.steps);
+  gpu::wait();
+  const double seconds = now() - begin;
+  fused.finish();
+  double normal = 0;
+  const auto contacts = fused.contacts(0);
+  for (auto const& [node, c] : contacts) normal += std::abs(c.normal.dot(c.force));
+  auto& block = sim.template at<"block">();
+  std::printf("%zu; %zu; %zu; %s; %.1f; fused, %d copies by %d blocks each; %d unsolved; forces %.1e\n",
+              block.template first<role::ForceField>().driver.size(),
+              block.state().size(),
+              contacts.size(),
+              sizeof(typename H::Real) == 8 ? "double" : "float",
+              o.copies * o.steps / seconds,
+              o.copies,
+              fused.shape().blocks,
+              fused.unsolved(0),
+              std::abs(normal / (9.81 * density * volume_of(o)) - 1));
+}
+
 Options options(int argc, char** argv) {
   Options o;
   std::size_t given = 0;
@@ -244,6 +292,10 @@ Options options(int argc, char** argv) {
       o.host = true;
     else if (a == "--given")
       o.given = true;
+    else if (a == "--fused")
+      o.fused = true;
+    else if (a == "--copies")
+      o.copies = whole_number(next());
     else if (a == "--steps")
       o.steps = whole_number(next());
     else if (a == "--tolerance")
@@ -261,7 +313,8 @@ Options options(int argc, char** argv) {
     throw Error("arguments",
                 "contact NX NY NZ [--given] [--double] [--steps N] [--tolerance METRES] [--linear RELATIVE] "
                 "[--mu FRICTION] "
-                "[--profile] [--host]");
+                "[--profile] [--host] [--fused] [--copies N]");
+  if (o.fused && o.given) throw Error("arguments", "--fused finds its contacts; leave --given out");
   return o;
 }
 
@@ -269,7 +322,9 @@ Options options(int argc, char** argv) {
 
 int main(int argc, char** argv) try {
   const Options o = options(argc, argv);
-  if (o.inDouble)
+  if (o.fused)
+    o.inDouble ? measure_fused<Vec3d>(o) : measure_fused<Vec3f>(o);
+  else if (o.inDouble)
     o.given ? measure<Vec3d, Given>(o) : measure<Vec3d, Found>(o);
   else
     o.given ? measure<Vec3f, Given>(o) : measure<Vec3f, Found>(o);

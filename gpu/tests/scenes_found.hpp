@@ -32,7 +32,8 @@ struct BlockOnFloor {
       }
     return t;
   }
-  template <class D, class Model, class... More>
+  template <class D, class Linear = CGLinearSolver<CompressedRowSparseMatrixMat3x3d>, class Model,
+            class... More>
   auto make(Model model, More... more) const {
     const BlockOnPlane b{.cells = cells, .slope = slope};
     const Mesh m = b.mesh();
@@ -51,7 +52,7 @@ struct BlockOnFloor {
                                    MechanicalObject<Vec3d>{},
                                    TriangleCollisionModel<Vec3d>{.moving = false, .simulated = false}),
                      node<"body">(b.ode(),
-                                  b.linear<CGLinearSolver<CompressedRowSparseMatrixMat3x3d>>(),
+                                  b.linear<Linear>(),
                                   MeshTopology{.position = m.positions, .tetrahedra = m.tetrahedra},
                                   MechanicalObject<D>{},
                                   UniformMass<D>{.totalMass = b.mass},

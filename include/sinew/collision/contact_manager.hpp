@@ -149,6 +149,18 @@ struct ContactManager {
 
   /// Whether contacts of two models are answered by multipliers whose violations follow from the motion.
   bool answersMeasuring(int a, int b) const { return All::measuresMotion(answers.find(a, b).place); }
+  /// The friction of contacts of two models that a response answers.
+  double frictionOf(ResponseChoice const& chosen, CollisionSurface const& a,
+                    CollisionSurface const& b) const {
+    double friction = a.settings.contactFriction + b.settings.contactFriction;
+    All::visit(responses, chosen.place, [&](auto const& r) {
+      if constexpr (HasFriction<std::decay_t<decltype(r)>>) {
+        if (friction == 0) friction = r.mu;
+        if (chosen.friction >= 0) friction = chosen.friction;
+      }
+    });
+    return friction;
+  }
   /// Whether no contact is answered otherwise than by multipliers.
   bool asksForMultipliersOnly() const {
     return !answers.any([](int place) { return place >= 0 && !All::isConstraint(place); });
@@ -473,13 +485,7 @@ struct ContactManager {
     const ResponseChoice chosen = answers.find(c.a.surface, c.b.surface);
     c.response = chosen.place;
     if (c.response < 0) return;
-    c.friction = ofA.contactFriction + ofB.contactFriction;
-    All::visit(responses, c.response, [&](auto const& r) {
-      if constexpr (HasFriction<std::decay_t<decltype(r)>>) {
-        if (c.friction == 0) c.friction = r.mu;
-        if (chosen.friction >= 0) c.friction = chosen.friction;
-      }
-    });
+    c.friction = frictionOf(chosen, a, b);
     find_solver(c, &a, &b);
     if (!All::isForce(c.response)) c.solver = -1, c.loose = false;
   }

@@ -10,6 +10,23 @@
 
 namespace sinew {
 
+/// Whether two contacts of a vertex, by their displacements p_b - p_a, are at the same place: its rounding is
+/// a few units of the last digit of coordinates.
+SINEW_HD inline bool is_same_place(Eigen::Vector3d const& first, Eigen::Vector3d const& other) {
+  return (other - first).norm() <= 1e-8 * first.norm();
+}
+/// Whether a vertex is behind what it meets in a contact C.
+template <class C>
+SINEW_HD bool is_behind(C const& c) {
+  return c.normal.dot(c.start) < 0;
+}
+/// Whether of two contacts of a vertex one is behind, and the other in front and nearer in its direction.
+template <class C>
+SINEW_HD bool is_behind_other(C const& far, C const& near) {
+  return is_behind(far) && !is_behind(near) && near.start.squaredNorm() < far.start.squaredNorm() &&
+         near.start.dot(far.start) > 0;
+}
+
 /// The contacts of single vertices, or corners of hulls, among some contacts. A vertex that slides from one
 /// triangle to the next, or from that to an edge, goes on with the same contact.
 class VertexContacts {
@@ -97,8 +114,7 @@ SINEW_ONCE void VertexContacts::dropSamePlaces(std::vector<Contact>& found, std:
     }
     Contact const& first = found[std::size_t(list_[i].contact)];
     Contact& other = found[std::size_t(list_[j].contact)];
-    // the rounding of a place is a few units of the last digit of coordinates
-    if ((other.start - first.start).norm() > 1e-8 * first.start.norm()) continue;
+    if (!is_same_place(first.start, other.start)) continue;
     other.response = dropped;
     any = true;
   }
@@ -111,11 +127,9 @@ SINEW_ONCE void VertexContacts::dropBehindOthers(std::vector<Contact>& found, st
   for (std::size_t first = 0, last = 0; first < list_.size(); first = last) {
     while (last < list_.size() && list_[last].vertex == list_[first].vertex) ++last;
     auto contact = [&](std::size_t i) -> Contact& { return found[std::size_t(list_[i].contact)]; };
-    auto isBehind = [](Contact const& c) { return c.normal.dot(c.start) < 0; };
     for (std::size_t i = first; i < last; ++i)
-      for (std::size_t j = first; j < last && isBehind(contact(i)); ++j) {
-        Eigen::Vector3d const &far = contact(i).start, &near = contact(j).start;
-        if (isBehind(contact(j)) || near.squaredNorm() >= far.squaredNorm() || near.dot(far) <= 0) continue;
+      for (std::size_t j = first; j < last && is_behind(contact(i)); ++j) {
+        if (!is_behind_other(contact(i), contact(j))) continue;
         contact(i).response = dropped;
         any = true;
       }

@@ -55,6 +55,37 @@ struct FoundContact {
   Eigen::Vector3d point{0, 0, 0}, standing{0, 0, 0};  // the places of the two
 };
 
+namespace detail {
+template <class R>
+SINEW_HD void measure(bool is, FoundContact const& c, ContactMotion const& motion, bool ofVelocity,
+                      double* d) {
+  if constexpr (MeasuresMotion<R>)
+    if (is) R::violations(c, motion, ofVelocity, d);
+}
+}  // namespace detail
+
+/// The violations d of the rows of a contact that is answered by the response of a number, for a motion of
+/// its point without multipliers from x to free, with the velocity v at its end.
+template <class D, class... Responses>
+SINEW_HD void violations_of(FoundContact const& c, StandingSurface const& s, int response,
+                            typename D::Coord const& x, typename D::Coord const& free,
+                            typename D::Deriv const& v, double dt, bool ofVelocity, double* d) {
+  using Vector = Eigen::Vector3d;
+  Vector rate(0, 0, 0);
+  for (int k = 0; k < 3 && c.vertices[std::size_t(k)] >= 0; ++k)
+    rate += c.weights[k] * s.velocity[c.vertices[std::size_t(k)]];
+  // what no solver moves is where it will be, and has come there
+  const double sign = s.first ? 1 : -1;
+  const Vector moved = D::difference(x, free).template cast<double>();
+  ContactMotion motion{};
+  motion.start = sign * (c.point - c.standing + dt * rate);
+  motion.free = motion.start + sign * (moved - dt * rate);
+  motion.rate = sign * (v.template cast<double>() - rate);
+  motion.dt = dt;
+  int number = 0;
+  (detail::measure<Responses>(number++ == response, c, motion, ofVelocity, d), ...);
+}
+
 /// Finds the contacts of the points or spheres of a state on the device with surfaces that no solver moves:
 /// candidates by a grid over the boxes of these, then by the law of the intersection method of the scene,
 /// once to count them and once to write them down in the order of the points. They are on their way to the
@@ -272,32 +303,19 @@ class ContactSearch {
     double* to;
 
     SINEW_HD void operator()(int i) const {
-      using Vector = Eigen::Vector3d;
       const Row row = rows[i];
       FoundContact c = found[row.place];
       c.friction = row.friction;
-      StandingSurface const& s = surfaces[c.surface];
       const int point = elements[c.element][0];
-      Vector rate(0, 0, 0);
-      for (int k = 0; k < 3 && c.vertices[std::size_t(k)] >= 0; ++k)
-        rate += c.weights[k] * s.velocity[c.vertices[std::size_t(k)]];
-      // what no solver moves is where it will be, and has come there
-      const double sign = s.first ? 1 : -1;
-      const Vector moved = D::difference(x[point], free[point]).template cast<double>();
-      ContactMotion motion{};
-      motion.start = sign * (c.point - c.standing + dt * rate);
-      motion.free = motion.start + sign * (moved - dt * rate);
-      motion.rate = sign * (v[point].template cast<double>() - rate);
-      motion.dt = dt;
-      int response = 0;
-      (measure<Responses>(response++ == row.response, c, motion, to + row.row), ...);
-    }
-
-   private:
-    template <class R>
-    SINEW_HD void measure(bool is, FoundContact const& c, ContactMotion const& motion, double* d) const {
-      if constexpr (MeasuresMotion<R>)
-        if (is) R::violations(c, motion, ofVelocity, d);
+      violations_of<D, Responses...>(c,
+                                     surfaces[c.surface],
+                                     row.response,
+                                     x[point],
+                                     free[point],
+                                     v[point],
+                                     dt,
+                                     ofVelocity,
+                                     to + row.row);
     }
   };
 

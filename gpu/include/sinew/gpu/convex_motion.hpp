@@ -160,7 +160,7 @@ class ConvexMotion {
 
   ConvexUpdates updates_{};
   std::vector<SystemBody<D>> bodies_{};
-  ConvexProblem<D> q_{};
+  ConvexProblem<SystemOfBodies<D>> q_{};
   // of the rows, as they go to the device
   MotionRows last_{};
   std::vector<int> ints_{}, entryOf_{}, next_{};
@@ -306,15 +306,15 @@ class ConvexMotion {
       ints_.push_back(next_[std::size_t(3 * ints_[pairs + 2 * k + 1])]);
     int const* at = intsThere_.send(ints_);
     auto take = [&at](std::size_t n) { return std::exchange(at, at + n); };
-    q_.ends = take(blocks + 1);
-    q_.point = take(entries);
-    q_.slot = take(entries);
-    q_.blockOf = take(entries);
-    q_.ofPoint = take(all + 1);
-    q_.entry = take(entries);
-    q_.pairsOfPoint = take(all + 1);
-    q_.pair = take(2 * pairs_);
-    q_.pointOfPair = take(pairs_);
+    q_.entries.ends = take(blocks + 1);
+    q_.entries.point = take(entries);
+    q_.entries.slot = take(entries);
+    q_.entries.blockOf = take(entries);
+    q_.entries.ofPoint = take(all + 1);
+    q_.entries.entry = take(entries);
+    q_.entries.pairsOfPoint = take(all + 1);
+    q_.entries.pair = take(2 * pairs_);
+    q_.entries.pointOfPairs = take(pairs_);
     q_.rows = rowsThere_.send(rowValues_);
   }
   void makeRoom(std::size_t rows, std::size_t pairs) {

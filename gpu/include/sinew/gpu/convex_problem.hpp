@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/gpu/convex_entries.hpp>
 #include <sinew/gpu/system_rows.hpp>
 #include <sinew/gpu/team_gradients.hpp>
 #include <sinew/gpu/whole_team.hpp>
@@ -30,19 +31,18 @@ struct ConvexProgress {
   Ends ends = Ends::done;
 };
 
-/// The convex problems of a step with constraints, all in memory of the device.
-template <class D>
+/// The convex problems of a step with constraints, all in memory of the device. A System is a matrix over
+/// points, whose rows a team multiplies (SystemOfBodies); Entries are which of these blocks of constraints
+/// have (ConvexEntries). Where `System::alone`, no host is asked for an update: what it would accelerate is
+/// left as it is.
+template <class System, class Entries = ConvexEntries>
 struct ConvexProblem {
-  SystemOfBodies<D> system;
+  System system;
 
-  // blocks of constraints; of each its entries, one for each point that it has, with the rows there: three
-  // numbers a row. Of each point the entries that it has, and what of J' G J couples it with: pairs of an
-  // entry of the point and another of the same block.
   int blocks;
   ConstraintBlock const* block;
-  int const *ends, *point, *slot, *blockOf;
+  Entries entries;
   double const* rows;
-  int const *ofPoint, *entry, *pairsOfPoint, *pair, *pointOfPair;
 
   // a number each row: the violation at v = 0, and what ConvexUpdates and ConstraintTerms have
   double const* start;
@@ -58,7 +58,7 @@ struct ConvexProblem {
   ConvexProgress progress;        // where to go on from
   ConvexProgress* progressThere;  // and where that comes
 
-  static constexpr std::size_t entryBytes = TeamRows<D, WholeTeam>::entryBytes;
+  static constexpr std::size_t entryBytes = System::entryBytes;
 
   using Vector = Eigen::Vector3d;
   using Block = Eigen::Matrix3d;
@@ -76,13 +76,19 @@ struct ConvexProblem {
   }
   // row r of the block of an entry, in its point
   SINEW_INLINE Vector row(int e, int r) const {
-    double const* const from = rows + slot[e] + 3 * r;
+    double const* const from = rows + entries.slotOf(e) + 3 * r;
     return {from[0], from[1], from[2]};
   }
 
   template <class Team>
   SINEW_HD void operator()(Team& team) const {
-    Solution<Team>(team, *this).run();
+    const ConvexProgress end = solve(team);
+    if (team.first()) *progressThere = end;
+  }
+  /// How far they have come, in each thread.
+  template <class Team>
+  SINEW_INLINE ConvexProgress solve(Team& team) const {
+    return Solution<Team>(team, *this).run();
   }
 
  private:
@@ -93,24 +99,24 @@ struct ConvexProblem {
         : team(t), q(problem), rows(t, problem.system), now(problem.progress) {
       if (team.firstRow() >= 0 && team.firstRow() < all) {
         own_ = team.firstRow();
-        firstPair_ = q.pairsOfPoint[own_];
-        lastPair_ = q.pairsOfPoint[own_ + 1];
+        firstPair_ = q.entries.firstPair(own_);
+        lastPair_ = q.entries.lastPair(own_);
       }
     }
 
-    SINEW_INLINE void run() {
+    SINEW_INLINE ConvexProgress run() {
       if (now.begun || begin()) {
         now.begun = true;
         solve();
       }
-      if (team.first()) *q.progressThere = now;
+      return now;
     }
 
    private:
     using Ends = ConvexProgress::Ends;
     Team& team;
     ConvexProblem const& q;
-    const TeamRows<D, Team> rows;
+    const typename System::template Rows<Team> rows;
     ConvexProgress now;
     double rho = 0;
     const int all = q.system.all;
@@ -120,20 +126,24 @@ struct ConvexProblem {
     // would do; false where nothing can move a row.
     SINEW_INLINE bool begin() {
       now.schedule.begin(q.settings);
-      team.each(all, [&](int i) { q.store(q.diagonal, i, diagonalOf(i)); });
+      team.each(all, [&](int i) { q.store(q.diagonal, i, rows.diagonal(i)); });
       team.sync();
       double local[3] = {0, 0, 0};  // energy, work, whether a row cannot move
       team.each(q.blocks, [&](int k) {
         ConstraintBlock const& b = q.block[k];
         double* const w = q.compliance + b.first;
         for (int r = 0; r < b.rows; ++r) w[r] = 0;
-        for (int e = q.ends[k]; e < q.ends[k + 1]; ++e) {
+        for (int e = q.entries.first(k); e < q.entries.last(k); ++e) {
           Block inverse;
-          invert(q.load(q.diagonal, q.point[e]), inverse);
+          invert(q.load(q.diagonal, q.entries.pointOf(e)), inverse);
           for (int r = 0; r < b.rows; ++r) {
             const Vector j = q.row(e, r), moved = inverse * j;
             w[r] += j[0] * moved[0] + j[1] * moved[1] + j[2] * moved[2];
           }
+        }
+        if constexpr (System::alone) {
+          // a tangent along which nothing moves has no force, and the regularisation of the normal
+          for (int r = 1; r < b.rows; ++r) w[r] = w[r] == 0 ? w[0] : w[r];
         }
         for (int r = 0; r < b.rows; ++r)
           if (!(w[r] > 0)) local[2] = 1;
@@ -168,20 +178,6 @@ struct ConvexProblem {
       });
       return true;
     }
-    SINEW_INLINE Block diagonalOf(int i) const {
-      Block d = Block::Identity();
-      if (i >= q.system.points) {
-        d(0, 0) = q.system.slack[i - q.system.points];
-        return d;
-      }
-      SystemBody<D> const& b = q.system.bodyOf(i);
-      const int place = b.diagonal[i - b.begin], held = q.system.heldBits(i);
-      for (int r = 0; r < 3; ++r)
-        for (int c = 0; c < 3; ++c)
-          if (!(held >> r & 1) && !(held >> c & 1))
-            d(r, c) = b.scale * double(BlockRows<D>::at(b.product.values, place, 3 * r + c));
-      return d;
-    }
 
     // One problem after the other, until one is the last, or the host is asked.
     SINEW_INLINE void solve() {
@@ -214,7 +210,7 @@ struct ConvexProblem {
         for (int r = b.first; r < b.first + b.rows; ++r) f[r] = fromF[r];
       });
     }
-    // What ConvexUpdates does, where multipliers are taken as they are; false where it would not.
+    // What ConvexUpdates does, where multipliers are taken as they are; false where the host is to do it.
     SINEW_INLINE bool update() {
       const ConvexSchedule before = now.schedule;
       bool forgets = false;
@@ -240,12 +236,16 @@ struct ConvexProblem {
             return contact_potential::Rest{local[0], local[1]};
           },
           forgets);
-      if (next != ConvexSchedule::Next::move) {
+      if (!System::alone && next != ConvexSchedule::Next::move) {
         now.schedule = before;
         now.ends = Ends::asks;
         return false;
       }
       ++now.found.updates;
+      if (next == ConvexSchedule::Next::change) {
+        change();
+        return true;
+      }
       team.each(q.blocks, [&](int k) {
         ConstraintBlock const& b = q.block[k];
         double* const f = q.multipliers + b.first;
@@ -256,6 +256,22 @@ struct ConvexProblem {
             b, now.schedule.relative, q.compliance + b.first, q.regularisation + b.first);
       });
       return true;
+    }
+
+    // ConstraintTerms::change
+    SINEW_INLINE void change() {
+      now.lag = now.lag == FrictionLag::gap ? FrictionLag::bound : FrictionLag::gap;
+      constexpr double none[3] = {0, 0, 0};  // the whole gap, as without a force
+      team.each(q.blocks, [&](int k) {
+        ConstraintBlock const& b = q.block[k];
+        for (int r = b.first; r < b.first + b.rows; ++r) q.lagged[r] = 0;
+        if (now.lag == FrictionLag::gap && b.kind == ConstraintBlock::Kind::friction)
+          q.lagged[b.first] = contact_potential::next_gap(b, q.violation + b.first, none, 0);
+        contact_potential::take_before(
+            b, now.lag, q.multipliers + b.first, q.before + b.first, q.lagged[b.first]);
+        contact_potential::regularise(
+            b, now.schedule.relative, q.compliance + b.first, q.regularisation + b.first);
+      });
     }
 
     // whether no direction was found, or no iteration is left
@@ -302,9 +318,9 @@ struct ConvexProblem {
     template <class P>
     SINEW_INLINE void addTerms(int i, int lane, int lanes, P&& p, double (&sum)[3]) const {
       const bool own = i == own_;
-      const int end = own ? lastPair_ : q.pairsOfPoint[i + 1];
-      for (int k = (own ? firstPair_ : q.pairsOfPoint[i]) + lane; k < end; k += lanes) {
-        const Vector v = p(q.pointOfPair[k]);
+      const int end = own ? lastPair_ : q.entries.lastPair(i);
+      for (int k = (own ? firstPair_ : q.entries.firstPair(i)) + lane; k < end; k += lanes) {
+        const Vector v = p(q.entries.pointOfPair(k));
         double const* const block = q.coupling + 9 * std::ptrdiff_t(k);
         for (int r = 0; r < 3; ++r)
           for (int c = 0; c < 3; ++c) sum[r] += block[3 * r + c] * v[c];
@@ -315,8 +331,8 @@ struct ConvexProblem {
     SINEW_INLINE void rates(int k, P&& p, double* w) const {
       const int n = q.block[k].rows;
       for (int r = 0; r < n; ++r) w[r] = 0;
-      for (int e = q.ends[k]; e < q.ends[k + 1]; ++e) {
-        const Vector v = p(q.point[e]);
+      for (int e = q.entries.first(k); e < q.entries.last(k); ++e) {
+        const Vector v = p(q.entries.pointOf(e));
         for (int r = 0; r < n; ++r) {
           const Vector j = q.row(e, r);
           w[r] += j[0] * v[0] + j[1] * v[1] + j[2] * v[2];
@@ -326,10 +342,7 @@ struct ConvexProblem {
     // f(entry, its block) of a point
     template <class F>
     SINEW_INLINE void eachEntry(int i, F&& f) const {
-      for (int k = q.ofPoint[i]; k < q.ofPoint[i + 1]; ++k) {
-        const int e = q.entry[k];
-        f(e, q.block[q.blockOf[e]]);
-      }
+      q.entries.eachOf(i, [&](int e) { f(e, q.block[q.entries.blockOfEntry(e)]); });
     }
     // J' f of an entry
     SINEW_INLINE void addForce(int e, ConstraintBlock const& b, double const* f, Vector& to) const {
@@ -392,9 +405,9 @@ struct ConvexProblem {
         Vector reaction = Vector::Zero();
         Block sum = q.load(q.diagonal, i), inverse;
         eachEntry(i, [&](int e, ConstraintBlock const& b) { addForce(e, b, q.multipliers, reaction); });
-        for (int k = q.pairsOfPoint[i]; k < q.pairsOfPoint[i + 1]; ++k) {
-          const int own = q.pair[2 * k], other = q.pair[2 * k + 1];
-          const Block coupled = couplingOf(q.block[q.blockOf[own]], own, other);
+        for (int k = q.entries.firstPair(i); k < q.entries.lastPair(i); ++k) {
+          const int own = q.entries.ownOf(k), other = q.entries.otherOf(k);
+          const Block coupled = couplingOf(q.block[q.entries.blockOfEntry(own)], own, other);
           for (int c = 0; c < 9; ++c) q.coupling[9 * std::ptrdiff_t(k) + c] = coupled(c / 3, c % 3);
           if (own == other) sum += coupled;
         }

@@ -31,6 +31,9 @@ struct SystemBody {
   double restScale;
 };
 
+template <class D, class Team>
+class TeamRows;
+
 /// The matrix S of several bodies of points, one after the other, all in memory of the device; behind them
 /// points whose first coordinate alone has a number of its own, `slack`.
 template <class D>
@@ -38,6 +41,11 @@ struct SystemOfBodies {
   SystemBody<D> const* body;
   int bodies, points, all;  // all: with slack
   double const* slack;
+
+  static constexpr bool alone = false;
+  static constexpr std::size_t entryBytes = 9 * sizeof(typename D::Real) + sizeof(int);
+  template <class Team>
+  using Rows = TeamRows<D, Team>;
 
   SINEW_INLINE SystemBody<D> const& bodyOf(int i) const {
     SystemBody<D> const* b = body;
@@ -94,7 +102,7 @@ class TeamRows {
   using Vector = Eigen::Vector3d;
 
  public:
-  static constexpr std::size_t entryBytes = 9 * sizeof(Real) + sizeof(int);
+  static constexpr std::size_t entryBytes = SystemOfBodies<D>::entryBytes;
 
   SINEW_INLINE TeamRows(Team& team, SystemOfBodies<D> const& system) : team_(team), system_(system) {
     own_ = team.firstRow();
@@ -145,6 +153,21 @@ class TeamRows {
     }
     if (at_.from < at_.end) addPlaces(system_.bodyOf(i), at_, p, own);
     for (int c = 0; c < 3; ++c) sum[c] += scale_ * own[c];
+  }
+  /// The diagonal block of a point, with 1 in the place of what is held.
+  SINEW_INLINE Eigen::Matrix3d diagonal(int i) const {
+    Eigen::Matrix3d d = Eigen::Matrix3d::Identity();
+    if (i >= system_.points) {
+      d(0, 0) = system_.slack[i - system_.points];
+      return d;
+    }
+    SystemBody<D> const& b = system_.bodyOf(i);
+    const int place = b.diagonal[i - b.begin], held = system_.heldBits(i);
+    for (int r = 0; r < 3; ++r)
+      for (int c = 0; c < 3; ++c)
+        if (!(held >> r & 1) && !(held >> c & 1))
+          d(r, c) = b.scale * double(Rows::at(b.product.values, place, 3 * r + c));
+    return d;
   }
   /// Without what projective constraints hold.
   SINEW_INLINE void hold(int i, double (&v)[3]) const {

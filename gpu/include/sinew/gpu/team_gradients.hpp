@@ -18,7 +18,7 @@ struct GradientVectors {
   double *p, *s, *q, *z, *m[2];
 
   static constexpr std::size_t count = 10;
-  static GradientVectors in(double* memory, std::size_t points) {
+  SINEW_HD static GradientVectors in(double* memory, std::size_t points) {
     auto next = [&] { return std::exchange(memory, memory + 3 * points); };
     GradientVectors v{};
     for (double** of :

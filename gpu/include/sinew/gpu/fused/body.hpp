@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/core/data_types.hpp>
+#include <sinew/gpu/fused/contacts.hpp>
 #include <sinew/gpu/fused/team.hpp>
 
 #include <cstdint>
@@ -31,20 +32,25 @@ struct FusedElements {
   int const *entryFirst, *entryCode;  // for each entry of the matrix (BlockOfElement)
 };
 
-/// A body of points on the device that implicit Euler moves, with a matrix in the shared memory of a cluster.
-template <class D, class... Elements>
+/// A body of points on the device that implicit Euler moves, with a matrix in the shared memory of a cluster;
+/// Contacts: FusedContacts, or none.
+template <class D, class ContactsOfBody, class... Elements>
 struct FusedBody {
+  using Contacts = ContactsOfBody;
   using Real = typename D::Real;
   using Coord = typename D::Coord;
   using Deriv = typename D::Deriv;
+  static constexpr bool touches = Contacts::any;
   static constexpr bool symmetric = (Elements::symmetricBlocks && ...);
   static constexpr bool byRows = (Elements::byRows && ...);
   /// Entries of a row that a thread keeps in registers, at most: it multiplies as many also where there are
   /// fewer. Of a mesh of tetrahedra a row has about 15, for four or eight threads.
   static constexpr int keptEntries = 5;
   static constexpr int components = symmetric ? 6 : 9;
+  static constexpr int bufferSize = sum_buffer_size + (touches ? joint_buffer_size : 0);
 
   std::tuple<Elements...> fields;
+  Contacts contacts;
   // the plan
   int rows, widest, entriesOfWidest, longestVector;  // entriesOfWidest: in shared memory
   int const *order, *rowBegin, *entryFirst, *sharedFirst, *sendFirst;
@@ -69,8 +75,7 @@ struct FusedBody {
   std::size_t shared() const {
     const std::size_t vector = Team::global ? 0 : 2 * 3 * std::size_t(longestVector);
     return (std::size_t(entriesOfWidest) * components + vector) * sizeof(Real) +
-           std::size_t(entriesOfWidest) * sizeof(typename Team::Column) + sum_buffer_size * sizeof(double) +
-           64;
+           std::size_t(entriesOfWidest) * sizeof(typename Team::Column) + bufferSize * sizeof(double) + 64;
   }
 };
 

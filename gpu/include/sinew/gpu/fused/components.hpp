@@ -3,8 +3,11 @@
 
 #include <sinew/context/gravity.hpp>
 #include <sinew/core/component.hpp>
+#include <sinew/gpu/data_types.hpp>
 #include <sinew/solver/cg_linear_solver.hpp>
 #include <sinew/solver/euler_implicit.hpp>
+
+#include <sinew/scene/state_contacts.hpp>
 
 #include <string_view>
 #include <type_traits>
@@ -21,13 +24,25 @@ template <class D>
 struct FixedConstraint;
 template <class D>
 struct PartialFixedConstraint;
+struct FreeMotionAnimationLoop;
+struct ConvexConstraintSolver;
 
 namespace gpu {
 
 namespace detail {
 
 template <class C>
-struct IsState : std::bool_constant<HasRole<C, role::State>> {};
+constexpr bool is_on_device() {
+  if constexpr (requires { typename C::DataTypes; })
+    return OnDevice<typename C::DataTypes>;
+  else
+    return false;
+}
+template <class C>
+struct IsState : std::bool_constant<HasRole<C, role::State> && is_on_device<C>()> {};
+/// A state that no solver may move.
+template <class C>
+struct IsStanding : std::bool_constant<HasRole<C, role::State> && !is_on_device<C>()> {};
 template <class C>
 struct IsMass : std::bool_constant<HasRole<C, role::Mass>> {};
 template <class C>
@@ -40,19 +55,41 @@ template <class C>
 struct IsOdeSolver : std::is_same<C, EulerImplicitSolver> {};
 template <class C>
 struct IsLinearSolver : std::is_same<C, CGLinearSolver<GraphScattered>> {};
+// of contacts
+template <class C>
+struct IsLoop : std::is_same<C, FreeMotionAnimationLoop> {};
+template <class C>
+struct IsConstraintSolver : std::is_same<C, ConvexConstraintSolver> {};
+template <class C>
+struct IsCollisionModel : std::bool_constant<HasRole<C, role::CollisionModel>> {};
+template <class C>
+struct IsPointModel : std::bool_constant<sinew::detail::is_found_by_states<C>()> {};
+template <class C>
+struct IsPipeline : std::bool_constant<HasRole<C, role::CollisionPipeline>> {};
+template <class C>
+struct IsContactManager : std::bool_constant<HasRole<C, role::ContactManager>> {};
+template <class C>
+constexpr bool is_intersection_of_device() {
+  if constexpr (HasRole<C, role::Intersection>)
+    return sinew::detail::MeetsAnySurface<C> && !C::continuous && !ChoosesModels<C>;
+  else
+    return false;
+}
+template <class C>
+struct IsIntersection : std::bool_constant<is_intersection_of_device<C>()> {};
 /// What a fused step runs.
 template <class C>
 struct IsFused : std::disjunction<IsState<C>, IsMass<C>, IsForceField<C>, IsConstraint<C>, IsGravity<C>,
-                                  IsOdeSolver<C>, IsLinearSolver<C>> {};
+                                  IsOdeSolver<C>, IsLinearSolver<C>, IsLoop<C>, IsConstraintSolver<C>> {};
 /// What takes part in mechanics and has no place in a fused step, such as a force field that steps change. (A
 /// mapping has one, where it leads to no state.)
 template <class C>
 struct IsForeign
-    : std::bool_constant<HasRole<C, role::InteractionForceField> || HasRole<C, role::CollisionModel> ||
-                         HasRole<C, role::Carving> || HasRole<C, role::LagrangianConstraint> ||
-                         HasRole<C, role::AnimationLoop> || HasRole<C, role::ConstraintSolver> ||
-                         HasRole<C, role::ConstraintCorrection> || ActsBeforeStep<C> ||
-                         (HasRole<C, role::ForceField> && Resettable<C>) ||
+    : std::bool_constant<HasRole<C, role::InteractionForceField> || HasRole<C, role::Carving> ||
+                         HasRole<C, role::LagrangianConstraint> || HasRole<C, role::ConstraintCorrection> ||
+                         (HasRole<C, role::AnimationLoop> && !IsLoop<C>::value) ||
+                         (HasRole<C, role::ConstraintSolver> && !IsConstraintSolver<C>::value) ||
+                         ActsBeforeStep<C> || (HasRole<C, role::ForceField> && Resettable<C>) ||
                          (HasRole<C, role::OdeSolver> && !IsOdeSolver<C>::value) ||
                          (HasRole<C, role::LinearSolver> && !IsLinearSolver<C>::value)> {};
 
@@ -72,6 +109,9 @@ inline constexpr std::string_view fused_fields<CGLinearSolver<GraphScattered>> =
     "iterations tolerance threshold";
 template <>
 inline constexpr std::string_view fused_fields<Gravity> = "gravity";
+template <>
+inline constexpr std::string_view fused_fields<ConvexConstraintSolver> =
+    "tolerance momentumTolerance maxUpdates maxIterations stopsUnsolved";
 // what the simulation has made of them is loaded
 template <class D>
 inline constexpr std::string_view fused_fields<MechanicalObject<D>> =

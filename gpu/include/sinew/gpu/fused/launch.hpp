@@ -64,6 +64,7 @@ class FusedLauncher {
     FusedPlan plan = shaped(neighbours, blocks);
     if (shape_.grid) {
       sums_.resize(2 * 2 * std::size_t(shape_.blocks));
+      if (Body::touches) joint_.resize(2 * most_joined * std::size_t(shape_.blocks));
       arrived_ = DeviceVector<unsigned long long>(2, 0ull);
       announced_.resize(std::size_t(shape_.blocks));
       nearFirst_ = plan.nearFirst;
@@ -87,6 +88,7 @@ class FusedLauncher {
                         parity_,
                         announced_.data(),
                         sums_.data(),
+                        joint_.data(),
                         std::as_const(nearFirst_).device(),
                         std::as_const(near_).device()});
     else
@@ -105,7 +107,7 @@ class FusedLauncher {
   Body sizes_{};
   DeviceVector<int> sharedFirst_{};
   // of a grid (GridMemory)
-  DeviceArray<double> sums_{};
+  DeviceArray<double> sums_{}, joint_{};
   DeviceArray<unsigned> announced_{};
   DeviceVector<int> nearFirst_{}, near_{};
   DeviceVector<unsigned long long> arrived_{};

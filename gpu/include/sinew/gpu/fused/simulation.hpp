@@ -7,6 +7,7 @@
 #include <sinew/gpu/fused/field.hpp>
 #include <sinew/gpu/fused/launch.hpp>
 #include <sinew/gpu/fused/plan.hpp>
+#include <sinew/gpu/fused/standing.hpp>
 #include <sinew/gpu/gpu.hpp>
 #include <sinew/scene/components_of.hpp>
 #include <sinew/scene/simulation.hpp>
@@ -28,8 +29,13 @@ namespace sinew::gpu {
 /// (visual models) is left to the Simulation: store() brings a copy's state back to it. The result is that of
 /// Simulation::animate but for rounding: the sums of the method are in another order.
 ///
-/// Throws Error where a field of a component is given that has no place in a fused step (fused_fields), and
-/// where the body is too large for the shared memory there is.
+/// The points or spheres of the body may touch surfaces that no solver moves, with friction, by the
+/// multipliers of FreeMotionAnimationLoop and ConvexConstraintSolver: contacts are found and answered in the
+/// kernel, by the functions of the Simulation, from the first step on. The result is that of the Simulation
+/// to the tolerance of the solver.
+///
+/// Throws Error where a field of a component is given that has no place in a fused step (fused_fields), where
+/// models may meet otherwise, and where the body is too large for the shared memory there is.
 template <class Root>
 class FusedSimulation {
   template <template <class> class Test, class Pointers>
@@ -51,6 +57,38 @@ class FusedSimulation {
   using Deriv = typename D::Deriv;
   template <class T>
   using Array = DeviceVector<T>;
+  template <template <class> class Test>
+  static constexpr std::size_t count =
+      std::tuple_size_v<decltype(components_that<Test>(std::declval<All>()))>;
+  static constexpr bool touches = count<detail::IsCollisionModel> > 0;
+  static auto contactsOf() {
+    if constexpr (touches) {
+      constexpr bool whole = count<detail::IsLoop> == 1 && count<detail::IsConstraintSolver> == 1 &&
+                             count<detail::IsPipeline> == 1 && count<detail::IsContactManager> == 1 &&
+                             count<detail::IsIntersection> == 1 && count<detail::IsPointModel> == 1;
+      static_assert(
+          whole,
+          "Sinew: in a fused step the points or spheres of a body touch what stands, by multipliers: it "
+          "needs one PointCollisionModel or SphereCollisionModel over the DataTypes of the device, one each "
+          "of FreeMotionAnimationLoop, ConvexConstraintSolver, DefaultPipeline, MinProximityIntersection "
+          "and DefaultContactManager; other contacts are for Simulation.");
+      if constexpr (whole)
+        return std::type_identity<
+            FusedContactsOf<D, Component<detail::IsIntersection>, Component<detail::IsContactManager>>>{};
+      else
+        return std::type_identity<NoFusedContacts>{};
+    } else {
+      static_assert(count<detail::IsStanding> == 0 && count<detail::IsLoop> == 0 &&
+                        count<detail::IsConstraintSolver> == 0,
+                    "Sinew: a fused step has one state; further ones, FreeMotionAnimationLoop and "
+                    "ConvexConstraintSolver are for its contacts with what stands: give both collision "
+                    "models, or step the scene by Simulation.");
+      return std::type_identity<NoFusedContacts>{};
+    }
+  }
+  template <template <class> class Test>
+  using Component =
+      std::remove_pointer_t<std::tuple_element_t<0, decltype(components_that<Test>(std::declval<All>()))>>;
 
  public:
   /// Copies of an initialised simulation, each run by so many blocks; 0 chooses.
@@ -58,9 +96,10 @@ class FusedSimulation {
     const All all = components_of(simulation.root());
     static_assert(
         std::tuple_size_v<decltype(components_that<detail::IsForeign>(all))> == 0,
-        "Sinew: a fused step has no place for constraints by multipliers and their loop, interactions, "
-        "collision, further solvers, forces that steps change, and what acts before a step; such a scene is "
+        "Sinew: a fused step has no place for lists of constraints by multipliers, interactions, tools that "
+        "carve, further solvers, forces that steps change, and what acts before a step; such a scene is "
         "stepped by Simulation.");
+    refuseMoving(all);
     nodes_ = only<detail::IsState>(all)->size();
     ode_ = *only<detail::IsOdeSolver>(all);
     cg_ = *only<detail::IsLinearSolver>(all);
@@ -95,6 +134,7 @@ class FusedSimulation {
     gravity_ = Array<Deriv>(std::size_t(copies), Deriv(Deriv::Zero()));
     wrong_ = Array<int>(std::size_t(copies), 0);
     withFields(all, [&](auto& data, auto const& field) { data.init(field, plan, copies); });
+    contacts_.init(simulation, all, plan.order, copies);
     load(0, simulation);
     repeat(x_.device(), nodes_);
     repeat(v_.device(), nodes_);
@@ -129,6 +169,7 @@ class FusedSimulation {
     std::apply([&](auto*... c) { ((g = c->gravity.template cast<Real>()), ...); },
                components_that<detail::IsGravity>(all));
     copy_to_device(gravity_.device() + copy, &g, 1);
+    contacts_.load(copy, from);
     time_ = from.time();
     step_ = from.step();
   }
@@ -152,15 +193,32 @@ class FusedSimulation {
     time_ += steps * dt;
     step_ += steps;
   }
-  /// Waits for the steps that were asked for. Throws Error where a position is not finite.
+  /// Waits for the steps that were asked for. Throws Error where a position is not finite, where a point
+  /// touched in more places than there is room for, and where contacts were not solved, if stopsUnsolved.
   void finish() {
     auto const& wrong = std::as_const(wrong_).host();
-    for (std::size_t c = 0; c < wrong.size(); ++c)
+    for (std::size_t c = 0; c < wrong.size(); ++c) {
+      if constexpr (touches) contacts_.check(c);
       if (wrong[c] != 0)
         throw Error(
             text("copy ", c, ", before step ", step_ + 1, " (time ", time_, " s)"),
             "a position is not a finite number: the simulation diverged; take a smaller dt, more damping "
             "or a softer material");
+    }
+  }
+
+  /// The contacts of a copy in its last step with their forces, each with its node, in the order of rows.
+  std::vector<std::pair<int, FusedContact>> contacts(int copy) const {
+    static_assert(touches, "Sinew: this scene has no collision models.");
+    checkCopy(copy);
+    return contacts_.contacts(copy);
+  }
+  /// Steps of a copy, since its state was loaded, whose contacts were not solved to the tolerances of the
+  /// ConvexConstraintSolver, and went on with the best that was found.
+  int unsolved(int copy) const {
+    static_assert(touches, "Sinew: this scene has no collision models.");
+    checkCopy(copy);
+    return contacts_.unsolved(copy);
   }
 
   int copies() const { return copies_; }
@@ -173,17 +231,34 @@ class FusedSimulation {
     std::apply([](auto*... c) { (detail::refuse_other_fields(*c), ...); },
                components_that<detail::IsFused>(all));
   }
+  static void refuseMoving(All const& all) {
+    std::apply(
+        [](auto*... state) {
+          auto refuse = [](auto const& s) {
+            if (s.solver >= 0)
+              throw Error("FusedSimulation",
+                          text(component_name<std::decay_t<decltype(s)>>(),
+                               " is moved by a solver; a fused step moves the one state on the device, and "
+                               "others stand; take Simulation"));
+          };
+          (refuse(*state), ...);
+        },
+        components_that<detail::IsStanding>(all));
+  }
   static auto fieldsOf(All const& all) { return components_that<detail::IsForceField>(all); }
   template <class... F>
   static std::tuple<FusedField<F>...> dataOf(std::tuple<F*...> const&);
   using Data = decltype(dataOf(fieldsOf(std::declval<All>())));
+  using Contacts = typename decltype(contactsOf())::type;
   template <class... F>
-  static FusedBody<D, typename FusedField<F>::Elements...> bodyOf(std::tuple<F*...> const&);
+  static FusedBody<D, typename Contacts::View, typename FusedField<F>::Elements...> bodyOf(
+      std::tuple<F*...> const&);
   using Body = decltype(bodyOf(fieldsOf(std::declval<All>())));
 
   int copies_;
   std::size_t nodes_ = 0;
   Data fields_{};
+  Contacts contacts_{};
   Array<int> order_{}, rowBegin_{}, entryFirst_{}, sendFirst_{}, held_{}, wrong_{};
   Array<unsigned> sends_{};
   Array<std::uint16_t> column_{};
@@ -241,6 +316,7 @@ class FusedSimulation {
   Body body(double dt, int steps) {
     Body b = launcher_.sizes();
     b.fields = std::apply([](auto&... data) { return std::make_tuple(data.view()...); }, fields_);
+    b.contacts = contacts_.view();
     b.order = std::as_const(order_).device();
     b.rowBegin = std::as_const(rowBegin_).device();
     b.entryFirst = std::as_const(entryFirst_).device();

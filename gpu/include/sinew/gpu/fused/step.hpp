@@ -3,7 +3,9 @@
 
 #include <sinew/gpu/element_kernels.hpp>
 #include <sinew/gpu/fused/body.hpp>
+#include <sinew/gpu/fused/problem_team.hpp>
 
+#include <cstddef>
 #include <tuple>
 #include <type_traits>
 
@@ -22,11 +24,36 @@ SINEW_INLINE void add(Real (&to)[Components], Block const& block, bool transpose
   }
 }
 
+/// The matrix S = A / h^2 of a step and what the free motion has left of its equation, as a ConvexProblem
+/// asks for them.
+template <class Step>
+struct FusedSystem {
+  static constexpr bool alone = true;
+  static constexpr std::size_t entryBytes = 0;
+  Step* step;
+  int all;
+  double const* rest;  // three numbers a row
+
+  SINEW_INLINE Eigen::Vector3d restOf(int i) const { return vector_at(rest, i); }
+  template <class Team>
+  struct Rows {
+    Step* step;
+    SINEW_INLINE Rows(Team&, FusedSystem const& system) : step(system.step) {}
+    template <class P>
+    SINEW_INLINE void add(int i, int lane, P&& p, double (&sum)[3]) const {
+      step->addProduct(i, lane, p, sum);
+    }
+    SINEW_INLINE void hold(int i, double (&v)[3]) const { step->hold(i, v); }
+    SINEW_INLINE Eigen::Matrix3d diagonal(int i) const { return step->diagonal(i); }
+  };
+};
+
 /// Steps of one copy of a body by one team:
 ///   A dv = b,  A = (1 + h rM) M - h B - h (h + rK) K,  b = h (f - rM M v + (h + rK) K v)
 /// as EulerImplicitSolver has them, solved by pipelined conjugate gradients (Ghysels, Vanroose 2014): the
 /// sums of an iteration and the values of other blocks for its product are exchanged together, so that blocks
-/// wait for each other once an iteration. All functions are inlined, so that rows stay in registers.
+/// wait for each other once an iteration. All functions are inlined, so that rows stay in registers. Where
+/// the body touches, dv is that of the free motion, and contacts add to it (ConvexProblem).
 template <class Team, class Body>
 class FusedStep {
   using Real = typename Body::Real;
@@ -54,7 +81,7 @@ class FusedStep {
   // shared memory; a row's entries that its threads do not keep in registers are in `values`
   double* const buffer;
   Real* const values =
-      reinterpret_cast<Real*>(buffer + sum_buffer_size);  // component c of entry e at c size + e
+      reinterpret_cast<Real*>(buffer + Body::bufferSize);  // component c of entry e at c size + e
   const int size = body.entriesOfWidest;
   Real* const vectors = values + std::ptrdiff_t(size) * components;  // two of the rows and their border
   typename Team::Column* const column = reinterpret_cast<typename Team::Column*>(
@@ -68,7 +95,8 @@ class FusedStep {
   const Real h = body.h, kFactor = -h * (h + body.rayleighStiffness), bFactor = -h;
 
   typename Team::template Rows<Own>& own;  // not a member: as a part of this it is not kept in registers
-  int parity = 0;  // which of the two vectors: nobody writes what another may still read
+  int parity = 0;                  // which of the two vectors: nobody writes what another may still read
+  double const* motion = nullptr;  // what contacts add to positions, three numbers a row; null for nothing
 
  public:
   using Rows = typename Team::template Rows<Own>;
@@ -118,7 +146,7 @@ class FusedStep {
       for (int c = 0; c < components; ++c) diagonal[c] = team.rowSum(diagonal[c]);
       if (lane != 0) return;
       addMass(o, diagonal);
-      startFrom(o, f);
+      startFrom(begin + row, o, f);
       publish(row, o, o.r);
     });
     team.sync();
@@ -170,14 +198,63 @@ class FusedStep {
     parity = 1 - parity;
   }
 
-  /// v += dv, x += h v
+  /// Contacts: found where points are, then the convex problems of the step, whose motion comes to the free
+  /// one.
+  SINEW_INLINE void touch(int step) {
+    auto const& contacts = body.contacts;
+    typename Body::Contacts::Given given;
+    double* const rest = contacts.restOf(copy);
+    auto problem = contacts.problem(FusedSystem<FusedStep>{this, body.rows, rest}, copy, given);
+    double* const free = problem.gradient;  // for now, dv of the free motion
+    double count[1] = {0};
+    forRows([&](int row, int lane, Own& o) {
+      if (lane != 0) return;
+      bool tooMany = false;
+      count[0] += contacts.find(copy, begin + row, o.node, o.held, x, tooMany);
+      if (tooMany && contacts.crowded[copy] == 0) contacts.crowded[copy] = step;
+      const Coord end = x[o.node] + h * (v[o.node] + Deriv(o.dv[0], o.dv[1], o.dv[2]));
+      for (int k = 0; k < contacts.room; ++k)
+        contacts.describe(problem, given, copy, begin + row, k, o.held, x[o.node], end, v[o.node], double(h));
+      for (int c = 0; c < 3; ++c) free[3 * (begin + row) + c] = double(o.dv[c]);
+    });
+    ProblemTeam<Team> all(team, begin, begin + rows, body.rows, buffer + sum_buffer_size);
+    all.template reduce<1>(count);
+    motion = count[0] > 0 ? problem.velocity : nullptr;
+    if (!motion) return;
+    // (b - A dv) / h, which iterations know but for rounding
+    forRows([&](int row, int lane, Own& o) {
+      double product[3] = {0, 0, 0};
+      addProduct(
+          begin + row, lane, [&](int i) { return vector_at(free, i); }, product);
+      all.sumOfRow(product);
+      double* const left = rest + 3 * (begin + row);
+      for (int c = 0; c < 3 && lane == 0; ++c)
+        left[c] = o.held >> c & 1 ? 0 : left[c] / double(h) - double(h) * product[c];
+    });
+    const ConvexProgress end = problem.solve(all);
+    forRows([&](int row, int lane, Own&) {
+      for (int k = lane; k < problem.entries.counts[begin + row]; k += lanes)
+        contacts.takeForce(problem, copy, begin + row, k);
+    });
+    if (!all.first()) return;
+    if (end.ends == ConvexProgress::Ends::unbounded && body.wrong[copy] == 0) body.wrong[copy] = step;
+    if (!end.found.converged) contacts.unsolved[copy] += 1;
+  }
+
+  /// v += dv, x += h v, and what contacts add
   SINEW_INLINE void move(int step) {
-    forRows([&](int, int lane, Own& o) {
+    forRows([&](int row, int lane, Own& o) {
       if (lane != 0) return;
       bool finite = true;
       for (int c = 0; c < 3; ++c) {
-        const Real speed = v[o.node][c] + o.dv[c], place = x[o.node][c] + h * speed;
-        v[o.node][c] = body.keptSpeed * speed;
+        const Real speed = v[o.node][c] + o.dv[c];
+        Real place = x[o.node][c] + h * speed, left = body.keptSpeed * speed;
+        if (Body::touches && motion) {
+          const double more = motion[3 * (begin + row) + c];
+          place += Real(more);
+          left += Real(more / double(h));
+        }
+        v[o.node][c] = left;
         x[o.node][c] = place;
         finite = finite && place - place == Real(0);
       }
@@ -186,7 +263,49 @@ class FusedStep {
     team.sync();
   }
 
+  // for FusedSystem, of rows that are numbered over all blocks
+
+  /// Adds the part of a lane of S p in a row.
+  template <class P>
+  SINEW_INLINE void addProduct(int row, int lane, P&& p, double (&sum)[3]) {
+    Own const& o = own[row - begin];
+    const int first = body.entryFirst[row] + lane;
+    double product[3] = {0, 0, 0}, from[kept > 0 ? kept : 1][3] = {};
+    auto load = [&](int k, double(&to)[3]) {
+      const Eigen::Vector3d one = p(body.columnRow[first + k * lanes]);
+      for (int c = 0; c < 3; ++c) to[c] = one[c];
+    };
+    for (int k = 0; k < kept; ++k)
+      if (k < o.used) load(k, from[k]);
+    for (int k = 0; k < kept; ++k) addEntry([&](int c) { return double(o.block[k][c]); }, from[k], product);
+    for (int e = o.from, k = kept; e < o.to; e += lanes, ++k) {
+      double one[3];
+      load(k, one);
+      addEntry([&](int c) { return double(values[c * size + e]); }, one, product);
+    }
+    for (int c = 0; c < 3; ++c) sum[c] += scale() * product[c];
+  }
+  SINEW_INLINE void hold(int row, double (&value)[3]) {
+    for (int c = 0; c < 3; ++c)
+      if (own[row - begin].held >> c & 1) value[c] = 0;
+  }
+  /// The diagonal block, with 1 in the place of what is held; in the first thread of a row.
+  SINEW_INLINE Eigen::Matrix3d diagonal(int row) {
+    Own const& o = own[row - begin];
+    Eigen::Matrix3d d;
+    for (int r = 0; r < 3; ++r)
+      for (int c = 0; c < 3; ++c) {
+        const int a = r < c ? r : c, b = r < c ? c : r;
+        const int k = components == 6 ? a * (5 - a) / 2 + b : 3 * r + c;
+        const bool fixed = (o.held >> r & 1) || (o.held >> c & 1);
+        d(r, c) = fixed ? (r == c ? 1. : 0.)
+                        : scale() * double(kept > 0 ? o.block[0][k] : values[k * size + o.from]);
+      }
+    return d;
+  }
+
  private:
+  SINEW_INLINE double scale() const { return 1 / (double(h) * double(h)); }
   /// f(row, lane, what this thread has of it) for the rows in which this thread has a part.
   template <class F>
   SINEW_INLINE void forRows(F&& f) {
@@ -221,29 +340,32 @@ class FusedStep {
     }
   }
 
+  // product += the entry a(component) times x
+  template <class Entry, class T>
+  static SINEW_INLINE void addEntry(Entry const& a, T const (&x)[3], T (&product)[3]) {
+    if constexpr (components == 6) {
+      const T xy = a(1), xz = a(2), yz = a(4);
+      product[0] += a(0) * x[0] + xy * x[1] + xz * x[2];
+      product[1] += xy * x[0] + a(3) * x[1] + yz * x[2];
+      product[2] += xz * x[0] + yz * x[1] + a(5) * x[2];
+    } else {
+      for (int i = 0; i < 3; ++i) product[i] += a(3 * i) * x[0] + a(3 * i + 1) * x[1] + a(3 * i + 2) * x[2];
+    }
+  }
+
   // product = A times the vector that was published last; for the first of a row's threads
   SINEW_INLINE void multiply(Own const& o, Real (&product)[3]) const {
     Real const* const vec = vector();
     for (int c = 0; c < 3; ++c) product[c] = 0;
-    auto addEntry = [&](auto const& a, Real const(&x)[3]) {
-      if constexpr (components == 6) {
-        const Real xy = a(1), xz = a(2), yz = a(4);
-        product[0] += a(0) * x[0] + xy * x[1] + xz * x[2];
-        product[1] += xy * x[0] + a(3) * x[1] + yz * x[2];
-        product[2] += xz * x[0] + yz * x[1] + a(5) * x[2];
-      } else {
-        for (int i = 0; i < 3; ++i) product[i] += a(3 * i) * x[0] + a(3 * i + 1) * x[1] + a(3 * i + 2) * x[2];
-      }
-    };
     // all that a thread keeps are loaded before the first is used
     Real x[kept > 0 ? kept : 1][3] = {};
     for (int k = 0; k < kept; ++k)
       if (k < o.used) team.load(vec + Team::stride * o.place[k], x[k]);
-    for (int k = 0; k < kept; ++k) addEntry([&](int c) { return o.block[k][c]; }, x[k]);
+    for (int k = 0; k < kept; ++k) addEntry([&](int c) { return o.block[k][c]; }, x[k], product);
     for (int e = o.from; e < o.to; e += lanes) {
       Real y[3];
       team.load(vec + Team::stride * column[e], y);
-      addEntry([&](int c) { return values[c * size + e]; }, y);
+      addEntry([&](int c) { return values[c * size + e]; }, y, product);
     }
     for (int c = 0; c < 3; ++c) {
       product[c] = team.rowSum(product[c]);
@@ -346,11 +468,12 @@ class FusedStep {
     for (int c = 0; c < components; ++c) (kept > 0 ? o.block[0][c] : values[c * size + o.from]) = diagonal[c];
   }
   // r = b where the components are free, dv = 0
-  SINEW_INLINE void startFrom(Own& o, Real const (&f)[3]) const {
+  SINEW_INLINE void startFrom([[maybe_unused]] int row, Own& o, Real const (&f)[3]) const {
     for (int c = 0; c < 3; ++c) {
       const Real b = h * (f[c] + o.mass * (gravity[c] - body.rayleighMass * v[o.node][c]));
       o.r[c] = o.held >> c & 1 ? Real(0) : b;
       o.dv[c] = 0;
+      if constexpr (Body::touches) body.contacts.restOf(copy)[3 * row + c] = double(b);
     }
   }
 };
@@ -365,6 +488,7 @@ SINEW_HD void fused_steps(Team const& team, Body const& body, unsigned char* sha
     all.findForces();
     all.assemble();
     all.solve();
+    if constexpr (Body::touches) all.touch(step);
     all.move(step);
   }
 }

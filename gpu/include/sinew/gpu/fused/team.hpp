@@ -40,6 +40,13 @@ struct SerialTeam {
   T rowSum(T value) const {
     return value;
   }
+  /// What was written before by the threads of a row is seen by these behind it.
+  void syncRows() const {}
+  /// The sums over all threads of the first numbers, and the largest of the others, which are not negative,
+  /// in each of them; all that was written before is seen by all. `room`: joint_buffer_size numbers in shared
+  /// memory.
+  template <int Sums, int N>
+  void join(double (&)[N], double*) const {}
   /// What a thread has of each of its rows.
   template <class T>
   struct Rows {
@@ -66,6 +73,10 @@ struct SerialTeam {
 };
 /// Numbers in `buffer`: two lists of a pair for each block of a cluster, and a pair for each warp.
 inline constexpr int list_buffer_size = 2 * 2 * 16, sum_buffer_size = list_buffer_size + 2 * 32;
+/// Numbers for join(), of at most so many at once: two lists for the blocks of a cluster, a list for the
+/// warps, and what comes of it.
+inline constexpr int most_joined = 4, joint_list_size = most_joined * 16,
+                     joint_buffer_size = 2 * joint_list_size + most_joined * 32 + most_joined;
 
 #if SINEW_CUDA
 /// What teams of a GPU have in common.
@@ -103,6 +114,38 @@ struct DeviceTeam {
   }
   static __device__ double2 pair(double const* list, int k) {
     return reinterpret_cast<double2 const*>(list)[k];
+  }
+
+  __device__ void syncRows() const { __syncwarp(); }
+  mutable unsigned joins = 0;  // so far
+  template <int Sums>
+  static __device__ double joined(int k, double a, double b) {
+    return k < Sums ? a + b : fmax(a, b);
+  }
+  template <int Sums>
+  static __device__ double joinedOfWarp(int k, double value) {
+    for (int offset = 16; offset > 0; offset /= 2)
+      value = joined<Sums>(k, value, __shfl_xor_sync(0xffffffffu, value, offset));
+    return value;
+  }
+  /// Puts what comes of each warp into its list, `room` behind those of the blocks.
+  template <int Sums, int N>
+  __device__ void joinWarps(double (&value)[N], double* room) const {
+    static_assert(N <= most_joined);
+    for (int k = 0; k < N; ++k) {
+      const double own = joinedOfWarp<Sums>(k, value[k]);
+      if (thread % 32 == 0) room[2 * joint_list_size + 32 * k + thread / 32] = own;
+    }
+    __syncthreads();
+    ++joins;
+  }
+  /// Number k of the block.
+  template <int Sums>
+  __device__ double joinedOfBlock(int k, double const* room) const {
+    double own = 0;
+    for (int w = 0; w < (threads + 31) / 32; ++w)
+      own = joined<Sums>(k, own, room[2 * joint_list_size + 32 * k + w]);
+    return own;
   }
 };
 
@@ -162,6 +205,21 @@ struct ClusterTeam : DeviceTeam<Lanes, KeptEntries> {
     }
     of(this->thread, reinterpret_cast<double2*>(list(buffer))[this->rank]) = own;
   }
+  template <int Sums, int N>
+  __device__ void join(double (&value)[N], double* room) const {
+    this->template joinWarps<Sums>(value, room);
+    double* const list = room + this->joins % 2 * joint_list_size;
+    if (this->thread < this->ranks * N) {
+      const int k = this->thread % N;
+      of(this->thread / N, list[most_joined * this->rank + k]) = this->template joinedOfBlock<Sums>(k, room);
+    }
+    sync();
+    for (int k = 0; k < N; ++k) {
+      value[k] = 0;
+      for (int r = 0; r < this->ranks; ++r)
+        value[k] = this->template joined<Sums>(k, value[k], list[most_joined * r + k]);
+    }
+  }
   __device__ void awaitRows() const { sync(); }
   __device__ void fetchSums(double*) const {}
   __device__ void takeSums(double* buffer, double (&total)[2]) const {
@@ -183,6 +241,7 @@ struct GridMemory {
   int parity;
   unsigned* announced;          // by each block: the exchange up to which others may load its rows
   double* sums;                 // two lists of a pair for each block
+  double* joint;                // two lists of most_joined for each block
   int const *nearFirst, *near;  // of each block: those whose rows it loads, and that load its own
 };
 
@@ -259,6 +318,25 @@ struct GridTeam : DeviceTeam<Lanes, KeptEntries> {
           asm volatile("ld.acquire.gpu.global.u32 %0, [%1];" : "=r"(now) : "l"(other) : "memory");
       }
     }
+  }
+  template <int Sums, int N>
+  __device__ void join(double (&value)[N], double* room) const {
+    this->template joinWarps<Sums>(value, room);
+    double* const list = memory.joint + this->joins % 2 * (most_joined * std::ptrdiff_t(this->ranks));
+    if (this->thread < N)
+      __stcg(list + most_joined * this->rank + this->thread,
+             this->template joinedOfBlock<Sums>(this->thread, room));
+    sync();
+    double* const all = room + joint_buffer_size - most_joined;
+    for (int k = this->thread / 32; k < N; k += this->threads / 32) {
+      double own = 0;
+      for (int r = this->thread % 32; r < this->ranks; r += 32)
+        own = this->template joined<Sums>(k, own, __ldcg(list + most_joined * r + k));
+      own = this->template joinedOfWarp<Sums>(k, own);
+      if (this->thread % 32 == 0) all[k] = own;
+    }
+    __syncthreads();
+    for (int k = 0; k < N; ++k) value[k] = all[k];
   }
   __device__ void awaitRows() const {
     if (this->thread < rowThreads() + 32) await(rowsAround);
