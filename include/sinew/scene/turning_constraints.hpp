@@ -126,7 +126,7 @@ struct TurningConstraints {
   // where the start of the step is meanwhile
   template <class Ode>
   static CoordId kept(Ode const&) {
-    return {CoordId::reserved + Ode::auxiliary.coords};
+    return CoordId{CoordId::reserved + Ode::auxiliary.coords};
   }
   template <class S>
   void respond(ConstraintResponse<S> const& response, ConstrainedMotion const& m) const {
