@@ -201,7 +201,7 @@ TEST_CASE("bytes that are no topology or frame are refused") {
   CHECK(refused(write_topology(wrong, 1)) == "topology: an element has a point that there is not");
   // a number of triangles for which there is no memory
   std::string large = topology;
-  large.replace(24 + 24, 4, "\xff\xff\xff\xff");
+  large.replace(24 + 28, 4, "\xff\xff\xff\xff");
   CHECK(refused(large) == "topology: it ends too early");
 
   ReadTopology into = read_topology(topology);
