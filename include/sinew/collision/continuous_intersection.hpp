@@ -32,9 +32,16 @@ struct ContinuousIntersection {
     auto now = contact_at(pair, a, b);
     // as far behind a one-sided triangle as in front of it: what is farther is on the other side of the body
     const double far = reach() + pair.proximity() + pair.thickness();
-    if (now && (now->start.norm() > far || !is_of_pair(pair, *now))) now.reset();
+    if (now && now->start.norm() > far) now.reset();
+    // What rests stays at the limit, to the tolerance of a solver: on the way from there a search for the
+    // impact would go by such gaps, for nothing but the same contact.
+    const double resting = limit + 0.01 * contactDistance;
+    if (now && !is_of_pair(pair, *now)) {
+      if (now->distance <= resting) return std::nullopt;  // another pair has the contact there
+      now.reset();
+    }
     if (now) now->limit = limit;
-    if (now && now->distance <= limit) return now;
+    if (now && now->distance <= resting) return now;
     // what no solver moves stands where it will be at the end of the step, and comes from before
     auto moved = [&](auto corners, CollisionSurface const& s, int element, double time) {
       if (s.solver < 0) time -= pair.dt;
