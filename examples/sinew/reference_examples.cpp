@@ -66,6 +66,20 @@ constexpr std::string_view carrier = R"(
     <ConstantForceField force="0 0 2"/>
   </Node>
 </Node>)";
+constexpr std::string_view waterWithSurface = R"(
+<Node name="water" gravity="0 -10 0">
+  <EulerExplicitSolver symplectic="true"/>
+  <RegularGridTopology n="5 10 5" max="2 4.5 2" computeHexaList="false" computeQuadList="false"
+                       computeTriangleList="false" computeEdgeList="false"/>
+  <MechanicalObject/>
+  <UniformMass vertexMass="1"/>
+  <SPHFluidForceField radius="0.745" density="15" pressure="1000" viscosity="10" kernelType="1" viscosityType="2"/>
+  <PlaneForceField normal="0 1 0" d="-1"/>
+  <Node name="surface">
+    <VisualModel/>
+    <SPHFluidSurfaceMapping radius="0.745" step="0.25"/>
+  </Node>
+</Node>)";
 constexpr std::string_view waterInTank = R"(
 <Node name="root" gravity="0 -9.81 0">
   <Node name="water">
@@ -350,30 +364,8 @@ constexpr auto classExamples = std::to_array<ClassExample>({
      R"(<RestShapeSpringsForceField points="0" stiffness="200"/>)",
      chain,
      "FixedConstraint"},
-    {"SPHFluidForceField", R"(
-<Node name="water" gravity="0 -10 0">
-  <EulerExplicitSolver symplectic="true"/>
-  <RegularGridTopology n="5 10 5" max="2 4.5 2" computeHexaList="false" computeQuadList="false"
-                       computeTriangleList="false" computeEdgeList="false"/>
-  <MechanicalObject/>
-  <UniformMass vertexMass="1"/>
-  <SPHFluidForceField radius="0.745" density="15" pressure="1000" viscosity="10" kernelType="1" viscosityType="2"/>
-  <PlaneForceField normal="0 1 0" d="-1"/>
-</Node>)"},
-    {"SPHFluidSurfaceMapping", R"(
-<Node name="water" gravity="0 -10 0">
-  <EulerExplicitSolver symplectic="true"/>
-  <RegularGridTopology n="5 10 5" max="2 4.5 2" computeHexaList="false" computeQuadList="false"
-                       computeTriangleList="false" computeEdgeList="false"/>
-  <MechanicalObject/>
-  <UniformMass vertexMass="1"/>
-  <SPHFluidForceField radius="0.745" density="15" pressure="1000" viscosity="10" kernelType="1" viscosityType="2"/>
-  <PlaneForceField normal="0 1 0" d="-1"/>
-  <Node name="surface">
-    <VisualModel/>
-    <SPHFluidSurfaceMapping radius="0.745" step="0.25"/>
-  </Node>
-</Node>)"},
+    {"SPHFluidForceField", waterWithSurface},
+    {"SPHFluidSurfaceMapping", waterWithSurface},
     {"ParticlesRepulsionForceField", R"(
 <Node name="grains" gravity="0 -10 0">
   <EulerImplicitSolver rayleighMass="0.1"/>
