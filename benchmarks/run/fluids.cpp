@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 // Steps of fluids by several threads: fluids KIND SIZE SECONDS COUNT..., KIND one of sph, dfsph and grid. A
-// dam breaks: a block of SIZE particles, or a third of SIZE^3 cells, falls and runs along a tank that is
-// three times as long. Prints one line a count: kind, particles or cells, threads, seconds a step (the median
-// of those that take about so many seconds, from 0.2 s after the start on), substeps or 1, iterations for the
+// dam breaks: a block of SIZE particles, which rests on the floor of a tank of three times its length, or a
+// third of SIZE^3 cells. Prints one line a count: kind, particles or cells, threads, seconds a step (the
+// median of those that take about so many seconds, behind the first 20), substeps or 1, iterations for the
 // pressure of the last step or 0, and a number made of all bits of positions, the same for all counts.
 #include <sinew/control/threads.hpp>
 #include <sinew/fluid/fluid3d.hpp>
@@ -29,6 +29,7 @@ std::uint64_t fingerprint(List const& list) {
 }
 
 struct Measured {
+  std::size_t parts = 0;  // particles or cells
   double seconds = 0;
   int steps = 0, substeps = 1, iterations = 0;
   std::uint64_t bits = 0;
@@ -60,9 +61,9 @@ std::vector<Eigen::Vector3d> block(int particles, double& distance) {
   return x;
 }
 
-template <class Solver, class Force>
-auto tank(Solver solver, Force force, std::vector<Eigen::Vector3d> const& x, double distance, double mass,
-          double stiffness, int threads) {
+template <class Solver, class... Forces>
+auto tank(Solver solver, std::vector<Eigen::Vector3d> const& x, double distance, double mass,
+          double stiffness, int threads, Forces... forces) {
   using Wall = PlaneForceField<Vec3d>;
   return Simulation{
       node<"root">(Threads{.count = threads},
@@ -70,7 +71,7 @@ auto tank(Solver solver, Force force, std::vector<Eigen::Vector3d> const& x, dou
                    node<"water">(solver,
                                  MechanicalObject<Vec3d>{x},
                                  UniformMass<Vec3d>{.vertexMass = mass},
-                                 force,
+                                 forces...,
                                  Wall{.normal = {0, 1, 0}, .d = distance / 2, .stiffness = stiffness},
                                  Wall{.normal = {1, 0, 0}, .d = distance / 2, .stiffness = stiffness},
                                  Wall{.normal = {-1, 0, 0}, .d = -3, .stiffness = stiffness},
@@ -83,6 +84,7 @@ Measured measure(std::string const& kind, int size, double time, int steps, int 
   double d = 1;
   if (kind == "grid") {
     const int n = size;
+    found.parts = std::size_t(n) * std::size_t(n) * std::size_t(n);
     // a third of the tank is full at the start, to its end
     Simulation sim{node<"root">(Threads{.count = threads},
                                 Gravity{{0, -9.81, 0}},
@@ -99,34 +101,30 @@ Measured measure(std::string const& kind, int size, double time, int steps, int 
     return found;
   }
   const std::vector<Eigen::Vector3d> x = block(size, d);
+  found.parts = x.size();
   const double density = 1000, mass = density * d * d * d;
   if (kind == "sph") {
     // the speed of sound is ten times that of the front, 2 sqrt(g h)
     const double sound = 10 * 2 * std::sqrt(9.81), dt = 0.2 * 2 * d / sound;
     auto sim = tank(EulerExplicitSolver{.symplectic = true},
+                    x,
+                    d,
+                    mass,
+                    mass * std::pow(sound / (2 * d), 2),
+                    threads,
                     SPHFluidForceField<Vec3d>{.radius = 2 * d,
                                               .mass = mass,
                                               .pressure = sound * sound,
                                               .density = density,
                                               .viscosity = 1,
                                               .kernelType = 1,
-                                              .viscosityType = 2},
-                    x,
-                    d,
-                    mass,
-                    mass * std::pow(sound / (2 * d), 2),
-                    threads);
+                                              .viscosityType = 2});
     time_steps(sim, dt, time, steps, found);
     found.bits = fingerprint(sim.template at<"water">().state().position);
   } else {
     const double dt = 0.3 * d / (2 * std::sqrt(9.81));
-    auto sim = tank(DFSPHSolver{.radius = 2 * d, .density = density},
-                    UniformVelocityDampingForceField<Vec3d>{.dampingCoefficient = 0},
-                    x,
-                    d,
-                    mass,
-                    0.2 * mass / (dt * dt),
-                    threads);
+    auto sim =
+        tank(DFSPHSolver{.radius = 2 * d, .density = density}, x, d, mass, 0.2 * mass / (dt * dt), threads);
     time_steps(sim, dt, time, steps, found);
     auto const& solver = sim.template at<"water">().template get<DFSPHSolver>();
     found.substeps = solver.substeps;
@@ -153,12 +151,9 @@ int main(int argc, char** argv) try {
     if (threads < 1 || threads > 1000) throw Error("arguments", "COUNT is 1 to 1000");
     const Measured m = measure(kind, size, time, steps, threads);
     steps = m.steps;
-    double d = 1;
-    const std::size_t parts =
-        kind == "grid" ? std::size_t(size) * std::size_t(size) * std::size_t(size) : block(size, d).size();
     std::printf("%s %zu %d %.6g %d %d %016llx\n",
                 kind.c_str(),
-                parts,
+                m.parts,
                 threads,
                 m.seconds,
                 m.substeps,

@@ -156,7 +156,8 @@ struct ChangingPoints {
       throw Error(text(scope.path(), ": ", component_name<C>()),
                   text(why, " whose points go and come while the scene runs (ParticleSource, ParticleSink)"));
     };
-    if constexpr (MakesFaces<C>) {
+    if constexpr (MakesFaces<C> || HasRole<C, role::OdeSolver>) {
+      // faces are made of any points, and solvers with values of each follow
     } else if constexpr (HasRole<C, role::Mapping>) {
       scope.withMapped(c, [&](auto&, auto&, auto& parent) {
         if (changes(&parent)) refuse("a mapping has an entry for each point; take it away from a state");
@@ -169,8 +170,6 @@ struct ChangingPoints {
           refuse(
               "a matrix is made for as many points as there are at the start; take a CGLinearSolver without "
               "matrix, or an explicit solver, for a state");
-    } else if constexpr (HasRole<C, role::OdeSolver>) {
-      // those with values of each point follow
     } else if constexpr (JoinsTwo<C>) {
       scope.withEnds(c, [&](auto const& a, auto const& b) {
         if (changes(a.stateAddress()) || changes(b.stateAddress()))
