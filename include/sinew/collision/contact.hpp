@@ -130,6 +130,10 @@ struct Contact {
   }
 };
 
+/// Whether it is on a triangle that has an inside.
+inline bool is_of_one_sided_face(ContactSide const& side, CollisionSurface const& s) {
+  return side.corners() == 3 && !s.settings.bothSide;
+}
 /// p of a side, and its velocity.
 inline Eigen::Vector3d position_of(ContactSide const& side, CollisionSurface const& s) {
   Eigen::Vector3d p(0, 0, 0);

@@ -433,7 +433,7 @@ struct ContactManager {
   bool isThroughBody(Contact const& c, ContactKey const& key, Contact const* before) const {
     if (bodies[std::size_t(c.a.surface)] != bodies[std::size_t(c.b.surface)]) return false;
     auto isOfFace = [&](ContactSide const& side) {
-      return side.corners() == 3 && !surfaces[std::size_t(side.surface)]->settings.bothSide;
+      return is_of_one_sided_face(side, *surfaces[std::size_t(side.surface)]);
     };
     // (where an edge crosses a triangle, the two places are one, to rounding)
     const double rounding =

@@ -63,14 +63,10 @@ struct ContinuousIntersection {
     then->distance =
         then->normal.dot(position_of(then->b, pair.b) - position_of(then->a, pair.a)) - then->thickness;
     // one-sided triangles stop what comes from outside, and let out what comes from behind
-    if (then->distance < -then->thickness && (isOfFace(then->a, pair.a) || isOfFace(then->b, pair.b)))
+    if (then->distance < -then->thickness &&
+        (is_of_one_sided_face(then->a, pair.a) || is_of_one_sided_face(then->b, pair.b)))
       return std::nullopt;
     return then;
-  }
-
- private:
-  static bool isOfFace(ContactSide const& side, CollisionSurface const& s) {
-    return side.corners() == 3 && !s.settings.bothSide;
   }
 };
 
