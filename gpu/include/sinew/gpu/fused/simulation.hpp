@@ -232,18 +232,15 @@ class FusedSimulation {
                components_that<detail::IsFused>(all));
   }
   static void refuseMoving(All const& all) {
-    std::apply(
-        [](auto*... state) {
-          auto refuse = [](auto const& s) {
-            if (s.solver >= 0)
-              throw Error("FusedSimulation",
-                          text(component_name<std::decay_t<decltype(s)>>(),
-                               " is moved by a solver; a fused step moves the one state on the device, and "
-                               "others stand; take Simulation"));
-          };
-          (refuse(*state), ...);
-        },
-        components_that<detail::IsStanding>(all));
+    std::apply([](auto*... state) { (refuseMoved(*state), ...); }, components_that<detail::IsStanding>(all));
+  }
+  template <class State>
+  static void refuseMoved(State const& state) {
+    if (state.solver >= 0)
+      throw Error("FusedSimulation",
+                  text(component_name<State>(),
+                       " is moved by a solver; a fused step moves the one state on the "
+                       "device, and others stand; take Simulation"));
   }
   static auto fieldsOf(All const& all) { return components_that<detail::IsForceField>(all); }
   template <class... F>
