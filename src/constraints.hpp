@@ -15,3 +15,4 @@
 #include <sinew/lagrangian/lemke.hpp>
 #include <sinew/lagrangian/linear_complementarity.hpp>
 #include <sinew/lagrangian/null_space_rows.hpp>
+#include <sinew/lagrangian/unbuilt_compliance.hpp>

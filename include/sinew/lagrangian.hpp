@@ -20,6 +20,7 @@
 #include <sinew/lagrangian/preconditioned_conjugate_residual.hpp>
 #include <sinew/lagrangian/sliding_lagrangian_constraint.hpp>
 #include <sinew/lagrangian/stopper_lagrangian_constraint.hpp>
+#include <sinew/lagrangian/unbuilt_gauss_seidel_constraint_solver.hpp>
 #include <sinew/lagrangian/uncoupled_constraint_correction.hpp>
 #include <sinew/lagrangian/uniform_lagrangian_constraint.hpp>
 #include <sinew/lagrangian/unilateral_lagrangian_constraint.hpp>

@@ -166,11 +166,12 @@ using LagrangianConstraints =
              FixedLagrangianConstraint<Vec6d>, UniformLagrangianConstraint<Vec1d>,
              StopperLagrangianConstraint<Vec1d>>;
 using StandardMultipliers =
-    Registry<FreeMotionAnimationLoop, BlockGaussSeidelConstraintSolver, NNCGConstraintSolver,
-             ImprovedJacobiConstraintSolver, LCPConstraintSolver, PreconditionedConjugateResidual,
-             ConvexConstraintSolver, LinearSolverConstraintCorrection, UncoupledConstraintCorrection<Vec3d>,
-             UncoupledConstraintCorrection<Rigid3d>, PrecomputedConstraintCorrection<Vec3d>,
-             PrecomputedConstraintCorrection<Rigid3d>, LagrangianConstraints>;
+    Registry<FreeMotionAnimationLoop, BlockGaussSeidelConstraintSolver, UnbuiltGaussSeidelConstraintSolver,
+             NNCGConstraintSolver, ImprovedJacobiConstraintSolver, LCPConstraintSolver,
+             PreconditionedConjugateResidual, ConvexConstraintSolver, LinearSolverConstraintCorrection,
+             UncoupledConstraintCorrection<Vec3d>, UncoupledConstraintCorrection<Rigid3d>,
+             PrecomputedConstraintCorrection<Vec3d>, PrecomputedConstraintCorrection<Rigid3d>,
+             LagrangianConstraints>;
 
 using GridFluids = Registry<Fluid2D, Fluid3D>;
 

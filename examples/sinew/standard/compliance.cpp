@@ -2,5 +2,5 @@
 #include <sinew/runtime/precompiled.hpp>
 
 namespace sinew {
-template void ConstrainedStep<RuntimeScope<Standard>>::findCompliance(ConstrainedMotion&) const;
+template void ConstrainedStep<RuntimeScope<Standard>>::findCompliance(ConstrainedMotion&, bool) const;
 }  // namespace sinew

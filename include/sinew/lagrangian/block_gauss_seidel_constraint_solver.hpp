@@ -6,13 +6,11 @@
 namespace sinew {
 
 /// Block Gauss-Seidel over the compliance W of all constraints (Duriez et al. 2006): each block in turn is
-/// solved for its own multipliers, those of the others as they are. SOFA's UnbuiltGaussSeidelConstraintSolver
-/// asks the bodies for what a block changes in the place of W, and has the same iterates.
+/// solved for its own multipliers, those of the others as they are.
 struct BlockGaussSeidelConstraintSolver {
   using Role = role::ConstraintSolver;
   static constexpr std::string_view className = "BlockGaussSeidelConstraintSolver";
-  static constexpr std::string_view aliases =
-      "GenericConstraintSolver ProjectedGaussSeidelConstraintSolver UnbuiltGaussSeidelConstraintSolver";
+  static constexpr std::string_view aliases = "GenericConstraintSolver ProjectedGaussSeidelConstraintSolver";
   static constexpr bool takenByDefault = true;
 
   int maxIterations = 1000;
@@ -26,8 +24,7 @@ struct BlockGaussSeidelConstraintSolver {
 
   static constexpr auto fields() {
     using S = BlockGaussSeidelConstraintSolver;
-    return sweeping_fields<S>(
-        field("sor", &S::sor, "", "relaxation of the multipliers", range::closed(0, 2)));
+    return sweeping_fields<S>(relaxation_field<S>());
   }
 
   static constexpr auto outputs() { return constraint_forces_output<BlockGaussSeidelConstraintSolver>(); }

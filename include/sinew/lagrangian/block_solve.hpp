@@ -13,10 +13,6 @@ namespace sinew {
 // What all iterations over the blocks of constraints share: the solution of one block for its own
 // multipliers, those of the others as they are, and a measure of what it changes.
 
-using BlockMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, ConstraintBlock::maxRows,
-                                  ConstraintBlock::maxRows>;
-using BlockVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, ConstraintBlock::maxRows, 1>;
-
 /// W_bb^-1 of a block of equalities; an Error where they depend on each other.
 BlockMatrix inverse_compliance(BlockMatrix const& w, ConstraintBlock const& b, std::string_view where);
 
@@ -125,14 +121,15 @@ SINEW_ONCE BlockMatrix inverse_compliance(BlockMatrix const& w, ConstraintBlock 
 
 SINEW_ONCE void relax_block(ConstraintProblem& problem, ConstraintBlock const& b, BlockMatrix const& inverse,
                             SweepChange& change) {
-  auto const w = problem.compliance.block(b.first, b.first, b.rows, b.rows);
-  BlockVector d = problem.freeViolation.segment(b.first, b.rows);
-  d.noalias() += problem.compliance.middleRows(b.first, b.rows) * problem.multipliers;
+  auto const w = problem.own(b);
+  const BlockVector d = problem.violation(b);
   const BlockVector before = problem.multipliers.segment(b.first, b.rows);
   BlockVector f = before;
   solve_block(b, w, inverse, d, f);
   problem.multipliers.segment(b.first, b.rows) = f;
-  change.add(w, f - before);
+  const BlockVector step = f - before;
+  problem.moved(b, step);
+  change.add(w, step);
 }
 
 }  // namespace sinew

@@ -20,12 +20,13 @@ struct ConstrainedSystem {
   JacobianRows whole{};         // with that, where forces are kept
   std::vector<int> lastRows{};  // those of the step before
   JacobianRows lastJacobian{};
+  JacobianRows answers{};  // what the rows, as forces, do to the degrees of freedom, where W is not built
   Eigen::VectorXd force{}, motion{};  // of all degrees of freedom, and one number more
   bool joined = false;                // projective constraints give several points one motion
 
   // where points answer alone: what a unit force in each of their directions does, a column each; of each
   // degree of freedom the first of its point, and how many that has
-  Reserved<Eigen::MatrixXd> answers{};
+  Reserved<Eigen::MatrixXd> pointAnswers{};
   std::vector<int> pointBegin{}, pointSize{};
 
   // for solvers that need no compliance (scene/motion_problem.hpp)
@@ -59,16 +60,17 @@ struct ConstrainedSystem {
 };
 
 /// Where a system adds the compliance of pairs of its rows, once for each pair: W of all rows is symmetric.
+/// Of a W that is not built these are rows of one block.
 struct SystemCompliance {
   std::vector<int> const& rows;  // of the system: which of all they are
-  Reserved<ConstraintProblem::Matrix>& whole;
+  ConstraintProblem& whole;
   double factor = 1;
 
   SystemCompliance times(double by) const { return {rows, whole, factor * by}; }
   void operator()(int k, int l, double w) const {
     const int i = rows[std::size_t(k)], j = rows[std::size_t(l)];
-    whole(i, j) += factor * w;
-    if (i != j) whole(j, i) += factor * w;
+    whole.add(i, j, factor * w);
+    if (i != j) whole.add(j, i, factor * w);
   }
 };
 
@@ -120,6 +122,7 @@ struct ConstrainedMotion {
   int lookedThrough = 0;      // so many rows had those constraints when dependent ones were looked for
   MotionRows motionRows{};
   JacobianRows room{};
+  std::vector<char> acts{};  // of each row: whether it acts on a degree of freedom
   FactoredRows factored{};
   bool hasMotion = false;    // the solver has found the motion of systems with the multipliers
   int newtonIterations = 0;  // of constraints that turn within a step

@@ -3,6 +3,8 @@
 
 #include <sinew/core/compiled.hpp>
 #include <sinew/core/error.hpp>
+#include <sinew/lagrangian/constraint_block.hpp>
+#include <sinew/lagrangian/unbuilt_compliance.hpp>
 #include <sinew/linalg/reserved.hpp>
 
 #include <Eigen/Core>
@@ -15,33 +17,9 @@
 
 namespace sinew {
 
-/// Rows of constraints that are solved together. d is their violation at the end of the step, f their
-/// multipliers.
-struct ConstraintBlock {
-  enum class Kind {
-    equality,  // d = 0
-    interval,  // one row: lower <= d <= upper; f >= 0 at the lower end, f <= 0 at the upper one, else 0
-    friction,  // a normal and two tangents: d_n >= 0, f_n >= 0, d_n f_n = 0, |f_t| <= mu f_n; where d_t is
-               // not 0, f_t = -mu f_n d_t / |d_t| (Signorini, Coulomb)
-  };
-  static constexpr int maxRows = 6;
-
-  Kind kind = Kind::equality;
-  int first = 0, rows = 1;
-  double friction = 0;  // mu
-  double lower = 0, upper = std::numeric_limits<double>::infinity();
-
-  static ConstraintBlock equality(int first, int rows) { return {Kind::equality, first, rows}; }
-  static ConstraintBlock unilateral(int first) { return {Kind::interval, first, 1}; }
-  static ConstraintBlock interval(int first, double lower, double upper) {
-    return {Kind::interval, first, 1, 0, lower, upper};
-  }
-  static ConstraintBlock contact(int first, double mu) { return {Kind::friction, first, 3, mu}; }
-  bool operator==(ConstraintBlock const&) const = default;
-};
-
 /// The constraints of a step: d = W f + d_free with the compliance W = J A^-1 J', which is symmetric and
-/// positive semidefinite, and a condition between d and f for each block.
+/// positive semidefinite, and a condition between d and f for each block. W is a matrix of all rows, or its
+/// factors; a solver that asks for these (TakesUnbuilt) reads it by own(), violation() and moved() alone.
 struct ConstraintProblem {
   using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
@@ -50,9 +28,55 @@ struct ConstraintProblem {
   ReservedVector multipliers{};    // f: the first guess, then the solution
   std::vector<ConstraintBlock> blocks{};
   double timeStep = 1;  // [s]; SOFA's multipliers are impulses, f times that, and its compliance W over that
+  bool built = true;    // whether W is `compliance`; else it is that:
+  UnbuiltCompliance unbuilt{};
 
   int rows() const { return int(freeViolation.size()); }
   Eigen::VectorXd violation() const;
+
+  /// W_bb of a block.
+  using OwnBlock = Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor,
+                                            ConstraintBlock::maxRows, ConstraintBlock::maxRows> const,
+                              0, Eigen::OuterStride<>>;
+  OwnBlock own(ConstraintBlock const& b) const {
+    return built ? OwnBlock(compliance.data() + Eigen::Index(b.first) * (compliance.cols() + 1),
+                            b.rows,
+                            b.rows,
+                            Eigen::OuterStride<>(compliance.cols()))
+                 : OwnBlock(
+                       unbuilt.own(b.first), b.rows, b.rows, Eigen::OuterStride<>(ConstraintBlock::maxRows));
+  }
+  /// The multipliers are others than those that moved() has been told of.
+  void multipliersSet() {
+    if (!built) unbuilt.setMultipliers(multipliers);
+  }
+  /// d of a block.
+  BlockVector violation(ConstraintBlock const& b) const {
+    BlockVector d = freeViolation.segment(b.first, b.rows);
+    if (built)
+      d.noalias() += compliance.middleRows(b.first, b.rows) * multipliers;
+    else
+      for (int i = 0; i < b.rows; ++i)
+        d[i] += unbuilt.times(b.first + i, multipliers.segment(b.first, b.rows));
+    return d;
+  }
+  /// The multipliers of a block have changed by a step.
+  void moved(ConstraintBlock const& b, BlockVector const& step) {
+    for (int i = 0; i < b.rows && !built; ++i) unbuilt.moved(b.first + i, step[i]);
+  }
+  /// W_ij += value; of factors i and j are of one block.
+  void add(int i, int j, double value) {
+    if (built)
+      compliance(i, j) += value;
+    else
+      unbuilt.add(i, j, value);
+  }
+  /// Lets no other row act on a row, and that on none; its compliance becomes a value.
+  void leaveOut(ConstraintBlock const& b, int row, double value);
+  /// The first rows and columns of W, formed where it is not.
+  Matrix products(int end) const {
+    return built ? Matrix(compliance.topLeftCorner(end, end)) : Matrix(unbuilt.product(end));
+  }
 
   /// Throws Error where sizes do not fit, a number is not one, blocks do not cover each row once, mu is
   /// negative, or no multiplier of a block changes its violation.
@@ -169,40 +193,54 @@ SINEW_ONCE void check_movable(Eigen::Ref<Eigen::VectorXd const, 0, Eigen::InnerS
 
 SINEW_ONCE void ConstraintProblem::checkSizes(std::string_view where) const {
   const auto n = freeViolation.size();
-  if (compliance.rows() != n || compliance.cols() != n || multipliers.size() != n)
+  const Eigen::Index rowsOfW = built ? compliance.rows() : unbuilt.rows();
+  const Eigen::Index columnsOfW = built ? compliance.cols() : unbuilt.rows();
+  if (rowsOfW != n || columnsOfW != n || multipliers.size() != n)
     throw Error(where,
                 text("constraints have ",
                      n,
                      " violations, a compliance of ",
-                     compliance.rows(),
+                     rowsOfW,
                      " x ",
-                     compliance.cols(),
+                     columnsOfW,
                      " and ",
                      multipliers.size(),
                      " multipliers; give each as many"));
-  if (!compliance.allFinite() || !freeViolation.allFinite() || !multipliers.allFinite())
+  if (!(built ? compliance.allFinite() : unbuilt.allFinite()) || !freeViolation.allFinite() ||
+      !multipliers.allFinite())
     throw Error(where, "the compliance, a violation or a multiplier of constraints is not a finite number");
   check_blocks(blocks, int(n), where);
 }
 
 SINEW_ONCE void ConstraintProblem::check(std::string_view where) const {
   checkSizes(where);
-  check_movable(compliance.diagonal(), where);
+  for (ConstraintBlock const& b : blocks) check_movable(own(b).diagonal(), where, b.first);
 }
 
 SINEW_ONCE Eigen::VectorXd ConstraintProblem::violation() const {
-  return compliance * multipliers + freeViolation;
+  if (built) return compliance * multipliers + freeViolation;
+  Eigen::VectorXd d = freeViolation;
+  unbuilt.addProduct(blocks, multipliers, d);
+  return d;
 }
 
-SINEW_ONCE void ConstraintProblem::regularise(double term) { compliance.diagonal().array() += term; }
+SINEW_ONCE void ConstraintProblem::regularise(double term) {
+  for (int i = 0; i < rows(); ++i) add(i, i, term);
+}
+
+SINEW_ONCE void ConstraintProblem::leaveOut(ConstraintBlock const& b, int row, double value) {
+  if (!built) return unbuilt.leaveOut(b, row, value);
+  compliance.row(row).setZero();
+  compliance.col(row).setZero();
+  compliance(row, row) = value;
+}
 
 SINEW_ONCE double ConstraintProblem::residual() const {
   double worst = 0;
+  const Eigen::VectorXd all = violation();
   for (ConstraintBlock const& b : blocks) {
-    Eigen::Matrix<double, Eigen::Dynamic, 1, 0, ConstraintBlock::maxRows, 1> d =
-        freeViolation.segment(b.first, b.rows);
-    d.noalias() += compliance.middleRows(b.first, b.rows) * multipliers;
-    const double r = b.rows / compliance.block(b.first, b.first, b.rows, b.rows).trace();
+    const BlockVector d = all.segment(b.first, b.rows);
+    const double r = b.rows / own(b).trace();
     switch (b.kind) {
       case ConstraintBlock::Kind::equality: {
         double squared = 0;

@@ -105,7 +105,7 @@ class ConstraintSweeps {
   ReservedVector last_{}, change_{}, direction_{}, violation_{}, steps_{}, behind_{};
   double scale_ = 0;  // what there is to correct
 
-  void begin(ConstraintProblem const& problem, std::string_view where);
+  void begin(ConstraintProblem& problem, std::string_view where);
   // what is left of the problem by this change, into the result; whether to go on
   bool judge(SweepResult& result, SweepChange const& change, ConstraintProblem& problem,
              SweepSettings const& settings) const;
@@ -152,13 +152,14 @@ SINEW_ONCE bool ConstraintSweeps::judge(SweepResult& result, SweepChange const& 
   return !result.converged && result.iterations < settings.maxIterations;
 }
 
-SINEW_ONCE void ConstraintSweeps::begin(ConstraintProblem const& problem, std::string_view where) {
+SINEW_ONCE void ConstraintSweeps::begin(ConstraintProblem& problem, std::string_view where) {
   problem.check(where);
+  problem.multipliersSet();
   inverses_.resize(problem.blocks.size());
   scale_ = std::numeric_limits<double>::min();
   for (std::size_t k = 0; k < problem.blocks.size(); ++k) {
     ConstraintBlock const& b = problem.blocks[k];
-    BlockMatrix const w = problem.compliance.block(b.first, b.first, b.rows, b.rows);
+    BlockMatrix const w = problem.own(b);
     if (b.kind == ConstraintBlock::Kind::equality) inverses_[k] = inverse_compliance(w, b, where);
     scale_ += size_of_block(
         b, w, problem.freeViolation.segment(b.first, b.rows), problem.multipliers.segment(b.first, b.rows));
@@ -175,8 +176,10 @@ SINEW_ONCE SweepResult ConstraintSweeps::gaussSeidel(ConstraintProblem& problem,
   while (goesOn) {
     if (settings.relaxation != 1) last_ = problem.multipliers;
     const SweepChange change = sweep(problem);
-    if (settings.relaxation != 1)
+    if (settings.relaxation != 1) {
       problem.multipliers = settings.relaxation * problem.multipliers + (1 - settings.relaxation) * last_;
+      problem.multipliersSet();
+    }
     ++result.iterations;
     goesOn = judge(result, change, problem, settings);
   }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <sinew/core/component.hpp>
 #include <sinew/lagrangian/constrained_block_jacobi.hpp>
 #include <sinew/lagrangian/constrained_motion.hpp>
+#include <sinew/lagrangian/constraint_forces.hpp>
 #include <sinew/lagrangian/convex_step.hpp>
 
 #include <string>
@@ -25,6 +25,7 @@ struct ConvexConstraintSolver {
   double tolerance = 1e-6, momentumTolerance = 1e-6;
   int maxUpdates = 50, maxIterations = 10000;
   bool stopsUnsolved = false;
+  bool computeConstraintForces = false;
 
   static constexpr auto fields() {
     using S = ConvexConstraintSolver;
@@ -53,8 +54,11 @@ struct ConvexConstraintSolver {
                             &S::stopsUnsolved,
                             "",
                             "an Error where the iterations end above the tolerances; else a warning, and the "
-                            "step goes on with what they have found"));
+                            "step goes on with what they have found"),
+                      asks_for_constraint_forces<S>());
   }
+  static constexpr auto outputs() { return constraint_forces_output<ConvexConstraintSolver>(); }
+  std::vector<double> constraintForces{};
 
   std::vector<double> lastMotion{};
 
@@ -64,7 +68,10 @@ struct ConvexConstraintSolver {
                             "m",
                             "what the multipliers of the last step added to the motion of the bodies"));
   }
-  void reset() { lastMotion.clear(); }
+  void reset() {
+    lastMotion.clear();
+    constraintForces.clear();
+  }
 
   ConvexStepResult result{};  // of the last step
   ConstrainedBlockJacobi<3> preconditioner{};

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <cstddef>
 #include <new>
 #include <vector>
@@ -17,7 +18,7 @@ template <class Plain>
 class Reserved : public Eigen::Map<Plain> {
   using Map = Eigen::Map<Plain>;
   using Scalar = typename Plain::Scalar;
-  static constexpr Eigen::Index noColumns = Plain::ColsAtCompileTime == 1 ? 1 : 0;
+  static constexpr Eigen::Index noColumns = std::max<Eigen::Index>(0, Plain::ColsAtCompileTime);
 
  public:
   Reserved() : Map(nullptr, 0, noColumns) {}

@@ -77,7 +77,7 @@ extern template void Initialisation<RuntimeScope<Standard>>::initStates();
 extern template void Initialisation<RuntimeScope<Standard>>::initComponents();
 extern template void Initialisation<RuntimeScope<Standard>>::initSolvers();
 extern template void ConstrainedStep<RuntimeScope<Standard>>::integrate(ConstrainedMotion&, bool, bool) const;
-extern template void ConstrainedStep<RuntimeScope<Standard>>::findCompliance(ConstrainedMotion&) const;
+extern template void ConstrainedStep<RuntimeScope<Standard>>::findCompliance(ConstrainedMotion&, bool) const;
 extern template void Step<RuntimeScope<Standard>>::detectContacts() const;
 extern template TopologyChange Simulation<RuntimeNode<Standard>>::removeElements(std::string_view,
                                                                                  ElementNumbers const&);

@@ -148,8 +148,27 @@ struct ConstrainedStep {
       if (keepsForces) system.whole = system.jacobian;
       project(scope, MultiplierResponse::of(ode, dt), m.room, system);
     });
+    warnOfFixed(m);
     m.mayStand = m.owesViolations && !keepsForces && !any_below<role::LagrangianConstraint>(root) &&
                  !any_below<role::ProjectiveConstraint>(root);
+  }
+  // contacts of bodies that are fixed where they touch
+  void warnOfFixed(ConstrainedMotion& m) const {
+    m.acts.assign(std::size_t(m.rows.count()), 0);
+    for (ConstrainedSystem const& system : m.systems)
+      for (std::size_t k = 0; k < system.rows.size(); ++k)
+        if (system.jacobian.first[k + 1] > system.jacobian.first[k]) m.acts[std::size_t(system.rows[k])] = 1;
+    for (ConstraintBlock const& b : m.rows.blocks) {
+      auto const* const of = m.acts.data() + std::size_t(b.first);
+      if (b.first >= m.contactRows && std::none_of(of, of + b.rows, [](char acts) { return acts; }))
+        notes.warn(
+            RowNames<RootScope>{root, m}.of(b.first).where, "nothing that touches there can move", [&] {
+              return "nothing that touches there can move: points on both sides are fixed, so that it has no "
+                     "force "
+                     "and they stay in each other where they are; put both models into one group, or set "
+                     "simulated=\"false\" for one that never moves";
+            });
+    }
   }
   // those that states have begun to look for; whether all are as in the last step
   bool finishContacts() const {
@@ -262,17 +281,45 @@ struct ConstrainedStep {
     std::swap(left, system.jacobian);
   }
 
-  // W = J A^-1 J', and d_free
-  void findCompliance(ConstrainedMotion& m) const;
+  // d_free, and W = J A^-1 J' as a matrix or as its factors
+  void findCompliance(ConstrainedMotion& m, bool built) const;
+  // joins the rows of all systems, and what they do to these
+  void joinAnswers(ConstrainedMotion& m) const {
+    UnbuiltCompliance& W = m.problem.unbuilt;
+    W.clear();
+    int dofs = 0;
+    for (ConstrainedSystem& system : m.systems) {
+      system.begin = dofs;
+      dofs += system.dofs();
+    }
+    m.motionRows.next.assign(m.systems.size(), 0);
+    for (int row = 0; row < m.rows.count(); ++row) {
+      for (std::size_t number = 0; number < m.systems.size(); ++number) {
+        ConstrainedSystem const& system = m.systems[number];
+        std::size_t& next = m.motionRows.next[number];
+        if (next == system.rows.size() || system.rows[next] != row) continue;
+        system.jacobian.forEachInRow(
+            int(next), [&](int dof, double value) { W.jacobian.add(system.begin + dof, value); });
+        system.answers.forEachInRow(int(next),
+                                    [&](int dof, double value) { W.answers.add(system.begin + dof, value); });
+        ++next;
+      }
+      W.jacobian.endRow();
+      W.answers.endRow();
+    }
+    W.begin(m.problem.blocks, dofs);
+  }
   void checkFinite(ConstrainedMotion const& m) const {
     ConstraintProblem const& p = m.problem;
-    for (int row = 0; row < p.rows(); ++row)
-      if (!std::isfinite(p.compliance(row, row)) || !std::isfinite(p.freeViolation[row]))
-        RowNames<RootScope>{root, m}.refuseNotFinite(row);
+    for (ConstraintBlock const& b : p.blocks)
+      for (int i = 0; i < b.rows; ++i)
+        if (!std::isfinite(p.own(b)(i, i)) || !std::isfinite(p.freeViolation[b.first + i]))
+          RowNames<RootScope>{root, m}.refuseNotFinite(b.first + i);
   }
   void checkCompliance(ConstrainedMotion const& m) const {
-    for (int row = 0; row < m.contactRows; ++row)
-      if (!(m.problem.compliance(row, row) > 0)) RowNames<RootScope>{root, m}.refuseFixed(row);
+    for (ConstraintBlock const& b : m.problem.blocks)
+      for (int i = 0; i < b.rows && b.first + i < m.contactRows; ++i)
+        if (!(m.problem.own(b)(i, i) > 0)) RowNames<RootScope>{root, m}.refuseFixed(b.first + i);
   }
 
   void solve(ConstrainedMotion& m) const {
@@ -285,11 +332,12 @@ struct ConstrainedStep {
                  m.hasMotion = true;
                } else {
                  ContactRows<RootScope>{root, dt}.putViolations(m);
-                 findCompliance(m);
+                 findCompliance(m, !TakesUnbuilt<std::decay_t<decltype(solver)>>);
                  solveProblem(m, solver, scope.path());
                }
              }));
   }
+  static constexpr int mostProducts = 3000;  // rows of which equalities are compared for a message
   template <class Solver>
   void solveProblem(ConstrainedMotion& m, Solver& solver, std::string_view where) const {
     try {
@@ -303,11 +351,13 @@ struct ConstrainedStep {
         if (solver.refusedRow >= 0) names.explain(error, "the first", solver.refusedRow);
       names.explain(error,
                     "the first that depends on others",
-                    dependent_equalities(p.blocks, p.compliance, p.rows()).first);
+                    p.rows() > mostProducts
+                        ? -1
+                        : dependent_equalities(p.blocks, p.products(p.rows()), p.rows()).first);
     }
     if (has_solved(solver))
       warn_of_dependent(root, m, notes, where, [&](int end) {
-        return dependent_equalities(m.problem.blocks, m.problem.compliance, end);
+        return dependent_equalities(m.problem.blocks, m.problem.products(end), end);
       });
     else if constexpr (SaysUnsolved<Solver>)
       notes.warn(
@@ -320,7 +370,9 @@ struct ConstrainedStep {
                 " m",
                 RowNames<RootScope>{root, m}.unsolved(
                     furthest_row(p.blocks, p.violation()),
-                    contradicting_equality(p.blocks, p.compliance, p.freeViolation)));
+                    p.rows() > mostProducts
+                        ? Contradiction{}
+                        : contradicting_equality(p.blocks, p.products(p.rows()), p.freeViolation)));
   }
   // constraints keep their multipliers
   void giveBack(ConstrainedMotion& m) const {
@@ -423,7 +475,7 @@ void ConstrainedStep<RootScope>::integrate(ConstrainedMotion& m, bool velocityFi
 }
 
 template <class RootScope>
-void ConstrainedStep<RootScope>::findCompliance(ConstrainedMotion& m) const {
+void ConstrainedStep<RootScope>::findCompliance(ConstrainedMotion& m, bool built) const {
   [[maybe_unused]] const auto span = root.span(Phase::constraint);
   ConstraintProblem& problem = m.problem;
   const int n = m.rows.count();
@@ -431,20 +483,32 @@ void ConstrainedStep<RootScope>::findCompliance(ConstrainedMotion& m) const {
   problem.timeStep = dt;
   problem.freeViolation = Eigen::Map<Eigen::VectorXd const>(m.rows.violation.data(), n);
   problem.multipliers = Eigen::Map<Eigen::VectorXd const>(m.rows.multipliers.data(), n);
-  problem.compliance.setZero(n, n);
-  std::size_t number = 0;
-  for_each_integrator(root, [&](auto& ode, auto const& scope) {
-    ConstrainedSystem& system = m.systems[number++];
-    if (system.rows.empty()) return;
-    const ConstraintResponse<std::decay_t<decltype(scope)>> response(scope, ode, time, dt, system);
+  problem.built = built;
+  if (built) problem.compliance.setZero(n, n);
+  auto forEachResponse = [&](auto&& f) {
+    std::size_t number = 0;
+    for_each_integrator(root, [&](auto& ode, auto const& scope) {
+      ConstrainedSystem& system = m.systems[number++];
+      if (system.rows.empty()) return;
+      using Response = ConstraintResponse<std::decay_t<decltype(scope)>>;
+      f(ode, Response(scope, ode, time, dt, system), SystemCompliance{system.rows, problem});
+    });
+  };
+  forEachResponse([&](auto& ode, auto const& response, SystemCompliance const& to) {
     response.prepareSystem(ode);
-    response.addCompliance(
-        m.factored, m.motionRows.jacobian, m.rows.ofVelocity, {system.rows, problem.compliance});
+    if (built)
+      response.addCompliance(m.factored, m.motionRows.jacobian, m.rows.ofVelocity, to);
+    else
+      response.findAnswers(m.rows.ofVelocity);
   });
+  if (!built) {
+    joinAnswers(m);
+    forEachResponse([](auto&, auto const& response, SystemCompliance const& to) { response.regularize(to); });
+  }
   checkFinite(m);
   ContactRows<RootScope>::leaveOutFixed(m);
   checkCompliance(m);
-  problem.compliance.diagonal() += Eigen::Map<Eigen::VectorXd const>(m.rows.compliance.data(), n);
+  for (int i = 0; i < n; ++i) problem.add(i, i, m.rows.compliance[std::size_t(i)]);
 }
 
 }  // namespace sinew

@@ -57,19 +57,57 @@ struct ConstraintResponse {
 
   /// Adds J A^-1 J' times what a multiplier is and what of it is reached.
   void addCompliance(FactoredRows& factored, JacobianRows& room, bool ofVelocity, SystemCompliance to) const {
-    forEachCorrection([&](auto& c, auto const& at) {
-      using C = std::decay_t<decltype(c)>;
-      if constexpr (CorrectsState<C> && BeginsCorrections<C>)
-        c.beginCorrections(at.template state<typename C::DataTypes>().position);
-    });
-    const SystemCompliance reached = to.times(ofVelocity ? how.factors.velocity : how.factors.position);
+    beginCorrections();
+    const SystemCompliance reached = to.times(reachedBy(ofVelocity));
     if (!addByFactor(factored, reached)) {
       if (answersByPoint())
         addByPoints(room, reached);
       else
-        addByRows(reached);
+        forEachResponse([&](int k) {
+          for (int l = k; l < system.jacobian.rows(); ++l)
+            reached(k, l, system.jacobian.times(l, system.motion));
+        });
     }
     regularize(to);
+  }
+
+  /// The rows of (A^-1 J')' times the same, for a W that is not built: system.answers.
+  void findAnswers(bool ofVelocity) const {
+    beginCorrections();
+    if (answersByPoint()) {
+      answerByPoints(system.answers);
+    } else {
+      system.answers.clear();
+      forEachResponse([&](int) {
+        for (int i = 0; i < system.dofs(); ++i)
+          if (system.motion[i] != 0) system.answers.add(i, system.motion[i]);
+        system.answers.endRow();
+      });
+    }
+    for (double& value : system.answers.values) value *= reachedBy(ofVelocity);
+  }
+  /// What corrections add to the compliance of each of the rows, as their fields say.
+  void regularize(SystemCompliance to) const {
+    forEachCorrection([&](auto& c, auto const& at) {
+      using C = std::decay_t<decltype(c)>;
+      if constexpr (Regularizes<C>) {
+        if (!(c.regularizationTerm > 0)) return;
+        for (int k = 0; k < system.jacobian.rows(); ++k) {
+          bool acts = false;
+          auto look = [&](auto& s) {
+            const int end = s.dofOffset + int(s.size()) * std::decay_t<decltype(s)>::DataTypes::size;
+            system.jacobian.forEachInRow(k, [&](int dof, double value) {
+              acts = acts || (value != 0 && dof >= s.dofOffset && dof < end);
+            });
+          };
+          if constexpr (CorrectsState<C>)
+            look(at.template state<typename C::DataTypes>());
+          else
+            MechanicalOperations<std::decay_t<decltype(at)>>(at).forEachIndependent(look);
+          if (acts) to(k, k, how.factors.impulse * c.regularizationTerm);
+        }
+      }
+    });
   }
 
   /// motion = A^-1 (impulse J' f) of the system for its force; the vector of states how.motion() has it too.
@@ -107,6 +145,14 @@ struct ConstraintResponse {
   }
 
  private:
+  double reachedBy(bool ofVelocity) const { return ofVelocity ? how.factors.velocity : how.factors.position; }
+  void beginCorrections() const {
+    forEachCorrection([&](auto& c, auto const& at) {
+      using C = std::decay_t<decltype(c)>;
+      if constexpr (CorrectsState<C> && BeginsCorrections<C>)
+        c.beginCorrections(at.template state<typename C::DataTypes>().position);
+    });
+  }
   template <class F>
   void forEachCorrection(F&& f) const {
     traverse(scope, on<role::ConstraintCorrection>([&f](auto& c, auto const& at) { f(c, at); }));
@@ -159,12 +205,14 @@ struct ConstraintResponse {
       });
     return found;
   }
-  void addByRows(SystemCompliance const& add) const {
+  // f(row) for each, with what it does as a force in system.motion
+  template <class F>
+  void forEachResponse(F&& f) const {
     for (int k = 0; k < system.jacobian.rows(); ++k) {
       system.force.setZero();
       system.jacobian.addTransposed(k, 1, system.force);
       respond();
-      for (int l = k; l < system.jacobian.rows(); ++l) add(k, l, system.jacobian.times(l, system.motion));
+      f(k);
     }
   }
 
@@ -175,19 +223,24 @@ struct ConstraintResponse {
       return isCorrected(s) || byMasses(operations);
     });
   }
-  // each row moves its own points only: J C of all rows, then its products with J
-  void addByPoints(JacobianRows& room, SystemCompliance const& add) const {
-    findAnswers();
+  // each row moves its own points only
+  void answerByPoints(JacobianRows& room) const {
+    findPointAnswers();
     room.clear();
     room.reserve(system.jacobian.rows(), 6 * int(system.jacobian.values.size()));
     for (int k = 0; k < system.jacobian.rows(); ++k) {
       system.jacobian.forEachInRow(k, [&](int dof, double value) {
         const int begin = system.pointBegin[std::size_t(dof)], size = system.pointSize[std::size_t(dof)];
         for (int i = 0; i < size; ++i)
-          if (const double u = system.answers(begin + i, dof - begin); u != 0) room.add(begin + i, value * u);
+          if (const double u = system.pointAnswers(begin + i, dof - begin); u != 0)
+            room.add(begin + i, value * u);
       });
       room.endRow();
     }
+  }
+  // J C of all rows, then its products with J
+  void addByPoints(JacobianRows& room, SystemCompliance const& add) const {
+    answerByPoints(room);
     system.motion.setZero();
     for (int k = 0; k < room.rows(); ++k) {
       room.addTransposed(k, 1, system.motion);
@@ -197,7 +250,7 @@ struct ConstraintResponse {
     }
   }
   // what unit forces do that act on all points at the same time, one direction after the other
-  void findAnswers() const {
+  void findPointAnswers() const {
     Operations operations(scope, time, dt);
     operations.derivsTaken = how.derivs;
     MultiVecDeriv<Operations> b(operations), u(operations);
@@ -212,7 +265,7 @@ struct ConstraintResponse {
         system.pointSize[std::size_t(dof)] = size;
       }
     });
-    system.answers.resize(system.motion.size(), directions);
+    system.pointAnswers.resize(system.motion.size(), directions);
     for (int c = 0; c < directions; ++c) {
       operations.forEachIndependent([&](auto& s) {
         using D = typename std::decay_t<decltype(s)>::DataTypes;
@@ -228,7 +281,7 @@ struct ConstraintResponse {
       u.teq(how.factors.impulse);
       respondByCorrections(u.id, b.id);
       operations.gather(system.motion, u.id);
-      system.answers.col(c) = system.motion;
+      system.pointAnswers.col(c) = system.motion;
     }
   }
 
@@ -290,30 +343,6 @@ struct ConstraintResponse {
             return VectorOperations<D>::teq(s[u], typename D::Real(how.factors.impulse));
           }
         c.addCorrection(s[u], s[f], s.position, how.factors);
-      }
-    });
-  }
-
-  // rows that act on the states of a correction
-  void regularize(SystemCompliance const& add) const {
-    forEachCorrection([&](auto& c, auto const& at) {
-      using C = std::decay_t<decltype(c)>;
-      if constexpr (Regularizes<C>) {
-        if (!(c.regularizationTerm > 0)) return;
-        for (int k = 0; k < system.jacobian.rows(); ++k) {
-          bool acts = false;
-          auto look = [&](auto& s) {
-            const int end = s.dofOffset + int(s.size()) * std::decay_t<decltype(s)>::DataTypes::size;
-            system.jacobian.forEachInRow(k, [&](int dof, double value) {
-              acts = acts || (value != 0 && dof >= s.dofOffset && dof < end);
-            });
-          };
-          if constexpr (CorrectsState<C>)
-            look(at.template state<typename C::DataTypes>());
-          else
-            MechanicalOperations<std::decay_t<decltype(at)>>(at).forEachIndependent(look);
-          if (acts) add(k, k, how.factors.impulse * c.regularizationTerm);
-        }
       }
     });
   }

@@ -8,6 +8,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include <algorithm>
 #include <type_traits>
 #include <utility>
 
@@ -70,38 +71,37 @@ struct ContactRows {
   /// some directions only the others are left.
   static void leaveOutFixed(ConstrainedMotion& m) {
     ConstraintProblem& p = m.problem;
-    auto diagonal = p.compliance.diagonal();
-    const double most = diagonal.maxCoeff();
+    double most = 0;
+    for (ConstraintBlock const& b : p.blocks) most = std::max(most, p.own(b).diagonal().maxCoeff());
     const double negligible = 1e-24 * most;  // that of rounding, where what moves is the same on both sides
     for (ConstraintBlock const& b : p.blocks) {
       if (b.first < m.contactRows) continue;
-      const double largest = diagonal.segment(b.first, b.rows).maxCoeff();
+      const BlockVector diagonal = p.own(b).diagonal();
+      const double largest = diagonal.maxCoeff();
       if (b.kind == ConstraintBlock::Kind::equality && largest > negligible) {
-        fillRank(p, b.first);
+        fillRank(p, b);
         continue;
       }
-      for (int i = b.first; i < b.first + b.rows; ++i) {
+      for (int i = 0; i < b.rows; ++i) {
         if (diagonal[i] > negligible) continue;
-        p.compliance.row(i).setZero();
-        p.compliance.col(i).setZero();
-        p.compliance(i, i) = largest > negligible ? largest : most > 0 ? most : 1;
-        p.freeViolation[i] = 0;
-        p.multipliers[i] = 0;
+        p.leaveOut(b, b.first + i, largest > negligible ? largest : most > 0 ? most : 1);
+        p.freeViolation[b.first + i] = 0;
+        p.multipliers[b.first + i] = 0;
       }
     }
   }
 
  private:
   // an equality in all three directions, of which some cannot move
-  static void fillRank(ConstraintProblem& p, int first) {
-    auto block = p.compliance.block<3, 3>(first, first);
-    auto d = p.freeViolation.segment<3>(first);
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solved(Eigen::Matrix3d{block});
+  static void fillRank(ConstraintProblem& p, ConstraintBlock const& b) {
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solved(Eigen::Matrix3d{p.own(b)});
     const Eigen::Vector3d values = solved.eigenvalues();
-    for (int i = 0; i < 3; ++i) {
-      if (values[i] > 1e-12 * values[2]) continue;
-      const Eigen::Vector3d v = solved.eigenvectors().col(i);
-      block += (values[2] - values[i]) * v * v.transpose();
+    auto d = p.freeViolation.segment<3>(b.first);
+    for (int k = 0; k < 3; ++k) {
+      if (values[k] > 1e-12 * values[2]) continue;
+      const Eigen::Vector3d v = solved.eigenvectors().col(k);
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) p.add(b.first + i, b.first + j, (values[2] - values[k]) * v[i] * v[j]);
       d -= v.dot(d) * v;
     }
   }
