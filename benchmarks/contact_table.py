@@ -19,8 +19,9 @@ WORKLOADS = [
     ("two livers, 6,000 tetrahedra each", ("bodies", "livers", 6000), 20, CONVEX | {"sweeps": (1e-6,)}, False),
     ("stack of five soft blocks", ("bodies", "stack", 5), 20, CONVEX | {"sweeps": (1e-6,), "nncg": (1e-6,)}, False),
     ("pile of 100 boxes", ("pile", 100), 20, {"convex": TOLERANCES, "bullet": (10, 100, 1000)}, False),
-    ("pile of 100 boxes", ("pile", 100), 5, {"sweeps": (1e-6,)}, False),
+    ("pile of 100 boxes", ("pile", 100), 5, {"sweeps": (1e-6,), "unbuilt": (1e-6,)}, False),
     ("pile of 1,000 boxes", ("pile", 1000), 10, {"convex": TOLERANCES, "bullet": (10, 100, 1000)}, False),
+    ("pile of 1,000 boxes", ("pile", 1000), 3, {"unbuilt": (1e-6,)}, False),
     ("pile of 10,000 boxes", ("pile", 10000), 5, {"convex": TOLERANCES[:2], "bullet": (10, 100)}, True),
 ]
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // A heap of rigid boxes, its contacts solved by multipliers, or by Bullet:
-//   contact_pile BOXES STEPS convex|sweeps [TOLERANCE ...]
+//   contact_pile BOXES STEPS convex|sweeps|unbuilt [TOLERANCE ...]
 //   contact_pile BOXES STEPS bullet [ITERATIONS ...]
 // Bullet lets loose layers of boxes fall; what lies there is where all begin. A line for each tolerance or
 // number of iterations, by measure() in contact.hpp.
@@ -114,9 +114,15 @@ int main(int argc, char** argv) try {
     sinew_pile(heap(whole_number(argv[1])), whole_number(argv[2]), ConvexConstraintSolver{}, numbers);
   else if (by == "sweeps")
     sinew_pile(heap(whole_number(argv[1])), whole_number(argv[2]), gauss_seidel(), numbers);
+  else if (by == "unbuilt")
+    sinew_pile(
+        heap(whole_number(argv[1])),
+        whole_number(argv[2]),
+        UnbuiltGaussSeidelConstraintSolver{.maxIterations = 20000, .tolerance = 1e-6, .allVerified = true},
+        numbers);
   else {
     std::fprintf(stderr,
-                 "usage: contact_pile BOXES STEPS convex|sweeps [TOLERANCE ...]\n"
+                 "usage: contact_pile BOXES STEPS convex|sweeps|unbuilt [TOLERANCE ...]\n"
                  "       contact_pile BOXES STEPS bullet [ITERATIONS ...]\n");
     return 2;
   }

@@ -112,6 +112,23 @@ TEST_CASE("UnbuiltGaussSeidelConstraintSolver: scenes move as with a compliance 
   }
 }
 
+TEST_CASE("LCPConstraintSolver: build_lcp changes nothing of the motion") {
+  const LinearSolverConstraintCorrection ofChain{};
+  const UncoupledConstraintCorrection<Vec3d> ofBall{.defaultCompliance = 1 / 0.7};
+  LCPConstraintSolver solver = exact<LCPConstraintSolver>();
+  auto built = scene_by(solver, ofChain, ofBall);
+  solver.build_lcp = false;
+  auto unbuilt = scene_by(solver, ofChain, ofBall);
+  built.init();
+  unbuilt.init();
+  for (int i = 0; i < 40; ++i) {
+    built.animate(dt);
+    unbuilt.animate(dt);
+  }
+  const auto a = numbers_of(built), b = numbers_of(unbuilt);
+  for (std::size_t i = 0; i < a.size(); ++i) CHECK(a[i] == Approx(b[i]).margin(1e-9));
+}
+
 TEST_CASE("constraint solvers give out the multipliers of constraints and contacts in their order") {
   auto look = []<class Solver>(std::type_identity<Solver>) {
     INFO(Solver::className);

@@ -19,7 +19,7 @@ namespace sinew {
 
 /// The constraints of a step: d = W f + d_free with the compliance W = J A^-1 J', which is symmetric and
 /// positive semidefinite, and a condition between d and f for each block. W is a matrix of all rows, or its
-/// factors; a solver that asks for these (TakesUnbuilt) reads it by own(), violation() and moved() alone.
+/// factors; a solver that asks for these (takesUnbuilt()) reads it by own(), violation() and moved() alone.
 struct ConstraintProblem {
   using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 

@@ -20,7 +20,7 @@ struct LCPConstraintSolver {
   bool initial_guess = true;
   double minW = 0, maxF = 0;
   double regularizationTerm = 0;
-  bool lemke = false, stopsUnsolved = false;
+  bool build_lcp = true, lemke = false, stopsUnsolved = false;
   bool computeConstraintForces = false;
 
   static constexpr auto fields() {
@@ -51,6 +51,11 @@ struct LCPConstraintSolver {
               "m/(N s)",
               "displacement for an impulse of 1 N s that is added to the compliance of each equation",
               range::nonNegative),
+        field("build_lcp",
+              &S::build_lcp,
+              "",
+              "form the compliance of all contacts; without it sweeps take its factors, as those of "
+              "UnbuiltGaussSeidelConstraintSolver do"),
         field("lemke",
               &S::lemke,
               "",
@@ -63,6 +68,8 @@ struct LCPConstraintSolver {
             "solution; else a warning, and the step goes on with what they have found"),
         asks_for_constraint_forces<S>());
   }
+
+  bool takesUnbuilt() const { return !build_lcp && !lemke; }
 
   static constexpr auto outputs() { return constraint_forces_output<LCPConstraintSolver>(); }
   std::vector<double> constraintForces{};

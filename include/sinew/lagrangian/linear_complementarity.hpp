@@ -160,7 +160,7 @@ SINEW_ONCE SweepResult ComplementaritySweeps::solve(ConstraintProblem& problem,
   for (std::size_t k = 0; k < problem.blocks.size(); ++k) {
     ConstraintBlock const& b = problem.blocks[k];
     rubs = rubs || (b.kind == ConstraintBlock::Kind::friction && b.friction > 0);
-    BlockMatrix const w = problem.compliance.block(b.first, b.first, b.rows, b.rows);
+    BlockMatrix const w = problem.own(b);
     const bool equal = b.kind == ConstraintBlock::Kind::equality;
     ignored_[k] = !equal && settings.minW > 0 && std::abs(w(0, 0)) <= settings.minW;
     if (ignored_[k]) {
@@ -172,6 +172,7 @@ SINEW_ONCE SweepResult ComplementaritySweeps::solve(ConstraintProblem& problem,
     scale += size_of_block(b, w, problem.freeViolation.segment(b.first, b.rows), f.segment(b.first, b.rows));
   }
   if (problem.blocks.empty()) return result;
+  problem.multipliersSet();
 
   const double limit = settings.tolerance * (rubs ? double(problem.blocks.size() + 1) : 1.);
   result.converged = false;

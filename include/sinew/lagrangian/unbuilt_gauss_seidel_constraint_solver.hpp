@@ -13,7 +13,6 @@ namespace sinew {
 struct UnbuiltGaussSeidelConstraintSolver {
   using Role = role::ConstraintSolver;
   static constexpr std::string_view className = "UnbuiltGaussSeidelConstraintSolver";
-  static constexpr bool takesUnbuilt = true;
 
   int maxIterations = 1000;
   double tolerance = 0.001;
@@ -26,6 +25,8 @@ struct UnbuiltGaussSeidelConstraintSolver {
     using S = UnbuiltGaussSeidelConstraintSolver;
     return sweeping_fields<S>(relaxation_field<S>());
   }
+
+  static constexpr bool takesUnbuilt() { return true; }
 
   static constexpr auto outputs() { return constraint_forces_output<UnbuiltGaussSeidelConstraintSolver>(); }
   std::vector<double> constraintForces{};

@@ -69,7 +69,7 @@ inline constexpr std::array withoutEffectOf = std::to_array<AttributeOf>({
     {"EdgePressureForceField", "arrowSizeCoef"}, {"GenerateRigidMass", "polygons"},
     {"GridMeshCreator", "filename"}, {"GridMeshCreator", "hexahedra"}, {"GridMeshCreator", "polygons"},
     {"GridMeshCreator", "polylines"}, {"GridMeshCreator", "prisms"}, {"GridMeshCreator", "pyramids"},
-    {"GridMeshCreator", "tetrahedra"}, {"ImprovedJacobiConstraintSolver", "sor"}, {"LCPConstraintSolver", "build_lcp"}, {"MechanicalObject", "force"}, {"MeshGmshLoader", "polygons"},
+    {"GridMeshCreator", "tetrahedra"}, {"ImprovedJacobiConstraintSolver", "sor"}, {"MechanicalObject", "force"}, {"MeshGmshLoader", "polygons"},
     {"MeshGmshLoader", "polylines"}, {"MeshGmshLoader", "prisms"}, {"MeshGmshLoader", "pyramids"},
     {"MeshOBJLoader", "polygons"}, {"MeshOBJLoader", "polylines"}, {"MeshOBJLoader", "prisms"},
     {"MeshOBJLoader", "pyramids"}, {"MeshSTLLoader", "polygons"}, {"MeshSTLLoader", "polylines"},

@@ -332,7 +332,7 @@ struct ConstrainedStep {
                  m.hasMotion = true;
                } else {
                  ContactRows<RootScope>{root, dt}.putViolations(m);
-                 findCompliance(m, !TakesUnbuilt<std::decay_t<decltype(solver)>>);
+                 findCompliance(m, !takes_unbuilt(solver));
                  solveProblem(m, solver, scope.path());
                }
              }));

@@ -33,9 +33,18 @@ template <class C>
 concept SolvesConstraintProblem =
     requires(C c, ConstraintProblem& problem, std::string_view where) { c.solve(problem, where); };
 
-/// The compliance of its problems need not be a matrix (ConstraintProblem::built).
+/// takesUnbuilt() says whether the compliance of its problems need not be a matrix (ConstraintProblem::built).
 template <class C>
-concept TakesUnbuilt = named::takesUnbuilt<C> && C::takesUnbuilt;
+concept MayTakeUnbuilt = requires(C const& c) {
+  { c.takesUnbuilt() } -> std::same_as<bool>;
+};
+template <class C>
+bool takes_unbuilt([[maybe_unused]] C const& solver) {
+  if constexpr (MayTakeUnbuilt<C>)
+    return solver.takesUnbuilt();
+  else
+    return false;
+}
 
 /// It needs no compliance matrix, and finds the motion of the bodies with the multipliers (scene/motion_problem.hpp):
 /// solveMotion(multiply, rows, where) with the product multiply(p, q), q = S p, and `preconditioner.system`, the diagonal
