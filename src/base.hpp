@@ -24,6 +24,7 @@
 #include <sinew/io/streamed_file.hpp>
 #include <sinew/io/text_mesh_file.hpp>
 #include <sinew/io/text_reader.hpp>
+#include <sinew/io/topological_changes.hpp>
 #include <sinew/io/write_obj.hpp>
 #include <sinew/linalg/minimum_degree.hpp>
 #include <sinew/topology/adjacency.hpp>

@@ -1001,6 +1001,28 @@ constexpr auto classExamples = std::to_array<ClassExample>({
                                   -0.2 -0.1 0.1  0.2 -0.1 0.1  0.2 0.1 0.1  -0.2 0.1 0.1"/>
   </Node>
 </Node>)"},
+    {"TopologicalChangeProcessor", R"(
+<Node name="sheet" gravity="0 0 -9.81">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <MeshTopology triangles="0 1 3  0 3 2  2 3 5  2 5 4"/>
+  <MechanicalObject position="0 0 0  1 0 0  0 1 0  1 1 0  0 2 0  1 2 0"/>
+  <UniformMass totalMass="0.6"/>
+  <TriangleFEMForceField youngModulus="1000" thickness="0.01"/>
+  <FixedConstraint indices="0 1"/>
+  <TopologicalChangeProcessor useDataInputs="true" timeToRemove="0.5" trianglesToRemove="2 3"/>
+</Node>)"},
+    {"TopologyBoundingTrasher", R"(
+<Node name="sheet" gravity="0 0 -9.81">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <MeshTopology triangles="0 1 3  0 3 2  2 3 5  2 5 4"/>
+  <MechanicalObject position="0 0 0  1 0 0  0 1 0  1 1 0  0 2 0  1 2 0"/>
+  <UniformMass totalMass="0.6"/>
+  <TriangleFEMForceField youngModulus="1000" thickness="0.01"/>
+  <FixedConstraint indices="0 1"/>
+  <TopologyBoundingTrasher box="-1 -1 -0.5 2 3 1"/>
+</Node>)"},
     {"CarvingManager", R"(
 <Node name="root" gravity="0 0 -9.81">
   <DefaultPipeline/>

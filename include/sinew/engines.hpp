@@ -24,3 +24,5 @@
 #include <sinew/topology/sphere_grid_topology.hpp>
 #include <sinew/topology/surface_sampling.hpp>
 #include <sinew/topology/tetrahedron_topology.hpp>
+#include <sinew/topology/topological_change_processor.hpp>
+#include <sinew/topology/topology_bounding_trasher.hpp>

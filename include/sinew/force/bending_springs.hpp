@@ -89,7 +89,7 @@ struct BendingSprings {
       join(hinge.next[0][0], hinge.next[1][0]);
       if (!Kind::triangles) join(hinge.next[0][1], hinge.next[1][1]);
     }
-    if (ends.empty())
+    if (ends.empty() && driver.size() == 0)  // a surface of which elements have gone may have lost all
       throw Error(where,
                   text("no two ",
                        Kind::triangles ? "triangles" : "quads",

@@ -119,7 +119,7 @@ struct FastTriangularBendingSprings {
       rest.push_back({{Real(b / (a + b)), Real(a / (a + b)), Real(-d / (c + d)), Real(-c / (c + d))},
                       Real(2. / 3 * (ha + hb) / (ha * ha * hb * hb) * length * bendingStiffness)});
     }
-    if (points.empty())
+    if (points.empty() && driver.size() == 0)  // a surface of which elements have gone may have lost all
       throw Error(where,
                   "no two triangles share an edge; give the node a topology with some that do, and that are "
                   "larger than minDistValidity");

@@ -254,6 +254,10 @@ class ElementRemoval {
                      ofState(scope.stateAddress()),
                      {},
                      ofTopology(scope.topologyAddress())});
+    } else if constexpr (HasRole<C, role::TopologicalChange>) {
+      if constexpr (FollowsElements<C>)
+        if (TopologyChange const& change = ofTopology(scope.topologyAddress()); change.changes())
+          c.followElements(change);
     } else if constexpr (HasRole<C, role::ContactManager>) {
       std::vector<Renumbering const*> surfaces;
       traverse(scope, on<role::CollisionModel>([&](auto&, auto const& s) {

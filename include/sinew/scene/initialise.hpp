@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/scene/carving.hpp>
+#include <sinew/scene/topological_changes.hpp>
 #include <sinew/scene/changing_points.hpp>
 #include <sinew/scene/collision.hpp>
 #include <sinew/scene/fluid_boundaries.hpp>
@@ -238,6 +239,8 @@ void Initialisation<RootScope>::run() {
   Collision<RootScope>{root_}.init(bool(again_));
   if constexpr (holds<typename RootScope::NodeType, role::Carving>())
     if (again_.touched.empty()) Carving<RootScope>{root_}.check();
+  if constexpr (holds<typename RootScope::NodeType, role::TopologicalChange>())
+    if (again_.touched.empty()) TopologicalChanges<RootScope>{root_}.prepare();
   FluidBoundaries<RootScope>{root_}.init();
   initSolvers();
   root_.raise();

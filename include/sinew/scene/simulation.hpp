@@ -270,6 +270,8 @@ void Simulation<Root>::animate(double dt) {
     const auto scope = rootScope();
     [[maybe_unused]] const auto span = scope.span(Phase::step);
     const Step<RootScope> step{scope, step_ + 1, time_, dt, warnings_};
+    if constexpr (holds<Root, role::TopologicalChange>())
+      step.changeTopology([&](auto const& path, auto const& elements) { removeElements(path, elements); });
     step.begin();
     if constexpr (collides<RootScope>) step.detectContacts();
     if constexpr (collides<RootScope> && holds<Root, role::Carving>())

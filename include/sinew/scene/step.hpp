@@ -10,6 +10,7 @@
 #include <sinew/scene/mechanical_operations.hpp>
 #include <sinew/scene/overlap_warnings.hpp>
 #include <sinew/scene/solvers.hpp>
+#include <sinew/scene/topological_changes.hpp>
 
 #include <string>
 #include <string_view>
@@ -56,6 +57,19 @@ struct Step {
   /// Finds the contacts of the step; a matrix in which other points are joined is formed anew. It warns of
   /// bodies that start in each other, or come there before a contact is seen.
   void detectContacts() const;
+
+  /// Removes elements whose time has come, or that are where none may be, by remove(path, elements).
+  template <class Remove>
+  void changeTopology(Remove&& remove) const {
+    TopologicalChanges<RootScope>{root}.make(time, notes(), [&](auto const& path, auto const& elements) {
+      try {
+        remove(path, elements);
+      } catch (Error const& error) {
+        throw Error(text("the topological change at step ", number - 1, " (time ", time, " s)"),
+                    text("elements of '", path, "' cannot be removed: ", error.what()));
+      }
+    });
+  }
 
   /// Removes what tools touch, by remove(path, elements); says whether something went.
   template <class Remove>

@@ -31,8 +31,8 @@ bool contains(std::span<Index const> outer, std::span<Index const> inner);
 }  // namespace detail
 
 /// What goes with elements of topologies[first]:
-///   - an element of a lower dimension that lies in one that goes, and in none that stays: faces and edges of
-///     what is removed
+///   - an element that lies in a larger one that goes, and in none that stays: faces and edges of what is
+///     removed, and the simplices into which a quad or a hexahedron is split
 ///   - a point that has no element left of the highest dimension of those that it had: one of a volume does
 ///     not hang on by a wire
 ///   - an element over such a point
@@ -133,12 +133,12 @@ SINEW_ONCE RemovalPlan plan_element_removal(std::size_t points, std::vector<Topo
       }
   });
 
-  for (const int dimension : {2, 1})
+  for (int kind = element_kinds - 1; kind-- > 0;)
     forEachElement([&](ElementOfBody const& e) {
-      if (detail::dimension_of_kind(e.kind) != dimension || !touched[std::size_t(e.points[0])]) return;
+      if (e.kind != kind || !touched[std::size_t(e.points[0])]) return;
       bool inGone = false, inKept = false;
       for (ElementOfBody const& other : around[std::size_t(place[std::size_t(e.points[0])])])
-        if (detail::dimension_of_kind(other.kind) > dimension && detail::contains(other.points, e.points))
+        if (other.kind > kind && detail::contains(other.points, e.points))
           (stays(other) ? inKept : inGone) = true;
       if (inGone && !inKept) plan.elements[e.topology][std::size_t(e.kind)][e.number] = false;
     });
