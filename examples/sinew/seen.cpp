@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "seen.hpp"
 
+#ifdef SINEW_VIEW
+#include <sinew/view/load_materials.hpp>
+#endif
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -117,6 +121,9 @@ ViewSettings seen_settings(SeenOptions const& options, Scene& scene) {
     if (!own.warnings.empty()) refuse("--camera: it stands in the point that it looks at");
     settings.camera = own.camera;
   }
+#ifdef SINEW_VIEW
+  load_materials(scene.simulation, seen, settings.warnings);
+#endif
   return settings;
 }
 

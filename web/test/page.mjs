@@ -210,7 +210,51 @@ async function opens(page) {
   keep('profile.png', await page.picture());
   await page.evaluate(`document.querySelector('#profile summary').click()`);
   await page.until('!sinew.state.profiling && !sinew.state.profile');
+  await plots(page);
   check(page.messages.filter((m) => !/422/.test(m)).length === 0, `the console is empty: ${page.messages.join('\n')}`);
+}
+
+// what is measured of the ball, which falls freely: its kinetic energy is m/2 (g t)^2, of 1 kg as it is at the end of a step
+async function plots(page) {
+  await page.key(' ');
+  await page.until('!sinew.state.playing');
+  await page.evaluate(`document.querySelector('#plots summary').click()`);
+  await page.key('r');
+  await page.until('sinew.state.step === 0');
+  for (let step = 0; step < 10; ++step) await page.key('n');
+  await page.until('sinew.measures.times.length === 10', 20);
+  const energies = () => page.evaluate(`(({ times, series }) => [times, series.find((s) => s.name === 'kinetic energy').values])(sinew.measures)`);
+  const falls = ([times, values]) => times.every((t, i) => Math.abs(values[i] - (9.81 * t) ** 2 / 2) < 1e-9 * values.at(-1));
+  check(falls(await energies()), 'the energy is that of a ball that falls');
+  // what comes later is put behind it; a field begins all anew
+  for (let step = 0; step < 5; ++step) await page.key('n');
+  await page.until('sinew.measures.times.length === 15', 20);
+  check(falls(await energies()), 'and stays that');
+  await page.evaluate(`[...document.querySelectorAll('#tree .component')].find((item) => /UniformMass/.test(item.title)).click()`);
+  await page.until(`[...document.getElementById('plotField').options].some((option) => option.value === 'totalMass')`);
+  await page.evaluate(`(() => { const s = document.getElementById('plotField'); s.value = 'totalMass'; s.dispatchEvent(new Event('change')); })()`);
+  for (let step = 0; step < 3; ++step) await page.key('n');
+  await page.until(`sinew.measures.series.length === 4 && sinew.measures.times.length === 3`, 20);
+  check(await page.evaluate(`sinew.measures.series[3].unit === 'kg' && sinew.measures.series[3].values.every((m) => m === 1)`), 'a field is measured');
+  check((await page.evaluate(`[...document.querySelectorAll('#plotList polyline')].map((line) => line.getAttribute('points').split(' ').length)`)).join() === '3,3,3,3', 'all are drawn');
+  const saved = await page.evaluate(`(async () => {
+    const kept = [];
+    const { createObjectURL } = URL;
+    URL.createObjectURL = (blob) => (kept.push(blob.text()), createObjectURL(blob));
+    document.getElementById('plotCsv').click();
+    document.getElementById('plotSvg').click();
+    URL.createObjectURL = createObjectURL;
+    return Promise.all(kept);
+  })()`);
+  const lines = saved[0].trim().split('\n');
+  check(lines.length === 4 && lines[0].startsWith('time [s],time of a step [ms],kinetic energy [J],') && Math.abs(Number(lines[1].split(',')[0]) - 0.32) < 1e-12, `they are a table: ${saved[0]}`);
+  check(saved[1].startsWith('<svg') && saved[1].split('<polyline').length - 1 === 4, 'and a picture');
+  keep('plots.png', await page.picture());
+  keep('plots.svg', saved[1]);
+  // behind a reset, time begins anew
+  await page.key('r');
+  await page.until('sinew.measures.times.length === 0', 20);
+  await page.evaluate(`document.querySelector('#plots summary').click()`);
 }
 
 async function served() {
