@@ -210,6 +210,24 @@ TEST_CASE("what is missing or wrong of looks is a warning, and the rest is seen"
   }
   CHECK_THAT(warnings_of("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3", folder.write("four.png", png())),
              Contains("a.scn:3:5: /root has no texcoords for its texture"));
+  // files elsewhere than in the folders of a scene are not read
+  folder.write("m.mtl", "newmtl skin\nmap_Kd ../sinew_textures/four.png\n");
+  auto sim = shown(io::read_obj_file(folder.write("f.obj", "mtllib m.mtl\n" + face)));
+  sim.init();
+  for (std::string const& allowed :
+       {folder.path.string(), folder.path.string() + "/", folder / "below", folder / "f"}) {
+    view::SeenSettings seen = even();
+    std::vector<std::string> warnings;
+    view::load_materials(sim, seen, warnings, {allowed});
+    const bool inside = allowed.find("/sinew_textures/b") == allowed.npos &&
+                        allowed.find("/sinew_textures/f") == allowed.npos;
+    CHECK(warnings.size() == (inside ? 0 : 1));
+    CHECK(seen.materials.size() == (inside ? 1 : 0));
+    if (inside)
+      CHECK(bool(seen.materials.at(0).texture));
+    else
+      CHECK_THAT(warnings.at(0), Contains("this file is elsewhere than those of the scene"));
+  }
   // images of other kinds become PNG
   const std::string bmp(
       "BM\x3a\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\1\0\0\0\1\0\0\0\1\0\x18\0\0\0\0\0\4\0\0\0"

@@ -159,6 +159,9 @@ class GlShaders {
     const Eigen::Matrix4f value = m.cast<float>();
     glUniformMatrix4fv(at(name), 1, GL_FALSE, value.data());
   }
+  void set(char const* name, Eigen::Vector2d const& v) const {
+    glUniform2f(at(name), float(v[0]), float(v[1]));
+  }
   void set(char const* name, Eigen::Vector3d const& v) const {
     const Eigen::Vector3f value = v.cast<float>();
     glUniform3fv(at(name), 1, value.data());

@@ -8,6 +8,8 @@
 #include <sinew/view/seen_settings.hpp>
 
 #include <algorithm>
+#include <filesystem>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <set>
@@ -22,11 +24,18 @@ namespace detail {
 // Files are read once. What is wrong with one is said once, by what needs it.
 class MaterialFiles {
  public:
-  explicit MaterialFiles(std::vector<std::string>& warnings) : warnings_(warnings) {}
+  MaterialFiles(std::vector<std::string>& warnings, std::vector<std::string> const& folders)
+      : warnings_(warnings) {
+    for (std::string const& folder : folders) {
+      const std::filesystem::path whole = std::filesystem::weakly_canonical(folder);
+      folders_.push_back(whole.has_filename() ? whole : whole.parent_path());  // without a slash at its end
+    }
+  }
 
   std::shared_ptr<SeenTexture const> texture(std::string const& path, std::string const& by) {
     const auto [found, isNew] = textures_.try_emplace(path);
     if (isNew) try {
+        check(path);
         found->second = std::make_shared<SeenTexture const>(read_texture(path));
       } catch (Error const& error) {
         warnings_.push_back(text(by, ": the texture ", error.what(), "; it is left out"));
@@ -37,6 +46,7 @@ class MaterialFiles {
   std::vector<SeenMaterial> materials(std::string const& library, std::string const& by) {
     std::vector<SeenMaterial> all;
     try {
+      check(library);
       for (io::Material const& m : io::read_mtl(library)) {
         SeenMaterial material{.library = library,
                               .name = m.name,
@@ -55,16 +65,28 @@ class MaterialFiles {
 
  private:
   std::vector<std::string>& warnings_;
+  std::vector<std::filesystem::path> folders_{};
+
+  void check(std::string const& file) const {
+    if (folders_.empty()) return;
+    const std::filesystem::path whole = std::filesystem::weakly_canonical(file);
+    for (auto const& folder : folders_)
+      if (std::mismatch(folder.begin(), folder.end(), whole.begin(), whole.end()).first == folder.end())
+        return;
+    throw Error(file, "this file is elsewhere than those of the scene; put it beside them");
+  }
   std::map<std::string, std::shared_ptr<SeenTexture const>> textures_{};
 };
 
 }  // namespace detail
 
 /// Reads the textures that settings name, and the materials and textures of those that the visual models of a
-/// simulation name. What is missing or wrong is a warning, and is left out.
+/// simulation name. What is missing or wrong is a warning, and is left out. Where folders are given, no files
+/// are read that are elsewhere than below one of them.
 template <class Simulation>
-void load_materials(Simulation& simulation, SeenSettings& seen, std::vector<std::string>& warnings) {
-  detail::MaterialFiles files(warnings);
+void load_materials(Simulation& simulation, SeenSettings& seen, std::vector<std::string>& warnings,
+                    std::vector<std::string> const& folders = {}) {
+  detail::MaterialFiles files(warnings, folders);
   std::set<std::string> placed;  // paths of what has places in a texture
   std::set<std::string> libraries;
   seen.materials.clear();

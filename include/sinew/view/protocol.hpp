@@ -92,8 +92,8 @@ struct Measures {
 }  // namespace command
 using Command = std::variant<command::Play, command::Step, command::Reset, command::Speed, command::Press,
                              command::Move, command::Release, command::Component, command::SetField,
-                             command::Undo, command::Redo, command::Colour, command::Profile, command::Measure,
-                             command::MeasureField, command::Measures>;
+                             command::Undo, command::Redo, command::Colour, command::Profile,
+                             command::Measure, command::MeasureField, command::Measures>;
 
 /// Commands longer than that [bytes], or nested deeper, are refused.
 inline constexpr std::size_t longestCommand = 16384, deepestCommand = 4;
@@ -157,14 +157,14 @@ void tell(Stage& stage, Command const& said, Answer const& answer) {
 
 /// The elements of what is seen, known by a number; of its points only how many there are. Words of four
 /// bytes, the lowest first: 1 for a topology, its number, three floats upwards, how many bodies; for each
-/// body its kind (SeenBody::Kind, and 4 more where it is hidden), three floats of its colour and one of its opacity,
-/// lengths of path [bytes], points, triangles, quads, edges; its texture, counted from 1, or 0; how many texcoords;
-/// three floats of what is mirrored, and one of its exponent; the path, filled up to a word, the numbers of the points of
-/// each element, and where it has texcoords two floats of each, and their numbers at the corners of each triangle
-/// and quad, -1 for none.
+/// body its kind (SeenBody::Kind, and 4 more where it is hidden), three floats of its colour and one of its
+/// opacity, lengths of path [bytes], points, triangles, quads, edges; its texture, counted from 1, or 0; how
+/// many texcoords; three floats of what is mirrored, and one of its exponent; the path, filled up to a word,
+/// the numbers of the points of each element, and where it has texcoords two floats of each, and their
+/// numbers at the corners of each triangle and quad, -1 for none.
 std::string write_topology(SeenScene const& scene, std::uint32_t number);
-/// The textures of the bodies of a scene, each once, as topologies count them: the words 3 and how many there are;
-/// for each its length [bytes] and a file PNG or JPEG, filled up to a word.
+/// The textures of the bodies of a scene, each once, as topologies count them: the words 3 and how many there
+/// are; for each its length [bytes] and a file PNG or JPEG, filled up to a word.
 std::string write_textures(std::vector<std::shared_ptr<SeenTexture const>> const& textures);
 std::vector<std::shared_ptr<SeenTexture const>> textures_of(SeenScene const& scene);
 /// A moment of it: the words 2, the number of its topology, how many points all bodies have, how many values:
@@ -177,7 +177,7 @@ inline constexpr std::size_t mostPoints = 4'000'000;
 
 struct ReadTopology {
   std::uint32_t number = 0;
-  SeenScene scene{};                   // its points are all 0, and it has no textures
+  SeenScene scene{};                      // its points are all 0, and it has no textures
   std::vector<std::uint32_t> textures{};  // of each body, counted from 1, or 0
 };
 /// The inverse functions; throw Error where bytes are no topology, or no frame of this one.

@@ -4,6 +4,7 @@
 #include <sinew/view/camera.hpp>
 #include <sinew/view/drawn_marks.hpp>
 #include <sinew/view/gl_objects.hpp>
+#include <sinew/view/occlusion.hpp>
 #include <sinew/view/overlay.hpp>
 #include <sinew/view/seen_scene.hpp>
 #include <sinew/view/shaded_mesh.hpp>
@@ -55,6 +56,7 @@ class Renderer {
     up_ = scene.up;
     clip_ = scene.settings.clip;
     shadows_ = scene.settings.shadows;
+    occludes_ = scene.settings.occlusion;
     lights_ = scene.settings.lights;
     if (lights_.size() > mostLights) lights_.resize(mostLights);
     ambient_ = scene.settings.ambient;
@@ -79,6 +81,7 @@ class Renderer {
     glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &target);
     if (clip_) glEnable(GL_CLIP_DISTANCE0);
     if (hasShadow) drawShadow(toLight);
+    if (occludes_) findOcclusion(toView, toClip, width, height);
     glBindFramebuffer(GL_FRAMEBUFFER, GLuint(target));
 
     glViewport(left, 0, width, height);
@@ -91,7 +94,7 @@ class Renderer {
     glBindTexture(GL_TEXTURE_2D, shadow_.depth);
     const std::string words = detail::words_of_lights(
         lights, hasShadow ? std::optional(std::size_t(first - lights.begin())) : std::nullopt);
-    if (!lit_ || lit_->words != words) lit_.emplace(words);
+    if (!lit_ || lit_->words != words || lit_->occludes != occludes_) lit_.emplace(words, occludes_);
     GlShaders const &surface = lit_->surface, &fine = lit_->fine;
     std::vector<GlShaders const*> lit{&surface, &fine};
     if (std::any_of(bodies_.begin(), bodies_.end(), [](Body const& body) { return body.ofMaterial; }))
@@ -105,15 +108,20 @@ class Renderer {
       setLights(*shaders, lights, toView);
       shaders->set("upAtEye", toView.topLeftCorner<3, 3>() * up_);
       shaders->setTexture("shadow", 0);
+      if (!occludes_) continue;
+      shaders->setTexture("open", 2);
+      shaders->set("corner", Eigen::Vector2d(left, 0));
+      shaders->set("occludes", 1);
     }
     glEnable(GL_POLYGON_OFFSET_FILL);  // edges are seen on the faces they belong to
     glPolygonOffset(1, 1);
     auto drawFaces = [&](Body const& body) {
-      GlShaders const& shaders = body.ofMaterial                              ? *lit.back()
-                                 : isFine(body.shaded.mesh(), camera, height) ? fine
-                                                                              : surface;
+      // what is hidden is known of pixels
+      const bool isFineHere = !occludes_ && isFine(body.shaded.mesh(), camera, height);
+      GlShaders const& shaders = body.ofMaterial ? *lit.back() : isFineHere ? fine : surface;
       shaders.use();
       shaders.set("opacity", body.opacity);
+      if (occludes_) shaders.set("occludes", body.seenThrough() ? 0 : 1);
       if (body.ofMaterial) {
         shaders.set("specular", body.specular);
         shaders.set("shininess", body.shininess);
@@ -129,6 +137,7 @@ class Renderer {
     surface.use();
     surface.set("opacity", 1);
     surface.set("clip", everything());  // marks are seen as a whole
+    if (occludes_) surface.set("occludes", 1);
     marks_.faces.draw(GL_TRIANGLES);
     glDisable(GL_POLYGON_OFFSET_FILL);
     plain_.use();
@@ -159,6 +168,7 @@ class Renderer {
   }
 
   std::array<double, 3> background{1, 1, 1};
+  static constexpr double occlusionRadius = 0.15;  // in which light is hidden, by that of the scene
 
  private:
   struct Drawn {
@@ -225,25 +235,35 @@ class Renderer {
     GlShaders surface, fine;
     std::optional<GlShaders> material{};  // of bodies of one, where there is any
     std::string words;
+    bool occludes;
 
-    explicit Lit(std::string const& lights)
-        : surface(detail::surfaceVertex, light(lights, detail::plainMirror, detail::surfaceFragment)),
-          fine(light(lights, detail::plainMirror, detail::fineVertex), detail::fineFragment),
-          words(lights) {}
+    Lit(std::string const& lights, bool occluded)
+        : surface(detail::surfaceVertex,
+                  light(lights, detail::plainMirror, detail::surfaceFragment, occluded)),
+          fine(light(lights, detail::plainMirror, detail::fineVertex, false), detail::fineFragment),
+          words(lights),
+          occludes(occluded) {}
     GlShaders const& ofMaterials() {
       if (!material)
         material.emplace(detail::texturedVertex,
-                         light(words, detail::materialMirror, detail::texturedFragment));
+                         light(words, detail::materialMirror, detail::texturedFragment, occludes));
       return *material;
     }
-    static std::string light(std::string const& lights, std::string_view mirror, std::string_view main) {
-      return text(detail::lightWords, lights, mirror, detail::litWords, main);
+    static std::string light(std::string const& lights, std::string_view mirror, std::string_view main,
+                             bool occluded) {
+      return text(detail::lightWords,
+                  lights,
+                  mirror,
+                  occluded ? detail::openWords : detail::allOpenWords,
+                  detail::litWords,
+                  main);
     }
   };
   std::optional<Lit> lit_{};
   GlShaders depth_{detail::shadowVertex, detail::shadowFragment};
   GlShaders plain_{detail::plainVertex, detail::plainFragment};
   Shadow shadow_{};
+  std::optional<Occlusion> occlusion_{};                      // where it was asked for
   GlTexture white_ = texture_of(1, 1, {255, 255, 255, 255});  // of materials without one
   std::vector<Body> bodies_{};
   Drawn marks_{};
@@ -254,7 +274,7 @@ class Renderer {
   std::optional<ClipPlane> clip_{};
   Eigen::Vector3d up_{0, 1, 0}, centre_{0, 0, 0}, colour_{1, 1, 1};
   double radius_ = 1;
-  bool shadows_ = true;
+  bool shadows_ = true, occludes_ = false;
   std::vector<SeenLight> lights_{};
   std::optional<Eigen::Vector3d> ambient_{};
 
@@ -306,6 +326,17 @@ class Renderer {
     m.block<3, 1>(0, 3) = -(m.topLeftCorner<3, 3>() * centre_);
     return m;
   }
+  void findOcclusion(Eigen::Matrix4d const& toView, Eigen::Matrix4d const& toClip, int width, int height) {
+    if (!occlusion_) occlusion_.emplace();
+    occlusion_->make(toClip, width, height, occlusionRadius * radius_, [&] {
+      depth_.use();
+      depth_.set("toLight", Eigen::Matrix4d(toClip * toView));
+      drawDepths(0);
+    });
+    glActiveTexture(GL_TEXTURE2);
+    glBindTexture(GL_TEXTURE_2D, occlusion_->texture());
+    glActiveTexture(GL_TEXTURE0);
+  }
   void drawShadow(Eigen::Matrix4d const& toLight) {
     glBindFramebuffer(GL_FRAMEBUFFER, shadow_.frame);
     glViewport(0, 0, shadow_.size, shadow_.size);
@@ -313,9 +344,13 @@ class Renderer {
     glClear(GL_DEPTH_BUFFER_BIT);
     depth_.use();
     depth_.set("toLight", toLight);
+    drawDepths(1);
+  }
+  // of what hides; `which` list of the faces of bodies
+  void drawDepths(std::size_t which) {
     depth_.set("clip", clipped());
     for (Body const& body : bodies_)
-      if (!body.seenThrough()) body.drawn.faces.draw(GL_TRIANGLES, 1);
+      if (!body.seenThrough()) body.drawn.faces.draw(GL_TRIANGLES, which);
     depth_.set("clip", everything());
     marks_.faces.draw(GL_TRIANGLES);
   }

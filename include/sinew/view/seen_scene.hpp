@@ -325,7 +325,8 @@ SeenScene seen_scene(Simulation& simulation, SeenSettings const& settings = {},
       if (body.triangles.empty() && body.quads.empty()) body.edges = std::move(mesh.edges);
       body.values = values.of(&visual);
       SurfaceLooks looks;
-      if constexpr (requires { visual.looks(); }) looks = visual.looks();
+      if constexpr (requires { visual.looks(); })
+        if (visual.wrongLooks().empty()) looks = visual.looks();  // fields may have other values by now
       for (SeenBody& one : bodies_by_material(std::move(body), std::move(looks), settings.materials))
         seen.bodies.push_back(std::move(one));
     });

@@ -83,7 +83,8 @@ struct SeenSettings {
   std::array<bool, 5> arrows{};                      // of each kind
   bool visualModels = true, states = false;          // states are seen in any case where no visual model is
   bool collisionModels = false, springs = false, constraints = false, normals = false;
-  bool wireframe = false, axes = false, grid = false, legend = true, shadows = true;
+  bool wireframe = false, axes = false, grid = false, legend = true, shadows = true,
+       occlusion = false;  // less light from all sides in corners
   std::optional<ClipPlane> clip{};
   std::vector<BodyLook> looks{};
   std::vector<SeenMaterial> materials{};  // that visual models name (load_materials())

@@ -54,7 +54,7 @@ vec3 linear(vec3 colour) { return pow(colour, vec3(2.2)); }
 )";
 inline constexpr std::string_view litWords = R"(
 vec3 lit(vec3 n, vec3 atEye, vec3 own, float seen) {
-  Light sum = Light(around * (1.0 + fromAbove * dot(n, upAtEye)), vec3(0.0));
+  Light sum = Light(openness() * around * (1.0 + fromAbove * dot(n, upAtEye)), vec3(0.0));
   addAll(sum, n, atEye, normalize(-atEye), seen);
   return pow(own * sum.diffuse + sum.shine, vec3(1.0 / 2.2));
 }
