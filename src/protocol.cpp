@@ -615,6 +615,7 @@ void SceneWriter::write(SeenScene const& scene) {
     known_ = std::move(textures);
     textures_ = write_textures(known_);
     ++texturesNumber_;
+    topology_.clear();  // whose bodies have other textures by the same numbers
   }
   if (std::string now = write_topology(scene, number_); now != topology_)
     topology_ = write_topology(scene, ++number_);

@@ -217,6 +217,11 @@ TEST_CASE("textures and places in them are read as they were written, and are se
   writer.write(seen);
   CHECK(writer.number() == 2);
   CHECK(writer.texturesNumber() == 1);
+  // another image in the same places
+  body.texture = std::make_shared<SeenTexture>(SeenTexture{.width = 1, .height = 1, .file = "other"});
+  writer.write(seen);
+  CHECK(writer.number() == 3);
+  CHECK(read_textures(writer.textures()) == std::vector<std::string>{"other"});
   // places that do not belong to the faces are none
   body.inTexture.quads.clear();
   CHECK(read_topology(write_topology(seen, 1)).textures[0] == 0);
