@@ -31,8 +31,8 @@ struct Folder {
     write(
         "a.obj",
         "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
-        "vt 0.5 0.5\nf 1/1 2/2 3/3\nusemtl red\nf 1/5 3/3 4/4\nf 2/1 5/2 6/3 3/4\n");
-    write("a.mtl", "newmtl red\nKd 1 0 0\n");
+        "vt 0.5 0.5\nf 1/1 2/2 3/3\nusemtl red\nf 1/5 3/3 4/4\nusemtl blue\nf 2/1 5/2 6/3 3/4\n");
+    write("a.mtl", "newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\n");
     const unsigned char pixel[] = {10, 20, 30};
     write("a.png", view::png_of("a.png", 1, 1, 3, pixel));
   }
@@ -60,10 +60,11 @@ TEST_CASE("an OglModel has the looks of its file, by whatever way it takes it, a
   auto check = [](auto& simulation) {
     const Seen all = seen(simulation);
     CHECK(all.warnings.empty());
-    REQUIRE(all.scene.bodies.size() == 2);
-    auto const &plain = all.scene.bodies[0], &red = all.scene.bodies[1];
+    REQUIRE(all.scene.bodies.size() == 3);
+    auto const &plain = all.scene.bodies[0], &red = all.scene.bodies[1], &blue = all.scene.bodies[2];
     CHECK(plain.colour == Eigen::Vector3d(1, 1, 1));
     CHECK(red.colour == Eigen::Vector3d(1, 0, 0));
+    CHECK(blue.colour == Eigen::Vector3d(0, 0, 1));
     for (auto const& body : all.scene.bodies) {
       REQUIRE(body.texture);
       CHECK(body.texture->rgba == std::vector<unsigned char>{10, 20, 30, 255});
@@ -71,7 +72,7 @@ TEST_CASE("an OglModel has the looks of its file, by whatever way it takes it, a
     auto at = [](view::SeenBody const& body, Index t) { return body.inTexture.texcoords[std::size_t(t)]; };
     CHECK(at(plain, plain.inTexture.triangles[0][1]) == Eigen::Vector2d(1, 0));
     CHECK(at(red, red.inTexture.triangles[0][0]) == Eigen::Vector2d(0.5, 0.5));
-    CHECK(at(red, red.inTexture.quads[0][2]) == Eigen::Vector2d(1, 1));
+    CHECK(at(blue, blue.inTexture.quads[0][2]) == Eigen::Vector2d(1, 1));
   };
   for (char const* visual :
        {"<OglModel filename='a.obj' texturename='a.png'/>",

@@ -249,7 +249,7 @@ TEST_CASE("vertices and faces that go take their looks along") {
   visual.texcoords = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
   visual.textureTriangles = {{0, 1, 2}, {3, 3, -1}, {0, 2, 3}};
   visual.textureQuads = {{3, 2, 1, 0}};
-  visual.materialNames = {"a", "b", "c"};
+  visual.materialNames = "a b c";
   visual.faceMaterials = {0, 1, 2, 1};
   visual.init("here");
   visual.follow(Renumbering::of({true, true, true, true, false}));

@@ -283,7 +283,7 @@ usemtl image\nf 1/1 2/2 3/3 4/4\nusemtl plain\nf 2 5 6 3\n`,
     const c = document.createElement('canvas');
     const { width, height } = sinew.view.canvas;
     Object.assign(c, { width, height });
-    const draw = c.getContext('2d');
+    const draw = c.getContext('2d', { willReadFrequently: true });
     draw.drawImage(sinew.view.canvas, 0, 0);
     return [[0.25, 0.25], [0.75, 0.25], [0.25, 0.75], [0.75, 0.75], [1.5, 0.5]].map(([x, y]) => {
       const [u, v] = sinew.view.project([x, y, 0]).map((p) => Math.round(p * sinew.view.renderer.getPixelRatio()));

@@ -7,8 +7,8 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cstddef>
-#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace sinew {
@@ -24,6 +24,23 @@ struct SurfaceLooks {
 
   bool operator==(SurfaceLooks const&) const = default;
 };
+
+/// Names of materials, which have no blanks in them, as words and apart.
+inline std::string words_of_names(std::vector<std::string> const& names) {
+  std::string words;
+  for (std::string const& name : names) words += text(words.empty() ? "" : " ", name);
+  return words;
+}
+inline std::vector<std::string> names_of_words(std::string_view words) {
+  constexpr std::string_view blanks = " \t\r\n";
+  std::vector<std::string> names;
+  while (true) {
+    words.remove_prefix(std::min(words.find_first_not_of(blanks), words.size()));
+    if (words.empty()) return names;
+    names.emplace_back(words.substr(0, words.find_first_of(blanks)));
+    words.remove_prefix(names.back().size());
+  }
+}
 
 namespace detail {
 

@@ -92,7 +92,7 @@ struct MeshLoader {
   std::vector<Eigen::Vector2d> texcoords{};
   std::vector<Triangle> textureTriangles{};
   std::vector<Quad> textureQuads{};
-  std::vector<std::string> materialNames{};
+  std::string materialNames{};
   std::vector<Index> faceMaterials{};
   std::string materialLibrary{};
 
@@ -161,7 +161,7 @@ struct MeshLoader {
     texcoords = std::move(looks.texcoords);
     textureTriangles = std::move(looks.triangles);
     textureQuads = std::move(looks.quads);
-    materialNames = std::move(looks.materials);
+    materialNames = words_of_names(looks.materials);
     faceMaterials = std::move(looks.faceMaterials);
     materialLibrary = std::move(looks.library);
   }

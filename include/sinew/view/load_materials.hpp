@@ -103,7 +103,7 @@ void load_materials(Simulation& simulation, SeenSettings& seen, std::vector<std:
       const bool any = std::any_of(seen.materials.begin(), seen.materials.end(), [&](SeenMaterial const& m) {
         return m.library == library;
       });
-      for (std::string const& name : visual.materialNames)
+      for (std::string const& name : names_of_words(visual.materialNames))
         if (any && std::none_of(seen.materials.begin(), seen.materials.end(), [&](SeenMaterial const& m) {
               return m.library == library && m.name == name;
             }))

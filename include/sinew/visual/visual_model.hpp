@@ -23,7 +23,7 @@ struct VisualModel {
   std::vector<Eigen::Vector2d> texcoords{};
   std::vector<Triangle> textureTriangles{};
   std::vector<Quad> textureQuads{};
-  std::vector<std::string> materialNames{};
+  std::string materialNames{};
   std::vector<Index> faceMaterials{};
   std::string materialLibrary{};
 
@@ -40,7 +40,7 @@ struct VisualModel {
               "",
               "texcoords of the corners of each triangle; -1: none"),
         field("textureQuads", &V::textureQuads, "", "texcoords of the corners of each quad; -1: none"),
-        field("materialNames", &V::materialNames, "", "materials of the faces"),
+        field("materialNames", &V::materialNames, "", "materials of the faces, with blanks between"),
         field("faceMaterials",
               &V::faceMaterials,
               "",
@@ -106,11 +106,13 @@ SINEW_ONCE SurfaceLooks VisualModel::looks() const {
   const bool ofVertices =
       textureTriangles.empty() && textureQuads.empty() && texcoords.size() == position.size();
   if (textureTriangles.empty() && textureQuads.empty() && !ofVertices)
-    return {.materials = materialNames, .faceMaterials = faceMaterials, .library = materialLibrary};
+    return {.materials = names_of_words(materialNames),
+            .faceMaterials = faceMaterials,
+            .library = materialLibrary};
   return {.texcoords = texcoords,
           .triangles = ofVertices ? mesh.triangles : textureTriangles,
           .quads = ofVertices ? mesh.quads : textureQuads,
-          .materials = materialNames,
+          .materials = names_of_words(materialNames),
           .faceMaterials = faceMaterials,
           .library = materialLibrary};
 }
@@ -118,7 +120,7 @@ SINEW_ONCE void VisualModel::setLooks(SurfaceLooks looks) {
   texcoords = std::move(looks.texcoords);
   textureTriangles = std::move(looks.triangles);
   textureQuads = std::move(looks.quads);
-  materialNames = std::move(looks.materials);
+  materialNames = words_of_names(looks.materials);
   faceMaterials = std::move(looks.faceMaterials);
   materialLibrary = std::move(looks.library);
 }
@@ -145,12 +147,13 @@ SINEW_ONCE std::string VisualModel::wrongLooks() const {
   if (!faceMaterials.empty() && faceMaterials.size() != faces)
     return text(
         "faceMaterials has ", faceMaterials.size(), " entries for ", faces, " faces; give one for each");
+  const std::size_t names = names_of_words(materialNames).size();
   for (const Index i : faceMaterials)
-    if (i < -1 || i >= Index(materialNames.size()))
+    if (i < -1 || i >= Index(names))
       return text("faceMaterials has the number ",
                   i,
                   ", and there are ",
-                  materialNames.size(),
+                  names,
                   " materialNames, numbered from 0; correct it, or give -1 for none");
   return {};
 }
