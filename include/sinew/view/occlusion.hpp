@@ -60,10 +60,10 @@ inline constexpr std::string_view openWords = R"(
 uniform sampler2D open;
 uniform vec2 corner;      // of the picture [pixels]
 uniform float occludes;   // 0: of what is seen through
+float four(vec2 p) { return textureLod(open, p / vec2(textureSize(open, 0)), 0.0).r; }
 float openness() {
-  vec2 p = gl_FragCoord.xy - corner, size = vec2(textureSize(open, 0));
-  float sum = textureLod(open, (p + vec2(-1.5, -1.5)) / size, 0.0).r + textureLod(open, (p + vec2(0.5, -1.5)) / size, 0.0).r +
-              textureLod(open, (p + vec2(-1.5, 0.5)) / size, 0.0).r + textureLod(open, (p + vec2(0.5, 0.5)) / size, 0.0).r;
+  vec2 p = gl_FragCoord.xy - corner - 1.5;
+  float sum = four(p) + four(p + vec2(2, 0)) + four(p + vec2(0, 2)) + four(p + vec2(2, 2));
   return mix(1.0, 0.25 * sum, occludes);
 }
 )";
