@@ -16,6 +16,7 @@
 #include <sinew/io/output_file.hpp>
 #include <sinew/io/pvd_series.hpp>
 #include <sinew/io/read_gmsh.hpp>
+#include <sinew/io/read_mtl.hpp>
 #include <sinew/io/read_obj.hpp>
 #include <sinew/io/read_rigid.hpp>
 #include <sinew/io/read_sph.hpp>

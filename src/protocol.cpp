@@ -118,7 +118,7 @@ std::string dumped(Json const& json) { return json.dump(-1, ' ', false, Json::er
 
 // ---- bytes
 
-constexpr std::uint32_t topologyKind = 1, frameKind = 2, hiddenKind = 4;
+constexpr std::uint32_t topologyKind = 1, frameKind = 2, texturesKind = 3, hiddenKind = 4;
 
 template <class T>
 void put(std::string& to, T value) {
@@ -167,13 +167,15 @@ void put_elements(std::string& to, Elements const& elements) {
     for (const auto i : element) put(to, std::uint32_t(i));
 }
 template <class Elements>
-void read_elements(Bytes& bytes, std::uint32_t n, std::size_t points, Elements& elements) {
+void read_elements(Bytes& bytes, std::uint32_t n, std::size_t points, Elements& elements,
+                   bool orNone = false) {
   constexpr std::size_t corners = std::tuple_size_v<typename Elements::value_type>;
   elements.resize(bytes.count(n, corners * sizeof(std::uint32_t)));
   for (auto& element : elements)
     for (auto& i : element) {
       const std::uint32_t number = bytes.word();
-      if (number >= points) bytes.refuse("an element has a point that there is not");
+      if (number >= points && !(orNone && number == ~std::uint32_t(0)))
+        bytes.refuse("an element has a point that there is not");
       i = std::remove_reference_t<decltype(i)>(number);
     }
 }
@@ -215,10 +217,13 @@ Command read_command(std::string_view json) {
     return command::Colour{Quantity(at - names.begin())};
   }
   if (has("profile", {"on"})) return command::Profile{m.flag("on")};
+  if (has("measure", {"on"})) return command::Measure{m.flag("on")};
+  if (has("measureField", {"line", "field"})) return command::MeasureField{m.line(), m.words("field")};
+  if (has("measures", {"after"})) return command::Measures{m.number("after", -1e300, 1e300)};
   refuse(text("nothing is called '",
               m.name,
               "'; there are play, step, reset, speed, press, move, release, component, setField, undo, "
-              "redo, colour and profile"));
+              "redo, colour, profile, measure, measureField and measures"));
 }
 
 std::string write_command(Command const& said) {
@@ -247,6 +252,11 @@ std::string write_command(Command const& said) {
       return {{"do", "colour"}, {"by", enum_names(c.by)[std::size_t(c.by)]}};
     }
     Json operator()(command::Profile const& c) { return {{"do", "profile"}, {"on", c.on}}; }
+    Json operator()(command::Measure const& c) { return {{"do", "measure"}, {"on", c.on}}; }
+    Json operator()(command::MeasureField const& c) {
+      return {{"do", "measureField"}, {"line", c.line}, {"field", c.field}};
+    }
+    Json operator()(command::Measures const& c) { return {{"do", "measures"}, {"after", c.after}}; }
   } json;
   return dumped(std::visit(json, said));
 }
@@ -324,9 +334,59 @@ std::string write_component(SeenComponent const& component) {
                  {"fields", std::move(fields)}});
 }
 
+std::string write_measures(Measures const& measures, double after) {
+  auto const& times = measures.times;
+  const auto first = std::upper_bound(times.begin(), times.end(), after) - times.begin();
+  Json series = Json::array();
+  for (Series const& one : measures.series)
+    series.push_back({{"name", one.name},
+                      {"unit", one.unit},
+                      {"values",
+                       Json(std::vector<double>(
+                           one.values.begin() + std::min<std::ptrdiff_t>(first, std::ssize(one.values)),
+                           one.values.end()))}});
+  return dumped({{"is", "measures"},
+                 {"times", std::vector<double>(times.begin() + first, times.end())},
+                 {"series", std::move(series)}});
+}
+
 std::string write_error(std::string_view message) { return dumped({{"is", "error"}, {"text", message}}); }
 
+std::vector<std::shared_ptr<SeenTexture const>> textures_of(SeenScene const& scene) {
+  std::vector<std::shared_ptr<SeenTexture const>> all;
+  for (SeenBody const& body : scene.bodies)
+    if (body.texture && std::find(all.begin(), all.end(), body.texture) == all.end())
+      all.push_back(body.texture);
+  return all;
+}
+
+std::string write_textures(std::vector<std::shared_ptr<SeenTexture const>> const& textures) {
+  std::string to;
+  put(to, texturesKind);
+  put_count(to, textures.size());
+  for (auto const& texture : textures) {
+    put_count(to, texture->file.size());
+    to += texture->file;
+    to.append((4 - texture->file.size() % 4) % 4, '\0');
+  }
+  return to;
+}
+
+std::vector<std::string> read_textures(std::string_view message) {
+  Bytes bytes{message, "textures"};
+  if (bytes.word() != texturesKind) bytes.refuse("they are none");
+  std::vector<std::string> files(bytes.count(bytes.word(), 4));
+  for (std::string& file : files) {
+    const std::uint32_t size = bytes.word();
+    file = bytes.take(size);
+    bytes.take((4 - size % 4) % 4);
+  }
+  bytes.end();
+  return files;
+}
+
 std::string write_topology(SeenScene const& scene, std::uint32_t number) {
+  const auto textures = textures_of(scene);
   std::string to;
   put(to, topologyKind);
   put(to, number);
@@ -339,11 +399,24 @@ std::string write_topology(SeenScene const& scene, std::uint32_t number) {
     for (const std::size_t n :
          {body.path.size(), body.points.size(), body.triangles.size(), body.quads.size(), body.edges.size()})
       put_count(to, n);
+    SurfaceLooks const& in = body.inTexture;
+    const bool textured =
+        body.texture && in.triangles.size() == body.triangles.size() && in.quads.size() == body.quads.size();
+    const auto texture = std::find(textures.begin(), textures.end(), body.texture);
+    put_count(to, textured ? std::size_t(texture - textures.begin()) + 1 : 0);
+    put_count(to, textured ? in.texcoords.size() : 0);
+    for (int k = 0; k < 3; ++k) put(to, float(body.specular[k]));
+    put(to, float(body.shininess));
     to += body.path;
     to.append((4 - body.path.size() % 4) % 4, '\0');
     put_elements(to, body.triangles);
     put_elements(to, body.quads);
     put_elements(to, body.edges);
+    if (!textured) continue;
+    for (Eigen::Vector2d const& t : in.texcoords)
+      for (int k = 0; k < 2; ++k) put(to, float(t[k]));
+    put_elements(to, in.triangles);
+    put_elements(to, in.quads);
   }
   return to;
 }
@@ -379,7 +452,7 @@ ReadTopology read_topology(std::string_view message) {
   ReadTopology read{.number = bytes.word()};
   for (int k = 0; k < 3; ++k) read.scene.up[k] = double(bytes.number<float>());
   std::size_t all = 0;
-  constexpr std::size_t header = 10 * sizeof(std::uint32_t);
+  constexpr std::size_t header = 16 * sizeof(std::uint32_t);
   const std::size_t bodies = bytes.count(bytes.word(), header);
   for (std::size_t b = 0; b < bodies; ++b) {
     const std::uint32_t kind = bytes.word();
@@ -391,6 +464,9 @@ ReadTopology read_topology(std::string_view message) {
     if (!(body.opacity >= 0 && body.opacity <= 1)) bytes.refuse("an opacity is not from 0 to 1");
     const std::uint32_t path = bytes.word(), points = bytes.word(), triangles = bytes.word(),
                         quads = bytes.word(), edges = bytes.word();
+    const std::uint32_t texture = bytes.word(), texcoords = bytes.word();
+    for (int k = 0; k < 3; ++k) body.specular[k] = double(bytes.number<float>());
+    body.shininess = double(bytes.number<float>());
     // a frame of them would be longer than what is sent
     if ((all += points) > mostPoints) bytes.refuse("it has too many points");
     body.path = bytes.take(path);
@@ -399,6 +475,14 @@ ReadTopology read_topology(std::string_view message) {
     read_elements(bytes, triangles, points, body.triangles);
     read_elements(bytes, quads, points, body.quads);
     read_elements(bytes, edges, points, body.edges);
+    if (texture > 0) {
+      body.inTexture.texcoords.resize(bytes.count(texcoords, 8));
+      for (Eigen::Vector2d& t : body.inTexture.texcoords)
+        for (int k = 0; k < 2; ++k) t[k] = double(bytes.number<float>());
+      read_elements(bytes, triangles, texcoords, body.inTexture.triangles, true);
+      read_elements(bytes, quads, texcoords, body.inTexture.quads, true);
+    }
+    read.textures.push_back(texture);
     read.scene.bodies.push_back(std::move(body));
   }
   bytes.end();
@@ -527,6 +611,12 @@ std::size_t scene_among(std::vector<SceneFile> const& files) {
 }
 
 void SceneWriter::write(SeenScene const& scene) {
+  if (auto textures = textures_of(scene); textures != known_) {
+    known_ = std::move(textures);
+    textures_ = write_textures(known_);
+    ++texturesNumber_;
+    topology_.clear();  // whose bodies have other textures by the same numbers
+  }
   if (std::string now = write_topology(scene, number_); now != topology_)
     topology_ = write_topology(scene, ++number_);
   frame_ = write_frame(scene, number_);

@@ -140,8 +140,8 @@ struct Shared {
   std::function<void(std::vector<SceneFile>, std::shared_ptr<Visitor>)> open{};
   bool opens = false;  // a scene is being opened, or one that was seen goes
 
-  std::uint32_t topologyNumber = 0;
-  Text topology{}, frame{}, state{};
+  std::uint32_t topologyNumber = 0, texturesNumber = 0;
+  Text textures{}, topology{}, frame{}, state{};
 };
 using Everything = std::shared_ptr<Shared>;
 
@@ -176,13 +176,14 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
   // there is another scene to be seen
   void restart() {
     scene_ = all().scene;
-    frame_.reset(), state_.reset(), topology_.reset();
+    frame_.reset(), state_.reset(), topology_.reset(), textures_.reset();
     offer();
   }
   // the latest of what is to be seen
   void offer() {
     Shared& now = all();
-    if (now.frame && now.frame != sentFrame_) frame_ = now.frame, topology_ = now.topology;
+    if (now.frame && now.frame != sentFrame_)
+      frame_ = now.frame, topology_ = now.topology, textures_ = now.textures;
     if (now.state && now.state != sentState_) state_ = now.state;
     write();
   }
@@ -193,8 +194,8 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
   websocket::stream<beast::tcp_stream> socket_;
   beast::flat_buffer buffer_{};
   std::deque<Text> replies_{};
-  Text scene_{}, topology_{}, frame_{}, state_{}, writing_{};
-  Text sentTopology_{}, sentFrame_{}, sentState_{};
+  Text scene_{}, textures_{}, topology_{}, frame_{}, state_{}, writing_{};
+  Text sentTextures_{}, sentTopology_{}, sentFrame_{}, sentState_{};
 
   Shared& all() { return *counted_.all; }
 
@@ -249,7 +250,9 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
       replies_.pop_front();
     } else if (frame_) {
       binary = true;
-      if (topology_ != sentTopology_)
+      if (textures_ != sentTextures_)
+        writing_ = sentTextures_ = textures_;
+      else if (topology_ != sentTopology_)
         writing_ = sentTopology_ = topology_;
       else
         writing_ = sentFrame_ = std::exchange(frame_, {});
@@ -575,6 +578,10 @@ struct Server::Parts {
     if (Stage::Scene latest = all->stage->scene(); latest != seen) {
       seen = std::move(latest);
       writer.write(*seen);
+      if (writer.texturesNumber() != all->texturesNumber) {
+        all->texturesNumber = writer.texturesNumber();
+        all->textures = shared(std::string(writer.textures()));
+      }
       if (writer.number() != all->topologyNumber) {
         all->topologyNumber = writer.number();
         all->topology = shared(std::string(writer.topology()));

@@ -29,13 +29,15 @@ struct StagedScene {
 };
 
 /// The same for those who look already. `with`: what goes with the scene, beside its simulation.
-inline sinew::view::OpenedScene opened(Scene scene, std::string title, std::shared_ptr<void> with = {}) {
+inline sinew::view::OpenedScene opened(Scene scene, std::string title, std::shared_ptr<void> with = {},
+                                       SeenOptions const& seen = {}) {
   struct Kept {
     std::shared_ptr<void> with;
     StagedScene staged;
-    Kept(std::shared_ptr<void> w, Scene s) : with(std::move(w)), staged(std::move(s), {}) {}
+    Kept(std::shared_ptr<void> w, Scene s, SeenOptions const& seen)
+        : with(std::move(w)), staged(std::move(s), seen) {}
   };
-  auto kept = std::make_shared<Kept>(std::move(with), std::move(scene));
+  auto kept = std::make_shared<Kept>(std::move(with), std::move(scene), seen);
   StagedScene& staged = kept->staged;
   std::vector<std::string> notes;
   if (!staged.scene.ignored.empty()) {

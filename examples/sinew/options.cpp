@@ -105,7 +105,7 @@ void add_seen(CLI::App& app, SeenOptions& seen) {
       ->allow_extra_args(false);
   constexpr char const* things =
       "visuals, states, collision, boxes, springs, constraints, normals, wireframe, axes, grid, legend, "
-      "shadows";
+      "shadows, occlusion";
   app.add_option("--show", seen.show, std::string("What to show besides, apart by commas: ") + things)
       ->type_name("THINGS")
       ->delimiter(',')

@@ -40,7 +40,8 @@ struct Duration {
 struct SeenOptions {
   std::string colour{}, range{}, clip{}, camera{};
   std::vector<std::string> arrows{}, show{}, hide{};
-  int boxLevel = -1;  // all
+  int boxLevel = -1;                   // all
+  std::vector<std::string> folders{};  // from which alone a scene of somebody else has textures and materials
 };
 
 enum class Output { words, quiet, json };

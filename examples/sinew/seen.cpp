@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "seen.hpp"
 
+#ifdef SINEW_VIEW
+#include <sinew/view/load_materials.hpp>
+#endif
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -50,7 +54,7 @@ std::array<double, N> numbers_of(std::string words, char const* option, char con
 }
 
 bool* flag_of(SeenSettings& seen, std::string const& word) {
-  const std::array<std::pair<std::string_view, bool*>, 12> all{{{"visuals", &seen.visualModels},
+  const std::array<std::pair<std::string_view, bool*>, 13> all{{{"visuals", &seen.visualModels},
                                                                 {"states", &seen.states},
                                                                 {"collision", &seen.collisionModels},
                                                                 {"boxes", &seen.boxes},
@@ -61,7 +65,8 @@ bool* flag_of(SeenSettings& seen, std::string const& word) {
                                                                 {"axes", &seen.axes},
                                                                 {"grid", &seen.grid},
                                                                 {"legend", &seen.legend},
-                                                                {"shadows", &seen.shadows}}};
+                                                                {"shadows", &seen.shadows},
+                                                                {"occlusion", &seen.occlusion}}};
   for (auto const& [name, flag] : all)
     if (name == word) return flag;
   return nullptr;
@@ -88,7 +93,7 @@ ViewSettings seen_settings(SeenOptions const& options, Scene& scene) {
           text("--show: '",
                thing,
                "' is not one of visuals, states, collision, boxes, springs, constraints, normals, wireframe, "
-               "axes, grid, legend, shadows"));
+               "axes, grid, legend, shadows, occlusion"));
     *flag = true;
   }
   for (auto const& thing : options.hide) {
@@ -117,6 +122,9 @@ ViewSettings seen_settings(SeenOptions const& options, Scene& scene) {
     if (!own.warnings.empty()) refuse("--camera: it stands in the point that it looks at");
     settings.camera = own.camera;
   }
+#ifdef SINEW_VIEW
+  load_materials(scene.simulation, seen, settings.warnings, options.folders);
+#endif
   return settings;
 }
 

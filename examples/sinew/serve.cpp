@@ -25,7 +25,8 @@ using sinew::view::SceneFile;
 bool names_file(std::string_view attribute) {
   std::string small(attribute);
   for (char& c : small) c = char(std::tolower(static_cast<unsigned char>(c)));
-  return small == "href" || small == "texturename" || small.find("file") != small.npos;
+  return small == "href" || small == "texturename" || small == "materiallibrary" ||
+         small.find("file") != small.npos;
 }
 // whether a path leads from a folder to somewhere below it, and is no link to another field
 bool stays_below(std::string_view path) {
@@ -106,7 +107,10 @@ sinew::view::OpenedScene open_files(ServeOptions const& options, std::vector<Sce
     return opening([&] {
       auto found = read(scene);
       check_writes(found.root);
-      auto result = opened(start(std::move(found), scene), fs::path(name).filename().string(), folder);
+      SeenOptions seen;
+      seen.folders = scene.data;
+      seen.folders.push_back(place);
+      auto result = opened(start(std::move(found), scene), fs::path(name).filename().string(), folder, seen);
       for (std::string& note : result.notes) note = plain(note);
       return result;
     });

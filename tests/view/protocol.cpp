@@ -29,7 +29,11 @@ const std::vector<Command> every{command::Play{true},
                                  command::Redo{},
                                  command::Colour{Quantity::vonMises},
                                  command::Profile{true},
-                                 command::Profile{false}};
+                                 command::Profile{false},
+                                 command::Measure{true},
+                                 command::Measure{false},
+                                 command::MeasureField{5, "stiffness"},
+                                 command::Measures{-1e300}};
 
 // two bodies, one of them a visual model
 SeenScene scene() {
@@ -127,7 +131,7 @@ TEST_CASE("what is no command is refused, with a sentence") {
   CHECK(refusal(R"({"do":"fly"})") ==
         "command: nothing is called 'fly'; there are play, step, reset, speed, press, move, release, "
         "component, "
-        "setField, undo, redo, colour and profile");
+        "setField, undo, redo, colour, profile, measure, measureField and measures");
   CHECK(refusal(R"({"do":"colour","by":"mood"})") ==
         "command: 'by' is 'mood' and must be one of: none, displacement, speed, vonMises, strainEnergy, "
         "stretch");
@@ -187,6 +191,62 @@ TEST_CASE("a topology and its frames are read as they were written") {
   CHECK(write_frame(plain, 7).size() == 32 + 6 * 12);
   read_frame(write_frame(plain, 7), read);
   CHECK(read.scene.bodies[1].values.empty());
+}
+
+TEST_CASE("textures and places in them are read as they were written, and are sent once") {
+  SeenScene seen = scene();
+  SeenBody& body = seen.bodies[0];
+  body.texture = std::make_shared<SeenTexture>(SeenTexture{.width = 1, .height = 1, .file = "image"});
+  body.specular = {0.25, 0.5, 1};
+  body.shininess = 8;
+  body.inTexture.texcoords = {{0, 0.5}, {1, 0.25}};
+  body.inTexture.triangles = {{0, 1, -1}};
+  body.inTexture.quads = {{1, 0, 1, 0}};
+  SceneWriter writer;
+  writer.write(seen);
+  CHECK(writer.texturesNumber() == 1);
+  CHECK(read_textures(writer.textures()) == std::vector<std::string>{"image"});
+  const ReadTopology read = read_topology(writer.topology());
+  CHECK(read.textures == std::vector<std::uint32_t>{1, 0});
+  CHECK(read.scene.bodies[0].inTexture == body.inTexture);
+  CHECK(read.scene.bodies[0].specular == body.specular);
+  CHECK(read.scene.bodies[0].shininess == 8);
+  CHECK(read.scene.bodies[1].specular.isApprox(SeenBody::plainSpecular, 1e-6));
+  // elements change, and the same texture is sent no more
+  seen.bodies[1].edges.clear();
+  writer.write(seen);
+  CHECK(writer.number() == 2);
+  CHECK(writer.texturesNumber() == 1);
+  // another image in the same places
+  body.texture = std::make_shared<SeenTexture>(SeenTexture{.width = 1, .height = 1, .file = "other"});
+  writer.write(seen);
+  CHECK(writer.number() == 3);
+  CHECK(read_textures(writer.textures()) == std::vector<std::string>{"other"});
+  // places that do not belong to the faces are none
+  body.inTexture.quads.clear();
+  CHECK(read_topology(write_topology(seen, 1)).textures[0] == 0);
+  body.texture.reset();
+  writer.write(seen);
+  CHECK(read_textures(writer.textures()).empty());
+
+  auto refused = [](std::string const& bytes) { return error_of([&] { read_textures(bytes); }); };
+  const std::string good = write_textures({std::make_shared<SeenTexture>(SeenTexture{.file = "12345"})});
+  CHECK(refused(good).empty());
+  for (std::size_t n = 0; n < good.size(); ++n) CHECK_FALSE(refused(good.substr(0, n)).empty());
+  CHECK(refused(good + "x") == "textures: bytes are left at its end");
+  CHECK(refused(writer.topology()) == "textures: they are none");
+}
+
+TEST_CASE("what was measured later is told") {
+  const Measures measures{.times = {0.1, 0.2, 0.3},
+                          .series = {{"energy", "J", {1, 2, std::nan("")}}, {"k", "", {5, 6, 7}}}};
+  CHECK(write_measures(measures, 0.1) ==
+        R"({"is":"measures","series":[{"name":"energy","unit":"J","values":[2.0,null]},)"
+        R"({"name":"k","unit":"","values":[6.0,7.0]}],"times":[0.2,0.3]})");
+  CHECK(write_measures(measures, 0.3) ==
+        R"({"is":"measures","series":[{"name":"energy","unit":"J","values":[]},)"
+        R"({"name":"k","unit":"","values":[]}],"times":[]})");
+  CHECK(write_measures({}, -1e300) == R"({"is":"measures","series":[],"times":[]})");
 }
 
 TEST_CASE("bytes that are no topology or frame are refused") {
@@ -306,6 +366,13 @@ struct Told {
   void redo() { last = "redo"; }
   std::shared_ptr<SeenScene const> scene() const { return std::make_shared<SeenScene>(); }
   void profile(bool on) { last = on ? "profile" : "no profile"; }
+  void measure(bool on) { last = on ? "measure" : "no measure"; }
+  void measureField(int line, std::string const& field) { last = "measure " + field, value = line; }
+  template <class F>
+  void measures(F answer) {
+    last = "measures";
+    answer(Measures{.times = {2}});
+  }
   void show(SeenSettings const& seen) { last = enum_names(seen.colour)[std::size_t(seen.colour)]; }
 };
 
@@ -331,10 +398,15 @@ TEST_CASE("a command does with a stage what it says") {
                                           "redo",
                                           "vonMises",
                                           "profile",
-                                          "no profile"});
+                                          "no profile",
+                                          "measure",
+                                          "no measure",
+                                          "measure stiffness",
+                                          "measures"});
   tell(told, command::Component{5}, answer);
   CHECK(answers == std::vector<std::string>{write_component({.line = 3}),
                                             write_error("it is no number"),
+                                            write_measures({.times = {2}}, -1e300),
                                             write_error("there is none")});
   CHECK(told.value == 5);
   CHECK(told.origin == Eigen::Vector3d(1. / 3, 0, -5));

@@ -253,7 +253,7 @@ def scene(server):
     topology = client.until(lambda m: isinstance(m, bytes))
     kind, number = struct.unpack_from("<II", topology)
     check(kind == 1, "a topology comes before the first frame")
-    path = topology[60:70]
+    path = topology[88:98]
     check(path == b"/root/body", f"it has the body: {path}")
     frame = client.frame()
     check(struct.unpack_from("<III", frame) == (2, number, 3), "the frame is of this topology")
@@ -381,11 +381,12 @@ def opening(server, folder):
     # with files of its own
     scene = '<Node><MeshOBJLoader name="l" filename="data/o.obj"/><VisualModel src="@l"/></Node>'
     for _ in range(100):  # until that before has gone
-        status, answer = drop(bundle(a__b_scn=scene, a__data__o_obj="v 0 0 7\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"))
+        status, answer = drop(bundle(a__b_scn=scene, a__data__o_obj="mtllib /etc/hosts\nusemtl m\nv 0 0 7\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"))
         if status != 503:
             break
         time.sleep(0.05)
     check(status == 200, f"its files come with it: {status} {answer}")
+    check("/etc/hosts: this file is elsewhere" in answer, f"materials of other files are not read: {answer}")
     told = one.said("scene")
     check(told["title"] == "b.scn", "a scene of a folder is named")
     one.until(lambda m: isinstance(m, bytes) and m[0] == 1)

@@ -33,13 +33,15 @@ struct Shown {
   page::Running scene;
   view::SceneWriter writer{};
   view::Stage::Scene seen{};
-  std::uint32_t topology = 0;
+  std::uint32_t topology = 0, textures = 0;
   std::string state{};
 
   void look() {
     if (view::Stage::Scene latest = scene.stage->scene(); latest != seen) {
       seen = std::move(latest);
       writer.write(*seen);
+      if (std::exchange(textures, writer.texturesNumber()) != writer.texturesNumber())
+        messages.push_back({writer.textures(), true});
       if (std::exchange(topology, writer.number()) != writer.number())
         messages.push_back({writer.topology(), true});
       messages.push_back({writer.frame(), true});

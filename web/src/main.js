@@ -2,8 +2,9 @@
 // The page: a stage is seen and told, whatever runs it.
 import { socketEngine, workerEngine } from './engines.js';
 import { Fields } from './fields.js';
-import { frameKind, kindOf, readFrame, readTopology, topologyKind } from './messages.js';
+import { frameKind, kindOf, readFrame, readTextures, readTopology, texturesKind, topologyKind } from './messages.js';
 import { takeScenes } from './open.js';
+import { csvOfMeasures, Plots, svgOfMeasures } from './plots.js';
 import { Pointer } from './pointer.js';
 import { csvOf, ProfileList, save, svgOf } from './profile.js';
 import { StageView, viridis } from './stage_view.js';
@@ -43,6 +44,7 @@ const tree = new Tree($('tree'), $('search'), {
   select(number) {
     $('component').hidden = number < 0;
     fields.clear();
+    offerFields(null);
     if (number >= 0) send({ do: 'component', line: number });
   },
   setVisible(path, visible) {
@@ -56,12 +58,31 @@ $('profile').addEventListener('toggle', () => send({ do: 'profile', on: $('profi
 $('profileCsv').addEventListener('click', () => save('profile.csv', 'text/csv', csvOf(profile.profile)));
 $('profileSvg').addEventListener('click', () => save('profile.svg', 'image/svg+xml', svgOf(profile.profile)));
 
+const plots = new Plots($('plotList'), $('plotNote'), send);
+$('plots').addEventListener('toggle', () => plots.open($('plots').open));
+$('plotField').addEventListener('change', () => {
+  const field = $('plotField').value;
+  if (field) send({ do: 'measureField', line: tree.selected, field });
+  $('plotField').value = '';
+});
+$('plotCsv').addEventListener('click', () => save('plots.csv', 'text/csv', csvOfMeasures(plots.measures)));
+$('plotSvg').addEventListener('click', () => save('plots.svg', 'image/svg+xml', svgOfMeasures(plots.measures)));
+// the fields of the selected component that can be plotted
+function offerFields(component) {
+  const names = (component?.fields ?? []).filter((field) => /number/.test(field.kind)).map((field) => field.name);
+  const known = [...$('plotField').options].slice(1).map((option) => option.value);
+  if (names.join() !== known.join()) $('plotField').replaceChildren($('plotField').options[0], ...names.map((name) => new Option(name, name)));
+  $('plotField').disabled = !names.length;
+}
+
 // ---- what comes from the engine
 
 function receive(message) {
   if (typeof message !== 'string') {
     const kind = kindOf(message);
-    if (kind === topologyKind) {
+    if (kind === texturesKind) {
+      view.setTextures(readTextures(message), () => (dirty = true));
+    } else if (kind === topologyKind) {
       topology = readTopology(message);
       view.setTopology(topology);
       tree.setBodies(view.bodies);
@@ -86,6 +107,8 @@ function receive(message) {
     tree.choose(-1);
     view.forget(); // another scene is seen as a whole
     $('profile').open = false;
+    $('plots').open = false;
+    plots.clear();
     tree.set(said.tree);
     tree.setBodies(view.bodies);
   } else if (said.is === 'state') {
@@ -96,7 +119,10 @@ function receive(message) {
       $('componentName').textContent = said.class.replace('<', ' <');
       $('componentPath').textContent = said.path + (said.name && said.name !== said.class ? `: ${said.name}` : '');
       fields.show(said);
+      offerFields(said);
     }
+  } else if (said.is === 'measures') {
+    plots.add(said);
   } else if (said.is === 'error') {
     refused = said.text;
     showState();
@@ -229,6 +255,7 @@ function frame(now) {
     view.draw();
     showHeld();
   }
+  plots.ask(now, state);
   if (now - counted.since > 1000) {
     const rate = ((view.drawn - counted.drawn) * 1000) / (now - counted.since);
     $('frameRate').textContent = rate > 0 ? rate.toFixed(0) : '–';
@@ -248,6 +275,9 @@ const page = {
   },
   get view() {
     return view;
+  },
+  get measures() {
+    return plots.measures;
   },
   get tree() {
     return tree.lines.map(({ depth, name, class: className }) => ({ depth, name, class: className }));

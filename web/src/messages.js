@@ -4,6 +4,7 @@
 export const kindOf = (buffer) => new Uint32Array(buffer, 0, 1)[0];
 export const topologyKind = 1;
 export const frameKind = 2;
+export const texturesKind = 3;
 
 /** The elements of what is seen. */
 export function readTopology(buffer) {
@@ -17,12 +18,14 @@ export function readTopology(buffer) {
     const kind = words[at];
     const colour = [...new Float32Array(buffer, 4 * (at + 1), 3)];
     const [opacity] = new Float32Array(buffer, 4 * (at + 4), 1);
-    const [pathBytes, points, triangles, quads, edges] = words.subarray(at + 5, at + 10);
-    at += 10;
+    const [pathBytes, points, triangles, quads, edges, texture, texcoords] = words.subarray(at + 5, at + 12);
+    const [...specular] = new Float32Array(buffer, 4 * (at + 12), 3);
+    const [shininess] = new Float32Array(buffer, 4 * (at + 15), 1);
+    at += 16;
     const path = text.decode(new Uint8Array(buffer, 4 * at, pathBytes));
     at += Math.ceil(pathBytes / 4);
     const take = (count) => words.subarray(at, (at += count));
-    bodies.push({
+    const body = {
       path,
       visual: kind % 4 === 1,
       visible: kind < 4,
@@ -33,10 +36,32 @@ export function readTopology(buffer) {
       triangles: take(3 * triangles),
       quads: take(4 * quads),
       edges: take(2 * edges),
-    });
+      texture: texture - 1, // -1: none
+      specular,
+      shininess,
+    };
+    if (texture) {
+      body.texcoords = new Float32Array(buffer, 4 * at, 2 * texcoords);
+      at += 2 * texcoords;
+      // their numbers at the corners of the elements
+      body.inTexture = { triangles: take(3 * triangles), quads: take(4 * quads) };
+    }
+    bodies.push(body);
     first += points;
   }
   return { number: words[1], up: [...up], bodies, points: first };
+}
+
+/** The files of the textures, PNG or JPEG. */
+export function readTextures(buffer) {
+  const words = new Uint32Array(buffer);
+  const files = [];
+  let at = 2;
+  for (let k = 0; k < words[1]; ++k) {
+    files.push(new Blob([new Uint8Array(buffer, 4 * (at + 1), words[at])]));
+    at += 1 + Math.ceil(words[at] / 4);
+  }
+  return files;
 }
 
 /** A moment: x, y, z of all points of all bodies, and perhaps the values that colours show. */

@@ -4,7 +4,7 @@
 
 const sharpest = Math.cos((40 * Math.PI) / 180);
 
-/** Triangles of a body; a quad is two of them. */
+/** Triangles of a body, or what belongs to their corners; a quad is two of them. */
 export function facesOf(body) {
   const faces = new Uint32Array(body.triangles.length + (body.quads.length / 4) * 6);
   faces.set(body.triangles);
@@ -39,8 +39,11 @@ export function edgesOf(body) {
 }
 
 export class SmoothSurface {
-  /** `faces`: numbers of points, three each; `points`: x, y, z of each when it is first seen. */
-  constructor(faces, points) {
+  /**
+   * `faces`: numbers of points, three each; `points`: x, y, z of each when it is first seen; `places`: numbers of what
+   * each corner has of its own, of which there may be several at a point, or none.
+   */
+  constructor(faces, points, places = null) {
     const count = faces.length / 3;
     const normals = new Float32Array(faces.length); // of faces, of length 1
     for (let f = 0; f < count; ++f) {
@@ -80,15 +83,38 @@ export class SmoothSurface {
       }
       around.forEach((corner, a) => (this.index[corner] = group[a]));
     }
+    if (places) this.#split(places, source);
     this.source = new Uint32Array(source);
     this.positions = new Float32Array(3 * source.length);
     this.normals = new Float32Array(3 * source.length);
     this.update(points);
   }
 
+  // corners of one group at several places become several, with one normal
+  #split(places, source) {
+    const groups = source.map((_, v) => v);
+    const known = new Map();
+    this.places = source.map(() => -1);
+    const taken = new Set();
+    this.index.forEach((group, corner) => {
+      const key = `${group} ${places[corner]}`;
+      let v = known.get(key);
+      if (v === undefined) {
+        v = taken.has(group) ? source.length : group;
+        taken.add(group);
+        source[v] = source[group];
+        groups[v] = group;
+        this.places[v] = places[corner];
+        known.set(key, v);
+      }
+      this.index[corner] = v;
+    });
+    this.groups = groups;
+  }
+
   /** Corners and their normals, by the areas of the faces, where the points are now. */
   update(points) {
-    const { index, source, positions, normals } = this;
+    const { index, source, positions, normals, groups } = this;
     for (let v = 0; v < source.length; ++v) {
       const p = 3 * source[v];
       positions[3 * v] = points[p];
@@ -99,7 +125,7 @@ export class SmoothSurface {
     for (let c = 0; c < index.length; c += 3) {
       const n = areaOf(positions, index[c], index[c + 1], index[c + 2]);
       for (let k = 0; k < 3; ++k) {
-        const v = 3 * index[c + k];
+        const v = 3 * (groups ? groups[index[c + k]] : index[c + k]);
         normals[v] += n[0];
         normals[v + 1] += n[1];
         normals[v + 2] += n[2];
@@ -111,6 +137,7 @@ export class SmoothSurface {
       normals[v + 1] /= length;
       normals[v + 2] /= length;
     }
+    groups?.forEach((group, v) => group !== v && normals.copyWithin(3 * v, 3 * group, 3 * group + 3));
   }
 }
 

@@ -16,9 +16,11 @@ import {
   Points,
   PointsMaterial,
   Raycaster,
+  RepeatWrapping,
   Scene,
   Sphere,
   SRGBColorSpace,
+  Texture,
   Vector2,
   Vector3,
   WebGLRenderer,
@@ -53,6 +55,13 @@ function shade(value, colours, at) {
   colours[at + 2] = shades[i + 2];
 }
 
+const brightness = 2.2; // of the light
+// three.js mirrors c (e/2 + 1) / (4 pi) of the light at the most, and pictures do c
+function mirrored({ specular, shininess }) {
+  const scale = (4 * Math.PI) / ((shininess / 2 + 1) * brightness);
+  return new Color(...specular.map((c) => Math.min(1, c * scale)));
+}
+
 const white = new Color(1, 1, 1);
 const dark = new Color(0.05, 0.05, 0.05);
 
@@ -67,6 +76,7 @@ export class StageView {
   bodies = []; // { path, objects, surface, ... }
   drawn = 0; // frames
 
+  textures = [];
   legend = null; // { low, high } of the values that colours show
 
   /** Throws where there is no WebGL 2. */
@@ -77,7 +87,7 @@ export class StageView {
     this.renderer.shadowMap.type = PCFShadowMap;
     this.scene = new Scene();
     this.around = new HemisphereLight(0xffffff, 0xa8a29a, 1.5);
-    this.light = new DirectionalLight(0xffffff, 2.2);
+    this.light = new DirectionalLight(0xffffff, brightness);
     this.light.castShadow = true;
     this.light.shadow.mapSize.set(2048, 2048);
     this.light.shadow.radius = 3;
@@ -85,6 +95,23 @@ export class StageView {
     this.sphere = new Sphere(new Vector3(), 1);
   }
 
+  /** Images, which topologies count; `changed` is called when they can be seen. */
+  setTextures(files, changed) {
+    for (const texture of this.textures) texture.dispose();
+    this.textures = files.map((file) => {
+      const texture = new Texture();
+      texture.wrapS = texture.wrapT = RepeatWrapping;
+      texture.colorSpace = SRGBColorSpace;
+      texture.flipY = false; // the image is turned over when it is read
+      texture.anisotropy = 4;
+      createImageBitmap(file, { imageOrientation: 'flipY' }).then((image) => {
+        texture.image = image;
+        texture.needsUpdate = true;
+        changed();
+      });
+      return texture;
+    });
+  }
   /** Other elements are seen from the next frame on. */
   setTopology(topology) {
     const before = new Map(this.bodies.map((body) => [body.path, body.visible]));
@@ -133,16 +160,20 @@ export class StageView {
     const through = body.opacity < 1 ? { transparent: true, opacity: body.opacity, depthWrite: false } : {};
     const faces = facesOf(body);
     if (faces.length) {
-      body.surface = new SmoothSurface(faces, points);
+      const texture = this.textures[body.texture];
+      body.surface = new SmoothSurface(faces, points, texture ? facesOf(body.inTexture) : null);
       const geometry = new BufferGeometry();
       geometry.setAttribute('position', changing(body.surface.positions));
       geometry.setAttribute('normal', changing(body.surface.normals));
       geometry.setIndex(new BufferAttribute(body.surface.index, 1));
+      if (texture) geometry.setAttribute('uv', new BufferAttribute(this.#placesOf(body), 2));
+      body.map = texture ?? null;
       const material = new MeshPhongMaterial({
         color: body.colour,
+        map: body.map,
         side: DoubleSide,
-        specular: 0x333333,
-        shininess: 40,
+        specular: mirrored(body),
+        shininess: body.shininess,
         polygonOffset: true, // edges are seen on the faces they belong to
         polygonOffsetFactor: 1,
         polygonOffsetUnits: 1,
@@ -174,6 +205,14 @@ export class StageView {
       body.dots = new Points(geometry, material);
       add(body.dots);
     }
+  }
+  #placesOf(body) {
+    const places = new Float32Array(2 * body.surface.places.length);
+    body.surface.places.forEach((t, v) => {
+      const none = t < 0 || t === 0xffffffff;
+      if (!none) places.set(body.texcoords.subarray(2 * t, 2 * t + 2), 2 * v);
+    });
+    return places;
   }
   #move(body, points) {
     body.places.array.set(points);
@@ -207,6 +246,7 @@ export class StageView {
           geometry.setAttribute('color', changing(new Float32Array(3 * count)));
         }
         material.vertexColors = coloured && !isEdge;
+        if (object === body.mesh) material.map = coloured ? null : body.map;
         material.color.copy(isEdge ? (coloured ? dark : body.colour.clone().multiplyScalar(0.25)) : coloured ? white : body.colour);
         material.needsUpdate = true;
       }

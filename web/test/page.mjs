@@ -157,11 +157,12 @@ async function use(page, name, native) {
   check(page.messages.length === 0, `the console is empty: ${page.messages.join('\n')}`);
 }
 
-// what a user drops onto the page: one or several files
+// what a user drops onto the page: one or several files, of text or a list of bytes
 const drop = (page, files) =>
   page.evaluate(`(() => {
     const carried = new DataTransfer();
-    for (const [name, content] of ${JSON.stringify(Object.entries(files))}) carried.items.add(new File([content], name));
+    for (const [name, content] of ${JSON.stringify(Object.entries(files))})
+      carried.items.add(new File([typeof content === 'string' ? content : new Uint8Array(content)], name));
     const tell = (kind) => document.querySelector('main').dispatchEvent(new DragEvent(kind, { dataTransfer: carried, bubbles: true, cancelable: true }));
     tell('dragenter');
     const marked = getComputedStyle(document.getElementById('dropHint')).display !== 'none';
@@ -210,7 +211,90 @@ async function opens(page) {
   keep('profile.png', await page.picture());
   await page.evaluate(`document.querySelector('#profile summary').click()`);
   await page.until('!sinew.state.profiling && !sinew.state.profile');
+  await plots(page);
+  await textures(page);
   check(page.messages.filter((m) => !/422/.test(m)).length === 0, `the console is empty: ${page.messages.join('\n')}`);
+}
+
+// what is measured of the ball, which falls freely: its kinetic energy is m/2 (g t)^2, of 1 kg as it is at the end of a step
+async function plots(page) {
+  await page.key(' ');
+  await page.until('!sinew.state.playing');
+  await page.evaluate(`document.querySelector('#plots summary').click()`);
+  await page.key('r');
+  await page.until('sinew.state.step === 0');
+  for (let step = 0; step < 10; ++step) await page.key('n');
+  await page.until('sinew.measures.times.length === 10', 20);
+  const energies = () => page.evaluate(`(({ times, series }) => [times, series.find((s) => s.name === 'kinetic energy').values])(sinew.measures)`);
+  const falls = ([times, values]) => times.every((t, i) => Math.abs(values[i] - (9.81 * t) ** 2 / 2) < 1e-9 * values.at(-1));
+  check(falls(await energies()), 'the energy is that of a ball that falls');
+  // what comes later is put behind it; a field begins all anew
+  for (let step = 0; step < 5; ++step) await page.key('n');
+  await page.until('sinew.measures.times.length === 15', 20);
+  check(falls(await energies()), 'and stays that');
+  await page.evaluate(`[...document.querySelectorAll('#tree .component')].find((item) => /UniformMass/.test(item.title)).click()`);
+  await page.until(`[...document.getElementById('plotField').options].some((option) => option.value === 'totalMass')`);
+  await page.evaluate(`(() => { const s = document.getElementById('plotField'); s.value = 'totalMass'; s.dispatchEvent(new Event('change')); })()`);
+  for (let step = 0; step < 3; ++step) await page.key('n');
+  await page.until(`sinew.measures.series.length === 4 && sinew.measures.times.length === 3`, 20);
+  check(await page.evaluate(`sinew.measures.series[3].unit === 'kg' && sinew.measures.series[3].values.every((m) => m === 1)`), 'a field is measured');
+  check((await page.evaluate(`[...document.querySelectorAll('#plotList polyline')].map((line) => line.getAttribute('points').split(' ').length)`)).join() === '3,3,3,3', 'all are drawn');
+  const saved = await page.evaluate(`(async () => {
+    const kept = [];
+    const { createObjectURL } = URL;
+    URL.createObjectURL = (blob) => (kept.push(blob.text()), createObjectURL(blob));
+    document.getElementById('plotCsv').click();
+    document.getElementById('plotSvg').click();
+    URL.createObjectURL = createObjectURL;
+    return Promise.all(kept);
+  })()`);
+  const lines = saved[0].trim().split('\n');
+  check(lines.length === 4 && lines[0].startsWith('time [s],time of a step [ms],kinetic energy [J],') && Math.abs(Number(lines[1].split(',')[0]) - 0.32) < 1e-12, `they are a table: ${saved[0]}`);
+  check(saved[1].startsWith('<svg') && saved[1].split('<polyline').length - 1 === 4, 'and a picture');
+  keep('plots.png', await page.picture());
+  keep('plots.svg', saved[1]);
+  // behind a reset, time begins anew
+  await page.key('r');
+  await page.until('sinew.measures.times.length === 0', 20);
+  await page.evaluate(`document.querySelector('#plots summary').click()`);
+}
+
+// a square with the four texels of its image, and one with the colour of its material, from the front
+async function textures(page) {
+  const texels = [[255, 0, 0], [0, 255, 0], [0, 0, 255], [255, 255, 0]]; // the lower row first, as a file BMP has them
+  const bytes = Buffer.alloc(70);
+  bytes.write('BM');
+  for (const [at, value] of [[2, 70], [10, 54], [14, 40], [18, 2], [22, 2], [34, 16]]) bytes.writeUInt32LE(value, at);
+  bytes.writeUInt16LE(1, 26);
+  bytes.writeUInt16LE(24, 28);
+  texels.forEach(([r, g, b], i) => bytes.set([b, g, r], 54 + 8 * Math.floor(i / 2) + 3 * (i % 2)));
+  await drop(page, {
+    'square.scn': `<Node name="square"><Node name="textured"><OglModel filename="square.obj"/></Node></Node>`,
+    'square.obj': `mtllib square.mtl
+v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1
+usemtl image\nf 1/1 2/2 3/3 4/4\nusemtl plain\nf 2 5 6 3\n`,
+    'square.mtl': 'newmtl image\nKd 1 1 1\nmap_Kd square.bmp\nnewmtl plain\nKd 0 1 1\n',
+    'square.bmp': [...bytes],
+  });
+  await page.until(`document.getElementById('title').textContent === 'square.scn' && sinew.view.textures[0]?.image && sinew.view.bodies.length === 2`, 20);
+  await page.key('z');
+  const colours = await page.evaluate(`(() => {
+    sinew.view.draw();
+    const c = document.createElement('canvas');
+    const { width, height } = sinew.view.canvas;
+    Object.assign(c, { width, height });
+    const draw = c.getContext('2d', { willReadFrequently: true });
+    draw.drawImage(sinew.view.canvas, 0, 0);
+    return [[0.25, 0.25], [0.75, 0.25], [0.25, 0.75], [0.75, 0.75], [1.5, 0.5]].map(([x, y]) => {
+      const [u, v] = sinew.view.project([x, y, 0]).map((p) => Math.round(p * sinew.view.renderer.getPixelRatio()));
+      return [...draw.getImageData(u, v, 1, 1).data];
+    });
+  })()`);
+  // in the light, but which channels there are is the image's
+  [...texels, [0, 255, 255]].forEach((texel, i) =>
+    check(texel.every((part, k) => (part ? colours[i][k] > 120 : colours[i][k] < 100)), `texel ${i} is ${texel}: ${colours[i]}`),
+  );
+  keep('textures.png', await page.picture());
 }
 
 async function served() {

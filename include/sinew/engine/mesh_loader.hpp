@@ -38,8 +38,12 @@ void add_sides(std::vector<Side>& list, std::vector<Element> const& elements,
 /// quads around; zero where there is none.
 std::vector<Eigen::Vector3d> point_normals(Mesh const& mesh);
 
-/// Reverses all elements so that a mirrored mesh keeps its fronts outside.
-void turn_elements(Mesh& mesh);
+/// Reverses volumes so that a mirrored mesh keeps their fronts outside.
+void turn_volumes(Mesh& mesh);
+/// Reverses faces, or what belongs to their corners.
+void turn_faces(std::vector<Triangle>& triangles, std::vector<Quad>& quads);
+/// Each quad becomes two triangles, behind those that there are, which look as it does.
+void triangulate_quads(Mesh& mesh, SurfaceLooks& looks);
 
 }  // namespace detail
 
@@ -85,6 +89,12 @@ struct MeshLoader {
   std::vector<Quad> quads{};
   std::vector<Tetrahedron> tetrahedra{};
   std::vector<Hexahedron> hexahedra{};
+  std::vector<Eigen::Vector2d> texcoords{};
+  std::vector<Triangle> textureTriangles{};
+  std::vector<Quad> textureQuads{};
+  std::string materialNames{};
+  std::vector<Index> faceMaterials{};
+  std::string materialLibrary{};
 
   static constexpr auto outputs() {
     using L = MeshLoader;
@@ -95,7 +105,13 @@ struct MeshLoader {
         field("triangles", &L::triangles, "", "three points each"),
         field("quads", &L::quads, "", "four points each, in the order around the quad"),
         field("tetrahedra", &L::tetrahedra, "", "four points each").also("tetras"),
-        field("hexahedra", &L::hexahedra, "", "eight points each, in VTK's order").also("hexas"));
+        field("hexahedra", &L::hexahedra, "", "eight points each, in VTK's order").also("hexas"),
+        field("texcoords", &L::texcoords, "", "places in a texture; none where the file has none"),
+        field("textureTriangles", &L::textureTriangles, "", "texcoords of the corners of each triangle"),
+        field("textureQuads", &L::textureQuads, "", "texcoords of the corners of each quad"),
+        field("materialNames", &L::materialNames, "", "materials of the faces"),
+        field("faceMaterials", &L::faceMaterials, "", "which of them each triangle has, then each quad"),
+        field("materialLibrary", &L::materialLibrary, "", "the file (.mtl) in which they are"));
   }
 
   void update(std::string_view where) {
@@ -106,24 +122,22 @@ struct MeshLoader {
     if (size[0] == 0 || size[1] == 0 || size[2] == 0)
       throw Error(at, "scale or scale3d is 0, which would make the mesh flat; give another size");
     Mesh mesh;
+    SurfaceLooks looks;
     try {
-      mesh = Format::read(filename.path);
+      if constexpr (requires { Format::read(filename.path).looks; }) {
+        auto file = Format::read(filename.path);
+        mesh = std::move(file.mesh), looks = std::move(file.looks);
+      } else {
+        mesh = Format::read(filename.path);
+      }
     } catch (Error const& error) {
       throw Error(at, error.what());
     }
 
-    if (triangulate) {
-      for (auto const& q : mesh.quads) {
-        mesh.triangles.push_back({q[0], q[1], q[2]});
-        mesh.triangles.push_back({q[0], q[2], q[3]});
-      }
-      mesh.quads.clear();
-    }
-    if (size.prod() < 0) detail::turn_elements(mesh);
-    if (flipNormals) {
-      for (auto& t : mesh.triangles) std::reverse(t.begin(), t.end());
-      for (auto& q : mesh.quads) std::reverse(q.begin(), q.end());
-    }
+    if (triangulate) detail::triangulate_quads(mesh, looks);
+    if (size.prod() < 0) detail::turn_volumes(mesh);
+    if ((size.prod() < 0) != flipNormals)
+      detail::turn_faces(mesh.triangles, mesh.quads), detail::turn_faces(looks.triangles, looks.quads);
     if (createSubelements) {
       constexpr std::size_t ofTetrahedron[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
       constexpr std::size_t ofTriangle[3][2] = {{0, 1}, {1, 2}, {2, 0}};
@@ -144,6 +158,12 @@ struct MeshLoader {
     quads = std::move(mesh.quads);
     tetrahedra = std::move(mesh.tetrahedra);
     hexahedra = std::move(mesh.hexahedra);
+    texcoords = std::move(looks.texcoords);
+    textureTriangles = std::move(looks.triangles);
+    textureQuads = std::move(looks.quads);
+    materialNames = words_of_names(looks.materials);
+    faceMaterials = std::move(looks.faceMaterials);
+    materialLibrary = std::move(looks.library);
   }
 };
 
@@ -157,7 +177,7 @@ struct GmshFormat {
 struct ObjFormat {
   static constexpr std::string_view className = "MeshOBJLoader", aliases = "MeshObjLoader", endings = ".obj",
                                     header = "";
-  static Mesh read(std::string const& path) { return io::read_obj(path); }
+  static io::ObjFile read(std::string const& path) { return io::read_obj_file(path); }
 };
 struct StlFormat {
   static constexpr std::string_view className = "MeshSTLLoader", aliases = "", endings = ".stl", header = "";
@@ -191,11 +211,26 @@ SINEW_ONCE std::vector<Eigen::Vector3d> point_normals(Mesh const& mesh) {
   return normals;
 }
 
-SINEW_ONCE void turn_elements(Mesh& mesh) {
+SINEW_ONCE void turn_volumes(Mesh& mesh) {
   for (auto& t : mesh.tetrahedra) std::swap(t[2], t[3]);
   for (auto& h : mesh.hexahedra) std::swap_ranges(h.begin(), h.begin() + 4, h.begin() + 4);
-  for (auto& t : mesh.triangles) std::reverse(t.begin(), t.end());
-  for (auto& q : mesh.quads) std::reverse(q.begin(), q.end());
+}
+SINEW_ONCE void turn_faces(std::vector<Triangle>& triangles, std::vector<Quad>& quads) {
+  for (auto& t : triangles) std::reverse(t.begin(), t.end());
+  for (auto& q : quads) std::reverse(q.begin(), q.end());
+}
+SINEW_ONCE void triangulate_quads(Mesh& mesh, SurfaceLooks& looks) {
+  if (!looks.faceMaterials.empty()) {
+    const auto before = looks.faceMaterials;
+    looks.faceMaterials.resize(mesh.triangles.size());
+    for (std::size_t f = mesh.triangles.size(); f < before.size(); ++f)
+      looks.faceMaterials.insert(looks.faceMaterials.end(), 2, before[f]);
+  }
+  auto cut = [](std::vector<Triangle>& triangles, std::vector<Quad>& quads) {
+    for (auto const& [a, b, c, d] : quads) triangles.insert(triangles.end(), {{a, b, c}, {a, c, d}});
+    quads.clear();
+  };
+  cut(mesh.triangles, mesh.quads), cut(looks.triangles, looks.quads);
 }
 
 }  // namespace sinew::detail

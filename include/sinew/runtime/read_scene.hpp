@@ -125,8 +125,18 @@ class SceneReader {
                      .origin = element.place(),
                      .folder = element.file ? element.file->folder : std::string()};
     for (XmlAttribute const& a : element.attributes)
-      if (of.empty() || dialect::has(of, a.name)) kept.attributes.emplace_back(a.name, a.value);
+      if (of.empty() || dialect::has(of, a.name))
+        kept.attributes.emplace_back(a.name, a.name == "texturename" ? image(a.value, kept.folder) : a.value);
     if (of.empty() || !kept.attributes.empty()) view_.push_back(std::move(kept));
+  }
+
+  // the file of an image; where there is none, pictures say so
+  std::string image(std::string const& name, std::string const& folder) const {
+    try {
+      return xml_.find(name, folder);
+    } catch (Error const&) {
+      return name;
+    }
   }
 
   void fill(ScenePlace& place, RuntimeNode<R>& node) {

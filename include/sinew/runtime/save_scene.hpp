@@ -84,15 +84,16 @@ class SceneWriter {
           info.role == RoleKind::state ? stateToWrite(entry.component, mapped, kept) : entry.component;
       for (auto const& field : info.fields) {
         if (!field.isInput) continue;
+        const bool isFile = field.isFile || field.name == "materialLibrary";
         const std::string value =
-            field.isFile ? absolute(field.write(component.address())) : field.write(component.address());
+            isFile ? absolute(field.write(component.address())) : field.write(component.address());
         if (value != field.defaultValue) set(element, field.name, value);
       }
       if (info.role == RoleKind::visualModel)
         for (ViewElement const& v : *view_)
           if (has_looks(v))
             for (auto const& [name, value] : v.attributes)
-              set(element, name, name == "texturename" ? absolute(in_folder(v.folder, value)) : value);
+              set(element, name, name == "texturename" ? absolute(value) : value);
       if (auto const* parents = component.parents()) {
         std::string input;
         for (auto const& path : *parents) input += text(input.empty() ? "@" : " @", path);
@@ -138,10 +139,6 @@ class SceneWriter {
       }
     });
     return copy;
-  }
-  static std::string in_folder(std::string const& folder, std::string const& path) {
-    return path.starts_with('/') || folder.empty() ? path
-                                                   : text(folder, folder.ends_with('/') ? "" : "/", path);
   }
   static std::string absolute(std::string const& path) {
     char whole[PATH_MAX];

@@ -236,12 +236,21 @@ class ElementRemoval {
   void follow(C& c, S const& scope) const {
     if constexpr (HasRole<C, role::State> || HasRole<C, role::VisualModel>) {
       const auto border = borders_.find(&c);
-      if constexpr (HasRole<C, role::VisualModel>)
-        if (border != borders_.end()) border_.takeAway(border->second, c.mesh.triangles, c.mesh.quads);
+      [[maybe_unused]] auto changeFaces = [&](auto&& edit) {
+        if constexpr (HasRole<C, role::VisualModel>) {
+          if (border == borders_.end()) return;
+          const auto triangles = c.mesh.triangles;
+          const auto quads = c.mesh.quads;
+          edit(border->second, c.mesh.triangles, c.mesh.quads);
+          if constexpr (requires { c.facesWere(triangles, quads); }) c.facesWere(triangles, quads);
+        }
+      };
+      changeFaces(
+          [&](auto const& of, auto& triangles, auto& quads) { border_.takeAway(of, triangles, quads); });
       if (ofState(&c).changes()) c.follow(ofState(&c));
-      if constexpr (HasRole<C, role::VisualModel>)
-        if (border != borders_.end())
-          border_.exposeFaces(border->second, change().points, &c.mesh.triangles, &c.mesh.quads);
+      changeFaces([&](auto const& of, auto& triangles, auto& quads) {
+        border_.exposeFaces(of, change().points, &triangles, &quads);
+      });
     } else if constexpr (HasRole<C, role::Topology>) {
       if constexpr (editable_topology<C>) {
         if (ofTopology(&c).changes()) follow(c.edit(), ofTopology(&c));

@@ -60,6 +60,23 @@ using GlFrame = GlObject<detail::release_frame>;
 using GlStore = GlObject<detail::release_store>;
 using GlProgram = GlObject<detail::release_program>;
 
+/// Red, green, blue and opacity of 8 bits from the upper left pixel on, row by row, as a texture that is
+/// repeated, with the smaller ones of itself; its places are counted from the lower left corner.
+inline GlTexture texture_of(int width, int height, std::vector<unsigned char> const& rgba) {
+  GlTexture texture = detail::made<GlTexture>([](auto n, auto* id) { glGenTextures(n, id); });
+  glBindTexture(GL_TEXTURE_2D, texture);
+  std::vector<unsigned char> fromBelow;
+  fromBelow.reserve(rgba.size());
+  const auto row = std::ptrdiff_t(4) * width;
+  for (std::ptrdiff_t y = height - 1; y >= 0; --y)
+    fromBelow.insert(fromBelow.end(), rgba.begin() + y * row, rgba.begin() + (y + 1) * row);
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, fromBelow.data());
+  glGenerateMipmap(GL_TEXTURE_2D);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  return texture;
+}
+
 /// Lists of vectors as the attributes 0, 1, ... of vertices, kept between frames. A list goes to the graphics
 /// card where it differs from the one that is there.
 class GlMesh {
@@ -74,10 +91,15 @@ class GlMesh {
       glVertexAttribPointer(GLuint(a), 3, GL_FLOAT, GL_FALSE, 0, nullptr);
     }
   }
+  /// An empty list is no attribute.
   template <class... Lists>
   void set(std::vector<Eigen::Vector3f> const& first, Lists const&... more) {
+    glBindVertexArray(vertices_);
     std::size_t a = 0;
-    for (auto const* list : {&first, &more...}) lists_[a++].set(GL_ARRAY_BUFFER, *list);
+    for (auto const* list : {&first, &more...}) {
+      list->empty() ? glDisableVertexAttribArray(GLuint(a)) : glEnableVertexAttribArray(GLuint(a));
+      lists_[a++].set(GL_ARRAY_BUFFER, *list);
+    }
     count_ = GLsizei(first.size());
   }
   /// Which of them make the primitives; without that they are taken in their order. There may be several such
@@ -136,6 +158,9 @@ class GlShaders {
   void set(char const* name, Eigen::Matrix4d const& m) const {
     const Eigen::Matrix4f value = m.cast<float>();
     glUniformMatrix4fv(at(name), 1, GL_FALSE, value.data());
+  }
+  void set(char const* name, Eigen::Vector2d const& v) const {
+    glUniform2f(at(name), float(v[0]), float(v[1]));
   }
   void set(char const* name, Eigen::Vector3d const& v) const {
     const Eigen::Vector3f value = v.cast<float>();

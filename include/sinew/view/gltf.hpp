@@ -7,11 +7,14 @@
 #include <Eigen/Core>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -83,6 +86,7 @@ class GltfFile {
   double start_ = 0;
   std::vector<double> times_{};
   std::vector<Shape> shapes_{};
+  std::vector<std::shared_ptr<SeenTexture const>> textures_{};
   std::string bytes_{}, views_{}, accessors_{};
   int viewCount_ = 0, accessorCount_ = 0;
 
@@ -98,7 +102,8 @@ class GltfFile {
       if (shape.begin + shape.frames.size() == now && shape.first.path == body.path &&
           shape.first.kind == body.kind && shape.first.points.size() == body.points.size() &&
           shape.first.triangles == body.triangles && shape.first.quads == body.quads &&
-          shape.first.edges == body.edges) {
+          shape.first.edges == body.edges && shape.first.inTexture == body.inTexture &&
+          shape.first.texture == body.texture) {
         shape.frames.push_back(std::move(numbers));
         return;
       }
@@ -126,23 +131,27 @@ class GltfFile {
     }
     return out;
   }
+  int appendBytes(char const* bytes, std::size_t size) {
+    list(views_, text("{\"buffer\":0,\"byteOffset\":", bytes_.size(), ",\"byteLength\":", size, '}'));
+    bytes_.append(bytes, size);
+    bytes_.append((4 - size % 4) % 4, '\0');
+    return viewCount_++;
+  }
   // Appends numbers as they are in memory, little endian, as glTF wants them.
   template <class T>
   int append(std::vector<T> const& values, int componentType, std::string_view type, int components,
              bool ends) {
     static_assert(std::endian::native == std::endian::little && sizeof(T) == 4);
-    const std::size_t begin = bytes_.size(), size = values.size() * sizeof(T);
-    bytes_.append(reinterpret_cast<char const*>(values.data()), size);
-    list(views_, text("{\"buffer\":0,\"byteOffset\":", begin, ",\"byteLength\":", size, '}'));
-    std::string accessor = text("{\"bufferView\":",
-                                viewCount_++,
-                                ",\"componentType\":",
-                                componentType,
-                                ",\"count\":",
-                                values.size() / std::size_t(components),
-                                ",\"type\":\"",
-                                type,
-                                '"');
+    std::string accessor =
+        text("{\"bufferView\":",
+             appendBytes(reinterpret_cast<char const*>(values.data()), values.size() * sizeof(T)),
+             ",\"componentType\":",
+             componentType,
+             ",\"count\":",
+             values.size() / std::size_t(components),
+             ",\"type\":\"",
+             type,
+             '"');
     if (ends) {
       std::vector<T> low(std::size_t(components), std::numeric_limits<T>::max()),
           high(std::size_t(components), std::numeric_limits<T>::lowest());
@@ -160,6 +169,7 @@ class GltfFile {
 
   std::string json() {
     viewCount_ = accessorCount_ = 0;
+    textures_.clear();
     std::string nodes, meshes, materials, samplers, channels, children;
     int node = 1, mesh = 0, sampler = 0;
     const std::vector<float> seconds(times_.begin(), times_.end());
@@ -195,6 +205,17 @@ class GltfFile {
       }
       ++node, ++mesh;
     }
+    std::string images, textures;
+    for (std::size_t i = 0; i < textures_.size(); ++i) {
+      std::string const& file = textures_[i]->file;
+      list(images,
+           text("{\"mimeType\":\"",
+                file.starts_with("\x89PNG") ? "image/png" : "image/jpeg",
+                "\",\"bufferView\":",
+                appendBytes(file.data(), file.size()),
+                '}'));
+      list(textures, text("{\"source\":", i, '}'));
+    }
     // y is up in glTF
     const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(up_, Eigen::Vector3d::UnitY());
     std::string root = text("{\"name\":\"scene\",\"rotation\":[", numbers(turn.coeffs()), ']');
@@ -210,6 +231,8 @@ class GltfFile {
     };
     some("meshes", meshes);
     some("materials", materials);
+    some("textures", textures);
+    some("images", images);
     some("accessors", accessors_);
     some("bufferViews", views_);
     if (!bytes_.empty()) all += text(",\"buffers\":[{\"byteLength\":", bytes_.size(), "}]");
@@ -222,36 +245,95 @@ class GltfFile {
     return all + '}';
   }
 
-  static std::string materialOf(SeenBody const& body, int number) {
+  // The corners of a body where their places in a texture are theirs alone: points, places, and which of them
+  // the elements have.
+  struct Corners {
+    std::vector<std::size_t> points{};
+    std::vector<float> texcoords{};
+    std::vector<std::uint32_t> indices{};
+    Kind kind = surface;
+
+    explicit Corners(SeenBody const& body) {
+      SurfaceLooks const& in = body.inTexture;
+      const bool textured = hasTexture(body);
+      std::map<std::pair<Index, Index>, std::uint32_t> known;
+      auto add = [&](auto const& faces, auto const& places, auto const&... order) {
+        for (std::size_t f = 0; f < faces.size(); ++f)
+          for (const std::size_t k : {order...}) {
+            const Index point = faces[f][k], place = textured ? places[f][k] : -1;
+            if (!textured) {
+              indices.push_back(std::uint32_t(point));
+              continue;
+            }
+            const auto [found, isNew] = known.emplace(std::pair(point, place), points.size());
+            indices.push_back(found->second);
+            if (!isNew) continue;
+            points.push_back(std::size_t(point));
+            // from the upper left corner
+            const Eigen::Vector2d at = place < 0 ? Eigen::Vector2d(0, 0) : in.texcoords[std::size_t(place)];
+            texcoords.insert(texcoords.end(), {float(at[0]), float(1 - at[1])});
+          }
+      };
+      constexpr std::size_t a = 0, b = 1, c = 2, d = 3;
+      add(body.triangles, in.triangles, a, b, c);
+      add(body.quads, in.quads, a, b, c, a, c, d);
+      if (textured) return;
+      for (std::size_t i = 0; i < body.points.size(); ++i) points.push_back(i);
+      if (!indices.empty()) return;
+      kind = body.edges.empty() ? dots : lines;
+      for (Edge const& e : body.edges)
+        for (const Index i : e) indices.push_back(std::uint32_t(i));
+    }
+    std::vector<float> of(std::vector<float> const& numbers) const {
+      std::vector<float> all;
+      all.reserve(3 * points.size());
+      for (const std::size_t i : points)
+        for (std::size_t c = 0; c < 3; ++c) all.push_back(numbers[3 * i + c]);
+      return all;
+    }
+  };
+  static bool hasTexture(SeenBody const& body) {
+    return body.texture && body.inTexture.triangles.size() == body.triangles.size() &&
+           body.inTexture.quads.size() == body.quads.size();
+  }
+
+  std::string materialOf(SeenBody const& body, int number) {
     std::vector<double> linear;  // glTF's colours are linear in light
     for (int c = 0; c < 3; ++c) linear.push_back(std::pow(std::clamp(body.colour[c], 0., 1.), 2.2));
     linear.push_back(std::clamp(body.opacity, 0., 1.));
+    std::string texture;
+    if (hasTexture(body)) {
+      const auto found = std::find(textures_.begin(), textures_.end(), body.texture);
+      texture = text(",\"baseColorTexture\":{\"index\":", found - textures_.begin(), '}');
+      if (found == textures_.end()) textures_.push_back(body.texture);
+    }
+    // as rough as an exponent of Blinn's model says (Karis 2013): r = (2 / (n + 2))^(1/4)
+    const double roughness = body.ofMaterial ? std::pow(2 / (std::max(body.shininess, 0.) + 2), 0.25) : 0.6;
     return text("{\"name\":\"colour ",
                 number,
                 "\",\"doubleSided\":true,\"pbrMetallicRoughness\":{\"baseColorFactor\":[",
                 numbers(linear),
-                "],\"metallicFactor\":0,\"roughnessFactor\":0.6}",
+                ']',
+                texture,
+                ",\"metallicFactor\":0,\"roughnessFactor\":",
+                numbers(std::array{roughness}),
+                '}',
                 body.opacity < 1 ? ",\"alphaMode\":\"BLEND\"}" : "}");
   }
   std::string meshOf(Shape const& shape, int material) {
-    SeenBody const& body = shape.first;
-    std::vector<std::uint32_t> corners;
-    Kind kind = surface;
-    auto add = [&](auto const&... i) { (corners.push_back(std::uint32_t(i)), ...); };
-    for (auto const& [a, b, c] : body.triangles) add(a, b, c);
-    for (auto const& [a, b, c, d] : body.quads) add(a, b, c, a, c, d);
-    if (corners.empty()) {
-      kind = body.edges.empty() ? dots : lines;
-      for (auto const& [a, b] : body.edges) add(a, b);
-    }
-    std::string primitive =
-        text("{\"attributes\":{\"POSITION\":", append(shape.frames[0], asFloat, "VEC3", 3, true), '}');
-    if (!corners.empty()) primitive += text(",\"indices\":", append(corners, asIndex, "SCALAR", 1, false));
-    primitive += text(",\"mode\":", int(kind), ",\"material\":", material);
+    const Corners corners(shape.first);
+    const std::vector<float> first = corners.of(shape.frames[0]);
+    std::string primitive = text("{\"attributes\":{\"POSITION\":", append(first, asFloat, "VEC3", 3, true));
+    if (!corners.texcoords.empty())
+      primitive += text(",\"TEXCOORD_0\":", append(corners.texcoords, asFloat, "VEC2", 2, false));
+    primitive += '}';
+    if (!corners.indices.empty())
+      primitive += text(",\"indices\":", append(corners.indices, asIndex, "SCALAR", 1, false));
+    primitive += text(",\"mode\":", int(corners.kind), ",\"material\":", material);
     std::string targets, weights;
     for (std::size_t k = 1; k < shape.frames.size(); ++k) {
-      std::vector<float> moved(shape.frames[k]);
-      for (std::size_t i = 0; i < moved.size(); ++i) moved[i] -= shape.frames[0][i];
+      std::vector<float> moved = corners.of(shape.frames[k]);
+      for (std::size_t i = 0; i < moved.size(); ++i) moved[i] -= first[i];
       list(targets, text("{\"POSITION\":", append(moved, asFloat, "VEC3", 3, true), '}'));
       list(weights, "0");
     }

@@ -34,16 +34,21 @@ struct Image {
   }
 };
 
-/// Throws Error where the file cannot be written; a file that is there stays whole then.
-inline void write_png(Image const& image, std::string const& path) {
+/// The bytes of a file PNG with so many channels of 8 bits; `path` is for messages.
+inline std::string png_of(std::string const& path, int width, int height, int channels,
+                          unsigned char const* pixels) {
   std::string bytes;
   auto append = [](void* to, void* data, int size) {
     static_cast<std::string*>(to)->append(static_cast<char const*>(data), std::size_t(size));
   };
-  if (!stbi_write_png_to_func(
-          append, &bytes, image.width, image.height, 3, image.rgb.data(), 3 * image.width))
+  if (!stbi_write_png_to_func(append, &bytes, width, height, channels, pixels, channels * width))
     throw Error(path, "the picture could not be packed: there is not enough memory");
-  io::write_file(path, bytes);
+  return bytes;
+}
+
+/// Throws Error where the file cannot be written; a file that is there stays whole then.
+inline void write_png(Image const& image, std::string const& path) {
+  io::write_file(path, png_of(path, image.width, image.height, 3, image.rgb.data()));
 }
 
 }  // namespace sinew::view

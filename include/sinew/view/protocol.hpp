@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -73,10 +74,26 @@ struct Profile {
   bool on = true;
   bool operator==(Profile const&) const = default;
 };
+/// Measures the simulation after each step from now on, or no more; a field, too.
+struct Measure {
+  bool on = true;
+  bool operator==(Measure const&) const = default;
+};
+struct MeasureField {
+  int line = 0;
+  std::string field{};
+  bool operator==(MeasureField const&) const = default;
+};
+/// Asks for what was measured later than that [s].
+struct Measures {
+  double after = 0;
+  bool operator==(Measures const&) const = default;
+};
 }  // namespace command
 using Command = std::variant<command::Play, command::Step, command::Reset, command::Speed, command::Press,
                              command::Move, command::Release, command::Component, command::SetField,
-                             command::Undo, command::Redo, command::Colour, command::Profile>;
+                             command::Undo, command::Redo, command::Colour, command::Profile,
+                             command::Measure, command::MeasureField, command::Measures>;
 
 /// Commands longer than that [bytes], or nested deeper, are refused.
 inline constexpr std::size_t longestCommand = 16384, deepestCommand = 4;
@@ -91,6 +108,8 @@ std::string write_command(Command const& command);
 std::string write_scene(std::string_view title, double dt, std::vector<TreeLine> const& tree);
 std::string write_state(StageState const& state, SeenScene const& scene);
 std::string write_component(SeenComponent const& component);
+/// Times and series, of the steps that were later.
+std::string write_measures(Measures const& measures, double after);
 std::string write_error(std::string_view message);
 
 /// Does what a command says with a stage, or what has its functions. What the stage answers, now or later and
@@ -125,16 +144,29 @@ void tell(Stage& stage, Command const& said, Answer const& answer) {
       stage.show(seen);
     }
     void operator()(command::Profile const& c) { stage.profile(c.on); }
+    void operator()(command::Measure const& c) { stage.measure(c.on); }
+    void operator()(command::MeasureField const& c) { stage.measureField(c.line, c.field); }
+    void operator()(command::Measures const& c) {
+      stage.measures([after = c.after, say = answer](Measures const& measures) {
+        say(write_measures(measures, after));
+      });
+    }
   } doing{stage, answer};
   std::visit(doing, said);
 }
 
 /// The elements of what is seen, known by a number; of its points only how many there are. Words of four
 /// bytes, the lowest first: 1 for a topology, its number, three floats upwards, how many bodies; for each
-/// body its kind (SeenBody::Kind, and 4 more where it is hidden), three floats of its colour and one of its opacity,
-/// lengths of path [bytes], points, triangles, quads, edges; the path, filled up to a word, and the numbers of the points of
-/// each element.
+/// body its kind (SeenBody::Kind, and 4 more where it is hidden), three floats of its colour and one of its
+/// opacity, lengths of path [bytes], points, triangles, quads, edges; its texture, counted from 1, or 0; how
+/// many texcoords; three floats of what is mirrored, and one of its exponent; the path, filled up to a word,
+/// the numbers of the points of each element, and where it has texcoords two floats of each, and their
+/// numbers at the corners of each triangle and quad, -1 for none.
 std::string write_topology(SeenScene const& scene, std::uint32_t number);
+/// The textures of the bodies of a scene, each once, as topologies count them: the words 3 and how many there
+/// are; for each its length [bytes] and a file PNG or JPEG, filled up to a word.
+std::string write_textures(std::vector<std::shared_ptr<SeenTexture const>> const& textures);
+std::vector<std::shared_ptr<SeenTexture const>> textures_of(SeenScene const& scene);
 /// A moment of it: the words 2, the number of its topology, how many points all bodies have, how many values:
 /// none, or one a point; time [s] and step as doubles; x, y, z of each point as floats; the values that
 /// colours show as floats, those of bodies without them no numbers.
@@ -145,11 +177,13 @@ inline constexpr std::size_t mostPoints = 4'000'000;
 
 struct ReadTopology {
   std::uint32_t number = 0;
-  SeenScene scene{};  // its points are all 0
+  SeenScene scene{};                      // its points are all 0, and it has no textures
+  std::vector<std::uint32_t> textures{};  // of each body, counted from 1, or 0
 };
 /// The inverse functions; throw Error where bytes are no topology, or no frame of this one.
 ReadTopology read_topology(std::string_view bytes);
 void read_frame(std::string_view bytes, ReadTopology& into);
+std::vector<std::string> read_textures(std::string_view bytes);
 
 /// Files that a page sends, one of which is a scene: a line of JSON, {"files": [{"name": "a.scn", "bytes":
 /// 12}]}, and behind it the bytes of all files, one after the other.
@@ -164,15 +198,19 @@ std::size_t scene_among(std::vector<SceneFile> const& files);
 /// Messages for scenes that follow each other: their topology again only when it has changed.
 class SceneWriter {
  public:
-  /// What to send of a scene: to whom does not have the topology of this number, that first.
+  /// What to send of a scene: to whom does not have the textures of their number, these first, and then the
+  /// topology, if it is another one. Number 0: there are no textures.
   void write(SeenScene const& scene);
   std::uint32_t number() const { return number_; }
+  std::uint32_t texturesNumber() const { return texturesNumber_; }
   std::string const& topology() const { return topology_; }
+  std::string const& textures() const { return textures_; }
   std::string const& frame() const { return frame_; }
 
  private:
-  std::uint32_t number_ = 0;
-  std::string topology_{}, frame_{};
+  std::uint32_t number_ = 0, texturesNumber_ = 0;
+  std::vector<std::shared_ptr<SeenTexture const>> known_{};
+  std::string topology_{}, textures_{}, frame_{};
 };
 
 }  // namespace sinew::view

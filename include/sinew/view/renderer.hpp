@@ -4,9 +4,11 @@
 #include <sinew/view/camera.hpp>
 #include <sinew/view/drawn_marks.hpp>
 #include <sinew/view/gl_objects.hpp>
+#include <sinew/view/occlusion.hpp>
 #include <sinew/view/overlay.hpp>
 #include <sinew/view/seen_scene.hpp>
 #include <sinew/view/shaded_mesh.hpp>
+#include <sinew/view/shaders.hpp>
 #include <sinew/view/smooth_target.hpp>
 
 #include <Eigen/Core>
@@ -15,6 +17,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -23,158 +26,6 @@
 #include <vector>
 
 namespace sinew::view {
-
-namespace detail {
-
-// Blinn and Phong's light from up to mostLights places, one of them with its shadow, and light from all sides
-// that may be brighter from above. The words of the lights that there are stand between these two parts.
-inline constexpr std::string_view lightWords = R"(#version 330 core
-uniform vec4 place[8];   // at the eye: of a light, or the direction to it
-uniform vec4 colour[8];
-uniform vec4 cone[8];    // where a spot shines to, and the cosine of its cone
-uniform vec4 fall[8];    // attenuation, exponent of a spot
-uniform vec3 upAtEye, around;
-uniform float fromAbove;
-uniform float opacity;
-uniform mat4 toLight;    // from the eye
-uniform sampler2DShadow shadow;
-// How much of nine places around one is seen by the light that has a shadow. Of neighbours in a row with the
-// weights 1 - f, 1, 1, f, the card's filter takes two at a time.
-float seenBy(vec3 to, vec3 n, vec3 atEye) {
-  vec3 p = (toLight * vec4(atEye, 1)).xyz * 0.5 + 0.5;
-  p.z -= 0.002 + 0.006 * (1.0 - abs(dot(n, to)));
-  vec2 size = vec2(textureSize(shadow, 0)), f = fract(p.xy * size - 0.5), middle = p.xy * size - f;
-  vec2 a = 2.0 - f, b = 1.0 + f, low = (middle - 1.0 + 1.0 / a) / size, high = (middle + 1.0 + f / b) / size;
-  return (a.x * a.y * textureLod(shadow, vec3(low, p.z), 0.0) +
-          b.x * a.y * textureLod(shadow, vec3(high.x, low.y, p.z), 0.0) +
-          a.x * b.y * textureLod(shadow, vec3(low.x, high.y, p.z), 0.0) +
-          b.x * b.y * textureLod(shadow, vec3(high, p.z), 0.0)) / 9.0;
-}
-float fallen(float far, vec4 fall) { return 1.0 / (1.0 + fall.x * far); }
-float inCone(vec3 to, vec4 cone, vec4 fall) {
-  float inside = dot(-to, cone.xyz);
-  return inside > cone.w ? pow(inside, fall.y) : 0.0;
-}
-struct Light { vec3 diffuse, shine; };
-void add(inout Light sum, vec3 n, vec3 toEye, vec3 to, vec3 colour) {
-  sum.diffuse += 0.75 * clamp(dot(n, to), 0.0, 1.0) * colour;
-  float s = max(dot(n, normalize(to + toEye)), 0.0);
-  s *= s * s * s * s;  // to the 40th power
-  s *= s, s *= s, s *= s;
-  sum.shine += 0.12 * s * colour;
-}
-vec3 linear(vec3 colour) { return pow(colour, vec3(2.2)); }
-)";
-inline constexpr std::string_view litWords = R"(
-vec3 lit(vec3 n, vec3 atEye, vec3 own, float seen) {
-  Light sum = Light(around * (1.0 + fromAbove * dot(n, upAtEye)), vec3(0.0));
-  addAll(sum, n, atEye, normalize(-atEye), seen);
-  return pow(own * sum.diffuse + sum.shine, vec3(1.0 / 2.2));
-}
-)";
-// What adds all lights, and how much of the one with a shadow is seen.
-inline std::string words_of_lights(std::vector<SeenLight> const& lights,
-                                   std::optional<std::size_t> shadowOf) {
-  std::string words =
-      "void addAll(inout Light sum, vec3 n, vec3 atEye, vec3 toEye, float seen) {\n  vec3 to;\n";
-  for (std::size_t k = 0; k < lights.size(); ++k) {
-    const bool parallel = lights[k].kind == SeenLight::Kind::parallel,
-               spot = lights[k].kind == SeenLight::Kind::spot;
-    words += text("  to = place[", k, "].xyz", parallel ? "" : " - atEye", ";\n");
-    words += text("  add(sum, n, toEye, normalize(to), colour[",
-                  k,
-                  "].rgb",
-                  shadowOf == k ? " * seen" : "",
-                  parallel ? std::string() : text(" * fallen(length(to), fall[", k, "])"),
-                  spot ? text(" * inCone(normalize(to), cone[", k, "], fall[", k, "])") : std::string(),
-                  ");\n");
-  }
-  return words + "}\nfloat seenByLight(vec3 n, vec3 atEye) { return " +
-         (shadowOf ? text("seenBy(place[", *shadowOf, "].xyz, n, atEye)") : std::string("1.0")) + "; }\n";
-}
-
-// Both sides of a face are seen. The light is computed for each pixel,
-inline constexpr char const* surfaceVertex = R"(#version 330 core
-layout(location = 0) in vec3 position;
-layout(location = 1) in vec3 normal;
-layout(location = 2) in vec3 colour;
-uniform mat4 toClip, toView;
-uniform vec4 clip;
-out vec3 atEye, normalAtEye, own;
-void main() {
-  own = colour;
-  gl_ClipDistance[0] = dot(clip, vec4(position, 1));
-  vec4 p = toView * vec4(position, 1);
-  atEye = p.xyz;
-  normalAtEye = mat3(toView) * normal;
-  gl_Position = toClip * p;
-})";
-inline constexpr std::string_view surfaceFragment = R"(
-in vec3 atEye, normalAtEye, own;
-out vec4 pixel;
-void main() {
-  vec3 n = normalize(gl_FrontFacing ? normalAtEye : -normalAtEye);
-  pixel = vec4(lit(n, atEye, linear(own), seenByLight(n, atEye)), opacity);
-})";
-// or, where the triangles are as small as a few pixels, for each of their corners.
-inline constexpr std::string_view fineVertex = R"(
-layout(location = 0) in vec3 position;
-layout(location = 1) in vec3 normal;
-layout(location = 2) in vec3 colourAtCorner;
-uniform mat4 toClip, toView;
-uniform vec4 clip;
-noperspective out vec3 front, back;
-void main() {
-  gl_ClipDistance[0] = dot(clip, vec4(position, 1));
-  vec4 p = toView * vec4(position, 1);
-  vec3 n = normalize(mat3(toView) * normal);
-  vec3 own = linear(colourAtCorner);
-  float seen = seenByLight(n, p.xyz);
-  front = lit(n, p.xyz, own, seen);
-  back = lit(-n, p.xyz, own, seen);
-  gl_Position = toClip * p;
-})";
-inline constexpr char const* fineFragment = R"(#version 330 core
-noperspective in vec3 front, back;
-uniform float opacity;
-out vec4 pixel;
-void main() { pixel = vec4(gl_FrontFacing ? front : back, opacity); })";
-
-inline constexpr char const* shadowVertex = R"(#version 330 core
-layout(location = 0) in vec3 position;
-uniform mat4 toLight;  // from the scene
-uniform vec4 clip;
-void main() {
-  gl_ClipDistance[0] = dot(clip, vec4(position, 1));
-  gl_Position = toLight * vec4(position, 1);
-})";
-inline constexpr char const* shadowFragment = R"(#version 330 core
-void main() {})";
-
-inline constexpr char const* plainVertex = R"(#version 330 core
-layout(location = 0) in vec3 position;
-layout(location = 1) in vec3 colour;
-uniform mat4 toClip, toView;
-uniform vec4 clip;
-uniform float pointSize;
-out vec3 own;
-void main() {
-  own = colour;
-  gl_ClipDistance[0] = dot(clip, vec4(position, 1));
-  gl_Position = toClip * (toView * vec4(position, 1));
-  gl_PointSize = pointSize;
-})";
-
-inline constexpr char const* plainFragment = R"(#version 330 core
-in vec3 own;
-uniform float roundPoints, opacity;
-out vec4 pixel;
-void main() {
-  if (roundPoints > 0.0 && length(gl_PointCoord - 0.5) > 0.5) discard;
-  pixel = vec4(own, opacity);
-})";
-
-}  // namespace detail
 
 /// Draws scenes with OpenGL 3.3 into the frame buffer that is bound; the context in which it is made is
 /// current.
@@ -193,6 +44,7 @@ class Renderer {
       body.opacity = seen.opacity;
       if (body.shaded.update(seen, scene.legend, scene.settings, 6 * shadow_.texel(radius_)))
         body.drawn.set(body.shaded.mesh());
+      body.setMaterial(seen);
     }
     bodies_.resize(used);
     DrawnMarks marks = drawn_marks(scene, radius_);
@@ -204,6 +56,7 @@ class Renderer {
     up_ = scene.up;
     clip_ = scene.settings.clip;
     shadows_ = scene.settings.shadows;
+    occludes_ = scene.settings.occlusion;
     lights_ = scene.settings.lights;
     if (lights_.size() > mostLights) lights_.resize(mostLights);
     ambient_ = scene.settings.ambient;
@@ -228,6 +81,7 @@ class Renderer {
     glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &target);
     if (clip_) glEnable(GL_CLIP_DISTANCE0);
     if (hasShadow) drawShadow(toLight);
+    if (occludes_) findOcclusion(toView, toClip, width, height);
     glBindFramebuffer(GL_FRAMEBUFFER, GLuint(target));
 
     glViewport(left, 0, width, height);
@@ -240,9 +94,12 @@ class Renderer {
     glBindTexture(GL_TEXTURE_2D, shadow_.depth);
     const std::string words = detail::words_of_lights(
         lights, hasShadow ? std::optional(std::size_t(first - lights.begin())) : std::nullopt);
-    if (!lit_ || lit_->words != words) lit_.emplace(words);
+    if (!lit_ || lit_->words != words || lit_->occludes != occludes_) lit_.emplace(words, occludes_);
     GlShaders const &surface = lit_->surface, &fine = lit_->fine;
-    for (GlShaders const* shaders : {&surface, &fine}) {
+    std::vector<GlShaders const*> lit{&surface, &fine};
+    if (std::any_of(bodies_.begin(), bodies_.end(), [](Body const& body) { return body.ofMaterial; }))
+      lit.push_back(&lit_->ofMaterials());
+    for (GlShaders const* shaders : lit) {
       shaders->use();
       shaders->set("toView", toView);
       shaders->set("toClip", toClip);
@@ -251,13 +108,28 @@ class Renderer {
       setLights(*shaders, lights, toView);
       shaders->set("upAtEye", toView.topLeftCorner<3, 3>() * up_);
       shaders->setTexture("shadow", 0);
+      if (!occludes_) continue;
+      shaders->setTexture("open", 2);
+      shaders->set("corner", Eigen::Vector2d(left, 0));
+      shaders->set("occludes", 1);
     }
     glEnable(GL_POLYGON_OFFSET_FILL);  // edges are seen on the faces they belong to
     glPolygonOffset(1, 1);
     auto drawFaces = [&](Body const& body) {
-      GlShaders const& shaders = isFine(body.shaded.mesh(), camera, height) ? fine : surface;
+      // what is hidden is known of pixels
+      const bool isFineHere = !occludes_ && isFine(body.shaded.mesh(), camera, height);
+      GlShaders const& shaders = body.ofMaterial ? *lit.back() : isFineHere ? fine : surface;
       shaders.use();
       shaders.set("opacity", body.opacity);
+      if (occludes_) shaders.set("occludes", body.seenThrough() ? 0 : 1);
+      if (body.ofMaterial) {
+        shaders.set("specular", body.specular);
+        shaders.set("shininess", body.shininess);
+        shaders.setTexture("image", 1);
+        glActiveTexture(GL_TEXTURE1);
+        glBindTexture(GL_TEXTURE_2D, body.image ? body.texture : white_);
+        glActiveTexture(GL_TEXTURE0);
+      }
       body.drawn.faces.draw(GL_TRIANGLES);
     };
     for (Body const& body : bodies_)
@@ -265,6 +137,7 @@ class Renderer {
     surface.use();
     surface.set("opacity", 1);
     surface.set("clip", everything());  // marks are seen as a whole
+    if (occludes_) surface.set("occludes", 1);
     marks_.faces.draw(GL_TRIANGLES);
     glDisable(GL_POLYGON_OFFSET_FILL);
     plain_.use();
@@ -295,13 +168,14 @@ class Renderer {
   }
 
   std::array<double, 3> background{1, 1, 1};
+  static constexpr double occlusionRadius = 0.15;  // in which light is hidden, by that of the scene
 
  private:
   struct Drawn {
-    GlMesh faces{3}, lines{2}, points{2};
+    GlMesh faces{4}, lines{2}, points{2};
 
     void set(ShadedMesh const& mesh) {
-      faces.set(mesh.corners, mesh.normals, mesh.colours);
+      faces.set(mesh.corners, mesh.normals, mesh.colours, mesh.texcoords);
       faces.setIndices(mesh.triangles);
       faces.setIndices(mesh.casters, 1);
       lines.set(mesh.lines.at, mesh.lines.colours);
@@ -312,7 +186,24 @@ class Renderer {
     ShadedBody shaded{};
     Drawn drawn{};
     double opacity = 1;
+    bool ofMaterial = false;  // one that mirrors in its own way, or has a texture
+    Eigen::Vector3d specular{0, 0, 0};
+    double shininess = 1;
+    std::shared_ptr<SeenTexture const> image{};
+    GlTexture texture{};  // of it
+
     bool seenThrough() const { return opacity < 1; }
+    void setMaterial(SeenBody const& seen) {
+      const bool textured = seen.texture && !shaded.mesh().texcoords.empty();
+      specular = seen.specular, shininess = seen.shininess;
+      ofMaterial = textured || specular != SeenBody::plainSpecular || shininess != SeenBody::plainShininess;
+      if (!textured) {
+        image.reset(), texture = {};
+      } else if (image != seen.texture) {
+        image = seen.texture;
+        texture = texture_of(image->width, image->height, image->rgba);
+      }
+    }
   };
   struct Shadow {
     static constexpr double margin = 1.05;  // seen around the scene, times its radius
@@ -342,20 +233,38 @@ class Renderer {
   // for the lights that there are: a shader that asks which ones is slow without a graphics card
   struct Lit {
     GlShaders surface, fine;
+    std::optional<GlShaders> material{};  // of bodies of one, where there is any
     std::string words;
+    bool occludes;
 
-    explicit Lit(std::string const& lights)
-        : surface(detail::surfaceVertex, light(lights, detail::surfaceFragment)),
-          fine(light(lights, detail::fineVertex), detail::fineFragment),
-          words(lights) {}
-    static std::string light(std::string const& lights, std::string_view main) {
-      return text(detail::lightWords, lights, detail::litWords, main);
+    Lit(std::string const& lights, bool occluded)
+        : surface(detail::surfaceVertex,
+                  light(lights, detail::plainMirror, detail::surfaceFragment, occluded)),
+          fine(light(lights, detail::plainMirror, detail::fineVertex, false), detail::fineFragment),
+          words(lights),
+          occludes(occluded) {}
+    GlShaders const& ofMaterials() {
+      if (!material)
+        material.emplace(detail::texturedVertex,
+                         light(words, detail::materialMirror, detail::texturedFragment, occludes));
+      return *material;
+    }
+    static std::string light(std::string const& lights, std::string_view mirror, std::string_view main,
+                             bool occluded) {
+      return text(detail::lightWords,
+                  lights,
+                  mirror,
+                  occluded ? detail::openWords : detail::allOpenWords,
+                  detail::litWords,
+                  main);
     }
   };
   std::optional<Lit> lit_{};
   GlShaders depth_{detail::shadowVertex, detail::shadowFragment};
   GlShaders plain_{detail::plainVertex, detail::plainFragment};
   Shadow shadow_{};
+  std::optional<Occlusion> occlusion_{};                      // where it was asked for
+  GlTexture white_ = texture_of(1, 1, {255, 255, 255, 255});  // of materials without one
   std::vector<Body> bodies_{};
   Drawn marks_{};
   GlMesh overlay_{2};
@@ -365,7 +274,7 @@ class Renderer {
   std::optional<ClipPlane> clip_{};
   Eigen::Vector3d up_{0, 1, 0}, centre_{0, 0, 0}, colour_{1, 1, 1};
   double radius_ = 1;
-  bool shadows_ = true;
+  bool shadows_ = true, occludes_ = false;
   std::vector<SeenLight> lights_{};
   std::optional<Eigen::Vector3d> ambient_{};
 
@@ -417,6 +326,17 @@ class Renderer {
     m.block<3, 1>(0, 3) = -(m.topLeftCorner<3, 3>() * centre_);
     return m;
   }
+  void findOcclusion(Eigen::Matrix4d const& toView, Eigen::Matrix4d const& toClip, int width, int height) {
+    if (!occlusion_) occlusion_.emplace();
+    occlusion_->make(toClip, width, height, occlusionRadius * radius_, [&] {
+      depth_.use();
+      depth_.set("toLight", Eigen::Matrix4d(toClip * toView));
+      drawDepths(0);
+    });
+    glActiveTexture(GL_TEXTURE2);
+    glBindTexture(GL_TEXTURE_2D, occlusion_->texture());
+    glActiveTexture(GL_TEXTURE0);
+  }
   void drawShadow(Eigen::Matrix4d const& toLight) {
     glBindFramebuffer(GL_FRAMEBUFFER, shadow_.frame);
     glViewport(0, 0, shadow_.size, shadow_.size);
@@ -424,9 +344,13 @@ class Renderer {
     glClear(GL_DEPTH_BUFFER_BIT);
     depth_.use();
     depth_.set("toLight", toLight);
+    drawDepths(1);
+  }
+  // of what hides; `which` list of the faces of bodies
+  void drawDepths(std::size_t which) {
     depth_.set("clip", clipped());
     for (Body const& body : bodies_)
-      if (!body.seenThrough()) body.drawn.faces.draw(GL_TRIANGLES, 1);
+      if (!body.seenThrough()) body.drawn.faces.draw(GL_TRIANGLES, which);
     depth_.set("clip", everything());
     marks_.faces.draw(GL_TRIANGLES);
   }

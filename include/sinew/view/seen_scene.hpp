@@ -13,6 +13,7 @@
 #include <sinew/scene/states_of.hpp>
 #include <sinew/topology/border.hpp>
 #include <sinew/view/hull_faces.hpp>
+#include <sinew/view/seen_body.hpp>
 #include <sinew/view/seen_settings.hpp>
 #include <sinew/view/seen_values.hpp>
 
@@ -42,31 +43,6 @@ inline constexpr std::array<std::array<double, 3>, 7> palette{{{0.84, 0.37, 0.0}
                                                                {0.90, 0.62, 0.0},
                                                                {0.34, 0.71, 0.91},
                                                                {0.94, 0.89, 0.26}}};
-
-/// What is seen of a node: surfaces, or where there are none lines, or points.
-struct SeenBody {
-  enum class Kind { state, visual, collision };
-  std::string path{};
-  Kind kind = Kind::state;
-  bool visible = true;
-  std::vector<Eigen::Vector3d> points{};
-  std::vector<Triangle> triangles{};
-  std::vector<Quad> quads{};
-  std::vector<Edge> edges{};
-  std::vector<double> values{};           // of the quantity that colours show, one a point; or none
-  Eigen::Vector3d colour{0.5, 0.5, 0.5};  // red, green, blue from 0 to 1
-  double opacity = 1;                     // what is behind shows through where it is less
-
-  /// The corners of the smallest box around all points that are finite; where there is none, the lower one is
-  /// above the higher one.
-  std::pair<Eigen::Vector3d, Eigen::Vector3d> box() const {
-    constexpr double most = std::numeric_limits<double>::infinity();
-    Eigen::Vector3d low = Eigen::Vector3d::Constant(most), high = -low;
-    for (Eigen::Vector3d const& p : points)
-      if (p.allFinite()) low = low.cwiseMin(p), high = high.cwiseMax(p);
-    return {low, high};
-  }
-};
 
 /// A vector at a place.
 struct SeenArrow {
@@ -348,7 +324,11 @@ SeenScene seen_scene(Simulation& simulation, SeenSettings const& settings = {},
       body.quads = std::move(mesh.quads);
       if (body.triangles.empty() && body.quads.empty()) body.edges = std::move(mesh.edges);
       body.values = values.of(&visual);
-      seen.bodies.push_back(std::move(body));
+      SurfaceLooks looks;
+      if constexpr (requires { visual.looks(); })
+        if (visual.wrongLooks().empty()) looks = visual.looks();  // fields may have other values by now
+      for (SeenBody& one : bodies_by_material(std::move(body), std::move(looks), settings.materials))
+        seen.bodies.push_back(std::move(one));
     });
   if (settings.visualModels)
     simulation.template visit<role::BehaviorModel>([&](auto const& model, auto const& scope) {
@@ -402,14 +382,17 @@ SeenScene seen_scene(Simulation& simulation, SeenSettings const& settings = {},
   });
   for (std::size_t i = 0; i < seen.bodies.size(); ++i) {
     SeenBody& body = seen.bodies[i];
-    body.colour = Eigen::Vector3d(palette[i % palette.size()].data());
+    if (!body.ofMaterial) body.colour = Eigen::Vector3d(palette[i % palette.size()].data());
     if (body.kind == SeenBody::Kind::collision) body.colour = {0.25, 0.25, 0.25};
     for (BodyLook const& look : settings.looks)
       if (look.path == body.path && body.kind != SeenBody::Kind::collision) {
         body.visible = look.visible;
+        if (look.texture) body.texture = look.texture;
+        if (look.texture && !body.ofMaterial) body.colour.setOnes();
         if (look.colour) body.colour = *look.colour;
         if (look.opacity) body.opacity = *look.opacity;
       }
+    if (body.inTexture.texcoords.empty()) body.texture.reset();
   }
   if (settings.springs || settings.colour == Quantity::stretch) seen.springs = seen_springs(simulation);
   if (settings.constraints) detail::show_constrained(simulation, seen);

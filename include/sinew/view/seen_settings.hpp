@@ -2,9 +2,11 @@
 #pragma once
 
 #include <sinew/core/platform.hpp>
+#include <sinew/view/seen_material.hpp>
 
 #include <Eigen/Core>
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -69,6 +71,9 @@ struct BodyLook {
   bool visible = true;
   std::optional<Eigen::Vector3d> colour{};  // red, green, blue from 0 to 1
   std::optional<double> opacity{};          // from 0 to 1; what is behind shows through where it is less
+  std::string image{};                      // the file of a texture, and where it was written, for messages
+  std::string origin{};
+  std::shared_ptr<SeenTexture const> texture{};  // of it, where it was read (load_materials())
 };
 
 /// What is asked for. What nobody asks for is not computed.
@@ -78,9 +83,11 @@ struct SeenSettings {
   std::array<bool, 5> arrows{};                      // of each kind
   bool visualModels = true, states = false;          // states are seen in any case where no visual model is
   bool collisionModels = false, springs = false, constraints = false, normals = false;
-  bool wireframe = false, axes = false, grid = false, legend = true, shadows = true;
+  bool wireframe = false, axes = false, grid = false, legend = true, shadows = true,
+       occlusion = false;  // less light from all sides in corners
   std::optional<ClipPlane> clip{};
   std::vector<BodyLook> looks{};
+  std::vector<SeenMaterial> materials{};  // that visual models name (load_materials())
   std::optional<Eigen::Vector3d> background{};
   std::vector<SeenLight> lights{};           // none: one from the left above the eye
   std::optional<Eigen::Vector3d> ambient{};  // what comes from all sides; without it white, more from above

@@ -37,6 +37,7 @@ struct ColouredPlaces {
 /// What a graphics card draws of a body: triangles of corners with normals and colours, lines and points.
 struct ShadedMesh {
   std::vector<Eigen::Vector3f> corners{}, normals{}, colours{};
+  std::vector<Eigen::Vector3f> texcoords{};                  // x and y of each corner, or none
   std::vector<unsigned> triangles{};                         // three corners for each
   std::vector<unsigned> casters{};                           // those that throw shadows
   double longest = std::numeric_limits<double>::infinity();  // no edge of a triangle is longer [m]
@@ -51,6 +52,14 @@ struct ShadedMesh {
     corners.push_back(place.cast<float>());
     normals.push_back(normal.cast<float>());
     colours.push_back(colour.cast<float>());
+    return unsigned(corners.size() - 1);
+  }
+  /// A corner that there is.
+  unsigned addAgain(unsigned corner) {
+    for (auto* list : {&corners, &normals, &colours}) {
+      const Eigen::Vector3f same = (*list)[corner];
+      list->push_back(same);
+    }
     return unsigned(corners.size() - 1);
   }
 };
@@ -74,6 +83,13 @@ class SmoothFaces {
       if (std::isfinite(lengths_[f]))
         for (const Index i : faces[f])
           mesh.triangles.push_back(atEdge_[std::size_t(i)] ? cornerOf(f, std::size_t(i)) : unsigned(i));
+  }
+  /// Of a list with one entry for each face those of the faces that became triangles.
+  std::vector<Triangle> of(std::vector<Triangle> const& all) const {
+    std::vector<Triangle> some;
+    for (std::size_t f = 0; f < all.size(); ++f)
+      if (std::isfinite(lengths_[f])) some.push_back(all[f]);
+    return some;
   }
 
  private:
@@ -159,6 +175,35 @@ class SmoothFaces {
   }
 };
 
+/// Corners of triangles that are at several places of a texture become several; `numbers` are those of the
+/// texcoords at each corner of each triangle.
+inline void add_texcoords(std::vector<Eigen::Vector2d> const& texcoords, std::vector<Triangle> const& numbers,
+                          ShadedMesh& mesh) {
+  constexpr unsigned none = ~0u;
+  constexpr Index unset = -2;
+  std::vector<Index> numberOf(mesh.corners.size(), unset);
+  std::vector<unsigned> next(mesh.corners.size(), none);  // the same corner at another place
+  for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
+    const Index wanted = numbers[k / 3][k % 3];
+    unsigned c = mesh.triangles[k];
+    if (numberOf[c] == unset) numberOf[c] = wanted;
+    while (numberOf[c] != wanted && next[c] != none) c = next[c];
+    if (numberOf[c] != wanted) {
+      const unsigned added = mesh.addAgain(c);
+      next[c] = added;
+      numberOf.push_back(wanted);
+      next.push_back(none);
+      c = added;
+    }
+    mesh.triangles[k] = c;
+  }
+  mesh.texcoords.reserve(mesh.corners.size());
+  for (const Index i : numberOf) {
+    const Eigen::Vector2d at = i < 0 ? Eigen::Vector2d(0, 0) : texcoords[std::size_t(i)];
+    mesh.texcoords.push_back({float(at[0]), float(at[1]), 0});
+  }
+}
+
 }  // namespace detail
 
 /// The mesh of a body that is seen again and again, with the edges of its elements where it is no visual
@@ -175,11 +220,12 @@ class ShadedBody {
     const Look look{.asLines = settings.wireframe || body.kind == SeenBody::Kind::collision,
                     .outlined = body.kind == SeenBody::Kind::state,
                     .normals = settings.normals,
+                    .textured = body.texture && !valued,
                     .range = valued ? std::optional(std::pair(legend->low, legend->high)) : std::nullopt,
                     .colour = body.colour};
     const bool sameElements = look_ && look.asLines == look_->asLines && look.outlined == look_->outlined &&
                               body.triangles == seen_.triangles && body.quads == seen_.quads &&
-                              body.edges == seen_.edges;
+                              body.edges == seen_.edges && body.inTexture == seen_.inTexture;
     if (sameElements && look == *look_ && body.points == seen_.points && body.values == seen_.values)
       return false;
     seen_ = body;
@@ -195,23 +241,27 @@ class ShadedBody {
  private:
   // what the mesh depends on beside the body
   struct Look {
-    bool asLines, outlined, normals;
+    bool asLines, outlined, normals, textured;
     std::optional<std::pair<double, double>> range;
     Eigen::Vector3d colour;
     bool operator==(Look const&) const = default;
   };
   SeenBody seen_{};
   std::optional<Look> look_{};
-  std::vector<Triangle> faces_{};
+  std::vector<Triangle> faces_{}, inTexture_{};
   std::vector<Edge> edges_{};
   std::vector<unsigned> casters_{};
   ShadedMesh mesh_{};
 
   // each edge once
   void listElements() {
-    faces_ = seen_.triangles;
-    for (auto const& [a, b, c, d] : seen_.quads)
-      faces_.insert(faces_.end(), {Triangle{a, b, c}, Triangle{a, c, d}});
+    auto triangulated = [](std::vector<Triangle> triangles, std::vector<Quad> const& quads) {
+      for (auto const& [a, b, c, d] : quads)
+        triangles.insert(triangles.end(), {Triangle{a, b, c}, Triangle{a, c, d}});
+      return triangles;
+    };
+    faces_ = triangulated(seen_.triangles, seen_.quads);
+    inTexture_ = triangulated(seen_.inTexture.triangles, seen_.inTexture.quads);
     edges_ = seen_.edges;
     auto outline = [&](auto const& face) {
       for (std::size_t k = 0; k < face.size(); ++k) {
@@ -254,7 +304,9 @@ class ShadedBody {
     };
     const bool shaded = !look_->asLines && !faces_.empty();
     if (shaded) {
-      detail::SmoothFaces(seen_.points, faces_, colourOf, mesh_);
+      detail::SmoothFaces faces(seen_.points, faces_, colourOf, mesh_);
+      if (look_->textured && inTexture_.size() == faces_.size())
+        detail::add_texcoords(seen_.inTexture.texcoords, faces.of(inTexture_), mesh_);
       mesh_.casters = casters_;
     }
     std::tie(mesh_.low, mesh_.high) = seen_.box();

@@ -77,6 +77,7 @@ class ShowPanel {
     ImGui::SameLine();
     check("legend", settings_.legend);
     check("shadows", settings_.shadows);
+    check("occlusion", settings_.occlusion);
     changed = drawClip(scene) || changed;
     ImGui::Separator();
     ImGui::TextDisabled("bodies");

@@ -257,19 +257,23 @@ inline void apply_element(ViewElement const& element, ViewSettings& settings) {
     apply_camera(element, settings);
   else {
     std::optional<SaidColour> said;
+    std::string image;
+    each("texturename", [&](auto const& words) { image = words; });
     each("material", [&](auto const& words) { said = diffuse_of_material(words); });
     each("color", [&](auto const& words) {
       if (!Words(words).end()) said = colour_of_words(words);
     });
-    if (said)
-      settings.seen.looks.push_back({.path = element.path, .colour = said->colour, .opacity = said->opacity});
+    BodyLook look{.path = element.path, .image = image, .origin = element.origin};
+    if (said) look.colour = said->colour, look.opacity = said->opacity;
+    if (said || !image.empty()) settings.seen.looks.push_back(std::move(look));
   }
 }
 
 }  // namespace detail
 
-/// What the elements of a scene file say: flags of a VisualStyle, the background, colours and materials of
-/// visual models, axes, grid, plane of clipping and camera. What is wrong in one is a warning.
+/// What the elements of a scene file say: flags of a VisualStyle, the background, colours, materials and
+/// textures of visual models, axes, grid, plane of clipping and camera. What is wrong in one is a warning.
+/// Textures and libraries of materials are read by load_materials() (view/load_materials.hpp).
 inline ViewSettings view_settings(std::span<ViewElement const> elements) {
   ViewSettings settings;
   for (ViewElement const& element : elements) try {

@@ -135,6 +135,38 @@ class ImpliedValues {
     }
   }
 
+  /// A field of a visual model that says how its faces look: nothing moves otherwise without it.
+  static bool isLook(SceneItem const& item, FieldInfo const& field) {
+    static constexpr std::array ofMesh =
+        std::to_array<std::string_view>({"position", "edges", "triangles", "quads"});
+    return item.info->role == RoleKind::visualModel && !dialect::has(ofMesh, field.name);
+  }
+  void leaveOut(SceneItem& item, std::string_view name, std::string_view why) {
+    messages_.warnings.insert(
+        text(item.element->place(), ": <", item.tag, ">: ", name, ": ", why, "; it is left out"));
+  }
+  /// Texcoords of a loader come with their numbers at the corners of faces. Those that do not fit are left
+  /// out.
+  void fillLooks(SceneItem& item, std::set<std::string_view> const& given) {
+    if (const auto link = item.links.find("texcoords"); link != item.links.end() && !item.failed) {
+      const LinkTarget from = follow_link(item, link->second);
+      for (const std::string_view list : {"textureTriangles", "textureQuads"})
+        if (!given.count(list) && from.item && from.item->info && from.data == "texcoords" &&
+            offered(*from.item->info, list))
+          values_.takeFrom(item, list, *from.item, list);
+    }
+    values_.component(item).template visit<role::VisualModel>([&](auto& visual) {
+      if constexpr (requires { visual.wrongLooks(); }) {
+        const std::string wrong = visual.wrongLooks();
+        if (wrong.empty()) return;
+        visual.setLooks({});
+        for (auto const& field : item.info->fields)
+          if (isLook(item, field)) item.links.erase(std::string(field.name));
+        leaveOut(item, "texcoords and materials of its faces", wrong);
+      }
+    });
+  }
+
  private:
   ComponentValues<R>& values_;
   SceneMessages& messages_;

@@ -59,7 +59,10 @@ class SceneValues {
     std::set<std::string_view> given;
     for (auto const& a : item.element->attributes) attribute(item, a, given);
     if (auto const* src = item.element->attribute("src")) implied_.source(item, *src, given);
-    if (item.info->role == RoleKind::visualModel) implied_.fillVisualModel(item, given);
+    if (item.info->role == RoleKind::visualModel) {
+      implied_.fillVisualModel(item, given);
+      implied_.fillLooks(item, given);
+    }
     place(item, placing);
     if (item.info->role == RoleKind::engine && !item.element->attribute("src"))
       implied_.surroundings(item, given);
@@ -126,6 +129,7 @@ class SceneValues {
       }
       setField(item, *field, is_link(a.value) ? linked : a.value, a);
     } catch (Error const& error) {
+      if (implied_.isLook(item, *field)) return implied_.leaveOut(item, a.name, error.what());
       item.failed = true;
       messages_.addError(item.element->place(a), text('<', item.tag, ">: ", a.name, ": ", error.what()));
     }
