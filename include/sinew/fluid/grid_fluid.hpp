@@ -5,6 +5,7 @@
 #include <sinew/core/memory_limit.hpp>
 #include <sinew/core/mesh.hpp>
 #include <sinew/fluid/advection.hpp>
+#include <sinew/fluid/cut_cells.hpp>
 #include <sinew/fluid/level_set.hpp>
 #include <sinew/fluid/poisson_multigrid.hpp>
 #include <sinew/fluid/staggered_velocity.hpp>
@@ -41,15 +42,20 @@ struct GridFluidSettings {
 /// by splitting: the surface and the velocity are carried along, gravity and viscosity act, and the pressure
 /// takes away the divergence (Chorin 1968; Bridson 2015). At the free surface, wherever it crosses between
 /// two cells, the pressure is zero (ghost fluid: Enright, Nguyen, Gibou, Fedkiw 2003), inside solids there is
-/// none. After init a step does not allocate, and its bits do not depend on the number of threads.
+/// none. Bodies that move through it cut its cells and are moved (CutCells). After init a step does not
+/// allocate, and its bits do not depend on the number of threads.
 template <class Real, int N>
 class GridFluid {
  public:
   using Vector = Eigen::Matrix<double, N, 1>;
   using Settings = GridFluidSettings<N>;
+  static constexpr int dimension = N;
 
   StaggeredVelocity<Real, N> velocity{};
   LevelSet<Real, N> surface{};
+  CutCells<Real, N> cut{};
+  /// Solids that the next step meets; what it does to them stands there behind it.
+  std::vector<ImmersedBody> bodies{};
   // what the last step did
   typename PoissonMultigrid<Real, N>::Result pressureSolve{};
   int viscosityIterations = 0;
@@ -86,9 +92,13 @@ class GridFluid {
     viscosity_.init(grid);
     multigrid_.init(grid);
     surface.init(grid, Real(bandCells));
+    cut.init(grid);
+    bodies.clear();
+    obstacle_.assign(grid.size, 0);
     prepared_ = false;
     timeFactor_ = 0;
     volume_ = 0;
+    measured_ = false;
   }
   Settings const& settings() const { return settings_; }
   CellGrid<N> const& grid() const { return velocity.grid; }
@@ -97,7 +107,9 @@ class GridFluid {
   template <class F>
   void setSolids(F&& inside) {
     forCentres([&](std::ptrdiff_t i, Vector const& x) {
-      if (inside(x)) velocity.cell[at(i)] = CellKind::solid;
+      if (!inside(x)) return;
+      velocity.cell[at(i)] = CellKind::solid;
+      obstacle_[at(i)] = 1;
     });
     prepared_ = false;
   }
@@ -125,6 +137,7 @@ class GridFluid {
     velocity.holdWalls(workers);
     velocity.extrapolate(layers(), workers);
     volume_ = fluidCells(workers);
+    measured_ = false;
     if (settings_.hasSurface && volume_ <= 0)
       throw Error(where_, "there is no fluid in the grid; raise its height, or take another direction");
   }
@@ -147,6 +160,22 @@ class GridFluid {
     velocity.holdWalls(workers);
   }
 
+  /// Takes the bodies that are met, and makes room for the faces that they have. Throws Error where one is
+  /// outside.
+  void reserveForBodies() {
+    if (bodies.empty()) return;
+    placeBodies({});
+    measured_ = false;
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+      if (!cut.holds(int(b)))
+        throw Error(where_,
+                    text("no corner of a cell is inside the solid ",
+                         bodies[b].path,
+                         ": it is outside of the grid, or smaller than a cell; move it into the grid, or take "
+                         "smaller cells"));
+    cut.faces.reserve(2 * cut.faces.size());
+  }
+
   /// A step [s] under an acceleration [m/s^2]. Throws Error where the velocity is not finite.
   void step(double dt, Vector const& acceleration, SomeWorkers workers) {
     const Real perCell = Real(dt / settings_.cellWidth);
@@ -155,10 +184,11 @@ class GridFluid {
       throw Error(where_,
                   "the velocity of the fluid is not finite: the simulation diverged; take a smaller dt");
     courant = fastest * double(perCell);
+    placeBodies(workers);
     if (settings_.hasSurface) {
       surface.advect(velocity, perCell, settings_.advection, workers);
       surface.redistance(velocity, workers);
-      if (settings_.keepsVolume) surface.keepVolume(velocity, volume_, workers);
+      if (settings_.keepsVolume) surface.keepVolume(velocity, room(), volume_, workers);
       classify(workers);
     }
     for (std::size_t c = 0; c < axes<N>; ++c)
@@ -273,7 +303,7 @@ class GridFluid {
     Real* last = to.data() + lists.size() * n;
     for (const int count : settings_.cells) *last++ = Real(count);
     *last++ = Real(timeFactor_);
-    *last = Real(volume_);
+    *last = Real(measured_ ? volume_ : -volume_);
   }
   /// Whether a list is what this grid saves.
   bool saves(std::vector<Real> const& list) const {
@@ -292,7 +322,9 @@ class GridFluid {
                 from.begin() + std::ptrdiff_t((k + 1) * n),
                 lists[k]->begin());
     timeFactor_ = double(from[from.size() - 2]);
-    volume_ = double(from[from.size() - 1]);
+    const double last = double(from[from.size() - 1]);
+    measured_ = last >= 0;
+    volume_ = std::abs(last);
     classify(workers);
   }
 
@@ -406,21 +438,28 @@ class GridFluid {
   bool prepared_ = false;  // the equations of the pressure are those of a step before
   double timeFactor_ = 0;  // the step with which the pressure was made [s]
   double volume_ = 0;      // that is kept [cells]
+  bool measured_ = false;  // with the bodies that take room; saved as its sign
+  std::vector<std::uint8_t> obstacle_{};
+  std::vector<int> region_{}, queue_{};  // of cells that pressure joins
 
   static std::size_t at(std::ptrdiff_t i) { return std::size_t(i); }
   bool isSolid(std::ptrdiff_t i) const { return velocity.cell[at(i)] == CellKind::solid; }
   int layers() const { return std::min(bandCells + 2, int(std::ceil(std::min(courant, 16.0))) + 3); }
   double fluidCells(SomeWorkers workers) {
-    if (settings_.hasSurface) return surface.volume(velocity, workers);
+    if (settings_.hasSurface) return surface.volume(velocity, room(), workers);
     return grid().sum(workers, sums_, [&](std::ptrdiff_t i) {
-      return velocity.cell[at(i)] == CellKind::fluid ? 1.0 : 0.0;
+      return velocity.cell[at(i)] == CellKind::fluid ? roomOf(i) : 0.0;
     });
   }
-  double part(std::ptrdiff_t i) const { return settings_.hasSurface ? double(surface.fraction(i)) : 1.0; }
+  std::span<Real const> room() const { return cut.any ? std::span<Real const>(cut.room) : std::span<Real const>(); }
+  double roomOf(std::ptrdiff_t i) const { return cut.any ? double(cut.room[at(i)]) : 1.0; }
+  double part(std::ptrdiff_t i) const {
+    return (settings_.hasSurface ? double(surface.fraction(i)) : 1.0) * roomOf(i);
+  }
   // of the fluid in a cell, for one that is cut as by a plane across an axis [m]
   Vector middle(std::ptrdiff_t i) const {
     Vector x = centre(i);
-    const double filled = part(i);
+    const double filled = settings_.hasSurface ? double(surface.fraction(i)) : 1.0;
     if (filled <= 0 || filled >= 1) return x;
     Vector slope;
     for (int c = 0; c < N; ++c) {
@@ -464,6 +503,62 @@ class GridFluid {
           kind = surface.inFluid(surface.value[at(i)]) ? CellKind::fluid : CellKind::air;
       });
     velocity.classify(workers);
+    cut.close(velocity);
+  }
+  void placeBodies(SomeWorkers workers) {
+    if (bodies.empty() && !cut.any) return;
+    if (!bodies.empty() && region_.empty()) {
+      region_.assign(grid().size, 0);
+      queue_.reserve(grid().inner());
+    }
+    cut.place(where_, bodies, settings_.corner, settings_.cellWidth, velocity, obstacle_);
+    if (bodies.empty())  // they have gone
+      grid().forCells(workers, [&](std::ptrdiff_t i) {
+        if (!obstacle_[at(i)]) velocity.cell[at(i)] = CellKind::fluid;
+      });
+    classify(workers);
+    cut.move(bodies, velocity);
+    velocity.holdWalls(workers);
+    prepared_ = false;
+    if (!measured_) volume_ = fluidCells(workers);
+    measured_ = true;
+  }
+  // What no pressure can take away from a region without a free surface, as where a body closes a corner of a
+  // tank, flows out of all its cells alike.
+  void balanceRegions() {
+    auto& top = multigrid_.finest();
+    std::fill(region_.begin(), region_.end(), 0);
+    int number = 0;
+    grid().forCells({}, [&](std::ptrdiff_t start) {
+      if (region_[at(start)] != 0 || !(top.inverse[at(start)] > 0)) return;
+      queue_.clear();
+      auto join = [&](std::ptrdiff_t i) {
+        if (region_[at(i)] == 0) queue_.push_back(int(i)), region_[at(i)] = number;
+      };
+      ++number;
+      join(start);
+      bool surfaceMet = false;
+      double sum = 0;
+      for (std::size_t k = 0; k < queue_.size(); ++k) {
+        const std::ptrdiff_t i = queue_[k];
+        sum += double(top.b[at(i)]);
+        surfaceMet = surfaceMet || top.surface[at(i)] > 0;
+        velocity.forNeighbours(i, [&](std::ptrdiff_t j) {
+          for (std::size_t c = 0; c < axes<N>; ++c)
+            if (top.inverse[at(j)] > 0 && joined(c, i, j)) join(j);
+        });
+      }
+      if (surfaceMet) return;
+      const Real mean = Real(sum / double(queue_.size()));
+      for (const int i : queue_) top.b[at(i)] -= mean;
+    });
+  }
+  // whether pressure joins two cells beside each other along an axis, across the ends of a periodic one, too
+  bool joined(std::size_t c, std::ptrdiff_t i, std::ptrdiff_t j) const {
+    const std::ptrdiff_t s = grid().stride[c], n = grid().cells[c];
+    auto const& face = multigrid_.finest().face[c];
+    if (j - i == s || i - j == s) return face[at(std::max(i, j))] > 0;
+    return std::abs(j - i) == (n - 1) * s && face[at(std::min(i, j))] > 0;
   }
   // how far from a fluid cell the surface is towards an air cell
   Real toSurface(std::ptrdiff_t fluidCell, std::ptrdiff_t airCell) const {
@@ -478,10 +573,15 @@ class GridFluid {
   }
   Real outflow(std::ptrdiff_t i) const {
     Real sum = 0;
-    for (std::size_t c = 0; c < axes<N>; ++c)
-      sum += velocity.value[c][at(i + grid().stride[c])] - velocity.value[c][at(i)];
+    for (std::size_t c = 0; c < axes<N>; ++c) sum += flow(c, i + grid().stride[c]) - flow(c, i);
     return sum;
   }
+  // through a face, of the fluid and of the solid in it
+  Real flow(std::size_t c, std::ptrdiff_t i) const {
+    const Real u = velocity.value[c][at(i)];
+    return cut.any ? cut.open[c][at(i)] * u + (1 - cut.open[c][at(i)]) * velocity.solid[c][at(i)] : u;
+  }
+  Real openPart(std::size_t c, std::ptrdiff_t i) const { return cut.any ? cut.open[c][at(i)] : Real(1); }
 
   void accelerate(double dt, Vector const& acceleration, bool periodic, SomeWorkers workers) {
     for (std::size_t c = 0; c < axes<N>; ++c) {
@@ -502,10 +602,11 @@ class GridFluid {
       for (std::size_t c = 0; c < axes<N>; ++c) {
         const std::ptrdiff_t s = grid().stride[c];
         const bool fluid = here == CellKind::fluid;
-        top.face[c][k] = fluid && velocity.cell[at(i - s)] == CellKind::fluid ? Real(1) : Real(0);
+        top.face[c][k] = fluid && velocity.cell[at(i - s)] == CellKind::fluid ? openPart(c, i) : Real(0);
         if (fluid)
           for (const std::ptrdiff_t j : {i - s, i + s})
-            if (velocity.cell[at(j)] == CellKind::air) top.surface[k] += 1 / toSurface(i, j);
+            if (velocity.cell[at(j)] == CellKind::air)
+              top.surface[k] += openPart(c, std::max(i, j)) / toSurface(i, j);
       }
     });
     multigrid_.prepare(workers);
@@ -527,7 +628,9 @@ class GridFluid {
       else if (timeFactor_ > 0 && timeFactor_ != dt)
         pressure_[at(i)] *= Real(dt / timeFactor_);
     });
-    if (closed) {  // what no pressure can take away is of the rounding of walls that move
+    if (cut.any) {
+      balanceRegions();
+    } else if (closed) {  // what no pressure can take away is of the rounding of walls that move
       const double sum = grid().sum(workers, sums_, [&](std::ptrdiff_t i) { return double(top.b[at(i)]); });
       const double count =
           grid().sum(workers, sums_, [&](std::ptrdiff_t i) { return top.inverse[at(i)] > 0 ? 1.0 : 0.0; });
@@ -536,7 +639,15 @@ class GridFluid {
         if (top.inverse[at(i)] > 0) top.b[at(i)] -= mean;
       });
     }
-    pressureSolve = multigrid_.solve(pressure_, settings_.tolerance, settings_.maxIterations, workers);
+    const double perPressure = settings_.density * cellVolume();
+    pressureSolve = multigrid_.solve(
+        pressure_,
+        settings_.tolerance,
+        settings_.maxIterations,
+        workers,
+        [&](std::vector<Real> const& q, std::vector<Real>& y) {
+          if (cut.any) cut.respond(bodies, perPressure, q, y);
+        });
     timeFactor_ = dt;
     for (std::size_t c = 0; c < axes<N>; ++c) {
       const std::ptrdiff_t s = grid().stride[c];
@@ -554,6 +665,11 @@ class GridFluid {
         velocity.value[c][at(i)] -= slope;
       });
       grid().wrap(std::span<Real>(velocity.value[c]));
+    }
+    if (cut.any) {
+      cut.push(bodies, perPressure, dt, pressure_);
+      cut.move(bodies, velocity);
+      velocity.holdWalls(workers);
     }
   }
 };
