@@ -19,6 +19,7 @@
 #include "samples/fixed_plane.hpp"
 #include "samples/fixed_rotation.hpp"
 #include "samples/fluid_boundary.hpp"
+#include "samples/immersed_solid.hpp"
 #include "samples/hermite_spline.hpp"
 #include "samples/linear_movement.hpp"
 #include "samples/linear_velocity.hpp"

@@ -46,8 +46,8 @@ double positive_part(std::array<double, Corners> const& value) {
   }
 }
 
-/// Solids that move through a grid and cut its cells (Batty, Bertails, Bridson 2007). Of each face the part
-/// a is open, and through the rest goes the solid, so that the flow out of a cell is
+/// Solids that move through a grid and cut its cells (Batty, Bertails, Bridson 2007). Of the box of a cell
+/// around each face the part a is open, and in the rest goes the solid, so that the flow out of a cell is
 ///   sum over faces of +-(a u + (1 - a) U),  U = m . V,  m = (e, r x e)
 /// for a rigid body with the motion V = (v, w), across the axis e. Pressure does work on it where it takes
 /// room from the cells:
@@ -204,14 +204,7 @@ class CutCells {
   // a of all faces; below 1e-3 they are closed
   void measure() {
     auto part = [&](std::size_t c, std::ptrdiff_t i) {
-      auto value = [&](std::ptrdiff_t j) { return distance_.value[at(j)]; };
-      double a = 0;
-      if constexpr (N == 2) {
-        a = positive_part<2>({value(i), value(i + grid_.stride[1 - c])});
-      } else {
-        const std::ptrdiff_t s = grid_.stride[(c + 1) % 3], t = grid_.stride[(c + 2) % 3];
-        a = positive_part<4>({value(i), value(i + s), value(i + s + t), value(i + t)});
-      }
+      const double a = openAround(c, i);
       open[c][at(i)] = a < 1e-3 ? Real(0) : Real(a);
     };
     for (std::size_t c = 0; c < axes<N>; ++c) {
@@ -222,7 +215,47 @@ class CutCells {
     }
   }
 
-  // The part of a cell outside solids: in space the mean of four sections across each axis.
+  // a of a face: that of both halves of the box around it; in space the mean of two sections of each, across
+  // that axis of the face along which distances change less
+  double openAround(std::size_t c, std::ptrdiff_t i) const {
+    // the corners of the face, and those of the cells on both sides; behind the last cell there is none
+    const std::ptrdiff_t s = grid_.stride[c];
+    const std::ptrdiff_t place = i / s % (grid_.cells[c] + 2);
+    std::array<std::array<double, 3>, std::size_t(1) << (N - 1)> line;  // along c
+    bool outside = false, inside = false;
+    for (std::size_t k = 0; k < line.size(); ++k) {
+      std::ptrdiff_t j = i;
+      for (std::size_t d = 1; d < axes<N>; ++d)
+        if (k >> (d - 1) & 1) j += grid_.stride[(c + d) % axes<N>];
+      const double here = distance_.value[at(j)];
+      const double below = place > 1 ? distance_.value[at(j - s)] : here;
+      const double above = place <= grid_.cells[c] ? distance_.value[at(j + s)] : here;
+      line[k] = {(below + here) / 2, here, (here + above) / 2};
+      for (const double value : line[k]) (value > 0 ? outside : inside) = true;
+    }
+    if (!outside || !inside) return outside ? 1 : 0;
+    double sum = 0;
+    if constexpr (N == 2) {
+      for (const std::size_t half : {std::size_t(0), std::size_t(1)})
+        sum += positive_part<4>({line[0][half], line[0][half + 1], line[1][half + 1], line[1][half]}) / 2;
+    } else {
+      const double first = line[1][1] - line[0][1] + line[3][1] - line[2][1],
+                   second = line[2][1] - line[0][1] + line[3][1] - line[1][1];
+      const std::size_t across = std::abs(first) < std::abs(second) ? 1 : 2, beside = 3 - across;
+      for (const std::size_t half : {std::size_t(0), std::size_t(1)})
+        for (const double z : {0.25, 0.75}) {
+          auto value = [&](std::size_t low, std::size_t h) {
+            return line[low][h] + z * (line[low + across][h] - line[low][h]);
+          };
+          sum += positive_part<4>(
+                     {value(0, half), value(0, half + 1), value(beside, half + 1), value(beside, half)}) /
+                 4;
+        }
+    }
+    return sum;
+  }
+  // The part of a cell outside solids: in space the mean of four sections, across the axis along which
+  // distances change least.
   double roomOf(std::ptrdiff_t i) const {
     std::array<double, std::size_t(1) << N> value;
     bool outside = false, inside = false;
@@ -237,16 +270,21 @@ class CutCells {
     if constexpr (N == 2) {
       return positive_part<4>({value[0], value[1], value[3], value[2]});
     } else {
-      double sum = 0;
+      std::size_t across = 0;
+      double least = std::numeric_limits<double>::max();
       for (std::size_t c = 0; c < 3; ++c) {
-        const std::size_t up = std::size_t(1) << c, s = std::size_t(1) << (c + 1) % 3,
-                          t = std::size_t(1) << (c + 2) % 3;
-        for (const double z : {0.125, 0.375, 0.625, 0.875}) {
-          auto at = [&](std::size_t k) { return value[k] + z * (value[k + up] - value[k]); };
-          sum += positive_part<4>({at(0), at(s), at(s + t), at(t)});
-        }
+        double change = 0;
+        for (std::size_t k = 0; k < 8; ++k) change += k >> c & 1 ? value[k] : -value[k];
+        if (std::abs(change) < least) least = std::abs(change), across = c;
       }
-      return sum / 12;
+      const std::size_t up = std::size_t(1) << across, s = std::size_t(1) << (across + 1) % 3,
+                        t = std::size_t(1) << (across + 2) % 3;
+      double sum = 0;
+      for (const double z : {0.125, 0.375, 0.625, 0.875}) {
+        auto section = [&](std::size_t k) { return value[k] + z * (value[k + up] - value[k]); };
+        sum += positive_part<4>({section(0), section(s), section(s + t), section(t)}) / 4;
+      }
+      return sum;
     }
   }
 

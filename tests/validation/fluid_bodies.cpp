@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSL-1.0
+// Fluids of particles against closed forms: a drop under surface tension (Rayleigh 1879), a sphere that sinks
+// (Stokes 1851, with walls after Faxen 1922).
+#include "catch.hpp"
+#include "fluid_tank.hpp"
+
+#include <sinew/force/fluid_boundary.hpp>
+#include <sinew/mechanics.hpp>
+#include <sinew/solver/dfsph.hpp>
+
+namespace test_fluid_bodies {
+
+using namespace sinew;
+using tank::Points;
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+Points ball(double d, double radius) {
+  Points x;
+  const int n = int(radius / d) + 1;
+  for (auto const& p : tank::block(d, 2 * n, 2 * n, 2 * n, Eigen::Vector3d::Constant(-n * d)))
+    if (p.norm() < radius) x.push_back(p);
+  return x;
+}
+
+/// The surface tension of a continuum whose particles pull each other with the force c W(r) r, as many in all
+/// directions (Fowler 1937):  sigma = pi n^2 / 8 integral of c W(r) r^5 dr.
+double tension_of_cohesion(double number, double factor, double radius) {
+  const CubicKernels<double> kernel(radius);
+  double sum = 0;
+  const int steps = 1000;
+  for (int k = 0; k < steps; ++k) {
+    const double q = (k + 0.5) / steps, r = q * radius;
+    sum += kernel.density(q) * std::pow(r, 5) * radius / steps;
+  }
+  return pi * number * number / 8 * factor * sum;
+}
+
+}  // namespace
+
+TEST_CASE("a drop under surface tension swings with Rayleigh's period, and becomes round", "[long]") {
+  // omega^2 = 8 sigma / (rho R^3) of the mode between a longer and a flatter drop
+  const double d = 0.125, rho = 1, mass = rho * d * d * d, h = 2 * d;
+  Points x = ball(d, 1);
+  const double volume = double(x.size()) * d * d * d, radius = std::cbrt(3 * volume / (4 * pi));
+  const double cohesion = 1 / tension_of_cohesion(1 / (d * d * d), mass, h);  // sigma = 1 N/m
+  const double omega = std::sqrt(8 / (rho * std::pow(radius, 3)));
+  const double stretch = 1.15;
+  for (auto& p : x) p = Eigen::Vector3d(p[0] / std::sqrt(stretch), p[1] / std::sqrt(stretch), p[2] * stretch);
+  Simulation sim{node<"drop">(DFSPHSolver{.radius = h, .density = rho},
+                              MechanicalObject<Vec3d>{.position = x},
+                              UniformMass<Vec3d>{.vertexMass = mass},
+                              SPHFluidForceField<Vec3d>{.radius = h,
+                                                        .mass = mass,
+                                                        .density = rho,
+                                                        .viscosity = 0,
+                                                        .surfaceTension = cohesion,
+                                                        .kernelType = 1,
+                                                        .pressureType = 0,
+                                                        .viscosityType = 0,
+                                                        .surfaceTensionType = 2})};
+  sim.init();
+  auto elongation = [&] {
+    double along = 0, across = 0;
+    for (auto const& p : sim.root().state().position) {
+      along += p[2] * p[2];
+      across += (p[0] * p[0] + p[1] * p[1]) / 2;
+    }
+    return std::sqrt(along / across) - 1;
+  };
+  std::vector<double> crossings;
+  double last = elongation(), lateMost = 0;
+  const double first = last;
+  const double dt = 0.005;
+  while (sim.time() < 4 * 2 * pi / omega) {
+    sim.animate(dt);
+    const double now = elongation();
+    if ((now > 0) != (last > 0)) crossings.push_back(sim.time() - dt * now / (now - last));
+    last = now;
+    if (sim.time() > 3 * 2 * pi / omega) lateMost = std::max(lateMost, std::abs(now));
+    if (std::getenv("SHOW")) std::printf("%g %g\n", sim.time(), now);
+  }
+  CAPTURE(first, lateMost, omega, radius);
+  REQUIRE(crossings.size() >= 3);
+  const double period = 2 * (crossings[2] - crossings[0]) / 2;
+  CAPTURE(crossings[0], crossings[1], crossings[2]);
+  // The radius is eight distances, and the outer ones have half of their neighbours: some 10 %.
+  CHECK(period == Approx(2 * pi / omega).epsilon(0.15));
+  CHECK(lateMost < 0.3 * first);
+}
+
+TEST_CASE("a sphere sinks through a thick fluid with Stokes' velocity, held back by walls", "[long]") {
+  // v = (m - rho V) g / (6 pi mu a K), K = 1 / (1 - 2.104 l + 2.09 l^3 - 0.95 l^5) in a tube of the radius
+  // a / l. A square tube is as narrow as a round one of about 1.1 times half its side (1.903 l to first
+  // order: Happel, Brenner 1983, 7-4).
+  const double d = 0.05, rho = 1000, g = 9.81, mu = 500;
+  const int n = 18, high = 20;
+  const double a = 3.5 * d;  // where the water ends: half a distance outside of the boundary particles
+  Points shell;
+  const int points = int(4 * pi * 3 * 3);
+  for (int k = 0; k < points; ++k) {  // even on a sphere, by the golden angle
+    const double z = 1 - (2 * k + 1.) / points, turn = k * pi * (3 - std::sqrt(5.));
+    shell.push_back((a - d / 2) * Eigen::Vector3d(std::sqrt(1 - z * z) * std::cos(turn), z, std::sqrt(1 - z * z) * std::sin(turn)));
+  }
+  const Eigen::Vector3d middle(n * d / 2, high * d * 0.6, n * d / 2);
+  Points x;
+  for (auto const& p : tank::block(d, n, high, n))
+    if ((p - middle).norm() > a + 0.3 * d) x.push_back(p);
+  const double volume = 4 * pi / 3 * a * a * a, mass = 3 * rho * volume;
+  Rigid3d::Coord start = Rigid3d::zero();
+  start.center = middle;
+  Simulation sim{node<"root">(
+      Gravity{{0, -g, 0}},
+      node<"water">(DFSPHSolver{.radius = 2 * d, .density = rho, .viscosity = mu},
+                    MechanicalObject<Vec3d>{.position = x},
+                    UniformMass<Vec3d>{.vertexMass = rho * d * d * d}),
+      node<"walls">(MechanicalObject<Vec3d>{.position = tank::walls(d, n, high + 4, n)}, FluidBoundary<Vec3d>{}),
+      node<"ball">(EulerExplicitSolver{},
+                   MechanicalObject<Rigid3d>{.position = {start}},
+                   UniformMass<Rigid3d>{.vertexMass = Rigid3d::MassType{
+                                            .mass = mass, .inertia = Eigen::Matrix3d::Identity() * 0.4 * mass * a * a}},
+                   node<"surface">(MechanicalObject<Vec3d>{.position = shell},
+                                   RigidMapping<Rigid3d, Vec3d>{},
+                                   FluidBoundary<Vec3d>{})))};
+  sim.init();
+  const double l = a / (n * d / 2) * 1.903 / 2.104;
+  const double k = 1 / (1 - 2.104 * l + 2.09 * l * l * l - 0.95 * std::pow(l, 5));
+  const double expected = (mass - rho * volume) * g / (6 * pi * mu * a * k);
+  double mean = 0;
+  const int steps = 160, counted = 80;
+  for (int i = 0; i < steps; ++i) {
+    sim.animate(0.002);
+    const double v = -sim.at<"ball">().state().velocity[0][1];
+    if (std::getenv("SHOW")) std::printf("%g %g of %g\n", sim.time(), v, expected);
+    if (i >= steps - counted) mean += v / counted;
+  }
+  CAPTURE(mean, expected, k);
+  CHECK(mean == Approx(expected).epsilon(0.2));  // seven particles across
+}
+
+}  // namespace test_fluid_bodies
