@@ -23,7 +23,8 @@ inline sinew::Mesh sphere(double radius, int cuts, Eigen::Vector3d const& centre
   for (int k = 0; k < cuts; ++k) {
     std::map<Edge, Index> middles;
     auto middle = [&](Index a, Index b) {
-      const auto [at, isNew] = middles.insert({{std::min(a, b), std::max(a, b)}, Index(mesh.positions.size())});
+      const auto [at, isNew] =
+          middles.insert({{std::min(a, b), std::max(a, b)}, Index(mesh.positions.size())});
       if (isNew)
         mesh.positions.push_back(
             (mesh.positions[std::size_t(a)] + mesh.positions[std::size_t(b)]).normalized());
@@ -32,7 +33,8 @@ inline sinew::Mesh sphere(double radius, int cuts, Eigen::Vector3d const& centre
     std::vector<Triangle> finer;
     for (auto const& [a, b, c] : mesh.triangles) {
       const Index ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-      for (auto const& t : {Triangle{a, ab, ca}, Triangle{b, bc, ab}, Triangle{c, ca, bc}, Triangle{ab, bc, ca}})
+      for (auto const& t :
+           {Triangle{a, ab, ca}, Triangle{b, bc, ab}, Triangle{c, ca, bc}, Triangle{ab, bc, ca}})
         finer.push_back(t);
     }
     mesh.triangles = finer;

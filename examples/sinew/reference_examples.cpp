@@ -104,7 +104,7 @@ constexpr std::string_view boxInPool = R"(
   <Node name="box">
     <EulerExplicitSolver/>
     <MechanicalObject template="Rigid3d" position="0 0.1 0 0 0 0 1"/>
-    <UniformMass vertexMass="14 1  0.15 0 0  0 0.15 0  0 0 0.15"/>
+    <UniformMass vertexMass="14 1  0.015 0 0  0 0.015 0  0 0 0.015"/>
     <Node name="surface">
       <CubeTopology min="-0.15 -0.15 -0.15" max="0.15 0.15 0.15"/>
       <MechanicalObject template="Vec3d"/>

@@ -280,15 +280,14 @@ TEST_CASE("where a source meets a full state, nothing before it has counted what
   }
 
   // nor has a sink
-  auto sink = scene(none,
-                    EulerExplicitSolver{},
-                    MechanicalObject<Vec3d>{.position = {{6, 0, 0}}, .velocity = {{0, -1, 0}}},
-                    UniformMass<Vec3d>{},
-                    Sink{.d0 = -9, .d1 = -0.195},
-                    Source{.center = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}},
-                           .velocity = {0, 1, 0},
-                           .delay = 0.2,
-                           .capacity = 2});
+  auto sink = scene(
+      none,
+      EulerExplicitSolver{},
+      MechanicalObject<Vec3d>{.position = {{6, 0, 0}}, .velocity = {{0, -1, 0}}},
+      UniformMass<Vec3d>{},
+      Sink{.d0 = -9, .d1 = -0.195},
+      Source{
+          .center = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, .velocity = {0, 1, 0}, .delay = 0.2, .capacity = 2});
   sink.init();
   for (int i = 0; i < 20; ++i) sink.animate(0.01);
   CHECK_THAT(error_of([&] { sink.animate(0.01); }), Contains("capacity of 2"));

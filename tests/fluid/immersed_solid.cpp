@@ -89,7 +89,8 @@ TEST_CASE("a sphere that is let go has the acceleration of its weight, its lift 
 TEST_CASE("a box that is lighter than water floats at Archimedes' depth, level, however light") {
   for (const double density : {500., 50.}) {
     const double w = 0.3, h = 0.2, mass = density * w * h;
-    const std::vector<Eigen::Vector2d> corners{{-w / 2, -h / 2}, {w / 2, -h / 2}, {w / 2, h / 2}, {-w / 2, h / 2}};
+    const std::vector<Eigen::Vector2d> corners{
+        {-w / 2, -h / 2}, {w / 2, -h / 2}, {w / 2, h / 2}, {-w / 2, h / 2}};
     Rigid2d::Coord start = Rigid2d::zero();
     start.center = {0.03, 0.13};
     start.orientation = 0.1;
@@ -98,9 +99,9 @@ TEST_CASE("a box that is lighter than water floats at Archimedes' depth, level, 
         node<"water">(Fluid2D{.nx = 34, .ny = 34, .cellwidth = 1. / 32, .height = 16.5, .viscosity = 5}),
         node<"box">(EulerExplicitSolver{},
                     MechanicalObject<Rigid2d>{.position = {start}},
-                    UniformMass<Rigid2d>{.vertexMass = Rigid2d::MassType{
-                                             .mass = mass,
-                                             .inertia = Mat<double, 1>(mass * (w * w + h * h) / 12)}},
+                    UniformMass<Rigid2d>{.vertexMass = Rigid2d::MassType{.mass = mass,
+                                                                         .inertia = Mat<double, 1>(
+                                                                             mass * (w * w + h * h) / 12)}},
                     node<"skin">(MeshTopology{.edges = {{0, 1}, {1, 2}, {2, 3}, {3, 0}}},
                                  MechanicalObject<Vec2d>{.position = corners},
                                  RigidMapping<Rigid2d, Vec2d>{},
@@ -207,17 +208,18 @@ TEST_CASE("a body does not feel its own acceleration twice: at rest on a spring 
   Simulation sim{node<"root">(
       Gravity{{0, -g, 0}},
       node<"water">(Fluid3D{.nx = 18, .ny = 18, .nz = 18, .cellwidth = 1. / 16, .height = 14.5}),
-      node<"ball">(EulerExplicitSolver{},
-                   MechanicalObject<Rigid3d>{.position = {Rigid3d::zero()}},
-                   UniformMass<Rigid3d>{.vertexMass = Rigid3d::MassType{
-                                            .mass = mass,
-                                            .inertia = Eigen::Matrix3d::Identity() * mass * 0.16 / 6}},
-                   UniformVelocityDampingForceField<Rigid3d>{.dampingCoefficient = 2000},
-                   RestShapeSpringsForceField<Rigid3d>{.stiffness = {stiffness}, .angularStiffness = {1e5}},
-                   node<"skin">(MeshTopology{.quads = cube.quads},
-                                MechanicalObject<Vec3d>{.position = cube.positions},
-                                RigidMapping<Rigid3d, Vec3d>{},
-                                ImmersedSolid<Vec3d>{})))};
+      node<"ball">(
+          EulerExplicitSolver{},
+          MechanicalObject<Rigid3d>{.position = {Rigid3d::zero()}},
+          UniformMass<Rigid3d>{
+              .vertexMass =
+                  Rigid3d::MassType{.mass = mass, .inertia = Eigen::Matrix3d::Identity() * mass * 0.16 / 6}},
+          UniformVelocityDampingForceField<Rigid3d>{.dampingCoefficient = 2000},
+          RestShapeSpringsForceField<Rigid3d>{.stiffness = {stiffness}, .angularStiffness = {1e5}},
+          node<"skin">(MeshTopology{.quads = cube.quads},
+                       MechanicalObject<Vec3d>{.position = cube.positions},
+                       RigidMapping<Rigid3d, Vec3d>{},
+                       ImmersedSolid<Vec3d>{})))};
   sim.init();
   for (int k = 0; k < 600; ++k) sim.animate(0.002);
   const double sunk = -sim.at<"ball">().state().position[0].center[1];
@@ -227,11 +229,11 @@ TEST_CASE("a body does not feel its own acceleration twice: at rest on a spring 
 
 TEST_CASE("solids in fluids: bad input") {
   auto wrong = [](Mesh const& mesh) {
-    Simulation sim{node<"root">(
-        node<"water">(Fluid3D{.nx = 8, .ny = 8, .nz = 8, .cellwidth = 0.1, .height = 4}),
-        node<"stone">(MeshTopology{.triangles = mesh.triangles, .quads = mesh.quads},
-                      MechanicalObject<Vec3d>{.position = mesh.positions},
-                      ImmersedSolid<Vec3d>{}))};
+    Simulation sim{
+        node<"root">(node<"water">(Fluid3D{.nx = 8, .ny = 8, .nz = 8, .cellwidth = 0.1, .height = 4}),
+                     node<"stone">(MeshTopology{.triangles = mesh.triangles, .quads = mesh.quads},
+                                   MechanicalObject<Vec3d>{.position = mesh.positions},
+                                   ImmersedSolid<Vec3d>{}))};
     return error_of([&] {
       sim.init();
       sim.animate(0.01);
@@ -251,11 +253,11 @@ TEST_CASE("solids in fluids: bad input") {
 
   // a body that diverges
   const Mesh cube = shapes::box({-0.1, -0.1, -0.1}, {0.12, 0.12, 0.12});
-  Simulation sim{node<"root">(
-      node<"water">(Fluid3D{.nx = 8, .ny = 8, .nz = 8, .cellwidth = 0.1, .height = 4}),
-      node<"stone">(MeshTopology{.quads = cube.quads},
-                    MechanicalObject<Vec3d>{.position = cube.positions},
-                    ImmersedSolid<Vec3d>{}))};
+  Simulation sim{
+      node<"root">(node<"water">(Fluid3D{.nx = 8, .ny = 8, .nz = 8, .cellwidth = 0.1, .height = 4}),
+                   node<"stone">(MeshTopology{.quads = cube.quads},
+                                 MechanicalObject<Vec3d>{.position = cube.positions},
+                                 ImmersedSolid<Vec3d>{}))};
   sim.init();
   sim.at<"stone">().state().position[3][1] = std::numeric_limits<double>::quiet_NaN();
   CHECK_THAT(error_of([&] { sim.animate(0.01); }),

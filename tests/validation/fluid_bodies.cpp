@@ -74,7 +74,8 @@ Swing swing_of_drop(double radius, double tension) {
 
 TEST_CASE("a drop under surface tension swings as Rayleigh says, and becomes round", "[long]") {
   // omega^2 = 8 sigma / (rho R^3) of the mode between a longer and a flatter drop. Sigma is a multiple of the
-  // factor of the cohesion, which the kernels determine: the period of one radius follows from that of another.
+  // factor of the cohesion, which the kernels determine: the period of one radius follows from that of
+  // another.
   const Swing one = swing_of_drop(1, 1), smaller = swing_of_drop(0.8, 1);
   CAPTURE(one.period, one.longest, one.flattest, smaller.period);
   REQUIRE(one.period > 0);
@@ -98,7 +99,8 @@ TEST_CASE("a sphere sinks through a thick fluid with Stokes' velocity, held back
   const int points = int(4 * pi * 3 * 3);
   for (int k = 0; k < points; ++k) {  // even on a sphere, by the golden angle
     const double z = 1 - (2 * k + 1.) / points, turn = k * pi * (3 - std::sqrt(5.));
-    shell.push_back(a * Eigen::Vector3d(std::sqrt(1 - z * z) * std::cos(turn), z, std::sqrt(1 - z * z) * std::sin(turn)));
+    shell.push_back(
+        a * Eigen::Vector3d(std::sqrt(1 - z * z) * std::cos(turn), z, std::sqrt(1 - z * z) * std::sin(turn)));
   }
   const Eigen::Vector3d middle(n * d / 2, high * d * 0.6, n * d / 2);
   Points x;
@@ -112,14 +114,17 @@ TEST_CASE("a sphere sinks through a thick fluid with Stokes' velocity, held back
       node<"water">(DFSPHSolver{.radius = 2 * d, .density = rho, .viscosity = mu},
                     MechanicalObject<Vec3d>{.position = x},
                     UniformMass<Vec3d>{.vertexMass = rho * d * d * d}),
-      node<"walls">(MechanicalObject<Vec3d>{.position = tank::walls(d, n, high + 4, n)}, FluidBoundary<Vec3d>{}),
-      node<"ball">(EulerExplicitSolver{},
-                   MechanicalObject<Rigid3d>{.position = {start}},
-                   UniformMass<Rigid3d>{.vertexMass = Rigid3d::MassType{
-                                            .mass = mass, .inertia = Eigen::Matrix3d::Identity() * 0.4 * mass * a * a}},
-                   node<"surface">(MechanicalObject<Vec3d>{.position = shell},
-                                   RigidMapping<Rigid3d, Vec3d>{},
-                                   FluidBoundary<Vec3d>{})))};
+      node<"walls">(MechanicalObject<Vec3d>{.position = tank::walls(d, n, high + 4, n)},
+                    FluidBoundary<Vec3d>{}),
+      node<"ball">(
+          EulerExplicitSolver{},
+          MechanicalObject<Rigid3d>{.position = {start}},
+          UniformMass<Rigid3d>{
+              .vertexMass = Rigid3d::MassType{.mass = mass,
+                                              .inertia = Eigen::Matrix3d::Identity() * 0.4 * mass * a * a}},
+          node<"surface">(MechanicalObject<Vec3d>{.position = shell},
+                          RigidMapping<Rigid3d, Vec3d>{},
+                          FluidBoundary<Vec3d>{})))};
   sim.init();
   const double l = a / ((n + 1) * d / 2) * 1.903 / 2.104;
   const double k = 1 / (1 - 2.104 * l + 2.09 * l * l * l - 0.95 * std::pow(l, 5));

@@ -18,14 +18,14 @@ struct ImmersedBody {
   using Vector6 = Eigen::Matrix<double, 6, 1>;
   using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-  std::string path{};                              // for messages
-  int dimension = 3;                               // of the space in which it is
-  std::vector<std::array<Index, 3>> elements{};    // triangles, or in the plane edges with -1 at the end
+  std::string path{};                            // for messages
+  int dimension = 3;                             // of the space in which it is
+  std::vector<std::array<Index, 3>> elements{};  // triangles, or in the plane edges with -1 at the end
   std::vector<Eigen::Vector3d> positions{}, velocities{};
-  bool rigid = false;                              // it moves as one rigid body
+  bool rigid = false;  // it moves as one rigid body
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-  Vector6 motion = Vector6::Zero();                // V*: at the end of the step, without the fluid
-  Matrix6 response = Matrix6::Zero();              // R; 0 for what the fluid does not move
+  Vector6 motion = Vector6::Zero();    // V*: at the end of the step, without the fluid
+  Matrix6 response = Matrix6::Zero();  // R; 0 for what the fluid does not move
 
   // what the fluid does to it: its mean force over the step, on each point, and all together [N, N m]
   std::vector<Eigen::Vector3d> forces{};

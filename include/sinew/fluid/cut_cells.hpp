@@ -81,8 +81,8 @@ class CutCells {
 
   /// Takes bodies where they are. Cells that they fill are solid, others are what they are without them:
   /// `kind` of obstacles stays.
-  void place(std::string const& where, std::vector<ImmersedBody> const& bodies, Vector const& corner, double h,
-             StaggeredVelocity<Real, N>& u, std::vector<std::uint8_t> const& obstacle) {
+  void place(std::string const& where, std::vector<ImmersedBody> const& bodies, Vector const& corner,
+             double h, StaggeredVelocity<Real, N>& u, std::vector<std::uint8_t> const& obstacle) {
     for (Face const& f : faces) u.solid[std::size_t(f.axis)][std::size_t(f.cell)] = 0;
     faces.clear();
     any = !bodies.empty();
@@ -166,7 +166,8 @@ class CutCells {
     }
   }
   /// Gives bodies their forces over a step, and those that answer their motions.
-  void push(std::vector<ImmersedBody>& bodies, double perPressure, double dt, std::vector<Real> const& q) const {
+  void push(std::vector<ImmersedBody>& bodies, double perPressure, double dt,
+            std::vector<Real> const& q) const {
     for (std::size_t b = 0; b < bodies.size(); ++b) {
       ImmersedBody& body = bodies[b];
       body.forces.assign(body.positions.size(), Eigen::Vector3d::Zero());
@@ -197,7 +198,10 @@ class CutCells {
     for (std::size_t k = 0; k < body.positions.size(); ++k)
       if (!body.positions[k].allFinite() || !body.velocities[k].allFinite())
         throw Error(where,
-                    text("point ", k, " of the solid ", body.path,
+                    text("point ",
+                         k,
+                         " of the solid ",
+                         body.path,
                          " is not finite, or its velocity; the body diverged: take a smaller dt"));
   }
 
@@ -310,8 +314,7 @@ class CutCells {
           if (b < 0 || e < 0) continue;  // far inside
           ImmersedBody const& body = bodies[std::size_t(b)];
           Eigen::Vector3d middle(0, 0, 0);
-          for (std::size_t d = 0; d < axes<N>; ++d)
-            middle[Eigen::Index(d)] = p[d] - (d == c ? 1 : 0.5);
+          for (std::size_t d = 0; d < axes<N>; ++d) middle[Eigen::Index(d)] = p[d] - (d == c ? 1 : 0.5);
           Face f{int(c), int(i), b, 1 - open[c][at(i)], false, false, body.elements[std::size_t(e)], {}, {}};
           f.weights = distance_.weights(body, e, middle, place);
           Eigen::Vector3d arm = -body.centre;

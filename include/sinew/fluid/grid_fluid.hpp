@@ -168,11 +168,12 @@ class GridFluid {
     measured_ = false;
     for (std::size_t b = 0; b < bodies.size(); ++b)
       if (!cut.holds(int(b)))
-        throw Error(where_,
-                    text("no corner of a cell is inside the solid ",
-                         bodies[b].path,
-                         ": it is outside of the grid, or smaller than a cell; move it into the grid, or take "
-                         "smaller cells"));
+        throw Error(
+            where_,
+            text("no corner of a cell is inside the solid ",
+                 bodies[b].path,
+                 ": it is outside of the grid, or smaller than a cell; move it into the grid, or take "
+                 "smaller cells"));
     cut.faces.reserve(2 * cut.faces.size());
   }
 
@@ -451,7 +452,9 @@ class GridFluid {
       return velocity.cell[at(i)] == CellKind::fluid ? roomOf(i) : 0.0;
     });
   }
-  std::span<Real const> room() const { return cut.any ? std::span<Real const>(cut.room) : std::span<Real const>(); }
+  std::span<Real const> room() const {
+    return cut.any ? std::span<Real const>(cut.room) : std::span<Real const>();
+  }
   double roomOf(std::ptrdiff_t i) const { return cut.any ? double(cut.room[at(i)]) : 1.0; }
   double part(std::ptrdiff_t i) const {
     return (settings_.hasSurface ? double(surface.fraction(i)) : 1.0) * roomOf(i);
@@ -640,14 +643,13 @@ class GridFluid {
       });
     }
     const double perPressure = settings_.density * cellVolume();
-    pressureSolve = multigrid_.solve(
-        pressure_,
-        settings_.tolerance,
-        settings_.maxIterations,
-        workers,
-        [&](std::vector<Real> const& q, std::vector<Real>& y) {
-          if (cut.any) cut.respond(bodies, perPressure, q, y);
-        });
+    pressureSolve = multigrid_.solve(pressure_,
+                                     settings_.tolerance,
+                                     settings_.maxIterations,
+                                     workers,
+                                     [&](std::vector<Real> const& q, std::vector<Real>& y) {
+                                       if (cut.any) cut.respond(bodies, perPressure, q, y);
+                                     });
     timeFactor_ = dt;
     for (std::size_t c = 0; c < axes<N>; ++c) {
       const std::ptrdiff_t s = grid().stride[c];

@@ -154,9 +154,10 @@ class SurfaceDistance {
     });
   }
 
-  // Where rows cross an element. A row through an edge or a corner crosses one of the elements there: on which
-  // side of an edge it is does not depend on the element.
-  void cross(std::array<Eigen::Vector3d, axes<N>> const& x, std::array<Index, 3> const& points, Range const& all) {
+  // Where rows cross an element. A row through an edge or a corner crosses one of the elements there: on
+  // which side of an edge it is does not depend on the element.
+  void cross(std::array<Eigen::Vector3d, axes<N>> const& x, std::array<Index, 3> const& points,
+             Range const& all) {
     Range r = all;
     for (std::size_t c = 1; c < axes<N>; ++c) {
       double low = x[0][Eigen::Index(c)], high = low;
