@@ -3,11 +3,12 @@
 
 #include <sinew/core/error.hpp>
 #include <sinew/core/memory_limit.hpp>
-#include <sinew/core/mesh.hpp>
 #include <sinew/fluid/advection.hpp>
 #include <sinew/fluid/cut_cells.hpp>
+#include <sinew/fluid/grid_mesh.hpp>
 #include <sinew/fluid/level_set.hpp>
 #include <sinew/fluid/poisson_multigrid.hpp>
+#include <sinew/fluid/pressure_regions.hpp>
 #include <sinew/fluid/staggered_velocity.hpp>
 #include <sinew/fluid/viscosity.hpp>
 
@@ -329,99 +330,16 @@ class GridFluid {
     classify(workers);
   }
 
-  /// The border of the fluid: in space quads around it, in the plane edges (dual contours: Gibson 1998), with
-  /// walls where it meets them. Points are the means of where the edges between centres of cells cross the
-  /// surface.
-  Mesh border() const {
-    Mesh mesh;
-    auto inside = [&](std::ptrdiff_t i) { return velocity.cell[at(i)] == CellKind::fluid; };
-    // the square or cube between the centres of a cell and those above it has the number of that cell
-    std::vector<Index> vertex(grid().size, -1);
-    std::array<std::ptrdiff_t, std::size_t(1) << N> corners{};
-    for (std::size_t k = 0; k < corners.size(); ++k) {
-      corners[k] = 0;
-      for (std::size_t c = 0; c < axes<N>; ++c)
-        if (k >> c & 1) corners[k] += grid().stride[c];
-    }
-    forAll([&](std::ptrdiff_t i, Each<int, N> const& place) {
-      for (std::size_t c = 0; c < axes<N>; ++c)
-        if (place[c] > grid().cells[c]) return;
-      Vector sum = Vector::Zero();
-      Each<bool, N> atWall{};
-      int crossings = 0;
-      for (std::size_t k = 0; k < corners.size(); ++k)
-        for (int c = 0; c < N; ++c) {
-          if (k >> c & 1) continue;
-          const std::ptrdiff_t a = i + corners[k], b = a + grid().stride[std::size_t(c)];
-          if (inside(a) == inside(b)) continue;
-          Vector x = Vector::Zero();
-          for (int d = 0; d < N; ++d) x[d] = double(k >> d & 1);
-          x[c] = crossing(a, b);
-          if (isSolid(a) || isSolid(b)) atWall[std::size_t(c)] = true;
-          sum += x;
-          ++crossings;
-        }
-      if (crossings == 0) return;
-      vertex[at(i)] = Index(mesh.positions.size());
-      Vector mean = sum / crossings;
-      for (int c = 0; c < N; ++c)
-        if (atWall[std::size_t(c)]) mean[c] = 0.5;
-      const Vector x = centre(i) + settings_.cellWidth * mean;
-      Eigen::Vector3d position = Eigen::Vector3d::Zero();
-      position.template head<N>() = x;
-      mesh.positions.push_back(position);
-    });
-    forAll([&](std::ptrdiff_t i, Each<int, N> const& place) {
-      for (std::size_t c = 0; c < axes<N>; ++c) {
-        bool between = place[c] <= grid().cells[c];
-        for (std::size_t d = 0; d < axes<N>; ++d)
-          between = between && (d == c || (place[d] >= 1 && place[d] <= grid().cells[d]));
-        if (!between || inside(i) == inside(i + grid().stride[c])) continue;
-        const bool forth = inside(i);  // out of the fluid along the axis
-        if constexpr (N == 2) {
-          const std::ptrdiff_t s = grid().stride[1 - c];
-          mesh.edges.push_back({vertex[at(i - s)], vertex[at(i)]});
-        } else {
-          const std::ptrdiff_t s = grid().stride[(c + 1) % 3], t = grid().stride[(c + 2) % 3];
-          Quad quad{vertex[at(i - s - t)], vertex[at(i - t)], vertex[at(i)], vertex[at(i - s)]};
-          if (!forth) std::swap(quad[1], quad[3]);
-          mesh.quads.push_back(quad);
-        }
-      }
-    });
-    return mesh;
-  }
-  /// The cells as elements, quads or hexahedra, without those of solids, over their corners.
-  Mesh cells() const {
-    Mesh mesh;
-    std::vector<Index> point(grid().size, -1);
-    forAll([&](std::ptrdiff_t i, Each<int, N> const& place) {
-      for (std::size_t c = 0; c < axes<N>; ++c)
-        if (place[c] < 1) return;
-      point[at(i)] = Index(mesh.positions.size());
-      Eigen::Vector3d position = Eigen::Vector3d::Zero();
-      position.template head<N>() = Vector(centre(i).array() - settings_.cellWidth / 2);
-      mesh.positions.push_back(position);
-    });
-    grid().forCells({}, [&](std::ptrdiff_t i) {
-      if (velocity.cell[at(i)] == CellKind::solid) return;
-      auto corner = [&](std::ptrdiff_t offset) { return point[at(i + offset)]; };
-      const std::ptrdiff_t s = grid().stride[0], t = grid().stride[1];
-      if constexpr (N == 2) {
-        mesh.quads.push_back({corner(0), corner(s), corner(s + t), corner(t)});
-      } else {
-        const std::ptrdiff_t r = grid().stride[2];
-        mesh.hexahedra.push_back({corner(0),
-                                  corner(s),
-                                  corner(s + t),
-                                  corner(t),
-                                  corner(r),
-                                  corner(r + s),
-                                  corner(r + s + t),
-                                  corner(r + t)});
-      }
-    });
-    return mesh;
+  /// What is seen of it (fluid/grid_mesh.hpp).
+  Mesh border() const { return border_of(*this); }
+  Mesh cells() const { return cells_of(*this); }
+
+  bool isSolid(std::ptrdiff_t i) const { return velocity.cell[at(i)] == CellKind::solid; }
+  /// Where the border of the fluid is between the centres a and b, one of which is in the fluid [cells].
+  double crossing(std::ptrdiff_t a, std::ptrdiff_t b) const {
+    if (isSolid(a) || isSolid(b)) return 0.5;
+    const double x = double(surface.value[at(a)]), y = double(surface.value[at(b)]);
+    return std::clamp(x / (x - y), 0.0, 1.0);
   }
 
  private:
@@ -441,10 +359,9 @@ class GridFluid {
   double volume_ = 0;      // that is kept [cells]
   bool measured_ = false;  // with the bodies that take room; saved as its sign
   std::vector<std::uint8_t> obstacle_{};
-  std::vector<int> region_{}, queue_{};  // of cells that pressure joins
+  PressureRegions<Real, N> regions_{};
 
   static std::size_t at(std::ptrdiff_t i) { return std::size_t(i); }
-  bool isSolid(std::ptrdiff_t i) const { return velocity.cell[at(i)] == CellKind::solid; }
   int layers() const { return std::min(bandCells + 2, int(std::ceil(std::min(courant, 16.0))) + 3); }
   double fluidCells(SomeWorkers workers) {
     if (settings_.hasSurface) return surface.volume(velocity, room(), workers);
@@ -477,18 +394,6 @@ class GridFluid {
   void forCentres(F&& f) const {
     grid().forCells({}, [&](std::ptrdiff_t i) { f(i, centre(i)); });
   }
-  // f(index, place) for all cells, of the layer around, too
-  template <class F>
-  void forAll(F&& f) const {
-    Each<int, N> place{};
-    for (std::size_t i = 0; i < grid().size; ++i) {
-      f(std::ptrdiff_t(i), place);
-      for (std::size_t c = 0; c < axes<N>; ++c) {
-        if (++place[c] < grid().cells[c] + 2) break;
-        place[c] = 0;
-      }
-    }
-  }
   template <class Self>
   static auto savedLists(Self& self) {
     std::array<decltype(&self.pressure_), axes<N> + 2> lists{};
@@ -510,10 +415,7 @@ class GridFluid {
   }
   void placeBodies(SomeWorkers workers) {
     if (bodies.empty() && !cut.any) return;
-    if (!bodies.empty() && region_.empty()) {
-      region_.assign(grid().size, 0);
-      queue_.reserve(grid().inner());
-    }
+    if (!bodies.empty()) regions_.init(grid());
     cut.place(where_, bodies, settings_.corner, settings_.cellWidth, velocity, obstacle_);
     if (bodies.empty())  // they have gone
       grid().forCells(workers, [&](std::ptrdiff_t i) {
@@ -526,53 +428,10 @@ class GridFluid {
     if (!measured_) volume_ = fluidCells(workers);
     measured_ = true;
   }
-  // What no pressure can take away from a region without a free surface, as where a body closes a corner of a
-  // tank, flows out of all its cells alike.
-  void balanceRegions() {
-    auto& top = multigrid_.finest();
-    std::fill(region_.begin(), region_.end(), 0);
-    int number = 0;
-    grid().forCells({}, [&](std::ptrdiff_t start) {
-      if (region_[at(start)] != 0 || !(top.inverse[at(start)] > 0)) return;
-      queue_.clear();
-      auto join = [&](std::ptrdiff_t i) {
-        if (region_[at(i)] == 0) queue_.push_back(int(i)), region_[at(i)] = number;
-      };
-      ++number;
-      join(start);
-      bool surfaceMet = false;
-      double sum = 0;
-      for (std::size_t k = 0; k < queue_.size(); ++k) {
-        const std::ptrdiff_t i = queue_[k];
-        sum += double(top.b[at(i)]);
-        surfaceMet = surfaceMet || top.surface[at(i)] > 0;
-        velocity.forNeighbours(i, [&](std::ptrdiff_t j) {
-          for (std::size_t c = 0; c < axes<N>; ++c)
-            if (top.inverse[at(j)] > 0 && joined(c, i, j)) join(j);
-        });
-      }
-      if (surfaceMet) return;
-      const Real mean = Real(sum / double(queue_.size()));
-      for (const int i : queue_) top.b[at(i)] -= mean;
-    });
-  }
-  // whether pressure joins two cells beside each other along an axis, across the ends of a periodic one, too
-  bool joined(std::size_t c, std::ptrdiff_t i, std::ptrdiff_t j) const {
-    const std::ptrdiff_t s = grid().stride[c], n = grid().cells[c];
-    auto const& face = multigrid_.finest().face[c];
-    if (j - i == s || i - j == s) return face[at(std::max(i, j))] > 0;
-    return std::abs(j - i) == (n - 1) * s && face[at(std::min(i, j))] > 0;
-  }
   // how far from a fluid cell the surface is towards an air cell
   Real toSurface(std::ptrdiff_t fluidCell, std::ptrdiff_t airCell) const {
     const Real a = surface.value[at(fluidCell)], b = surface.value[at(airCell)];
     return std::clamp(a / (a - b), Real(0.01), Real(1));
-  }
-  // where the border of the fluid is between the centres a and b, one of which is in the fluid
-  double crossing(std::ptrdiff_t a, std::ptrdiff_t b) const {
-    if (isSolid(a) || isSolid(b)) return 0.5;
-    const double x = double(surface.value[at(a)]), y = double(surface.value[at(b)]);
-    return std::clamp(x / (x - y), 0.0, 1.0);
   }
   Real outflow(std::ptrdiff_t i) const {
     Real sum = 0;
@@ -632,7 +491,7 @@ class GridFluid {
         pressure_[at(i)] *= Real(dt / timeFactor_);
     });
     if (cut.any) {
-      balanceRegions();
+      regions_.balance(multigrid_.finest(), velocity);
     } else if (closed) {  // what no pressure can take away is of the rounding of walls that move
       const double sum = grid().sum(workers, sums_, [&](std::ptrdiff_t i) { return double(top.b[at(i)]); });
       const double count =

@@ -93,14 +93,17 @@ struct ImmersedBodies {
   template <class S, class F>
   static void withRigid(S const& scope, F&& f) {
     auto const& owner = scope.stateScope();
-    with_first<role::Mapping>(owner, [&](auto& mapping) {
-      using M = std::decay_t<decltype(mapping)>;
-      if constexpr (!HasParents<M>)
-        if constexpr (M::In::rigid) {
-          auto const& above = owner.parentScope();
-          if (!above.mapped()) f(mapping, above.template state<typename M::In>(), above);
-        }
-    });
+    using Owner = std::decay_t<decltype(owner)>;
+    constexpr bool neverMapped = requires { requires !Owner::isMapped; };
+    if constexpr (!neverMapped)
+      with_first<role::Mapping>(owner, [&](auto& mapping) {
+        using M = std::decay_t<decltype(mapping)>;
+        if constexpr (!HasParents<M>)
+          if constexpr (M::In::rigid) {
+            auto const& above = owner.parentScope();
+            if (!above.mapped()) f(mapping, above.template state<typename M::In>(), above);
+          }
+      });
   }
 
   // where coordinates of a rigid body stand among those of one in space
