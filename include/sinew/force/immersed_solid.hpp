@@ -93,6 +93,7 @@ struct ImmersedSolid {
                          " belongs to ",
                          count,
                          " of its elements; close it, so that it has an inside"));
+    memory.reserve(19);
     body.forces.resize(context.rest.size(), Eigen::Vector3d::Zero());
   }
   void reset() {
