@@ -96,6 +96,23 @@ constexpr std::string_view waterInTank = R"(
     <FluidBoundary/>
   </Node>
 </Node>)";
+constexpr std::string_view boxInPool = R"(
+<Node name="root" gravity="0 -9.81 0">
+  <Node name="pool">
+    <Fluid3D nx="18" ny="18" nz="18" cellwidth="0.0625" height="10"/>
+  </Node>
+  <Node name="box">
+    <EulerExplicitSolver/>
+    <MechanicalObject template="Rigid3d" position="0 0.1 0 0 0 0 1"/>
+    <UniformMass vertexMass="14 1  0.015 0 0  0 0.015 0  0 0 0.015"/>
+    <Node name="surface">
+      <CubeTopology min="-0.15 -0.15 -0.15" max="0.15 0.15 0.15"/>
+      <MechanicalObject template="Vec3d"/>
+      <RigidMapping/>
+      <ImmersedSolid/>
+    </Node>
+  </Node>
+</Node>)";
 constexpr std::string_view contact = R"(
 <Node name="root" gravity="0 -9.81 0">
   <DefaultPipeline/>
@@ -395,6 +412,7 @@ constexpr auto classExamples = std::to_array<ClassExample>({
   <Fluid3D nx="22" ny="14" nz="12" cellwidth="0.1" height="6" dir="0.3 1 0"/>
 </Node>)"},
     {"FluidBoundary", waterInTank},
+    {"ImmersedSolid", boxInPool},
     {"SurfaceSampling", waterInTank},
     {"SphereForceField",
      R"(<SphereForceField center="0.4 -0.15 0.05" radius="0.1" stiffness="500"/>)",

@@ -35,6 +35,7 @@
 #include <sinew/force/fast_triangular_bending_springs.hpp>
 #include <sinew/force/fluid_boundary.hpp>
 #include <sinew/force/hexahedron_fem.hpp>
+#include <sinew/force/immersed_solid.hpp>
 #include <sinew/force/linear_force_field.hpp>
 #include <sinew/force/mesh_spring.hpp>
 #include <sinew/force/particles_repulsion.hpp>

@@ -29,8 +29,8 @@ using PointLoads = Registry<RigidLoads<D>, SphereForceField<D>>;
 template <class D>
 using Particles = Registry<ParticleSource<D>, ParticleSink<D>>;
 template <class D>
-using Fluids =
-    Registry<SPHFluidForceField<D>, FluidBoundary<D>, ParticlesRepulsionForceField<D>, Particles<D>>;
+using Fluids = Registry<SPHFluidForceField<D>, FluidBoundary<D>, ImmersedSolid<D>,
+                        ParticlesRepulsionForceField<D>, Particles<D>>;
 template <class D>
 using ElementForces =
     Registry<TetrahedronFEMForceField<D>, HexahedronFEMForceField<D>, TriangleFEMForceField<D>,
@@ -94,8 +94,8 @@ using Playback = Registry<ReadState<D>, WriteState<D>>;
 using StandardForces =
     Registry<SpatialComponents<Vec3d>, RigidComponents<Rigid3d>, SpatialRigids<Rigid3d>, CorePoints<Vec1d>,
              MeshSpringForceField<Vec1d>, CorePoints<Vec2d>, MeshSpringForceField<Vec2d>,
-             PlaneForceField<Vec2d>, Particles<Vec2d>, CorePoints<Vec6d>, CoreRigids<Rigid2d>,
-             CoreBodies<Vec3f>, CoreRigids<Rigid3f>>;
+             PlaneForceField<Vec2d>, Particles<Vec2d>, ImmersedSolid<Vec2d>, CorePoints<Vec6d>,
+             CoreRigids<Rigid2d>, CoreBodies<Vec3f>, CoreRigids<Rigid3f>>;
 using MeasuringMappings = Registry<DistanceMapping<Vec3d, Vec1d>, DistanceMapping<Rigid3d, Vec1d>,
                                    DistanceMapping<Vec2d, Vec1d>, VolumeMapping<Vec3d, Vec1d>,
                                    CenterOfMassMapping<Vec3d, Vec3d>, CenterOfMassMapping<Rigid3d, Vec3d>>;

@@ -252,6 +252,49 @@ TEST_CASE("sources and sinks repeat after a reset, in copies and with any number
   SECTION("with a history") { resets_and_repeats(NewmarkImplicitSolver{}, CGLinearSolver<>{}); }
 }
 
+TEST_CASE("where a source meets a full state, nothing before it has counted what did not change") {
+  // Each of two sources has one particle at 0.1 s. At 0.2 s the first has room, the second none.
+  const Source first{.velocity = {0, -1, 0}, .delay = 0.1, .capacity = 5};
+  Source second = first;
+  second.center = {{3, 0, 0}};
+  auto sim = scene(none,
+                   EulerExplicitSolver{},
+                   MechanicalObject<Vec3d>{.position = {{6, 0, 0}, {9, 0, 0}}},
+                   UniformMass<Vec3d>{},
+                   first,
+                   second);
+  sim.init();
+  for (int i = 0; i < 20; ++i) sim.animate(0.01);
+  auto counts = [&] {
+    std::vector<int> all{int(state_of(sim).size())};
+    sim.root().children[hana::size_c<0>].forEachComponent(on<role::ProjectiveConstraint>([&](Source& source) {
+      all.push_back(source.batches);
+      all.insert(all.end(), source.held.begin(), source.held.end());
+    }));
+    return all;
+  };
+  CHECK(counts() == std::vector<int>{4, 1, 2, 1, 3});
+  for (int k = 0; k < 2; ++k) {
+    CHECK_THAT(error_of([&] { sim.animate(0.01); }), Contains("capacity of 5"));
+    CHECK(counts() == std::vector<int>{4, 1, 2, 1, 3});
+  }
+
+  // nor has a sink
+  auto sink = scene(
+      none,
+      EulerExplicitSolver{},
+      MechanicalObject<Vec3d>{.position = {{6, 0, 0}}, .velocity = {{0, -1, 0}}},
+      UniformMass<Vec3d>{},
+      Sink{.d0 = -9, .d1 = -0.195},
+      Source{
+          .center = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, .velocity = {0, 1, 0}, .delay = 0.2, .capacity = 2});
+  sink.init();
+  for (int i = 0; i < 20; ++i) sink.animate(0.01);
+  CHECK_THAT(error_of([&] { sink.animate(0.01); }), Contains("capacity of 2"));
+  CHECK(sink.root().children[hana::size_c<0>].get<Sink>().removed == 0);
+  CHECK(state_of(sink).size() == 1);
+}
+
 TEST_CASE("a source says when its state is full, and a sink makes room") {
   const Source source{.velocity = {0, -1, 0}, .delay = 0.1, .capacity = 3};
   auto full = scene(none, EulerExplicitSolver{}, MechanicalObject<Vec3d>{}, UniformMass<Vec3d>{}, source);

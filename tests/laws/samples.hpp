@@ -20,6 +20,7 @@
 #include "samples/fixed_rotation.hpp"
 #include "samples/fluid_boundary.hpp"
 #include "samples/hermite_spline.hpp"
+#include "samples/immersed_solid.hpp"
 #include "samples/linear_movement.hpp"
 #include "samples/linear_velocity.hpp"
 #include "samples/parabolic.hpp"

@@ -3,6 +3,7 @@
 #include "static/allocations.hpp"
 
 #include "catch.hpp"
+#include "immersed_shapes.hpp"
 
 #include <sinew/fluid/fluid3d.hpp>
 #include <sinew/mechanics.hpp>
@@ -33,6 +34,27 @@ TEST_CASE("a step of a fluid on a grid does not allocate") {
     CHECK(sim.kineticEnergy() > 0);
     CHECK(sim.warnings().list().empty());
   }
+}
+
+TEST_CASE("a step of a fluid on a grid in which a body swims does not allocate") {
+  const Mesh box = shapes::box({-0.15, -0.15, -0.15}, {0.15, 0.15, 0.15});
+  Rigid3d::Coord start = Rigid3d::zero();
+  start.center = {0, 0.1, 0};
+  Simulation sim{
+      node<"root">(Gravity{{0, -9.81, 0}},
+                   node<"water">(Fluid3D{.nx = 18, .ny = 18, .nz = 18, .cellwidth = 0.05, .height = 9}),
+                   node<"box">(EulerExplicitSolver{},
+                               MechanicalObject<Rigid3d>{.position = {start}},
+                               UniformMass<Rigid3d>{.vertexMass = Rigid3d::MassType{.mass = 14}},
+                               node<"surface">(MeshTopology{.quads = box.quads},
+                                               MechanicalObject<Vec3d>{.position = box.positions},
+                                               RigidMapping<Rigid3d, Vec3d>{},
+                                               ImmersedSolid<Vec3d>{})))};
+  sim.init();
+  const long after = allocations;
+  for (int k = 0; k < 20; ++k) sim.animate(0.01);
+  CHECK(allocations == after);
+  CHECK(sim.at<"box">().state().velocity[0].norm() > 0);
 }
 
 }  // namespace test_fluid_no_allocation

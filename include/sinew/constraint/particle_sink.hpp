@@ -42,6 +42,7 @@ struct ParticleSink {
         field("removed", &ParticleSink::removed, "", "how many have been taken away", range::nonNegative));
   }
 
+  int going = 0;            // in the step that begins
   std::vector<int> held{};  // points that have no velocity at the end of the step
 
   void init(InitContext<D> const& context) {
@@ -53,9 +54,12 @@ struct ParticleSink {
 
   void changePoints(StepAhead const& ahead, VecCoord const& x, PointChange<D>& change) {
     if (ahead.step == 1) reset();
+    going = 0;
     for (std::size_t i = 0; i < x.size(); ++i)
-      if (behind(x[i], d1) && change.remove(i)) ++removed;
+      if (behind(x[i], d1) && change.remove(i)) ++going;
   }
+  /// Those that changePoints has marked have gone.
+  void acceptPoints() { removed += going; }
   void followPoints(Renumbering const&, std::size_t points) {
     held.clear();
     held.reserve(points);

@@ -73,6 +73,12 @@ struct ParticleSource {
   }
 
   std::string where{};
+  /// In the step that begins: where the first of those that come will stand, and how many batches there are.
+  struct Coming {
+    int first = 0, batches = 0;
+    bool stopped = false;
+  };
+  Coming coming{};
 
   void init(InitContext<D> const& context) {
     where = place_of<ParticleSource>(context);
@@ -101,9 +107,10 @@ struct ParticleSource {
 
   void changePoints(StepAhead const& ahead, VecCoord const& x, PointChange<D>& change) {
     if (ahead.step == 1) reset();
+    coming = {.first = int(x.size() + change.positions.size())};
     // times of steps are sums, and miss a time by rounding
     const double rounding = 1e-3 * ahead.dt, first = std::max(start, delay);
-    for (; time(first) <= std::min(ahead.begin, stop) + rounding; ++batches) {
+    for (int batch = batches; first + batch * delay <= std::min(ahead.begin, stop) + rounding; ++batch) {
       if (change.size() + center.size() > std::size_t(capacity))
         throw Error(where,
                     text("the state has ",
@@ -115,15 +122,23 @@ struct ParticleSource {
                          " more come, above the capacity of ",
                          capacity,
                          "; raise capacity, give an earlier stop, or let a ParticleSink take points away"));
-      held.erase(held.begin(), held.end() - std::ptrdiff_t(held.size() / 2));
-      for (std::size_t c = 0; c < center.size(); ++c) {
-        held.push_back(int(x.size() + change.positions.size()));
-        change.add(
-            center[c] * Real(scale) + translation + around(c) + velocity * Real(ahead.begin - time(first)),
-            velocity);
-      }
+      const Deriv moved = velocity * Real(ahead.begin - (first + batch * delay));
+      for (std::size_t c = 0; c < center.size(); ++c)
+        change.add(center[c] * Real(scale) + translation + around(batch, c) + moved, velocity);
+      ++coming.batches;
     }
-    if (ahead.begin > stop + rounding) held.clear();
+    coming.stopped = ahead.begin > stop + rounding;
+  }
+  /// Those that changePoints has announced have come.
+  void acceptPoints() {
+    int next = coming.first;
+    for (int k = 0; k < coming.batches; ++k) {
+      held.erase(held.begin(), held.end() - std::ptrdiff_t(held.size() / 2));
+      for (std::size_t c = 0; c < center.size(); ++c) held.push_back(next++);
+    }
+    batches += coming.batches;
+    if (coming.stopped) held.clear();
+    coming = {};
   }
   void followPoints(Renumbering const& points, std::size_t) {
     const auto before = int(points.now.size()), stayed = int(points.kept.size());
@@ -149,14 +164,12 @@ struct ParticleSource {
   }
 
  private:
-  // of the particles that come next
-  double time(double first) const { return first + batches * delay; }
-  Coord around(std::size_t c) const {
+  Coord around(int batch, std::size_t c) const {
     if (!addNoise) return radius;
     Coord noise = radius;
     for (int k = 0; k < D::size; ++k)
       noise[k] *=
-          even((std::uint64_t(batches) * center.size() + c) * std::uint64_t(D::size) + std::uint64_t(k));
+          even((std::uint64_t(batch) * center.size() + c) * std::uint64_t(D::size) + std::uint64_t(k));
     return noise;
   }
   // of a sequence of numbers even in [0, 1) (Steele, Lea, Flood 2014: SplitMix64), one of them

@@ -4,6 +4,7 @@
 #include <sinew/core/boundary_particles.hpp>
 #include <sinew/core/data_types.hpp>
 #include <sinew/core/fields.hpp>
+#include <sinew/core/immersed_body.hpp>
 #include <sinew/core/point_change.hpp>
 #include <sinew/core/renumbering.hpp>
 #include <sinew/core/role.hpp>

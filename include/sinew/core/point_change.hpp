@@ -57,7 +57,9 @@ struct PointChange {
 
 /// A component, whatever its role, before whose steps points of its state go and come:
 ///   changePoints(ahead, positions, change)   marks what goes and adds what comes, before any solver works.
-/// One that adds points says by `capacity` how many its state may have, and throws Error above that.
+/// What it counts of them it counts in acceptPoints(), if it has that, which is called when all components
+/// have said what changes: where one throws Error, nothing has. One that adds points says by `capacity` how
+/// many its state may have, and throws Error above that.
 template <class C>
 concept ChangesPoints =
     requires(C c, StepAhead const ahead, typename C::DataTypes::VecCoord const x,

@@ -3,6 +3,7 @@
 
 #include <sinew/core/compiled.hpp>
 #include <sinew/core/component.hpp>
+#include <sinew/core/immersed_body.hpp>
 #include <sinew/fluid/grid_fluid.hpp>
 
 #include <string>
@@ -94,6 +95,10 @@ struct Fluid3D {
               "density and cellwidth [m/s], of all cells; cells along each axis, dt [s], volume [cells]"));
   }
 
+  /// Solids that the next step meets, which the scene gives it, and what the last did to them.
+  std::vector<ImmersedBody> bodies{};
+  void reserveForBodies();
+
   // after init
   Grid grid{};
   std::string where{};
@@ -127,6 +132,9 @@ namespace sinew {
 SINEW_ONCE void Fluid3D::init(std::string const& path) {
   where = text(path, ": Fluid3D");
   fluid::start<3>(*this, where);
+}
+SINEW_ONCE void Fluid3D::reserveForBodies() {
+  fluid::with_bodies(*this, [&] { grid.reserveForBodies(); });
 }
 SINEW_ONCE void Fluid3D::reset() {
   flow.clear();

@@ -73,6 +73,14 @@ void start(C& c, std::string const& where) {
   grid.save(c.flow, {});
 }
 
+/// f() while the grid has the bodies of its component.
+template <class C, class F>
+void with_bodies(C& c, F&& f) {
+  c.grid.bodies.swap(c.bodies);
+  f();
+  c.grid.bodies.swap(c.bodies);
+}
+
 template <int N, class C>
 void advance(C& c, StepAhead const& ahead, Eigen::Vector3d const& gravity, SomeWorkers workers) {
   using Vector = Eigen::Matrix<double, N, 1>;
@@ -81,7 +89,7 @@ void advance(C& c, StepAhead const& ahead, Eigen::Vector3d const& gravity, SomeW
   if (grid.settings().hasSurface && c.sourceRadius > 0 && middle >= c.tstart && middle < c.tstop)
     grid.pour(
         [&](Vector const& x) { return (x - c.source).norm() - c.sourceRadius; }, c.sourceVelocity, workers);
-  grid.step(ahead.dt, gravity.head<N>(), workers);
+  with_bodies(c, [&] { grid.step(ahead.dt, gravity.head<N>(), workers); });
   grid.save(c.flow, workers);
 }
 

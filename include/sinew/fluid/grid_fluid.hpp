@@ -3,10 +3,12 @@
 
 #include <sinew/core/error.hpp>
 #include <sinew/core/memory_limit.hpp>
-#include <sinew/core/mesh.hpp>
 #include <sinew/fluid/advection.hpp>
+#include <sinew/fluid/cut_cells.hpp>
+#include <sinew/fluid/grid_mesh.hpp>
 #include <sinew/fluid/level_set.hpp>
 #include <sinew/fluid/poisson_multigrid.hpp>
+#include <sinew/fluid/pressure_regions.hpp>
 #include <sinew/fluid/staggered_velocity.hpp>
 #include <sinew/fluid/viscosity.hpp>
 
@@ -41,15 +43,20 @@ struct GridFluidSettings {
 /// by splitting: the surface and the velocity are carried along, gravity and viscosity act, and the pressure
 /// takes away the divergence (Chorin 1968; Bridson 2015). At the free surface, wherever it crosses between
 /// two cells, the pressure is zero (ghost fluid: Enright, Nguyen, Gibou, Fedkiw 2003), inside solids there is
-/// none. After init a step does not allocate, and its bits do not depend on the number of threads.
+/// none. Bodies that move through it cut its cells and are moved (CutCells). After init a step does not
+/// allocate, and its bits do not depend on the number of threads.
 template <class Real, int N>
 class GridFluid {
  public:
   using Vector = Eigen::Matrix<double, N, 1>;
   using Settings = GridFluidSettings<N>;
+  static constexpr int dimension = N;
 
   StaggeredVelocity<Real, N> velocity{};
   LevelSet<Real, N> surface{};
+  CutCells<Real, N> cut{};
+  /// Solids that the next step meets; what it does to them stands there behind it.
+  std::vector<ImmersedBody> bodies{};
   // what the last step did
   typename PoissonMultigrid<Real, N>::Result pressureSolve{};
   int viscosityIterations = 0;
@@ -86,9 +93,13 @@ class GridFluid {
     viscosity_.init(grid);
     multigrid_.init(grid);
     surface.init(grid, Real(bandCells));
+    cut.init(grid);
+    bodies.clear();
+    obstacle_.assign(grid.size, 0);
     prepared_ = false;
     timeFactor_ = 0;
     volume_ = 0;
+    measured_ = false;
   }
   Settings const& settings() const { return settings_; }
   CellGrid<N> const& grid() const { return velocity.grid; }
@@ -97,7 +108,9 @@ class GridFluid {
   template <class F>
   void setSolids(F&& inside) {
     forCentres([&](std::ptrdiff_t i, Vector const& x) {
-      if (inside(x)) velocity.cell[at(i)] = CellKind::solid;
+      if (!inside(x)) return;
+      velocity.cell[at(i)] = CellKind::solid;
+      obstacle_[at(i)] = 1;
     });
     prepared_ = false;
   }
@@ -125,6 +138,7 @@ class GridFluid {
     velocity.holdWalls(workers);
     velocity.extrapolate(layers(), workers);
     volume_ = fluidCells(workers);
+    measured_ = false;
     if (settings_.hasSurface && volume_ <= 0)
       throw Error(where_, "there is no fluid in the grid; raise its height, or take another direction");
   }
@@ -147,6 +161,23 @@ class GridFluid {
     velocity.holdWalls(workers);
   }
 
+  /// Takes the bodies that are met, and makes room for the faces that they have. Throws Error where one is
+  /// outside.
+  void reserveForBodies() {
+    if (bodies.empty()) return;
+    placeBodies({});
+    measured_ = false;
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+      if (!cut.holds(int(b)))
+        throw Error(
+            where_,
+            text("no corner of a cell is inside the solid ",
+                 bodies[b].path,
+                 ": it is outside of the grid, or smaller than a cell; move it into the grid, or take "
+                 "smaller cells"));
+    cut.faces.reserve(2 * cut.faces.size());
+  }
+
   /// A step [s] under an acceleration [m/s^2]. Throws Error where the velocity is not finite.
   void step(double dt, Vector const& acceleration, SomeWorkers workers) {
     const Real perCell = Real(dt / settings_.cellWidth);
@@ -155,10 +186,11 @@ class GridFluid {
       throw Error(where_,
                   "the velocity of the fluid is not finite: the simulation diverged; take a smaller dt");
     courant = fastest * double(perCell);
+    placeBodies(workers);
     if (settings_.hasSurface) {
       surface.advect(velocity, perCell, settings_.advection, workers);
       surface.redistance(velocity, workers);
-      if (settings_.keepsVolume) surface.keepVolume(velocity, volume_, workers);
+      if (settings_.keepsVolume) surface.keepVolume(velocity, room(), volume_, workers);
       classify(workers);
     }
     for (std::size_t c = 0; c < axes<N>; ++c)
@@ -273,7 +305,7 @@ class GridFluid {
     Real* last = to.data() + lists.size() * n;
     for (const int count : settings_.cells) *last++ = Real(count);
     *last++ = Real(timeFactor_);
-    *last = Real(volume_);
+    *last = Real(measured_ ? volume_ : -volume_);
   }
   /// Whether a list is what this grid saves.
   bool saves(std::vector<Real> const& list) const {
@@ -292,103 +324,22 @@ class GridFluid {
                 from.begin() + std::ptrdiff_t((k + 1) * n),
                 lists[k]->begin());
     timeFactor_ = double(from[from.size() - 2]);
-    volume_ = double(from[from.size() - 1]);
+    const double last = double(from[from.size() - 1]);
+    measured_ = last >= 0;
+    volume_ = std::abs(last);
     classify(workers);
   }
 
-  /// The border of the fluid: in space quads around it, in the plane edges (dual contours: Gibson 1998), with
-  /// walls where it meets them. Points are the means of where the edges between centres of cells cross the
-  /// surface.
-  Mesh border() const {
-    Mesh mesh;
-    auto inside = [&](std::ptrdiff_t i) { return velocity.cell[at(i)] == CellKind::fluid; };
-    // the square or cube between the centres of a cell and those above it has the number of that cell
-    std::vector<Index> vertex(grid().size, -1);
-    std::array<std::ptrdiff_t, std::size_t(1) << N> corners{};
-    for (std::size_t k = 0; k < corners.size(); ++k) {
-      corners[k] = 0;
-      for (std::size_t c = 0; c < axes<N>; ++c)
-        if (k >> c & 1) corners[k] += grid().stride[c];
-    }
-    forAll([&](std::ptrdiff_t i, Each<int, N> const& place) {
-      for (std::size_t c = 0; c < axes<N>; ++c)
-        if (place[c] > grid().cells[c]) return;
-      Vector sum = Vector::Zero();
-      Each<bool, N> atWall{};
-      int crossings = 0;
-      for (std::size_t k = 0; k < corners.size(); ++k)
-        for (int c = 0; c < N; ++c) {
-          if (k >> c & 1) continue;
-          const std::ptrdiff_t a = i + corners[k], b = a + grid().stride[std::size_t(c)];
-          if (inside(a) == inside(b)) continue;
-          Vector x = Vector::Zero();
-          for (int d = 0; d < N; ++d) x[d] = double(k >> d & 1);
-          x[c] = crossing(a, b);
-          if (isSolid(a) || isSolid(b)) atWall[std::size_t(c)] = true;
-          sum += x;
-          ++crossings;
-        }
-      if (crossings == 0) return;
-      vertex[at(i)] = Index(mesh.positions.size());
-      Vector mean = sum / crossings;
-      for (int c = 0; c < N; ++c)
-        if (atWall[std::size_t(c)]) mean[c] = 0.5;
-      const Vector x = centre(i) + settings_.cellWidth * mean;
-      Eigen::Vector3d position = Eigen::Vector3d::Zero();
-      position.template head<N>() = x;
-      mesh.positions.push_back(position);
-    });
-    forAll([&](std::ptrdiff_t i, Each<int, N> const& place) {
-      for (std::size_t c = 0; c < axes<N>; ++c) {
-        bool between = place[c] <= grid().cells[c];
-        for (std::size_t d = 0; d < axes<N>; ++d)
-          between = between && (d == c || (place[d] >= 1 && place[d] <= grid().cells[d]));
-        if (!between || inside(i) == inside(i + grid().stride[c])) continue;
-        const bool forth = inside(i);  // out of the fluid along the axis
-        if constexpr (N == 2) {
-          const std::ptrdiff_t s = grid().stride[1 - c];
-          mesh.edges.push_back({vertex[at(i - s)], vertex[at(i)]});
-        } else {
-          const std::ptrdiff_t s = grid().stride[(c + 1) % 3], t = grid().stride[(c + 2) % 3];
-          Quad quad{vertex[at(i - s - t)], vertex[at(i - t)], vertex[at(i)], vertex[at(i - s)]};
-          if (!forth) std::swap(quad[1], quad[3]);
-          mesh.quads.push_back(quad);
-        }
-      }
-    });
-    return mesh;
-  }
-  /// The cells as elements, quads or hexahedra, without those of solids, over their corners.
-  Mesh cells() const {
-    Mesh mesh;
-    std::vector<Index> point(grid().size, -1);
-    forAll([&](std::ptrdiff_t i, Each<int, N> const& place) {
-      for (std::size_t c = 0; c < axes<N>; ++c)
-        if (place[c] < 1) return;
-      point[at(i)] = Index(mesh.positions.size());
-      Eigen::Vector3d position = Eigen::Vector3d::Zero();
-      position.template head<N>() = Vector(centre(i).array() - settings_.cellWidth / 2);
-      mesh.positions.push_back(position);
-    });
-    grid().forCells({}, [&](std::ptrdiff_t i) {
-      if (velocity.cell[at(i)] == CellKind::solid) return;
-      auto corner = [&](std::ptrdiff_t offset) { return point[at(i + offset)]; };
-      const std::ptrdiff_t s = grid().stride[0], t = grid().stride[1];
-      if constexpr (N == 2) {
-        mesh.quads.push_back({corner(0), corner(s), corner(s + t), corner(t)});
-      } else {
-        const std::ptrdiff_t r = grid().stride[2];
-        mesh.hexahedra.push_back({corner(0),
-                                  corner(s),
-                                  corner(s + t),
-                                  corner(t),
-                                  corner(r),
-                                  corner(r + s),
-                                  corner(r + s + t),
-                                  corner(r + t)});
-      }
-    });
-    return mesh;
+  /// What is seen of it (fluid/grid_mesh.hpp).
+  Mesh border() const { return border_of(*this); }
+  Mesh cells() const { return cells_of(*this); }
+
+  bool isSolid(std::ptrdiff_t i) const { return velocity.cell[at(i)] == CellKind::solid; }
+  /// Where the border of the fluid is between the centres a and b, one of which is in the fluid [cells].
+  double crossing(std::ptrdiff_t a, std::ptrdiff_t b) const {
+    if (isSolid(a) || isSolid(b)) return 0.5;
+    const double x = double(surface.value[at(a)]), y = double(surface.value[at(b)]);
+    return std::clamp(x / (x - y), 0.0, 1.0);
   }
 
  private:
@@ -406,21 +357,29 @@ class GridFluid {
   bool prepared_ = false;  // the equations of the pressure are those of a step before
   double timeFactor_ = 0;  // the step with which the pressure was made [s]
   double volume_ = 0;      // that is kept [cells]
+  bool measured_ = false;  // with the bodies that take room; saved as its sign
+  std::vector<std::uint8_t> obstacle_{};
+  PressureRegions<Real, N> regions_{};
 
   static std::size_t at(std::ptrdiff_t i) { return std::size_t(i); }
-  bool isSolid(std::ptrdiff_t i) const { return velocity.cell[at(i)] == CellKind::solid; }
   int layers() const { return std::min(bandCells + 2, int(std::ceil(std::min(courant, 16.0))) + 3); }
   double fluidCells(SomeWorkers workers) {
-    if (settings_.hasSurface) return surface.volume(velocity, workers);
+    if (settings_.hasSurface) return surface.volume(velocity, room(), workers);
     return grid().sum(workers, sums_, [&](std::ptrdiff_t i) {
-      return velocity.cell[at(i)] == CellKind::fluid ? 1.0 : 0.0;
+      return velocity.cell[at(i)] == CellKind::fluid ? roomOf(i) : 0.0;
     });
   }
-  double part(std::ptrdiff_t i) const { return settings_.hasSurface ? double(surface.fraction(i)) : 1.0; }
+  std::span<Real const> room() const {
+    return cut.any ? std::span<Real const>(cut.room) : std::span<Real const>();
+  }
+  double roomOf(std::ptrdiff_t i) const { return cut.any ? double(cut.room[at(i)]) : 1.0; }
+  double part(std::ptrdiff_t i) const {
+    return (settings_.hasSurface ? double(surface.fraction(i)) : 1.0) * roomOf(i);
+  }
   // of the fluid in a cell, for one that is cut as by a plane across an axis [m]
   Vector middle(std::ptrdiff_t i) const {
     Vector x = centre(i);
-    const double filled = part(i);
+    const double filled = settings_.hasSurface ? double(surface.fraction(i)) : 1.0;
     if (filled <= 0 || filled >= 1) return x;
     Vector slope;
     for (int c = 0; c < N; ++c) {
@@ -434,18 +393,6 @@ class GridFluid {
   template <class F>
   void forCentres(F&& f) const {
     grid().forCells({}, [&](std::ptrdiff_t i) { f(i, centre(i)); });
-  }
-  // f(index, place) for all cells, of the layer around, too
-  template <class F>
-  void forAll(F&& f) const {
-    Each<int, N> place{};
-    for (std::size_t i = 0; i < grid().size; ++i) {
-      f(std::ptrdiff_t(i), place);
-      for (std::size_t c = 0; c < axes<N>; ++c) {
-        if (++place[c] < grid().cells[c] + 2) break;
-        place[c] = 0;
-      }
-    }
   }
   template <class Self>
   static auto savedLists(Self& self) {
@@ -464,24 +411,39 @@ class GridFluid {
           kind = surface.inFluid(surface.value[at(i)]) ? CellKind::fluid : CellKind::air;
       });
     velocity.classify(workers);
+    cut.close(velocity);
+  }
+  void placeBodies(SomeWorkers workers) {
+    if (bodies.empty() && !cut.any) return;
+    if (!bodies.empty()) regions_.init(grid());
+    cut.place(where_, bodies, settings_.corner, settings_.cellWidth, velocity, obstacle_);
+    if (bodies.empty())  // they have gone
+      grid().forCells(workers, [&](std::ptrdiff_t i) {
+        if (!obstacle_[at(i)]) velocity.cell[at(i)] = CellKind::fluid;
+      });
+    classify(workers);
+    cut.move(bodies, velocity);
+    velocity.holdWalls(workers);
+    prepared_ = false;
+    if (!measured_) volume_ = fluidCells(workers);
+    measured_ = true;
   }
   // how far from a fluid cell the surface is towards an air cell
   Real toSurface(std::ptrdiff_t fluidCell, std::ptrdiff_t airCell) const {
     const Real a = surface.value[at(fluidCell)], b = surface.value[at(airCell)];
     return std::clamp(a / (a - b), Real(0.01), Real(1));
   }
-  // where the border of the fluid is between the centres a and b, one of which is in the fluid
-  double crossing(std::ptrdiff_t a, std::ptrdiff_t b) const {
-    if (isSolid(a) || isSolid(b)) return 0.5;
-    const double x = double(surface.value[at(a)]), y = double(surface.value[at(b)]);
-    return std::clamp(x / (x - y), 0.0, 1.0);
-  }
   Real outflow(std::ptrdiff_t i) const {
     Real sum = 0;
-    for (std::size_t c = 0; c < axes<N>; ++c)
-      sum += velocity.value[c][at(i + grid().stride[c])] - velocity.value[c][at(i)];
+    for (std::size_t c = 0; c < axes<N>; ++c) sum += flow(c, i + grid().stride[c]) - flow(c, i);
     return sum;
   }
+  // through a face, of the fluid and of the solid in it
+  Real flow(std::size_t c, std::ptrdiff_t i) const {
+    const Real u = velocity.value[c][at(i)];
+    return cut.any ? cut.open[c][at(i)] * u + (1 - cut.open[c][at(i)]) * velocity.solid[c][at(i)] : u;
+  }
+  Real openPart(std::size_t c, std::ptrdiff_t i) const { return cut.any ? cut.open[c][at(i)] : Real(1); }
 
   void accelerate(double dt, Vector const& acceleration, bool periodic, SomeWorkers workers) {
     for (std::size_t c = 0; c < axes<N>; ++c) {
@@ -502,10 +464,11 @@ class GridFluid {
       for (std::size_t c = 0; c < axes<N>; ++c) {
         const std::ptrdiff_t s = grid().stride[c];
         const bool fluid = here == CellKind::fluid;
-        top.face[c][k] = fluid && velocity.cell[at(i - s)] == CellKind::fluid ? Real(1) : Real(0);
+        top.face[c][k] = fluid && velocity.cell[at(i - s)] == CellKind::fluid ? openPart(c, i) : Real(0);
         if (fluid)
           for (const std::ptrdiff_t j : {i - s, i + s})
-            if (velocity.cell[at(j)] == CellKind::air) top.surface[k] += 1 / toSurface(i, j);
+            if (velocity.cell[at(j)] == CellKind::air)
+              top.surface[k] += openPart(c, std::max(i, j)) / toSurface(i, j);
       }
     });
     multigrid_.prepare(workers);
@@ -527,7 +490,9 @@ class GridFluid {
       else if (timeFactor_ > 0 && timeFactor_ != dt)
         pressure_[at(i)] *= Real(dt / timeFactor_);
     });
-    if (closed) {  // what no pressure can take away is of the rounding of walls that move
+    if (cut.any) {
+      regions_.balance(multigrid_.finest(), velocity);
+    } else if (closed) {  // what no pressure can take away is of the rounding of walls that move
       const double sum = grid().sum(workers, sums_, [&](std::ptrdiff_t i) { return double(top.b[at(i)]); });
       const double count =
           grid().sum(workers, sums_, [&](std::ptrdiff_t i) { return top.inverse[at(i)] > 0 ? 1.0 : 0.0; });
@@ -536,7 +501,14 @@ class GridFluid {
         if (top.inverse[at(i)] > 0) top.b[at(i)] -= mean;
       });
     }
-    pressureSolve = multigrid_.solve(pressure_, settings_.tolerance, settings_.maxIterations, workers);
+    const double perPressure = settings_.density * cellVolume();
+    pressureSolve = multigrid_.solve(pressure_,
+                                     settings_.tolerance,
+                                     settings_.maxIterations,
+                                     workers,
+                                     [&](std::vector<Real> const& q, std::vector<Real>& y) {
+                                       if (cut.any) cut.respond(bodies, perPressure, q, y);
+                                     });
     timeFactor_ = dt;
     for (std::size_t c = 0; c < axes<N>; ++c) {
       const std::ptrdiff_t s = grid().stride[c];
@@ -554,6 +526,11 @@ class GridFluid {
         velocity.value[c][at(i)] -= slope;
       });
       grid().wrap(std::span<Real>(velocity.value[c]));
+    }
+    if (cut.any) {
+      cut.push(bodies, perPressure, dt, pressure_);
+      cut.move(bodies, velocity);
+      velocity.holdWalls(workers);
     }
   }
 };

@@ -95,17 +95,19 @@ class LevelSet {
 
   /// The part of a cell in which fluid is, as of a plane surface along an axis.
   Real fraction(std::ptrdiff_t i) const { return std::clamp(Real(0.5) - value[at(i)], Real(0), Real(1)); }
-  /// The sum of the parts [cells].
-  double volume(StaggeredVelocity<Real, N> const& u, SomeWorkers workers) {
-    return measure(u, workers, 0)[0];
+  /// The sum of the parts [cells], of cells of which solids leave this room; none is given where they leave
+  /// it all.
+  double volume(StaggeredVelocity<Real, N> const& u, std::span<Real const> room, SomeWorkers workers) {
+    return measure(u, room, workers, 0)[0];
   }
 
   /// Moves the whole surface outwards or inwards, by half a cell at most, until the volume is `wanted`
   /// [cells]. Returns by how much [cells].
-  double keepVolume(StaggeredVelocity<Real, N> const& u, double wanted, SomeWorkers workers) {
+  double keepVolume(StaggeredVelocity<Real, N> const& u, std::span<Real const> room, double wanted,
+                    SomeWorkers workers) {
     double offset = 0;
     for (int k = 0; k < 8; ++k) {
-      const auto [now, surface] = measure(u, workers, offset);
+      const auto [now, surface] = measure(u, room, workers, offset);
       const double missing = wanted - now;
       if (std::abs(missing) <= 1e-10 * wanted || !(surface > 0)) break;
       offset = std::clamp(offset + missing / surface, -0.5, 0.5);
@@ -167,10 +169,12 @@ class LevelSet {
     value.swap(next_);
   }
   // volume, and what it gains where the surface moves outwards by a cell, at an offset
-  std::array<double, 2> measure(StaggeredVelocity<Real, N> const& u, SomeWorkers workers, double offset) {
+  std::array<double, 2> measure(StaggeredVelocity<Real, N> const& u, std::span<Real const> room,
+                                SomeWorkers workers, double offset) {
     auto sum = [&](auto&& f) {
       return u.grid.sum(workers, sums_, [&](std::ptrdiff_t i) {
-        return u.cell[at(i)] == CellKind::solid ? 0.0 : f(0.5 - double(value[at(i)]) + offset);
+        if (u.cell[at(i)] == CellKind::solid) return 0.0;
+        return (room.empty() ? 1.0 : double(room[at(i)])) * f(0.5 - double(value[at(i)]) + offset);
       });
     };
     return {sum([](double part) { return std::clamp(part, 0.0, 1.0); }),

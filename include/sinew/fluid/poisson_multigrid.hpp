@@ -36,6 +36,11 @@ class PoissonMultigrid {
     bool converged = true;
   };
 
+  /// The matrix is that of cells alone.
+  struct NoMore {
+    void operator()(std::vector<Real> const&, std::vector<Real>&) const {}
+  };
+
   void init(CellGrid<N> grid) {
     levels_.clear();
     for (;;) {
@@ -71,8 +76,11 @@ class PoissonMultigrid {
   }
 
   /// x, a first guess at first; finest().b is what is to be reached, and is the residual afterwards. Where no
-  /// cell has a free surface, x is known but for a constant in each region.
-  Result solve(std::vector<Real>& x, double tolerance, int maxIterations, SomeWorkers workers) {
+  /// cell has a free surface, x is known but for a constant in each region. more(x, y) adds to y what the
+  /// matrix has beside the equations of cells, symmetric and positive: the preconditioner does not know it.
+  template <class More = NoMore>
+  Result solve(std::vector<Real>& x, double tolerance, int maxIterations, SomeWorkers workers,
+               More const& more = {}) {
     Level& top = levels_[0];
     CellGrid<N> const& grid = top.grid;
     auto at = [](auto& field, std::ptrdiff_t i) -> auto& { return field[std::size_t(i)]; };
@@ -87,6 +95,7 @@ class PoissonMultigrid {
     }
     grid.wrap(std::span<Real>(x));
     multiply(top, x, product_, workers);
+    more(x, product_);
     grid.forCells(workers, [&](std::ptrdiff_t i) { at(top.b, i) -= at(product_, i); });
     // a guess that is worse than none
     if (double now = std::sqrt(dot(top.b, top.b)); now > wanted) {
@@ -115,6 +124,7 @@ class PoissonMultigrid {
         grid.forCells(workers, [&](std::ptrdiff_t i) { at(direction_, i) = at(top.x, i); });
       grid.wrap(std::span<Real>(direction_));
       multiply(top, direction_, product_, workers);
+      more(direction_, product_);
       const double curvature = dot(direction_, product_);
       if (!(curvature > 0)) {
         result.converged = false;

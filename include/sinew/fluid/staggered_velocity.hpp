@@ -184,6 +184,24 @@ struct StaggeredVelocity {
     return u;
   }
 
+  /// f(neighbour) of the inner cell i, across the ends of periodic axes
+  template <class F>
+  void forNeighbours(std::ptrdiff_t i, F&& f) const {
+    std::ptrdiff_t rest = i;
+    for (std::size_t d = axes<N>; d-- > 0;) {
+      const std::ptrdiff_t s = grid.stride[d], n = grid.cells[d], k = rest / s;
+      rest %= s;
+      if (k > 1)
+        f(i - s);
+      else if (grid.periodic[d])
+        f(i + (n - 1) * s);
+      if (k < n)
+        f(i + s);
+      else if (grid.periodic[d])
+        f(i - (n - 1) * s);
+    }
+  }
+
  private:
   Each<std::vector<std::uint8_t>, N> layer_{};
   Each<std::array<std::vector<int>, 2>, N> fronts_{};
@@ -225,23 +243,6 @@ struct StaggeredVelocity {
     return a == CellKind::fluid || b == CellKind::fluid ? FaceKind::fluid : FaceKind::inside;
   }
 
-  // f(neighbour) of the inner cell i, across the ends of periodic axes
-  template <class F>
-  void forNeighbours(std::ptrdiff_t i, F&& f) const {
-    std::ptrdiff_t rest = i;
-    for (std::size_t d = axes<N>; d-- > 0;) {
-      const std::ptrdiff_t s = grid.stride[d], n = grid.cells[d], k = rest / s;
-      rest %= s;
-      if (k > 1)
-        f(i - s);
-      else if (grid.periodic[d])
-        f(i + (n - 1) * s);
-      if (k < n)
-        f(i + s);
-      else if (grid.periodic[d])
-        f(i - (n - 1) * s);
-    }
-  }
   void extrapolate(std::size_t c, int layers) {
     constexpr std::uint8_t unknown = 255;
     auto& layer = layer_[c];

@@ -74,6 +74,9 @@ struct ChangingPoints {
                  auto& s = stateOf(c, scope);
                  c.changePoints(ahead, s.position, s.pointChange);
                }));
+      traverse(root, on<PointsComing>([&](auto& c, auto const&) {
+                 if constexpr (requires { c.acceptPoints(); }) c.acceptPoints();
+               }));
       eachState([](auto& s) {
         if (!s.pointChange.changes()) return;
         s.pointChange.renumber();

@@ -6,6 +6,7 @@
 #include <sinew/scene/changing_points.hpp>
 #include <sinew/scene/collision.hpp>
 #include <sinew/scene/fluid_boundaries.hpp>
+#include <sinew/scene/immersed_bodies.hpp>
 #include <sinew/scene/loose_interactions.hpp>
 #include <sinew/scene/mechanical_operations.hpp>
 #include <sinew/scene/solvers.hpp>
@@ -242,6 +243,7 @@ void Initialisation<RootScope>::run() {
   if constexpr (holds<typename RootScope::NodeType, role::TopologicalChange>())
     if (again_.touched.empty()) TopologicalChanges<RootScope>{root_}.prepare();
   FluidBoundaries<RootScope>{root_}.init();
+  ImmersedBodies<RootScope>{root_}.init();
   initSolvers();
   root_.raise();
   if constexpr (collides<RootScope>) Collision<RootScope>{root_}.findCarriers();

@@ -33,6 +33,8 @@ struct NoRole;
 struct BeforeStep;
 /// Stands for all that are of a fluid and meet bodies, or are their boundary particles.
 struct OfFluids;
+/// Stands for all that are fluids on grids and meet solids, or are the surfaces of these.
+struct OfImmersion;
 /// Stands for all components that have a reset(), whatever their roles.
 struct WithReset;
 /// Stands for all before whose steps points go and come, whatever their roles.
@@ -42,6 +44,7 @@ inline constexpr bool has_any_role =
     ((std::is_same_v<typename C::Role, Roles> || std::is_same_v<Roles, AnyRole> ||
       (std::is_same_v<Roles, BeforeStep> && ActsBeforeStep<C>) ||
       (std::is_same_v<Roles, OfFluids> && (MeetsBoundaries<C> || BoundsFluids<C>)) ||
+      (std::is_same_v<Roles, OfImmersion> && (MeetsBodies<C> || ImmersesBody<C>)) ||
       (std::is_same_v<Roles, WithReset> && Resettable<C>) ||
       (std::is_same_v<Roles, PointsComing> && ChangesPoints<C>)) ||
      ...);

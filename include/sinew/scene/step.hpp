@@ -6,6 +6,7 @@
 #include <sinew/scene/changing_points.hpp>
 #include <sinew/scene/collision.hpp>
 #include <sinew/scene/fluid_boundaries.hpp>
+#include <sinew/scene/immersed_bodies.hpp>
 #include <sinew/scene/loose_interactions.hpp>
 #include <sinew/scene/mechanical_operations.hpp>
 #include <sinew/scene/overlap_warnings.hpp>
@@ -101,8 +102,11 @@ struct Step {
   void stepModels() const {
     if constexpr (holds<typename RootScope::NodeType, role::BehaviorModel>()) {
       const StepAhead ahead{number, time, time + dt, dt, false};
+      const ImmersedBodies<RootScope> immersed{root};
+      immersed.gather(dt);
       traverse(root, on<role::BehaviorModel>([&](auto& model, auto const& scope) {
                  model.step(ahead, scope.gravity(), scope.workers());
+                 immersed.giveForces(model);
                  if constexpr (Notices<std::decay_t<decltype(model)>>)
                    if (const std::string_view what = model.notice(); !what.empty())
                      notes().warn(scope.path(), what, [&] { return std::string(what); });
