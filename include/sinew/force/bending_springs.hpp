@@ -68,6 +68,7 @@ struct BendingSprings {
 
   using Driver = ElementDriver<SpringLaw, D>;
   Driver driver{};
+  bool hadEdges = false;  // a surface of which elements have gone may have lost them all
 
   void init(InitContext<D> const& context) {
     const std::string where = text(context.where, ": ", component_name<BendingSprings>());
@@ -89,7 +90,8 @@ struct BendingSprings {
       join(hinge.next[0][0], hinge.next[1][0]);
       if (!Kind::triangles) join(hinge.next[0][1], hinge.next[1][1]);
     }
-    if (ends.empty() && driver.size() == 0)  // a surface of which elements have gone may have lost all
+    hadEdges = hadEdges || !ends.empty();
+    if (!hadEdges)
       throw Error(where,
                   text("no two ",
                        Kind::triangles ? "triangles" : "quads",

@@ -91,6 +91,7 @@ struct FastTriangularBendingSprings {
 
   using Driver = ElementDriver<LinearBending, D>;
   Driver driver{};
+  bool hadEdges = false;  // a surface of which elements have gone may have lost them all
 
   void init(InitContext<D> const& context) {
     const std::string where = text(context.where, ": ", component_name<FastTriangularBendingSprings>());
@@ -119,7 +120,8 @@ struct FastTriangularBendingSprings {
       rest.push_back({{Real(b / (a + b)), Real(a / (a + b)), Real(-d / (c + d)), Real(-c / (c + d))},
                       Real(2. / 3 * (ha + hb) / (ha * ha * hb * hb) * length * bendingStiffness)});
     }
-    if (points.empty() && driver.size() == 0)  // a surface of which elements have gone may have lost all
+    hadEdges = hadEdges || !points.empty();
+    if (!hadEdges)
       throw Error(where,
                   "no two triangles share an edge; give the node a topology with some that do, and that are "
                   "larger than minDistValidity");
