@@ -55,6 +55,11 @@ def made_by_contact(node):
     return any(re.fullmatch(r"[A-Za-z0-9]{15}|.+-.+", part) for part in node.split("/"))
 
 
+def furthest(points, others):
+    """The largest distance of one of the points to the nearest of the others."""
+    return max(min(math.dist(p, o) for o in others) for p in points)
+
+
 def difference(first, last, states):
     """The largest distance of a point from where SOFA has it, over the largest displacement of its body (over its extent where
     nothing moves), and of which body."""
@@ -72,9 +77,13 @@ def difference(first, last, states):
             return math.inf, f"{node}: SOFA has {count} points"
         theirs = [numbers[i * size : i * size + place] for i in range(count)]
         ours = [p[:place] for p in last[node][1]]
-        moved = max(map(math.dist, (p[:place] for p in first[node][1]), theirs))
+        start = [p[:place] for p in first[node][1]]
+        if len(start) == count:
+            moved, apart = max(map(math.dist, start, theirs)), max(map(math.dist, ours, theirs))
+        else:  # points have gone, and SOFA puts the last one into the place of each
+            moved, apart = furthest(theirs, start), max(furthest(theirs, ours), furthest(ours, theirs))
         extent = math.dist(*zip(*((min(c), max(c)) for c in zip(*theirs)))) or 1.0
-        apart = max(map(math.dist, ours, theirs)) / (moved if moved > 1e-6 * extent else extent)
+        apart /= moved if moved > 1e-6 * extent else extent
         if apart > worst:
             worst, body = apart, node
     return worst, body
