@@ -22,3 +22,6 @@ picture stress liver 60 --colour vonMises
 picture contacts contacts 150 --arrows contacts
 picture fluid fluid 110 --colour speed --camera "10 7 24  0 2.5 -1"
 picture fluid_grid fluid_grid 60 --camera "1.9 1.5 3.1  0.05 -0.2 -0.2"
+picture stirred_tank stirred_tank 120 --camera "0.55 0.65 0.85  0 -0.05 0"
+picture flooded_organ flooded_organ 70 --hide tank,tissue/skin --colour speed --camera "0.35 0.3 0.5  0 0.02 0"
+picture bleeding_cut bleeding_cut 600 --hide tissue/surface --camera "0.05 0.14 0.13  0.01 0 0"
