@@ -64,6 +64,8 @@ struct TopologicalChangeProcessor {
 
   int done = 0;                                           // changes so far
   std::array<std::vector<int>, element_kinds> numbers{};  // of each kind, by SOFA's numbers
+  std::vector<io::TopologicalRemoval> changes{};          // of the file
+  std::string_view noticed{};
 
   static constexpr auto state() {
     using P = TopologicalChangeProcessor;
@@ -89,8 +91,8 @@ struct TopologicalChangeProcessor {
                   "there is nothing to do; give the file of changes (filename), or useDataInputs and numbers "
                   "of elements");
     } else {
-      changes_ = io::read_topological_changes(filename.path);
-      if (loop && !(changes_.back().time > 0))
+      changes = io::read_topological_changes(filename.path);
+      if (loop && !(changes.back().time > 0))
         throw Error(where, "the file ends at time 0, and cannot go round in a loop; give later times");
     }
     if (kindOf(topology) < 0)
@@ -99,7 +101,7 @@ struct TopologicalChangeProcessor {
   }
 
   bool findRemoved(TopologyView const& topology, double time, ElementNumbers& elements) {
-    notice_ = {};
+    noticed = {};
     resetNumbers(topology);
     if (useDataInputs) {
       const double due = done == 0      ? timeToRemove
@@ -110,11 +112,11 @@ struct TopologicalChangeProcessor {
       for (int kind = 0; kind < element_kinds; ++kind) take(kind, *from[std::size_t(kind)], elements);
       return true;
     }
-    const auto count = int(changes_.size());
+    const auto count = int(changes.size());
     if (done >= count && !loop) return false;
-    io::TopologicalRemoval const& next = changes_[std::size_t(done % count)];
+    io::TopologicalRemoval const& next = changes[std::size_t(done % count)];
     // times that differ by rounding are the same, as in SOFA
-    const double due = next.time + done / count * changes_.back().time, now = time + shift;
+    const double due = next.time + done / count * changes.back().time, now = time + shift;
     if (due > now && std::abs(due - now) >= std::numeric_limits<double>::epsilon()) return false;
     take(kindOf(topology), next.elements, elements);
     return true;
@@ -133,12 +135,9 @@ struct TopologicalChangeProcessor {
       for (int& e : all) renumbering.renumber(e);
     }
   }
-  std::string_view notice() const { return notice_; }
+  std::string_view notice() const { return noticed; }
 
  private:
-  std::vector<io::TopologicalRemoval> changes_{};
-  std::string_view notice_{};
-
   std::array<std::vector<int> const*, element_kinds> inputs() const {
     return {&edgesToRemove, &trianglesToRemove, &quadsToRemove, &tetrahedraToRemove, &hexahedraToRemove};
   }
@@ -183,7 +182,7 @@ struct TopologicalChangeProcessor {
       if (e >= 0 && std::size_t(e) < known.size())
         lists[std::size_t(kind)]->push_back(known[std::size_t(e)]);
       else
-        notice_ = "elements to remove are not there any more";
+        noticed = "elements to remove are not there any more";
   }
 };
 
