@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // Scene files with textures and materials: what is read, seen, kept in checkpoints, and warned of.
 #include "catch.hpp"
+#include "io/files.hpp"
 
 #include <sinew/engine/mesh_loader.hpp>
 #include <sinew/mechanics.hpp>
@@ -12,7 +13,6 @@
 #include <sinew/view/view_settings.hpp>
 
 #include <filesystem>
-#include <fstream>
 
 namespace test_textured_scenes {
 
@@ -23,11 +23,8 @@ using Few = Registry<Gravity, MechanicalObject<Vec3d>, UniformMass<Vec3d>, Euler
                      MeshOBJLoader>;
 
 // a folder that goes with the test, with two triangles and a quad
-struct Folder {
-  std::filesystem::path path = std::filesystem::temp_directory_path() / "sinew_textured_scenes";
-
+struct Folder : files::TempFolder {
   Folder() {
-    std::filesystem::create_directories(path);
     write(
         "a.obj",
         "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
@@ -36,12 +33,8 @@ struct Folder {
     const unsigned char pixel[] = {10, 20, 30};
     write("a.png", view::png_of("a.png", 1, 1, 3, pixel));
   }
-  ~Folder() { std::filesystem::remove_all(path); }
-  void write(std::string const& name, std::string const& content) const {
-    std::ofstream(path / name, std::ios::binary) << content;
-  }
   ReadScene<Few> read(std::string const& inside) const {
-    return parse_scene<Few>((path / "a.scn").string(), "<Node name='root'>" + inside + "</Node>");
+    return parse_scene<Few>(*this / "a.scn", "<Node name='root'>" + inside + "</Node>");
   }
 };
 struct Seen {
@@ -144,7 +137,7 @@ TEST_CASE("a scene that lacks its texture, or has one that does not fit, runs wi
   CHECK_THAT(warned(triangle + "texturename='a.png'/>"), Contains("/root has no texcoords for its texture"));
   folder.write("a.mtl", "newmtl\n");
   CHECK_THAT(warned("<OglModel filename='a.obj'/>"), Contains("a.mtl:1: expected the name of a material"));
-  std::filesystem::remove(folder.path / "a.mtl");
+  std::filesystem::remove(folder / "a.mtl");
   CHECK_THAT(warned("<OglModel filename='a.obj'/>"),
              Contains("the materials of its faces: ") && Contains("a.mtl"));
 }

@@ -2,6 +2,7 @@
 // Textures and materials, from files to pixels.
 #include "catch.hpp"
 #include "error_of.hpp"
+#include "io/files.hpp"
 
 #include <sinew/mechanics.hpp>
 #include <sinew/view/gltf.hpp>
@@ -9,7 +10,6 @@
 #include <sinew/view/picture.hpp>
 
 #include <filesystem>
-#include <fstream>
 
 namespace test_textures {
 
@@ -19,18 +19,7 @@ using view::Image;
 using view::SeenTexture;
 using Pixel = std::array<unsigned char, 3>;
 
-// a folder that goes with the test
-struct Folder {
-  std::filesystem::path path = std::filesystem::temp_directory_path() / "sinew_textures";
-
-  Folder() { std::filesystem::create_directories(path); }
-  ~Folder() { std::filesystem::remove_all(path); }
-  std::string operator/(std::string const& name) const { return (path / name).string(); }
-  std::string write(std::string const& name, std::string const& content) const {
-    std::ofstream(path / name, std::ios::binary) << content;
-    return *this / name;
-  }
-};
+using Folder = files::TempFolder;
 
 // 2 x 2 texels: red, green; blue, grey
 const std::vector<unsigned char> four{255, 0, 0, 0, 255, 0, 0, 0, 255, 100, 100, 100};
@@ -211,16 +200,17 @@ TEST_CASE("what is missing or wrong of looks is a warning, and the rest is seen"
   CHECK_THAT(warnings_of("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3", folder.write("four.png", png())),
              Contains("a.scn:3:5: /root has no texcoords for its texture"));
   // files elsewhere than in the folders of a scene are not read
-  folder.write("m.mtl", "newmtl skin\nmap_Kd ../sinew_textures/four.png\n");
+  const std::filesystem::path place(folder / "");
+  folder.write("m.mtl",
+               text("newmtl skin\nmap_Kd ../", place.parent_path().filename().string(), "/four.png\n"));
   auto sim = shown(io::read_obj_file(folder.write("f.obj", "mtllib m.mtl\n" + face)));
   sim.init();
   for (std::string const& allowed :
-       {folder.path.string(), folder.path.string() + "/", folder / "below", folder / "f"}) {
+       {place.parent_path().string(), place.string(), folder / "below", folder / "f"}) {
     view::SeenSettings seen = even();
     std::vector<std::string> warnings;
     view::load_materials(sim, seen, warnings, {allowed});
-    const bool inside = allowed.find("/sinew_textures/b") == allowed.npos &&
-                        allowed.find("/sinew_textures/f") == allowed.npos;
+    const bool inside = allowed != folder / "below" && allowed != folder / "f";
     CHECK(warnings.size() == (inside ? 0 : 1));
     CHECK(seen.materials.size() == (inside ? 1 : 0));
     if (inside)

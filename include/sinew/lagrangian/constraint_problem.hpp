@@ -237,9 +237,9 @@ SINEW_ONCE void ConstraintProblem::leaveOut(ConstraintBlock const& b, int row, d
 
 SINEW_ONCE double ConstraintProblem::residual() const {
   double worst = 0;
-  const Eigen::VectorXd all = violation();
+  const Eigen::VectorXd all = built ? Eigen::VectorXd() : violation();
   for (ConstraintBlock const& b : blocks) {
-    const BlockVector d = all.segment(b.first, b.rows);
+    const BlockVector d = built ? violation(b) : BlockVector(all.segment(b.first, b.rows));
     const double r = b.rows / own(b).trace();
     switch (b.kind) {
       case ConstraintBlock::Kind::equality: {
