@@ -24,7 +24,7 @@ struct TopologicalChanges {
           if (!scope.topologyAddress())
             throw Error(where,
                         "neither its node nor one above has a topology; give one of them a MeshTopology");
-          if (!place(scope).editable)
+          if (!this->place(scope).editable)
             throw Error(where,
                         "the elements of its topology are made from a few numbers, and none of them can be "
                         "removed; give the node a MeshTopology with these elements");
@@ -46,7 +46,7 @@ struct TopologicalChanges {
         bool keepsLast = false;
         at(number, [&](auto& c, auto const& scope) {
           due = find(c, scope, time, elements);
-          path = place(scope).path;
+          path = this->place(scope).path;
           keepsLast = due && keepOne(scope.topology(), elements);
           if (keepsLast)
             notes.warn(scope.path(), "the last element of a body stays", [] {
