@@ -3,15 +3,13 @@
 
 #include <sinew/core/boundary_particles.hpp>
 #include <sinew/core/component.hpp>
-#include <sinew/force/sorted_particles.hpp>
+#include <sinew/force/sph_driver.hpp>
 #include <sinew/force/sph_kernels.hpp>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <string>
 #include <string_view>
-#include <vector>
+#include <type_traits>
 
 namespace sinew {
 
@@ -93,46 +91,36 @@ struct SPHFluidForceField {
 
   BoundaryParticles boundary{};
   std::string where{};
-  std::size_t size = 0, most = 0;  // of particles, now and at one time
+  std::size_t most = 0;  // particles of the fluid at one time
+  SphDriver<D> driver{};
 
   void init(InitContext<D> const& context) {
     where = text(context.where, ": ", component_name<SPHFluidForceField>());
-    size = most = context.rest.size();
+    most = context.rest.size();
     boundary.clear();
     reserveForBoundary();
   }
   void followPoints(Renumbering const&, std::size_t points) {
-    size = points;
     most = std::max(most, points);
     reserveForBoundary();
   }
-  void reserveForBoundary() {
-    const std::size_t all = most + boundary.size(), room = all + std::size_t(Particles::width);
-    particles.reserve(all);
-    joined.reserve(all);
-    for (auto& one : velocities) one.reserve(room);
-    for (auto* one : {&densities, &pressures, &volumes, &weights, &fluid}) one->reserve(room);
-  }
+  void reserveForBoundary() { driver.reserve(most + boundary.size()); }
 
   /// Shared among threads in three passes: the order of the particles, densities, forces.
-  static constexpr bool sharesWork = true;
+  static constexpr bool sharesWork = SphDriver<D>::sharesWork;
   static constexpr int passes = 3;
   int shares = 1;
   void split(int threads) { shares = most < 2000 ? 1 : threads; }
 
   void addForce(MechanicalParams const& p, VecDeriv& f, VecCoord const& x, VecDeriv const& v) {
     const bool whole = p.share.count == 1;
-    if (whole || (p.share.pass == 0 && p.share.index == 0)) {
-      sort(x);
-      for (std::size_t k = 0; k < particles.order().size(); ++k) {
-        const auto i = std::size_t(particles.order()[k]);
-        for (int c = 0; c < 3; ++c)
-          velocities[std::size_t(c)][k] = i < size ? v[i][c] : Real(boundary.velocities[i - size][c]);
+    withLaw([&](auto const& law) {
+      if (whole || (p.share.pass == 0 && p.share.index == 0)) {
+        driver.sort(law, x, boundary, radius, where);
+        driver.takeVelocities(v, boundary);
       }
-    }
-    withKernels([&](auto const& kernels) {
-      if (whole || p.share.pass == 1) findDensities(kernels, p.share);
-      if (whole || p.share.pass == 2) addForces(kernels, p.share, f);
+      if (whole || p.share.pass == 1) driver.findDensities(law, p.share);
+      if (whole || p.share.pass == 2) driver.addForces(law, p.share, f, boundary);
     });
   }
   void addDForce(MechanicalParams const&, VecDeriv&, VecDeriv const&) const {}
@@ -143,155 +131,35 @@ struct SPHFluidForceField {
   /// sum_i m pressure (ln(rho_i / density) + density / rho_i - 1).
   double potentialEnergy(VecCoord const& x) {
     if (pressureType == 0) return 0;
-    sort(x);
-    double sum = 0;
-    withKernels([&](auto const& kernels) { findDensities(kernels, {}); });
-    for (std::size_t k = 0; k < particles.order().size(); ++k) {
-      if (fluid[k] == 0) continue;
-      const double d = double(densities[k]) / density;
-      sum += mass * pressure * (std::log(d) + 1 / d - 1);
-    }
-    return sum;
+    double energy = 0;
+    withLaw([&](auto const& law) {
+      driver.sort(law, x, boundary, radius, where);
+      driver.findDensities(law, {});
+      energy = driver.energy(law);
+    });
+    return energy;
   }
-
-  // in the order of the particles
-  SortedParticles<Real, lane_width<D>()> particles{};
-  std::array<std::vector<Real>, 3> velocities{};
-  std::vector<Real> densities{}, pressures{}, volumes{};  // pressures: p / rho^2; volumes: m / rho
-  std::vector<Real> weights{}, fluid{};  // mass over that of the fluid's; 1 for the fluid, 0 for the boundary
-  VecCoord joined{};                     // the fluid, then the boundary
 
  private:
-  using Particles = SortedParticles<Real, lane_width<D>()>;
-  using Pairs = typename Particles::Pairs;
-  using L = typename Particles::L;
-
   bool hasCurvature() const { return surfaceTension > 0 && surfaceTensionType == 1; }
-  bool hasCohesion() const { return surfaceTension > 0 && surfaceTensionType == 2; }
 
-  void sort(VecCoord const& x) {
-    size = x.size();
-    if (boundary.size() == 0) {
-      particles.sort(x, radius, where);
-    } else {
-      joined.assign(x.begin(), x.end());
-      for (auto const& p : boundary.positions) joined.push_back(p.template cast<Real>());
-      particles.sort(joined, radius, where);
-    }
-    for (auto& one : velocities) one.resize(particles.room(), Real(0));
-    for (auto* one : {&densities, &pressures, &volumes}) one->resize(particles.room(), Real(1));
-    for (auto* one : {&weights, &fluid}) one->assign(particles.room(), Real(1));
-    if (boundary.size() > 0) withKernels([&](auto const& kernels) { findBoundary(kernels); });
-  }
-  // masses and volumes of the boundary, at the density at rest and without pressure
-  template <class Kernels>
-  void findBoundary(Kernels const& kernels) {
-    for (std::size_t k = 0; k < particles.order().size(); ++k)
-      if (std::size_t(particles.order()[k]) >= size) fluid[k] = 0;
-    particles.forEach({}, [&](int i, auto const& each) {
-      const auto at = std::size_t(i);
-      if (fluid[at] != 0) return;
-      L around(0);
-      each([&](Pairs const& p) {
-        around += select(p.acts, (L(1) - load(fluid, p.first)) * kernels.density(p.q), L(0));
-      });
-      volumes[at] = 1 / sum(around);
-      weights[at] = Real(density / mass) * volumes[at];
-      densities[at] = Real(density);
-      pressures[at] = 0;
-    });
-  }
-  static L load(std::vector<Real> const& from, int place) { return Particles::load(from, place); }
-  static Real sum(L const& value) { return Particles::sum(value); }
   template <class F>
-  void withKernels(F&& f) const {
-    kernelType == 1 ? f(CubicKernels<Real>(Real(radius))) : f(MuellerKernels<Real>(Real(radius)));
-  }
-
-  template <class Kernels>
-  void findDensities(Kernels const& kernels, WorkShare const& share) {
-    const Real m = Real(mass), atRest = Real(density), stiffness = Real(pressureType == 0 ? 0 : pressure);
-    particles.forEach(share, [&](int i, auto const& each) {
-      if (fluid[std::size_t(i)] == 0) return;
-      L around(0);
-      each([&](Pairs const& p) {
-        around += select(p.acts, load(weights, p.first) * kernels.density(p.q), L(0));
-      });
-      const Real rho = m * sum(around);
-      densities[std::size_t(i)] = rho;
-      pressures[std::size_t(i)] = stiffness * (rho - atRest) / (rho * rho);
-      volumes[std::size_t(i)] = m / rho;
-    });
-  }
-  // -m tension c n / |n|
-  template <class Kernels, class Each>
-  std::array<Real, 3> curvatureForce(Kernels const& kernels, int i, Each const& each) const {
-    const L own(volumes[std::size_t(i)]);
-    std::array<L, 3> n{L(0), L(0), L(0)};
-    L curvature(0);
-    each([&](Pairs const& p) {
-      const L more = select(p.acts, load(volumes, p.first) - own, L(0));
-      const L slope = more * kernels.densitySlope(p.q);
-      for (std::size_t c = 0; c < 3; ++c) n[c] += slope * p.d[c];
-      curvature += more * kernels.densityLaplacian(p.q);
-    });
-    std::array<Real, 3> force;
-    Real square(0);
-    for (std::size_t c = 0; c < 3; ++c) force[c] = sum(n[c]), square += force[c] * force[c];
-    const Real length = std::sqrt(square);
-    const Real factor =
-        length > Real(1e-6) ? -Real(mass * surfaceTension) * sum(curvature) / length : Real(0);
-    for (Real& one : force) one *= factor;
-    return force;
-  }
-  template <class Kernels>
-  void addForces(Kernels const& kernels, WorkShare const& share, VecDeriv& f) {
-    const bool viscous = viscosityType == 1 && viscosity > 0,
-               artificial = viscosityType == 2 && viscosity > 0;
-    const bool coheres = hasCohesion(), curved = hasCurvature();
-    const L square{Real(mass * mass)}, bulk{Real(2 * viscosity * radius * mass)},
-        soft{Real(0.01 * radius * radius)};
-    const L drag{Real(viscosity)}, cohesion{Real(-surfaceTension * mass)};
-    particles.forEach(share, [&](int i, auto const& each) {
-      const auto at = std::size_t(i);
-      const L pushed(pressures[at]), rho(densities[at]), volume(volumes[at]);
-      std::array<L, 3> v, sums{L(0), L(0), L(0)};
-      for (std::size_t c = 0; c < 3; ++c) v[c] = L(velocities[c][at]);
-      const bool wall = fluid[at] == 0;
-      const L own(weights[at]);
-      each([&](Pairs const& p) {
-        auto acts = p.acts;  // walls do not act on walls
-        if (wall) acts = both(acts, load(fluid, p.first) > L(0));
-        L pushes = -square * (pushed + load(pressures, p.first));
-        std::array<L, 3> slower{L(0), L(0), L(0)};  // v_j - v_i
-        if (viscous || artificial)
-          for (std::size_t c = 0; c < 3; ++c) slower[c] = load(velocities[c], p.first) - v[c];
-        if (artificial) {
-          L apart(0);
-          for (std::size_t c = 0; c < 3; ++c) apart -= slower[c] * p.d[c];
-          pushes += select(apart < L(0), apart, L(0)) * bulk /
-                    ((p.q * p.q + soft) * (rho + load(densities, p.first)));
-        }
-        L along = pushes * kernels.pressureSlope(p.q);
-        if (coheres) along += cohesion * kernels.density(p.q);
-        along = select(acts, own * load(weights, p.first) * along, L(0));
-        for (std::size_t c = 0; c < 3; ++c) sums[c] += along * p.d[c];
-        if (viscous) {
-          const L rubs =
-              select(acts, drag * volume * load(volumes, p.first) * kernels.viscosityLaplacian(p.q), L(0));
-          for (std::size_t c = 0; c < 3; ++c) sums[c] += rubs * slower[c];
-        }
-      });
-      std::array<Real, 3> tension{};
-      const auto point = std::size_t(particles.order()[at]);
-      if (wall) {
-        for (std::size_t c = 0; c < 3; ++c)
-          boundary.forces[point - size][Eigen::Index(c)] = double(sum(sums[c]));
-        return;
-      }
-      if (curved) tension = curvatureForce(kernels, i, each);
-      for (std::size_t c = 0; c < 3; ++c) f[point][Eigen::Index(c)] += sum(sums[c]) + tension[c];
-    });
+  void withLaw(F&& f) const {
+    auto with = [&](auto const& kernels) {
+      f(SphLaw<std::decay_t<decltype(kernels)>, Real>{
+          .kernels = kernels,
+          .mass = Real(mass),
+          .atRest = Real(density),
+          .stiffness = Real(pressureType == 0 ? 0 : pressure),
+          .radius = Real(radius),
+          .viscosity = Real(viscosity),
+          .tension = Real(surfaceTension),
+          .viscous = viscosityType == 1 && viscosity > 0,
+          .artificial = viscosityType == 2 && viscosity > 0,
+          .coheres = surfaceTension > 0 && surfaceTensionType == 2,
+          .curved = hasCurvature()});
+    };
+    kernelType == 1 ? with(CubicKernels<Real>(Real(radius))) : with(MuellerKernels<Real>(Real(radius)));
   }
 };
 

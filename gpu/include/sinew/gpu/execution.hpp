@@ -199,6 +199,16 @@ class DeviceArray {
   }
 };
 
+/// Memory of the device for what is made anew each time: a copy has memory of its own, once it asks for it.
+template <class T>
+struct WorkArray : DeviceArray<T> {
+  WorkArray() = default;
+  WorkArray(WorkArray const&) : DeviceArray<T>() {}
+  WorkArray(WorkArray&&) = default;
+  WorkArray& operator=(WorkArray const&) { return *this; }
+  WorkArray& operator=(WorkArray&&) = default;
+};
+
 /// A copy on its way from the device to the host, in memory that a GPU writes while the host goes on.
 template <class T>
 class Arrival {

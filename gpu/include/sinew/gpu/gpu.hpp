@@ -9,4 +9,5 @@
 #include <sinew/gpu/element_driver.hpp>
 #include <sinew/gpu/point_weights.hpp>
 #include <sinew/gpu/rigid_loops.hpp>
+#include <sinew/gpu/sph_driver.hpp>
 #include <sinew/gpu/vector_operations.hpp>

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/core/boundary_particles.hpp>
+#include <sinew/core/data_types.hpp>
+#include <sinew/core/work_share.hpp>
+#include <sinew/force/sorted_particles.hpp>
+#include <sinew/force/sph_law.hpp>
+
+#include <array>
+#include <string_view>
+#include <vector>
+
+namespace sinew {
+
+/// Runs an SphLaw over the particles of a fluid and those of boundaries, in three passes, each of which may
+/// be shared among threads but the first: the order of all particles, densities, forces. Sums go over
+/// neighbours in the order of their cells, so that bits repeat. A specialisation over the DataTypes of a
+/// device is in sinew/gpu.
+template <class D>
+struct SphDriver {
+  using Real = typename D::Real;
+  using VecCoord = typename D::VecCoord;
+  using VecDeriv = typename D::VecDeriv;
+  using Particles = SortedParticles<Real, lane_width<D>()>;
+  using Pairs = typename Particles::Pairs;
+  using L = typename Particles::L;
+  static constexpr bool sharesWork = true;
+
+  std::size_t size = 0;  // of the fluid
+  Particles particles{};
+  // in the order of the particles
+  std::array<std::vector<Real>, 3> velocities{};
+  std::vector<Real> densities{}, pressures{}, volumes{};  // pressures: p / rho^2; volumes: m / rho
+  std::vector<Real> weights{}, fluid{};  // mass over that of the fluid's; 1 for the fluid, 0 for the boundary
+  VecCoord joined{};                     // the fluid, then the boundary
+
+  /// Room for so many particles, with those of boundaries.
+  void reserve(std::size_t all) {
+    const std::size_t room = all + std::size_t(Particles::width);
+    particles.reserve(all);
+    joined.reserve(all);
+    for (auto& one : velocities) one.reserve(room);
+    for (auto* one : {&densities, &pressures, &volumes, &weights, &fluid}) one->reserve(room);
+  }
+
+  /// Throws Error as PointCells does.
+  template <class Law>
+  void sort(Law const& law, VecCoord const& x, BoundaryParticles const& boundary, double radius,
+            std::string_view where) {
+    size = x.size();
+    if (boundary.size() == 0) {
+      particles.sort(x, radius, where);
+    } else {
+      joined.assign(x.begin(), x.end());
+      for (auto const& p : boundary.positions) joined.push_back(p.template cast<Real>());
+      particles.sort(joined, radius, where);
+    }
+    for (auto& one : velocities) one.resize(particles.room(), Real(0));
+    for (auto* one : {&densities, &pressures, &volumes}) one->resize(particles.room(), Real(1));
+    for (auto* one : {&weights, &fluid}) one->assign(particles.room(), Real(1));
+    if (boundary.size() > 0) findBoundary(law);
+  }
+  void takeVelocities(VecDeriv const& v, BoundaryParticles const& boundary) {
+    for (std::size_t k = 0; k < particles.order().size(); ++k) {
+      const auto i = std::size_t(particles.order()[k]);
+      for (int c = 0; c < 3; ++c)
+        velocities[std::size_t(c)][k] = i < size ? v[i][c] : Real(boundary.velocities[i - size][c]);
+    }
+  }
+
+  template <class Law>
+  void findDensities(Law const& law, WorkShare const& share) {
+    particles.forEach(share, [&](int i, auto const& each) {
+      if (fluid[std::size_t(i)] == 0) return;
+      L around(0);
+      each([&](Pairs const& p) { law.addDensity(p, Others{*this, p.first}, around); });
+      const Real rho = law.mass * Particles::sum(around);
+      densities[std::size_t(i)] = rho;
+      pressures[std::size_t(i)] = law.pressureOf(rho);
+      volumes[std::size_t(i)] = law.mass / rho;
+    });
+  }
+
+  template <class Law>
+  void addForces(Law const& law, WorkShare const& share, VecDeriv& f, BoundaryParticles& boundary) {
+    particles.forEach(share, [&](int i, auto const& each) {
+      const auto at = std::size_t(i), point = std::size_t(particles.order()[at]);
+      const bool wall = fluid[at] == 0;
+      SphParticle<L> own{{}, L(weights[at]), L(densities[at]), L(pressures[at]), L(volumes[at])};
+      for (std::size_t c = 0; c < 3; ++c) own.velocity[c] = L(velocities[c][at]);
+      std::array<L, 3> sums{L(0), L(0), L(0)};
+      each([&](Pairs const& p) {
+        const Others other{*this, p.first};
+        if (!wall) return law.addForces(own, p, other, sums);
+        Pairs ofFluid = p;  // walls do not act on walls
+        ofFluid.acts = both(p.acts, load(fluid, p.first) > L(0));
+        law.addForces(own, ofFluid, other, sums);
+      });
+      if (wall) {
+        for (std::size_t c = 0; c < 3; ++c)
+          boundary.forces[point - size][Eigen::Index(c)] = double(Particles::sum(sums[c]));
+        return;
+      }
+      std::array<Real, 3> tension{};
+      if (law.curved) {
+        std::array<L, 3> n{L(0), L(0), L(0)};
+        L curvature(0);
+        each([&](Pairs const& p) { law.addCurvature(own.volume, p, Others{*this, p.first}, n, curvature); });
+        tension = law.curvatureForce({Particles::sum(n[0]), Particles::sum(n[1]), Particles::sum(n[2])},
+                                     Particles::sum(curvature));
+      }
+      for (std::size_t c = 0; c < 3; ++c) f[point][Eigen::Index(c)] += Particles::sum(sums[c]) + tension[c];
+    });
+  }
+
+  /// Behind findDensities [J].
+  template <class Law>
+  double energy(Law const& law) const {
+    double sum = 0;
+    for (std::size_t k = 0; k < particles.order().size(); ++k)
+      if (fluid[k] != 0) sum += law.energy(densities[k]);
+    return sum;
+  }
+
+ private:
+  static L load(std::vector<Real> const& from, int place) { return Particles::load(from, place); }
+
+  // what the particles from a place on have
+  struct Others {
+    SphDriver const& of;
+    int first;
+
+    L weight() const { return load(of.weights, first); }
+    L density() const { return load(of.densities, first); }
+    L pressure() const { return load(of.pressures, first); }
+    L volume() const { return load(of.volumes, first); }
+    L velocity(std::size_t axis) const { return load(of.velocities[axis], first); }
+  };
+
+  // volumes of the boundary, V_k = 1 / sum_l W_kl, at the density at rest and without pressure
+  template <class Law>
+  void findBoundary(Law const& law) {
+    for (std::size_t k = 0; k < particles.order().size(); ++k)
+      if (std::size_t(particles.order()[k]) >= size) fluid[k] = 0;
+    particles.forEach({}, [&](int i, auto const& each) {
+      const auto at = std::size_t(i);
+      if (fluid[at] != 0) return;
+      L around(0);
+      each([&](Pairs const& p) {
+        around += select(p.acts, (L(1) - load(fluid, p.first)) * law.kernels.density(p.q), L(0));
+      });
+      volumes[at] = 1 / Particles::sum(around);
+      weights[at] = law.atRest / law.mass * volumes[at];
+      densities[at] = law.atRest;
+      pressures[at] = 0;
+    });
+  }
+};
+
+}  // namespace sinew
