@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSL-1.0
 """Runs the benchmarks of a GPU, prints their tables, and writes docs/gpu.md with its plots from this one run; what was
-measured goes to a JSON file, too. It needs the programs gpu_scenes and gpu_contact and a GPU of NVIDIA."""
+measured goes to a JSON file, too. It needs the programs gpu_scenes, gpu_contact and gpu_fluids and a GPU of NVIDIA."""
 import argparse
 import pathlib
 import re
@@ -21,6 +21,7 @@ SCENES = [("grid 17x8x10", "grid 17 8 10"), ("grid 20x10x12", "grid 20 10 12"), 
           ("9,858,192 tetrahedra", "block 118")]
 COPIES = 16384
 CONTACT = ["32 32 6", "32 32 6 --double", "16 16 1", "32 32 6 --mu 0", "32 32 6 --given"]
+PARTICLES = [10_648, 97_336, 1_000_000, 8_000_000]
 
 
 def form_of(words):
@@ -73,9 +74,16 @@ def contact_row(arguments, text):
             "iterations": float(found[5]), "residual": float(found[6]), "unsolved": int(found[7]), "forces": float(found[8])}
 
 
+def fluid_row(text):
+    found = re.match(r"(\d+); (float|double); (launches|graph); ([\d.]+); ", text)
+    if not found:
+        fail(f"gpu_fluids did not print the line that its table knows, but:\n{text}")
+    return {"particles": int(found[1]), "real": found[2], "form": found[3], "steps_per_second": float(found[4])}
+
+
 def measured(build, meshes, say):
     """The rows of all tables of the page."""
-    results = {"gpu-scenes": [], "gpu-copies": [], "gpu-contact": []}
+    results = {"gpu-scenes": [], "gpu-copies": [], "gpu-contact": [], "gpu-fluids": []}
     bodies = [(f"{tetrahedra:,} tetrahedra", f"fem {mesh}") for mesh, _, tetrahedra in meshes]
     scenes = SCENES[:3] + bodies + SCENES[3:]
     for real in ([], ["--double"]):
@@ -90,12 +98,16 @@ def measured(build, meshes, say):
     for arguments in CONTACT:
         say(f"gpu_contact {arguments}")
         results["gpu-contact"].append(contact_row(arguments, output(build / "gpu_contact", *arguments.split())))
+    for particles in PARTICLES:
+        for options in ([], ["--graph"], ["--double"], ["--double", "--graph"]):
+            say(f"gpu_fluids {particles} {' '.join(options)}")
+            results["gpu-fluids"].append(fluid_row(output(build / "gpu_fluids", particles, *options)))
     return results
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, prog="./dev bench --gpu")
-    parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build/test-gcc/gpu", help="folder of gpu_scenes and gpu_contact")
+    parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build/test-gcc/gpu", help="folder of gpu_scenes, gpu_contact and gpu_fluids")
     parser.add_argument("--meshes", type=pathlib.Path, nargs="+", metavar="FILE", help="tetrahedral meshes (.msh) of about 600 and 1,500 tetrahedra, in place of blocks")
     parser.add_argument("--json", type=pathlib.Path, default=pathlib.Path("out/gpu.json"))
     arguments = parser.parse_args()

@@ -283,16 +283,29 @@ def gpu_contact(rows):
                       power(r["residual"]), power(r["forces"])] for r in rows])
 
 
+def gpu_fluids(rows):
+    def steps(row):
+        return digits(row["steps_per_second"], 4)
+    lines = []
+    for particles in kinds(rows, "particles"):
+        line = [f"{particles:,}"]
+        for real in ("float", "double"):
+            launches, graph = (of(rows, particles=particles, real=real, form=form) for form in ("launches", "graph"))
+            line += [steps(launches), steps(graph), digits(1e9 / graph["steps_per_second"] / particles)]
+        lines.append(line)
+    return markdown(["particles", *(f"{words}, {real}" for real in ("float", "double") for words in ("steps/s", "as a graph", "ns a step and particle"))], lines)
+
+
 TABLES = {"fem": fem, "grids": grids, "small": small, "accuracy": accuracy, "roofline": roofline, "growth": growth, "threads": threads, "fluids": fluids, "portability": portability,
           "by-hand": by_hand, "vitrectomy": vitrectomy, "runtime": runtime, "families": families, "collision": collision, "compile": compiling, "contact": contact,
           "siconos": siconos, "laparoscopy": laparoscopy, "bounds": bounds, "gpu-float": gpu_float, "gpu-double": gpu_double, "gpu-iterations": gpu_iterations,
-          "gpu-copies": gpu_copies, "gpu-contact": gpu_contact}
+          "gpu-copies": gpu_copies, "gpu-contact": gpu_contact, "gpu-fluids": gpu_fluids}
 # rows that two tables are made of
 SOURCE = {"gpu-float": "gpu-scenes", "gpu-double": "gpu-scenes"}
 # the tables of each page; all of them are of one run
 PAGES = {"performance": ["fem", "grids", "small", "accuracy", "roofline", "growth", "threads", "portability", "by-hand", "runtime", "families", "collision", "compile"],
          "contact": ["contact", "siconos"], "fluids": ["fluids"], "laparoscopy": ["laparoscopy", "bounds"], "vitrectomy": ["vitrectomy"],
-         "gpu": ["gpu-float", "gpu-double", "gpu-iterations", "gpu-copies", "gpu-contact"]}
+         "gpu": ["gpu-float", "gpu-double", "gpu-iterations", "gpu-copies", "gpu-contact", "gpu-fluids"]}
 
 
 def rows_of(results, name):

@@ -98,6 +98,9 @@ def gpu_output():
     check(rows == [{"scene": "596 tetrahedra", "real": "float", "copies": 4, "steps_per_second": 62200, "of_peak": 0.5}], f"copies: {rows}")
     row = gpu.contact_row("32 32 6", "28830; 7168; 1024; float; 1203.0; 1.0 updates, 2.0 Newton, 44.0 conjugate gradients, 2.0 looks; 1.0e-06 m, 2.0e-07; 0 unsolved; forces 9.0e-05\n")
     check((row["contacts"], row["steps_per_second"], row["iterations"], row["forces"]) == (1024, 1203, 44, 9e-5), f"contacts: {row}")
+    row = gpu.fluid_row("1000000; float; graph; 672.1; 0.00149; front at 1.064 m after 0.014 s\n")
+    check(row == {"particles": 1000000, "real": "float", "form": "graph", "steps_per_second": 672.1}, f"fluids: {row}")
+    refused(lambda: gpu.fluid_row("nothing\n"), "gpu_fluids")
     refused(lambda: gpu.scene_rows("grid", "nothing\n"), "gpu_scenes said nothing of grid")
 
 

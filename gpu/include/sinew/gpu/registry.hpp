@@ -14,11 +14,11 @@ template <class D>
 using CudaBodies = Registry<MechanicalObject<D>, UniformMass<D>, RestShapeSpringsForceField<D>,
                             FixedConstraint<D>, PartialFixedConstraint<D>>;
 template <class D>
-using CudaPoints =
-    Registry<CudaBodies<D>, DiagonalMass<D>, PointSprings<D>, PlaneForceField<D>, SphereForceField<D>,
-             TriangleFEMForceField<D>, TetrahedronFEMForceField<D>, HexahedronFEMForceField<D>,
-             TetrahedronHyperelasticityFEMForceField<D>, UnilateralLagrangianConstraint<D>,
-             UnilateralLagrangianConstraint<D, Linked>, PointCollisionModel<D>, SphereCollisionModel<D>>;
+using CudaPoints = Registry<CudaBodies<D>, DiagonalMass<D>, PointSprings<D>, PlaneForceField<D>,
+                            SphereForceField<D>, TriangleFEMForceField<D>, TetrahedronFEMForceField<D>,
+                            HexahedronFEMForceField<D>, TetrahedronHyperelasticityFEMForceField<D>,
+                            UnilateralLagrangianConstraint<D>, UnilateralLagrangianConstraint<D, Linked>,
+                            SPHFluidForceField<D>, PointCollisionModel<D>, SphereCollisionModel<D>>;
 template <class D>
 using CudaRigids = Registry<CudaBodies<D>, AngularSpringForceField<D>>;
 // to states of the device, and to models of the host
