@@ -21,7 +21,7 @@ SCENES = [("grid 17x8x10", "grid 17 8 10"), ("grid 20x10x12", "grid 20 10 12"), 
           ("9,858,192 tetrahedra", "block 118")]
 COPIES = 16384
 CONTACT = ["32 32 6", "32 32 6 --double", "16 16 1", "32 32 6 --mu 0", "32 32 6 --given"]
-PARTICLES = [10_648, 97_336, 1_000_000, 8_000_000]
+PARTICLES = [10_648, 97_336, 1_000_000]
 
 
 def form_of(words):

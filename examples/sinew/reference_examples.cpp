@@ -473,6 +473,16 @@ constexpr auto classExamples = std::to_array<ClassExample>({
   <TriangularShellForceField youngModulus="1e7" poissonRatio="0.3" thickness="0.01"/>
   <FixedConstraint indices="0 6 12 18"/>
 </Node>)"},
+    {"ConicalForceField",
+     R"(<ConicalForceField coneCenter="-0.1 0 0.05" coneHeight="1 0 0" coneAngle="20" stiffness="500"/>)",
+     softBody,
+     "TetrahedronFEMForceField",
+     Place::beside},
+    {"DiagonalVelocityDampingForceField",
+     R"(<DiagonalVelocityDampingForceField dampingCoefficient="0.05 0 0.05"/>)",
+     chain,
+     "StiffSpringForceField",
+     Place::beside},
     {"UniformVelocityDampingForceField",
      R"(<UniformVelocityDampingForceField dampingCoefficient="0.05"/>)",
      chain,
@@ -626,6 +636,73 @@ constexpr auto classExamples = std::to_array<ClassExample>({
     <RestShapeSpringsForceField stiffness="80"/>
   </Node>
 </Node>)"},
+    {"AreaMapping", R"(
+<Node name="net" gravity="0 -9.81 0">
+  <EulerImplicitSolver/>
+  <SparseLDLSolver template="CompressedRowSparseMatrixd"/>
+  <RegularGridTopology name="grid" n="5 1 5" max="1 0 1"/>
+  <MechanicalObject/>
+  <UniformMass totalMass="0.2"/>
+  <MeshSpringForceField stiffness="40" damping="0.1"/>
+  <FixedConstraint indices="0 4 20 24"/>
+  <Node name="areas">
+    <MeshTopology triangles="0 1 6  0 6 5  3 4 9  3 9 8"/>
+    <MechanicalObject template="Vec1d"/>
+    <AreaMapping/>
+    <RestShapeSpringsForceField stiffness="5000"/>
+  </Node>
+</Node>)"},
+    {"SquareDistanceMapping", R"(
+<Node name="net" gravity="0 -9.81 0">
+  <EulerImplicitSolver/>
+  <SparseLDLSolver template="CompressedRowSparseMatrixd"/>
+  <RegularGridTopology name="grid" n="5 1 5" max="1 0 1"/>
+  <MechanicalObject/>
+  <UniformMass totalMass="0.2"/>
+  <FixedConstraint indices="0 4 20 24"/>
+  <Node name="squares">
+    <MeshTopology edges="0 1  1 2  2 3  3 4"/>
+    <MechanicalObject template="Vec1d" rest_position="0.0625  0.0625  0.0625  0.0625"/>
+    <SquareDistanceMapping/>
+    <RestShapeSpringsForceField stiffness="500"/>
+  </Node>
+</Node>)"},
+    {"DistanceFromTargetMapping", R"(
+<Node name="pendulum" gravity="0 -9.81 0">
+  <EulerImplicitSolver/>
+  <SparseLDLSolver template="CompressedRowSparseMatrixd"/>
+  <MechanicalObject position="0.5 0 0"/>
+  <UniformMass totalMass="0.2"/>
+  <Node name="thread">
+    <MechanicalObject template="Vec1d"/>
+    <DistanceFromTargetMapping indices="0" targetPositions="0 0 0" restLengths="0.5"/>
+    <RestShapeSpringsForceField stiffness="200"/>
+  </Node>
+</Node>)"},
+    {"DistanceToPlaneMapping", R"(
+<Node name="ball" gravity="0 -9.81 0">
+  <EulerImplicitSolver/>
+  <SparseLDLSolver template="CompressedRowSparseMatrixd"/>
+  <MechanicalObject position="0 0.5 0"/>
+  <UniformMass totalMass="0.2"/>
+  <Node name="height">
+    <MechanicalObject template="Vec1d"/>
+    <DistanceToPlaneMapping planeNormal="0 1 0" planePoint="0 0.5 0"/>
+    <RestShapeSpringsForceField stiffness="20"/>
+  </Node>
+</Node>)"},
+    {"SquareMapping", R"(
+<Node name="slider">
+  <EulerImplicitSolver/>
+  <SparseLDLSolver template="CompressedRowSparseMatrixd"/>
+  <MechanicalObject template="Vec1d" position="1"/>
+  <UniformMass totalMass="0.2"/>
+  <Node name="square">
+    <MechanicalObject template="Vec1d" rest_position="0.25"/>
+    <SquareMapping/>
+    <RestShapeSpringsForceField stiffness="2"/>
+  </Node>
+</Node>)"},
     {"IdentityMapping",
      R"(
 <Node name="skin">
@@ -749,6 +826,38 @@ constexpr auto classExamples = std::to_array<ClassExample>({
     {"PairBoxROI", R"(
 <PairBoxROI name="shell" inclusiveBox="-1 -1 -1  1 1 1" includedBox="0.05 0.01 0.01  0.35 0.09 0.09"/>
 <FixedConstraint indices="@shell.indices"/>)"},
+    {"PointsFromIndices", R"(
+<Node name="root" gravity="0 -9.81 0">
+  <EulerImplicitSolver/>
+  <SparseLDLSolver/>
+  <Node name="body">
+    <RegularGridTopology name="grid" n="5 3 3" max="0.4 0.1 0.1"/>
+    <MechanicalObject/>
+    <UniformMass totalMass="4"/>
+    <TetrahedronFEMForceField youngModulus="50000" poissonRatio="0.3"/>
+    <FixedConstraint indices="0 5 10 15 20 25 30 35 40"/>
+  </Node>
+  <Node name="markers">
+    <PointsFromIndices name="ends" position="@../body/grid.position" indices="4 9 14"/>
+    <MechanicalObject position="@ends.indices_position"/>
+    <UniformMass totalMass="0.1"/>
+  </Node>
+</Node>)"},
+    {"SubsetTopology", R"(
+<Node name="root" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <SparseLDLSolver/>
+  <RegularGridTopology name="grid" n="5 3 3" max="0.4 0.1 0.1"/>
+  <SubsetTopology name="part" template="Vec3d" box="-0.01 -1 -1  0.21 1 1" localIndices="1" rest_position="@grid.position"
+                  hexahedra="@grid.hexahedra"/>
+  <Node name="body">
+    <MeshTopology position="@../part.pointsInROI" hexahedra="@../part.hexahedraInROI"/>
+    <MechanicalObject/>
+    <UniformMass totalMass="2"/>
+    <HexahedronFEMForceField youngModulus="50000" poissonRatio="0.3"/>
+    <FixedConstraint indices="0 5 10"/>
+  </Node>
+</Node>)"},
     {"NearestPointROI", R"(
 <Node name="root" gravity="0 -9.81 0">
   <EulerImplicitSolver/>

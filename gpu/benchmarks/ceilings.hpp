@@ -176,7 +176,7 @@ inline double exchange_seconds(int blocks, bool cluster) {
     attribute.val.cooperative = 1;
   }
   gpu::GridMemory memory{
-      arrived.device(), 0, announced.data(), sums.data(), nearFirst.device(), near.device()};
+      arrived.device(), 0, announced.data(), sums.data(), nullptr, nearFirst.device(), near.device()};
   auto all = [&] {
     if (cluster)
       gpu::check(cudaLaunchKernelEx(&config, cluster_rounds, rounds, to.data()), what);

@@ -11,9 +11,11 @@
 #include <sinew/engine/nearest_point_roi.hpp>
 #include <sinew/engine/pair_box_roi.hpp>
 #include <sinew/engine/plane_roi.hpp>
+#include <sinew/engine/points_from_indices.hpp>
 #include <sinew/engine/sphere_loader.hpp>
 #include <sinew/engine/sphere_roi.hpp>
 #include <sinew/engine/string_mesh_creator.hpp>
+#include <sinew/engine/subset_topology.hpp>
 #include <sinew/engine/topological_mapping.hpp>
 #include <sinew/engine/transform_engine.hpp>
 #include <sinew/topology/cube_topology.hpp>

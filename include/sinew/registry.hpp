@@ -22,10 +22,13 @@ template <class D>
 using PointSprings = Registry<StiffSpringForceField<D>, StiffSpringForceField<D, Linked>,
                               MeshSpringForceField<D>, RegularGridSpringForceField<D>>;
 template <class D>
-using RigidLoads = Registry<ConstantForceField<D>, LinearForceField<D>, RestShapeSpringsForceField<D>,
-                            PlaneForceField<D>, UniformVelocityDampingForceField<D>, VirtualCoupling<D>>;
+using RigidLoads =
+    Registry<ConstantForceField<D>, LinearForceField<D>, RestShapeSpringsForceField<D>, PlaneForceField<D>,
+             UniformVelocityDampingForceField<D>, DiagonalVelocityDampingForceField<D>, VirtualCoupling<D>>;
 template <class D>
 using PointLoads = Registry<RigidLoads<D>, SphereForceField<D>>;
+template <class D>
+using SpatialLoads = Registry<ConicalForceField<D>>;
 template <class D>
 using Particles = Registry<ParticleSource<D>, ParticleSink<D>>;
 template <class D>
@@ -60,8 +63,8 @@ template <class D>
 using PointComponents = Registry<MechanicalObject<D>, UniformMass<D>, DiagonalMass<D>, MeshMatrixMass<D>,
                                  PointSprings<D>, PointLoads<D>, PointConstraints<D>>;
 template <class D>
-using SpatialComponents =
-    Registry<PointComponents<D>, ElementForces<D>, HyperelasticForces<D>, SpatialSprings<D>, Fluids<D>>;
+using SpatialComponents = Registry<PointComponents<D>, SpatialLoads<D>, ElementForces<D>,
+                                   HyperelasticForces<D>, SpatialSprings<D>, Fluids<D>>;
 template <class D>
 using RigidComponents =
     Registry<MechanicalObject<D>, UniformMass<D>, DiagonalMass<D>, RigidLoads<D>, PointConstraints<D>>;
@@ -96,9 +99,14 @@ using StandardForces =
              MeshSpringForceField<Vec1d>, CorePoints<Vec2d>, MeshSpringForceField<Vec2d>,
              PlaneForceField<Vec2d>, Particles<Vec2d>, ImmersedSolid<Vec2d>, CorePoints<Vec6d>,
              CoreRigids<Rigid2d>, CoreBodies<Vec3f>, CoreRigids<Rigid3f>>;
-using MeasuringMappings = Registry<DistanceMapping<Vec3d, Vec1d>, DistanceMapping<Rigid3d, Vec1d>,
-                                   DistanceMapping<Vec2d, Vec1d>, VolumeMapping<Vec3d, Vec1d>,
-                                   CenterOfMassMapping<Vec3d, Vec3d>, CenterOfMassMapping<Rigid3d, Vec3d>>;
+using MeasuringMappings =
+    Registry<DistanceMapping<Vec3d, Vec1d>, DistanceMapping<Rigid3d, Vec1d>, DistanceMapping<Vec2d, Vec1d>,
+             VolumeMapping<Vec3d, Vec1d>, CenterOfMassMapping<Vec3d, Vec3d>,
+             CenterOfMassMapping<Rigid3d, Vec3d>, AreaMapping<Vec3d, Vec1d>,
+             SquareDistanceMapping<Vec3d, Vec1d>, SquareDistanceMapping<Rigid3d, Vec1d>,
+             DistanceFromTargetMapping<Vec3d, Vec1d>, DistanceFromTargetMapping<Rigid3d, Vec1d>,
+             DistanceToPlaneMapping<Vec3d, Vec1d>, DistanceToPlaneMapping<Rigid3d, Vec1d>,
+             SquareMapping<Vec1d, Vec1d>>;
 using MultiMappings = Registry<SubsetMultiMapping<Vec3d, Vec3d>, SubsetMultiMapping<Vec2d, Vec2d>,
                                SubsetMultiMapping<Vec1d, Vec1d>, SubsetMultiMapping<Rigid3d, Rigid3d>,
                                SubsetMultiMapping<Rigid3d, Vec3d>, SubsetMultiMapping<Vec3d, Vec3f>>;
@@ -125,13 +133,13 @@ using StandardSolvers =
 template <class D>
 using Regions = Registry<BoxROI<D>, SphereROI<D>, PairBoxROI<D>, NearestPointROI<D>>;
 template <class D>
-using SpatialEngines = Registry<Regions<D>, PlaneROI<D>, TransformEngine<D>>;
+using SpatialEngines = Registry<Regions<D>, PlaneROI<D>, TransformEngine<D>, SubsetTopology<D>>;
 using StandardEngines =
     Registry<MeshGmshLoader, MeshOBJLoader, MeshSTLLoader, MeshVTKLoader, SphereLoader,
              GenerateRigidMass<Rigid3d>, Hexa2TetraTopologicalMapping, Tetra2TriangleTopologicalMapping,
              Hexa2QuadTopologicalMapping, Quad2TriangleTopologicalMapping, Triangle2EdgeTopologicalMapping,
-             SpatialEngines<Vec3d>, Regions<Vec3f>, SpatialEngines<Rigid3d>, BoxROI<Vec1d>, Regions<Vec2d>,
-             Regions<Rigid2d>>;
+             SpatialEngines<Vec3d>, PointsFromIndices<Vec3d>, Regions<Vec3f>, SpatialEngines<Rigid3d>,
+             BoxROI<Vec1d>, Regions<Vec2d>, Regions<Rigid2d>>;
 using StandardTopologies =
     Registry<TetrahedronTopology, MeshTopology, RegularGridTopology, SparseGridTopology, SurfaceSampling>;
 // meshes that need no file

@@ -3,6 +3,7 @@
 
 #include <sinew/core/follow.hpp>
 #include <sinew/force/constant_force.hpp>
+#include <sinew/force/diagonal_velocity_damping.hpp>
 #include <sinew/force/linear_force_field.hpp>
 #include <sinew/force/plane_force_field.hpp>
 #include <sinew/force/rest_shape_springs.hpp>
@@ -272,6 +273,21 @@ TEST_CASE("uniform damping slows all degrees of freedom") {
     CHECK(product(damping, v, 3, 2)[0] == Rigid3d::Deriv((implicit ? -1.0 : 0.0) * v[0]));
   }
   refuses(Damping{.dampingCoefficient = -1}, x, {}, {"UniformVelocityDampingForceField<Rigid3d>", "is -1"});
+}
+
+TEST_CASE("diagonal damping slows each degree of freedom by its own coefficient, in implicit steps, too") {
+  using Damping = DiagonalVelocityDampingForceField<Vec3d>;
+  auto damping = ready(Damping{.dampingCoefficient = {{1, 2, 3}, {0, 0, 4}}}, four);
+  const Vec3d::VecDeriv v{{1, 1, 1}, {1, 1, 1}, {1, 2, 3}, {5, 5, 5}};
+  const auto f = force(damping, four, v), df = product(damping, v, 0, 0.5);
+  const Vec3d::VecDeriv expected{{-1, -2, -3}, {0, 0, -4}, {0, 0, -12}, {0, 0, -20}};
+  for (std::size_t i = 0; i < 4; ++i) {
+    CHECK(near(f[i], expected[i]));
+    CHECK(near(df[i], 0.5 * expected[i]));
+  }
+  auto none = ready(Damping{}, four);
+  for (auto const& one : force(none, four, v)) CHECK(one.norm() == 0);
+  refuses(Damping{.dampingCoefficient = {{1, -1, 0}}}, four, {}, {"dampingCoefficient[0] is -1"});
 }
 
 }  // namespace test_point_forces

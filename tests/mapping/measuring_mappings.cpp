@@ -296,4 +296,81 @@ TEST_CASE("bad input of mappings that measure is named") {
   says([&] { center({}); }, {"/root/sub", "no mass in the node /root"});
 }
 
+namespace {
+
+// numbers that a mapping measures of some points
+template <class M>
+std::vector<double> measured(M mapping, typename M::In::VecCoord const& x,
+                             TopologyView const& topology = {}) {
+  typename M::Out::VecCoord child;
+  mapping.init({"body", x, topology}, {"child", child, {}}, child);
+  mapping.apply(child, x);
+  std::vector<double> values;
+  for (auto const& value : child) values.push_back(value[0]);
+  return values;
+}
+template <class M>
+void refuses(M mapping, std::initializer_list<std::string_view> words, TopologyView const& topology = {}) {
+  says([&] { measured(mapping, points, topology); }, words);
+}
+
+}  // namespace
+
+TEST_CASE("areas, squares, and distances from places and planes") {
+  const std::vector<Triangle> triangles{{0, 1, 2}, {2, 1, 0}, {0, 1, 1}};
+  const Vec3d::VecCoord x{{1, 1, 1}, {4, 1, 1}, {1, 5, 1}};
+  const auto areas = measured(AreaMapping<Vec3d, Vec1d>{}, x, {.triangles = triangles});
+  CHECK(areas == std::vector<double>{6, 6, 0});
+  const std::vector<Edge> sides{{0, 1}, {1, 2}};
+  CHECK(measured(SquareDistanceMapping<Vec3d, Vec1d>{}, x, {.edges = sides}) == std::vector<double>{9, 25});
+  CHECK(measured(
+            DistanceFromTargetMapping<Vec3d, Vec1d>{
+                .indices = {2}, .targetPositions = {{1, 1, 1}, {4, 1, 5}}, .restLengths = {1}},
+            x) == std::vector<double>{3, 4});
+  CHECK(measured(DistanceToPlaneMapping<Vec3d, Vec1d>{.planeNormal = {0, 2, 0}, .planePoint = {7, 3, 7}},
+                 x) == std::vector<double>{-2, -2, 2});
+  CHECK(measured(SquareMapping<Vec1d, Vec1d>{}, {Vec1d::Coord(3), Vec1d::Coord(-2)}) ==
+        std::vector<double>{9, 4});
+}
+
+TEST_CASE("what is measured of nothing is told") {
+  refuses(AreaMapping<Vec3d, Vec1d>{}, {"child: AreaMapping<Vec3d, Vec1d>", "there are no triangles"});
+  const std::vector<Triangle> triangles{{0, 1, 5}};
+  refuses(AreaMapping<Vec3d, Vec1d>{}, {"triangle 0"}, {.triangles = triangles});
+  refuses(SquareDistanceMapping<Vec3d, Vec1d>{}, {"there are no edges"});
+  refuses(DistanceFromTargetMapping<Vec3d, Vec1d>{}, {"there is no target"});
+  refuses(DistanceFromTargetMapping<Vec3d, Vec1d>{.indices = {5}, .targetPositions = {{0, 0, 0}}},
+          {"indices has 5", "5 points"});
+  refuses(DistanceFromTargetMapping<Vec3d, Vec1d>{.indices = {0, 1}, .targetPositions = {{0, 0, 0}}},
+          {"2 indices and 0 restLengths for 1 targetPositions"});
+  refuses(DistanceToPlaneMapping<Vec3d, Vec1d>{}, {"planeNormal is zero"});
+}
+
+// m x'' = -2 k x (x^2 - q): about x = sqrt(q) with the frequency sqrt(4 k q / m)
+TEST_CASE("a number that is held by its square swings about the root") {
+  const double k = 3, q = 4, m = 0.5, small = 1e-3;
+  Vec1d::VecCoord child;
+  SquareMapping<Vec1d, Vec1d> square;
+  Vec1d::VecCoord x{Vec1d::Coord(std::sqrt(q) + small)};
+  square.init({"body", x, {}}, {"child", child, {}}, child);
+  Vec1d::VecDeriv v{Vec1d::Deriv(0)}, force(1), up(1);
+  const double period = 2 * std::acos(-1.) / std::sqrt(4 * k * q / m);
+  const int steps = 4000;
+  const double h = period / steps;
+  for (int i = 0; i < steps; ++i) {  // velocity Verlet
+    auto accelerate = [&](double dt) {
+      square.apply(child, x);
+      up[0][0] = -k * (child[0][0] - q);
+      force[0][0] = 0;
+      square.applyJT(force, up);
+      v[0][0] += dt * force[0][0] / m;
+    };
+    accelerate(h / 2);
+    x[0][0] += h * v[0][0];
+    accelerate(h / 2);
+  }
+  // back where it was, but for the anharmonic part of the period, of the order small^2
+  CHECK(x[0][0] - std::sqrt(q) == Approx(small).epsilon(1e-4));
+}
+
 }  // namespace test_measuring_mappings

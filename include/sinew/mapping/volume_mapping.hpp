@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <sinew/core/component.hpp>
-#include <sinew/mapping/geometric_stiffness.hpp>
+#include <sinew/mapping/measures.hpp>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
+#include <string_view>
 #include <vector>
 
 namespace sinew {
@@ -36,13 +37,34 @@ struct VolumeMapping {
                             "geometric stiffness: what rotating faces add to the stiffness"));
   }
 
-  struct Cell {
-    Tetrahedron points;
-    std::array<Vec<Real, 3>, 4> area;  // dV/dxk
-    std::array<Vec<Real, 3>, 4> edge;  // xk - x0
-    Real force;                        // at the last updateK
+  struct Measure {
+    static constexpr int arity = 4;
+    std::array<Vec<Real, 3>, 4> edge{}, area{};  // xk - x0, dV/dxk
+
+    Real value(std::array<Vec<Real, 3>, 4> const& x) {
+      for (std::size_t k = 0; k < 4; ++k) edge[k] = x[k] - x[0];
+      area[1] = edge[2].cross(edge[3]) / 6;
+      area[2] = edge[3].cross(edge[1]) / 6;
+      area[3] = edge[1].cross(edge[2]) / 6;
+      area[0] = -area[1] - area[2] - area[3];
+      return edge[1].dot(area[1]);
+    }
+    Vec<Real, 3> slope(int k) const { return area[std::size_t(k)]; }
+    // [e]x / 6, e from the one to the other of the two points that are left, in the order that makes (i, j,
+    // from, to) an odd permutation
+    Mat<Real, 3> second(int i, int j) const {
+      Mat<Real, 3> m = Mat<Real, 3>::Zero();
+      if (i == j) return m;
+      std::array<int, 2> left{};
+      for (int k = 0, n = 0; k < 4; ++k)
+        if (k != i && k != j) left[std::size_t(n++)] = k;
+      const bool odd = (i > j) != ((std::max(i, j) - std::min(i, j)) % 2 == 0);
+      const Vec<Real, 3> e = (edge[std::size_t(left[1])] - edge[std::size_t(left[0])]) / Real(odd ? 6 : -6);
+      m << 0, -e[2], e[1], e[2], 0, -e[0], -e[1], e[0], 0;
+      return m;
+    }
   };
-  std::vector<Cell> cells{};
+  Measures<In, Out, Measure> measures{};
 
   void init(InitContext<In> const& parent, InitContext<Out> const& child, typename Out::VecCoord& positions) {
     const std::string where = text(child.where, ": ", component_name<VolumeMapping>());
@@ -53,100 +75,33 @@ struct VolumeMapping {
           where,
           "there are no tetrahedra, neither in its node nor in its parent's; add a topology with some");
     detail::check_indices(where, "tetrahedron", tetrahedra, parent.rest.size());
-    cells.assign(tetrahedra.size(), {});
-    for (std::size_t e = 0; e < cells.size(); ++e) {
-      cells[e].points = tetrahedra[e];
-      cells[e].force = 0;
-    }
-    if (positions.empty()) positions.resize(cells.size());
-    if (positions.size() != cells.size())
-      throw Error(where,
-                  text("the child has ",
-                       positions.size(),
-                       " points for ",
-                       cells.size(),
-                       " tetrahedra; give the child as many, or none"));
+    measures.all.clear();
+    for (Tetrahedron const& t : tetrahedra) measures.all.push_back({t, {}});
+    measures.place(positions, where, "tetrahedra");
   }
 
   std::vector<bool> pointsThatStay(TopologyView const&, TopologyChange const& change) const {
     return change.of(ElementKind::tetrahedron).stays();
   }
 
-  void apply(typename Out::VecCoord& out, typename In::VecCoord const& in) {
-    for (std::size_t e = 0; e < cells.size(); ++e) {
-      Cell& c = cells[e];
-      for (std::size_t k = 0; k < 4; ++k)
-        c.edge[k] = in[std::size_t(c.points[k])] - in[std::size_t(c.points[0])];
-      c.area[1] = c.edge[2].cross(c.edge[3]) / 6;
-      c.area[2] = c.edge[3].cross(c.edge[1]) / 6;
-      c.area[3] = c.edge[1].cross(c.edge[2]) / 6;
-      c.area[0] = -c.area[1] - c.area[2] - c.area[3];
-      out[e][0] = typename Out::Real(c.edge[1].dot(c.area[1]));
-    }
-  }
+  void apply(typename Out::VecCoord& out, typename In::VecCoord const& in) { measures.apply(out, in); }
   void applyJ(typename Out::VecDeriv& out, typename In::VecDeriv const& in) const {
-    for (std::size_t e = 0; e < cells.size(); ++e) {
-      Real rate = 0;
-      for (std::size_t k = 0; k < 4; ++k) rate += cells[e].area[k].dot(in[std::size_t(cells[e].points[k])]);
-      out[e][0] = typename Out::Real(rate);
-    }
+    measures.applyJ(out, in);
   }
   void applyJT(typename In::VecDeriv& in, typename Out::VecDeriv const& out) const {
-    for (std::size_t e = 0; e < cells.size(); ++e)
-      for (std::size_t k = 0; k < 4; ++k)
-        in[std::size_t(cells[e].points[k])] += cells[e].area[k] * Real(out[e][0]);
+    measures.applyJT(in, out);
   }
   template <class F>
   void forEachJacobianBlock(int point, F&& f) const {
-    Cell const& c = cells[std::size_t(point)];
-    using J = Mat<typename Out::Real, 1, 3>;
-    for (std::size_t k = 0; k < 4; ++k)
-      f(c.points[k], J(c.area[k].transpose().template cast<typename Out::Real>()));
+    measures.forEachJacobianBlock(point, f);
   }
-
-  void updateK(typename Out::VecDeriv const& f) {
-    for (std::size_t e = 0; e < cells.size(); ++e) {
-      const Real force = Real(f[e][0]);
-      const bool counts = geometricStiffness == GeometricStiffness::exact ||
-                          (geometricStiffness == GeometricStiffness::stabilized && force < 0);
-      cells[e].force = counts ? force : Real(0);
-    }
-  }
+  void updateK(typename Out::VecDeriv const& f) { measures.updateK(f, geometricStiffness); }
   void addKx(typename In::VecDeriv& df, typename In::VecDeriv const& dx, double k) const {
-    if (geometricStiffness == GeometricStiffness::none) return;
-    for (Cell const& c : cells) {
-      // how the areas change
-      const auto edgeChange = [&](std::size_t i) -> Vec<Real, 3> {
-        return dx[std::size_t(c.points[i])] - dx[std::size_t(c.points[0])];
-      };
-      const Vec<Real, 3> d1 = edgeChange(1), d2 = edgeChange(2), d3 = edgeChange(3);
-      const Real factor = Real(k) * c.force / 6;
-      const Vec<Real, 3> f1 = factor * (d2.cross(c.edge[3]) + c.edge[2].cross(d3)),
-                         f2 = factor * (d3.cross(c.edge[1]) + c.edge[3].cross(d1)),
-                         f3 = factor * (d1.cross(c.edge[2]) + c.edge[1].cross(d2));
-      df[std::size_t(c.points[0])] -= f1 + f2 + f3;
-      df[std::size_t(c.points[1])] += f1;
-      df[std::size_t(c.points[2])] += f2;
-      df[std::size_t(c.points[3])] += f3;
-    }
+    if (geometricStiffness != GeometricStiffness::none) measures.addKx(df, dx, k);
   }
   template <class Sink>
   void addToMatrix(MechanicalParams const& p, Sink const& sink) const {
-    if (geometricStiffness == GeometricStiffness::none) return;
-    // the edge that, made into a matrix [e]x / 6, is block (i, j): from the one to the other of the two
-    // points that are left, in the order that makes (i, j, from, to) an odd permutation
-    static constexpr int left[6][4] = {
-        {0, 1, 3, 2}, {0, 2, 1, 3}, {0, 3, 2, 1}, {1, 2, 3, 0}, {1, 3, 0, 2}, {2, 3, 1, 0}};
-    for (Cell const& c : cells)
-      for (auto const& [i, j, from, to] : left) {
-        const Vec<Real, 3> e =
-            (Real(p.k) * c.force / 6) * (c.edge[std::size_t(to)] - c.edge[std::size_t(from)]);
-        Mat<Real, 3> block;
-        block << 0, -e[2], e[1], e[2], 0, -e[0], -e[1], e[0], 0;
-        const int a = c.points[std::size_t(i)], b = c.points[std::size_t(j)];
-        sink.add(a, b, block);
-        sink.add(b, a, block.transpose().eval());
-      }
+    if (geometricStiffness != GeometricStiffness::none) measures.addToMatrix(p, sink);
   }
 };
 

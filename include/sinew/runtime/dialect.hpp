@@ -75,9 +75,23 @@ inline constexpr std::array withoutMeaning =
                                      "OglViewport",
                                      "ClipPlane",
                                      "VisualVectorField",
+                                     "VisualMesh",
+                                     "VisualPointCloud",
+                                     "VisualBoundingBox",
+                                     "CylinderVisualModel",
+                                     "PointSplatModel",
+                                     "MergeVisualModels",
+                                     "OglTexture",
+                                     "OrderIndependentTransparencyManager",
+                                     "PostProcessManager",
+                                     "TextureInterpolation",
+                                     "VisualModelOBJExporter",
+                                     "GlobalSystemMatrixImage",
                                      "MatrixLinearSystem",
                                      "MatrixFreeSystem",
                                      "PreconditionedMatrixFreeSystem",
+                                     "RotationMatrixSystem",
+                                     "PrecomputedMatrixSystem",
                                      "ConstantSparsityProjectionMethod",
                                      "MatrixProjectionMethod",
                                      "NaturalOrderingMethod",
@@ -156,6 +170,10 @@ inline constexpr std::array classesOfPackages = std::to_array<ClassOfPackage>(
 
 inline constexpr std::array suffixesWithoutMeaning =
     std::to_array<std::string_view>({"GeometryAlgorithms", "TopologyModifier", "TopologyAlgorithms"});
+/// Of what a shader reads: OglFloatVariable, OglInt4Attribute, ...
+constexpr bool is_of_shader(std::string_view tag) {
+  return tag.starts_with("Ogl") && (tag.ends_with("Variable") || tag.ends_with("Attribute"));
+}
 
 /// Attributes of nodes that concern pictures or bookkeeping.
 inline constexpr std::array nodeAttributesWithoutMeaning =
@@ -185,7 +203,20 @@ inline constexpr std::array standsFor = std::to_array<StandsFor>(
     {{"BDF1OdeSolver", "BDFOdeSolver", "order", "1"},
      {"BDF1", "BDFOdeSolver", "order", "1"},
      {"TriangularBendingFEMForceField", "TriangularShellForceField", "bending", "0"},
+     {"FastTetrahedralCorotationalForceField", "TetrahedronFEMForceField", "method", "large"},
+     {"TetrahedralTensorMassForceField", "TetrahedronFEMForceField", "method", "small"},
      {"NodalLinearDampingForceField", "UniformVelocityDampingForceField", "implicit", "1"}});
+
+/// Words that such a class has for values of an attribute of the other one.
+struct OtherWord {
+  std::string_view name, attribute, word, value;
+};
+inline constexpr std::array otherWords =
+    std::to_array<OtherWord>({{"FastTetrahedralCorotationalForceField", "method", "qr", "large"},
+                              {"FastTetrahedralCorotationalForceField", "method", "polar", "nearest"},
+                              {"FastTetrahedralCorotationalForceField", "method", "polar2", "polar"},
+                              {"FastTetrahedralCorotationalForceField", "method", "none", "small"},
+                              {"FastTetrahedralCorotationalForceField", "method", "linear", "small"}});
 
 /// Classes over a kind of elements, which their template names behind the DataTypes: "Vec3,Hexahedron".
 struct OverElements {
@@ -228,6 +259,9 @@ inline constexpr std::array anotherMethod = std::to_array<AnotherMethod>(
       "the matrix is factorised as L D L', as with SparseLDLSolver, and has to be symmetric"},
      {"SparseLUSolver",
       "the matrix is factorised as L D L', as with SparseLDLSolver, and has to be symmetric"},
+     {"SVDLinearSolver",
+      "the matrix is factorised as L D L', and has to be symmetric and not singular; SOFA's takes the singular "
+      "values of a full matrix"},
      {"WarpPreconditioner",
       "it rotates with the neighbourhood of each point, where SOFA's rotates with the rotations of a force "
       "field; the system is solved to the same tolerance"},
@@ -292,7 +326,7 @@ inline bool container_holds(std::string_view tag, std::string_view list) {
   return list != "hexahedra" || is("HexahedronSet");
 }
 inline bool class_without_meaning(std::string_view name) {
-  if (has(withoutMeaning, name)) return true;
+  if (has(withoutMeaning, name) || is_of_shader(name)) return true;
   return std::any_of(suffixesWithoutMeaning.begin(), suffixesWithoutMeaning.end(), [&](std::string_view end) {
     return name.ends_with(end);
   });

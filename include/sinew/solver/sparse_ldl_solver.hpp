@@ -25,7 +25,7 @@ struct SparseLDLSolver {
   static constexpr std::string_view aliases =
       "EigenSimplicialLDLT EigenSimplicialLLT AsyncSparseLDLSolver SparseCholeskySolver SparseLUSolver "
       "EigenSparseLU EigenSparseQR EigenCholmodSupernodalLLT SparsePARDISOSolver SparseTAUCSSolver "
-      "SparseXXTSolver BTDLinearSolver";
+      "SparseXXTSolver BTDLinearSolver SVDLinearSolver";
   static constexpr Auxiliary auxiliary{};
 
   static constexpr auto fields() { return field_list(); }

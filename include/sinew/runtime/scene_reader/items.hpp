@@ -38,6 +38,12 @@ class SceneItems {
         known = other.className;
         element.set(other.attribute, other.value, false);
       }
+    for (auto const& other : dialect::otherWords)
+      if (auto const* given = other.name == tag ? element.attribute(other.attribute) : nullptr;
+          given && given->value == other.word) {
+        element.set(other.attribute, other.value);
+        break;
+      }
     if (dialect::is_over_elements(tag)) {
       known = overElements(element, tag);
       if (known.empty()) return nullptr;
