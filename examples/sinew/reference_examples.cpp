@@ -483,6 +483,18 @@ constexpr auto classExamples = std::to_array<ClassExample>({
      chain,
      "StiffSpringForceField",
      Place::beside},
+    {"TaitSurfacePressureForceField", R"(
+<Node name="ball" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <CGLinearSolver iterations="200" tolerance="1e-8"/>
+  <MeshOBJLoader name="ball" filename="data/ball.obj"/>
+  <MeshTopology triangles="@ball.triangles"/>
+  <MechanicalObject position="@ball.position"/>
+  <UniformMass totalMass="0.2"/>
+  <MeshSpringForceField stiffness="50" damping="0.5"/>
+  <TaitSurfacePressureForceField B="1e4" gamma="5" injectedVolume="0.1" maxInjectionRate="0.2"/>
+  <FixedConstraint indices="0"/>
+</Node>)"},
     {"UniformVelocityDampingForceField",
      R"(<UniformVelocityDampingForceField dampingCoefficient="0.05"/>)",
      chain,

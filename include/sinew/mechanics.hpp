@@ -49,6 +49,7 @@
 #include <sinew/force/sphere_force_field.hpp>
 #include <sinew/force/stiff_spring.hpp>
 #include <sinew/force/surface_pressure.hpp>
+#include <sinew/force/tait_surface_pressure.hpp>
 #include <sinew/force/tetrahedron_fem.hpp>
 #include <sinew/force/tetrahedron_hyperelasticity.hpp>
 #include <sinew/force/tetrahedron_viscoelasticity.hpp>

@@ -28,7 +28,7 @@ using RigidLoads =
 template <class D>
 using PointLoads = Registry<RigidLoads<D>, SphereForceField<D>>;
 template <class D>
-using SpatialLoads = Registry<ConicalForceField<D>>;
+using SpatialLoads = Registry<ConicalForceField<D>, TaitSurfacePressureForceField<D>>;
 template <class D>
 using Particles = Registry<ParticleSource<D>, ParticleSink<D>>;
 template <class D>

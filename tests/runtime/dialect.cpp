@@ -387,6 +387,40 @@ TEST_CASE("forces and masses over a kind of elements are named by their template
              Contains("rotationMethod: 'qr' is not one of triangle, "));
 }
 
+TEST_CASE("FEM of tetrahedra has more names, with words and defaults of their own") {
+  auto body = [](std::string const& force) {
+    return node(
+        "<TetrahedronTopology tetrahedra='0 1 2 3'/>"
+        "<MechanicalObject position='0 0 0 1 0 0 0 1 0 0 0 1'/>" +
+        force);
+  };
+  auto method = [&](std::string const& attribute) {
+    auto scene = body("<FastTetrahedralCorotationalForceField " + attribute + "/>");
+    return in<TetrahedronFEMForceField<Vec3d>>(scene).method;
+  };
+  CHECK(method("") == RotationMethod::large);
+  CHECK(method("method='qr'") == RotationMethod::large);
+  CHECK(method("method='large'") == RotationMethod::large);
+  CHECK(method("method='polar'") == RotationMethod::nearest);
+  CHECK(method("method='polar2'") == RotationMethod::polar);
+  for (std::string const word : {"none", "linear", "small"})
+    CHECK(method("method='" + word + "'") == RotationMethod::small);
+  auto mass = body("<TetrahedralTensorMassForceField youngModulus='7'/>");
+  auto const& fem = in<TetrahedronFEMForceField<Vec3d>>(mass);
+  CHECK(fem.method == RotationMethod::small);
+  CHECK(fem.youngModulus == std::vector<double>{7});
+  CHECK(fem.poissonRatio == 0.3);
+}
+
+TEST_CASE("what shaders read and what is only looked at is left out") {
+  auto scene = node(
+      "<MechanicalObject position='0 0 0'/><OglFloatVariable id='a' value='1'/><OglInt4Attribute id='b' "
+      "value='1 2 3 4'/>"
+      "<VisualMesh position='@../x.position'/><VisualPointCloud/><OglTexture textureFilename='none.png'/>"
+      "<GlobalSystemMatrixImage linearSystem='@s'/><RotationMatrixSystem assemblingRate='15'/>");
+  CHECK(in<MechanicalObject<Vec3d>>(scene).position.size() == 1);
+}
+
 TEST_CASE("positions of a state are whole points, and frames where points are linked") {
   auto few = node("<MechanicalObject position='0 1 2 3 4 5 6'/>");
   CHECK(in<MechanicalObject<Vec3d>>(few).position == Vec3d::VecCoord{{0, 1, 2}, {3, 4, 5}});

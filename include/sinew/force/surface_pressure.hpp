@@ -79,6 +79,19 @@ struct TrianglePressure {
   }
 };
 
+/// Whether each edge is passed as often in one direction as in the other.
+inline bool is_closed(std::vector<Triangle> const& triangles) {
+  std::vector<Edge> there, back;
+  for (Triangle const& t : triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      there.push_back({t[k], t[(k + 1) % 3]});
+      back.push_back({t[(k + 1) % 3], t[k]});
+    }
+  std::sort(there.begin(), there.end());
+  std::sort(back.begin(), back.end());
+  return there == back;
+}
+
 /// Pressure on triangles and quads of the topology, along their normals: those with the given indices, else
 /// all, and of these only the ones that lie at rest in the box from `min` to `max` where one is given. A quad
 /// is the triangles 012 and 023.
@@ -203,19 +216,6 @@ struct SurfacePressureForceField {
     if (indices.empty() && !none)
       for (auto const& element : elements)
         if (inBox(element)) take(element);
-  }
-
-  // each edge is passed as often in one direction as in the other
-  static bool is_closed(std::vector<Triangle> const& triangles) {
-    std::vector<Edge> there, back;
-    for (Triangle const& t : triangles)
-      for (std::size_t k = 0; k < 3; ++k) {
-        there.push_back({t[k], t[(k + 1) % 3]});
-        back.push_back({t[(k + 1) % 3], t[k]});
-      }
-    std::sort(there.begin(), there.end());
-    std::sort(back.begin(), back.end());
-    return there == back;
   }
 };
 

@@ -205,6 +205,8 @@ inline constexpr std::array standsFor = std::to_array<StandsFor>(
      {"TriangularBendingFEMForceField", "TriangularShellForceField", "bending", "0"},
      {"FastTetrahedralCorotationalForceField", "TetrahedronFEMForceField", "method", "large"},
      {"TetrahedralTensorMassForceField", "TetrahedronFEMForceField", "method", "small"},
+     {"TetrahedralTensorMassForceField", "TetrahedronFEMForceField", "youngModulus", "1000"},
+     {"TetrahedralTensorMassForceField", "TetrahedronFEMForceField", "poissonRatio", "0.3"},
      {"NodalLinearDampingForceField", "UniformVelocityDampingForceField", "implicit", "1"}});
 
 /// Words that such a class has for values of an attribute of the other one.
@@ -260,7 +262,8 @@ inline constexpr std::array anotherMethod = std::to_array<AnotherMethod>(
      {"SparseLUSolver",
       "the matrix is factorised as L D L', as with SparseLDLSolver, and has to be symmetric"},
      {"SVDLinearSolver",
-      "the matrix is factorised as L D L', and has to be symmetric and not singular; SOFA's takes the singular "
+      "the matrix is factorised as L D L', and has to be symmetric and not singular; SOFA's takes the "
+      "singular "
       "values of a full matrix"},
      {"WarpPreconditioner",
       "it rotates with the neighbourhood of each point, where SOFA's rotates with the rotations of a force "
