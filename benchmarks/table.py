@@ -184,7 +184,7 @@ def threads(build, cells, counts, seconds=1):
     return rows
 
 
-def fluids(build, cases=(("sph", 10000), ("sph", 100000), ("sph", 1000000), ("dfsph", 10000), ("dfsph", 100000), ("grid", 32), ("grid", 64), ("grid", 128)), seconds=3):
+def fluids(build, cases=(("sph", 10000), ("sph", 100000), ("sph", 1000000), ("sphf", 100000), ("dfsph", 10000), ("dfsph", 100000), ("grid", 32), ("grid", 64), ("grid", 128)), seconds=3):
     counts = sorted({1, len(os.sched_getaffinity(0))})
     rows = []
     for kind, size in cases:

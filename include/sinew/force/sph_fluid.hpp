@@ -107,11 +107,11 @@ struct SPHFluidForceField {
     reserveForBoundary();
   }
   void reserveForBoundary() {
-    const std::size_t all = most + boundary.size(), room = all + std::size_t(Particles::width);
+    const std::size_t all = most + boundary.size();
     particles.reserve(all);
     joined.reserve(all);
-    for (auto& one : velocities) one.reserve(room);
-    for (auto* one : {&densities, &pressures, &volumes, &weights, &fluid}) one->reserve(room);
+    moving.reserve(all);
+    for (auto* one : {&densities, &volumes, &fluid}) one->reserve(all);
   }
 
   /// Shared among threads in three passes: the order of the particles, densities, forces.
@@ -127,7 +127,7 @@ struct SPHFluidForceField {
       for (std::size_t k = 0; k < particles.order().size(); ++k) {
         const auto i = std::size_t(particles.order()[k]);
         for (int c = 0; c < 3; ++c)
-          velocities[std::size_t(c)][k] = i < size ? v[i][c] : Real(boundary.velocities[i - size][c]);
+          moving[k].of[c] = i < size ? v[i][c] : Real(boundary.velocities[i - size][c]);
       }
     }
     withKernels([&](auto const& kernels) {
@@ -155,11 +155,10 @@ struct SPHFluidForceField {
   }
 
   // in the order of the particles
-  SortedParticles<Real, lane_width<D>()> particles{};
-  std::array<std::vector<Real>, 3> velocities{};
-  std::vector<Real> densities{}, pressures{}, volumes{};  // pressures: p / rho^2; volumes: m / rho
-  std::vector<Real> weights{}, fluid{};  // mass over that of the fluid's; 1 for the fluid, 0 for the boundary
-  VecCoord joined{};                     // the fluid, then the boundary
+  SortedParticles<Real, lane_width<D>()> particles{};  // weights: mass over that of the fluid's
+  std::vector<FourOf<Real>> moving{};                  // velocity, p / rho^2
+  std::vector<Real> densities{}, volumes{}, fluid{};   // m / rho; 1 for the fluid, 0 for the boundary
+  VecCoord joined{};                                   // the fluid, then the boundary
 
  private:
   using Particles = SortedParticles<Real, lane_width<D>()>;
@@ -178,9 +177,10 @@ struct SPHFluidForceField {
       for (auto const& p : boundary.positions) joined.push_back(p.template cast<Real>());
       particles.sort(joined, radius, where);
     }
-    for (auto& one : velocities) one.resize(particles.room(), Real(0));
-    for (auto* one : {&densities, &pressures, &volumes}) one->resize(particles.room(), Real(1));
-    for (auto* one : {&weights, &fluid}) one->assign(particles.room(), Real(1));
+    const std::size_t all = particles.order().size();
+    moving.resize(all);
+    for (auto* one : {&densities, &volumes}) one->resize(all, Real(1));
+    fluid.assign(all, Real(1));
     if (boundary.size() > 0) withKernels([&](auto const& kernels) { findBoundary(kernels); });
   }
   // masses and volumes of the boundary, at the density at rest and without pressure
@@ -193,15 +193,15 @@ struct SPHFluidForceField {
       if (fluid[at] != 0) return;
       L around(0);
       each([&](Pairs const& p) {
-        around += select(p.acts, (L(1) - load(fluid, p.first)) * kernels.density(p.q), L(0));
+        around += select(p.acts, (L(1) - load(fluid, p)) * kernels.density(p.q), L(0));
       });
       volumes[at] = 1 / sum(around);
-      weights[at] = Real(density / mass) * volumes[at];
+      particles.weight(at) = Real(density / mass) * volumes[at];
       densities[at] = Real(density);
-      pressures[at] = 0;
+      moving[at].of[3] = 0;
     });
   }
-  static L load(std::vector<Real> const& from, int place) { return Particles::load(from, place); }
+  static L load(std::vector<Real> const& from, Pairs const& p) { return Particles::load(from, p); }
   static Real sum(L const& value) { return Particles::sum(value); }
   template <class F>
   void withKernels(F&& f) const {
@@ -214,12 +214,10 @@ struct SPHFluidForceField {
     particles.forEach(share, [&](int i, auto const& each) {
       if (fluid[std::size_t(i)] == 0) return;
       L around(0);
-      each([&](Pairs const& p) {
-        around += select(p.acts, load(weights, p.first) * kernels.density(p.q), L(0));
-      });
+      each([&](Pairs const& p) { around += select(p.acts, p.weight * kernels.density(p.q), L(0)); });
       const Real rho = m * sum(around);
       densities[std::size_t(i)] = rho;
-      pressures[std::size_t(i)] = stiffness * (rho - atRest) / (rho * rho);
+      moving[std::size_t(i)].of[3] = stiffness * (rho - atRest) / (rho * rho);
       volumes[std::size_t(i)] = m / rho;
     });
   }
@@ -230,7 +228,7 @@ struct SPHFluidForceField {
     std::array<L, 3> n{L(0), L(0), L(0)};
     L curvature(0);
     each([&](Pairs const& p) {
-      const L more = select(p.acts, load(volumes, p.first) - own, L(0));
+      const L more = select(p.acts, load(volumes, p) - own, L(0));
       const L slope = more * kernels.densitySlope(p.q);
       for (std::size_t c = 0; c < 3; ++c) n[c] += slope * p.d[c];
       curvature += more * kernels.densityLaplacian(p.q);
@@ -254,31 +252,32 @@ struct SPHFluidForceField {
     const L drag{Real(viscosity)}, cohesion{Real(-surfaceTension * mass)};
     particles.forEach(share, [&](int i, auto const& each) {
       const auto at = std::size_t(i);
-      const L pushed(pressures[at]), rho(densities[at]), volume(volumes[at]);
+      const L pushed(moving[at].of[3]), rho(densities[at]), volume(volumes[at]);
       std::array<L, 3> v, sums{L(0), L(0), L(0)};
-      for (std::size_t c = 0; c < 3; ++c) v[c] = L(velocities[c][at]);
+      for (std::size_t c = 0; c < 3; ++c) v[c] = L(moving[at].of[c]);
       const bool wall = fluid[at] == 0;
-      const L own(weights[at]);
+      const L own(particles.weight(at));
       each([&](Pairs const& p) {
         auto acts = p.acts;  // walls do not act on walls
-        if (wall) acts = both(acts, load(fluid, p.first) > L(0));
-        L pushes = -square * (pushed + load(pressures, p.first));
-        std::array<L, 3> slower{L(0), L(0), L(0)};  // v_j - v_i
-        if (viscous || artificial)
-          for (std::size_t c = 0; c < 3; ++c) slower[c] = load(velocities[c], p.first) - v[c];
+        if (wall) acts = both(acts, load(fluid, p) > L(0));
+        L other[4];
+        load_at(moving.data(), p.places, other);
+        L pushes = -square * (pushed + other[3]);
+        std::array<L, 3> slower;  // v_j - v_i
+        for (std::size_t c = 0; c < 3; ++c) slower[c] = other[c] - v[c];
         if (artificial) {
           L apart(0);
           for (std::size_t c = 0; c < 3; ++c) apart -= slower[c] * p.d[c];
-          pushes += select(apart < L(0), apart, L(0)) * bulk /
-                    ((p.q * p.q + soft) * (rho + load(densities, p.first)));
+          pushes +=
+              select(apart < L(0), apart, L(0)) * bulk / ((p.q * p.q + soft) * (rho + load(densities, p)));
         }
         L along = pushes * kernels.pressureSlope(p.q);
         if (coheres) along += cohesion * kernels.density(p.q);
-        along = select(acts, own * load(weights, p.first) * along, L(0));
+        along = select(acts, own * p.weight * along, L(0));
         for (std::size_t c = 0; c < 3; ++c) sums[c] += along * p.d[c];
         if (viscous) {
           const L rubs =
-              select(acts, drag * volume * load(volumes, p.first) * kernels.viscosityLaplacian(p.q), L(0));
+              select(acts, drag * volume * load(volumes, p) * kernels.viscosityLaplacian(p.q), L(0));
           for (std::size_t c = 0; c < 3; ++c) sums[c] += rubs * slower[c];
         }
       });
