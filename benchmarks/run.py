@@ -174,7 +174,7 @@ def main():
         missing = [f"bench_{program}" for name in wanted for program in PROGRAMS[name] if not (arguments.build / f"bench_{program}").is_file()]
         if missing:
             fail(f"pages need all of their benchmarks, but {arguments.build} has no {', '.join(missing)}; ./dev bench builds what the packages "
-                 "that are installed allow (Debian: libbullet-dev libfcl-dev libccd-dev libsiconos-numerics-dev catch2)")
+                 "that are installed allow (Debian: libbullet-dev libfcl-dev libccd-dev libsiconos-numerics-dev python3-pysph catch2)")
         for page in arguments.pages:
             pages.check_blocks(page, (pages.DOCS / f"{page}.md").read_text())
     run = {"date": day(), "commit": commit(), "command": command_line(sys.argv[1:]), "machine": f"{processor()}, {os.cpu_count()} cores",

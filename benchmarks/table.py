@@ -5,6 +5,9 @@ import math
 import os
 import pathlib
 import statistics
+import subprocess
+import sys
+import tempfile
 
 from tools import block_mesh, fail, mesh_size, output, programs
 
@@ -184,11 +187,28 @@ def threads(build, cells, counts, seconds=1):
     return rows
 
 
-def fluids(build, cases=(("sph", 10000), ("sph", 100000), ("sph", 1000000), ("dfsph", 10000), ("dfsph", 100000), ("grid", 32), ("grid", 64), ("grid", 128)), seconds=3):
+def pysph(size, seconds, counts):
+    """The lines of run/fluids_pysph.py, one a number of threads, where a Python is found that has PySPH."""
+    python = next((p for p in dict.fromkeys((sys.executable, "/usr/bin/python3")) if subprocess.run([p, "-c", "import pysph"], capture_output=True).returncode == 0), None)
+    if not python:
+        print("\nno PySPH (Debian: python3-pysph): none to compare")
+        return []
+    lines = []
+    with tempfile.TemporaryDirectory() as home:  # of what PySPH compiles
+        for count in counts:
+            said = output("env", f"HOME={home}", f"OMP_NUM_THREADS={count}", python, pathlib.Path(__file__).parent / "run/fluids_pysph.py", size, seconds)
+            lines.append(next(line.split() for line in said.splitlines() if line.startswith("pysph ")))
+    return lines
+
+
+FLUIDS = (("sph", 10000), ("pysph", 10000), ("sph", 100000), ("sphf", 100000), ("sph", 1000000), ("dfsph", 10000), ("dfsph", 100000), ("grid", 32), ("grid", 64), ("grid", 128))
+
+
+def fluids(build, cases=FLUIDS, seconds=3):
     counts = sorted({1, len(os.sched_getaffinity(0))})
     rows = []
     for kind, size in cases:
-        found = [line.split() for line in output(build / "bench_fluids", kind, size, seconds, *counts).splitlines()]
+        found = pysph(size, seconds, counts) if kind == "pysph" else [line.split() for line in output(build / "bench_fluids", kind, size, seconds, *counts).splitlines()]
         for name, parts, count, time, substeps, iterations, bits in found:
             rows.append({"kind": name, "parts": int(parts), "threads": int(count), "step": float(time), "substeps": int(substeps), "iterations": int(iterations),
                          "same_bits": bits == found[0][-1]})

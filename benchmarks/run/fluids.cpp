@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
-// Steps of fluids by several threads: fluids KIND SIZE SECONDS COUNT..., KIND one of sph, dfsph and grid. A
-// dam breaks: a block of SIZE particles, which rests on the floor of a tank of three times its length, or a
-// third of SIZE^3 cells. Prints one line a count: kind, particles or cells, threads, seconds a step (the
-// median of those that take about so many seconds, behind the first 20), substeps or 1, iterations for the
-// pressure of the last step or 0, and a number made of all bits of positions, the same for all counts.
+// Steps of fluids by several threads: fluids KIND SIZE SECONDS COUNT..., KIND one of sph, sphf (in float),
+// dfsph and grid. A dam breaks: a block of SIZE particles, which rests on the floor of a tank of three times
+// its length, or a third of SIZE^3 cells. Prints one line a count: kind, particles or cells, threads, seconds
+// a step (the median of those that take about so many seconds, behind the first 20), substeps or 1,
+// iterations for the pressure of the last step or 0, and a number made of all bits of positions, the same for
+// all counts.
 #include <sinew/control/threads.hpp>
 #include <sinew/fluid/fluid3d.hpp>
 #include <sinew/mechanics.hpp>
@@ -61,16 +62,19 @@ std::vector<Eigen::Vector3d> block(int particles, double& distance) {
   return x;
 }
 
-template <class Solver, class... Forces>
+template <class D, class Solver, class... Forces>
 auto tank(Solver solver, std::vector<Eigen::Vector3d> const& x, double distance, double mass,
           double stiffness, int threads, Forces... forces) {
-  using Wall = PlaneForceField<Vec3d>;
+  using Wall = PlaneForceField<D>;
+  using Real = typename D::Real;
+  typename D::VecCoord positions;
+  for (auto const& p : x) positions.push_back(p.cast<Real>());
   return Simulation{
       node<"root">(Threads{.count = threads},
                    Gravity{{0, -9.81, 0}},
                    node<"water">(solver,
-                                 MechanicalObject<Vec3d>{x},
-                                 UniformMass<Vec3d>{.vertexMass = mass},
+                                 MechanicalObject<D>{positions},
+                                 UniformMass<D>{.vertexMass = mass},
                                  forces...,
                                  Wall{.normal = {0, 1, 0}, .d = distance / 2, .stiffness = stiffness},
                                  Wall{.normal = {1, 0, 0}, .d = distance / 2, .stiffness = stiffness},
@@ -103,28 +107,31 @@ Measured measure(std::string const& kind, int size, double time, int steps, int 
   const std::vector<Eigen::Vector3d> x = block(size, d);
   found.parts = x.size();
   const double density = 1000, mass = density * d * d * d;
-  if (kind == "sph") {
-    // the speed of sound is ten times that of the front, 2 sqrt(g h)
-    const double sound = 10 * 2 * std::sqrt(9.81), dt = 0.2 * 2 * d / sound;
-    auto sim = tank(EulerExplicitSolver{.symplectic = true},
-                    x,
-                    d,
-                    mass,
-                    mass * std::pow(sound / (2 * d), 2),
-                    threads,
-                    SPHFluidForceField<Vec3d>{.radius = 2 * d,
-                                              .mass = mass,
-                                              .pressure = sound * sound,
-                                              .density = density,
-                                              .viscosity = 1,
-                                              .kernelType = 1,
-                                              .viscosityType = 2});
-    time_steps(sim, dt, time, steps, found);
-    found.bits = fingerprint(sim.template at<"water">().state().position);
+  if (kind == "sph" || kind == "sphf") {
+    auto run = [&]<class D>(D) {
+      // the speed of sound is ten times that of the front, 2 sqrt(g h)
+      const double sound = 10 * 2 * std::sqrt(9.81), dt = 0.2 * 2 * d / sound;
+      auto sim = tank<D>(EulerExplicitSolver{.symplectic = true},
+                         x,
+                         d,
+                         mass,
+                         mass * std::pow(sound / (2 * d), 2),
+                         threads,
+                         SPHFluidForceField<D>{.radius = 2 * d,
+                                               .mass = mass,
+                                               .pressure = sound * sound,
+                                               .density = density,
+                                               .viscosity = 1,
+                                               .kernelType = 1,
+                                               .viscosityType = 2});
+      time_steps(sim, dt, time, steps, found);
+      found.bits = fingerprint(sim.template at<"water">().state().position);
+    };
+    kind == "sph" ? run(Vec3d{}) : run(Vec3f{});
   } else {
     const double dt = 0.3 * d / (2 * std::sqrt(9.81));
-    auto sim =
-        tank(DFSPHSolver{.radius = 2 * d, .density = density}, x, d, mass, 0.2 * mass / (dt * dt), threads);
+    auto sim = tank<Vec3d>(
+        DFSPHSolver{.radius = 2 * d, .density = density}, x, d, mass, 0.2 * mass / (dt * dt), threads);
     time_steps(sim, dt, time, steps, found);
     auto const& solver = sim.template at<"water">().template get<DFSPHSolver>();
     found.substeps = solver.substeps;
@@ -138,8 +145,8 @@ Measured measure(std::string const& kind, int size, double time, int steps, int 
 
 int main(int argc, char** argv) try {
   const std::string kind = argc > 1 ? argv[1] : "";
-  if (argc < 5 || (kind != "sph" && kind != "dfsph" && kind != "grid")) {
-    std::fprintf(stderr, "usage: fluids sph|dfsph|grid SIZE SECONDS COUNT...\n");
+  if (argc < 5 || (kind != "sph" && kind != "sphf" && kind != "dfsph" && kind != "grid")) {
+    std::fprintf(stderr, "usage: fluids sph|sphf|dfsph|grid SIZE SECONDS COUNT...\n");
     return 2;
   }
   const int size = std::atoi(argv[2]);

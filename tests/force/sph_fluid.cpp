@@ -111,6 +111,47 @@ TEST_CASE("points in cells have the neighbours that a search of all pairs finds,
   }
 }
 
+TEST_CASE("each particle has the pairs that a search of all finds, in the first loop and later ones") {
+  auto check = [](auto particles, std::vector<Eigen::Vector3d> const& x, double radius) {
+    using Particles = decltype(particles);
+    particles.sort(x, radius, "test");
+    particles.weight(2) = 3;
+    for (int loop = 0; loop < 2; ++loop) {
+      std::size_t count = 0;
+      particles.forEach({}, [&](int i, auto const& each) {
+        auto const& a = x[std::size_t(particles.order()[std::size_t(i)])];
+        std::set<int> found;
+        each([&](typename Particles::Pairs const& p) {
+          for (int l = 0; l < Particles::width; ++l) {
+            if (!(bits_of(p.acts) >> l & 1)) continue;
+            const int j = p.places[l];
+            const Eigen::Vector3d d = a - x[std::size_t(particles.order()[std::size_t(j)])];
+            if (!found.insert(j).second) FAIL("twice");
+            for (int c = 0; c < 3; ++c)
+              if (double(lane(p.d[std::size_t(c)], l)) != d[c]) FAIL("another difference");
+            if (std::abs(double(lane(p.q, l)) - std::max(1e-9, d.norm() / radius)) > 1e-15) FAIL("q");
+            if (lane(p.weight, l) != (j == 2 ? 3 : 1)) FAIL("weight");
+          }
+        });
+        count += found.size();
+      });
+      std::size_t expected = 0;
+      for (auto const& a : x)
+        for (auto const& b : x) expected += (a - b).norm() < radius;
+      CHECK(count == expected);
+    }
+  };
+  // lists of some, of more than are kept, and more around than one search has room for; from far away, where
+  // single precision is coarse
+  for (const double radius : {0.1, 0.4, 0.9, 3.})
+    for (const double far : {0., 1e4}) {
+      auto x = scattered(1300, 1, 17);
+      x.push_back({far, 0, 0});
+      check(SortedParticles<double, native_width<double>>{}, x, radius);
+      check(SortedParticles<double, 1>{}, x, radius);
+    }
+}
+
 TEST_CASE("kernels have the integral 1, and slopes and Laplacians are those of differences") {
   auto check = [](auto const& kernels, double h) {
     const int n = 20000;

@@ -293,17 +293,18 @@ SINEW_INLINE void add3(Lanes<T, W> const* from, T* to, int const (&index)[std::s
   (std::make_integer_sequence<int, W>{});
 }
 
-/// to[c] = lanes of component c of W points, point l at from + 3 * index[l]. One scalar behind each point is
-/// read.
-template <class T, int W>
-requires(W >= 4)
-SINEW_INLINE void gather3(T const* from, int const (&index)[std::size_t(W)], Lanes<T, W>* to) {
+/// to[c] = lanes of component c < N of W points, point l at from + Stride * index[l]. Four scalars of each
+/// point are read, also where N is 3.
+template <int Stride, int N, class T, int W>
+requires(W >= 4 && (N == 3 || N == 4))
+SINEW_INLINE void gather(T const* from, int const* index, Lanes<T, W>* to) {
   using V = typename Lanes<T, W>::Vector;
   constexpr int each = W / 4;  // points a vector holds, four scalars each
   V rows[4];
   for (int r = 0; r < 4; ++r) {
     detail::Four<T> points[std::size_t(each)];
-    for (int k = 0; k < each; ++k) std::memcpy(&points[k], from + 3 * index[r * each + k], sizeof points[k]);
+    for (int k = 0; k < each; ++k)
+      std::memcpy(&points[k], from + Stride * index[r * each + k], sizeof points[k]);
     rows[r] = detail::join_fours<T, W>(points);
   }
   const V xy0 = detail::alternating<2, 0, T, W>(rows[0], rows[1]),
@@ -313,6 +314,14 @@ SINEW_INLINE void gather3(T const* from, int const (&index)[std::size_t(W)], Lan
   to[0].v = detail::alternating<1, 0, T, W>(xy0, xy1);
   to[1].v = detail::alternating<1, 1, T, W>(xy0, xy1);
   to[2].v = detail::alternating<1, 0, T, W>(zw0, zw1);
+  if constexpr (N == 4) to[3].v = detail::alternating<1, 1, T, W>(zw0, zw1);
+}
+/// to[c] = lanes of component c of W points, point l at from + 3 * index[l]. One scalar behind each point is
+/// read.
+template <class T, int W>
+requires(W >= 4)
+SINEW_INLINE void gather3(T const* from, int const (&index)[std::size_t(W)], Lanes<T, W>* to) {
+  gather<3, 3>(from, index, to);
 }
 
 namespace detail {

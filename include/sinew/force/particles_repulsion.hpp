@@ -53,7 +53,7 @@ struct ParticlesRepulsionForceField {
 
   std::string where{};
   SortedParticles<Real, lane_width<D>()> particles{};
-  std::array<std::vector<Real>, 3> values{};  // of velocities or motions, in the order of the particles
+  std::vector<FourOf<Real>> values{};  // velocities or motions, in the order of the particles
 
   void init(InitContext<D> const& context) {
     where = text(context.where, ": ", component_name<ParticlesRepulsionForceField>());
@@ -110,12 +110,12 @@ struct ParticlesRepulsionForceField {
 
   void reserve(std::size_t points) {
     particles.reserve(points);
-    for (auto& one : values) one.reserve(points + std::size_t(Particles::width));
+    values.reserve(points);
   }
   void order(VecDeriv const& of) {
-    for (auto& one : values) one.resize(particles.room(), Real(0));
+    values.resize(particles.order().size());
     for (std::size_t k = 0; k < particles.order().size(); ++k)
-      for (int c = 0; c < 3; ++c) values[std::size_t(c)][k] = of[std::size_t(particles.order()[k])][c];
+      for (int c = 0; c < 3; ++c) values[k].of[c] = of[std::size_t(particles.order()[k])][c];
   }
   // by how much pairs that are apart are too near [distance]
   static L depthOf(Pairs const& p) { return select(both(p.acts, p.q > L(atOnePlace)), L(1) - p.q, L(0)); }
@@ -126,15 +126,18 @@ struct ParticlesRepulsionForceField {
   // To each particle what add(pairs, differences of the values where they are asked for, sum) sums up of its
   // neighbours.
   template <class F>
-  void addSums(bool differences, VecDeriv& to, F&& add) const {
+  void addSums(bool differences, VecDeriv& to, F&& add) {
     particles.forEach({}, [&](int i, auto const& each) {
       std::array<L, 3> own{L(0), L(0), L(0)}, sum = own;
       if (differences)
-        for (std::size_t c = 0; c < 3; ++c) own[c] = L(values[c][std::size_t(i)]);
+        for (std::size_t c = 0; c < 3; ++c) own[c] = L(values[std::size_t(i)].of[c]);
       each([&](Pairs const& p) {
         std::array<L, 3> apart{L(0), L(0), L(0)};
-        if (differences)
-          for (std::size_t c = 0; c < 3; ++c) apart[c] = own[c] - Particles::load(values[c], p.first);
+        if (differences) {
+          L other[4];
+          load_at(values.data(), p.places, other);
+          for (std::size_t c = 0; c < 3; ++c) apart[c] = own[c] - other[c];
+        }
         add(p, apart, sum);
       });
       const auto point = std::size_t(particles.order()[std::size_t(i)]);

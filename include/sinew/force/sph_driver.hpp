@@ -3,6 +3,7 @@
 
 #include <sinew/core/boundary_particles.hpp>
 #include <sinew/core/data_types.hpp>
+#include <sinew/core/lane_lists.hpp>
 #include <sinew/core/work_share.hpp>
 #include <sinew/force/sorted_particles.hpp>
 #include <sinew/force/sph_law.hpp>
@@ -28,20 +29,18 @@ struct SphDriver {
   static constexpr bool sharesWork = true;
 
   std::size_t size = 0;  // of the fluid
-  Particles particles{};
   // in the order of the particles
-  std::array<std::vector<Real>, 3> velocities{};
-  std::vector<Real> densities{}, pressures{}, volumes{};  // pressures: p / rho^2; volumes: m / rho
-  std::vector<Real> weights{}, fluid{};  // mass over that of the fluid's; 1 for the fluid, 0 for the boundary
-  VecCoord joined{};                     // the fluid, then the boundary
+  Particles particles{};                              // their weights: mass over that of the fluid's
+  std::vector<FourOf<Real>> moving{};                 // velocity, p / rho^2
+  std::vector<Real> densities{}, volumes{}, fluid{};  // volumes: m / rho; 1 for the fluid, 0 for the boundary
+  VecCoord joined{};                                  // the fluid, then the boundary
 
   /// Room for so many particles, with those of boundaries.
   void reserve(std::size_t all) {
-    const std::size_t room = all + std::size_t(Particles::width);
     particles.reserve(all);
     joined.reserve(all);
-    for (auto& one : velocities) one.reserve(room);
-    for (auto* one : {&densities, &pressures, &volumes, &weights, &fluid}) one->reserve(room);
+    moving.reserve(all);
+    for (auto* one : {&densities, &volumes, &fluid}) one->reserve(all);
   }
 
   /// Throws Error as PointCells does.
@@ -56,29 +55,31 @@ struct SphDriver {
       for (auto const& p : boundary.positions) joined.push_back(p.template cast<Real>());
       particles.sort(joined, radius, where);
     }
-    for (auto& one : velocities) one.resize(particles.room(), Real(0));
-    for (auto* one : {&densities, &pressures, &volumes}) one->resize(particles.room(), Real(1));
-    for (auto* one : {&weights, &fluid}) one->assign(particles.room(), Real(1));
+    const std::size_t all = particles.order().size();
+    moving.resize(all);
+    for (auto* one : {&densities, &volumes}) one->resize(all, Real(1));
+    fluid.assign(all, Real(1));
     if (boundary.size() > 0) findBoundary(law);
   }
   void takeVelocities(VecDeriv const& v, BoundaryParticles const& boundary) {
     for (std::size_t k = 0; k < particles.order().size(); ++k) {
       const auto i = std::size_t(particles.order()[k]);
       for (int c = 0; c < 3; ++c)
-        velocities[std::size_t(c)][k] = i < size ? v[i][c] : Real(boundary.velocities[i - size][c]);
+        moving[k].of[c] = i < size ? v[i][c] : Real(boundary.velocities[i - size][c]);
     }
   }
 
   template <class Law>
   void findDensities(Law const& law, WorkShare const& share) {
     particles.forEach(share, [&](int i, auto const& each) {
-      if (fluid[std::size_t(i)] == 0) return;
+      const auto at = std::size_t(i);
+      if (fluid[at] == 0) return;
       L around(0);
-      each([&](Pairs const& p) { law.addDensity(p, Others{*this, p.first}, around); });
+      each([&](Pairs const& p) { law.addDensity(p, Weight{p}, around); });
       const Real rho = law.mass * Particles::sum(around);
-      densities[std::size_t(i)] = rho;
-      pressures[std::size_t(i)] = law.pressureOf(rho);
-      volumes[std::size_t(i)] = law.mass / rho;
+      densities[at] = rho;
+      moving[at].of[3] = law.pressureOf(rho);
+      volumes[at] = law.mass / rho;
     });
   }
 
@@ -87,14 +88,14 @@ struct SphDriver {
     particles.forEach(share, [&](int i, auto const& each) {
       const auto at = std::size_t(i), point = std::size_t(particles.order()[at]);
       const bool wall = fluid[at] == 0;
-      SphParticle<L> own{{}, L(weights[at]), L(densities[at]), L(pressures[at]), L(volumes[at])};
-      for (std::size_t c = 0; c < 3; ++c) own.velocity[c] = L(velocities[c][at]);
+      SphParticle<L> own{{}, L(particles.weight(at)), L(densities[at]), L(moving[at].of[3]), L(volumes[at])};
+      for (std::size_t c = 0; c < 3; ++c) own.velocity[c] = L(moving[at].of[c]);
       std::array<L, 3> sums{L(0), L(0), L(0)};
       each([&](Pairs const& p) {
-        const Others other{*this, p.first};
+        const Others other(*this, p);
         if (!wall) return law.addForces(own, p, other, sums);
         Pairs ofFluid = p;  // walls do not act on walls
-        ofFluid.acts = both(p.acts, load(fluid, p.first) > L(0));
+        ofFluid.acts = both(p.acts, load(fluid, p) > L(0));
         law.addForces(own, ofFluid, other, sums);
       });
       if (wall) {
@@ -106,7 +107,7 @@ struct SphDriver {
       if (law.curved) {
         std::array<L, 3> n{L(0), L(0), L(0)};
         L curvature(0);
-        each([&](Pairs const& p) { law.addCurvature(own.volume, p, Others{*this, p.first}, n, curvature); });
+        each([&](Pairs const& p) { law.addCurvature(own.volume, p, Others(*this, p), n, curvature); });
         tension = law.curvatureForce({Particles::sum(n[0]), Particles::sum(n[1]), Particles::sum(n[2])},
                                      Particles::sum(curvature));
       }
@@ -124,18 +125,24 @@ struct SphDriver {
   }
 
  private:
-  static L load(std::vector<Real> const& from, int place) { return Particles::load(from, place); }
+  static L load(std::vector<Real> const& from, Pairs const& p) { return Particles::load(from, p); }
 
-  // what the particles from a place on have
-  struct Others {
+  // what neighbours have
+  struct Weight {
+    Pairs const& pairs;
+    L weight() const { return pairs.weight; }
+  };
+  struct Others : Weight {
     SphDriver const& of;
-    int first;
+    L moving[4];  // fetched at once
 
-    L weight() const { return load(of.weights, first); }
-    L density() const { return load(of.densities, first); }
-    L pressure() const { return load(of.pressures, first); }
-    L volume() const { return load(of.volumes, first); }
-    L velocity(std::size_t axis) const { return load(of.velocities[axis], first); }
+    Others(SphDriver const& driver, Pairs const& p) : Weight{p}, of(driver) {
+      load_at(of.moving.data(), p.places, moving);
+    }
+    L density() const { return load(of.densities, this->pairs); }
+    L volume() const { return load(of.volumes, this->pairs); }
+    L pressure() const { return moving[3]; }
+    L velocity(std::size_t axis) const { return moving[axis]; }
   };
 
   // volumes of the boundary, V_k = 1 / sum_l W_kl, at the density at rest and without pressure
@@ -148,12 +155,12 @@ struct SphDriver {
       if (fluid[at] != 0) return;
       L around(0);
       each([&](Pairs const& p) {
-        around += select(p.acts, (L(1) - load(fluid, p.first)) * law.kernels.density(p.q), L(0));
+        around += select(p.acts, (L(1) - load(fluid, p)) * law.kernels.density(p.q), L(0));
       });
       volumes[at] = 1 / Particles::sum(around);
-      weights[at] = law.atRest / law.mass * volumes[at];
+      particles.weight(at) = law.atRest / law.mass * volumes[at];
       densities[at] = law.atRest;
-      pressures[at] = 0;
+      moving[at].of[3] = 0;
     });
   }
 };

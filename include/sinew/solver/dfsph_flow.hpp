@@ -3,7 +3,7 @@
 
 #include <sinew/core/compiled.hpp>
 #include <sinew/core/workers.hpp>
-#include <sinew/force/listed_particles.hpp>
+#include <sinew/force/sorted_particles.hpp>
 
 #include <Eigen/Core>
 
@@ -82,10 +82,10 @@ class DFSPHFlow {
   /// over the first one.
   void solveViscosity(double h, double kinematic, Iteration& iteration);
   /// Two particles of the fluid that are in one place, or {-1, -1}; behind place().
-  std::pair<int, int> coincident() const;
+  std::pair<int, int> coincident();
 
  private:
-  using Particles = ListedParticles<double, native_width<double>>;
+  using Particles = SortedParticles<double, native_width<double>>;
   using L = Particles::L;
   using Pairs = Particles::Pairs;
 
@@ -163,10 +163,10 @@ SINEW_ONCE void DFSPHFlow::calibrate(double distance) {
 }
 
 SINEW_ONCE void DFSPHFlow::reserve(std::size_t fluid, std::size_t boundary) {
-  const std::size_t all = fluid + boundary, room = all + std::size_t(Particles::width);
+  const std::size_t all = fluid + boundary;
   particles_.reserve(all);
-  forEachArray([room](auto& v) { v.reserve(room); });
-  whole_.reserve(room);
+  forEachArray([all](auto& v) { v.reserve(all); });
+  whole_.reserve(all);
   positions.reserve(all);
   velocities.reserve(all);
   accelerations.reserve(fluid);
@@ -176,9 +176,9 @@ SINEW_ONCE void DFSPHFlow::reserve(std::size_t fluid, std::size_t boundary) {
 
 SINEW_ONCE void DFSPHFlow::place(std::string_view where) {
   const std::size_t n = fluidSize(), all = positions.size();
-  particles_.sort(positions, radius, where, [&](auto&& f) { inShares(f); });
-  forEachArray([room = particles_.room()](auto& v) { v.resize(room, 0.0); });
-  whole_.resize(particles_.room());
+  particles_.sort(positions, radius, where);
+  forEachArray([all](auto& v) { v.resize(all, 0.0); });
+  whole_.resize(all);
   densities.resize(n);
   for (std::size_t k = 0; k < all; ++k) {
     const auto i = std::size_t(particles_.order()[k]);
@@ -248,7 +248,7 @@ SINEW_ONCE double DFSPHFlow::longestStep(double distance) const {
   return longest;
 }
 
-SINEW_ONCE std::pair<int, int> DFSPHFlow::coincident() const {
+SINEW_ONCE std::pair<int, int> DFSPHFlow::coincident() {
   std::pair<int, int> found{-1, -1};
   particles_.forEach({}, [&](int i, auto const& each) {
     if (fluid_[std::size_t(i)] == 0) return;

@@ -51,11 +51,13 @@ class PointCells {
       low = low.min(x);
       high = high.max(x);
     }
+    low_ = low;
+    extent_ = (high - low).maxCoeff();
     const Eigen::Array3d size = ((high - low) / width).floor() + 1;
     if (!(size <= 1048576).all())
       throw Error(where,
                   text("points are ",
-                       (high - low).maxCoeff(),
+                       extent_,
                        " m apart, more than 2^20 cells of ",
                        width,
                        " m; look for points that have flown away, or take a larger radius"));
@@ -79,6 +81,9 @@ class PointCells {
 
   /// The points in their order.
   std::vector<int> const& order() const { return order_; }
+  /// The lowest corner of the box of all points, and its longest side.
+  Eigen::Array3d const& low() const { return low_; }
+  double extent() const { return extent_; }
   std::size_t cellCount() const { return cells_.empty() ? 0 : cells_.size() - 1; }
 
   /// f(places of the points of a cell, the nine ranges around) for each cell that has points, of those that a
@@ -120,6 +125,8 @@ class PointCells {
   std::vector<int> order_{};
   std::vector<Cell> cells_{};  // one more, behind the last
   std::uint64_t rowLength_ = 0, planeLength_ = 0;
+  Eigen::Array3d low_{0, 0, 0};
+  double extent_ = 0;
 
   // of the first of three cells in one of the rows around a cell
   std::uint64_t firstKey(std::uint64_t key, std::size_t row) const {
