@@ -21,8 +21,8 @@ struct SphParticle {
 template <class Kernels, class Real>
 struct SphLaw {
   Kernels kernels;
-  Real mass, atRest, stiffness;  // J/kg; 0: no pressure
-  Real radius, viscosity, tension;
+  Real mass, atRest, stiffness;                 // J/kg; 0: no pressure
+  Real square, viscosity, bulk, soft, tension;  // m^2, mu, 2 mu h m, h^2/100, m times the tension
   bool viscous, artificial, coheres, curved;
 
   /// To the sum that `mass` times is a density.
@@ -40,18 +40,17 @@ struct SphLaw {
   template <class T, class Pairs, class Other>
   SINEW_INLINE void addForces(SphParticle<T> const& own, Pairs const& p, Other const& other,
                               std::array<T, 3>& sums) const {
-    T pushes = -T(mass * mass) * (own.pressure + other.pressure());
-    std::array<T, 3> slower{T(0), T(0), T(0)};  // v_j - v_i
-    if (viscous || artificial)
-      for (std::size_t c = 0; c < 3; ++c) slower[c] = other.velocity(c) - own.velocity[c];
+    T pushes = -T(square) * (own.pressure + other.pressure());
+    std::array<T, 3> slower;  // v_j - v_i
+    for (std::size_t c = 0; c < 3; ++c) slower[c] = other.velocity(c) - own.velocity[c];
     if (artificial) {
       T apart(0);
       for (std::size_t c = 0; c < 3; ++c) apart -= slower[c] * p.d[c];
-      pushes += select(apart < T(0), apart, T(0)) * T(2 * viscosity * radius * mass) /
-                ((p.q * p.q + T(Real(0.01) * radius * radius)) * (own.density + other.density()));
+      pushes += select(apart < T(0), apart, T(0)) * T(bulk) /
+                ((p.q * p.q + T(soft)) * (own.density + other.density()));
     }
     T along = pushes * kernels.pressureSlope(p.q);
-    if (coheres) along += -T(tension * mass) * kernels.density(p.q);
+    if (coheres) along += -T(tension) * kernels.density(p.q);
     along = select(p.acts, own.weight * other.weight() * along, T(0));
     for (std::size_t c = 0; c < 3; ++c) sums[c] += along * p.d[c];
     if (viscous) {
@@ -75,7 +74,7 @@ struct SphLaw {
   SINEW_INLINE std::array<Real, 3> curvatureForce(std::array<Real, 3> n, Real c) const {
     using std::sqrt;
     const Real length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-    const Real factor = length > Real(1e-6) ? -mass * tension * c / length : Real(0);
+    const Real factor = length > Real(1e-6) ? -tension * c / length : Real(0);
     for (std::size_t k = 0; k < 3; ++k) n[k] *= factor;
     return n;
   }
