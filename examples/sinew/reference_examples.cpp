@@ -674,7 +674,7 @@ constexpr auto classExamples = std::to_array<ClassExample>({
   <FixedConstraint indices="0 4 20 24"/>
   <Node name="squares">
     <MeshTopology edges="0 1  1 2  2 3  3 4"/>
-    <MechanicalObject template="Vec1d" rest_position="0.0625  0.0625  0.0625  0.0625"/>
+    <MechanicalObject template="Vec1d"/>
     <SquareDistanceMapping/>
     <RestShapeSpringsForceField stiffness="500"/>
   </Node>
@@ -710,9 +710,9 @@ constexpr auto classExamples = std::to_array<ClassExample>({
   <MechanicalObject template="Vec1d" position="1"/>
   <UniformMass totalMass="0.2"/>
   <Node name="square">
-    <MechanicalObject template="Vec1d" rest_position="0.25"/>
+    <MechanicalObject template="Vec1d"/>
     <SquareMapping/>
-    <RestShapeSpringsForceField stiffness="2"/>
+    <ConstantForceField forces="-0.5"/>
   </Node>
 </Node>)"},
     {"IdentityMapping",

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <sinew/scene/carving.hpp>
-#include <sinew/scene/topological_changes.hpp>
 #include <sinew/scene/changing_points.hpp>
 #include <sinew/scene/collision.hpp>
 #include <sinew/scene/fluid_boundaries.hpp>
@@ -11,6 +10,7 @@
 #include <sinew/scene/mechanical_operations.hpp>
 #include <sinew/scene/solvers.hpp>
 #include <sinew/scene/states_of.hpp>
+#include <sinew/scene/topological_changes.hpp>
 
 #include <algorithm>
 #include <string>
@@ -54,9 +54,10 @@ class Initialisation {
       c.init(scope.path());
     }
   }
-  // a mapping sizes and places the state of its node
+  // a mapping sizes and places the state of its node, and its rest positions where it is given none
   template <class C, class S>
   static void initMappedState(C& c, S const& scope) {
+    bool mapsRest = true;
     scope.withChild(c, [&](auto& child) {
       if constexpr (HasRole<std::decay_t<decltype(child)>, role::VisualModel>) {
         child.init(scope.path());
@@ -70,12 +71,13 @@ class Initialisation {
         child.place(scope.path(), scope.topology().positions);
         child.takeGiven();
         initMapping(c, scope, child.position, child.position);
-        child.restPosition.assign(child.position.size(), C::Out::zero());
+        mapsRest = child.restPosition.empty();
+        if (mapsRest) child.restPosition.assign(child.position.size(), C::Out::zero());
       }
     });
     scope.withMapped(c, [&](auto& mapping, auto& child, auto& parent) {
       if constexpr (HasRole<std::decay_t<decltype(child)>, role::State>) {
-        mapping.apply(child.restPosition, parent.restPosition);
+        if (mapsRest) mapping.apply(child.restPosition, parent.restPosition);
         mapping.apply(child.position, parent.position);
       } else {
         follow_mapping(mapping, child, parent);

@@ -96,7 +96,8 @@ struct MechanicalObject {
   VecDeriv applied{}, reaction{}, startVelocity{}, marked{};
   std::vector<VecCoord> auxiliaryCoords{};
   std::vector<VecDeriv> auxiliaryDerivs{};
-  std::optional<VecCoord> given{};  // positions that the mapping of a mapped state was given
+  // what a mapped state was given: positions, for its mapping, and rest positions
+  std::optional<VecCoord> given{}, givenRest{};
   SolverWorkspace<D> solverWorkspace{};
   std::size_t capacity = 0;      // how many points there may be, where they come and go; 0: they do not
   PointChange<D> pointChange{};  // before a step
@@ -154,9 +155,11 @@ struct MechanicalObject {
   void takeGiven() {
     if (!given) {
       given = position;
+      givenRest = restPosition;
       return;
     }
     position = *given;
+    restPosition = *givenRest;
     velocity.clear();
     resetPosition.clear();
     resetVelocity.clear();
@@ -248,7 +251,8 @@ struct MechanicalObject {
       points.filter(*v);
     for (VecCoord& v : auxiliaryCoords) points.filter(v);
     for (VecDeriv& v : auxiliaryDerivs) points.filter(v);
-    if (given) points.filter(*given);
+    for (auto* v : {&given, &givenRest})
+      if (*v) points.filter(**v);
     history.clear();
   }
 
