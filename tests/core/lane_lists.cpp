@@ -4,7 +4,10 @@
 
 #include <sinew/core/lane_lists.hpp>
 
+#include <algorithm>
+#include <cstdint>
 #include <numeric>
+#include <vector>
 
 namespace test_lane_lists {
 

@@ -49,6 +49,8 @@ template <class T, int W>
 Lanes<T, W> sqrt(Lanes<T, W>);
 template <class T, int W>
 Lanes<T, W> abs(Lanes<T, W>);
+template <int Stride, int N, class T, int W>
+void gather(T const*, int const*, Lanes<T, W>*);
 #else
 
 /// Mask that a comparison of lanes yields: all bits of a lane set where it holds. `bool` for plain scalars.
