@@ -7,6 +7,7 @@
 #include <sinew/runtime/checks.hpp>
 #include <sinew/runtime/read_scene.hpp>
 #include <sinew/runtime/scope.hpp>
+#include <sinew/view/load_materials.hpp>
 #include <sinew/view/protocol.hpp>
 #include <sinew/view/view_settings.hpp>
 
@@ -16,6 +17,12 @@ namespace {
 
 namespace fs = std::filesystem;
 using namespace sinew;
+
+// a step has the same bits with any number of threads, and WebAssembly has one
+void take_one_thread(RuntimeNode<page::Components>& node) {
+  if (auto* threads = node.get<Threads>()) threads->count = 1;
+  for (auto const& child : node.children()) take_one_thread(*child);
+}
 
 void add_line(std::string& to, std::string const& line) { to += text(to.empty() ? "" : "\n", line); }
 
@@ -33,13 +40,15 @@ page::Running page::run(std::string_view bytes) {
   }
   auto read = read_scene<Components>(name, {.missing = view::missingFile});
   const double dt = read.dt;
+  take_one_thread(read.root);
   std::string notes, ignored;
   for (auto const& one : read.ignored) ignored += text(ignored.empty() ? "" : ", ", one);
   if (!ignored.empty()) add_line(notes, "ignored, without a meaning here: " + ignored);
   for (auto const& warning : read.warnings) add_line(notes, "warning: " + warning);
   auto simulation = std::make_shared<Simulation<RuntimeNode<Components>>>(start(std::move(read)));
   for (auto const& warning : simulation->root().warnings) add_line(notes, "warning: " + warning);
-  const view::ViewSettings settings = view::view_settings(simulation->root().view);
+  view::ViewSettings settings = view::view_settings(simulation->root().view);
+  view::load_materials(*simulation, settings.seen, settings.warnings);
   for (auto const& warning : settings.warnings) add_line(notes, "warning: " + warning);
   Running scene = running(fs::path(name).filename().string(), std::move(simulation), dt, settings.seen);
   scene.notes = std::move(notes);

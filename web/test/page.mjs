@@ -8,6 +8,7 @@ import { tmpdir } from 'node:os';
 import { dirname, extname, join, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { parseArgs } from 'node:util';
+import { SmoothSurface } from '../src/smooth.js';
 import { openPage } from './browser.mjs';
 
 const { values: options } = parseArgs({
@@ -422,6 +423,8 @@ async function opensAlone(page) {
   await drop(page, { 'ball.scn': ball });
   await page.until(`document.getElementById('title').textContent === 'ball.scn' && sinew.view.frame?.positions.length === 6`, 60);
   await goesOn();
+  await page.evaluate('delete sinew.view.draw');
+  await textures(page);
 }
 // the most steps a second of some seconds
 async function speed(page) {
@@ -434,6 +437,24 @@ async function speed(page) {
   return most;
 }
 
+// two faces that meet at 20 degrees have one normal where they meet, also where each is a part of its own
+function borders() {
+  const angle = Math.PI / 9;
+  const points = new Float32Array([0, 0, 0, 1, 0, 0, 0, 1, 0, 0, -Math.cos(angle), Math.sin(angle)]);
+  const faces = [Uint32Array.of(0, 1, 2), Uint32Array.of(1, 0, 3)];
+  const normalsOf = (surface, corners) => [...corners].map((v) => [...surface.normals.subarray(3 * v, 3 * v + 3)]);
+  const whole = new SmoothSurface(Uint32Array.of(...faces[0], ...faces[1]), points);
+  const expected = normalsOf(whole, whole.drawn);
+  check(Math.abs(expected[0][1]) > 0.1 && expected[2][1] === 0, 'the normal at the edge is between those of the faces');
+  for (const places of [null, Uint32Array.of(2, 1, 0)])
+    faces.forEach((own, f) => {
+      const part = new SmoothSurface(own, points, places, faces[1 - f]);
+      const normals = normalsOf(part, part.drawn);
+      check(part.drawn.length === 3 && normals.flat().every((x, k) => x === expected.flat()[9 * f + k]), 'a border is smooth');
+    });
+}
+
+borders();
 if (options.program) await served();
 if (options.alone) await alone();
 console.log(`${checks} checks passed`);
