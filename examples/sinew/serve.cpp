@@ -84,8 +84,8 @@ void check_writes(Node& root) {
 }
 
 sinew::view::OpenedScene open_files(ServeOptions const& options, std::vector<SceneFile> const& dropped) {
+  std::string const& name = dropped[sinew::view::scene_among(dropped)].name;
   const std::vector<SceneFile> files = sinew::view::placed(dropped);
-  std::string const& name = files[sinew::view::scene_among(files)].name;
   check_reads(files);
   const auto folder = opening([] { return std::make_shared<TemporaryFolder>("scene"); });
   for (SceneFile const& file : files) {

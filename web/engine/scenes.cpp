@@ -30,10 +30,10 @@ void add_line(std::string& to, std::string const& line) { to += text(to.empty() 
 
 page::Running page::run(std::string_view bytes) {
   memory_limit = std::size_t(512) << 20;
-  const std::vector<view::SceneFile> files = view::placed(view::read_upload(bytes));
-  std::string const& name = files[view::scene_among(files)].name;
+  const std::vector<view::SceneFile> dropped = view::read_upload(bytes);
+  std::string const& name = dropped[view::scene_among(dropped)].name;
   // in memory: there is no other file system
-  for (view::SceneFile const& file : files) {
+  for (view::SceneFile const& file : view::placed(dropped)) {
     if (const fs::path folder = fs::path(file.name).parent_path(); !folder.empty())
       fs::create_directories(folder);
     io::write_file(file.name, file.content);
