@@ -3,11 +3,13 @@
 
 // What the reader of scene files asks of pugixml, by RapidXML of Boost: Debian has pugixml as a library for
 // the processors of its machines, and so none for WebAssembly.
+#include <algorithm>
 #include <boost/property_tree/detail/rapidxml.hpp>
 #include <cstddef>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace pugi {
 
