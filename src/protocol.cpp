@@ -396,8 +396,12 @@ std::string write_topology(SeenScene const& scene, std::uint32_t number) {
     put(to, std::uint32_t(body.kind) + (body.visible ? 0u : hiddenKind));
     for (int k = 0; k < 3; ++k) put(to, float(body.colour[k]));
     put(to, float(body.opacity));
-    for (const std::size_t n :
-         {body.path.size(), body.points.size(), body.triangles.size(), body.quads.size(), body.edges.size()})
+    for (const std::size_t n : {body.path.size(),
+                                body.points.size(),
+                                body.triangles.size(),
+                                body.quads.size(),
+                                body.edges.size(),
+                                body.beyond.size()})
       put_count(to, n);
     SurfaceLooks const& in = body.inTexture;
     const bool textured =
@@ -412,6 +416,7 @@ std::string write_topology(SeenScene const& scene, std::uint32_t number) {
     put_elements(to, body.triangles);
     put_elements(to, body.quads);
     put_elements(to, body.edges);
+    put_elements(to, body.beyond);
     if (!textured) continue;
     for (Eigen::Vector2d const& t : in.texcoords)
       for (int k = 0; k < 2; ++k) put(to, float(t[k]));
@@ -452,7 +457,7 @@ ReadTopology read_topology(std::string_view message) {
   ReadTopology read{.number = bytes.word()};
   for (int k = 0; k < 3; ++k) read.scene.up[k] = double(bytes.number<float>());
   std::size_t all = 0;
-  constexpr std::size_t header = 16 * sizeof(std::uint32_t);
+  constexpr std::size_t header = 17 * sizeof(std::uint32_t);
   const std::size_t bodies = bytes.count(bytes.word(), header);
   for (std::size_t b = 0; b < bodies; ++b) {
     const std::uint32_t kind = bytes.word();
@@ -463,7 +468,7 @@ ReadTopology read_topology(std::string_view message) {
     body.opacity = double(bytes.number<float>());
     if (!(body.opacity >= 0 && body.opacity <= 1)) bytes.refuse("an opacity is not from 0 to 1");
     const std::uint32_t path = bytes.word(), points = bytes.word(), triangles = bytes.word(),
-                        quads = bytes.word(), edges = bytes.word();
+                        quads = bytes.word(), edges = bytes.word(), beyond = bytes.word();
     const std::uint32_t texture = bytes.word(), texcoords = bytes.word();
     for (int k = 0; k < 3; ++k) body.specular[k] = double(bytes.number<float>());
     body.shininess = double(bytes.number<float>());
@@ -475,6 +480,7 @@ ReadTopology read_topology(std::string_view message) {
     read_elements(bytes, triangles, points, body.triangles);
     read_elements(bytes, quads, points, body.quads);
     read_elements(bytes, edges, points, body.edges);
+    read_elements(bytes, beyond, points, body.beyond);
     if (texture > 0) {
       body.inTexture.texcoords.resize(bytes.count(texcoords, 8));
       for (Eigen::Vector2d& t : body.inTexture.texcoords)
@@ -531,6 +537,10 @@ void check_file_name(std::string const& name) {
     at = end + 1;
   }
 }
+// a file cannot be where another one is, or has its folder
+bool clash(std::string const& a, std::string const& b) {
+  return a == b || a.starts_with(b + '/') || b.starts_with(a + '/');
+}
 bool ends_in(std::string_view name, std::string_view ending) {
   if (name.size() <= ending.size()) return false;
   name.remove_prefix(name.size() - ending.size());
@@ -582,9 +592,7 @@ std::vector<SceneFile> read_upload(std::string_view bytes) {
     SceneFile file{.name = name->get<std::string>()};
     check_file_name(file.name);
     for (SceneFile const& other : files)
-      // a file cannot be where another one has its folder
-      if (other.name == file.name || other.name.starts_with(file.name + '/') ||
-          file.name.starts_with(other.name + '/'))
+      if (clash(other.name, file.name))
         throw Error(what, text("two files are called '", Members::shown(file.name), "'"));
     const auto count = size->get<std::uint64_t>();
     if (count > left.left.size()) left.refuse("it ends too early");
@@ -608,6 +616,39 @@ std::size_t scene_among(std::vector<SceneFile> const& files) {
   }
   throw Error("upload",
               "there is no scene among the files (.scn or .xml); take one, with the files that it needs");
+}
+
+std::vector<SceneFile> placed(std::vector<SceneFile> files) {
+  constexpr std::string_view ends = "\"' \t\r\n";  // of a name in a scene
+  const std::vector<SceneFile> dropped = files;
+  std::size_t total = 0;
+  for (SceneFile const& file : dropped) total += file.content.size();
+  auto place = [&](std::string name, std::string const& content) {
+    try {
+      check_file_name(name);
+    } catch (Error const&) {
+      return;  // it leads out of the folder
+    }
+    for (SceneFile const& other : files)
+      if (clash(other.name, name)) return;
+    if (files.size() == mostFiles || total + content.size() > longestUpload) return;
+    total += content.size();
+    files.push_back({std::move(name), content});
+  };
+  for (SceneFile const& scene : dropped) {
+    if (!ends_in(scene.name, ".scn") && !ends_in(scene.name, ".xml")) continue;
+    const std::string folder = scene.name.substr(0, scene.name.rfind('/') + 1), &words = scene.content;
+    for (SceneFile const& file : dropped) {
+      if (file.name.find('/') != file.name.npos) continue;
+      const std::string called = '/' + file.name;
+      for (std::size_t at = words.find(called); at != words.npos; at = words.find(called, at + 1)) {
+        const std::size_t begin = words.find_last_of(ends, at) + 1, end = at + called.size();
+        if (end < words.size() && ends.find(words[end]) != ends.npos)
+          place(folder + words.substr(begin, end - begin), file.content);
+      }
+    }
+  }
+  return files;
 }
 
 void SceneWriter::write(SeenScene const& scene) {

@@ -27,6 +27,7 @@ struct SceneOptions {
   bool lenient = false;
   double dt = 0;              // 0: the scene's
   std::size_t maxMemory = 0;  // bytes; 0: what the machine has
+  std::string missing{};      // as ReadSceneOptions has it
 };
 
 /// How far to simulate: so many steps, or so many seconds where `time` is not 0.

@@ -97,8 +97,8 @@ std::string located(std::string const& path, std::string const& message) {
 sinew::ReadScene<sinew::Standard> read(SceneOptions const& options) {
   limit_memory(options.maxMemory);
   try {
-    auto scene =
-        sinew::read_scene<sinew::Standard>(options.path, {options.data, options.lenient, options.set});
+    auto scene = sinew::read_scene<sinew::Standard>(
+        options.path, {options.data, options.lenient, options.set, options.missing});
     if (options.dt > 0) scene.dt = options.dt;
     return scene;
   } catch (sinew::SceneError const& error) {

@@ -83,8 +83,9 @@ void check_writes(Node& root) {
   });
 }
 
-sinew::view::OpenedScene open_files(ServeOptions const& options, std::vector<SceneFile> const& files) {
-  std::string const& name = files[sinew::view::scene_among(files)].name;
+sinew::view::OpenedScene open_files(ServeOptions const& options, std::vector<SceneFile> const& dropped) {
+  std::string const& name = dropped[sinew::view::scene_among(dropped)].name;
+  const std::vector<SceneFile> files = sinew::view::placed(dropped);
   check_reads(files);
   const auto folder = opening([] { return std::make_shared<TemporaryFolder>("scene"); });
   for (SceneFile const& file : files) {
@@ -97,6 +98,7 @@ sinew::view::OpenedScene open_files(ServeOptions const& options, std::vector<Sce
   scene.path = place + name;
   scene.set.clear();  // of the scene of the command line
   scene.dt = 0;
+  scene.missing = sinew::view::missingFile;
   // whoever sent it knows nothing of the folder
   auto plain = [&place](std::string words) {
     for (std::size_t at = words.find(place); at != words.npos; at = words.find(place, at))

@@ -69,6 +69,10 @@ TEST_CASE("a file includes others, never itself") {
   CHECK_THROWS_WITH(XmlReader().read(folder / "far.scn"), Catch::Contains("includes itself"));
   CHECK_THROWS_WITH(XmlReader().parse("x.scn", "<Node><include href='nothing.xml'/></Node>"),
                     Catch::Contains("x.scn:1:7: <include>: there is no file 'nothing.xml'"));
+  for (char const* name : {"nothing.xml", "/nothing.xml"})
+    CHECK_THROWS_WITH(
+        XmlReader({}, "drop it along").parse("x.scn", text("<Node><include href='", name, "'/></Node>")),
+        Catch::Contains(text("there is no file '", name, "'; drop it along")));
   CHECK_THROWS_WITH(XmlReader().parse("x.scn", "<Node><include/></Node>"), Catch::Contains("has no href"));
 }
 

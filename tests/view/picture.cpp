@@ -9,6 +9,8 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <numbers>
 
 namespace test_picture {
 
@@ -119,6 +121,70 @@ TEST_CASE("normals are smooth where a surface is, and sharp at edges") {
   body.points[4] = {0, -0.1, 0.0675}, body.points[5] = {1, -0.1, 0.0675};
   mesh = view::shaded_mesh(body);
   CHECK(mesh.corners.size() == 6);
+}
+
+TEST_CASE(
+    "a surface of several materials has the normals that it has as one, and no more corners than are seen") {
+  // a tube of triangles and quads, whose materials change around it and along it, with a texture
+  view::SeenBody tube{.path = "/tube", .kind = view::SeenBody::Kind::visual};
+  constexpr Index around = 16, along = 5;
+  for (Index i = 0; i < along; ++i)
+    for (Index j = 0; j < around; ++j) {
+      const double angle = 2 * std::numbers::pi * j / around;
+      tube.points.emplace_back(std::cos(angle), std::sin(angle), 0.3 * i * i);
+    }
+  SurfaceLooks looks{.materials = {"a", "b"}, .library = "l"};
+  std::vector<Index> ofQuads;
+  for (Index i = 0; i + 1 < along; ++i)
+    for (Index j = 0; j < around; ++j) {
+      const Index a = i * around + j, b = i * around + (j + 1) % around, c = b + around, d = a + around;
+      const Index material = (i + j / 5) % 3 - 1;
+      if (j % 2) {
+        tube.triangles.insert(tube.triangles.end(), {{a, b, c}, {a, c, d}});
+        looks.faceMaterials.insert(looks.faceMaterials.end(), 2, material);
+      } else {
+        tube.quads.push_back({a, b, c, d});
+        ofQuads.push_back(material);
+      }
+    }
+  looks.faceMaterials.insert(looks.faceMaterials.end(), ofQuads.begin(), ofQuads.end());
+  // the normal of each corner, by its place and the middle of its triangle
+  using Place = std::array<float, 6>;
+  auto normals = [](std::vector<view::SeenBody> const& bodies) {
+    std::map<Place, Eigen::Vector3f> all;
+    for (view::SeenBody const& body : bodies) {
+      const view::ShadedMesh mesh = view::shaded_mesh(body);
+      std::vector<bool> used(mesh.corners.size());
+      for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
+        const std::size_t first = k - k % 3;
+        Eigen::Vector3f middle = Eigen::Vector3f::Zero();
+        for (std::size_t c = first; c < first + 3; ++c) middle += mesh.corners[mesh.triangles[c]];
+        const Eigen::Vector3f at = mesh.corners[mesh.triangles[k]];
+        used[mesh.triangles[k]] = true;
+        all[{at[0], at[1], at[2], middle[0], middle[1], middle[2]}] = mesh.normals[mesh.triangles[k]];
+      }
+      CHECK(std::find(used.begin(), used.end(), false) == used.end());
+      CHECK(mesh.casters.size() == mesh.triangles.size());
+    }
+    return all;
+  };
+  const auto whole = normals({tube});
+  const auto bodies =
+      view::bodies_by_material(tube, looks, {{.library = "l", .name = "a"}, {.library = "l", .name = "b"}});
+  REQUIRE(bodies.size() == 3);
+  const auto parts = normals(bodies);
+  REQUIRE(parts.size() == 6 * around * (along - 1));
+  REQUIRE(whole.size() == parts.size());
+  for (auto const& [place, normal] : whole) {
+    // the middle is a sum of other points in another order
+    const auto found = std::find_if(parts.begin(), parts.end(), [&](auto const& one) {
+      float apart = 0;
+      for (std::size_t k = 0; k < 6; ++k) apart += std::abs(one.first[k] - place[k]);
+      return apart < 1e-4f;
+    });
+    REQUIRE(found != parts.end());
+    CHECK((found->second - normal).norm() < 1e-5f);
+  }
 }
 
 TEST_CASE("the mesh of a body is made again where the body has changed, its shadow by fewer faces") {

@@ -45,7 +45,8 @@ SeenScene scene() {
                          .kind = SeenBody::Kind::visual,
                          .points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.1, 1, 0}},
                          .triangles = {{0, 1, 2}},
-                         .quads = {{0, 1, 2, 3}}});
+                         .quads = {{0, 1, 2, 3}},
+                         .beyond = {{3, 2, 1}}});
   seen.bodies.push_back({.path = "root/bb",
                          .visible = false,
                          .points = {{1, 2, 3}, {4, 5, 6}},
@@ -58,6 +59,41 @@ SeenScene scene() {
 
 std::string refusal(std::string_view json) {
   return error_of([&] { read_command(json); });
+}
+
+TEST_CASE("files beside a scene are where it looks for them, too") {
+  using Files = std::vector<SceneFile>;
+  auto more = [](Files files) {
+    const std::size_t count = files.size();
+    files = placed(std::move(files));
+    return Files(files.begin() + std::ptrdiff_t(count), files.end());
+  };
+  const SceneFile mesh{"organ.obj", "v 0 0 0"};
+  CHECK(more({{"a.scn", "<A filename=\"data/organ.obj\" href='more/organ.obj'/>"}, mesh}) ==
+        Files{{"data/organ.obj", mesh.content}, {"more/organ.obj", mesh.content}});
+  CHECK(more({{"in/a.scn", "<A filename='data/organ.obj'/>"}, mesh}) ==
+        Files{{"in/data/organ.obj", mesh.content}});
+  CHECK(more({{"a.scn", "<include href='b/c.xml'/>"}, {"c.xml", "<A f='data/organ.obj'/>"}, mesh}) ==
+        Files{{"b/c.xml", "<A f='data/organ.obj'/>"}, {"data/organ.obj", mesh.content}});
+  // nothing is named, or only a part of it; it is there already; it is no scene that names it
+  for (char const* content : {"",
+                              "<A filename='organ.obj'/>",
+                              "<A filename='data/organ.objx'/>",
+                              "<A filename='data/my-organ.obj'/>",
+                              "data/organ.obj"})
+    CHECK(more({{"a.scn", content}, mesh}).empty());
+  CHECK(more({{"a.scn", "<A filename='data/organ.obj'/>"}, {"data/organ.obj", ""}, mesh}).empty());
+  CHECK(more({{"a.txt", "<A filename='data/organ.obj'/>"}, mesh}).empty());
+  // out of the folder, and where a file is in the way
+  for (char const* name :
+       {"/organ.obj", "../organ.obj", "a/../organ.obj", "//organ.obj", "organ.obj/organ.obj"})
+    CHECK(more({{"a.scn", text("<A filename='", name, "'/>")}, mesh}).empty());
+  // no more than may be sent
+  std::string many;
+  for (int i = 0; i < 100; ++i) many += text(" 'folder", i, "/organ.obj'");
+  CHECK(placed({{"a.scn", many}, mesh}).size() == mostFiles);
+  const SceneFile large{"organ.obj", std::string(longestUpload / 3, ' ')};
+  CHECK(more({{"a.scn", many}, large}).size() == 1);
 }
 
 TEST_CASE("files of a scene are read as they were sent, and lead nowhere else") {
@@ -167,6 +203,7 @@ TEST_CASE("a topology and its frames are read as they were written") {
   CHECK(read.scene.bodies[0].visible);
   CHECK(read.scene.bodies[0].triangles == seen.bodies[0].triangles);
   CHECK(read.scene.bodies[0].quads == seen.bodies[0].quads);
+  CHECK(read.scene.bodies[0].beyond == seen.bodies[0].beyond);
   CHECK(read.scene.bodies[1].path == "root/bb");
   CHECK(read.scene.bodies[1].kind == SeenBody::Kind::state);
   CHECK_FALSE(read.scene.bodies[1].visible);

@@ -253,7 +253,7 @@ def scene(server):
     topology = client.until(lambda m: isinstance(m, bytes))
     kind, number = struct.unpack_from("<II", topology)
     check(kind == 1, "a topology comes before the first frame")
-    path = topology[88:98]
+    path = topology[92:102]
     check(path == b"/root/body", f"it has the body: {path}")
     frame = client.frame()
     check(struct.unpack_from("<III", frame) == (2, number, 3), "the frame is of this topology")
@@ -343,7 +343,7 @@ def opening(server, folder):
     refused(422, "no scene among the files", a_obj="v 0 0 0")
     refused(422, "a.scn:1:", a_scn="<Node")
     refused(422, "a.scn:2:", a_scn="<Node>\n<EulerSolverr/></Node>")
-    refused(422, "data/organ.obj", a_scn='<Node><MeshOBJLoader filename="data/organ.obj"/></Node>')
+    refused(422, "there is no file 'data/organ.obj'; drop it along with the scene", a_scn='<Node><MeshOBJLoader filename="data/organ.obj"/></Node>')
     # no other files of this machine
     for name in ["/etc/passwd", "../scene.scn", "data/../../scene.scn", "@../a.name"]:
         for element in [f'<MeshOBJLoader name="a" filename="{name}"/>', f'<include href="{name}"/>']:
@@ -392,6 +392,13 @@ def opening(server, folder):
     one.until(lambda m: isinstance(m, bytes) and m[0] == 1)
     one.frame()
     check(struct.unpack_from("<3f", one.last, 32) == (0, 0, 7), "and its mesh is seen")
+    # which may have been dropped beside it
+    for _ in range(100):
+        status, answer = drop(bundle(b_scn=scene, o_obj="v 0 0 7\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"))
+        if status != 503:
+            break
+        time.sleep(0.05)
+    check(status == 200, f"a file beside the scene is found: {status} {answer}")
     for _ in range(100):  # until those of the scene before have gone
         left = os.listdir(os.path.join(folder, "tmp"))
         if len(left) == 1:

@@ -82,6 +82,31 @@ TEST_CASE("an OglModel has the looks of its file, by whatever way it takes it, a
   }
 }
 
+TEST_CASE(
+    "a texture is repeated by scaleTex and shifted by translationTex, once, and a checkpoint keeps both") {
+  const Folder folder;
+  auto check = [](auto& simulation) {
+    const Seen all = seen(simulation);
+    CHECK(all.warnings.empty());
+    auto const& plain = all.scene.bodies[0];
+    auto at = [&](int corner) {
+      return plain.inTexture.texcoords[std::size_t(plain.inTexture.triangles[0][std::size_t(corner)])];
+    };
+    CHECK(at(0) == Eigen::Vector2d(0.5, -1));
+    CHECK(at(1) == Eigen::Vector2d(2 * 1 + 0.5, -1));
+    CHECK(at(2) == Eigen::Vector2d(2 * 1 + 0.5, 3 * 1 - 1));
+  };
+  auto scene =
+      folder.read("<OglModel filename='a.obj' texturename='a.png' scaleTex='2 3' translationTex='0.5 -1'/>");
+  CHECK(scene.warnings.empty());
+  CHECK(scene.ignored.empty());
+  auto simulation = start(std::move(scene));
+  check(simulation);
+  simulation.animate(0.01);
+  auto again = start(parse_scene<Few>("/b.scn", scene_text(simulation, 0.01)));
+  check(again);
+}
+
 TEST_CASE("a loader turns, mirrors and triangulates looks with its faces") {
   const Folder folder;
   // the place in the texture of each corner, by the point there

@@ -10,6 +10,7 @@
 #include <sinew/view/picture.hpp>
 
 #include <filesystem>
+#include <limits>
 
 namespace test_textures {
 
@@ -278,6 +279,11 @@ TEST_CASE("vertices and faces that go take their looks along") {
         "here: VisualModel: textureTriangles has the number 3, and there are 3 texcoords, numbered "
         "from 0; correct it, or give -1 for none");
   material.faceMaterials = {0};
+  VisualModel scaled = simple, shifted = simple;
+  scaled.scaleTex[1] = std::numeric_limits<double>::infinity();
+  shifted.translationTex[0] = std::numeric_limits<double>::quiet_NaN();
+  CHECK_THAT(wrong(scaled), Contains("scaleTex has a number that is not finite"));
+  CHECK_THAT(wrong(shifted), Contains("translationTex has a number that is not finite"));
   CHECK_THAT(wrong(material), Contains("faceMaterials has the number 0, and there are 0 materialNames"));
 }
 

@@ -2,4 +2,4 @@
 #include "liver.hpp"
 #include "running.hpp"
 
-page::Running page::run_liver() { return run("liver", liver(), dt); }
+page::Running page::run_liver() { return initialised("liver", liver(), dt); }

@@ -6,6 +6,6 @@
 
 page::Running page::run_vitrectomy() {
   const examples::VitrectomyOptions options;
-  return run(
+  return initialised(
       "vitrectomy", examples::vitrectomy_scene(examples::make_eye({.sectors = options.sectors})), options.dt);
 }

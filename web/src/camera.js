@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // The camera of the window (include/sinew/view/camera.hpp), over one of three.js.
-import { MathUtils, PerspectiveCamera, Vector3 } from 'three';
+import { Math as MathUtils, PerspectiveCamera, Vector3 } from 'three';
 
 export class OrbitCamera {
   camera = new PerspectiveCamera(40, 1, 0.01, 100);

@@ -16,14 +16,31 @@ export function socketEngine(address, receive, lost) {
   };
 }
 
-export function workerEngine(scene, receive, lost) {
+/**
+ * A promise of an engine that runs what a module of WebAssembly starts with a content, text or bytes; it is rejected where that does
+ * not start. What the engine says it says from `begin()` on.
+ */
+export function workerEngine({ module, content }, receive, lost) {
   const worker = new Worker(new URL('worker.js', document.baseURI), { type: 'module' });
-  worker.onmessage = (event) => receive(event.data);
-  worker.onerror = (event) => lost(event.message || 'WebAssembly could not be started.');
-  worker.postMessage({ start: scene });
-  return {
-    name: 'WebAssembly',
-    send: (command) => worker.postMessage(JSON.stringify(command)),
-    close: () => worker.terminate(),
-  };
+  return new Promise((started, failed) => {
+    const said = []; // before it begins
+    const fails = (why) => {
+      worker.terminate();
+      failed(new Error(why));
+    };
+    worker.onerror = (event) => fails(event.message || 'WebAssembly could not be started.');
+    worker.onmessage = ({ data }) => {
+      if (data.started === undefined) return said.push(data);
+      if (!data.started) return fails(JSON.parse(said.at(-1)).text);
+      worker.onerror = (event) => lost(event.message || 'WebAssembly has ended.');
+      worker.onmessage = (event) => receive(event.data);
+      started({
+        name: 'WebAssembly',
+        begin: () => said.splice(0).forEach(receive),
+        send: (command) => worker.postMessage(JSON.stringify(command)),
+        close: () => worker.terminate(),
+      });
+    };
+    worker.postMessage({ module, content });
+  });
 }

@@ -3,7 +3,7 @@
 import { socketEngine, workerEngine } from './engines.js';
 import { Fields } from './fields.js';
 import { frameKind, kindOf, readFrame, readTextures, readTopology, texturesKind, topologyKind } from './messages.js';
-import { takeScenes } from './open.js';
+import { takeScenes, upload } from './open.js';
 import { csvOfMeasures, Plots, svgOfMeasures } from './plots.js';
 import { Pointer } from './pointer.js';
 import { csvOf, ProfileList, save, svgOf } from './profile.js';
@@ -288,43 +288,53 @@ globalThis.sinew = page;
 
 // `sinew serve` says here that it runs the scene; a folder of files, that the page does, and which scenes it has
 const { engine: kind, scenes, opens } = await fetch('engine.json').then((answer) => (answer.ok ? answer.json() : {}));
+let open = async () => {
+  throw new Error('This program shows its own scene only.');
+};
 if (kind === 'socket') {
   const address = new URL('stage', document.baseURI);
   address.protocol = address.protocol === 'https:' ? 'wss:' : 'ws:';
   engine = socketEngine(address, receive, lost);
+  if (opens) open = (files) => upload(files, new URL('scene', document.baseURI));
   $('open').hidden = !opens;
 } else if (kind === 'worker') {
+  const run = async (start) => {
+    const next = await workerEngine(start, receive, lost);
+    engine?.close();
+    engine = next;
+    refused = '';
+    engine.begin();
+    return refused;
+  };
   const asked = new URLSearchParams(location.search).get('scene');
   const chosen = scenes.includes(asked) ? asked : scenes[0];
   $('scenes').replaceChildren(...scenes.map((name) => new Option(name, name, false, name === chosen)));
   $('scenes').addEventListener('change', () => location.assign(`?scene=${encodeURIComponent($('scenes').value)}`));
   $('scenes').hidden = false;
   $('title').hidden = true;
-  engine = workerEngine(chosen, receive, lost);
+  $('open').hidden = false;
+  run({ module: 'sinew', content: chosen }).catch((error) => engine || lost(error.message));
+  // with the module of scene files, which is loaded now; until it runs, the scene before does
+  open = async (files) => {
+    const notes = await run({ module: 'scenes', content: await files.arrayBuffer() });
+    $('scenes').value = '';
+    $('title').hidden = false;
+    return notes;
+  };
 } else {
   lost('This page has nothing that runs a scene: open it by the link of sinew serve, or build it with ./dev page.');
 }
-takeScenes(
-  $('files'),
-  {
-    address: kind === 'socket' && opens ? new URL('scene', document.baseURI) : null,
-    refusal:
-      kind === 'socket'
-        ? 'This program shows its own scene only.'
-        : 'This page runs the scenes of its list only. A scene file needs the program: start "sinew serve FILE", open its link, and drop scenes there.',
+takeScenes($('files'), (files) => open(files), {
+  waits(on) {
+    if (on) tell('The scene is opened.');
+    else if ($('message').textContent === 'The scene is opened.') tell('');
   },
-  {
-    waits(on) {
-      if (on) tell('The scene is opened.');
-      else if ($('message').textContent === 'The scene is opened.') tell('');
-    },
-    opened(notes) {
-      refused = notes;
-      showState();
-    },
-    failed(why) {
-      refused = why;
-      showState();
-    },
+  opened(notes) {
+    refused = notes;
+    showState();
   },
-);
+  failed(why) {
+    refused = why;
+    showState();
+  },
+});

@@ -18,10 +18,10 @@ export function readTopology(buffer) {
     const kind = words[at];
     const colour = [...new Float32Array(buffer, 4 * (at + 1), 3)];
     const [opacity] = new Float32Array(buffer, 4 * (at + 4), 1);
-    const [pathBytes, points, triangles, quads, edges, texture, texcoords] = words.subarray(at + 5, at + 12);
-    const [...specular] = new Float32Array(buffer, 4 * (at + 12), 3);
-    const [shininess] = new Float32Array(buffer, 4 * (at + 15), 1);
-    at += 16;
+    const [pathBytes, points, triangles, quads, edges, beyond, texture, texcoords] = words.subarray(at + 5, at + 13);
+    const [...specular] = new Float32Array(buffer, 4 * (at + 13), 3);
+    const [shininess] = new Float32Array(buffer, 4 * (at + 16), 1);
+    at += 17;
     const path = text.decode(new Uint8Array(buffer, 4 * at, pathBytes));
     at += Math.ceil(pathBytes / 4);
     const take = (count) => words.subarray(at, (at += count));
@@ -36,6 +36,7 @@ export function readTopology(buffer) {
       triangles: take(3 * triangles),
       quads: take(4 * quads),
       edges: take(2 * edges),
+      beyond: take(3 * beyond), // faces of other parts that meet those of this one
       texture: texture - 1, // -1: none
       specular,
       shininess,

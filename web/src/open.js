@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Scenes that are dropped onto the page, with the files and folders that they need: they go to the program that serves it.
+// Scenes that are dropped onto the page, with the files and folders that they need.
 
 export const most = { files: 64, bytes: 16 << 20 };
 
@@ -26,16 +26,19 @@ async function filesOf(transfer) {
   return found;
 }
 
-async function upload(files, address) {
+// the bytes that view/protocol.hpp reads: names and lengths, and behind them the files
+function packed(files) {
   if (!files.length) throw new Error('There is no file in what was dropped.');
   const bytes = files.reduce((sum, { file }) => sum + file.size, 0);
   if (bytes > most.bytes) throw new Error(`These files have ${(bytes / 1e6).toFixed(0)} MB; ${most.bytes >> 20} MB are allowed.`);
   const list = files.map(({ name, file }) => ({ name, bytes: file.size }));
-  const answer = await fetch(address, {
-    method: 'POST',
-    headers: { 'content-type': 'application/octet-stream' },
-    body: new Blob([`${JSON.stringify({ files: list })}\n`, ...files.map(({ file }) => file)]),
-  }).catch(() => {
+  return new Blob([`${JSON.stringify({ files: list })}\n`, ...files.map(({ file }) => file)]);
+}
+
+/** Gives them to the program at an address; what it noticed. */
+export async function upload(body, address) {
+  const headers = { 'content-type': 'application/octet-stream' };
+  const answer = await fetch(address, { method: 'POST', headers, body }).catch(() => {
     throw new Error('The program does not answer.');
   });
   const words = (await answer.text()).trim();
@@ -44,18 +47,17 @@ async function upload(files, address) {
 }
 
 /**
- * Takes what is dropped onto the page, or chosen by an input, and gives it to the program at an address; where there is none,
- * `refusal` says why. `tell.waits(on)`, `tell.opened(notes)`, `tell.failed(why)` hear what comes of it.
+ * Takes what is dropped onto the page, or chosen by an input, and gives its bytes to `open`, which promises to say what it noticed.
+ * `tell.waits(on)`, `tell.opened(notes)`, `tell.failed(why)` hear what comes of it.
  */
-export function takeScenes(input, { address, refusal }, tell) {
+export function takeScenes(input, open, tell) {
   let waits = false;
   async function take(files) {
     if (waits) return;
     waits = true;
     tell.waits(true);
     try {
-      if (!address) throw new Error(refusal);
-      tell.opened(await upload(await files, address));
+      tell.opened(await open(packed(await files)));
     } catch (error) {
       tell.failed(error.message);
     } finally {

@@ -41,9 +41,13 @@ export function edgesOf(body) {
 export class SmoothSurface {
   /**
    * `faces`: numbers of points, three each; `points`: x, y, z of each when it is first seen; `places`: numbers of what
-   * each corner has of its own, of which there may be several at a point, or none.
+   * each corner has of its own, of which there may be several at a point, or none; `beyond`: faces that are not drawn, which lie
+   * where the surface goes on.
    */
-  constructor(faces, points, places = null) {
+  constructor(own, points, places = null, beyond = []) {
+    const faces = new Uint32Array(own.length + beyond.length);
+    faces.set(own);
+    faces.set(beyond, own.length);
     const count = faces.length / 3;
     const normals = new Float32Array(faces.length); // of faces, of length 1
     for (let f = 0; f < count; ++f) {
@@ -60,6 +64,7 @@ export class SmoothSurface {
     faces.forEach((i, corner) => (corners[filled[i]++] = corner));
 
     this.index = new Uint32Array(faces.length);
+    this.drawn = this.index.subarray(0, own.length);
     const source = [];
     for (let i = 0; i + 1 < starts.length; ++i) {
       const around = corners.subarray(starts[i], starts[i + 1]);
@@ -96,7 +101,7 @@ export class SmoothSurface {
     const known = new Map();
     this.places = source.map(() => -1);
     const taken = new Set();
-    this.index.forEach((group, corner) => {
+    this.drawn.forEach((group, corner) => {
       const key = `${group} ${places[corner]}`;
       let v = known.get(key);
       if (v === undefined) {
@@ -107,7 +112,7 @@ export class SmoothSurface {
         this.places[v] = places[corner];
         known.set(key, v);
       }
-      this.index[corner] = v;
+      this.drawn[corner] = v;
     });
     this.groups = groups;
   }

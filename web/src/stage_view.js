@@ -12,21 +12,28 @@ import {
   LineSegments,
   Mesh,
   MeshPhongMaterial,
+  NoColors,
   PCFShadowMap,
   Points,
   PointsMaterial,
   Raycaster,
   RepeatWrapping,
   Scene,
+  ShaderChunk,
   Sphere,
-  SRGBColorSpace,
+  sRGBEncoding,
   Texture,
   Vector2,
   Vector3,
+  VertexColors,
   WebGLRenderer,
 } from 'three';
 import { OrbitCamera } from './camera.js';
 import { edgesOf, facesOf, SmoothSurface } from './smooth.js';
+
+// light is linear, and the canvas is not
+ShaderChunk.encodings_fragment = 'gl_FragColor = LinearTosRGB(gl_FragColor);';
+const linear = (...sRGB) => new Color(...sRGB).convertSRGBToLinear();
 
 // the colours of viridis (Smith, van der Walt 2015) at equal steps
 export const viridis = [
@@ -46,7 +53,7 @@ for (let i = 0; i < 257; ++i) {
   const at = (i / 255) * 8;
   const k = Math.min(Math.floor(at), 7);
   const mixed = i < 256 ? viridis[k].map((c, j) => (c + (at - k) * (viridis[k + 1][j] - c)) / 255) : [0.6, 0.6, 0.6];
-  new Color().setRGB(...mixed, SRGBColorSpace).toArray(shades, 3 * i);
+  linear(...mixed).toArray(shades, 3 * i);
 }
 function shade(value, colours, at) {
   const i = 3 * (value === value ? Math.round(255 * Math.min(1, Math.max(0, value))) : 256);
@@ -82,15 +89,19 @@ export class StageView {
   /** Throws where there is no WebGL 2. */
   constructor(canvas) {
     this.canvas = canvas;
-    this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
+    const context = canvas.getContext('webgl2', { antialias: true, alpha: true });
+    if (!context) throw new Error('its canvas has no context webgl2');
+    this.renderer = new WebGLRenderer({ canvas, context });
+    this.renderer.physicallyCorrectLights = true;
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = PCFShadowMap;
     this.scene = new Scene();
-    this.around = new HemisphereLight(0xffffff, 0xa8a29a, 1.5);
+    this.around = new HemisphereLight(0xffffff, linear(0xa8a29a), 1.5);
     this.light = new DirectionalLight(0xffffff, brightness);
     this.light.castShadow = true;
     this.light.shadow.mapSize.set(2048, 2048);
     this.light.shadow.radius = 3;
+    this.light.shadow.bias = -0.006; // of the depth, 3 radii of the scene
     this.scene.add(this.around, this.light, this.light.target);
     this.sphere = new Sphere(new Vector3(), 1);
   }
@@ -101,7 +112,7 @@ export class StageView {
     this.textures = files.map((file) => {
       const texture = new Texture();
       texture.wrapS = texture.wrapT = RepeatWrapping;
-      texture.colorSpace = SRGBColorSpace;
+      texture.encoding = sRGBEncoding;
       texture.flipY = false; // the image is turned over when it is read
       texture.anisotropy = 4;
       createImageBitmap(file, { imageOrientation: 'flipY' }).then((image) => {
@@ -119,7 +130,7 @@ export class StageView {
     this.topology = topology;
     this.bodies = topology.bodies.map((body) => ({
       ...body,
-      colour: new Color().setRGB(...body.colour, SRGBColorSpace),
+      colour: linear(...body.colour),
       visible: before.get(body.path) ?? body.visible,
       objects: [],
     }));
@@ -161,11 +172,11 @@ export class StageView {
     const faces = facesOf(body);
     if (faces.length) {
       const texture = this.textures[body.texture];
-      body.surface = new SmoothSurface(faces, points, texture ? facesOf(body.inTexture) : null);
+      body.surface = new SmoothSurface(faces, points, texture ? facesOf(body.inTexture) : null, body.beyond);
       const geometry = new BufferGeometry();
       geometry.setAttribute('position', changing(body.surface.positions));
       geometry.setAttribute('normal', changing(body.surface.normals));
-      geometry.setIndex(new BufferAttribute(body.surface.index, 1));
+      geometry.setIndex(new BufferAttribute(body.surface.drawn, 1));
       if (texture) geometry.setAttribute('uv', new BufferAttribute(this.#placesOf(body), 2));
       body.map = texture ?? null;
       const material = new MeshPhongMaterial({
@@ -245,7 +256,7 @@ export class StageView {
           const count = geometry.attributes.position.count;
           geometry.setAttribute('color', changing(new Float32Array(3 * count)));
         }
-        material.vertexColors = coloured && !isEdge;
+        material.vertexColors = coloured && !isEdge ? VertexColors : NoColors;
         if (object === body.mesh) material.map = coloured ? null : body.map;
         material.color.copy(isEdge ? (coloured ? dark : body.colour.clone().multiplyScalar(0.25)) : coloured ? white : body.colour);
         material.needsUpdate = true;
@@ -314,7 +325,6 @@ export class StageView {
     shade.near = 0.5 * radius;
     shade.far = 3.5 * radius;
     shade.updateProjectionMatrix();
-    this.light.shadow.normalBias = 0.02 * radius;
     this.around.position.copy(this.orbit.up);
     for (const body of this.bodies) if (body.dots) body.dots.material.size = this.#dotSize();
     this.renderer.render(this.scene, this.orbit.camera);

@@ -97,7 +97,7 @@ export class Tree {
       if (!body) continue;
       const swatch = document.createElement('button');
       swatch.className = 'swatch';
-      swatch.style.setProperty('--colour', body.colour.getStyle());
+      swatch.style.setProperty('--colour', body.colour.clone().convertLinearToSRGB().getStyle());
       swatch.title = 'Show or hide it';
       swatch.ariaLabel = `show ${line.path}`;
       swatch.ariaPressed = String(body.visible);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
 // Sinew as WebAssembly, in a thread of its own.
-import createSinew from '../engine/build/sinew.js';
 
 const share = 14; // of a frame [ms]
 const waiting = []; // commands, until it has started
@@ -15,9 +14,9 @@ function post() {
     else postMessage(new TextDecoder().decode(bytes));
   }
 }
-// a function of text
-function call(name, text) {
-  const bytes = new TextEncoder().encode(text);
+// a function of text, or of bytes
+function call(name, content) {
+  const bytes = typeof content === 'string' ? new TextEncoder().encode(content) : new Uint8Array(content);
   const at = sinew._malloc(bytes.length || 1);
   sinew.HEAPU8.set(bytes, at);
   const result = sinew[name](at, bytes.length);
@@ -52,12 +51,13 @@ onmessage = async ({ data }) => {
     waiting.push(data);
     return soon();
   }
-  const packed = await fetch('sinew.bin');
-  if (!packed.ok) throw new Error('sinew.bin is not beside the page; build the page again.');
+  const { default: create } = await import(`./${data.module}.js`);
+  const packed = await fetch(`${data.module}.bin`);
+  if (!packed.ok) throw new Error(`${data.module}.bin is not beside the page; build the page again.`);
   const unpacked = new Response(packed.body.pipeThrough(new DecompressionStream('gzip')));
-  sinew = await createSinew({ wasmBinary: await unpacked.arrayBuffer() });
-  const starts = call('_sinew_start', data.start);
+  sinew = await create({ wasmBinary: await unpacked.arrayBuffer(), print() {}, printErr() {} });
+  const started = !!call('_sinew_start', data.content);
   post();
-  if (starts) soon();
-  else sinew = null;
+  postMessage({ started });
+  if (started) soon();
 };

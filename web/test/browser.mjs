@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
-// A browser that nobody sees, driven by the DevTools protocol.
+// A browser that nobody sees, driven by the DevTools protocol through a pipe: messages of JSON that end with 0.
 import { spawn } from 'node:child_process';
 import { mkdtemp, rm } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import WebSocket from 'ws';
 
 /** Starts Chromium with software rendering and opens a page of a size. */
 export async function openPage(address, { width = 1280, height = 800, ratio = 1 } = {}) {
@@ -22,29 +21,35 @@ export async function openPage(address, { width = 1280, height = 800, ratio = 1 
       '--no-first-run',
       '--disable-background-networking',
       `--user-data-dir=${profile}`,
-      '--remote-debugging-port=0',
+      '--remote-debugging-pipe',
       'about:blank',
     ],
-    { stdio: ['ignore', 'ignore', 'pipe'] },
+    { stdio: ['ignore', 'ignore', 'pipe', 'pipe', 'pipe'] },
   );
-  const endpoint = await new Promise((resolve, reject) => {
-    let said = '';
-    chromium.stderr.on('data', (data) => {
-      said += data;
-      const found = said.match(/DevTools listening on (ws:\S+)/);
-      if (found) resolve(found[1]);
-    });
-    chromium.on('error', reject);
-    chromium.on('exit', () => reject(new Error(`chromium has ended:\n${said}`)));
-  });
-  const socket = new WebSocket(endpoint, { perMessageDeflate: false, maxPayload: 1 << 28 });
-  await new Promise((resolve, reject) => socket.on('open', resolve).on('error', reject));
+  let cries = ''; // of the browser itself
+  chromium.stderr.on('data', (data) => (cries += data));
+  chromium.on('error', (error) => over(error));
+  chromium.on('exit', () => over(new Error(`chromium has ended:\n${cries}`)));
+  const [, , , toBrowser, fromBrowser] = chromium.stdio;
+  toBrowser.on('error', () => {}); // it has ended
   const answers = new Map();
   const messages = []; // of the console, and errors
   let number = 0;
   let session;
-  socket.on('message', (data) => {
-    const said = JSON.parse(data);
+  function over(error) {
+    for (const { reject } of answers.values()) reject(error);
+    answers.clear();
+  }
+  const parts = []; // of a message
+  fromBrowser.on('data', (data) => {
+    for (let end = data.indexOf(0); end >= 0; end = data.indexOf(0)) {
+      parts.push(data.subarray(0, end));
+      hear(JSON.parse(Buffer.concat(parts.splice(0))));
+      data = data.subarray(end + 1);
+    }
+    parts.push(data);
+  });
+  function hear(said) {
     if (said.id) {
       const { resolve, reject } = answers.get(said.id);
       answers.delete(said.id);
@@ -57,11 +62,11 @@ export async function openPage(address, { width = 1280, height = 800, ratio = 1 
     } else if (said.method === 'Log.entryAdded') {
       messages.push(said.params.entry.text);
     }
-  });
+  }
   const ask = (method, params = {}) =>
     new Promise((resolve, reject) => {
       answers.set(++number, { resolve, reject });
-      socket.send(JSON.stringify({ id: number, method, params, sessionId: session }));
+      toBrowser.write(`${JSON.stringify({ id: number, method, params, sessionId: session })}\0`);
     });
   const { targetId } = await ask('Target.createTarget', { url: 'about:blank' });
   session = (await ask('Target.attachToTarget', { targetId, flatten: true })).sessionId;
@@ -111,7 +116,6 @@ export async function openPage(address, { width = 1280, height = 800, ratio = 1 
     async close() {
       const ended = new Promise((resolve) => chromium.on('exit', resolve));
       await ask('Browser.close').catch(() => chromium.kill());
-      socket.close();
       await ended;
       await rm(profile, { recursive: true, force: true, maxRetries: 5 });
     },

@@ -8,6 +8,7 @@ import { tmpdir } from 'node:os';
 import { dirname, extname, join, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { parseArgs } from 'node:util';
+import { SmoothSurface } from '../src/smooth.js';
 import { openPage } from './browser.mjs';
 
 const { values: options } = parseArgs({
@@ -299,10 +300,7 @@ usemtl image\nf 1/1 2/2 3/3 4/4\nusemtl plain\nf 2 5 6 3\n`,
 
 async function served() {
   console.log('the page of sinew serve');
-  const folder = mkdtempSync(join(tmpdir(), 'sinew-native-'));
-  execFileSync(options.program, ['run', scene, '--steps', '20', '--every', '20', '--vtk', folder, '--quiet']);
-  const native = visual(folder);
-  rmSync(folder, { recursive: true });
+  const native = nativeLiver();
   const program = spawn(options.program, ['serve', scene, '--port', '0'], { stdio: ['ignore', 'pipe', 'inherit'] });
   try {
     const link = await new Promise((done) => program.stdout.once('data', (data) => done(String(data).split('\n')[0])));
@@ -319,6 +317,14 @@ async function served() {
   const status = await new Promise((done) => (program.exitCode === null ? program.on('exit', done) : done(program.exitCode)));
   check(status === 0, `sinew serve ends: ${status}`);
 }
+// the skin of the scene after 20 steps of the program
+function nativeLiver() {
+  const folder = mkdtempSync(join(tmpdir(), 'sinew-native-'));
+  execFileSync(options.program, ['run', scene, '--steps', '20', '--every', '20', '--vtk', folder, '--quiet']);
+  const points = visual(folder);
+  rmSync(folder, { recursive: true });
+  return points;
+}
 // the points of the visual model in the last file of a series, of which --vtk writes one for each body
 function visual(folder) {
   const last = readdirSync(folder, { recursive: true })
@@ -334,9 +340,11 @@ function visual(folder) {
 async function alone() {
   console.log('the page as a folder of files');
   const files = readdirSync(options.alone);
-  const size = files.reduce((sum, file) => sum + statSync(join(options.alone, file)).size, 0);
-  console.log(`  ${(size / 1e6).toFixed(2)} MB`);
-  check(size < 1.5e6, 'it is below 1.5 MB');
+  const sizeOf = (some) => some.reduce((sum, file) => sum + statSync(join(options.alone, file)).size, 0) / 1e6;
+  const later = files.filter((file) => file.startsWith('scenes.')); // when a scene is dropped
+  const first = sizeOf(files) - sizeOf(later);
+  console.log(`  ${first.toFixed(2)} MB, and for scene files ${sizeOf(later).toFixed(2)} MB`);
+  check(first < 1.5 && later.length === 2, 'it is below 1.5 MB');
   const types = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.json': 'application/json', '.svg': 'image/svg+xml', '.txt': 'text/plain' };
   const server = createServer((request, answer) => {
     const file = new URL(request.url, 'http://localhost').pathname.slice(1) || 'index.html';
@@ -351,12 +359,7 @@ async function alone() {
     await use(page, 'alone', native);
     // without drawing, which software does here on the same processor
     await page.evaluate('sinew.view.draw = () => {}');
-    await page.evaluate(`sinew.send({ do: 'speed', times: 0 }), sinew.send({ do: 'play', on: true })`);
-    let most = 0;
-    for (let k = 0; k < 5; ++k) {
-      await pause(1);
-      most = Math.max(most, await page.evaluate('sinew.state.stepsPerSecond'));
-    }
+    const most = await speed(page);
     console.log(`  ${most.toFixed(0)} steps/s`);
     check(most > 500, 'it makes 500 steps a second');
     // the other scene: the tool moves by itself
@@ -369,10 +372,7 @@ async function alone() {
     const to = await page.evaluate(tool);
     check(Math.hypot(...to.map((x, k) => x - from[k])) > 0.001, 'the tool of the vitrectomy moves');
     keep('vitrectomy.png', await page.picture());
-    // without the program it opens no scenes, and says so
-    check(await page.evaluate(`document.getElementById('open').hidden`), 'there is nothing to choose');
-    await drop(page, { 'ball.scn': ball });
-    await page.until(`document.getElementById('error').textContent.includes('needs the program')`);
+    await opensAlone(page);
     check(page.messages.length === 0, `the console is empty: ${page.messages.join('\n')}`);
   } finally {
     await page.close();
@@ -380,6 +380,81 @@ async function alone() {
   }
 }
 
+// scene files, by the module that is loaded for them; what is wrong with one is said, and the scene before goes on
+async function opensAlone(page) {
+  const said = (words) => page.until(`document.getElementById('error').textContent.includes(${JSON.stringify(words)})`, 60);
+  const goesOn = async () => {
+    const { step } = await page.evaluate('sinew.state');
+    await page.evaluate(`sinew.send({ do: 'step' })`);
+    await page.until(`sinew.state.step > ${step} && document.getElementById('error').hidden`);
+  };
+  const wrong = async (files, words) => {
+    await drop(page, files);
+    await said(words);
+    await goesOn();
+  };
+  const text = readFileSync(scene, 'utf8');
+  const mesh = readFileSync(join(root, 'examples/scenes/data/organ.obj'), 'utf8');
+  let seed = 1;
+  const noise = Array.from({ length: 5000 }, () => (seed = (48271 * seed) % 2147483647) % 256);
+  await page.evaluate(`sinew.send({ do: 'play', on: false })`);
+  await page.until('!sinew.state.playing');
+  check(!(await page.evaluate(`document.getElementById('open').hidden`)), 'scenes can be chosen');
+  await wrong({ 'a.scn': '<Node>\n<EulerSolverr/></Node>' }, 'a.scn:2:');
+  await wrong({ 'a.scn': '<Node>\n<MechanicalObject</Node>' }, 'a.scn:2:');
+  await wrong({ 'a.scn': '<Node>\n<SPHFluidForceField/></Node>' }, 'SPHFluidForceField');
+  await wrong({ 'a.scn': '<Node>'.repeat(300000) }, 'a.scn:1:');
+  await wrong({ 'a.scn': noise }, 'a.scn:1:');
+  await wrong({ 'organ.obj': mesh }, 'there is no scene among the files');
+  await wrong({ 'liver.scn': text }, `there is no file 'data/organ.obj'; drop it along with the scene`);
+  await wrong({ 'liver.scn': text, 'organ.obj': noise }, 'organ.obj');
+  check(await page.evaluate(`sinew.tree.some((line) => line.name === 'tool')`), 'the scene before is still there');
+
+  // the mesh beside the scene, which looks for it in a folder
+  await drop(page, { 'liver.scn': text, 'organ.obj': mesh });
+  await page.until(`document.getElementById('title').textContent === 'liver.scn' && sinew.state.step === 0 && sinew.view.frame`, 60);
+  for (let step = 1; step <= 20; ++step) await page.key('n');
+  await page.until('sinew.state.step === 20 && sinew.view.frame.step === 20', 60);
+  if (options.program) compare(await page.evaluate(skin), nativeLiver(), 'a scene file after 20 steps');
+  keep('alone-dropped.png', await page.picture());
+  await page.evaluate('sinew.view.draw = () => {}');
+  console.log(`  ${(await speed(page)).toFixed(0)} steps/s of it`);
+  // and another one in its place
+  await drop(page, { 'ball.scn': ball });
+  await page.until(`document.getElementById('title').textContent === 'ball.scn' && sinew.view.frame?.positions.length === 6`, 60);
+  await goesOn();
+  await page.evaluate('delete sinew.view.draw');
+  await textures(page);
+}
+// the most steps a second of some seconds
+async function speed(page) {
+  await page.evaluate(`sinew.send({ do: 'speed', times: 0 }), sinew.send({ do: 'play', on: true })`);
+  let most = 0;
+  for (let k = 0; k < 5; ++k) {
+    await pause(1);
+    most = Math.max(most, await page.evaluate('sinew.state.stepsPerSecond'));
+  }
+  return most;
+}
+
+// two faces that meet at 20 degrees have one normal where they meet, also where each is a part of its own
+function borders() {
+  const angle = Math.PI / 9;
+  const points = new Float32Array([0, 0, 0, 1, 0, 0, 0, 1, 0, 0, -Math.cos(angle), Math.sin(angle)]);
+  const faces = [Uint32Array.of(0, 1, 2), Uint32Array.of(1, 0, 3)];
+  const normalsOf = (surface, corners) => [...corners].map((v) => [...surface.normals.subarray(3 * v, 3 * v + 3)]);
+  const whole = new SmoothSurface(Uint32Array.of(...faces[0], ...faces[1]), points);
+  const expected = normalsOf(whole, whole.drawn);
+  check(Math.abs(expected[0][1]) > 0.1 && expected[2][1] === 0, 'the normal at the edge is between those of the faces');
+  for (const places of [null, Uint32Array.of(2, 1, 0)])
+    faces.forEach((own, f) => {
+      const part = new SmoothSurface(own, points, places, faces[1 - f]);
+      const normals = normalsOf(part, part.drawn);
+      check(part.drawn.length === 3 && normals.flat().every((x, k) => x === expected.flat()[9 * f + k]), 'a border is smooth');
+    });
+}
+
+borders();
 if (options.program) await served();
 if (options.alone) await alone();
 console.log(`${checks} checks passed`);

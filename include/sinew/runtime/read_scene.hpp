@@ -23,7 +23,8 @@ namespace detail {
 template <class R>
 class SceneReader {
  public:
-  SceneReader(ReadSceneOptions const& options) : options_(options), xml_(options.dataPaths) {}
+  SceneReader(ReadSceneOptions const& options)
+      : options_(options), xml_(options.dataPaths, options.missing) {}
 
   ReadScene<R> read(std::string const& path) { return build(xml_.read(path)); }
   ReadScene<R> parse(std::string const& path, std::string content) {

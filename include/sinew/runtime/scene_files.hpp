@@ -17,6 +17,7 @@ struct ReadSceneOptions {
   std::vector<std::string> dataPaths{};  // where files are looked for that are not beside the scene
   bool lenient = false;                  // an unknown class is a warning
   std::vector<std::pair<std::string, std::string>> set{};  // "liver/fem.youngModulus" and its value
+  std::string missing{};  // what to do about a file that is not there; else the name or --data is to blame
 };
 
 /// A scene file as a runtime tree, and what was noticed on the way.

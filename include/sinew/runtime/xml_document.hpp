@@ -111,7 +111,8 @@ class XmlReader {
   static constexpr int maxDepth = 200, maxIncludes = 16;
 
   /// Where files are looked for that do not stand beside the scene.
-  explicit XmlReader(std::vector<std::string> dataPaths = {}) : dataPaths_(std::move(dataPaths)) {}
+  explicit XmlReader(std::vector<std::string> dataPaths = {}, std::string missing = {})
+      : dataPaths_(std::move(dataPaths)), missing_(std::move(missing)) {}
 
   XmlElement read(std::string const& path) { return parse(path, io::read_file(path)); }
 
@@ -178,6 +179,7 @@ class XmlReader {
     };
     if (name.starts_with('/')) {
       if (exists(name)) return name;
+      if (!missing_.empty()) throw Error("", text("there is no file ", detail::shown(name), "; ", missing_));
       throw Error("", text("there is no file ", detail::shown(name), "; correct the path"));
     }
     std::string looked = folder.empty() ? "the working folder" : folder;
@@ -187,6 +189,7 @@ class XmlReader {
       if (exists(path)) return path;
       looked += text(", ", data);
     }
+    if (!missing_.empty()) throw Error("", text("there is no file ", detail::shown(name), "; ", missing_));
     throw Error("",
                 text("there is no file ",
                      detail::shown(name),
@@ -197,6 +200,7 @@ class XmlReader {
 
  private:
   std::vector<std::string> dataPaths_, including_{};
+  std::string missing_;  // what to do about a file that is not there
   std::size_t elements_ = 0;
 
   void convert(pugi::xml_node const& node, char const* buffer, std::shared_ptr<XmlFile const> const& file,

@@ -158,10 +158,10 @@ void tell(Stage& stage, Command const& said, Answer const& answer) {
 /// The elements of what is seen, known by a number; of its points only how many there are. Words of four
 /// bytes, the lowest first: 1 for a topology, its number, three floats upwards, how many bodies; for each
 /// body its kind (SeenBody::Kind, and 4 more where it is hidden), three floats of its colour and one of its
-/// opacity, lengths of path [bytes], points, triangles, quads, edges; its texture, counted from 1, or 0; how
-/// many texcoords; three floats of what is mirrored, and one of its exponent; the path, filled up to a word,
-/// the numbers of the points of each element, and where it has texcoords two floats of each, and their
-/// numbers at the corners of each triangle and quad, -1 for none.
+/// opacity, lengths of path [bytes], points, triangles, quads, edges, triangles beyond its border; its
+/// texture, counted from 1, or 0; how many texcoords; three floats of what is mirrored, and one of its
+/// exponent; the path, filled up to a word, the numbers of the points of each element, and where it has
+/// texcoords two floats of each, and their numbers at the corners of each triangle and quad, -1 for none.
 std::string write_topology(SeenScene const& scene, std::uint32_t number);
 /// The textures of the bodies of a scene, each once, as topologies count them: the words 3 and how many there
 /// are; for each its length [bytes] and a file PNG or JPEG, filled up to a word.
@@ -194,6 +194,11 @@ std::vector<SceneFile> read_upload(std::string_view bytes);
 /// Which of them is the scene: the one that ends in .scn, or else in .xml. Throws Error where none is, or
 /// several are.
 std::size_t scene_among(std::vector<SceneFile> const& files);
+/// The same files; and one that stands outside of the folder in which a scene among them looks for it, as it
+/// does when a few files are dropped together, is there, too.
+std::vector<SceneFile> placed(std::vector<SceneFile> files);
+/// What to do about a file that is none of them.
+inline constexpr char const* missingFile = "drop it along with the scene";
 
 /// Messages for scenes that follow each other: their topology again only when it has changed.
 class SceneWriter {

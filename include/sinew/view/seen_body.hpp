@@ -27,7 +27,8 @@ struct SeenBody {
   std::vector<Triangle> triangles{};
   std::vector<Quad> quads{};
   std::vector<Edge> edges{};
-  std::vector<double> values{};           // of the quantity that colours show, one a point; or none
+  std::vector<Triangle> beyond{};  // of a surface of which this is a part: faces of others that meet its own
+  std::vector<double> values{};    // of the quantity that colours show, one a point; or none
   Eigen::Vector3d colour{0.5, 0.5, 0.5};  // red, green, blue from 0 to 1
   double opacity = 1;                     // what is behind shows through where it is less
   SurfaceLooks inTexture{};               // texcoords of the corners of all triangles and quads; or none
@@ -53,26 +54,28 @@ struct SeenBody {
 
 namespace detail {
 
-// Those faces of a body that `is` says, and their points. Faces are counted through all triangles, then
-// quads.
+// Those faces of a body that `is` says, and their points; behind these the points of other faces that meet
+// them, so that normals do not end where the part does. Faces are counted through all triangles, then quads.
 template <class Is>
 SeenBody part_of(SeenBody const& body, Is&& is) {
   SeenBody part{.path = body.path, .kind = body.kind};
   std::vector<Index> now(body.points.size(), -1);
+  auto renumbered = [&](auto face) {
+    for (Index& i : face) {
+      Index& number = now[std::size_t(i)];
+      if (number < 0) {
+        number = Index(part.points.size());
+        part.points.push_back(body.points[std::size_t(i)]);
+        if (!body.values.empty()) part.values.push_back(body.values[std::size_t(i)]);
+      }
+      i = number;
+    }
+    return face;
+  };
   auto take = [&](auto const& faces, auto const& corners, std::size_t first, auto& to, auto& cornersTo) {
     for (std::size_t f = 0; f < faces.size(); ++f) {
       if (!is(first + f)) continue;
-      auto face = faces[f];
-      for (Index& i : face) {
-        Index& number = now[std::size_t(i)];
-        if (number < 0) {
-          number = Index(part.points.size());
-          part.points.push_back(body.points[std::size_t(i)]);
-          if (!body.values.empty()) part.values.push_back(body.values[std::size_t(i)]);
-        }
-        i = number;
-      }
-      to.push_back(face);
+      to.push_back(renumbered(faces[f]));
       if (!corners.empty()) cornersTo.push_back(corners[f]);
     }
   };
@@ -80,6 +83,17 @@ SeenBody part_of(SeenBody const& body, Is&& is) {
   take(body.quads, body.inTexture.quads, body.triangles.size(), part.quads, part.inTexture.quads);
   if (!part.inTexture.triangles.empty() || !part.inTexture.quads.empty())
     part.inTexture.texcoords = body.inTexture.texcoords;
+  const std::vector<Index> own = now;
+  auto meet = [&](Triangle const& t) {
+    if (std::any_of(t.begin(), t.end(), [&](Index i) { return own[std::size_t(i)] >= 0; }))
+      part.beyond.push_back(renumbered(t));
+  };
+  for (std::size_t f = 0; f < body.triangles.size(); ++f)
+    if (!is(f)) meet(body.triangles[f]);
+  for (std::size_t f = 0; f < body.quads.size(); ++f) {
+    auto const& [a, b, c, d] = body.quads[f];
+    if (!is(body.triangles.size() + f)) meet({a, b, c}), meet({a, c, d});
+  }
   return part;
 }
 

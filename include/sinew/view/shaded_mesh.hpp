@@ -69,17 +69,24 @@ namespace detail {
 /// The faces of a body with the normal of each corner: of the faces at its point, by their areas, those that
 /// meet its own at less than 40 degrees, so that round surfaces look round and edges stay sharp. Corners at
 /// one point with one normal are one. Corner i is at point i; those behind are more of points at edges.
+/// Behind `count` faces stand those that lie beyond the border of the body, which only normals see; their own
+/// points are behind all others.
 template <class ColourOf>
 class SmoothFaces {
  public:
   SmoothFaces(std::vector<Eigen::Vector3d> const& points, std::vector<Triangle> const& faces,
-              ColourOf const& colourOf, ShadedMesh& mesh)
-      : points_(points), faces_(faces), colourOf_(colourOf), mesh_(mesh) {
+              std::size_t count, ColourOf const& colourOf, ShadedMesh& mesh)
+      : points_(points), faces_(faces), colourOf_(colourOf), mesh_(mesh), seen_(points.size()) {
+    if (count < faces.size()) {
+      seen_ = 0;
+      for (std::size_t f = 0; f < count; ++f)
+        for (const Index i : faces[f]) seen_ = std::max(seen_, std::size_t(i) + 1);
+    }
     measure();
     findEdges();
     addPoints();
-    mesh.triangles.reserve(3 * faces.size());
-    for (std::size_t f = 0; f < faces.size(); ++f)
+    mesh.triangles.reserve(3 * count);
+    for (std::size_t f = 0; f < count; ++f)
       if (std::isfinite(lengths_[f]))
         for (const Index i : faces[f])
           mesh.triangles.push_back(atEdge_[std::size_t(i)] ? cornerOf(f, std::size_t(i)) : unsigned(i));
@@ -98,6 +105,7 @@ class SmoothFaces {
   std::vector<Triangle> const& faces_;
   ColourOf const& colourOf_;
   ShadedMesh& mesh_;
+  std::size_t seen_;                      // points of faces that are seen
   std::vector<Eigen::Vector3d> areas_{};  // of faces, twice, along the normal
   std::vector<double> lengths_{};
   std::vector<Eigen::Vector3d> normals_{};     // of points: of the sum of the areas there
@@ -144,13 +152,13 @@ class SmoothFaces {
     std::vector<int> next(first_.begin(), first_.end() - 1);
     each([&](int f, std::size_t i) { around_[std::size_t(next[i]++)] = f; });
     cornerAt_.assign(points_.size(), none);
-    next_.assign(points_.size(), none);
+    next_.assign(seen_, none);
   }
   void addPoints() {
-    mesh_.corners.reserve(points_.size());
-    mesh_.normals.reserve(points_.size());
-    mesh_.colours.reserve(points_.size());
-    for (std::size_t i = 0; i < points_.size(); ++i) mesh_.add(points_[i], normals_[i], colourOf_(i));
+    mesh_.corners.reserve(seen_);
+    mesh_.normals.reserve(seen_);
+    mesh_.colours.reserve(seen_);
+    for (std::size_t i = 0; i < seen_; ++i) mesh_.add(points_[i], normals_[i], colourOf_(i));
   }
   unsigned cornerOf(std::size_t face, std::size_t i) {
     static const double limit = std::cos(40 * std::numbers::pi / 180);
@@ -225,7 +233,8 @@ class ShadedBody {
                     .colour = body.colour};
     const bool sameElements = look_ && look.asLines == look_->asLines && look.outlined == look_->outlined &&
                               body.triangles == seen_.triangles && body.quads == seen_.quads &&
-                              body.edges == seen_.edges && body.inTexture == seen_.inTexture;
+                              body.edges == seen_.edges && body.beyond == seen_.beyond &&
+                              body.inTexture == seen_.inTexture;
     if (sameElements && look == *look_ && body.points == seen_.points && body.values == seen_.values)
       return false;
     seen_ = body;
@@ -249,6 +258,7 @@ class ShadedBody {
   SeenBody seen_{};
   std::optional<Look> look_{};
   std::vector<Triangle> faces_{}, inTexture_{};
+  std::size_t own_ = 0;  // of the faces; the others lie beyond the border
   std::vector<Edge> edges_{};
   std::vector<unsigned> casters_{};
   ShadedMesh mesh_{};
@@ -261,6 +271,8 @@ class ShadedBody {
       return triangles;
     };
     faces_ = triangulated(seen_.triangles, seen_.quads);
+    own_ = faces_.size();
+    faces_.insert(faces_.end(), seen_.beyond.begin(), seen_.beyond.end());
     inTexture_ = triangulated(seen_.inTexture.triangles, seen_.inTexture.quads);
     edges_ = seen_.edges;
     auto outline = [&](auto const& face) {
@@ -290,7 +302,8 @@ class ShadedBody {
         known[i] = cells.try_emplace({int(at[0]), int(at[1]), int(at[2])}, known[i]).first->second;
     }
     casters_.clear();
-    for (auto const& [a, b, c] : faces_) {
+    for (std::size_t f = 0; f < own_; ++f) {
+      auto const& [a, b, c] = faces_[f];
       const unsigned i = known[std::size_t(a)], j = known[std::size_t(b)], k = known[std::size_t(c)];
       if (i != j && j != k && k != i) casters_.insert(casters_.end(), {i, j, k});
     }
@@ -304,8 +317,8 @@ class ShadedBody {
     };
     const bool shaded = !look_->asLines && !faces_.empty();
     if (shaded) {
-      detail::SmoothFaces faces(seen_.points, faces_, colourOf, mesh_);
-      if (look_->textured && inTexture_.size() == faces_.size())
+      detail::SmoothFaces faces(seen_.points, faces_, own_, colourOf, mesh_);
+      if (look_->textured && inTexture_.size() == own_)
         detail::add_texcoords(seen_.inTexture.texcoords, faces.of(inTexture_), mesh_);
       mesh_.casters = casters_;
     }

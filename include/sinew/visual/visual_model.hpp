@@ -26,6 +26,7 @@ struct VisualModel {
   std::string materialNames{};
   std::vector<Index> faceMaterials{};
   std::string materialLibrary{};
+  Eigen::Vector2d scaleTex{1, 1}, translationTex{0, 0};
 
   static constexpr auto fields() {
     using V = VisualModel;
@@ -48,7 +49,9 @@ struct VisualModel {
         field("materialLibrary",
               &V::materialLibrary,
               "",
-              "the file (.mtl) that has the materials, which pictures look for"));
+              "the file (.mtl) that has the materials, which pictures look for"),
+        field("scaleTex", &V::scaleTex, "", "texcoords are first times this: the image is repeated so often"),
+        field("translationTex", &V::translationTex, "", "and then shifted by this"));
   }
 
   VecCoord position{};
@@ -109,7 +112,9 @@ SINEW_ONCE SurfaceLooks VisualModel::looks() const {
     return {.materials = names_of_words(materialNames),
             .faceMaterials = faceMaterials,
             .library = materialLibrary};
-  return {.texcoords = texcoords,
+  std::vector<Eigen::Vector2d> placed = texcoords;
+  for (Eigen::Vector2d& t : placed) t = t.cwiseProduct(scaleTex) + translationTex;
+  return {.texcoords = std::move(placed),
           .triangles = ofVertices ? mesh.triangles : textureTriangles,
           .quads = ofVertices ? mesh.quads : textureQuads,
           .materials = names_of_words(materialNames),
@@ -117,7 +122,9 @@ SINEW_ONCE SurfaceLooks VisualModel::looks() const {
           .library = materialLibrary};
 }
 SINEW_ONCE void VisualModel::setLooks(SurfaceLooks looks) {
-  texcoords = std::move(looks.texcoords);
+  texcoords = std::move(looks.texcoords);  // as they are to be
+  scaleTex.setOnes();
+  translationTex.setZero();
   textureTriangles = std::move(looks.triangles);
   textureQuads = std::move(looks.quads);
   materialNames = words_of_names(looks.materials);
@@ -128,6 +135,8 @@ SINEW_ONCE void VisualModel::setLooks(SurfaceLooks looks) {
 SINEW_ONCE std::string VisualModel::wrongLooks() const {
   for (Eigen::Vector2d const& t : texcoords)
     if (!t.allFinite()) return "texcoords has a number that is not finite; correct it";
+  if (!scaleTex.allFinite()) return "scaleTex has a number that is not finite; correct it";
+  if (!translationTex.allFinite()) return "translationTex has a number that is not finite; correct it";
   const bool ofVertices = textureTriangles.empty() && textureQuads.empty();
   if (ofVertices && !texcoords.empty() && texcoords.size() != mesh.positions.size())
     return text("texcoords has ",

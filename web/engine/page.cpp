@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// Sinew in a page: the worker calls these functions. A stage without a thread does what it is told, and what
-// it has to say waits as messages of view/protocol.hpp.
+// Sinew in a page: the worker calls these functions, the same for each module. A stage without a thread does
+// what it is told, and what it has to say waits as messages of view/protocol.hpp.
 #include "running.hpp"
 
 #include <sinew/view/protocol.hpp>
@@ -52,21 +52,16 @@ struct Shown {
 };
 std::unique_ptr<Shown> shown;
 
-page::Running run(std::string_view name) {
-  if (name == "liver") return page::run_liver();
-  if (name == "vitrectomy") return page::run_vitrectomy();
-  throw Error("page", text("there is no scene '", name, "'; there are liver and vitrectomy"));
-}
-
 }  // namespace
 
 extern "C" {
 
-/// Starts the scene of a name. False where it does not start; the message says why.
-EMSCRIPTEN_KEEPALIVE bool sinew_start(char const* name, std::size_t size) try {
-  shown = std::make_unique<Shown>(Shown{run({name, size})});
+/// Starts what the module knows by these bytes. False where it does not start; the message says why.
+EMSCRIPTEN_KEEPALIVE bool sinew_start(char const* bytes, std::size_t size) try {
+  shown = std::make_unique<Shown>(Shown{page::run({bytes, size})});
   say(view::write_scene(shown->scene.name, shown->scene.stage->dt(), shown->scene.stage->tree));
   shown->look();
+  if (!shown->scene.notes.empty()) say(view::write_error(shown->scene.notes));
   return true;
 } catch (std::exception const& error) {
   say(view::write_error(error.what()));
