@@ -175,15 +175,15 @@ TEST_CASE(
   const auto parts = normals(bodies);
   REQUIRE(parts.size() == 6 * around * (along - 1));
   REQUIRE(whole.size() == parts.size());
-  for (auto const& [place, normal] : whole) {
+  for (auto const& corner : whole) {
     // the middle is a sum of other points in another order
     const auto found = std::find_if(parts.begin(), parts.end(), [&](auto const& one) {
       float apart = 0;
-      for (std::size_t k = 0; k < 6; ++k) apart += std::abs(one.first[k] - place[k]);
+      for (std::size_t k = 0; k < 6; ++k) apart += std::abs(one.first[k] - corner.first[k]);
       return apart < 1e-4f;
     });
     REQUIRE(found != parts.end());
-    CHECK((found->second - normal).norm() < 1e-5f);
+    CHECK((found->second - corner.second).norm() < 1e-5f);
   }
 }
 
