@@ -92,7 +92,7 @@ struct SPHFluidForceField {
   BoundaryParticles boundary{};
   std::string where{};
   std::size_t most = 0;  // particles of the fluid at one time
-  SphDriver<D> driver{};
+  SphDriver<D> particles{};
 
   void init(InitContext<D> const& context) {
     where = text(context.where, ": ", component_name<SPHFluidForceField>());
@@ -104,7 +104,7 @@ struct SPHFluidForceField {
     most = std::max(most, points);
     reserveForBoundary();
   }
-  void reserveForBoundary() { driver.reserve(most + boundary.size()); }
+  void reserveForBoundary() { particles.reserve(most + boundary.size()); }
 
   /// Shared among threads in three passes: the order of the particles, densities, forces.
   static constexpr bool sharesWork = SphDriver<D>::sharesWork;
@@ -116,11 +116,11 @@ struct SPHFluidForceField {
     const bool whole = p.share.count == 1;
     withLaw([&](auto const& law) {
       if (whole || (p.share.pass == 0 && p.share.index == 0)) {
-        driver.sort(law, x, boundary, radius, where);
-        driver.takeVelocities(v, boundary);
+        particles.sort(law, x, boundary, radius, where);
+        particles.takeVelocities(v, boundary);
       }
-      if (whole || p.share.pass == 1) driver.findDensities(law, p.share);
-      if (whole || p.share.pass == 2) driver.addForces(law, p.share, f, boundary);
+      if (whole || p.share.pass == 1) particles.findDensities(law, p.share);
+      if (whole || p.share.pass == 2) particles.addForces(law, p.share, f, boundary);
     });
   }
   void addDForce(MechanicalParams const&, VecDeriv&, VecDeriv const&) const {}
@@ -133,9 +133,9 @@ struct SPHFluidForceField {
     if (pressureType == 0) return 0;
     double energy = 0;
     withLaw([&](auto const& law) {
-      driver.sort(law, x, boundary, radius, where);
-      driver.findDensities(law, {});
-      energy = driver.energy(law);
+      particles.sort(law, x, boundary, radius, where);
+      particles.findDensities(law, {});
+      energy = particles.energy(law);
     });
     return energy;
   }

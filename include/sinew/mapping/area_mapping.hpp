@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <sinew/mapping/measures.hpp>
+#include <sinew/mapping/measure_driver.hpp>
 
 #include <Eigen/Geometry>
 #include <array>
@@ -66,7 +66,7 @@ struct AreaMapping {
       return m;
     }
   };
-  Measures<In, Out, Measure> measures{};
+  MeasureDriver<In, Out, Measure> measures{};
 
   /// Throws Error where there are no triangles, or a child has another number of points.
   void init(InitContext<In> const& parent, InitContext<Out> const& child, typename Out::VecCoord& positions) {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <sinew/core/lists.hpp>
-#include <sinew/mapping/measures.hpp>
+#include <sinew/mapping/measure_driver.hpp>
 
 #include <array>
 #include <limits>
@@ -70,7 +70,7 @@ struct DistanceFromTargetMapping {
       return inverse * (Mat<Real, N>::Identity() - direction * direction.transpose());
     }
   };
-  Measures<In, Out, Measure> measures{};
+  MeasureDriver<In, Out, Measure> measures{};
 
   /// Throws Error where there is no target, an index is out of range, or a list has too many entries.
   void init(InitContext<In> const& parent, InitContext<Out> const& child, typename Out::VecCoord& positions) {

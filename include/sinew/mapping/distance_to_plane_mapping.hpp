@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <sinew/mapping/measures.hpp>
+#include <sinew/mapping/measure_driver.hpp>
 
 #include <array>
 #include <string_view>
@@ -34,7 +34,7 @@ struct DistanceToPlaneMapping {
     Real value(std::array<Vec<Real, N>, 1> const& x) const { return normal.dot(x[0] - point); }
     Vec<Real, N> slope(int) const { return normal; }
   };
-  Measures<In, Out, Measure> measures{};
+  MeasureDriver<In, Out, Measure> measures{};
 
   /// Throws Error where the normal is zero, or a child has another number of points.
   void init(InitContext<In> const& parent, InitContext<Out> const& child, typename Out::VecCoord& positions) {

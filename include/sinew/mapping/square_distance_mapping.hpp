@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <sinew/mapping/measures.hpp>
+#include <sinew/mapping/measure_driver.hpp>
 
 #include <array>
 #include <string_view>
@@ -43,7 +43,7 @@ struct SquareDistanceMapping {
     Vec<Real, N> slope(int k) const { return Real(k == 0 ? -2 : 2) * d; }
     Mat<Real, N> second(int i, int j) const { return Real(i == j ? 2 : -2) * Mat<Real, N>::Identity(); }
   };
-  Measures<In, Out, Measure> measures{};
+  MeasureDriver<In, Out, Measure> measures{};
 
   /// Throws Error where there are no edges, or a child has another number of points.
   void init(InitContext<In> const& parent, InitContext<Out> const& child, typename Out::VecCoord& positions) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <sinew/mapping/measures.hpp>
+#include <sinew/mapping/measure_driver.hpp>
 
 #include <array>
 #include <string_view>
@@ -42,7 +42,7 @@ struct SquareMapping {
     Vec<Real, 1> slope(int) const { return 2 * x; }
     Mat<Real, 1> second(int, int) const { return Mat<Real, 1>(Real(2)); }
   };
-  Measures<In, Out, Measure> measures{};
+  MeasureDriver<In, Out, Measure> measures{};
 
   void init(InitContext<In> const& parent, InitContext<Out> const& child, typename Out::VecCoord& positions) {
     measures.all.clear();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <sinew/mapping/measures.hpp>
+#include <sinew/mapping/measure_driver.hpp>
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -64,7 +64,7 @@ struct VolumeMapping {
       return m;
     }
   };
-  Measures<In, Out, Measure> measures{};
+  MeasureDriver<In, Out, Measure> measures{};
 
   void init(InitContext<In> const& parent, InitContext<Out> const& child, typename Out::VecCoord& positions) {
     const std::string where = text(child.where, ": ", component_name<VolumeMapping>());

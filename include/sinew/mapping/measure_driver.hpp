@@ -17,7 +17,7 @@ namespace sinew {
 /// `Measure` has arity, the number of points; value(places), which keeps what the others need; slope(k), the
 /// gradient by point k; second(i, j), the derivative of the gradient by point i with respect to point j.
 template <class In, class Out, class Measure>
-struct Measures {
+struct MeasureDriver {
   using Real = typename In::Real;
   static constexpr int N = In::spatial, arity = Measure::arity;
   static_assert(!Out::rigid && Out::size == 1, "Sinew: what is measured is a number: the child is over Vec1");
