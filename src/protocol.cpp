@@ -642,9 +642,13 @@ std::vector<SceneFile> placed(std::vector<SceneFile> files) {
       if (file.name.find('/') != file.name.npos) continue;
       const std::string called = '/' + file.name;
       for (std::size_t at = words.find(called); at != words.npos; at = words.find(called, at + 1)) {
-        const std::size_t begin = words.find_last_of(ends, at) + 1, end = at + called.size();
-        if (end < words.size() && ends.find(words[end]) != ends.npos)
-          place(folder + words.substr(begin, end - begin), file.content);
+        const std::size_t end = at + called.size();
+        if (end == words.size() || ends.find(words[end]) == ends.npos) continue;
+        const std::size_t farthest = at > longestFileName ? at - longestFileName : 0;
+        const std::size_t before = std::string_view(words).substr(farthest, at - farthest).find_last_of(ends);
+        if (before == ends.npos && farthest > 0) continue;  // too long for a name
+        const std::size_t begin = before == ends.npos ? 0 : farthest + before + 1;
+        place(folder + words.substr(begin, end - begin), file.content);
       }
     }
   }

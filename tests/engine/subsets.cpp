@@ -99,6 +99,18 @@ TEST_CASE("tetrahedra may be named instead") {
   points.insert(s.tetrahedra[3].begin(), s.tetrahedra[3].end());
   CHECK(s.indices.size() == points.size());
   CHECK(volume(s.pointsInROI, s.tetrahedraInROI) + volume(s.pointsOutROI, s.tetrahedraOutROI) == Approx(16));
+  // two tetrahedra of a hexahedron do not have all of its corners, whatever is in the boxes
+  CHECK(s.hexahedraInROI.empty());
+  REQUIRE(s.hexahedraOutROI.size() == s.hexahedra.size());
+  for (std::size_t e = 0; e < s.hexahedra.size(); ++e)
+    for (std::size_t k = 0; k < 8; ++k) {
+      const auto there = std::size_t(s.hexahedra[e][k]), out = std::size_t(s.hexahedraOutROI[e][k]);
+      const bool inside =
+          points.contains(Index(there)) &&
+          std::find(s.pointsOutROI.begin(), s.pointsOutROI.end(), s.position[there]) == s.pointsOutROI.end();
+      if (!inside) CHECK(s.pointsOutROI[out] == s.position[there]);
+      CHECK_FALSE(inside);
+    }
 }
 
 TEST_CASE("mistakes in the parts of meshes are told") {

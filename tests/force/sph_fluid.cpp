@@ -116,6 +116,11 @@ TEST_CASE("each particle has the pairs that a search of all finds, in the first 
     using Particles = decltype(particles);
     particles.sort(x, radius, "test");
     particles.weight(2) = 3;
+    // of pairs that are as far apart as the radius rounding decides
+    bool clear = true;
+    for (auto const& a : x)
+      for (auto const& b : x) clear = clear && std::abs((a - b).norm() - radius) > 1e-12;
+    REQUIRE(clear);
     for (int loop = 0; loop < 2; ++loop) {
       std::size_t count = 0;
       particles.forEach({}, [&](int i, auto const& each) {

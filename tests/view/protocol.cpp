@@ -92,6 +92,10 @@ TEST_CASE("files beside a scene are where it looks for them, too") {
   std::string many;
   for (int i = 0; i < 100; ++i) many += text(" 'folder", i, "/organ.obj'");
   CHECK(placed({{"a.scn", many}, mesh}).size() == mostFiles);
+  // a name that is everywhere and never ends: what looks back for each to the start does not come to an end
+  std::string endless;
+  while (endless.size() < longestUpload / 2) endless += "/o";
+  CHECK(more({{"a.scn", endless}, {"o", ""}}).empty());
   const SceneFile large{"organ.obj", std::string(longestUpload / 3, ' ')};
   CHECK(more({{"a.scn", many}, large}).size() == 1);
 }

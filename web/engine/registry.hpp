@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-// What scene files that are dropped onto the page may have: nearly all of Standard (sinew/registry.hpp) that
-// is over points and rigids in space, in double precision. With the rest, and fluids, the module would be
-// twice as large.
+// What scene files that are dropped onto the page may have: of Standard (sinew/registry.hpp) most that is
+// over points and rigids in space, in double precision. With the mappings that measure, fluids and the rest
+// the module would be twice as large.
 #include <sinew/core/registry.hpp>
 #include <sinew/lagrangian.hpp>
 #include <sinew/sinew.hpp>

@@ -298,8 +298,15 @@ if (kind === 'socket') {
   if (opens) open = (files) => upload(files, new URL('scene', document.baseURI));
   $('open').hidden = !opens;
 } else if (kind === 'worker') {
+  let starts = 0;
   const run = async (start) => {
+    const mine = ++starts;
     const next = await workerEngine(start, receive, lost);
+    if (mine !== starts) {
+      // another scene was asked for meanwhile
+      next.close();
+      return refused;
+    }
     engine?.close();
     engine = next;
     refused = '';

@@ -4,6 +4,7 @@
 #include <sinew/core/component.hpp>
 
 #include <algorithm>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -51,7 +52,8 @@ struct SubsetTopology {
         field("tetrahedraInput",
               &S::tetrahedraInput,
               "",
-              "tetrahedra that are inside, in the place of those in boxes or spheres",
+              "tetrahedra that are inside, in the place of those in boxes or spheres; of other elements "
+              "those that have only points of these",
               range::nonNegative),
         field("localIndices", &S::localIndices, "", "elements count the points of their own part"));
   }
@@ -126,16 +128,6 @@ struct SubsetTopology {
         held[r][i] = holds(r, i);
         in[i] = in[i] || held[r][i];
       }
-    auto inside = [&](auto const& element) {
-      for (auto const& of : held)
-        if (std::all_of(element.begin(), element.end(), [&](Index i) { return of[std::size_t(i)]; }))
-          return true;
-      return false;
-    };
-    choose(edges, edgeIndices, inside);
-    choose(triangles, triangleIndices, inside);
-    choose(quads, quadIndices, inside);
-    choose(hexahedra, hexahedronIndices, inside);
     if (tetrahedraInput) {
       tetrahedronIndices = *tetrahedraInput;
       std::sort(tetrahedronIndices.begin(), tetrahedronIndices.end());
@@ -144,9 +136,18 @@ struct SubsetTopology {
       in.assign(n, false);
       for (const int t : tetrahedronIndices)
         for (const Index i : tetrahedra[std::size_t(t)]) in[std::size_t(i)] = true;
-    } else {
-      choose(tetrahedra, tetrahedronIndices, inside);
+      held = {in};
     }
+    auto inside = [&](auto const& element) {
+      return std::any_of(held.begin(), held.end(), [&](std::vector<bool> const& of) {
+        return std::all_of(element.begin(), element.end(), [&](Index i) { return of[std::size_t(i)]; });
+      });
+    };
+    choose(edges, edgeIndices, inside);
+    choose(triangles, triangleIndices, inside);
+    choose(quads, quadIndices, inside);
+    if (!tetrahedraInput) choose(tetrahedra, tetrahedronIndices, inside);
+    choose(hexahedra, hexahedronIndices, inside);
 
     std::vector<bool> border(n);
     if (localIndices) {
@@ -163,7 +164,7 @@ struct SubsetTopology {
     std::vector<Index> numberIn(n), numberOut(n);  // of a point in its part
     auto add = [&](std::size_t i, bool inPart) {
       auto& part = inPart ? pointsInROI : pointsOutROI;
-      (inPart ? numberIn : numberOut)[i] = localIndices ? Index(part.size()) : Index(i);
+      (inPart ? numberIn : numberOut)[i] = Index(part.size());
       part.push_back(position[i]);
       if (inPart) indices.push_back(int(i));
     };
@@ -171,9 +172,10 @@ struct SubsetTopology {
       if (border[i]) add(i, true), add(i, false);
     for (std::size_t i = 0; i < n; ++i)
       if (!border[i]) add(i, in[i]);
-    // without localIndices a point has its own number in both
-    if (!localIndices)
-      for (std::size_t i = 0; i < n; ++i) numberIn[i] = numberOut[i] = Index(i);
+    if (!localIndices) {
+      std::iota(numberIn.begin(), numberIn.end(), 0);
+      numberOut = numberIn;
+    }
     divide(edges, edgeIndices, numberIn, numberOut, edgesInROI, edgesOutROI);
     divide(triangles, triangleIndices, numberIn, numberOut, trianglesInROI, trianglesOutROI);
     divide(quads, quadIndices, numberIn, numberOut, quadsInROI, quadsOutROI);

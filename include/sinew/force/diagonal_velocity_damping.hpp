@@ -29,7 +29,8 @@ struct DiagonalVelocityDampingForceField {
                             &DiagonalVelocityDampingForceField::dampingCoefficient,
                             "N s/m",
                             "force per speed of each degree of freedom, [N m s] of rotations; for each point",
-                            range::nonNegative));
+                            range::nonNegative)
+                          .oneEach(Of::points));
   }
 
   static constexpr ForceProperties properties() { return {.internal = false, .objective = false}; }
@@ -37,7 +38,6 @@ struct DiagonalVelocityDampingForceField {
   std::size_t size = 0;
 
   void init(InitContext<D> const& context) { size = context.rest.size(); }
-  void followPoints(Renumbering const&, std::size_t points) { size = points; }
 
   void addForce(MechanicalParams const&, VecDeriv& f, VecCoord const&, VecDeriv const& v) const {
     forEach([&](std::size_t i, Deriv const& c) { f[i] -= c.cwiseProduct(v[i]); });

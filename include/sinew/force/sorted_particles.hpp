@@ -51,8 +51,9 @@ class SortedParticles {
     const std::size_t n = points.size();
     cells_.sort(points, radius, where);
     radius_ = Real(radius);
-    // places are rounded by extent 2^-24 along each axis, differences and their squares relatively
-    reach_ = float(radius * (1 + 1e-6) + 4 * cells_.extent() / 16777216);
+    // places, and the centre of a box, are rounded by extent 2^-24 along each axis: 3 sqrt(3) of that at most
+    // between two; differences and their squares relatively
+    reach_ = float(radius * (1 + 1e-6) + 6 * cells_.extent() / 16777216);
     points_.resize(n);
     for (auto& one : near_) one.resize(n + std::size_t(searched), 0.f);
     counts_.assign(n, unknown);

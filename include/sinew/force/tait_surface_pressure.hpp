@@ -94,13 +94,13 @@ struct TaitSurfacePressureForceField {
     points.erase(std::unique(points.begin(), points.end()), points.end());
     gradient.assign(context.rest.size(), Deriv::Zero());
     initialVolume = volumeOf(context.rest);
-    const double least = initialVolume + std::min(0.0, injectedVolume);
+    const double least = initialVolume + std::min({0.0, injectedVolume, currentInjectedVolume});
     if (!(initialVolume > 0) || !(least > 0))
       throw Error(where,
                   text("the surface holds ",
                        initialVolume,
                        " m^3 at rest and ",
-                       injectedVolume,
+                       least - initialVolume,
                        " m^3 are injected, but a volume above 0 has to be left; see that the triangles are "
                        "counter-clockwise from outside"));
     faces.init(triangles, std::vector<typename TrianglePressure<D>::Rest>(triangles.size(), {Real(0)}));

@@ -31,22 +31,31 @@ struct DistanceFromTargetMapping {
 
   static constexpr auto fields() {
     using M = DistanceFromTargetMapping;
-    return field_list(field("indices",
-                            &M::indices,
-                            "",
-                            "points of the parent; those that are not given are the next numbers",
-                            range::nonNegative)
-                          .numbersOf(Of::parentPoints),
-                      field("targetPositions", &M::targetPositions, "m", "a place for each"),
-                      field("restLengths",
-                            &M::restLengths,
-                            "m",
-                            "lengths L; 0 for those that are not given",
-                            range::nonNegative),
-                      field("geometricStiffness",
-                            &M::geometricStiffness,
-                            "",
-                            "geometric stiffness: what turning about the targets adds to the stiffness"));
+    return field_list(
+        field("indices",
+              &M::indices,
+              "",
+              "points of the parent; a target behind the last of them measures the point of its own number",
+              range::nonNegative)
+            .numbersOf(Of::parentPoints),
+        field("targetPositions", &M::targetPositions, "m", "a place for each").oneEach(Of::points),
+        field("restLengths",
+              &M::restLengths,
+              "m",
+              "lengths L; 0 for those that are not given",
+              range::nonNegative)
+            .oneEach(Of::points),
+        field("geometricStiffness",
+              &M::geometricStiffness,
+              "",
+              "geometric stiffness: what turning about the targets adds to the stiffness"));
+  }
+
+  bool none = false;  // all of the points have been removed
+
+  static constexpr auto state() {
+    return field_list(
+        field("none", &DistanceFromTargetMapping::none, "", "all of the points have been removed"));
   }
 
   struct Measure {
@@ -75,9 +84,10 @@ struct DistanceFromTargetMapping {
   /// Throws Error where there is no target, an index is out of range, or a list has too many entries.
   void init(InitContext<In> const& parent, InitContext<Out> const& child, typename Out::VecCoord& positions) {
     const std::string where = text(child.where, ": ", component_name<DistanceFromTargetMapping>());
-    const std::size_t n = targetPositions.size();
-    if (n == 0) throw Error(where, "there is no target; give targetPositions, a place for each point");
-    if (indices.size() > n || restLengths.size() > n)
+    const std::size_t n = none ? 0 : targetPositions.size();
+    if (n == 0 && !none)
+      throw Error(where, "there is no target; give targetPositions, a place for each point");
+    if (indices.size() > n || restLengths.size() > targetPositions.size())
       throw Error(where,
                   text("there are ",
                        indices.size(),
@@ -86,14 +96,13 @@ struct DistanceFromTargetMapping {
                        " restLengths for ",
                        n,
                        " targetPositions; give at most one each"));
-    std::vector<int> points = indices;
-    for (std::size_t k = points.size(); k < n; ++k) points.push_back(int(k));
-    check_numbers(where, "indices", points, parent.rest.size(), "points", "the parent");
+    // whole, so that they follow where points are removed
+    for (std::size_t k = indices.size(); k < n; ++k) indices.push_back(int(k));
+    restLengths.resize(targetPositions.size(), 0.0);
+    check_numbers(where, "indices", indices, parent.rest.size(), "points", "the parent");
     measures.all.clear();
     for (std::size_t k = 0; k < n; ++k)
-      measures.all.push_back(
-          {{Index(points[k])},
-           {In::center(targetPositions[k]), k < restLengths.size() ? Real(restLengths[k]) : Real(0)}});
+      measures.all.push_back({{Index(indices[k])}, {In::center(targetPositions[k]), Real(restLengths[k])}});
     measures.place(positions, where, "targets");
   }
 

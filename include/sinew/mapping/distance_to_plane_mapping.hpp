@@ -5,6 +5,7 @@
 
 #include <array>
 #include <string_view>
+#include <vector>
 
 namespace sinew {
 
@@ -46,6 +47,8 @@ struct DistanceToPlaneMapping {
     for (std::size_t i = 0; i < parent.rest.size(); ++i) measures.all.push_back({{Index(i)}, plane});
     measures.place(positions, where, "points of the parent");
   }
+
+  std::vector<bool> pointsThatStay(Renumbering const& parent) const { return parent.stays(); }
 
   void apply(typename Out::VecCoord& out, typename In::VecCoord const& in) { measures.apply(out, in); }
   void applyJ(typename Out::VecDeriv& out, typename In::VecDeriv const& in) const {

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <string_view>
+#include <vector>
 
 namespace sinew {
 
@@ -50,6 +51,8 @@ struct SquareMapping {
     measures.place(
         positions, text(child.where, ": ", component_name<SquareMapping>()), "points of the parent");
   }
+
+  std::vector<bool> pointsThatStay(Renumbering const& parent) const { return parent.stays(); }
 
   void apply(typename Out::VecCoord& out, typename In::VecCoord const& in) { measures.apply(out, in); }
   void applyJ(typename Out::VecDeriv& out, typename In::VecDeriv const& in) const {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <boost/property_tree/detail/rapidxml.hpp>
 #include <cstddef>
+#include <iterator>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -92,17 +93,23 @@ struct xml_document {
   // RapidXML calls itself for each element in another; where these are deeper than its stack is, or the size
   static std::size_t too_deep(std::string_view text) {
     constexpr int deepest = 2000;
+    constexpr std::pair<std::string_view, std::string_view> skipped[] = {
+        {"<!--", "-->"}, {"<![CDATA[", "]]>"}, {"<?", "?>"}, {"</", ">"}};
     int depth = 0;
-    for (std::size_t at = text.find('<'); at < text.size(); at = text.find('<', at + 1)) {
-      for (auto const& [begin, end] :
-           {std::pair<std::string_view, std::string_view>{"<!--", "-->"}, {"<![CDATA[", "]]>"}, {"<?", "?>"}})
-        if (text.substr(at).starts_with(begin)) at = std::min(text.find(end, at), text.size());
-      if (at == text.size() || text[at] != '<') continue;
-      const std::size_t close = text.find('>', at);
-      if (text.substr(at).starts_with("</"))
-        --depth;
-      else if (close < text.size() && text[close - 1] != '/' && ++depth > deepest)
-        return at;
+    for (std::size_t at = text.find('<'); at < text.size(); at = text.find('<', at)) {
+      const std::size_t begin = at;
+      auto const* skip = std::find_if(std::begin(skipped), std::end(skipped), [&](auto const& s) {
+        return text.substr(begin).starts_with(s.first);
+      });
+      if (skip != std::end(skipped)) {
+        if (skip->first == "</" && depth > 0) --depth;
+        at = std::min(text.find(skip->second, begin), text.size());
+        continue;
+      }
+      // to the end of the tag, which is not in quotes
+      for (char quote = 0; at < text.size() && (quote || text[at] != '>'); ++at)
+        if (quote ? text[at] == quote : text[at] == '"' || text[at] == '\'') quote = quote ? '\0' : text[at];
+      if (at < text.size() && text[at - 1] != '/' && ++depth > deepest) return begin;
     }
     return text.size();
   }

@@ -14,6 +14,7 @@ namespace sinew::gpu {
 
 #if SINEW_CUDA
 /// Memory that Thrust's algorithms work in; it is kept, so that no step asks for any once one has been made.
+/// It is that of a thread: a step that is recorded (RecordedStep) is launched by the thread that recorded it.
 class ScratchMemory {
  public:
   using value_type = char;
@@ -40,6 +41,10 @@ class ScratchMemory {
   };
   std::vector<Block> blocks_{};
 };
+inline ScratchMemory& scratch_memory() {
+  static thread_local ScratchMemory memory;
+  return memory;
+}
 #endif
 
 namespace detail {
@@ -47,8 +52,7 @@ namespace detail {
 template <class F>
 void with_policy(F&& f) {
 #if SINEW_CUDA
-  static thread_local ScratchMemory memory;
-  f(thrust::cuda::par_nosync(memory).on(stream()));
+  f(thrust::cuda::par_nosync(scratch_memory()).on(stream()));
 #else
   f(thrust::device);
 #endif
