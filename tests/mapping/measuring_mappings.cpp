@@ -375,20 +375,20 @@ TEST_CASE("a number that is held by its square swings about the root") {
 
 // held at the height 0.2 where it starts from, and pulled to the plane y = 0 by springs of the mapped heights
 TEST_CASE("springs of what is measured pull to the rest positions that are given") {
-  auto scene = [](Vec1d::VecCoord rest) {
+  auto scene = [](Vec1d::VecCoord given) {
     return RegistryScene{node<"root">(
         EulerImplicitSolver{},
         CGLinearSolver<>{.iterations = 20, .tolerance = 1e-12},
         node<"body">(MechanicalObject<Vec3d>{.position = {{1, 0.2, 3}}},
                      UniformMass<Vec3d>{.totalMass = 2},
-                     node<"height">(MechanicalObject<Vec1d>{.restPosition = rest},
+                     node<"height">(MechanicalObject<Vec1d>{.restPosition = given},
                                     DistanceToPlaneMapping<Vec3d, Vec1d>{.planeNormal = {0, 1, 0}},
                                     RestShapeSpringsForceField<Vec1d>{.stiffness = {10}})))};
   };
   auto still = scene({}), pulled = scene({Vec1d::Coord(0)});
   for (auto* sim : {&still, &pulled}) {
     sim->init();
-    sim->init();                                        // again from what was given
+    sim->init();  // again from what was given
     // implicit Euler damps the swings, of 2.2 rad/s, to 2/3 a step
     for (int i = 0; i < 100; ++i) sim->animate(0.5);
   }
