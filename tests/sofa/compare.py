@@ -114,8 +114,11 @@ def run(options, scene, answer):
         if not answer:
             return "runs", "", None, None
         # without recording, which is no part of a step; a scene of some bodies takes 0.1 ms in all
-        speeds = [json.loads(done_with().stdout).get("stepsPerSecond") for _ in range(options.repeats)]
-        speed = statistics.median(speeds) if all(speeds) else None
+        try:
+            speeds = [json.loads(done_with().stdout).get("stepsPerSecond") for _ in range(options.repeats)]
+        except subprocess.TimeoutExpired:
+            speeds = []
+        speed = statistics.median(speeds) if speeds and all(speeds) else None
         frames = frames_of(f"{folder}/record")
         apart, body = difference(frames[0], frames[-1], answer["states"])
         return "runs", body, apart, speed / answer["sofaStepsPerSecond"] if speed else None
@@ -136,7 +139,7 @@ def main():
     parser.add_argument("--steps", type=int, default=100, help="of scenes without an answer")
     parser.add_argument("--timeout", type=float, default=300, help="[s] for a scene")
     parser.add_argument("--jobs", type=int, default=1, help="scenes at once; speeds mean something with 1 only")
-    parser.add_argument("--repeats", type=int, default=5, help="of which the median is a scene's speed")
+    parser.add_argument("--repeats", type=int, default=5, help="of which the median is a scene's speed; 0: positions only")
     parser.add_argument("--only", nargs="+", metavar="PART", help="scenes whose path has one of these in it")
     options = parser.parse_args()
     options.examples = options.examples.resolve()
