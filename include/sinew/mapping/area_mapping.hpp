@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/mapping/measure_driver.hpp>
+#include <sinew/mapping/measured_elements.hpp>
 
 #include <Eigen/Geometry>
 #include <array>
@@ -71,14 +72,10 @@ struct AreaMapping {
   /// Throws Error where there are no triangles, or a child has another number of points.
   void init(InitContext<In> const& parent, InitContext<Out> const& child, typename Out::VecCoord& positions) {
     const std::string where = text(child.where, ": ", component_name<AreaMapping>());
-    auto const& triangles =
-        child.topology.triangles.empty() ? parent.topology.triangles : child.topology.triangles;
-    if (triangles.empty())
-      throw Error(
-          where, "there are no triangles, neither in its node nor in its parent's; add a topology with some");
-    detail::check_indices(where, "triangle", triangles, parent.rest.size());
     measures.all.clear();
-    for (Triangle const& t : triangles) measures.all.push_back({t, {}});
+    for (Triangle const& t :
+         detail::measured_elements(parent, child, where, "triangle", "triangles", &TopologyView::triangles))
+      measures.all.push_back({t, {}});
     measures.place(positions, where, "triangles");
   }
 

@@ -3,6 +3,7 @@
 
 #include <sinew/core/component.hpp>
 #include <sinew/mapping/geometric_stiffness.hpp>
+#include <sinew/mapping/measured_elements.hpp>
 #include <sinew/topology/adjacency.hpp>
 
 #include <vector>
@@ -57,12 +58,7 @@ struct DistanceMapping {
 
   void init(InitContext<In> const& parent, InitContext<Out> const& child, typename Out::VecCoord& positions) {
     const std::string where = text(child.where, ": ", component_name<DistanceMapping>());
-    std::vector<Edge> edges = edgesOf(child.topology);
-    if (edges.empty()) edges = edgesOf(parent.topology);
-    if (edges.empty())
-      throw Error(where,
-                  "there are no edges, neither in its node nor in its parent's; add a topology with some");
-    detail::check_indices(where, "edge", edges, parent.rest.size());
+    const std::vector<Edge> edges = detail::measured_elements(parent, child, where, "edge", "edges", edgesOf);
     if (!restLengths.empty() && restLengths.size() != edges.size())
       throw Error(where,
                   text("restLengths has ",

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/mapping/measure_driver.hpp>
+#include <sinew/mapping/measured_elements.hpp>
 
 #include <array>
 #include <string_view>
@@ -48,13 +49,10 @@ struct SquareDistanceMapping {
   /// Throws Error where there are no edges, or a child has another number of points.
   void init(InitContext<In> const& parent, InitContext<Out> const& child, typename Out::VecCoord& positions) {
     const std::string where = text(child.where, ": ", component_name<SquareDistanceMapping>());
-    auto const& edges = child.topology.edges.empty() ? parent.topology.edges : child.topology.edges;
-    if (edges.empty())
-      throw Error(where,
-                  "there are no edges, neither in its node nor in its parent's; add a topology with some");
-    detail::check_indices(where, "edge", edges, parent.rest.size());
     measures.all.clear();
-    for (Edge const& e : edges) measures.all.push_back({e, {}});
+    for (Edge const& e :
+         detail::measured_elements(parent, child, where, "edge", "edges", &TopologyView::edges))
+      measures.all.push_back({e, {}});
     measures.place(positions, where, "edges");
   }
 

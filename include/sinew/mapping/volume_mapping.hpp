@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/mapping/measure_driver.hpp>
+#include <sinew/mapping/measured_elements.hpp>
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -68,15 +69,10 @@ struct VolumeMapping {
 
   void init(InitContext<In> const& parent, InitContext<Out> const& child, typename Out::VecCoord& positions) {
     const std::string where = text(child.where, ": ", component_name<VolumeMapping>());
-    auto const& tetrahedra =
-        child.topology.tetrahedra.empty() ? parent.topology.tetrahedra : child.topology.tetrahedra;
-    if (tetrahedra.empty())
-      throw Error(
-          where,
-          "there are no tetrahedra, neither in its node nor in its parent's; add a topology with some");
-    detail::check_indices(where, "tetrahedron", tetrahedra, parent.rest.size());
     measures.all.clear();
-    for (Tetrahedron const& t : tetrahedra) measures.all.push_back({t, {}});
+    for (Tetrahedron const& t : detail::measured_elements(
+             parent, child, where, "tetrahedron", "tetrahedra", &TopologyView::tetrahedra))
+      measures.all.push_back({t, {}});
     measures.place(positions, where, "tetrahedra");
   }
 
