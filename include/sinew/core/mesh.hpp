@@ -47,6 +47,16 @@ void check_indices(std::string_view where, std::string_view kind, Elements const
                          points,
                          " points, numbered from 0; correct the index or add the point"));
 }
+
+/// The same of all elements of a mesh, or of what has lists of these names.
+template <class Lists>
+void check_elements(std::string_view where, Lists const& lists, std::size_t points) {
+  check_indices(where, "edge", lists.edges, points);
+  check_indices(where, "triangle", lists.triangles, points);
+  check_indices(where, "quad", lists.quads, points);
+  check_indices(where, "tetrahedron", lists.tetrahedra, points);
+  check_indices(where, "hexahedron", lists.hexahedra, points);
+}
 }  // namespace detail
 
 /// Throws Error, naming `where` and the element, unless all coordinates are finite and all indices in range.
@@ -65,12 +75,7 @@ SINEW_ONCE void check_mesh(std::string_view where, Mesh const& mesh) {
     if (!all_finite(mesh.positions[i]))
       throw Error(where,
                   text("point ", i, " has a coordinate that is not a finite number; correct the file"));
-  const std::size_t n = mesh.positions.size();
-  detail::check_indices(where, "edge", mesh.edges, n);
-  detail::check_indices(where, "triangle", mesh.triangles, n);
-  detail::check_indices(where, "quad", mesh.quads, n);
-  detail::check_indices(where, "tetrahedron", mesh.tetrahedra, n);
-  detail::check_indices(where, "hexahedron", mesh.hexahedra, n);
+  detail::check_elements(where, mesh, mesh.positions.size());
 }
 
 }  // namespace sinew

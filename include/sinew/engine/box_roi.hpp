@@ -57,12 +57,8 @@ struct BoxROI {
     std::vector<OrientedBox> oriented;
     for (auto const& b : orientedBox) oriented.emplace_back(at, b);
     select_in_roi(*this, at, [&](Vec<double, D::spatial> const& p) {
-      for (auto const& b : box) {
-        const Vec<double, D::spatial> a = b.template head<D::spatial>(),
-                                      c = b.template segment<D::spatial>(3);
-        if ((p.array() >= a.cwiseMin(c).array()).all() && (p.array() <= a.cwiseMax(c).array()).all())
-          return true;
-      }
+      for (auto const& b : box)
+        if (box_holds<D::spatial>(b, p)) return true;
       if constexpr (D::spatial == 3)
         for (auto const& b : oriented)
           if (b.contains(p)) return true;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/core/component.hpp>
+#include <sinew/engine/roi.hpp>
 
 #include <optional>
 #include <vector>
@@ -60,10 +61,7 @@ struct PairBoxROI {
 
  private:
   static bool holds(Box const& box, typename D::Coord const& x) {
-    constexpr int n = D::spatial;
-    const auto p = D::center(x).template cast<double>().eval();
-    const Vec<double, n> a = box.template head<n>(), b = box.template segment<n>(3);
-    return (p.array() >= a.cwiseMin(b).array()).all() && (p.array() <= a.cwiseMax(b).array()).all();
+    return box_holds<D::spatial>(box, D::center(x).template cast<double>());
   }
 };
 

@@ -11,6 +11,13 @@ namespace sinew {
 // What the regions of interest share. A region chooses among its points, and among its elements: with
 // `strict` those of which it holds all points, else those of which it holds the mean of the points.
 
+/// Whether a box of two opposite corners, x y z each [m], holds a place, its surface included.
+template <int N>
+bool box_holds(Vec<double, 6> const& box, Vec<double, N> const& place) {
+  const Vec<double, N> a = box.template head<N>(), b = box.template segment<N>(3);
+  return (place.array() >= a.cwiseMin(b).array()).all() && (place.array() <= a.cwiseMax(b).array()).all();
+}
+
 /// The fields of a region: first its own, which say where it is.
 template <class R, class... Own>
 constexpr auto roi_fields(Own... own) {
@@ -59,11 +66,7 @@ void select_in_roi(R& roi, std::string const& where, Inside const& inside) {
   using Place = Vec<double, D::spatial>;
   const std::size_t n = roi.position.size();
   if (n == 0) throw Error(where, "position is empty; link it to the points of a loader, topology or state");
-  detail::check_indices(where, "edge", roi.edges, n);
-  detail::check_indices(where, "triangle", roi.triangles, n);
-  detail::check_indices(where, "quad", roi.quads, n);
-  detail::check_indices(where, "tetrahedron", roi.tetrahedra, n);
-  detail::check_indices(where, "hexahedron", roi.hexahedra, n);
+  detail::check_elements(where, roi, n);
 
   auto place = [&](std::size_t i) -> Place { return D::center(roi.position[i]).template cast<double>(); };
   std::vector<bool> in(n);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/core/component.hpp>
+#include <sinew/engine/roi.hpp>
 
 #include <algorithm>
 #include <numeric>
@@ -104,11 +105,7 @@ struct SubsetTopology {
       throw Error(
           at,
           text("there are ", centers.size(), " centers and ", radii.size(), " radii; give one radius each"));
-    detail::check_indices(at, "edge", edges, n);
-    detail::check_indices(at, "triangle", triangles, n);
-    detail::check_indices(at, "quad", quads, n);
-    detail::check_indices(at, "tetrahedron", tetrahedra, n);
-    detail::check_indices(at, "hexahedron", hexahedra, n);
+    detail::check_elements(at, *this, n);
     if (tetrahedraInput)
       for (const int t : *tetrahedraInput)
         if (std::size_t(t) >= tetrahedra.size())
@@ -190,10 +187,7 @@ struct SubsetTopology {
   bool holds(std::size_t region, std::size_t point) const {
     const Eigen::Vector3d x = D::center(position[point]).template cast<double>();
     if (!centers.empty()) return (x - centers[region]).norm() <= radii[region];
-    const Vec<double, 6> b = box.empty() ? Vec<double, 6>(0, 0, 0, 1, 1, 1) : box[region];
-    for (int c = 0; c < 3; ++c)
-      if (x[c] < std::min(b[c], b[3 + c]) || x[c] > std::max(b[c], b[3 + c])) return false;
-    return true;
+    return box_holds<3>(box.empty() ? Vec<double, 6>(0, 0, 0, 1, 1, 1) : box[region], x);
   }
   template <class Elements, class Inside>
   static void choose(Elements const& all, std::vector<int>& numbers, Inside const& inside) {

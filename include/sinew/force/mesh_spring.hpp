@@ -61,11 +61,7 @@ struct MeshSpringForceField {
   void init(InitContext<D> const& context) {
     const std::string where = text(context.where, ": ", component_name<MeshSpringForceField>());
     TopologyView const& t = context.topology;
-    detail::check_indices(where, "edge", t.edges, context.rest.size());
-    detail::check_indices(where, "triangle", t.triangles, context.rest.size());
-    detail::check_indices(where, "quad", t.quads, context.rest.size());
-    detail::check_indices(where, "tetrahedron", t.tetrahedra, context.rest.size());
-    detail::check_indices(where, "hexahedron", t.hexahedra, context.rest.size());
+    detail::check_elements(where, t, context.rest.size());
 
     SpringNetwork<D> springs(context.rest);
     const double ks = linesStiffness.value_or(stiffness), kd = linesDamping.value_or(damping);

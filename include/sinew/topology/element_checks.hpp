@@ -57,11 +57,7 @@ namespace sinew {
 
 SINEW_ONCE void check_element_indices(std::string const& where, TopologyView const& topology,
                                       std::size_t points) {
-  detail::check_indices(where, "edge", topology.edges, points);
-  detail::check_indices(where, "triangle", topology.triangles, points);
-  detail::check_indices(where, "quad", topology.quads, points);
-  detail::check_indices(where, "tetrahedron", topology.tetrahedra, points);
-  detail::check_indices(where, "hexahedron", topology.hexahedra, points);
+  detail::check_elements(where, topology, points);
 }
 
 }  // namespace sinew
