@@ -181,7 +181,7 @@ using StandardMultipliers =
              PrecomputedConstraintCorrection<Vec3d>, PrecomputedConstraintCorrection<Rigid3d>,
              LagrangianConstraints>;
 
-using GridFluids = Registry<Fluid2D, Fluid3D>;
+using GridFluids = Registry<Fluid2D<Vec2d>, Fluid3D<Vec3d>, Fluid3D<Vec3f>>;
 using ChangingTopologies = Registry<TopologicalChangeProcessor, TopologyBoundingTrasher<Vec3d>>;
 
 /// Every component that Sinew brings, over the DataTypes that scenes use.
