@@ -58,8 +58,8 @@ auto scene(int n) {
 }
 
 /// Prints cells; real; steps a second, the median of so many behind the first `settling`; iterations of the
-/// pressure, their mean; million cells a second; bytes that the loops read and write a second, over those of a
-/// copy.
+/// pressure, their mean; million cells a second; bytes that the loops read and write a second, over those of
+/// a copy.
 template <class D>
 void measure(int n, int steps, int settling, bool host) {
   using Real = typename D::Real;
@@ -79,7 +79,8 @@ void measure(int n, int steps, int settling, bool host) {
     for (std::size_t c = 0; c < 3; ++c)
       for (std::size_t i = 0; i < fluid.grid.grid().size; ++i)
         apart = std::max(
-            apart, std::abs(double(fluid.grid.velocity.value[c][i]) - double(other.grid.velocity.value[c][i])));
+            apart,
+            std::abs(double(fluid.grid.velocity.value[c][i]) - double(other.grid.velocity.value[c][i])));
     std::printf("after %d steps %.1e m/s from the processor's\n", settling, apart);
   }
   std::vector<double> times;
