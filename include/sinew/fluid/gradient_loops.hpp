@@ -19,15 +19,30 @@ struct DotOf {
   SINEW_INLINE double operator()(std::ptrdiff_t i) const { return double(a[i]) * double(b[i]); }
 };
 
+/// Of the terms of n cells from `first` on, in their order.
+template <class Term>
+double sum_of_row(std::ptrdiff_t first, int n, Term const& term) {
+  double sum = 0;
+  for (std::ptrdiff_t i = first; i < first + n; ++i) sum += term(i);
+  return sum;
+}
+
 /// y = A x
 template <class Real, int N>
 struct Multiply {
   LevelView<Real, N> level;
   Real const* x;
   Real* y;
-  SINEW_INLINE void operator()(Each<int, N> const&, std::ptrdiff_t i) const {
-    const Real inverse = level.inverse[i];
-    y[i] = inverse > 0 ? x[i] / inverse - level.around(x, i) : Real(0);
+  SINEW_INLINE void operator()(Each<int, N> const&, std::ptrdiff_t i) const { y[i] = value<Real>(i); }
+  void row(Each<int, N> const&, std::ptrdiff_t first, int n) const {
+    for_row<Real>(first, n, [&]<class L>(std::ptrdiff_t i) { store_row<L>(y, i, value<L>(i)); });
+  }
+
+ private:
+  template <class L>
+  SINEW_INLINE L value(std::ptrdiff_t i) const {
+    const L inverse = load_row<L>(level.inverse, i);
+    return select(inverse > L(0), load_row<L>(x, i) / inverse - level.template around<L>(x, i), L(0));
   }
 };
 /// x.y, y = A x
@@ -37,6 +52,10 @@ struct MultiplyAndDot {
   SINEW_INLINE double operator()(std::ptrdiff_t i) const {
     multiply({}, i);
     return double(multiply.x[i]) * double(multiply.y[i]);
+  }
+  double row(std::ptrdiff_t first, int n) const {
+    multiply.row({}, first, n);
+    return sum_of_row(first, n, DotOf<Real>{multiply.x, multiply.y});
   }
 };
 /// |b - y|^2, and b is that.
@@ -109,6 +128,13 @@ struct Advance {
         b[i] -= alpha * y[i];
       }
       return double(b[i]) * double(b[i]);
+    }
+    double row(std::ptrdiff_t first, int n) const {
+      if (goes) {
+        for (std::ptrdiff_t i = first; i < first + n; ++i) x[i] += alpha * d[i];
+        for (std::ptrdiff_t i = first; i < first + n; ++i) b[i] -= alpha * y[i];
+      }
+      return sum_of_row(first, n, SquareOf<Real>{b});
     }
   };
   Real* x;

@@ -130,8 +130,20 @@ class HostLoops {
   /// depend on threads.
   template <int N, class Term>
   void sum(CellGrid<N> const& grid, Numbers& numbers, std::size_t k, Term const& term) const {
-    numbers.value[k] =
-        grid.sum(workers_, numbers.rows, [own = for_thread(term)](std::ptrdiff_t i) { return own(i); });
+    grid.forRows(workers_, [&](std::size_t row, std::ptrdiff_t first) {
+      const auto own = for_thread(term);
+      const int n = grid.cells[0];
+      if constexpr (requires { own.row(first, n); }) {
+        numbers.rows[row] = own.row(first, n);
+      } else {
+        double rowSum = 0;
+        for (std::ptrdiff_t i = first; i < first + n; ++i) rowSum += own(i);
+        numbers.rows[row] = rowSum;
+      }
+    });
+    double total = 0;
+    for (std::size_t row = 0; row < grid.rows(); ++row) total += numbers.rows[row];
+    numbers.value[k] = total;
   }
   /// The largest term(index) >= 0 of inner cells; not finite where one of them is not.
   template <int N, class Term>

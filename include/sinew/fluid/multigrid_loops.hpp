@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/fluid/cell_grid.hpp>
+#include <sinew/fluid/lane_rows.hpp>
 
 namespace sinew::fluid {
 
@@ -14,11 +15,13 @@ struct LevelView {
   std::uint8_t* open;
 
   /// (A x) of a cell but for its diagonal, with the sign of b.
-  SINEW_INLINE Real around(Real const* of, std::ptrdiff_t i) const {
-    Real sum = 0;
+  template <class L = Real>
+  SINEW_INLINE L around(Real const* of, std::ptrdiff_t i) const {
+    L sum(0);
     for (std::size_t c = 0; c < axes<N>; ++c) {
       const std::ptrdiff_t s = grid.stride[c];
-      sum += face[c][i] * of[i - s] + face[c][i + s] * of[i + s];
+      sum += load_row<L>(face[c], i) * load_row<L>(of, i - s) +
+             load_row<L>(face[c], i + s) * load_row<L>(of, i + s);
     }
     return sum;
   }
@@ -48,23 +51,54 @@ struct FirstSweep {
     for (const int k : at) parity += k;
     level.x[i] = (parity & 1) == 0 ? level.b[i] * level.inverse[i] : Real(0);
   }
+  void row(Each<int, N> const& at, std::ptrdiff_t first, int n) const {
+    int parity = colour;
+    for (const int k : at) parity += k;
+    parity &= 1;
+    for (int k = parity; k < n; k += 2) level.x[first + k] = level.b[first + k] * level.inverse[first + k];
+    for (int k = 1 - parity; k < n; k += 2) level.x[first + k] = Real(0);
+  }
 };
 /// A sweep of Gauss and Seidel over cells of one colour.
 template <class Real, int N>
 struct Sweep {
   LevelView<Real, N> level;
-  SINEW_INLINE void operator()(Each<int, N> const&, std::ptrdiff_t i) const {
-    level.x[i] = (level.b[i] + level.around(level.x, i)) * level.inverse[i];
+  SINEW_INLINE void operator()(Each<int, N> const&, std::ptrdiff_t i) const { level.x[i] = value<Real>(i); }
+  void row(Each<int, N> const&, std::ptrdiff_t first, int parity, int n) const {
+    int k = 0;
+#if defined(__AVX512F__) && !defined(__CUDACC__)
+    // of all cells, of which every second one is stored: those between are what it is computed from
+    using L = lanes<Real>;
+    constexpr int width = lane_traits<L>::width;
+    for (; k + width <= n; k += width) store_every_second(level.x + first + k, parity, value<L>(first + k));
+#endif
+    for (k += parity; k < n; k += 2) level.x[first + k] = value<Real>(first + k);
+  }
+
+ private:
+  template <class L>
+  SINEW_INLINE L value(std::ptrdiff_t i) const {
+    return (load_row<L>(level.b, i) + level.template around<L>(level.x, i)) * load_row<L>(level.inverse, i);
   }
 };
 /// r = (b - A x) times the shares of interpolated values.
 template <class Real, int N>
 struct SharedResidual {
   LevelView<Real, N> level;
-  SINEW_INLINE void operator()(Each<int, N> const&, std::ptrdiff_t i) const {
-    const Real inverse = level.inverse[i];
-    level.r[i] = inverse > 0 ? (level.b[i] - level.x[i] / inverse + level.around(level.x, i)) * level.share[i]
-                             : Real(0);
+  SINEW_INLINE void operator()(Each<int, N> const&, std::ptrdiff_t i) const { level.r[i] = value<Real>(i); }
+  void row(Each<int, N> const&, std::ptrdiff_t first, int n) const {
+    for_row<Real>(first, n, [&]<class L>(std::ptrdiff_t i) { store_row<L>(level.r, i, value<L>(i)); });
+  }
+
+ private:
+  template <class L>
+  SINEW_INLINE L value(std::ptrdiff_t i) const {
+    const L inverse = load_row<L>(level.inverse, i);
+    return select(
+        inverse > L(0),
+        (load_row<L>(level.b, i) - load_row<L>(level.x, i) / inverse + level.template around<L>(level.x, i)) *
+            load_row<L>(level.share, i),
+        L(0));
   }
 };
 
