@@ -81,6 +81,8 @@ class DFSPHFlow {
   /// Velocities of the fluid behind h of a kinematic viscosity [m^2/s]. The error is that of the residual,
   /// over the first one.
   void solveViscosity(double h, double kinematic, Iteration& iteration);
+  /// Velocities of the fluid nearer to the mean of those around: v_i += part sum_j V_j W_ij (v_j - v_i).
+  void smooth(double part);
   /// Two particles of the fluid that are in one place, or {-1, -1}; behind place().
   std::pair<int, int> coincident();
 
@@ -465,6 +467,28 @@ SINEW_ONCE void DFSPHFlow::solveViscosity(double h, double kinematic, Iteration&
   for (std::size_t k = 0; k < all; ++k)
     if (const auto i = std::size_t(order[k]); i < n)
       for (int c = 0; c < 3; ++c) velocities[i][c] = pushed_[std::size_t(c)][k];
+}
+
+SINEW_ONCE void DFSPHFlow::smooth(double part) {
+  const WendlandKernel<double> kernels(radius, factor);
+  auto const& order = particles_.order();
+  for (std::size_t k = 0; k < order.size(); ++k)
+    for (int c = 0; c < 3; ++c) velocity_[std::size_t(c)][k] = velocities[std::size_t(order[k])][c];
+  inShares([&](WorkShare share) {
+    particles_.forEach(share, [&](int i, auto const& each) {
+      const auto at = std::size_t(i);
+      if (fluid_[at] == 0) return;
+      std::array<L, 3> v, sums{L(0), L(0), L(0)};
+      for (std::size_t c = 0; c < 3; ++c) v[c] = L(velocity_[c][at]);
+      each([&](Pairs const& p) {
+        const L mean = select(
+            p.acts, Particles::load(volume_, p) * Particles::load(fluid_, p) * kernels.density(p.q), L(0));
+        for (std::size_t c = 0; c < 3; ++c) sums[c] += mean * (Particles::load(velocity_[c], p) - v[c]);
+      });
+      for (int c = 0; c < 3; ++c)
+        velocities[std::size_t(order[at])][c] += part * Particles::sum(sums[std::size_t(c)]);
+    });
+  });
 }
 
 SINEW_ONCE void DFSPHFlow::solve(double h, bool ofDensity, Iteration& iteration,
