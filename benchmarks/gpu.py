@@ -22,6 +22,7 @@ SCENES = [("grid 17x8x10", "grid 17 8 10"), ("grid 20x10x12", "grid 20 10 12"), 
 COPIES = 16384
 CONTACT = ["32 32 6", "32 32 6 --double", "16 16 1", "32 32 6 --mu 0", "32 32 6 --given"]
 PARTICLES = [10_648, 97_336, 1_000_000]
+CELLS = [64, 128, 256]
 
 
 def form_of(words):
@@ -81,9 +82,17 @@ def fluid_row(text):
     return {"particles": int(found[1]), "real": found[2], "form": found[3], "steps_per_second": float(found[4])}
 
 
+def grid_row(text):
+    found = re.match(r"(\d+); (float|double); ([\d.]+); ([\d.]+); ([\d.]+); ([\d.]+) of ([\d.]+) TB/s; ", text)
+    if not found:
+        fail(f"gpu_fluids grid did not print the line that its table knows, but:\n{text}")
+    return {"cells": int(found[1]), "real": found[2], "steps_per_second": float(found[3]), "iterations": float(found[4]),
+            "million_cells_per_second": float(found[5]), "of_copy": float(found[6]), "copy": float(found[7])}
+
+
 def measured(build, meshes, say):
     """The rows of all tables of the page."""
-    results = {"gpu-scenes": [], "gpu-copies": [], "gpu-contact": [], "gpu-fluids": []}
+    results = {"gpu-scenes": [], "gpu-copies": [], "gpu-contact": [], "gpu-fluids": [], "gpu-grids": []}
     bodies = [(f"{tetrahedra:,} tetrahedra", f"fem {mesh}") for mesh, _, tetrahedra in meshes]
     scenes = SCENES[:3] + bodies + SCENES[3:]
     for real in ([], ["--double"]):
@@ -102,6 +111,10 @@ def measured(build, meshes, say):
         for options in ([], ["--graph"], ["--double"], ["--double", "--graph"]):
             say(f"gpu_fluids {particles} {' '.join(options)}")
             results["gpu-fluids"].append(fluid_row(output(build / "gpu_fluids", particles, *options)))
+    for cells in CELLS:
+        for real in ([], ["--double"]):
+            say(f"gpu_fluids grid {cells} {' '.join(real)}")
+            results["gpu-grids"].append(grid_row(output(build / "gpu_fluids", "grid", cells, *real)))
     return results
 
 

@@ -296,16 +296,27 @@ def gpu_fluids(rows):
     return markdown(["particles", *(f"{words}, {real}" for real in ("float", "double") for words in ("steps/s", "as a graph", "ns a step and particle"))], lines)
 
 
+def gpu_grids(rows):
+    lines = []
+    for cells in kinds(rows, "cells"):
+        line = [f"{round(cells ** (1 / 3))}³"]
+        for real in ("float", "double"):
+            row = of(rows, cells=cells, real=real)
+            line += [digits(row["steps_per_second"], 4), digits(row["iterations"], 2), digits(row["million_cells_per_second"]), f"{100 * row['of_copy']:.0f} %"]
+        lines.append(line)
+    return markdown(["cells", *(f"{words}, {real}" for real in ("float", "double") for words in ("steps/s", "iterations", "million cells/s", "of a copy's bandwidth"))], lines)
+
+
 TABLES = {"fem": fem, "grids": grids, "small": small, "accuracy": accuracy, "roofline": roofline, "growth": growth, "threads": threads, "fluids": fluids, "portability": portability,
           "by-hand": by_hand, "vitrectomy": vitrectomy, "runtime": runtime, "families": families, "collision": collision, "compile": compiling, "contact": contact,
           "siconos": siconos, "laparoscopy": laparoscopy, "bounds": bounds, "gpu-float": gpu_float, "gpu-double": gpu_double, "gpu-iterations": gpu_iterations,
-          "gpu-copies": gpu_copies, "gpu-contact": gpu_contact, "gpu-fluids": gpu_fluids}
+          "gpu-copies": gpu_copies, "gpu-contact": gpu_contact, "gpu-fluids": gpu_fluids, "gpu-grids": gpu_grids}
 # rows that two tables are made of
 SOURCE = {"gpu-float": "gpu-scenes", "gpu-double": "gpu-scenes"}
 # the tables of each page; all of them are of one run
 PAGES = {"performance": ["fem", "grids", "small", "accuracy", "roofline", "growth", "threads", "portability", "by-hand", "runtime", "families", "collision", "compile"],
          "contact": ["contact", "siconos"], "fluids": ["fluids"], "laparoscopy": ["laparoscopy", "bounds"], "vitrectomy": ["vitrectomy"],
-         "gpu": ["gpu-float", "gpu-double", "gpu-iterations", "gpu-copies", "gpu-contact", "gpu-fluids"]}
+         "gpu": ["gpu-float", "gpu-double", "gpu-iterations", "gpu-copies", "gpu-contact", "gpu-fluids", "gpu-grids"]}
 
 
 def rows_of(results, name):

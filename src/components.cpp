@@ -40,3 +40,10 @@
 #include <sinew/scene/removed_border.hpp>
 #include <sinew/solver/dfsph_flow.hpp>
 #include <sinew/visual/visual_model.hpp>
+
+namespace sinew {
+template struct Fluid2D<Vec2d>;
+template struct Fluid2D<Vec2f>;
+template struct Fluid3D<Vec3d>;
+template struct Fluid3D<Vec3f>;
+}  // namespace sinew

@@ -92,14 +92,14 @@ Measured measure(std::string const& kind, int size, double time, int steps, int 
     // a third of the tank is full at the start, to its end
     Simulation sim{node<"root">(Threads{.count = threads},
                                 Gravity{{0, -9.81, 0}},
-                                node<"water">(Fluid3D{.nx = n + 2,
-                                                      .ny = n + 2,
-                                                      .nz = n + 2,
-                                                      .cellwidth = 1. / n,
-                                                      .height = n / 3.,
-                                                      .dir = {1, 0.3, 0}}))};
+                                node<"water">(Fluid3D<Vec3d>{.nx = n + 2,
+                                                             .ny = n + 2,
+                                                             .nz = n + 2,
+                                                             .cellwidth = 1. / n,
+                                                             .height = n / 3.,
+                                                             .dir = {1, 0.3, 0}}))};
     time_steps(sim, 0.5 / n / 3, time, steps, found);
-    auto const& fluid = sim.template at<"water">().template get<Fluid3D>();
+    auto const& fluid = sim.template at<"water">().template get<Fluid3D<Vec3d>>();
     const Mesh border = fluid.border();
     found.bits = fingerprint(border.positions);
     return found;

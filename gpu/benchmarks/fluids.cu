@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSL-1.0
-// Steps a second on a GPU of a dam that breaks, of particles (SPHFluidForceField), the scene of
-// benchmarks/run/fluids.cpp:
+// Steps a second on a GPU of a dam that breaks, of particles (SPHFluidForceField) or in a cube of n^3 cells
+// (Fluid3D), the scenes of benchmarks/run/fluids.cpp:
 //   fluids PARTICLES [--double] [--steps N] [--graph] [--host]
+//   fluids grid N [--double] [--steps N] [--host]                (grid_fluids.hpp)
 // A block of 1 m^3 rests on the floor of a tank of three times its length. Prints particles; real; steps a
 // second, the median of N steps (200) behind the first 20, by the clock of the host, which waits for each, or
 // their mean with --graph (RecordedStep), where it waits for the last; us a step and particle. --host prints
 // how far particles are from where the processor has them after 20 steps, in distances of particles.
+#include "grid_fluids.hpp"
+
 #include <sinew/gpu/gpu.hpp>
 
 #include <sinew/gpu/recorded_step.hpp>
@@ -31,8 +34,8 @@ using namespace sinew;
 namespace {
 
 struct Options {
-  int particles = 0, steps = 200;
-  bool inDouble = false, graph = false, host = false;
+  int particles = 0, cells = 0, steps = 200;  // cells: along each axis of a grid
+  bool inDouble = false, graph = false, host = false, grid = false;
 };
 
 constexpr double density = 1000;
@@ -153,17 +156,27 @@ int main(int argc, char** argv) try {
       o.graph = true;
     else if (word == "--host")
       o.host = true;
+    else if (word == "grid" && i == 1)
+      o.grid = true;
     else if (word == "--steps" && i + 1 < argc)
       o.steps = whole_number(argv[++i], 1, 1'000'000);
-    else if (o.particles == 0)
+    else if (o.grid && o.cells == 0)
+      o.cells = whole_number(word, 4, 1000);
+    else if (!o.grid && o.particles == 0)
       o.particles = whole_number(word, 8, 100'000'000);
     else
       throw Error("arguments",
                   sinew::text("'", word, "' is no option; there are --double, --steps, --graph and --host"));
   }
-  if (o.particles == 0) {
-    std::fprintf(stderr, "usage: gpu_fluids PARTICLES [--double] [--steps N] [--graph] [--host]\n");
+  if (o.particles == 0 && o.cells == 0) {
+    std::fprintf(stderr, "usage: gpu_fluids PARTICLES|grid N [--double] [--steps N] [--graph] [--host]\n");
     return 2;
+  }
+  if (o.grid) {
+    if (o.graph) throw Error("arguments", "the step of a fluid on a grid is not recorded as a graph");
+    o.inDouble ? grid_fluids::measure<CudaVec3d>(o.cells, o.steps, settling, o.host)
+               : grid_fluids::measure<CudaVec3f>(o.cells, o.steps, settling, o.host);
+    return 0;
   }
   o.inDouble ? measure<CudaVec3d>(o) : measure<CudaVec3f>(o);
   return 0;

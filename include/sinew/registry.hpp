@@ -181,7 +181,7 @@ using StandardMultipliers =
              PrecomputedConstraintCorrection<Vec3d>, PrecomputedConstraintCorrection<Rigid3d>,
              LagrangianConstraints>;
 
-using GridFluids = Registry<Fluid2D, Fluid3D>;
+using GridFluids = Registry<Fluid2D<Vec2d>, Fluid3D<Vec3d>, Fluid3D<Vec3f>>;
 using ChangingTopologies = Registry<TopologicalChangeProcessor, TopologyBoundingTrasher<Vec3d>>;
 
 /// Every component that Sinew brings, over the DataTypes that scenes use.
@@ -200,7 +200,7 @@ struct Extended
                RigidMapping<Rigid2f, Vec2f>, RigidMapping<Rigid2f, Vec2d>, DistanceMapping<Vec3f, Vec1f>,
                VolumeMapping<Vec3f, Vec1f>, CenterOfMassMapping<Vec3d, Vec3f>,
                SkinningMapping<Rigid3f, Vec3f>, Playback<Vec1d>, Playback<Vec2d>, Playback<Vec6d>,
-               Playback<Vec3f>, Playback<Rigid2d>, Playback<Rigid3f>> {
+               Playback<Vec3f>, Playback<Rigid2d>, Playback<Rigid3f>, Fluid2D<Vec2f>> {
   static constexpr bool proved = true;
 };
 

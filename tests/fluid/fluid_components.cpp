@@ -16,11 +16,11 @@ using namespace sinew;
 
 namespace {
 
-Fluid3D tank() {
+Fluid3D<Vec3d> tank() {
   return {
       .nx = 18, .ny = 14, .nz = 10, .cellwidth = 0.1, .center = {1, 2, 3}, .height = 6.5, .dir = {0.4, 1, 0}};
 }
-auto scene(Fluid3D const& fluid, int threads = 1) {
+auto scene(Fluid3D<Vec3d> const& fluid, int threads = 1) {
   return Simulation{node<"root">(Gravity{{0, -9.81, 0}}, Threads{.count = threads}, node<"water">(fluid))};
 }
 
@@ -50,7 +50,7 @@ TEST_CASE("a fluid of a scene falls by the gravity of its node, and only then") 
 
 TEST_CASE("a fluid beside a body: each has its energy, and they do not feel each other") {
   Simulation sim{node<"root">(Gravity{{0, -9.81, 0}},
-                              node<"water">(Fluid2D{.nx = 10, .ny = 10, .height = 4.5}),
+                              node<"water">(Fluid2D<Vec2d>{.nx = 10, .ny = 10, .height = 4.5}),
                               node<"ball">(EulerExplicitSolver{},
                                            MechanicalObject<Vec3d>{.position = {{0, 0, 0}}},
                                            UniformMass<Vec3d>{.vertexMass = 2}))};
@@ -61,11 +61,11 @@ TEST_CASE("a fluid beside a body: each has its energy, and they do not feel each
 }
 
 TEST_CASE("a fluid that sloshes gains no energy") {
-  Simulation sim{node<"root">(
-      Gravity{{0, -9.81, 0}},
-      node<"water">(Fluid2D{.nx = 66, .ny = 50, .cellwidth = 0.025, .height = 24.5, .dir = {0.4, 1}}))};
+  Simulation sim{node<"root">(Gravity{{0, -9.81, 0}},
+                              node<"water">(Fluid2D<Vec2d>{
+                                  .nx = 66, .ny = 50, .cellwidth = 0.025, .height = 24.5, .dir = {0.4, 1}}))};
   sim.init();
-  Fluid2D& fluid = sim.at<"water">().get<Fluid2D>();
+  Fluid2D<Vec2d>& fluid = sim.at<"water">().get<Fluid2D<Vec2d>>();
   const Eigen::Vector3d g(0, -9.81, 0);
   const double start = fluid.gravityEnergy(g) + fluid.kineticEnergy(), volume = fluid.volume();
   // what is above a level pool: rho g L of the mean square of the tilt over 2
@@ -85,9 +85,10 @@ TEST_CASE("a fluid that sloshes gains no energy") {
 
 TEST_CASE("height counts from the walls, as in SOFA") {
   // cells 1 to 8 of 10 have fluid, the centre of cell k is at k: a surface at 4.5 is 4 cells above the floor
-  Simulation sim{node<"root">(node<"water">(Fluid2D{.nx = 10, .ny = 10, .cellwidth = 0.5, .height = 4.5}))};
+  Simulation sim{
+      node<"root">(node<"water">(Fluid2D<Vec2d>{.nx = 10, .ny = 10, .cellwidth = 0.5, .height = 4.5}))};
   sim.init();
-  Fluid2D& fluid = sim.at<"water">().get<Fluid2D>();
+  Fluid2D<Vec2d>& fluid = sim.at<"water">().get<Fluid2D<Vec2d>>();
   CHECK(fluid.volume() == Approx(8 * 4 * 0.25));
   Mesh const border = fluid.border();
   Eigen::Vector3d low = border.positions[0], high = low;
@@ -96,16 +97,16 @@ TEST_CASE("height counts from the walls, as in SOFA") {
   CHECK((high - Eigen::Vector3d(2, 0, 0)).norm() < 0.3);
   CHECK(border.edges.size() == border.positions.size());  // one closed line
 
-  Simulation full{node<"root">(node<"water">(Fluid2D{.nx = 10, .ny = 10, .height = 0}))};
+  Simulation full{node<"root">(node<"water">(Fluid2D<Vec2d>{.nx = 10, .ny = 10, .height = 0}))};
   full.init();
-  CHECK(full.at<"water">().get<Fluid2D>().volume() == 64);
+  CHECK(full.at<"water">().get<Fluid2D<Vec2d>>().volume() == 64);
 }
 
 TEST_CASE("the border of a fluid is closed, and has its volume inside") {
   auto sim = scene(tank());
   sim.init();
   for (int k = 0; k < 20; ++k) sim.animate(0.01);
-  Fluid3D& fluid = sim.at<"water">().get<Fluid3D>();
+  Fluid3D<Vec3d>& fluid = sim.at<"water">().get<Fluid3D<Vec3d>>();
   const Mesh border = fluid.border();
   CHECK_NOTHROW(check_mesh("border", border));
   std::map<std::pair<Index, Index>, int> edges;
@@ -124,38 +125,38 @@ TEST_CASE("a fluid of a scene has the same bits with threads, after a reset, and
   auto sim = scene(tank());
   sim.init();
   for (int k = 0; k < 8; ++k) sim.animate(0.01);
-  const std::vector<double> flow = sim.at<"water">().get<Fluid3D>().flow;
+  const std::vector<double> flow = sim.at<"water">().get<Fluid3D<Vec3d>>().flow;
 
   auto threaded = scene(tank(), 3);
   threaded.init();
   for (int k = 0; k < 8; ++k) threaded.animate(0.01);
-  CHECK(threaded.at<"water">().get<Fluid3D>().flow == flow);
+  CHECK(threaded.at<"water">().get<Fluid3D<Vec3d>>().flow == flow);
 
   sim.reset();
   for (int k = 0; k < 8; ++k) sim.animate(0.01);
-  CHECK(sim.at<"water">().get<Fluid3D>().flow == flow);
+  CHECK(sim.at<"water">().get<Fluid3D<Vec3d>>().flow == flow);
 
-  Fluid3D kept = tank();
+  Fluid3D<Vec3d> kept = tank();
   kept.flow = flow;
   auto goesOn = scene(kept);
   goesOn.init(0.08, 8);
   sim.animate(0.01);
   goesOn.animate(0.01);
-  CHECK(goesOn.at<"water">().get<Fluid3D>().flow == sim.at<"water">().get<Fluid3D>().flow);
+  CHECK(goesOn.at<"water">().get<Fluid3D<Vec3d>>().flow == sim.at<"water">().get<Fluid3D<Vec3d>>().flow);
 }
 
 TEST_CASE("a source pours from tstart to tstop") {
   Simulation sim{node<"root">(Gravity{{0, -9.81, 0}},
-                              node<"water">(Fluid2D{.nx = 26,
-                                                    .ny = 26,
-                                                    .cellwidth = 0.1,
-                                                    .tstart = 0.05,
-                                                    .tstop = 0.1,
-                                                    .source = {0, 0.6},
-                                                    .sourceRadius = 0.3,
-                                                    .sourceVelocity = {0, -2}}))};
+                              node<"water">(Fluid2D<Vec2d>{.nx = 26,
+                                                           .ny = 26,
+                                                           .cellwidth = 0.1,
+                                                           .tstart = 0.05,
+                                                           .tstop = 0.1,
+                                                           .source = {0, 0.6},
+                                                           .sourceRadius = 0.3,
+                                                           .sourceVelocity = {0, -2}}))};
   sim.init();
-  Fluid2D& fluid = sim.at<"water">().get<Fluid2D>();
+  Fluid2D<Vec2d>& fluid = sim.at<"water">().get<Fluid2D<Vec2d>>();
   const double start = fluid.volume();
   for (int k = 0; k < 5; ++k) sim.animate(0.01);
   CHECK(fluid.volume() == Approx(start).epsilon(1e-8));
@@ -177,31 +178,33 @@ TEST_CASE("a fluid says when its step is too long, and goes on") {
 TEST_CASE("what Fluid2D and Fluid3D refuse") {
   auto refused = [](auto change) {
     return error_of([&] {
-      Fluid3D fluid = tank();
+      Fluid3D<Vec3d> fluid = tank();
       change(fluid);
       auto sim = scene(fluid);
       sim.init();
       sim.animate(0.01);
     });
   };
-  CHECK(refused([](Fluid3D&) {}).empty());
-  CHECK_THAT(refused([](Fluid3D& f) { f.nx = f.ny = f.nz = 10000; }),
+  CHECK(refused([](Fluid3D<Vec3d>&) {}).empty());
+  CHECK_THAT(refused([](Fluid3D<Vec3d>& f) { f.nx = f.ny = f.nz = 10000; }),
              Catch::Contains("/root/water: Fluid3D") && Catch::Contains("would take"));
-  CHECK_THAT(refused([](Fluid3D& f) { f.ny = 2; }), Catch::Contains("ny") && Catch::Contains("at least 3"));
-  CHECK_THAT(refused([](Fluid3D& f) { f.nz = -5; }), Catch::Contains("nz"));
-  CHECK_THAT(refused([](Fluid3D& f) { f.cellwidth = 0; }), Catch::Contains("cellwidth"));
-  CHECK_THAT(refused([](Fluid3D& f) { f.height = std::nan(""); }), Catch::Contains("height"));
-  CHECK_THAT(refused([](Fluid3D& f) { f.center[1] = std::nan(""); }), Catch::Contains("center"));
-  CHECK_THAT(refused([](Fluid3D& f) { f.dir = {0, 0, 0}; }), Catch::Contains("dir is zero"));
-  CHECK_THAT(refused([](Fluid3D& f) { f.height = -3; }), Catch::Contains("there is no fluid in the grid"));
-  CHECK_THAT(refused([](Fluid3D& f) { f.density = 0; }), Catch::Contains("density"));
-  CHECK_THAT(refused([](Fluid3D& f) { f.viscosity = -1; }), Catch::Contains("viscosity"));
-  CHECK_THAT(refused([](Fluid3D& f) { f.tolerance = 0; }), Catch::Contains("tolerance"));
-  CHECK_THAT(refused([](Fluid3D& f) {
+  CHECK_THAT(refused([](Fluid3D<Vec3d>& f) { f.ny = 2; }),
+             Catch::Contains("ny") && Catch::Contains("at least 3"));
+  CHECK_THAT(refused([](Fluid3D<Vec3d>& f) { f.nz = -5; }), Catch::Contains("nz"));
+  CHECK_THAT(refused([](Fluid3D<Vec3d>& f) { f.cellwidth = 0; }), Catch::Contains("cellwidth"));
+  CHECK_THAT(refused([](Fluid3D<Vec3d>& f) { f.height = std::nan(""); }), Catch::Contains("height"));
+  CHECK_THAT(refused([](Fluid3D<Vec3d>& f) { f.center[1] = std::nan(""); }), Catch::Contains("center"));
+  CHECK_THAT(refused([](Fluid3D<Vec3d>& f) { f.dir = {0, 0, 0}; }), Catch::Contains("dir is zero"));
+  CHECK_THAT(refused([](Fluid3D<Vec3d>& f) { f.height = -3; }),
+             Catch::Contains("there is no fluid in the grid"));
+  CHECK_THAT(refused([](Fluid3D<Vec3d>& f) { f.density = 0; }), Catch::Contains("density"));
+  CHECK_THAT(refused([](Fluid3D<Vec3d>& f) { f.viscosity = -1; }), Catch::Contains("viscosity"));
+  CHECK_THAT(refused([](Fluid3D<Vec3d>& f) { f.tolerance = 0; }), Catch::Contains("tolerance"));
+  CHECK_THAT(refused([](Fluid3D<Vec3d>& f) {
                f.obstacle.push_back({0, 0, 0, 1, -1, 1});
              }),
              Catch::Contains("obstacle[0] is empty"));
-  CHECK_THAT(refused([](Fluid3D& f) {
+  CHECK_THAT(refused([](Fluid3D<Vec3d>& f) {
                f.obstacle.push_back({-9, -9, -9, 9, 9, 9});
              }),
              Catch::Contains("there is no fluid"));

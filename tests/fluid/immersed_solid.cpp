@@ -27,12 +27,13 @@ Vector3d sum(std::vector<Vector3d> const& all) {
 // how far the lift on a fixed sphere is from the weight of the water that it displaces, relative
 double lift_error(int n) {
   const Mesh ball = shapes::sphere(0.3, 4, {0.013, 0.017, -0.011});
-  Simulation sim{node<"root">(
-      Gravity{{0, -g, 0}},
-      node<"water">(Fluid3D{.nx = n + 2, .ny = n + 2, .nz = n + 2, .cellwidth = 1. / n, .height = 0.9 * n}),
-      node<"ball">(MeshTopology{.triangles = ball.triangles},
-                   MechanicalObject<Vec3d>{.position = ball.positions},
-                   ImmersedSolid<Vec3d>{}))};
+  Simulation sim{
+      node<"root">(Gravity{{0, -g, 0}},
+                   node<"water">(Fluid3D<Vec3d>{
+                       .nx = n + 2, .ny = n + 2, .nz = n + 2, .cellwidth = 1. / n, .height = 0.9 * n}),
+                   node<"ball">(MeshTopology{.triangles = ball.triangles},
+                                MechanicalObject<Vec3d>{.position = ball.positions},
+                                ImmersedSolid<Vec3d>{}))};
   sim.init();
   sim.animate(0.01);
   const Vector3d lift = sum(sim.template at<"ball">().template get<ImmersedSolid<Vec3d>>().body.forces);
@@ -61,7 +62,7 @@ TEST_CASE("a sphere that is let go has the acceleration of its weight, its lift 
   for (const double part : {1., 0.02, 3.}) {
     Simulation sim{node<"root">(
         Gravity{{0, -g, 0}},
-        node<"water">(Fluid3D{.nx = 42, .ny = 42, .nz = 42, .cellwidth = 1. / 40, .height = 0}),
+        node<"water">(Fluid3D<Vec3d>{.nx = 42, .ny = 42, .nz = 42, .cellwidth = 1. / 40, .height = 0}),
         node<"ball">(EulerExplicitSolver{},
                      MechanicalObject<Rigid3d>{.position = {Rigid3d::zero()}},
                      UniformMass<Rigid3d>{.vertexMass = Rigid3d::MassType{.mass = part * rho * volume}},
@@ -81,7 +82,7 @@ TEST_CASE("a sphere that is let go has the acceleration of its weight, its lift 
       CHECK(((displaced - part) * g / a - part) / displaced == Approx(0.506).margin(0.02));
     }
     // what the fluid foresaw is what the body did
-    auto const& body = sim.at<"water">().get<Fluid3D>().bodies[0];
+    auto const& body = sim.at<"water">().get<Fluid3D<Vec3d>>().bodies[0];
     CHECK((body.motion - sim.at<"ball">().state().velocity[0]).norm() < 1e-9);
   }
 }
@@ -96,7 +97,8 @@ TEST_CASE("a box that is lighter than water floats at Archimedes' depth, level, 
     start.orientation = 0.1;
     Simulation sim{node<"root">(
         Gravity{{0, -g, 0}},
-        node<"water">(Fluid2D{.nx = 34, .ny = 34, .cellwidth = 1. / 32, .height = 16.5, .viscosity = 5}),
+        node<"water">(
+            Fluid2D<Vec2d>{.nx = 34, .ny = 34, .cellwidth = 1. / 32, .height = 16.5, .viscosity = 5}),
         node<"box">(EulerExplicitSolver{},
                     MechanicalObject<Rigid2d>{.position = {start}},
                     UniformMass<Rigid2d>{.vertexMass = Rigid2d::MassType{.mass = mass,
@@ -116,7 +118,7 @@ TEST_CASE("a box that is lighter than water floats at Archimedes' depth, level, 
       turn += sim.at<"box">().state().position[0].orientation / last;
       lift += sim.at<"box/skin">().get<ImmersedSolid<Vec2d>>().body.load[1] / last;
     }
-    const double level = -0.5 + sim.at<"water">().get<Fluid2D>().volume() + mass / rho;
+    const double level = -0.5 + sim.at<"water">().get<Fluid2D<Vec2d>>().volume() + mass / rho;
     const double depth = level - (height - h / 2);
     CAPTURE(density, level, height, depth * 32, mass / (rho * w) * 32, turn);
     CHECK(depth == Approx(mass / (rho * w)).margin(0.25 / 32));  // a quarter of a cell
@@ -131,15 +133,16 @@ TEST_CASE("a piston that moves through a tank keeps the volume of the water, and
   const double speed = 0.1, dt = 0.01;
   const std::vector<Eigen::Vector2d> corners{{-2, -2}, {-0.4, -2}, {-0.4, 2}, {-2, 2}};
   Simulation sim{node<"root">(
-      node<"water">(Gravity{{0, -g, 0}},
-                    Fluid2D{.nx = 42, .ny = 42, .cellwidth = 1. / 40, .height = 20.5, .keepVolume = false}),
+      node<"water">(
+          Gravity{{0, -g, 0}},
+          Fluid2D<Vec2d>{.nx = 42, .ny = 42, .cellwidth = 1. / 40, .height = 20.5, .keepVolume = false}),
       node<"piston">(EulerExplicitSolver{},
                      MeshTopology{.edges = {{0, 1}, {1, 2}, {2, 3}, {3, 0}}},
                      MechanicalObject<Vec2d>{.position = corners, .velocity = {{speed, 0}}},
                      UniformMass<Vec2d>{.vertexMass = 1e12},
                      ImmersedSolid<Vec2d>{}))};
   sim.init();
-  Fluid2D& water = sim.at<"water">().get<Fluid2D>();
+  Fluid2D<Vec2d>& water = sim.at<"water">().get<Fluid2D<Vec2d>>();
   sim.animate(dt);
   const double volume = water.volume();
   CHECK(volume == Approx(0.9 * 0.5).epsilon(1e-3));
@@ -207,7 +210,7 @@ TEST_CASE("a body does not feel its own acceleration twice: at rest on a spring 
   const double volume = 0.4 * 0.4 * 0.4, mass = 2500 * volume, stiffness = 2e5;
   Simulation sim{node<"root">(
       Gravity{{0, -g, 0}},
-      node<"water">(Fluid3D{.nx = 18, .ny = 18, .nz = 18, .cellwidth = 1. / 16, .height = 14.5}),
+      node<"water">(Fluid3D<Vec3d>{.nx = 18, .ny = 18, .nz = 18, .cellwidth = 1. / 16, .height = 14.5}),
       node<"ball">(
           EulerExplicitSolver{},
           MechanicalObject<Rigid3d>{.position = {Rigid3d::zero()}},
@@ -230,7 +233,7 @@ TEST_CASE("a body does not feel its own acceleration twice: at rest on a spring 
 TEST_CASE("solids in fluids: bad input") {
   auto wrong = [](Mesh const& mesh) {
     Simulation sim{
-        node<"root">(node<"water">(Fluid3D{.nx = 8, .ny = 8, .nz = 8, .cellwidth = 0.1, .height = 4}),
+        node<"root">(node<"water">(Fluid3D<Vec3d>{.nx = 8, .ny = 8, .nz = 8, .cellwidth = 0.1, .height = 4}),
                      node<"stone">(MeshTopology{.triangles = mesh.triangles, .quads = mesh.quads},
                                    MechanicalObject<Vec3d>{.position = mesh.positions},
                                    ImmersedSolid<Vec3d>{}))};
@@ -254,7 +257,7 @@ TEST_CASE("solids in fluids: bad input") {
   // a body that diverges
   const Mesh cube = shapes::box({-0.1, -0.1, -0.1}, {0.12, 0.12, 0.12});
   Simulation sim{
-      node<"root">(node<"water">(Fluid3D{.nx = 8, .ny = 8, .nz = 8, .cellwidth = 0.1, .height = 4}),
+      node<"root">(node<"water">(Fluid3D<Vec3d>{.nx = 8, .ny = 8, .nz = 8, .cellwidth = 0.1, .height = 4}),
                    node<"stone">(MeshTopology{.quads = cube.quads},
                                  MechanicalObject<Vec3d>{.position = cube.positions},
                                  ImmersedSolid<Vec3d>{}))};

@@ -22,7 +22,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-struct Few : Registry<Gravity, Threads, Fluid2D, Fluid3D> {};
+struct Few : Registry<Gravity, Threads, Fluid2D<Vec2d>, Fluid3D<Vec3d>> {};
 using Few_simulation = Simulation<RuntimeNode<Few>>;
 
 constexpr char const* scene =
@@ -46,22 +46,22 @@ Few_simulation started(ReadScene<Few> read) {
 TEST_CASE("a fluid of a scene file has the bits of a typed one, also from a checkpoint") {
   auto sim = started(parse_scene<Few>("water.scn", scene));
   Simulation typed{node<"root">(Gravity{{0, -9.81, 0}},
-                                node<"water">(Fluid3D{.nx = 18,
-                                                      .ny = 14,
-                                                      .nz = 10,
-                                                      .cellwidth = 0.1,
-                                                      .center = {1, 2, 3},
-                                                      .height = 6.5,
-                                                      .dir = {0.4, 1, 0},
-                                                      .viscosity = 0.5,
-                                                      .walls = fluid::Walls::stick,
-                                                      .obstacle = {{0.5, 0, 0, 1, 1.6, 9}}}))};
+                                node<"water">(Fluid3D<Vec3d>{.nx = 18,
+                                                             .ny = 14,
+                                                             .nz = 10,
+                                                             .cellwidth = 0.1,
+                                                             .center = {1, 2, 3},
+                                                             .height = 6.5,
+                                                             .dir = {0.4, 1, 0},
+                                                             .viscosity = 0.5,
+                                                             .walls = fluid::Walls::stick,
+                                                             .obstacle = {{0.5, 0, 0, 1, 1.6, 9}}}))};
   typed.init();
   for (int k = 0; k < 6; ++k) {
     sim.animate(0.01);
     typed.animate(0.01);
   }
-  CHECK(flow_of(sim) == typed.at<"water">().get<Fluid3D>().flow);
+  CHECK(flow_of(sim) == typed.at<"water">().get<Fluid3D<Vec3d>>().flow);
   CHECK(sim.kineticEnergy() == typed.kineticEnergy());
   CHECK(sim.kineticEnergy() > 0);
 

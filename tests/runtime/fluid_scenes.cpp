@@ -18,17 +18,17 @@ using namespace sinew;
 namespace {
 
 struct Few
-    : Registry<
-          Gravity, Threads, Fluid2D, Fluid3D, DFSPHSolver, EulerExplicitSolver, EulerImplicitSolver,
-          CGLinearSolver<>, CGLinearSolver<CompressedRowSparseMatrixMat3x3d>, CubeTopology, MeshTopology,
-          RegularGridTopology, SparseGridTopology, MechanicalObject<Vec3d>, MechanicalObject<Rigid3d>,
-          MechanicalObject<Vec3f>, UniformMass<Vec3d>, UniformMass<Rigid3d>, HexahedronFEMForceField<Vec3d>,
-          SPHFluidForceField<Vec3d>, PlaneForceField<Vec3d>, ConstantForceField<Rigid3d>,
-          FluidBoundary<Vec3d>, ImmersedSolid<Vec3d>, FixedConstraint<Vec3d>, PartialFixedConstraint<Rigid3d>,
-          ParticleSource<Vec3d>, ParticleSink<Vec3d>, RigidMapping<Rigid3d, Vec3d>,
-          BarycentricMapping<Vec3d, Vec3d>, BarycentricMapping<Vec3d, Vec3f>, IdentityMapping<Vec3d, Vec3f>,
-          SPHFluidSurfaceMapping<Vec3d, Vec3f>, VisualModel, MeshOBJLoader, SurfaceSampling, BoxROI<Vec3d>> {
-};
+    : Registry<Gravity, Threads, Fluid2D<Vec2d>, Fluid3D<Vec3d>, DFSPHSolver, EulerExplicitSolver,
+               EulerImplicitSolver, CGLinearSolver<>, CGLinearSolver<CompressedRowSparseMatrixMat3x3d>,
+               CubeTopology, MeshTopology, RegularGridTopology, SparseGridTopology, MechanicalObject<Vec3d>,
+               MechanicalObject<Rigid3d>, MechanicalObject<Vec3f>, UniformMass<Vec3d>, UniformMass<Rigid3d>,
+               HexahedronFEMForceField<Vec3d>, SPHFluidForceField<Vec3d>, PlaneForceField<Vec3d>,
+               ConstantForceField<Rigid3d>, FluidBoundary<Vec3d>, ImmersedSolid<Vec3d>,
+               FixedConstraint<Vec3d>, PartialFixedConstraint<Rigid3d>, ParticleSource<Vec3d>,
+               ParticleSink<Vec3d>, RigidMapping<Rigid3d, Vec3d>, BarycentricMapping<Vec3d, Vec3d>,
+               BarycentricMapping<Vec3d, Vec3f>, IdentityMapping<Vec3d, Vec3f>,
+               SPHFluidSurfaceMapping<Vec3d, Vec3f>, VisualModel, MeshOBJLoader, SurfaceSampling,
+               BoxROI<Vec3d>> {};
 
 auto started(std::string const& name) {
   auto read = read_scene<Few>(std::string(SINEW_EXAMPLE_SCENES) + "/" + name);
@@ -69,7 +69,7 @@ TEST_CASE("a solid in a fluid of a scene file has the bits of a typed one") {
   at.center = {0, 0.1, 0};
   Simulation typed{node<"root">(
       Gravity{{0, -9.81, 0}},
-      node<"pool">(Fluid3D{.nx = 14, .ny = 14, .nz = 14, .cellwidth = 0.0625, .height = 9}),
+      node<"pool">(Fluid3D<Vec3d>{.nx = 14, .ny = 14, .nz = 14, .cellwidth = 0.0625, .height = 9}),
       node<"box">(EulerExplicitSolver{},
                   MechanicalObject<Rigid3d>{.position = {at}},
                   UniformMass<Rigid3d>{
@@ -87,7 +87,7 @@ TEST_CASE("a solid in a fluid of a scene file has the bits of a typed one") {
   auto const& state = component<MechanicalObject<Rigid3d>>(sim, "box");
   CHECK(state.velocity == typed.at<"box">().state().velocity);
   CHECK(state.position[0].center == typed.at<"box">().state().position[0].center);
-  CHECK(component<Fluid3D>(sim, "pool").flow == typed.at<"pool">().get<Fluid3D>().flow);
+  CHECK(component<Fluid3D<Vec3d>>(sim, "pool").flow == typed.at<"pool">().get<Fluid3D<Vec3d>>().flow);
   CHECK(state.velocity[0].norm() > 1e-3);
 
   // and in a copy
@@ -102,7 +102,7 @@ TEST_CASE("a blade stirs a tank, the water takes its torque, and a box that swim
   auto& blade = component<ImmersedSolid<Vec3d>>(sim, "stirrer/blade");
   auto& stirrer = component<MechanicalObject<Rigid3d>>(sim, "stirrer");
   auto& box = component<MechanicalObject<Rigid3d>>(sim, "box");
-  auto& water = component<Fluid3D>(sim, "water");
+  auto& water = component<Fluid3D<Vec3d>>(sim, "water");
   const double volume = water.volume();
   for (int k = 0; k < 150; ++k) {
     sim.animate(0.01);

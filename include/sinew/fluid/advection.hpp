@@ -3,6 +3,7 @@
 
 #include <sinew/fluid/staggered_velocity.hpp>
 
+#include <limits>
 #include <string_view>
 
 namespace sinew::fluid {
@@ -15,11 +16,62 @@ inline constexpr std::array<std::string_view, 2> enum_names(Advection) {
 }
 
 /// Room for what advection keeps of a field.
-template <class Real>
+template <class Real, class Loops = HostLoops>
 struct AdvectionRoom {
-  std::vector<Real> low{}, high{}, there{};
+  typename Loops::template Array<Real> low{}, high{}, there{};
   void init(std::size_t n) {
-    for (auto* field : {&low, &high, &there}) field->assign(n, Real(0));
+    for (auto* field : {&low, &high, &there}) Loops::assign(*field, n, Real(0));
+  }
+};
+
+/// A step forth: once = A(field), and the bounds of what it lay between, if they are wanted.
+template <class Real, int N, class Wanted>
+struct CarryForth {
+  VelocityView<Real, N> u;
+  int axis;  // of the faces; -1: centres
+  Real step;
+  Wanted wanted;
+  Real const* field;
+  Real *once, *low, *high;
+  bool bounds;
+
+  SINEW_INLINE typename VelocityView<Real, N>::Vector from(Each<int, N> const& at, std::ptrdiff_t i,
+                                                           Real by) const {
+    typename VelocityView<Real, N>::Vector x;
+    for (int d = 0; d < N; ++d) x[d] = Real(at[std::size_t(d)]) - (d == axis ? Real(1) : Real(0.5));
+    return u.trace(x, u.velocityAt(axis, i), by);
+  }
+  SINEW_INLINE void operator()(Each<int, N> const& at, std::ptrdiff_t i) const {
+    if (!wanted(i)) {
+      once[i] = field[i];
+      return;
+    }
+    const auto x = from(at, i, step);
+    if (bounds) {
+      Real least = std::numeric_limits<Real>::max(), most = std::numeric_limits<Real>::lowest();
+      once[i] = u.template interpolate<true>(field, axis, x, &least, &most);
+      low[i] = least;
+      high[i] = most;
+    } else {
+      once[i] = u.interpolate(field, axis, x);
+    }
+  }
+};
+/// A step back, and what it misses of the field halved.
+template <class Real, int N, class Wanted>
+struct CarryBack {
+  CarryForth<Real, N, Wanted> forth;
+  Real* result;
+
+  SINEW_INLINE void operator()(Each<int, N> const& at, std::ptrdiff_t i) const {
+    if (!forth.wanted(i)) {
+      result[i] = forth.field[i];
+      return;
+    }
+    const Real back =
+        forth.u.interpolate(static_cast<Real const*>(forth.once), forth.axis, forth.from(at, i, -forth.step));
+    const Real value = forth.once[i] + (forth.field[i] - back) / 2;
+    result[i] = value < forth.low[i] ? forth.low[i] : (forth.high[i] < value ? forth.high[i] : value);
   }
 };
 
@@ -27,49 +79,26 @@ struct AdvectionRoom {
 /// was. The values are those of faces of axis c, or of the centres of cells (-1), and fill(field) makes those
 /// of the layer around.
 ///   a semi-Lagrangian step forth, one back:   r^ = A(field),  f~ = A^-1(r^),  result = r^ + (field - f~) / 2
-template <class Real, int N, class Wanted, class Fill>
-void advect(StaggeredVelocity<Real, N> const& u, int c, std::vector<Real> const& field,
-            std::vector<Real>& result, Real step, Advection method, AdvectionRoom<Real>& room,
-            SomeWorkers workers, Wanted&& wanted, Fill&& fill) {
-  using Vector = typename StaggeredVelocity<Real, N>::Vector;
-  CellGrid<N> const& grid = u.grid;
+template <class Real, int N, class Loops, class Wanted, class Fill>
+void advect(StaggeredVelocity<Real, N, Loops> const& u, int c,
+            typename Loops::template Array<Real> const& field, typename Loops::template Array<Real>& result,
+            Real step, Advection method, AdvectionRoom<Real, Loops>& room, Loops const& loops,
+            Wanted const& wanted, Fill&& fill) {
   const bool second = method == Advection::macCormack;
-  std::vector<Real>& once = second ? room.there : result;
-  auto forPlaces = [&](auto&& f) {
-    grid.forRows(workers, [&](std::size_t row, std::ptrdiff_t first) {
-      const auto at = grid.place(row);
-      Vector x;
-      for (int d = 0; d < N; ++d) x[d] = Real(at[std::size_t(d)]) - (d == c ? Real(1) : Real(0.5));
-      for (std::ptrdiff_t i = first; i < first + grid.cells[0]; ++i, x[0] += 1) f(i, x);
-    });
-  };
-  forPlaces([&](std::ptrdiff_t i, Vector const& x) {
-    const auto k = std::size_t(i);
-    if (!wanted(i)) {
-      once[k] = field[k];
-      return;
-    }
-    const Vector from = u.trace(x, u.velocityAt(c, i), step);
-    if (second) {
-      Real low = std::numeric_limits<Real>::max(), high = std::numeric_limits<Real>::lowest();
-      once[k] = u.template interpolate<true>(field.data(), c, from, &low, &high);
-      room.low[k] = low;
-      room.high[k] = high;
-    } else {
-      once[k] = u.interpolate(field.data(), c, from);
-    }
-  });
+  auto& once = second ? room.there : result;
+  const CarryForth<Real, N, Wanted> forth{u.view(),
+                                          c,
+                                          step,
+                                          wanted,
+                                          entries(field),
+                                          entries(once),
+                                          entries(room.low),
+                                          entries(room.high),
+                                          second};
+  loops.cells(u.grid, forth);
   fill(once);
   if (!second) return;
-  forPlaces([&](std::ptrdiff_t i, Vector const& x) {
-    const auto k = std::size_t(i);
-    if (!wanted(i)) {
-      result[k] = field[k];
-      return;
-    }
-    const Real back = u.interpolate(once.data(), c, u.trace(x, u.velocityAt(c, i), -step));
-    result[k] = std::clamp(once[k] + (field[k] - back) / 2, room.low[k], room.high[k]);
-  });
+  loops.cells(u.grid, CarryBack<Real, N, Wanted>{forth, entries(result)});
   fill(result);
 }
 

@@ -36,14 +36,14 @@ struct CellGrid {
     }
   }
 
-  std::size_t rows() const {
+  SINEW_INLINE std::size_t rows() const {
     std::size_t n = 1;
     for (std::size_t c = 1; c < axes<N>; ++c) n *= std::size_t(cells[c]);
     return n;
   }
-  std::size_t inner() const { return rows() * std::size_t(cells[0]); }
+  SINEW_INLINE std::size_t inner() const { return rows() * std::size_t(cells[0]); }
   /// y, and z, of a row of cells along x, from 1.
-  Each<int, N> place(std::size_t row) const {
+  SINEW_INLINE Each<int, N> place(std::size_t row) const {
     Each<int, N> at{};
     at[0] = 1;
     for (std::size_t c = 1; c < axes<N>; ++c) {
@@ -52,10 +52,16 @@ struct CellGrid {
     }
     return at;
   }
-  std::ptrdiff_t index(Each<int, N> const& at) const {
+  SINEW_INLINE std::ptrdiff_t index(Each<int, N> const& at) const {
     std::ptrdiff_t i = 0;
     for (std::size_t c = 0; c < axes<N>; ++c) i += at[c] * stride[c];
     return i;
+  }
+  /// The inverse.
+  SINEW_INLINE Each<int, N> placeOf(std::ptrdiff_t i) const {
+    Each<int, N> at{};
+    for (std::size_t d = axes<N>; d-- > 0; i %= stride[d]) at[d] = int(i / stride[d]);
+    return at;
   }
 
   /// f(row, index of its first inner cell) for the rows of a share of the work.
@@ -92,27 +98,48 @@ struct CellGrid {
     return total;
   }
 
-  /// f(index in the layer around, index of the inner cell next to it, index of that at the other end, side)
-  /// for each cell beside one of the two sides across an axis; the side is 0 or 1. With `edges` also beside
-  /// the layers of the axes before, so that edges and corners are filled when all axes have been gone through
-  /// in their order.
-  template <class F>
-  void forSides(std::size_t axis, bool edges, F&& f) const {
-    Each<int, N> at{}, low{}, high{};
+  /// The cells beside the lower side across an axis, counted through: how many there are along each of the
+  /// other axes, and the index in the layer around of one of them. With `edges` also beside the layers of the
+  /// axes before, so that edges and corners are filled when all axes have been gone through in their order.
+  struct Side {
+    Each<int, N> low{}, count{};
+  };
+  SINEW_INLINE Side side(std::size_t axis, bool edges) const {
+    Side s;
     for (std::size_t c = 0; c < axes<N>; ++c) {
       const bool whole = edges && c < axis;
-      low[c] = c == axis || whole ? 0 : 1;
-      high[c] = c == axis ? 0 : (whole ? cells[c] + 1 : cells[c]);
+      s.low[c] = c == axis || whole ? 0 : 1;
+      s.count[c] = c == axis ? 1 : cells[c] + (whole ? 2 : 0);
     }
-    at = low;
+    return s;
+  }
+  SINEW_INLINE std::ptrdiff_t sideIndex(Side const& s, int number) const {
+    std::ptrdiff_t i = 0;
+    for (std::size_t c = 0; c < axes<N>; ++c) {
+      i += (s.low[c] + number % s.count[c]) * stride[c];
+      number /= s.count[c];
+    }
+    return i;
+  }
+  /// f(index in the layer around, index of the inner cell next to it, index of that at the other end, side)
+  /// on the two sides across an axis, 0 and 1, of a cell of the lower layer.
+  template <class F>
+  SINEW_INLINE void onBothSides(std::size_t axis, std::ptrdiff_t base, F&& f) const {
+    const std::ptrdiff_t n = cells[axis], s = stride[axis];
+    f(base, base + s, base + n * s, 0);
+    f(base + (n + 1) * s, base + n * s, base + s, 1);
+  }
+  /// The same for all cells beside the sides.
+  template <class F>
+  void forSides(std::size_t axis, bool edges, F&& f) const {
+    const Side s = side(axis, edges);
+    Each<int, N> at = s.low;
     for (;;) {
-      const std::ptrdiff_t base = index(at), n = cells[axis], s = stride[axis];
-      f(base, base + s, base + n * s, 0);
-      f(base + (n + 1) * s, base + n * s, base + s, 1);
+      onBothSides(axis, index(at), f);
       std::size_t c = 0;
       for (; c < N; ++c) {
-        if (++at[c] <= high[c]) break;
-        at[c] = low[c];
+        if (++at[c] < s.low[c] + s.count[c]) break;
+        at[c] = s.low[c];
       }
       if (c == axes<N>) return;
     }
@@ -125,6 +152,35 @@ struct CellGrid {
         forSides(axis, true, [&](std::ptrdiff_t outer, std::ptrdiff_t, std::ptrdiff_t other, int) {
           field[std::size_t(outer)] = field[std::size_t(other)];
         });
+  }
+
+  /// f(neighbour) of an inner cell and its place, across the ends of periodic axes
+  template <class F>
+  SINEW_INLINE void forNeighbours(Each<int, N> const& at, std::ptrdiff_t i, F&& f) const {
+    for (std::size_t d = axes<N>; d-- > 0;) {
+      const std::ptrdiff_t s = stride[d], n = cells[d];
+      if (at[d] > 1)
+        f(i - s);
+      else if (periodic[d])
+        f(i + (n - 1) * s);
+      if (at[d] < n)
+        f(i + s);
+      else if (periodic[d])
+        f(i - (n - 1) * s);
+    }
+  }
+  template <class F>
+  void forNeighbours(std::ptrdiff_t i, F&& f) const {
+    forNeighbours(placeOf(i), i, f);
+  }
+};
+
+/// What is in the layer around = what is at the other end (CellGrid::forSides).
+template <class T>
+struct CopyOther {
+  T* field;
+  SINEW_INLINE void operator()(std::ptrdiff_t outer, std::ptrdiff_t, std::ptrdiff_t other, int) const {
+    field[outer] = field[other];
   }
 };
 

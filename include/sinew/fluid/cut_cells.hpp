@@ -53,9 +53,11 @@ double positive_part(std::array<double, Corners> const& value) {
 /// room from the cells:
 ///   impulse P = rho h^N sum over faces of (1 - a) m (q below - q above),  q = p dt / (rho h),
 /// and V = V* + R P makes its motion a part of the equations of q, whose matrix stays symmetric.
-template <class Real, int N>
+template <class Real, int N, class Loops = HostLoops>
 class CutCells {
  public:
+  using Velocity = StaggeredVelocity<Real, N, Loops>;
+  using Field = typename Loops::template Array<Real>;
   using Vector = Eigen::Matrix<double, N, 1>;
   /// A face with a solid in it.
   struct Face {
@@ -65,10 +67,11 @@ class CutCells {
     std::array<Index, 3> points;
     Eigen::Vector3d weights;  // of the points nearest to it on the surface
     ImmersedBody::Vector6 mode;
+    double drag = 0;  // impulse on the body by viscosity, along the axis [N s]
   };
 
-  Each<std::vector<Real>, N> open{};  // a
-  std::vector<Real> room{};           // of each cell, outside solids
+  Each<Field, N> open{};  // a
+  Field room{};           // of each cell, outside solids
   std::vector<Face> faces{};
   bool any = false;
 
@@ -82,7 +85,7 @@ class CutCells {
   /// Takes bodies where they are. Cells that they fill are solid, others are what they are without them:
   /// `kind` of obstacles stays.
   void place(std::string const& where, std::vector<ImmersedBody> const& bodies, Vector const& corner,
-             double h, StaggeredVelocity<Real, N>& u, std::vector<std::uint8_t> const& obstacle) {
+             double h, Velocity& u, typename Loops::template Array<std::uint8_t> const& obstacle) {
     for (Face const& f : faces) u.solid[std::size_t(f.axis)][std::size_t(f.cell)] = 0;
     faces.clear();
     any = !bodies.empty();
@@ -110,7 +113,7 @@ class CutCells {
       some = some || !closed;
     });
     findFaces(bodies, corner, h, place, obstacle);
-    for (std::size_t c = 0; c < axes<N>; ++c) grid_.wrap(std::span<Real>(open[c]));
+    for (std::size_t c = 0; c < axes<N>; ++c) grid_.wrap(std::span<Real>(open[c].data(), grid_.size));
     if (!some)
       throw Error(where,
                   text("solids fill all of the grid, ",
@@ -126,7 +129,7 @@ class CutCells {
   }
 
   /// Faces that solids close are walls; comes behind the kinds of cells and faces.
-  void close(StaggeredVelocity<Real, N>& u) {
+  void close(Velocity& u) {
     for (Face& f : faces) {
       const auto c = std::size_t(f.axis);
       const std::ptrdiff_t i = f.cell, below = i - grid_.stride[c];
@@ -136,8 +139,20 @@ class CutCells {
         u.kind[c][at(i)] = FaceKind::wall;
     }
   }
+  /// Of the middle of a face from solids, negative inside [cells].
+  double distance(std::size_t c, std::ptrdiff_t i) const {
+    double sum = 0;
+    constexpr std::size_t corners = std::size_t(1) << (N - 1);
+    for (std::size_t k = 0; k < corners; ++k) {
+      std::ptrdiff_t j = i;
+      for (std::size_t d = 1; d < axes<N>; ++d)
+        if (k >> (d - 1) & 1) j += grid_.stride[(c + d) % axes<N>];
+      sum += distance_.value[at(j)];
+    }
+    return sum / double(corners);
+  }
   /// Velocities of the solids at their faces, rigid bodies with these motions.
-  void move(std::vector<ImmersedBody> const& bodies, StaggeredVelocity<Real, N>& u) const {
+  void move(std::vector<ImmersedBody> const& bodies, Velocity& u) const {
     for (Face const& f : faces) {
       ImmersedBody const& body = bodies[std::size_t(f.body)];
       double speed = 0;
@@ -152,8 +167,7 @@ class CutCells {
 
   /// y += what pressure q lets flow out of cells by moving the bodies that answer; impulses are rho h^N times
   /// sums of q.
-  void respond(std::vector<ImmersedBody> const& bodies, double perPressure, std::vector<Real> const& q,
-               std::vector<Real>& y) const {
+  void respond(std::vector<ImmersedBody> const& bodies, double perPressure, Field const& q, Field& y) const {
     for (std::size_t b = 0; b < bodies.size(); ++b) {
       if (!bodies[b].answers()) continue;
       const ImmersedBody::Vector6 gain = bodies[b].response * (perPressure * sum(int(b), q));
@@ -166,19 +180,20 @@ class CutCells {
     }
   }
   /// Gives bodies their forces over a step, and those that answer their motions.
-  void push(std::vector<ImmersedBody>& bodies, double perPressure, double dt,
-            std::vector<Real> const& q) const {
+  void push(std::vector<ImmersedBody>& bodies, double perPressure, double dt, Field const& q) const {
     for (std::size_t b = 0; b < bodies.size(); ++b) {
       ImmersedBody& body = bodies[b];
       body.forces.assign(body.positions.size(), Eigen::Vector3d::Zero());
       body.load = perPressure / dt * sum(int(b), q);
-      for (Face const& f : faces)
-        if (f.body == int(b))
-          for (std::size_t k = 0; k < axes<N>; ++k)
-            body.forces[std::size_t(f.points[k])][f.axis] +=
-                f.weights[Eigen::Index(k)] * perPressure / dt * double(f.part) * drop(f, q);
+      if (body.answers()) body.motion += body.response * body.load * dt;  // drag has moved it
+      for (Face const& f : faces) {
+        if (f.body != int(b)) continue;
+        const double force = (perPressure * double(f.part) * drop(f, q) + f.drag) / dt;
+        for (std::size_t k = 0; k < axes<N>; ++k)
+          body.forces[std::size_t(f.points[k])][f.axis] += f.weights[Eigen::Index(k)] * force;
+        body.load += f.drag / dt * f.mode;
+      }
       keepMoment(body);
-      if (body.answers()) body.motion += body.response * body.load * dt;
     }
   }
 
@@ -294,7 +309,7 @@ class CutCells {
 
   template <class Place>
   void findFaces(std::vector<ImmersedBody> const& bodies, Vector const& corner, double h, Place&& place,
-                 std::vector<std::uint8_t> const& obstacle) {
+                 typename Loops::template Array<std::uint8_t> const& obstacle) {
     for (std::size_t c = 0; c < axes<N>; ++c) {
       // what is beside a wall is the wall's
       grid_.forSides(c, false, [&](std::ptrdiff_t outer, std::ptrdiff_t, std::ptrdiff_t, int side) {
@@ -315,7 +330,8 @@ class CutCells {
           ImmersedBody const& body = bodies[std::size_t(b)];
           Eigen::Vector3d middle(0, 0, 0);
           for (std::size_t d = 0; d < axes<N>; ++d) middle[Eigen::Index(d)] = p[d] - (d == c ? 1 : 0.5);
-          Face f{int(c), int(i), b, 1 - open[c][at(i)], false, false, body.elements[std::size_t(e)], {}, {}};
+          Face f{
+              int(c), int(i), b, 1 - open[c][at(i)], false, false, body.elements[std::size_t(e)], {}, {}, 0};
           f.weights = distance_.weights(body, e, middle, place);
           Eigen::Vector3d arm = -body.centre;
           arm.template head<N>() += corner + h * middle.template head<N>();
@@ -343,11 +359,11 @@ class CutCells {
     return best;
   }
 
-  double drop(Face const& f, std::vector<Real> const& q) const {
+  double drop(Face const& f, Field const& q) const {
     return (f.below ? double(q[at(f.cell - grid_.stride[std::size_t(f.axis)])]) : 0.0) -
            (f.above ? double(q[at(f.cell)]) : 0.0);
   }
-  ImmersedBody::Vector6 sum(int body, std::vector<Real> const& q) const {
+  ImmersedBody::Vector6 sum(int body, Field const& q) const {
     ImmersedBody::Vector6 all = ImmersedBody::Vector6::Zero();
     for (Face const& f : faces)
       if (f.body == body) all += double(f.part) * drop(f, q) * f.mode;

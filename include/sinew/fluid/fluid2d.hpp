@@ -4,6 +4,7 @@
 #include <sinew/core/compiled.hpp>
 #include <sinew/core/component.hpp>
 #include <sinew/core/immersed_body.hpp>
+#include <sinew/fluid/grid_component.hpp>
 #include <sinew/fluid/grid_fluid.hpp>
 
 #include <string>
@@ -14,10 +15,16 @@ namespace sinew {
 /// An incompressible fluid in a rectangle of cells across the z axis, with a free surface: Fluid3D in two
 /// dimensions, with the names of SOFA's Fluid2D. The rectangle is around `center`; the cells at its border
 /// are its walls.
+template <class D = Vec2d>
 struct Fluid2D {
   using Role = role::BehaviorModel;
+  using DataTypes = D;
+  using Real = typename D::Real;
+  static_assert(
+      !D::rigid && D::size == 2,
+      "Sinew: a Fluid2D is in cells of the plane; take Vec2d, Vec2f, or CudaVec2d or CudaVec2f on a GPU.");
   static constexpr std::string_view className = "Fluid2D", header = "sinew/fluid/fluid2d.hpp";
-  using Grid = fluid::GridFluid<double, 2>;
+  using Grid = fluid::GridFluid<Real, 2, fluid::GridLoops<D>>;
 
   int nx = 16, ny = 16;
   double cellwidth = 1;
@@ -81,7 +88,7 @@ struct Fluid2D {
   }
 
   /// Velocity, surface and pressure (GridFluid::save).
-  std::vector<double> flow{};
+  typename Grid::Field flow{};
   static constexpr auto state() {
     return field_list(
         field("flow",
@@ -118,39 +125,50 @@ struct Fluid2D {
   Mesh border() const;
 };
 
-}  // namespace sinew
-
-#if SINEW_DEFINES
-#include <sinew/fluid/grid_component.hpp>
-
-namespace sinew {
-
-SINEW_ONCE void Fluid2D::init(std::string const& path) {
-  where = text(path, ": Fluid2D");
+template <class D>
+void Fluid2D<D>::init(std::string const& path) {
+  where = text(path, ": ", component_name<Fluid2D>());
   fluid::start<2>(*this, where);
 }
-SINEW_ONCE void Fluid2D::reserveForBodies() {
+template <class D>
+void Fluid2D<D>::reserveForBodies() {
   fluid::with_bodies(*this, [&] { grid.reserveForBodies(); });
 }
-SINEW_ONCE void Fluid2D::reset() {
+template <class D>
+void Fluid2D<D>::reset() {
   flow.clear();
   fluid::start<2>(*this, where);
 }
-SINEW_ONCE void Fluid2D::advance(StepAhead const& ahead, Eigen::Vector3d const& gravity,
-                                 SomeWorkers workers) {
+template <class D>
+void Fluid2D<D>::advance(StepAhead const& ahead, Eigen::Vector3d const& gravity, SomeWorkers workers) {
   fluid::advance<2>(*this, ahead, gravity, workers);
 }
-SINEW_ONCE double Fluid2D::kineticEnergy() { return grid.kineticEnergy(); }
-SINEW_ONCE double Fluid2D::gravityEnergy(Eigen::Vector3d const& gravity) {
+template <class D>
+double Fluid2D<D>::kineticEnergy() {
+  return grid.kineticEnergy();
+}
+template <class D>
+double Fluid2D<D>::gravityEnergy(Eigen::Vector3d const& gravity) {
   return grid.gravityEnergy(gravity.head<2>());
 }
-SINEW_ONCE double Fluid2D::volume() { return grid.volume(); }
-SINEW_ONCE std::string_view Fluid2D::notice() const { return fluid::notice_of(grid); }
-SINEW_ONCE Mesh Fluid2D::border() const {
+template <class D>
+double Fluid2D<D>::volume() {
+  return grid.volume();
+}
+template <class D>
+std::string_view Fluid2D<D>::notice() const {
+  return fluid::notice_of(grid);
+}
+template <class D>
+Mesh Fluid2D<D>::border() const {
   Mesh mesh = grid.border();
   for (Eigen::Vector3d& position : mesh.positions) position[2] = center[2];
   return mesh;
 }
 
-}  // namespace sinew
+#if !SINEW_DEFINES
+extern template struct Fluid2D<Vec2d>;
+extern template struct Fluid2D<Vec2f>;
 #endif
+
+}  // namespace sinew

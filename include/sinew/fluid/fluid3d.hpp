@@ -4,6 +4,7 @@
 #include <sinew/core/compiled.hpp>
 #include <sinew/core/component.hpp>
 #include <sinew/core/immersed_body.hpp>
+#include <sinew/fluid/grid_component.hpp>
 #include <sinew/fluid/grid_fluid.hpp>
 
 #include <string>
@@ -16,11 +17,17 @@ namespace sinew {
 /// on a staggered grid (fluid/grid_fluid.hpp), with the names of SOFA's Fluid3D. The box is around `center`;
 /// as in SOFA, the cells at its border are its walls, so that nx - 2 cells along x have fluid. It has a state
 /// of its own: no solver, mass or state is needed. SOFA's fluid always has a source; here a source has a
-/// radius. Threads share the work.
+/// radius. Threads share the work; over the DataTypes of a device it is there that the fluid is stepped.
+template <class D = Vec3d>
 struct Fluid3D {
   using Role = role::BehaviorModel;
+  using DataTypes = D;
+  using Real = typename D::Real;
+  static_assert(
+      !D::rigid && D::size == 3,
+      "Sinew: a Fluid3D is in cells in space; take Vec3d, Vec3f, or CudaVec3d or CudaVec3f on a GPU.");
   static constexpr std::string_view className = "Fluid3D", header = "sinew/fluid/fluid3d.hpp";
-  using Grid = fluid::GridFluid<double, 3>;
+  using Grid = fluid::GridFluid<Real, 3, fluid::GridLoops<D>>;
 
   int nx = 16, ny = 16, nz = 16;
   double cellwidth = 1;
@@ -85,7 +92,7 @@ struct Fluid3D {
   }
 
   /// Velocity, surface and pressure (GridFluid::save).
-  std::vector<double> flow{};
+  typename Grid::Field flow{};
   static constexpr auto state() {
     return field_list(
         field("flow",
@@ -122,35 +129,48 @@ struct Fluid3D {
   Mesh border() const;
 };
 
-}  // namespace sinew
-
-#if SINEW_DEFINES
-#include <sinew/fluid/grid_component.hpp>
-
-namespace sinew {
-
-SINEW_ONCE void Fluid3D::init(std::string const& path) {
-  where = text(path, ": Fluid3D");
+template <class D>
+void Fluid3D<D>::init(std::string const& path) {
+  where = text(path, ": ", component_name<Fluid3D>());
   fluid::start<3>(*this, where);
 }
-SINEW_ONCE void Fluid3D::reserveForBodies() {
+template <class D>
+void Fluid3D<D>::reserveForBodies() {
   fluid::with_bodies(*this, [&] { grid.reserveForBodies(); });
 }
-SINEW_ONCE void Fluid3D::reset() {
+template <class D>
+void Fluid3D<D>::reset() {
   flow.clear();
   fluid::start<3>(*this, where);
 }
-SINEW_ONCE void Fluid3D::advance(StepAhead const& ahead, Eigen::Vector3d const& gravity,
-                                 SomeWorkers workers) {
+template <class D>
+void Fluid3D<D>::advance(StepAhead const& ahead, Eigen::Vector3d const& gravity, SomeWorkers workers) {
   fluid::advance<3>(*this, ahead, gravity, workers);
 }
-SINEW_ONCE double Fluid3D::kineticEnergy() { return grid.kineticEnergy(); }
-SINEW_ONCE double Fluid3D::gravityEnergy(Eigen::Vector3d const& gravity) {
+template <class D>
+double Fluid3D<D>::kineticEnergy() {
+  return grid.kineticEnergy();
+}
+template <class D>
+double Fluid3D<D>::gravityEnergy(Eigen::Vector3d const& gravity) {
   return grid.gravityEnergy(gravity.head<3>());
 }
-SINEW_ONCE double Fluid3D::volume() { return grid.volume(); }
-SINEW_ONCE std::string_view Fluid3D::notice() const { return fluid::notice_of(grid); }
-SINEW_ONCE Mesh Fluid3D::border() const { return grid.border(); }
+template <class D>
+double Fluid3D<D>::volume() {
+  return grid.volume();
+}
+template <class D>
+std::string_view Fluid3D<D>::notice() const {
+  return fluid::notice_of(grid);
+}
+template <class D>
+Mesh Fluid3D<D>::border() const {
+  return grid.border();
+}
+
+#if !SINEW_DEFINES
+extern template struct Fluid3D<Vec3d>;
+extern template struct Fluid3D<Vec3f>;
+#endif
 
 }  // namespace sinew
-#endif

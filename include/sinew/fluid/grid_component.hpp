@@ -52,7 +52,7 @@ void start(C& c, std::string const& where) {
           text("obstacle[",
                k,
                "] is empty; give its lower corner, then its upper one, which is larger along each axis"));
-  GridFluid<double, N>& grid = c.grid;
+  auto& grid = c.grid;
   grid.init(where, settings);
   grid.setSolids([&](Vector const& x) {
     for (auto const& box : c.obstacle)
@@ -83,12 +83,10 @@ void with_bodies(C& c, F&& f) {
 
 template <int N, class C>
 void advance(C& c, StepAhead const& ahead, Eigen::Vector3d const& gravity, SomeWorkers workers) {
-  using Vector = Eigen::Matrix<double, N, 1>;
-  GridFluid<double, N>& grid = c.grid;
+  auto& grid = c.grid;
   const double middle = ahead.begin + ahead.dt / 2;
   if (grid.settings().hasSurface && c.sourceRadius > 0 && middle >= c.tstart && middle < c.tstop)
-    grid.pour(
-        [&](Vector const& x) { return (x - c.source).norm() - c.sourceRadius; }, c.sourceVelocity, workers);
+    grid.pour(BallDistance<N>{c.source, c.sourceRadius}, c.sourceVelocity, workers);
   with_bodies(c, [&] { grid.step(ahead.dt, gravity.head<N>(), workers); });
   grid.save(c.flow, workers);
 }

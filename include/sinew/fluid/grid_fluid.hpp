@@ -5,12 +5,14 @@
 #include <sinew/core/memory_limit.hpp>
 #include <sinew/fluid/advection.hpp>
 #include <sinew/fluid/cut_cells.hpp>
+#include <sinew/fluid/fluid_view.hpp>
 #include <sinew/fluid/grid_mesh.hpp>
 #include <sinew/fluid/level_set.hpp>
 #include <sinew/fluid/poisson_multigrid.hpp>
 #include <sinew/fluid/pressure_regions.hpp>
 #include <sinew/fluid/staggered_velocity.hpp>
 #include <sinew/fluid/viscosity.hpp>
+#include <sinew/fluid/wall_drag.hpp>
 
 #include <string>
 
@@ -43,22 +45,24 @@ struct GridFluidSettings {
 /// by splitting: the surface and the velocity are carried along, gravity and viscosity act, and the pressure
 /// takes away the divergence (Chorin 1968; Bridson 2015). At the free surface, wherever it crosses between
 /// two cells, the pressure is zero (ghost fluid: Enright, Nguyen, Gibou, Fedkiw 2003), inside solids there is
-/// none. Bodies that move through it cut its cells and are moved (CutCells). After init a step does not
-/// allocate, and its bits do not depend on the number of threads.
-template <class Real, int N>
+/// none. Bodies that move through it cut its cells and are moved (CutCells). `Loops` run it, on the host or
+/// on a device. After init a step on the host does not allocate, and its bits do not depend on the number of
+/// threads.
+template <class Real, int N, class Loops = HostLoops>
 class GridFluid {
  public:
   using Vector = Eigen::Matrix<double, N, 1>;
+  using Field = typename Loops::template Array<Real>;
   using Settings = GridFluidSettings<N>;
   static constexpr int dimension = N;
 
-  StaggeredVelocity<Real, N> velocity{};
-  LevelSet<Real, N> surface{};
-  CutCells<Real, N> cut{};
+  StaggeredVelocity<Real, N, Loops> velocity{};
+  LevelSet<Real, N, Loops> surface{};
+  CutCells<Real, N, Loops> cut{};
   /// Solids that the next step meets; what it does to them stands there behind it.
   std::vector<ImmersedBody> bodies{};
   // what the last step did
-  typename PoissonMultigrid<Real, N>::Result pressureSolve{};
+  typename PoissonMultigrid<Real, N, Loops>::Result pressureSolve{};
   int viscosityIterations = 0;
   double courant = 0;  // cells that the fastest component goes in a step
 
@@ -86,16 +90,16 @@ class GridFluid {
     velocity.init(grid);
     velocity.slips = settings.walls == Walls::slip;
     grid.forCells({}, [&](std::ptrdiff_t i) { velocity.cell[at(i)] = CellKind::fluid; });
-    for (auto& field : next_) field.assign(grid.size, Real(0));
-    pressure_.assign(grid.size, Real(0));
-    sums_.assign(grid.rows(), 0.0);
+    for (auto& field : next_) Loops::assign(field, grid.size, Real(0));
+    Loops::assign(pressure_, grid.size, Real(0));
+    numbers_.init(grid);
     room_.init(grid.size);
-    viscosity_.init(grid);
+    if (settings.viscosity > 0) viscosity_.init(grid);
     multigrid_.init(grid);
     surface.init(grid, Real(bandCells));
     cut.init(grid);
     bodies.clear();
-    obstacle_.assign(grid.size, 0);
+    Loops::assign(obstacle_, grid.size, std::uint8_t(0));
     prepared_ = false;
     timeFactor_ = 0;
     volume_ = 0;
@@ -121,7 +125,7 @@ class GridFluid {
       surface.value[at(i)] =
           Real(std::clamp(distance(x) / settings_.cellWidth, -double(bandCells), double(bandCells)));
     });
-    surface.redistance(velocity, {});
+    surface.redistance(velocity, Loops());
   }
   /// Component c of the velocity is of(c, middle of the face [m]) [m/s].
   template <class F>
@@ -134,38 +138,35 @@ class GridFluid {
   }
   /// Takes what was set; comes behind it.
   void begin(SomeWorkers workers = {}) {
-    classify(workers);
-    velocity.holdWalls(workers);
-    velocity.extrapolate(layers(), workers);
-    volume_ = fluidCells(workers);
+    const Loops loops(workers);
+    classify(loops);
+    velocity.holdWalls(loops);
+    velocity.extrapolate(layers(), loops);
+    volume_ = rounded(fluidCells(loops));
     measured_ = false;
     if (settings_.hasSurface && volume_ <= 0)
       throw Error(where_, "there is no fluid in the grid; raise its height, or take another direction");
   }
 
-  /// Adds fluid where distance(centre [m]) is negative [m], with this velocity [m/s].
+  /// Adds fluid where distance(centre [m]) is negative [m], with this velocity [m/s]; `distance` is called
+  /// where the loops run.
   template <class F>
-  void pour(F&& distance, Vector const& speed, SomeWorkers workers) {
-    const double before = fluidCells(workers);
-    forCentres([&](std::ptrdiff_t i, Vector const& x) {
-      if (velocity.cell[at(i)] == CellKind::solid) return;
-      const Real d = Real(distance(x) / settings_.cellWidth);
-      surface.value[at(i)] = std::min(surface.value[at(i)], std::max(d, Real(-bandCells)));
-      if (d < Real(0.5))
-        for (int c = 0; c < N; ++c)
-          for (const std::ptrdiff_t j : {i, i + grid().stride[std::size_t(c)]})
-            velocity.value[std::size_t(c)][at(j)] = Real(speed[c]);
-    });
-    surface.redistance(velocity, workers);
-    volume_ += fluidCells(workers) - before;
-    velocity.holdWalls(workers);
+  void pour(F const& distance, Vector const& speed, SomeWorkers workers) {
+    const Loops loops(workers);
+    const double before = fluidCells(loops);
+    Pour<Real, N, F> body{view(), distance, speed, Real(bandCells), entries(surface.value), {}};
+    for (std::size_t c = 0; c < axes<N>; ++c) body.value[c] = entries(velocity.value[c]);
+    loops.cells(grid(), body);
+    surface.redistance(velocity, loops);
+    volume_ = rounded(volume_ + fluidCells(loops) - before);
+    velocity.holdWalls(loops);
   }
 
   /// Takes the bodies that are met, and makes room for the faces that they have. Throws Error where one is
   /// outside.
   void reserveForBodies() {
     if (bodies.empty()) return;
-    placeBodies({});
+    placeBodies(Loops());
     measured_ = false;
     for (std::size_t b = 0; b < bodies.size(); ++b)
       if (!cut.holds(int(b)))
@@ -176,86 +177,77 @@ class GridFluid {
                  ": it is outside of the grid, or smaller than a cell; move it into the grid, or take "
                  "smaller cells"));
     cut.faces.reserve(2 * cut.faces.size());
+    drag_.reserve(cut.faces.capacity(), bodies.size());
   }
 
   /// A step [s] under an acceleration [m/s^2]. Throws Error where the velocity is not finite.
   void step(double dt, Vector const& acceleration, SomeWorkers workers) {
+    Loops::checkStep(where_);
+    const Loops loops(workers);
     const Real perCell = Real(dt / settings_.cellWidth);
-    const double fastest = velocity.fastest(workers, sums_);
+    const double fastest = velocity.fastest(loops, numbers_);
     if (!std::isfinite(fastest))
       throw Error(where_,
                   "the velocity of the fluid is not finite: the simulation diverged; take a smaller dt");
     courant = fastest * double(perCell);
-    placeBodies(workers);
+    placeBodies(loops);
     if (settings_.hasSurface) {
-      surface.advect(velocity, perCell, settings_.advection, workers);
-      surface.redistance(velocity, workers);
-      if (settings_.keepsVolume) surface.keepVolume(velocity, room(), volume_, workers);
-      classify(workers);
+      surface.advect(velocity, perCell, settings_.advection, loops);
+      surface.redistance(velocity, loops);
+      if (settings_.keepsVolume) surface.keepVolume(velocity, room(), volume_, loops);
+      classify(loops);
     }
     for (std::size_t c = 0; c < axes<N>; ++c)
-      advect(
-          velocity,
-          int(c),
-          velocity.value[c],
-          next_[c],
-          perCell,
-          settings_.advection,
-          room_,
-          workers,
-          [&](std::ptrdiff_t i) { return velocity.kind[c][at(i)] == FaceKind::fluid; },
-          [&](std::vector<Real>& field) { velocity.fillAround(c, field); });
+      advect(velocity,
+             int(c),
+             velocity.value[c],
+             next_[c],
+             perCell,
+             settings_.advection,
+             room_,
+             loops,
+             IsOfFluid{entries(std::as_const(velocity.kind[c]))},
+             [&](Field& field) { velocity.fillAround(c, field, loops); });
     for (std::size_t c = 0; c < axes<N>; ++c) velocity.value[c].swap(next_[c]);
     // Along a periodic axis an acceleration drives a flow, which viscosity holds back. Along the others
     // pressure answers it, and it comes behind viscosity: else what sticks to the walls of a pool at rest
     // would turn it over.
-    accelerate(dt, acceleration, true, workers);
-    velocity.holdWalls(workers);
+    accelerate(dt, acceleration, true, loops);
+    velocity.holdWalls(loops);
     viscosityIterations = 0;
     if (settings_.viscosity > 0) {
       const double number =
           settings_.viscosity / settings_.density * dt / (settings_.cellWidth * settings_.cellWidth);
-      viscosityIterations = viscosity_.apply(
-          velocity, Real(number), settings_.tolerance * 1e-2, 10 * settings_.maxIterations, workers);
+      auto apply = [&](auto const&... more) {
+        return viscosity_.apply(
+            velocity, Real(number), settings_.tolerance * 1e-2, 10 * settings_.maxIterations, loops, more...);
+      };
+      if (cut.any && !velocity.slips) {
+        drag_.begin(cut, bodies, velocity, number, settings_.density * cellVolume());
+        viscosityIterations = apply(drag_);
+        drag_.finish(cut, bodies, velocity);
+      } else {
+        viscosityIterations = apply();
+      }
     }
-    accelerate(dt, acceleration, false, workers);
-    project(dt, workers);
-    velocity.extrapolate(layers(), workers);
+    accelerate(dt, acceleration, false, loops);
+    project(dt, loops);
+    velocity.extrapolate(layers(), loops);
   }
 
   /// Of the fluid [m^3], in two dimensions [m^2].
-  double volume(SomeWorkers workers = {}) { return fluidCells(workers) * cellVolume(); }
+  double volume(SomeWorkers workers = {}) { return fluidCells(Loops(workers)) * cellVolume(); }
   /// [J], in two dimensions of a metre across the plane.
   double kineticEnergy(SomeWorkers workers = {}) {
-    const double sum = grid().sum(workers, sums_, [&](std::ptrdiff_t i) {
-      if (velocity.cell[at(i)] != CellKind::fluid) return 0.0;
-      double squares = 0;
-      for (std::size_t c = 0; c < axes<N>; ++c) {
-        const double a = double(velocity.value[c][at(i)]),
-                     b = double(velocity.value[c][at(i + grid().stride[c])]);
-        squares += (a * a + b * b) / 2;
-      }
-      return part(i) * squares / 2;
-    });
-    return settings_.density * cellVolume() * sum;
+    return settings_.density * cellVolume() * sum(KineticPart<Real, N>{view()}, Loops(workers));
   }
   /// - rho g.x summed up over the fluid [J].
   double gravityEnergy(Vector const& gravity, SomeWorkers workers = {}) {
-    const double sum = grid().sum(workers, sums_, [&](std::ptrdiff_t i) {
-      if (velocity.cell[at(i)] == CellKind::solid) return 0.0;
-      return part(i) * gravity.dot(middle(i));
-    });
-    return -settings_.density * cellVolume() * sum;
+    return -settings_.density * cellVolume() * sum(HeightPart<Real, N>{view(), gravity}, Loops(workers));
   }
   /// The largest flow out of a fluid cell, over its volume [1/s].
-  double divergence() const {
-    double most = 0;
-    for (std::size_t row = 0; row < grid().rows(); ++row) {
-      const std::ptrdiff_t first = grid().index(grid().place(row));
-      for (std::ptrdiff_t i = first; i < first + grid().cells[0]; ++i)
-        if (velocity.cell[at(i)] == CellKind::fluid) most = std::max(most, std::abs(double(outflow(i))));
-    }
-    return most / settings_.cellWidth;
+  double divergence() {
+    return Loops().most(grid(), numbers_, Outflow<Real, N>{view()}) / settings_.cellWidth;
   }
   /// Of a fluid cell [Pa], after a step; 0 in others.
   double pressure(std::ptrdiff_t cell) const {
@@ -267,7 +259,9 @@ class GridFluid {
   Vector velocityAt(Vector const& x) const {
     using V = Eigen::Matrix<Real, N, 1>;
     const V p = ((x - settings_.corner) / settings_.cellWidth).template cast<Real>();
-    return velocity.velocity(velocity.inside(p)).template cast<double>();
+    VelocityView<Real, N> here{grid(), velocity.slips, nullptr, {}, {}, {}};
+    for (std::size_t c = 0; c < axes<N>; ++c) here.value[c] = velocity.value[c].data();
+    return here.velocity(here.inside(p)).template cast<double>();
   }
   /// Of the inner cell around a place.
   std::ptrdiff_t cellAt(Vector const& x) const {
@@ -292,23 +286,16 @@ class GridFluid {
   /// All that the next step depends on: components of the velocity, distances, pressure, how many cells there
   /// are along each axis, the time step that the pressure was made with, and the volume that is kept. The
   /// list has room for it after the first call.
-  void save(std::vector<Real>& to, SomeWorkers workers) const {
+  void save(Field& to, SomeWorkers workers) const {
     const std::size_t n = grid().size;
-    to.resize(n * (axes<N> + 2) + axes<N> + 2);
-    auto lists = savedLists(*this);
-    workers.run([&](WorkShare share) {
-      for (std::size_t k = 0; k < lists.size(); ++k)
-        std::copy(lists[k]->begin() + std::ptrdiff_t(share.begin(n)),
-                  lists[k]->begin() + std::ptrdiff_t(share.end(n)),
-                  to.begin() + std::ptrdiff_t(k * n + share.begin(n)));
-    });
-    Real* last = to.data() + lists.size() * n;
-    for (const int count : settings_.cells) *last++ = Real(count);
-    *last++ = Real(timeFactor_);
-    *last = Real(measured_ ? volume_ : -volume_);
+    std::array<Real, axes<N> + 2> last;
+    for (std::size_t c = 0; c < axes<N>; ++c) last[c] = Real(settings_.cells[c]);
+    last[axes<N>] = Real(timeFactor_);
+    last[axes<N> + 1] = Real(measured_ ? volume_ : -volume_);
+    Loops(workers).join(savedLists(*this), n, last, to);
   }
   /// Whether a list is what this grid saves.
-  bool saves(std::vector<Real> const& list) const {
+  bool saves(Field const& list) const {
     const std::size_t n = grid().size * (axes<N> + 2);
     if (list.size() != n + axes<N> + 2) return false;
     for (std::size_t c = 0; c < axes<N>; ++c)
@@ -316,7 +303,7 @@ class GridFluid {
     return std::all_of(list.begin(), list.end(), [](Real value) { return std::isfinite(value); });
   }
   /// The inverse; comes in the place of what sets and begins.
-  void restore(std::vector<Real> const& from, SomeWorkers workers = {}) {
+  void restore(Field const& from, SomeWorkers workers = {}) {
     const std::size_t n = grid().size;
     auto lists = savedLists(*this);
     for (std::size_t k = 0; k < lists.size(); ++k)
@@ -327,7 +314,7 @@ class GridFluid {
     const double last = double(from[from.size() - 1]);
     measured_ = last >= 0;
     volume_ = std::abs(last);
-    classify(workers);
+    classify(Loops(workers));
   }
 
   /// What is seen of it (fluid/grid_mesh.hpp).
@@ -344,51 +331,48 @@ class GridFluid {
 
  private:
   static constexpr int bandCells = 6;
-  static constexpr std::size_t bytesOfCell = 48 * sizeof(Real);
+  static constexpr std::size_t bytesOfCell = 58 * sizeof(Real);
 
   std::string where_{};
   Settings settings_{};
-  Each<std::vector<Real>, N> next_{};
-  std::vector<Real> pressure_{};  // p dt / (rho h) [m/s]
-  std::vector<double> sums_{};
-  AdvectionRoom<Real> room_{};
-  Viscosity<Real, N> viscosity_{};
-  PoissonMultigrid<Real, N> multigrid_{};
+  Each<Field, N> next_{};
+  Field pressure_{};  // p dt / (rho h) [m/s]
+  typename Loops::Numbers numbers_{};
+  AdvectionRoom<Real, Loops> room_{};
+  Viscosity<Real, N, Loops> viscosity_{};
+  WallDrag<Real, N, Loops> drag_{};
+  PoissonMultigrid<Real, N, Loops> multigrid_{};
   bool prepared_ = false;  // the equations of the pressure are those of a step before
   double timeFactor_ = 0;  // the step with which the pressure was made [s]
   double volume_ = 0;      // that is kept [cells]
   bool measured_ = false;  // with the bodies that take room; saved as its sign
-  std::vector<std::uint8_t> obstacle_{};
-  PressureRegions<Real, N> regions_{};
+  typename Loops::template Array<std::uint8_t> obstacle_{};
+  PressureRegions<Real, N, Loops> regions_{};
 
   static std::size_t at(std::ptrdiff_t i) { return std::size_t(i); }
+  // what save() keeps of a number
+  static double rounded(double value) { return double(Real(value)); }
   int layers() const { return std::min(bandCells + 2, int(std::ceil(std::min(courant, 16.0))) + 3); }
-  double fluidCells(SomeWorkers workers) {
-    if (settings_.hasSurface) return surface.volume(velocity, room(), workers);
-    return grid().sum(workers, sums_, [&](std::ptrdiff_t i) {
-      return velocity.cell[at(i)] == CellKind::fluid ? roomOf(i) : 0.0;
-    });
+  FluidView<Real, N> view() const {
+    FluidView<Real, N> v{velocity.view(),
+                         settings_.hasSurface ? entries(surface.value) : nullptr,
+                         {},
+                         room(),
+                         settings_.corner,
+                         settings_.cellWidth};
+    if (cut.any)
+      for (std::size_t c = 0; c < axes<N>; ++c) v.open[c] = entries(cut.open[c]);
+    return v;
   }
-  std::span<Real const> room() const {
-    return cut.any ? std::span<Real const>(cut.room) : std::span<Real const>();
+  Real const* room() const { return cut.any ? entries(cut.room) : nullptr; }
+  template <class Term>
+  double sum(Term const& term, Loops const& loops) {
+    loops.sum(grid(), numbers_, 0, term);
+    return numbers_.read(0);
   }
-  double roomOf(std::ptrdiff_t i) const { return cut.any ? double(cut.room[at(i)]) : 1.0; }
-  double part(std::ptrdiff_t i) const {
-    return (settings_.hasSurface ? double(surface.fraction(i)) : 1.0) * roomOf(i);
-  }
-  // of the fluid in a cell, for one that is cut as by a plane across an axis [m]
-  Vector middle(std::ptrdiff_t i) const {
-    Vector x = centre(i);
-    const double filled = settings_.hasSurface ? double(surface.fraction(i)) : 1.0;
-    if (filled <= 0 || filled >= 1) return x;
-    Vector slope;
-    for (int c = 0; c < N; ++c) {
-      const std::ptrdiff_t s = grid().stride[std::size_t(c)];
-      slope[c] = double(surface.value[at(i + s)] - surface.value[at(i - s)]);
-    }
-    const double norm = slope.norm();
-    if (norm > 0) x -= slope / norm * ((1 - filled) / 2 * settings_.cellWidth);
-    return x;
+  double fluidCells(Loops const& loops) {
+    if (settings_.hasSurface) return surface.volume(velocity, room(), loops);
+    return sum(RoomOfFluid<Real, N>{view()}, loops);
   }
   template <class F>
   void forCentres(F&& f) const {
@@ -403,136 +387,88 @@ class GridFluid {
     return lists;
   }
 
-  void classify(SomeWorkers workers) {
+  void classify(Loops const& loops) {
     if (settings_.hasSurface)
-      grid().forCells(workers, [&](std::ptrdiff_t i) {
-        CellKind& kind = velocity.cell[at(i)];
-        if (kind != CellKind::solid)
-          kind = surface.inFluid(surface.value[at(i)]) ? CellKind::fluid : CellKind::air;
-      });
-    velocity.classify(workers);
+      loops.cells(grid(),
+                  ClassifyCells<Real, N>{entries(std::as_const(surface.value)), entries(velocity.cell)});
+    velocity.classify(loops);
     cut.close(velocity);
   }
-  void placeBodies(SomeWorkers workers) {
+  void placeBodies(Loops const& loops) {
     if (bodies.empty() && !cut.any) return;
     if (!bodies.empty()) regions_.init(grid());
     cut.place(where_, bodies, settings_.corner, settings_.cellWidth, velocity, obstacle_);
     if (bodies.empty())  // they have gone
-      grid().forCells(workers, [&](std::ptrdiff_t i) {
-        if (!obstacle_[at(i)]) velocity.cell[at(i)] = CellKind::fluid;
-      });
-    classify(workers);
+      loops.cells(grid(), FreeCells<N>{entries(std::as_const(obstacle_)), entries(velocity.cell)});
+    classify(loops);
     cut.move(bodies, velocity);
-    velocity.holdWalls(workers);
+    velocity.holdWalls(loops);
     prepared_ = false;
-    if (!measured_) volume_ = fluidCells(workers);
+    if (!measured_) volume_ = rounded(fluidCells(loops));
     measured_ = true;
   }
-  // how far from a fluid cell the surface is towards an air cell
-  Real toSurface(std::ptrdiff_t fluidCell, std::ptrdiff_t airCell) const {
-    const Real a = surface.value[at(fluidCell)], b = surface.value[at(airCell)];
-    return std::clamp(a / (a - b), Real(0.01), Real(1));
-  }
-  Real outflow(std::ptrdiff_t i) const {
-    Real sum = 0;
-    for (std::size_t c = 0; c < axes<N>; ++c) sum += flow(c, i + grid().stride[c]) - flow(c, i);
-    return sum;
-  }
-  // through a face, of the fluid and of the solid in it
-  Real flow(std::size_t c, std::ptrdiff_t i) const {
-    const Real u = velocity.value[c][at(i)];
-    return cut.any ? cut.open[c][at(i)] * u + (1 - cut.open[c][at(i)]) * velocity.solid[c][at(i)] : u;
-  }
-  Real openPart(std::size_t c, std::ptrdiff_t i) const { return cut.any ? cut.open[c][at(i)] : Real(1); }
-
-  void accelerate(double dt, Vector const& acceleration, bool periodic, SomeWorkers workers) {
+  void accelerate(double dt, Vector const& acceleration, bool periodic, Loops const& loops) {
     for (std::size_t c = 0; c < axes<N>; ++c) {
       const Real gain = Real(dt * acceleration[Eigen::Index(c)]);
       if (grid().periodic[c] != periodic || gain == 0) continue;
-      grid().forCells(workers, [&](std::ptrdiff_t i) {
-        if (velocity.kind[c][at(i)] == FaceKind::fluid) velocity.value[c][at(i)] += gain;
-      });
+      loops.cells(
+          grid(),
+          Accelerate<Real, N>{entries(std::as_const(velocity.kind[c])), entries(velocity.value[c]), gain});
     }
   }
-  void prepare(SomeWorkers workers) {
+  void project(double dt, Loops const& loops) {
     auto& top = multigrid_.finest();
-    grid().forCells(workers, [&](std::ptrdiff_t i) {
-      const auto k = at(i);
-      const CellKind here = velocity.cell[k];
-      top.open[k] = here != CellKind::solid;
-      top.surface[k] = 0;
-      for (std::size_t c = 0; c < axes<N>; ++c) {
-        const std::ptrdiff_t s = grid().stride[c];
-        const bool fluid = here == CellKind::fluid;
-        top.face[c][k] = fluid && velocity.cell[at(i - s)] == CellKind::fluid ? openPart(c, i) : Real(0);
-        if (fluid)
-          for (const std::ptrdiff_t j : {i - s, i + s})
-            if (velocity.cell[at(j)] == CellKind::air)
-              top.surface[k] += openPart(c, std::max(i, j)) / toSurface(i, j);
-      }
-    });
-    multigrid_.prepare(workers);
-    prepared_ = true;
-  }
-  void project(double dt, SomeWorkers workers) {
-    if (settings_.hasSurface || !prepared_) prepare(workers);
-    auto& top = multigrid_.finest();
-    for (std::size_t c = 0; c < axes<N>; ++c) grid().wrap(std::span<Real>(velocity.value[c]));
-    bool closed = true;
-    if (settings_.hasSurface)
-      closed = grid().sum(workers, sums_, [&](std::ptrdiff_t i) { return double(top.surface[at(i)]); }) == 0;
-    grid().forCells(workers, [&](std::ptrdiff_t i) {
-      const bool fluid = velocity.cell[at(i)] == CellKind::fluid;
-      top.b[at(i)] = fluid && top.inverse[at(i)] > 0 ? -outflow(i) : Real(0);
-      // the pressure of the last step, as if it had been as long
-      if (!fluid)
-        pressure_[at(i)] = 0;
-      else if (timeFactor_ > 0 && timeFactor_ != dt)
-        pressure_[at(i)] *= Real(dt / timeFactor_);
-    });
+    if (settings_.hasSurface || !prepared_) {
+      loops.cells(grid(), PressureEquation<Real, N>{view(), top.view()});
+      multigrid_.prepare(loops);
+      prepared_ = true;
+    }
+    for (std::size_t c = 0; c < axes<N>; ++c) loops.wrap(grid(), entries(velocity.value[c]));
+    Real const* const inverse = entries(std::as_const(top.inverse));
+    const bool closed =
+        !settings_.hasSurface || sum(ValueOf<Real>{entries(std::as_const(top.surface))}, loops) == 0;
+    const bool scales = timeFactor_ > 0 && timeFactor_ != rounded(dt);
+    loops.cells(grid(),
+                PressureStart<Real, N>{view(),
+                                       inverse,
+                                       entries(top.b),
+                                       entries(pressure_),
+                                       scales,
+                                       scales ? Real(rounded(dt) / timeFactor_) : Real(1)});
     if (cut.any) {
-      regions_.balance(multigrid_.finest(), velocity);
+      regions_.balance(top);
     } else if (closed) {  // what no pressure can take away is of the rounding of walls that move
-      const double sum = grid().sum(workers, sums_, [&](std::ptrdiff_t i) { return double(top.b[at(i)]); });
-      const double count =
-          grid().sum(workers, sums_, [&](std::ptrdiff_t i) { return top.inverse[at(i)] > 0 ? 1.0 : 0.0; });
-      const Real mean = count > 0 ? Real(sum / count) : Real(0);
-      grid().forCells(workers, [&](std::ptrdiff_t i) {
-        if (top.inverse[at(i)] > 0) top.b[at(i)] -= mean;
-      });
+      loops.sum(grid(), numbers_, 0, ValueOf<Real>{entries(std::as_const(top.b))});
+      loops.sum(grid(), numbers_, 1, IsPositive<Real>{inverse});
+      loops.cells(grid(), TakeMean<Real, N>{inverse, entries(top.b), numbers_.at(0), numbers_.at(1)});
     }
     const double perPressure = settings_.density * cellVolume();
     pressureSolve = multigrid_.solve(pressure_,
                                      settings_.tolerance,
                                      settings_.maxIterations,
-                                     workers,
-                                     [&](std::vector<Real> const& q, std::vector<Real>& y) {
-                                       if (cut.any) cut.respond(bodies, perPressure, q, y);
-                                     });
-    timeFactor_ = dt;
+                                     loops,
+                                     Answer{cut, bodies, perPressure, cut.any});
+    timeFactor_ = rounded(dt);
     for (std::size_t c = 0; c < axes<N>; ++c) {
-      const std::ptrdiff_t s = grid().stride[c];
-      grid().forCells(workers, [&](std::ptrdiff_t i) {
-        if (velocity.kind[c][at(i)] != FaceKind::fluid) return;
-        const bool below = velocity.cell[at(i - s)] == CellKind::fluid,
-                   here = velocity.cell[at(i)] == CellKind::fluid;
-        Real slope = 0;
-        if (below && here)
-          slope = pressure_[at(i)] - pressure_[at(i - s)];
-        else if (here)
-          slope = pressure_[at(i)] / toSurface(i, i - s);
-        else
-          slope = -pressure_[at(i - s)] / toSurface(i - s, i);
-        velocity.value[c][at(i)] -= slope;
-      });
-      grid().wrap(std::span<Real>(velocity.value[c]));
+      loops.cells(
+          grid(),
+          TakeGradient<Real, N>{view(), c, entries(std::as_const(pressure_)), entries(velocity.value[c])});
+      loops.wrap(grid(), entries(velocity.value[c]));
     }
     if (cut.any) {
       cut.push(bodies, perPressure, dt, pressure_);
       cut.move(bodies, velocity);
-      velocity.holdWalls(workers);
+      velocity.holdWalls(loops);
     }
   }
+  /// What bodies that answer add to the matrix of the pressure.
+  struct Answer {
+    CutCells<Real, N, Loops> const& cut;
+    std::vector<ImmersedBody> const& bodies;
+    double perPressure;
+    bool any;
+    void operator()(Field const& q, Field& y) const { cut.respond(bodies, perPressure, q, y); }
+  };
 };
 
 }  // namespace sinew::fluid

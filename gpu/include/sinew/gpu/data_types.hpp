@@ -26,6 +26,8 @@ struct CudaTypes : H {
 template <class D>
 concept OnDevice = requires { typename D::Host; };
 
+using CudaVec2f = CudaTypes<Vec2f>;
+using CudaVec2d = CudaTypes<Vec2d>;
 using CudaVec3f = CudaTypes<Vec3f>;
 using CudaVec3d = CudaTypes<Vec3d>;
 using CudaRigid3f = CudaTypes<Rigid3f>;

@@ -87,6 +87,11 @@ class DeviceVector {
     writtenOnDevice();
     return device_.data();
   }
+  /// Of so many entries.
+  T* overwrite(std::size_t n) {
+    size_ = n;
+    return overwrite();
+  }
 
   /// Begins to bring it to the host, which goes on meanwhile: when it looks, it waits for that alone.
   void bringToHost() const {

@@ -34,7 +34,8 @@ using CudaRigidMappings =
 struct CudaStandard
     : Registry<CudaPoints<CudaVec3f>, CudaPoints<CudaVec3d>, CudaRigids<CudaRigid3f>, CudaRigids<CudaRigid3d>,
                CudaPointMappings<CudaVec3f>, CudaPointMappings<CudaVec3d>,
-               CudaRigidMappings<CudaRigid3f, CudaVec3f>, CudaRigidMappings<CudaRigid3d, CudaVec3d>> {};
+               CudaRigidMappings<CudaRigid3f, CudaVec3f>, CudaRigidMappings<CudaRigid3d, CudaVec3d>,
+               Fluid2D<CudaVec2f>, Fluid2D<CudaVec2d>, Fluid3D<CudaVec3f>, Fluid3D<CudaVec3d>> {};
 
 /// And what stands around that in a scene: meshes, selections, solvers, those of constraints by multipliers,
 /// collision models and obstacles of the host.
@@ -47,6 +48,7 @@ struct CudaScenes
                BruteForceBroadPhase, BVHNarrowPhase, MinProximityIntersection, DefaultContactManager,
                FreeMotionAnimationLoop, ConvexConstraintSolver, PointCollisionModel<Vec3d>,
                TriangleCollisionModel<Vec3d>, SphereCollisionModel<Vec3d>, MechanicalObject<Vec3d>,
-               MechanicalObject<Vec3f>, CudaStandard> {};
+               MechanicalObject<Vec3f>, Fluid2D<Vec2d>, Fluid3D<Vec3d>, ImmersedSolid<Vec3d>, CudaStandard> {
+};
 
 }  // namespace sinew

@@ -164,6 +164,8 @@ class SceneClasses {
       case RoleKind::engine:
         if (first.dataTypes.empty()) return &first;
         return withTypes(item, onHost(item, !given.empty() ? given : owner ? owner->state : "Vec3d"));
+      case RoleKind::behaviorModel:  // with a state of its own
+        return given.empty() || first.dataTypes.empty() ? &first : withTypes(item, given);
       default:
         return &first;
     }
