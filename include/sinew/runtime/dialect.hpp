@@ -105,7 +105,12 @@ inline constexpr std::array withoutMeaning =
                                      "CollisionLoop",
                                      "ContactListener",
                                      "ConstraintAttachButtonSetting",
-                                     "SpatialGridContainer",  // neighbours are found by cells anyway
+                                     "FixPickedParticleButtonSetting",
+                                     "AddFrameButtonSetting",
+                                     "AddRecordedCameraButtonSetting",
+                                     "StartNavigationButtonSetting",
+                                     "TaskSchedulerSettings",  // Threads says how many there are
+                                     "SpatialGridContainer",   // neighbours are found by cells anyway
 
                                      "DisplayFlagsSetting"});
 
