@@ -15,12 +15,15 @@
 #include <sinew/io/cells.hpp>
 #include <sinew/io/output_file.hpp>
 #include <sinew/io/pvd_series.hpp>
+#include <sinew/io/read_gid.hpp>
 #include <sinew/io/read_gmsh.hpp>
 #include <sinew/io/read_mtl.hpp>
 #include <sinew/io/read_obj.hpp>
+#include <sinew/io/read_off.hpp>
 #include <sinew/io/read_rigid.hpp>
 #include <sinew/io/read_sph.hpp>
 #include <sinew/io/read_stl.hpp>
+#include <sinew/io/read_trian.hpp>
 #include <sinew/io/read_vtk.hpp>
 #include <sinew/io/streamed_file.hpp>
 #include <sinew/io/text_mesh_file.hpp>

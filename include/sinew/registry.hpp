@@ -2,6 +2,9 @@
 #pragma once
 
 #include <sinew/core/registry.hpp>
+#include <sinew/engine/gid_mesh_loader.hpp>
+#include <sinew/engine/mesh_off_loader.hpp>
+#include <sinew/engine/mesh_trian_loader.hpp>
 #include <sinew/engine/mesh_vtk_loader.hpp>
 #include <sinew/fluid/fluid2d.hpp>
 #include <sinew/fluid/fluid3d.hpp>
@@ -132,10 +135,28 @@ using StandardSolvers =
              AssembledSolvers<CholeskySolver>>;
 template <class D>
 using Regions = Registry<BoxROI<D>, SphereROI<D>, PairBoxROI<D>, NearestPointROI<D>>;
+// meshes made, merged and divided, and what is known of them
+using MeshEngines =
+    Registry<GenerateGrid, GenerateCylinder, GenerateSphere, ExtrudeSurface, ExtrudeEdgesAndGenerateQuads,
+             ExtrudeQuadsAndGenerateHexas, RandomPointDistributionInSurface, Spiral, MeshClosingEngine,
+             MeshBarycentricMapperEngine, MeshTetraStuffing, JoinPoints, NormalsFromPoints, SmoothMeshEngine,
+             DilateEngine, MergeMeshes<Vec3d>, MergePoints<Vec3d>, VolumeFromTriangles<Vec3d>,
+             VolumeFromVolumetricElements<Vec3d>, MeshBoundaryROI, MeshROI<Vec3d>, MeshSplittingEngine,
+             MeshSampler, MeshSubsetEngine, ProximityROI<Vec3d>, ComplementaryROI>;
+// lists of numbers, values and places
+using ListEngines = Registry<MergeVectors, MergeSets, MergeROIs, SelectLabelROI, ValuesFromIndices,
+                             IndicesFromValues, DifferenceEngine, SumEngine, NormEngine, MathOp, MapIndices,
+                             IndexValueMapper, Indices2ValuesMapper, ROIValueMapper,
+                             ValuesFromPositions<Vec3d>, HausdorffDistance, AverageCoord<Vec3d>>;
+using PlacingEngines =
+    Registry<TransformPosition, TranslateTransformMatrixEngine, RotateTransformMatrixEngine,
+             ScaleTransformMatrixEngine, InvertTransformMatrixEngine, Vertex2Frame, QuatToRigidEngine,
+             RigidToQuatEngine, DisplacementMatrixEngine, ProjectiveTransformEngine>;
 template <class D>
 using SpatialEngines = Registry<Regions<D>, PlaneROI<D>, TransformEngine<D>, SubsetTopology<D>>;
 using StandardEngines =
-    Registry<MeshGmshLoader, MeshOBJLoader, MeshSTLLoader, MeshVTKLoader, SphereLoader,
+    Registry<MeshGmshLoader, MeshOBJLoader, MeshSTLLoader, MeshVTKLoader, MeshOffLoader, GIDMeshLoader,
+             MeshTrianLoader, VoxelGridLoader, SphereLoader, MeshEngines, ListEngines, PlacingEngines,
              GenerateRigidMass<Rigid3d>, Hexa2TetraTopologicalMapping, Tetra2TriangleTopologicalMapping,
              Hexa2QuadTopologicalMapping, Quad2TriangleTopologicalMapping, Triangle2EdgeTopologicalMapping,
              SpatialEngines<Vec3d>, PointsFromIndices<Vec3d>, Regions<Vec3f>, SpatialEngines<Rigid3d>,

@@ -114,6 +114,10 @@ inline constexpr std::array withoutMeaning =
 
                                      "DisplayFlagsSetting"});
 
+/// Those of them that name a folder of data.
+inline constexpr std::array dataRepositories =
+    std::to_array<std::string_view>({"AddDataRepository", "AddResourceRepository"});
+
 /// Those of them that say how a scene is looked at: pictures and windows have them.
 inline constexpr std::array ofViews = std::to_array<std::string_view>({"VisualStyle",
                                                                        "DisplayFlagsSetting",
@@ -318,6 +322,29 @@ constexpr Preconditions const* preconditioner_named(std::string_view tag) {
 /// Attributes that are as good as not given where they are empty, or a link to nothing: "@".
 inline constexpr std::array mayBeEmpty =
     std::to_array<std::string_view>({"src", "filename", "fileMesh", "fileTopology"});
+
+/// Attributes of which SOFA reads as much as there should be, and passes over what comes behind it: here,
+/// too, with a warning.
+struct ReadInPart {
+  std::string_view className, attribute;
+};
+inline constexpr std::array readInPart = std::to_array<ReadInPart>({{"MeshGmshLoader", "scale"},
+                                                                    {"MeshOBJLoader", "scale"},
+                                                                    {"MeshSTLLoader", "scale"},
+                                                                    {"MeshVTKLoader", "scale"},
+                                                                    {"UniformMass", "vertexMass"}});
+constexpr bool is_read_in_part(std::string_view className, std::string_view attribute) {
+  for (auto const& r : readInPart)
+    if (r.className == className && r.attribute == attribute) return true;
+  return false;
+}
+/// Lists that have as many entries as another one, of which SOFA passes over further ones: here, too, with a
+/// warning.
+struct AsManyAs {
+  std::string_view className, list, other;
+};
+inline constexpr std::array asManyAs =
+    std::to_array<AsManyAs>({{"LinearMovementConstraint", "movements", "keyTimes"}});
 
 template <class List>
 constexpr bool has(List const& list, std::string_view word) {

@@ -71,6 +71,10 @@ concept DynamicList = requires(T list) {
   list.push_back(list.front());
 } && !std::is_same_v<T, std::string>;
 
+/// A list of lists of any length, each in brackets where it is written: "[0 1] [] [2]".
+template <class T>
+concept ListOfLists = DynamicList<T> && DynamicList<typename T::value_type>;
+
 template <class T>
 inline constexpr bool is_eigen = std::is_base_of_v<Eigen::MatrixBase<T>, T>;
 
@@ -217,6 +221,29 @@ void read_words(Words& words, T& value) {
   }
 }
 
+/// The words of each list of a list of lists; those of a single one need no brackets.
+inline std::vector<std::string> split_lists(std::string_view all) {
+  constexpr std::string_view space = " \t\r\n,";
+  std::vector<std::string> lists;
+  if (all.find('[') == all.npos) {
+    if (all.find_first_not_of(space) != all.npos) lists.emplace_back(all);
+    return lists;
+  }
+  for (std::size_t at = all.find_first_not_of(space); at != all.npos; at = all.find_first_not_of(space, at)) {
+    const std::size_t end = all.find(']', at);
+    if (all[at] != '[' || end == all.npos)
+      throw Error("", text("each list stands in brackets, as in [0 1] [2]; correct ", shown(all.substr(at))));
+    lists.emplace_back(all.substr(at + 1, end - at - 1));
+    at = end + 1;
+  }
+  return lists;
+}
+inline std::string join_lists(std::vector<std::string> const& lists) {
+  std::string all;
+  for (auto const& list : lists) all += text(all.empty() ? "[" : " [", list, ']');
+  return all;
+}
+
 inline void append_number(std::string& to, double value) {
   char buffer[40];
   to.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr);
@@ -283,6 +310,11 @@ void write_words(std::string& to, T const& value) {
 /// that says what is wrong with which word, and leaves value as it was.
 template <class T>
 void read_value(std::string_view text_, T& value) {
+  if constexpr (detail::ListOfLists<T>) {
+    T lists{};
+    for (auto const& list : detail::split_lists(text_)) read_value(list, lists.emplace_back());
+    return void(value = std::move(lists));
+  }
   Words words(text_);
   T read{};
   if constexpr (detail::is_eigen<T>) {
@@ -306,7 +338,10 @@ void read_value(std::string_view text_, T& value) {
 template <class T>
 std::string write_value(T const& value) {
   std::string words;
-  detail::write_words(words, value);
+  if constexpr (detail::ListOfLists<T>)
+    for (auto const& list : value) words += text(words.empty() ? "[" : " [", write_value(list), ']');
+  else
+    detail::write_words(words, value);
   return words;
 }
 

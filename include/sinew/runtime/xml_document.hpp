@@ -211,6 +211,9 @@ class XmlReader {
     }
   }
 
+  /// Another folder for find(), which goes before those that there are.
+  void addDataPath(std::string path) { dataPaths_.insert(dataPaths_.begin(), std::move(path)); }
+
   /// The path of a file named in a scene: beside the scene file, or below a data path. Throws Error.
   std::string find(std::string const& name, std::string const& folder) const {
     auto exists = [](std::string const& path) {
