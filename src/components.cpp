@@ -21,6 +21,7 @@
 #include <sinew/collision/surface_elements.hpp>
 #include <sinew/collision/vertex_contacts.hpp>
 #include <sinew/constraint/constrained_points.hpp>
+#include <sinew/engine/edge2quad_topological_mapping.hpp>
 #include <sinew/engine/grid_mesh_creator.hpp>
 #include <sinew/engine/mesh_loader.hpp>
 #include <sinew/engine/mesh_subdivision.hpp>

@@ -4,6 +4,7 @@
 // Data made before a scene starts: meshes that are loaded, generated or changed, and selections of points.
 // All components of engine, topology:
 #include <sinew/engine/box_roi.hpp>
+#include <sinew/engine/edge2quad_topological_mapping.hpp>
 #include <sinew/engine/generate_rigid_mass.hpp>
 #include <sinew/engine/grid_mesh_creator.hpp>
 #include <sinew/engine/mesh_loader.hpp>
@@ -22,6 +23,8 @@
 #include <sinew/topology/cylinder_grid_topology.hpp>
 #include <sinew/topology/mesh_topology.hpp>
 #include <sinew/topology/regular_grid_topology.hpp>
+#include <sinew/topology/sparse_grid_multiple_topology.hpp>
+#include <sinew/topology/sparse_grid_ramification_topology.hpp>
 #include <sinew/topology/sparse_grid_topology.hpp>
 #include <sinew/topology/sphere_grid_topology.hpp>
 #include <sinew/topology/surface_sampling.hpp>
