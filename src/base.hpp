@@ -37,6 +37,7 @@
 #include <sinew/topology/bcc_warp.hpp>
 #include <sinew/topology/beam_section.hpp>
 #include <sinew/topology/border.hpp>
+#include <sinew/topology/cell_parts.hpp>
 #include <sinew/topology/cube_topology.hpp>
 #include <sinew/topology/cylinder_grid_topology.hpp>
 #include <sinew/topology/element_checks.hpp>
@@ -51,7 +52,10 @@
 #include <sinew/topology/removal_plan.hpp>
 #include <sinew/topology/round_grid.hpp>
 #include <sinew/topology/shape_file.hpp>
+#include <sinew/topology/sparse_grid_multiple_topology.hpp>
+#include <sinew/topology/sparse_grid_ramification_topology.hpp>
 #include <sinew/topology/sparse_grid_topology.hpp>
 #include <sinew/topology/sphere_grid_topology.hpp>
 #include <sinew/topology/subdivision.hpp>
+#include <sinew/topology/surface_cells.hpp>
 #include <sinew/topology/surface_sampling.hpp>

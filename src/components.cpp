@@ -25,6 +25,7 @@
 #include <sinew/engine/difference_engine.hpp>
 #include <sinew/engine/dilate_engine.hpp>
 #include <sinew/engine/displacement_matrix_engine.hpp>
+#include <sinew/engine/edge2quad_topological_mapping.hpp>
 #include <sinew/engine/extrude_edges.hpp>
 #include <sinew/engine/extrude_quads.hpp>
 #include <sinew/engine/extrude_surface.hpp>

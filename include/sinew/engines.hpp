@@ -9,6 +9,7 @@
 #include <sinew/engine/difference_engine.hpp>
 #include <sinew/engine/dilate_engine.hpp>
 #include <sinew/engine/displacement_matrix_engine.hpp>
+#include <sinew/engine/edge2quad_topological_mapping.hpp>
 #include <sinew/engine/extrude_edges.hpp>
 #include <sinew/engine/extrude_quads.hpp>
 #include <sinew/engine/extrude_surface.hpp>
@@ -73,6 +74,8 @@
 #include <sinew/topology/cylinder_grid_topology.hpp>
 #include <sinew/topology/mesh_topology.hpp>
 #include <sinew/topology/regular_grid_topology.hpp>
+#include <sinew/topology/sparse_grid_multiple_topology.hpp>
+#include <sinew/topology/sparse_grid_ramification_topology.hpp>
 #include <sinew/topology/sparse_grid_topology.hpp>
 #include <sinew/topology/sphere_grid_topology.hpp>
 #include <sinew/topology/surface_sampling.hpp>

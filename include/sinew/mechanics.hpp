@@ -22,6 +22,7 @@
 #include <sinew/constraint/partial_fixed.hpp>
 #include <sinew/constraint/particle_sink.hpp>
 #include <sinew/constraint/particle_source.hpp>
+#include <sinew/constraint/patch_test_movement.hpp>
 #include <sinew/constraint/project_direction.hpp>
 #include <sinew/constraint/project_to_line.hpp>
 #include <sinew/constraint/project_to_plane.hpp>
@@ -34,10 +35,12 @@
 #include <sinew/force/constant_force.hpp>
 #include <sinew/force/diagonal_velocity_damping.hpp>
 #include <sinew/force/element_pressure.hpp>
+#include <sinew/force/ellipsoid_force_field.hpp>
 #include <sinew/force/fast_triangular_bending_springs.hpp>
 #include <sinew/force/fluid_boundary.hpp>
 #include <sinew/force/hexahedron_fem.hpp>
 #include <sinew/force/immersed_solid.hpp>
+#include <sinew/force/joint_spring.hpp>
 #include <sinew/force/linear_force_field.hpp>
 #include <sinew/force/mesh_spring.hpp>
 #include <sinew/force/particles_repulsion.hpp>
@@ -54,7 +57,10 @@
 #include <sinew/force/tetrahedron_hyperelasticity.hpp>
 #include <sinew/force/tetrahedron_viscoelasticity.hpp>
 #include <sinew/force/triangle_fem.hpp>
+#include <sinew/force/triangular_biquadratic_springs.hpp>
+#include <sinew/force/triangular_quadratic_springs.hpp>
 #include <sinew/force/triangular_shell.hpp>
+#include <sinew/force/triangular_tensor_mass.hpp>
 #include <sinew/force/uniform_velocity_damping.hpp>
 #include <sinew/force/virtual_coupling.hpp>
 #include <sinew/mapping/area_mapping.hpp>
@@ -72,6 +78,7 @@
 #include <sinew/mapping/square_mapping.hpp>
 #include <sinew/mapping/subset_mapping.hpp>
 #include <sinew/mapping/subset_multi_mapping.hpp>
+#include <sinew/mapping/tubular_mapping.hpp>
 #include <sinew/mapping/volume_mapping.hpp>
 #include <sinew/mass/beam_mass.hpp>
 #include <sinew/mass/diagonal_mass.hpp>

@@ -45,6 +45,14 @@ struct FieldInfo : FieldWords {
   std::string cpp(void const* component) const {
     return type->cpp(static_cast<char const*>(component) + offset);
   }
+  /// Of a field of files: the one that a value names, which may have blanks, or those of a list.
+  std::vector<std::string> fileNames(std::string_view value) const {
+    Words words(value);
+    if (!kind.starts_with("list of")) return {std::string(words.rest())};
+    std::vector<std::string> names;
+    while (!words.end()) names.emplace_back(words.next());
+    return names;
+  }
   bool known(std::string_view asked) const { return asked == name || has_name(aliases, asked); }
   /// Of a list of lists, of which scene files have one under each number: "position1", "position2"... Which
   /// of them a name means, from 0; -1 where it means none.
@@ -118,7 +126,15 @@ std::string kind_of() {
     return text(kind_of<typename T::value_type>(), ", or none");
   else if constexpr (requires(T v) { v.inertia; })
     return "mass, volume, inertia by mass";
-  else if constexpr (HasFields<T>) {
+  else if constexpr (HasKeywords<T>) {
+    std::string parts(T::bracket[0]);
+    for_each_field_of<T>([&](auto const& fd) {
+      parts += ' ';
+      if (!fd.aliases.empty()) parts += text(fd.aliases, ' ');
+      parts += fd.name;
+    });
+    return text(parts, ' ', T::bracket[1]);
+  } else if constexpr (HasFields<T>) {
     std::string parts;
     for_each_field_of<T>([&](auto const& fd) { parts += text(parts.empty() ? "" : " ", fd.name); });
     return parts;
@@ -149,7 +165,7 @@ inline constexpr ValueType value_type{
     [](void* value, std::string_view words) { read_value(words, *static_cast<T*>(value)); },
     [](void const* value) { return write_value(*static_cast<T const*>(value)); },
     [](void const* value) { return cpp_value(*static_cast<T const*>(value)); },
-    std::is_same_v<T, DataFile>,
+    std::is_same_v<T, DataFile> || std::is_same_v<T, std::vector<DataFile>>,
     choices_of<T>,
     [](void const* value) {
       if constexpr (DynamicList<T>)

@@ -136,6 +136,23 @@ inline constexpr std::array ofViews = std::to_array<std::string_view>({"VisualSt
                                                                        "PositionalLight",
                                                                        "DirectionalLight"});
 
+/// Shows values of a state by colours of its own: what is mapped onto it is a picture, too.
+inline constexpr std::string_view shownByColours = "DataDisplay";
+
+/// Forces that have the mass of their elements with them: a force and a MeshMatrixMass.
+struct ForceAndMass {
+  std::string_view name, force;
+  bool fillWeighted;  // cells of a grid over a surface weigh by how filled they are
+};
+inline constexpr std::array forcesAndMasses =
+    std::to_array<ForceAndMass>({{"HexahedronFEMForceFieldAndMass", "HexahedronFEMForceField", true},
+                                 {"HexahedralFEMForceFieldAndMass", "HexahedronFEMForceField", false}});
+constexpr ForceAndMass const* force_and_mass(std::string_view tag) {
+  for (auto const& both : forcesAndMasses)
+    if (both.name == tag) return &both;
+  return nullptr;
+}
+
 /// Classes that are not there, by names with blanks between, and what follows from it for a scene.
 struct ClassesLeftOut {
   std::string_view names, why;

@@ -163,6 +163,37 @@ class ImpliedValues {
     }
   }
 
+  /// Where a RigidMapping says of another number of points than there are which bodies carry them, all are
+  /// carried by that of `index`, or the first, as in SOFA.
+  void bodiesOfPoints(SceneItem& item) {
+    FieldInfo const* const bodies = item.info->field("rigidIndexPerPoint");
+    if (!bodies || item.failed) return;
+    SceneItem* child = item.place->ofRole(RoleKind::state);
+    if (!child) child = item.place->ofRole(RoleKind::visualModel);
+    FieldInfo const* const own = item.info->field("initialPoints");
+    if (!child || !child->info || child->failed || !own) return;
+    auto entries = [](FieldInfo const& field, SceneItem const& of) {
+      return field.type->entries(static_cast<char const*>(of.address) + field.offset);
+    };
+    const std::size_t named = entries(*bodies, item);
+    std::size_t points = entries(*own, item);
+    if (points == 0) points = entries(*child->info->field("position"), *child);
+    if (named < 2 || points == 0 || named == points) return;
+    auto const* const index = item.element->attribute("index");
+    const std::string body = index ? index->value : "0";
+    messages_.locate(item, [&] { bodies->read(item.address, body); });
+    messages_.warnings.insert(text(item.element->place(),
+                                   ": <",
+                                   item.tag,
+                                   ">: rigidIndexPerPoint has ",
+                                   named,
+                                   " entries for ",
+                                   points,
+                                   " points; body ",
+                                   body,
+                                   " carries all of them, as in SOFA"));
+  }
+
   /// A field of a visual model that says how its faces look: nothing moves otherwise without it.
   static bool isLook(SceneItem const& item, FieldInfo const& field) {
     static constexpr std::array ofMesh =

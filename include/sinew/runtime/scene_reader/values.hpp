@@ -36,6 +36,9 @@ class SceneValues {
     for_each_item(top, [&](SceneItem& item) {
       if (item.info) resolve(item);
     });
+    for_each_item(top, [&](SceneItem& item) {
+      if (item.info && item.info->role == RoleKind::mapping) implied_.bodiesOfPoints(item);
+    });
   }
   AnyComponent<R>& component(SceneItem const& item) { return values_.component(item); }
 
@@ -200,8 +203,13 @@ class SceneValues {
       value = whole_points(item, value, written, messages_);
     if (field.isFile) {
       auto const& file = written.file ? written.file : item.element->file;
-      value = xml_.find(std::string(Words(value).rest()), file ? file->folder : "");
-      files.push_back(value);
+      const std::string folder = file ? file->folder : "";
+      std::string found;
+      for (std::string const& name : field.fileNames(value)) {
+        files.push_back(xml_.find(name, folder));
+        found += text(found.empty() ? "" : " ", files.back());
+      }
+      value = found;
     }
     const std::string part = is_link(written.value) ? value : inPart(item, field, value, written);
     field.read(item.address, part);
