@@ -85,6 +85,7 @@
 #include <sinew/solver/euler_explicit.hpp>
 #include <sinew/solver/euler_implicit.hpp>
 #include <sinew/solver/min_res_linear_solver.hpp>
+#include <sinew/solver/multigrid_linear_solver.hpp>
 #include <sinew/solver/newmark_implicit.hpp>
 #include <sinew/solver/pcg_linear_solver.hpp>
 #include <sinew/solver/runge_kutta2.hpp>
