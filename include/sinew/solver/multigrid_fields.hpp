@@ -15,7 +15,7 @@ constexpr auto multigrid_fields(Own... own) {
             &S::levels,
             "",
             "of multigrid: largest number of levels, with that of the points",
-            range::atLeast(1)),
+            range::closed(1, 50)),
       field("coarsestSize",
             &S::coarsestSize,
             "",
@@ -32,7 +32,7 @@ constexpr auto multigrid_fields(Own... own) {
             &S::smootherDegree,
             "",
             "of multigrid: steps of the smoother before and behind the coarse levels",
-            range::atLeast(1)));
+            range::closed(1, 100)));
 }
 
 /// The values of those fields.

@@ -103,26 +103,14 @@ struct MultigridLinearSolver {
   void solveAgain(Operations& operations, MultiVecDeriv<Operations>& solution,
                   MultiVecDeriv<Operations>& rhs) {
     operations.gather(b, rhs.id);
-    iterate(some_workers(operations.workers()));
+    solveSystem(some_workers(operations.workers()));
     operations.scatter(solution.id, x);
   }
 
- private:
-  void precondition(SomeWorkers const& workers) {
-    if (!warp || age == 0) return multigrid.apply(workers, r, z);
-    turned = r;
-    rotations.apply(turned, true);
-    multigrid.apply(workers, turned, z);
-    rotations.apply(z, false);
-  }
-  static double dot(SomeWorkers const& workers, Vector const& u, Vector const& v) {
-    return vec::sum_pieces(workers, u.size(), [&](Eigen::Index i, Eigen::Index n) {
-      return vec::dot_piece(u.data() + i, v.data() + i, n);
-    });
-  }
-  // The weight of the last direction in the form of Polak and Ribiere, (r - r_before).z / rho with r -
-  // r_before = -alpha A p: a cycle in float is not quite the same matrix each time (Golub, Ye 1999).
-  void iterate(SomeWorkers const& workers) {
+  /// A x = b. The weight of the last direction is in the form of Polak and Ribiere, (r - r_before).z / rho
+  /// with r - r_before = -alpha A p: a cycle in float is not quite the same matrix each time (Golub, Ye
+  /// 1999).
+  void solveSystem(SomeWorkers const& workers) {
     using Real = typename Matrix::Real;
     residuals.clear();
     keep_residual(residuals, 1);
@@ -146,6 +134,20 @@ struct MultigridLinearSolver {
       vec::xpay(workers, p, z, Real(along / rho));
       rho = dot(workers, r, z);
     }
+  }
+
+ private:
+  void precondition(SomeWorkers const& workers) {
+    if (!warp || age == 0) return multigrid.apply(workers, r, z);
+    turned = r;
+    rotations.apply(turned, true);
+    multigrid.apply(workers, turned, z);
+    rotations.apply(z, false);
+  }
+  static double dot(SomeWorkers const& workers, Vector const& u, Vector const& v) {
+    return vec::sum_pieces(workers, u.size(), [&](Eigen::Index i, Eigen::Index n) {
+      return vec::dot_piece(u.data() + i, v.data() + i, n);
+    });
   }
 };
 
