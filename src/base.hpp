@@ -30,6 +30,8 @@
 #include <sinew/io/text_reader.hpp>
 #include <sinew/io/topological_changes.hpp>
 #include <sinew/io/write_obj.hpp>
+#include <sinew/linalg/aggregation.hpp>
+#include <sinew/linalg/chebyshev.hpp>
 #include <sinew/linalg/minimum_degree.hpp>
 #include <sinew/topology/adjacency.hpp>
 #include <sinew/topology/bcc_lattice.hpp>

@@ -900,6 +900,7 @@ constexpr auto classExamples = std::to_array<ClassExample>({
     {"ShewchukPCGLinearSolver", R"(
 <ShewchukPCGLinearSolver template="CompressedRowSparseMatrixMat3x3d" iterations="100" tolerance="1e-8"
                          precondition="incompleteCholesky"/>)"},
+    {"MultigridLinearSolver", R"(<MultigridLinearSolver tolerance="1e-8" refresh="5" warp="true"/>)"},
     {"SparseLDLSolver", "", softBody, ""},
 
     {"WriteState",

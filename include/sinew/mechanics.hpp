@@ -45,6 +45,7 @@
 #include <sinew/force/mesh_spring.hpp>
 #include <sinew/force/particles_repulsion.hpp>
 #include <sinew/force/plane_force_field.hpp>
+#include <sinew/force/polynomial_rest_shape_springs.hpp>
 #include <sinew/force/polynomial_springs.hpp>
 #include <sinew/force/regular_grid_spring.hpp>
 #include <sinew/force/rest_shape_springs.hpp>
@@ -71,6 +72,7 @@
 #include <sinew/mapping/distance_mapping.hpp>
 #include <sinew/mapping/distance_to_plane_mapping.hpp>
 #include <sinew/mapping/identity_mapping.hpp>
+#include <sinew/mapping/identity_multi_mapping.hpp>
 #include <sinew/mapping/rigid_mapping.hpp>
 #include <sinew/mapping/skinning_mapping.hpp>
 #include <sinew/mapping/sph_fluid_surface_mapping.hpp>
@@ -92,6 +94,7 @@
 #include <sinew/solver/euler_explicit.hpp>
 #include <sinew/solver/euler_implicit.hpp>
 #include <sinew/solver/min_res_linear_solver.hpp>
+#include <sinew/solver/multigrid_linear_solver.hpp>
 #include <sinew/solver/newmark_implicit.hpp>
 #include <sinew/solver/pcg_linear_solver.hpp>
 #include <sinew/solver/runge_kutta2.hpp>

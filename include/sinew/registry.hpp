@@ -136,8 +136,8 @@ using StandardSolvers =
              BDFOdeSolver, StaticSolver, DampVelocitySolver, DFSPHSolver, CGLinearSolver<>,
              AssembledSolvers<CGLinearSolver>, CGLinearSolver<CompressedRowSparseMatrixMat3x3f>,
              MinResLinearSolver<>, AssembledSolvers<MinResLinearSolver>, ShewchukPCGLinearSolver<>,
-             AssembledSolvers<ShewchukPCGLinearSolver>, AssembledSolvers<SparseLDLSolver>,
-             AssembledSolvers<CholeskySolver>>;
+             AssembledSolvers<ShewchukPCGLinearSolver>, AssembledSolvers<MultigridLinearSolver>,
+             AssembledSolvers<SparseLDLSolver>, AssembledSolvers<CholeskySolver>>;
 template <class D>
 using Regions = Registry<BoxROI<D>, SphereROI<D>, PairBoxROI<D>, NearestPointROI<D>>;
 // meshes made, merged and divided, and what is known of them

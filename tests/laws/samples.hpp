@@ -33,6 +33,7 @@
 #include "samples/particle_source.hpp"
 #include "samples/particles_repulsion.hpp"
 #include "samples/patch_test_movement.hpp"
+#include "samples/polynomial_rest_shape_springs.hpp"
 #include "samples/polynomial_springs.hpp"
 #include "samples/project_direction.hpp"
 #include "samples/project_to_line.hpp"

@@ -336,6 +336,10 @@ constexpr Preconditions const* preconditioner_named(std::string_view tag) {
   return nullptr;
 }
 
+/// Those of a MultigridLinearSolver that a solver with it as preconditioner has, too.
+inline constexpr std::array multigridAttributes = std::to_array<std::string_view>(
+    {"warp", "levels", "coarsestSize", "strengthThreshold", "smootherDegree"});
+
 /// Attributes that are as good as not given where they are empty, or a link to nothing: "@".
 inline constexpr std::array mayBeEmpty =
     std::to_array<std::string_view>({"src", "filename", "fileMesh", "fileTopology"});

@@ -101,10 +101,6 @@ inline constexpr std::array withoutEffectOf = std::to_array<AttributeOf>({
     {"JointSpringForceField", "reinit"},
     {"PatchTestMovementProjectiveConstraint", "meshIndices"},
     {"TriangularBiquadraticSpringsForceField", "matrixRegularization"},  // SOFA does not read it either
-    {"SubsetTopology", "indices"},
-    {"StringMeshCreator", "filename"},
-    {"StringMeshCreator", "hexahedra"},
-    {"StringMeshCreator", "polygons"},
     {"StringMeshCreator", "polylines"}, {"StringMeshCreator", "prisms"}, {"StringMeshCreator", "pyramids"},
     {"StringMeshCreator", "quads"}, {"StringMeshCreator", "tetrahedra"}, {"StringMeshCreator", "triangles"},
     {"SlidingLagrangianConstraint", "force"}, {"SparseLDLSolver", "bandWidth"}, {"SparseLDLSolver", "conditionNumber"}, {"SparseLDLSolver", "minSingularValue"}, {"SparseLDLSolver", "showProblem"},
