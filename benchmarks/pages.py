@@ -139,7 +139,7 @@ SCENES = {"fem-double": "body of 6,000 tetrahedra, double", "fem-float": "the sa
           "grid-double": "grid 17x8x10, double"}
 
 
-FLUIDS = {"sph": "particles, SPHFluidForceField", "sphf": "particles, SPHFluidForceField in float", "pysph": "particles, PySPH", "dfsph": "particles, DFSPHSolver", "grid": "cells, Fluid3D"}
+FLUIDS = {"sph": "particles, SPHFluidForceField", "sphf": "particles, SPHFluidForceField in float", "pysph": "particles, PySPH", "dfsph": "particles, DFSPHSolver", "splishsplash": "particles, SPlisHSPlasH", "grid": "cells, Fluid3D"}
 
 
 def fluids(rows):

@@ -201,14 +201,28 @@ def pysph(size, seconds, counts):
     return lines
 
 
-FLUIDS = (("sph", 10000), ("pysph", 10000), ("sph", 100000), ("sphf", 100000), ("sph", 1000000), ("dfsph", 10000), ("dfsph", 100000), ("grid", 32), ("grid", 64), ("grid", 128))
+def splishsplash(build, size, seconds, counts):
+    """The lines of run/fluids_splishsplash.cpp, where it was built."""
+    program = build / "bench_fluids_splishsplash"
+    if not program.is_file():
+        print("\nno SPlisHSPlasH (cmake -DSINEW_SPLISHSPLASH=FOLDER): none to compare")
+        return []
+    return [line.split() for line in output(program, size, seconds, *counts).splitlines() if line.startswith("splishsplash ")]
+
+
+FLUIDS = (("sph", 10000), ("pysph", 10000), ("sph", 100000), ("sphf", 100000), ("sph", 1000000), ("dfsph", 10000), ("dfsph", 100000), ("splishsplash", 100000), ("grid", 32), ("grid", 64), ("grid", 128))
 
 
 def fluids(build, cases=FLUIDS, seconds=3):
     counts = sorted({1, len(os.sched_getaffinity(0))})
     rows = []
     for kind, size in cases:
-        found = pysph(size, seconds, counts) if kind == "pysph" else [line.split() for line in output(build / "bench_fluids", kind, size, seconds, *counts).splitlines()]
+        if kind == "pysph":
+            found = pysph(size, seconds, counts)
+        elif kind == "splishsplash":
+            found = splishsplash(build, size, seconds, counts)
+        else:
+            found = [line.split() for line in output(build / "bench_fluids", kind, size, seconds, *counts).splitlines()]
         for name, parts, count, time, substeps, iterations, bits in found:
             rows.append({"kind": name, "parts": int(parts), "threads": int(count), "step": float(time), "substeps": int(substeps), "iterations": int(iterations),
                          "same_bits": bits == found[0][-1]})

@@ -279,6 +279,38 @@ constexpr auto classExamples = std::to_array<ClassExample>({
     <BarycentricMapping/>
   </Node>
 </Node>)"},
+    {"SparseGridMultipleTopology", R"(
+<Node name="organ" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <SparseGridMultipleTopology n="6 6 6" nbVirtualFinerLevels="2" finestConnectivity="false" stiffnessCoefs="1 20"
+                              fileTopologies="data/ball.obj data/organ.obj"/>
+  <MechanicalObject/>
+  <UniformMass totalMass="0.7"/>
+  <HexahedronFEMForceField youngModulus="5000" poissonRatio="0.3"/>
+  <FixedConstraint indices="0 1 2"/>
+  <Node name="skin">
+    <MeshOBJLoader name="surface" filename="data/organ.obj"/>
+    <VisualModel src="@surface"/>
+    <BarycentricMapping/>
+  </Node>
+</Node>)"},
+    {"SparseGridRamificationTopology", R"(
+<Node name="organ" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <SparseGridRamificationTopology n="5 3 4" fileTopology="data/organ.obj" nbVirtualFinerLevels="2"
+                                  finestConnectivity="false"/>
+  <MechanicalObject/>
+  <UniformMass totalMass="0.7"/>
+  <HexahedronFEMForceField youngModulus="5000" poissonRatio="0.3"/>
+  <FixedConstraint indices="0 1 2"/>
+  <Node name="skin">
+    <MeshOBJLoader name="surface" filename="data/organ.obj"/>
+    <VisualModel src="@surface"/>
+    <BarycentricMapping/>
+  </Node>
+</Node>)"},
 
     {"MechanicalObject", R"(
 <Node name="root" gravity="0 -9.81 0">
@@ -336,12 +368,30 @@ constexpr auto classExamples = std::to_array<ClassExample>({
      sheet,
      "TriangleFEMForceField",
      Place::beside},
+    {"EllipsoidForceField",
+     R"(<EllipsoidForceField center="0.5 0.5 -0.3" vradius="0.4 0.3 0.2" stiffness="20" damping="1"/>)",
+     sheet,
+     "TriangleFEMForceField",
+     Place::beside},
     {"FastTriangularBendingSprings",
      R"(<FastTriangularBendingSprings bendingStiffness="0.02"/>)",
      sheet,
      "TriangleFEMForceField",
      Place::beside},
     {"HexahedronFEMForceField", R"(<HexahedronFEMForceField youngModulus="50000" poissonRatio="0.3"/>)"},
+    {"JointSpringForceField", R"(
+<Node name="links" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <MechanicalObject template="Rigid3d" position="0.5 0 0  0 0 0 1   1.5 0 0  0 0 0 1"/>
+  <UniformMass vertexMass="1 1  0.01 0 0  0 0.1 0  0 0 0.1"/>
+  <FixedConstraint indices="0"/>
+  <Node name="hinge">
+    <MechanicalObject template="Rigid3d" position="0.5 0 0  0 0 0 1   -0.5 0 0  0 0 0 1"/>
+    <RigidMapping rigidIndexPerPoint="0 1"/>
+    <JointSpringForceField spring="BEGIN_SPRING 0 1 FREE_AXIS 0 0 0 0 0 1 KS_T 0 20000 KS_R 0 2000 R_LIM_Z -0.5 0.5 KD 0.1 END_SPRING"/>
+  </Node>
+</Node>)"},
     {"LinearForceField",
      R"(<LinearForceField points="4 9" times="0 0.5 1" forces="0 0 0  0 0 3  0 0 0"/>)",
      softBody,
@@ -461,6 +511,21 @@ constexpr auto classExamples = std::to_array<ClassExample>({
      R"(
 <MeshSpringForceField stiffness="50" damping="0.1"/>
 <TriangularBendingSprings stiffness="20" damping="0.05"/>)",
+     sheet,
+     "TriangleFEMForceField"},
+    {"TriangularBiquadraticSpringsForceField",
+     R"(
+<TriangularBiquadraticSpringsForceField youngModulus="50" poissonRatio="0.3"/>)",
+     sheet,
+     "TriangleFEMForceField"},
+    {"TriangularQuadraticSpringsForceField",
+     R"(
+<TriangularQuadraticSpringsForceField youngModulus="50" poissonRatio="0.3"/>)",
+     sheet,
+     "TriangleFEMForceField"},
+    {"TriangularTensorMassForceField",
+     R"(
+<TriangularTensorMassForceField youngModulus="50" poissonRatio="0.3"/>)",
      sheet,
      "TriangleFEMForceField"},
     {"TriangularShellForceField", R"(
@@ -583,6 +648,12 @@ constexpr auto classExamples = std::to_array<ClassExample>({
      R"(
 <ParabolicConstraint indices="0" P1="0 0 0" P2="0.5 1 0" P3="1 0 0" BeginTime="0" EndTime="0.8"/>)",
      chain,
+     "FixedConstraint"},
+    {"PatchTestMovementProjectiveConstraint",
+     R"(
+<PatchTestMovementProjectiveConstraint indices="0 1 2 3 4 5 9 10 14 15 19 20 21 22 23 24" endConstraintTime="1"
+                                       cornerMovements="0 0 0  0.2 0 0  0.3 0.1 0  0 0.1 0"/>)",
+     sheet,
      "FixedConstraint"},
     {"PartialFixedConstraint",
      R"(<PartialFixedConstraint indices="0" fixedDirections="1 1 0"/>)",
@@ -748,6 +819,17 @@ constexpr auto classExamples = std::to_array<ClassExample>({
     <SkinningMapping nbRef="2" method="dualQuaternion"/>
   </Node>
 </Node>)"},
+    {"TubularMapping",
+     R"(
+<Node name="skin">
+  <MeshTopology name="faces"/>
+  <Edge2QuadTopologicalMapping nbPointsOnEachCircle="8" radius="0.01" output="@faces"/>
+  <MechanicalObject/>
+  <TubularMapping nbPointsOnEachCircle="8" radius="0.01" peak="-2"/>
+</Node>)",
+     beams,
+     "FixedConstraint",
+     Place::beside},
     {"SubsetMapping",
      R"(
 <Node name="corners">
@@ -818,6 +900,7 @@ constexpr auto classExamples = std::to_array<ClassExample>({
     {"ShewchukPCGLinearSolver", R"(
 <ShewchukPCGLinearSolver template="CompressedRowSparseMatrixMat3x3d" iterations="100" tolerance="1e-8"
                          precondition="incompleteCholesky"/>)"},
+    {"MultigridLinearSolver", R"(<MultigridLinearSolver tolerance="1e-8" refresh="5" warp="true"/>)"},
     {"SparseLDLSolver", "", softBody, ""},
 
     {"WriteState",
@@ -1079,6 +1162,17 @@ constexpr auto classExamples = std::to_array<ClassExample>({
   <HERE/>
 </Node>)",
      "HERE"},
+    {"Edge2QuadTopologicalMapping",
+     R"(
+<Node name="skin">
+  <MeshTopology name="faces"/>
+  <Edge2QuadTopologicalMapping nbPointsOnEachCircle="8" radius="0.01" output="@faces"/>
+  <MechanicalObject/>
+  <TubularMapping nbPointsOnEachCircle="8" radius="0.01"/>
+</Node>)",
+     beams,
+     "FixedConstraint",
+     Place::beside},
     {"Triangle2EdgeTopologicalMapping",
      R"(
 <Node name="border">

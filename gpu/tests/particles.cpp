@@ -144,13 +144,14 @@ auto bath() {
 TEST_CASE("forces of a fluid on the device equal those of the processor, for all its kinds") {
   for (const bool bounded : {false, true})
     for (int kernel = 0; kernel < 2; ++kernel)
-      for (int kind = 0; kind < 3; ++kind) {
+      for (int kind = 0; kind < 4; ++kind) {
         INFO("kernel " << kernel << ", viscosity and tension " << kind << ", boundary " << bounded);
         auto with = [&](auto& fluid) {
           fluid.kernelType = kernel;
-          fluid.viscosityType = kind;
+          fluid.viscosityType = kind % 3;
           fluid.surfaceTension = kind == 0 ? 0 : 0.7;
           fluid.surfaceTensionType = kind;
+          fluid.adhesion = 0.4;
           fluid.pressureType = kind == 2 ? 0 : 1;
         };
         same_forces<Vec3d>(with, bounded, 1e-11);

@@ -22,6 +22,7 @@
 #include <sinew/constraint/partial_fixed.hpp>
 #include <sinew/constraint/particle_sink.hpp>
 #include <sinew/constraint/particle_source.hpp>
+#include <sinew/constraint/patch_test_movement.hpp>
 #include <sinew/constraint/project_direction.hpp>
 #include <sinew/constraint/project_to_line.hpp>
 #include <sinew/constraint/project_to_plane.hpp>
@@ -34,14 +35,17 @@
 #include <sinew/force/constant_force.hpp>
 #include <sinew/force/diagonal_velocity_damping.hpp>
 #include <sinew/force/element_pressure.hpp>
+#include <sinew/force/ellipsoid_force_field.hpp>
 #include <sinew/force/fast_triangular_bending_springs.hpp>
 #include <sinew/force/fluid_boundary.hpp>
 #include <sinew/force/hexahedron_fem.hpp>
 #include <sinew/force/immersed_solid.hpp>
+#include <sinew/force/joint_spring.hpp>
 #include <sinew/force/linear_force_field.hpp>
 #include <sinew/force/mesh_spring.hpp>
 #include <sinew/force/particles_repulsion.hpp>
 #include <sinew/force/plane_force_field.hpp>
+#include <sinew/force/polynomial_rest_shape_springs.hpp>
 #include <sinew/force/polynomial_springs.hpp>
 #include <sinew/force/regular_grid_spring.hpp>
 #include <sinew/force/rest_shape_springs.hpp>
@@ -54,7 +58,10 @@
 #include <sinew/force/tetrahedron_hyperelasticity.hpp>
 #include <sinew/force/tetrahedron_viscoelasticity.hpp>
 #include <sinew/force/triangle_fem.hpp>
+#include <sinew/force/triangular_biquadratic_springs.hpp>
+#include <sinew/force/triangular_quadratic_springs.hpp>
 #include <sinew/force/triangular_shell.hpp>
+#include <sinew/force/triangular_tensor_mass.hpp>
 #include <sinew/force/uniform_velocity_damping.hpp>
 #include <sinew/force/virtual_coupling.hpp>
 #include <sinew/mapping/area_mapping.hpp>
@@ -65,6 +72,7 @@
 #include <sinew/mapping/distance_mapping.hpp>
 #include <sinew/mapping/distance_to_plane_mapping.hpp>
 #include <sinew/mapping/identity_mapping.hpp>
+#include <sinew/mapping/identity_multi_mapping.hpp>
 #include <sinew/mapping/rigid_mapping.hpp>
 #include <sinew/mapping/skinning_mapping.hpp>
 #include <sinew/mapping/sph_fluid_surface_mapping.hpp>
@@ -72,6 +80,7 @@
 #include <sinew/mapping/square_mapping.hpp>
 #include <sinew/mapping/subset_mapping.hpp>
 #include <sinew/mapping/subset_multi_mapping.hpp>
+#include <sinew/mapping/tubular_mapping.hpp>
 #include <sinew/mapping/volume_mapping.hpp>
 #include <sinew/mass/beam_mass.hpp>
 #include <sinew/mass/diagonal_mass.hpp>
@@ -85,6 +94,7 @@
 #include <sinew/solver/euler_explicit.hpp>
 #include <sinew/solver/euler_implicit.hpp>
 #include <sinew/solver/min_res_linear_solver.hpp>
+#include <sinew/solver/multigrid_linear_solver.hpp>
 #include <sinew/solver/newmark_implicit.hpp>
 #include <sinew/solver/pcg_linear_solver.hpp>
 #include <sinew/solver/runge_kutta2.hpp>

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <sinew/core/registry.hpp>
+#include <sinew/engine/gid_mesh_loader.hpp>
+#include <sinew/engine/mesh_off_loader.hpp>
+#include <sinew/engine/mesh_trian_loader.hpp>
 #include <sinew/engine/mesh_vtk_loader.hpp>
 #include <sinew/fluid/fluid2d.hpp>
 #include <sinew/fluid/fluid3d.hpp>
@@ -28,7 +31,7 @@ using RigidLoads =
 template <class D>
 using PointLoads = Registry<RigidLoads<D>, SphereForceField<D>>;
 template <class D>
-using SpatialLoads = Registry<ConicalForceField<D>, TaitSurfacePressureForceField<D>>;
+using SpatialLoads = Registry<ConicalForceField<D>, TaitSurfacePressureForceField<D>, EllipsoidForceField<D>>;
 template <class D>
 using Particles = Registry<ParticleSource<D>, ParticleSink<D>>;
 template <class D>
@@ -38,7 +41,8 @@ template <class D>
 using ElementForces =
     Registry<TetrahedronFEMForceField<D>, HexahedronFEMForceField<D>, TriangleFEMForceField<D>,
              SurfacePressureForceField<D>, TrianglePressureForceField<D>, QuadPressureForceField<D>,
-             EdgePressureForceField<D>>;
+             EdgePressureForceField<D>, TriangularQuadraticSpringsForceField<D>,
+             TriangularBiquadraticSpringsForceField<D>, TriangularTensorMassForceField<D>>;
 template <class D>
 using HyperelasticForces =
     Registry<TetrahedronHyperelasticityFEMForceField<D>, TetrahedronViscoelasticityFEMForceField<D>>;
@@ -50,7 +54,9 @@ using SpatialSprings =
 template <class D>
 using FrameElements = Registry<BeamFEMForceField<D>, BeamMass<D>, TriangularShellForceField<D>>;
 template <class D>
-using SpatialRigids = Registry<AngularSpringForceField<D>, FixedRotationConstraint<D>, FrameElements<D>>;
+using SpatialRigids = Registry<AngularSpringForceField<D>, FixedRotationConstraint<D>, FrameElements<D>,
+                               JointSpringForceField<D>, JointSpringForceField<D, Linked>,
+                               PatchTestMovementProjectiveConstraint<D>>;
 template <class D>
 using PointConstraints =
     Registry<FixedConstraint<D>, PartialFixedConstraint<D>, FixedPlaneConstraint<D>,
@@ -63,8 +69,9 @@ template <class D>
 using PointComponents = Registry<MechanicalObject<D>, UniformMass<D>, DiagonalMass<D>, MeshMatrixMass<D>,
                                  PointSprings<D>, PointLoads<D>, PointConstraints<D>>;
 template <class D>
-using SpatialComponents = Registry<PointComponents<D>, SpatialLoads<D>, ElementForces<D>,
-                                   HyperelasticForces<D>, SpatialSprings<D>, Fluids<D>>;
+using SpatialComponents =
+    Registry<PointComponents<D>, SpatialLoads<D>, ElementForces<D>, HyperelasticForces<D>, SpatialSprings<D>,
+             Fluids<D>, PatchTestMovementProjectiveConstraint<D>>;
 template <class D>
 using RigidComponents =
     Registry<MechanicalObject<D>, UniformMass<D>, DiagonalMass<D>, RigidLoads<D>, PointConstraints<D>>;
@@ -72,7 +79,8 @@ template <class Rigid, class Point, class OtherPoint>
 using RigidMappings =
     Registry<IdentityMapping<Rigid, Rigid>, IdentityMapping<Rigid, Point>, RigidMapping<Rigid, Rigid>,
              RigidMapping<Rigid, Point>, RigidMapping<Rigid, OtherPoint>, BeamLinearMapping<Rigid, Point>,
-             BeamLinearMapping<Rigid, OtherPoint>>;
+             BeamLinearMapping<Rigid, OtherPoint>, TubularMapping<Rigid, Point>,
+             TubularMapping<Rigid, OtherPoint>>;
 template <class In, class Out>
 using PointMappings = Registry<IdentityMapping<In, Out>, SubsetMapping<In, Out>>;
 template <class In, class Out>
@@ -128,20 +136,39 @@ using StandardSolvers =
              BDFOdeSolver, StaticSolver, DampVelocitySolver, DFSPHSolver, CGLinearSolver<>,
              AssembledSolvers<CGLinearSolver>, CGLinearSolver<CompressedRowSparseMatrixMat3x3f>,
              MinResLinearSolver<>, AssembledSolvers<MinResLinearSolver>, ShewchukPCGLinearSolver<>,
-             AssembledSolvers<ShewchukPCGLinearSolver>, AssembledSolvers<SparseLDLSolver>,
-             AssembledSolvers<CholeskySolver>>;
+             AssembledSolvers<ShewchukPCGLinearSolver>, AssembledSolvers<MultigridLinearSolver>,
+             AssembledSolvers<SparseLDLSolver>, AssembledSolvers<CholeskySolver>>;
 template <class D>
 using Regions = Registry<BoxROI<D>, SphereROI<D>, PairBoxROI<D>, NearestPointROI<D>>;
+// meshes made, merged and divided, and what is known of them
+using MeshEngines =
+    Registry<GenerateGrid, GenerateCylinder, GenerateSphere, ExtrudeSurface, ExtrudeEdgesAndGenerateQuads,
+             ExtrudeQuadsAndGenerateHexas, RandomPointDistributionInSurface, Spiral, MeshClosingEngine,
+             MeshBarycentricMapperEngine, MeshTetraStuffing, JoinPoints, NormalsFromPoints, SmoothMeshEngine,
+             DilateEngine, MergeMeshes<Vec3d>, MergePoints<Vec3d>, VolumeFromTriangles<Vec3d>,
+             VolumeFromVolumetricElements<Vec3d>, MeshBoundaryROI, MeshROI<Vec3d>, MeshSplittingEngine,
+             MeshSampler, MeshSubsetEngine, ProximityROI<Vec3d>, ComplementaryROI>;
+// lists of numbers, values and places
+using ListEngines = Registry<MergeVectors, MergeSets, MergeROIs, SelectLabelROI, ValuesFromIndices,
+                             IndicesFromValues, DifferenceEngine, SumEngine, NormEngine, MathOp, MapIndices,
+                             IndexValueMapper, Indices2ValuesMapper, ROIValueMapper,
+                             ValuesFromPositions<Vec3d>, HausdorffDistance, AverageCoord<Vec3d>>;
+using PlacingEngines =
+    Registry<TransformPosition, TranslateTransformMatrixEngine, RotateTransformMatrixEngine,
+             ScaleTransformMatrixEngine, InvertTransformMatrixEngine, Vertex2Frame, QuatToRigidEngine,
+             RigidToQuatEngine, DisplacementMatrixEngine, ProjectiveTransformEngine>;
 template <class D>
 using SpatialEngines = Registry<Regions<D>, PlaneROI<D>, TransformEngine<D>, SubsetTopology<D>>;
 using StandardEngines =
-    Registry<MeshGmshLoader, MeshOBJLoader, MeshSTLLoader, MeshVTKLoader, SphereLoader,
+    Registry<MeshGmshLoader, MeshOBJLoader, MeshSTLLoader, MeshVTKLoader, MeshOffLoader, GIDMeshLoader,
+             MeshTrianLoader, VoxelGridLoader, SphereLoader, MeshEngines, ListEngines, PlacingEngines,
              GenerateRigidMass<Rigid3d>, Hexa2TetraTopologicalMapping, Tetra2TriangleTopologicalMapping,
              Hexa2QuadTopologicalMapping, Quad2TriangleTopologicalMapping, Triangle2EdgeTopologicalMapping,
-             SpatialEngines<Vec3d>, PointsFromIndices<Vec3d>, Regions<Vec3f>, SpatialEngines<Rigid3d>,
-             BoxROI<Vec1d>, Regions<Vec2d>, Regions<Rigid2d>>;
+             Edge2QuadTopologicalMapping, SpatialEngines<Vec3d>, PointsFromIndices<Vec3d>, Regions<Vec3f>,
+             SpatialEngines<Rigid3d>, BoxROI<Vec1d>, Regions<Vec2d>, Regions<Rigid2d>>;
 using StandardTopologies =
-    Registry<TetrahedronTopology, MeshTopology, RegularGridTopology, SparseGridTopology, SurfaceSampling>;
+    Registry<TetrahedronTopology, MeshTopology, RegularGridTopology, SparseGridTopology,
+             SparseGridRamificationTopology, SparseGridMultipleTopology, SurfaceSampling>;
 // meshes that need no file
 using MadeMeshes = Registry<CubeTopology, CylinderGridTopology, SphereGridTopology, GridMeshCreator,
                             StringMeshCreator, MeshSubdivision>;

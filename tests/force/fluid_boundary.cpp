@@ -96,6 +96,18 @@ TEST_CASE("fluid, rigid body and soft body keep their momentum to rounding, by b
                                            .viscosity = 10,
                                            .kernelType = 0,
                                            .viscosityType = 2});
+  check_momentum(EulerExplicitSolver{},
+                 0.001,
+                 d,
+                 SPHFluidForceField<Vec3d>{.radius = 2 * d,
+                                           .mass = 1000 * d * d * d,
+                                           .pressure = 400,
+                                           .density = 1000,
+                                           .surfaceTension = 20,
+                                           .adhesion = 10,
+                                           .kernelType = 1,
+                                           .viscosityType = 0,
+                                           .surfaceTensionType = 3});
 }
 
 TEST_CASE("the pressure of SPHFluidForceField at a wall is that of its sums over all pairs") {

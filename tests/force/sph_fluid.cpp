@@ -59,8 +59,21 @@ std::vector<Eigen::Vector3d> by_all_pairs(SPHFluidForceField<Vec3d> const& c,
       normal[i] += more * kernels.densitySlope(q) * d;
       curvature[i] += more * kernels.densityLaplacian(q);
     });
+  std::vector<Eigen::Vector3d> outwards(n, Eigen::Vector3d::Zero());  // of Akinci et al.
+  for (std::size_t i = 0; i < n; ++i)
+    pairs(i, [&](std::size_t j, Eigen::Vector3d const& d, double q) {
+      outwards[i] += c.radius * c.mass / rho[j] * kernels.densitySlope(q) * d;
+    });
+  // c V^2 of SphTension
+  const double strength = 8 * c.surfaceTension / (std::acos(-1.) * std::pow(c.radius, 5) * 21 / 440) *
+                          std::pow(c.mass / c.density, 2);
   for (std::size_t i = 0; i < n; ++i) {
     pairs(i, [&](std::size_t j, Eigen::Vector3d const& d, double q) {
+      if (c.surfaceTension > 0 && c.surfaceTensionType == 3) {
+        const double g = 64 * std::pow(q * (1 - q), 3);
+        f[i] -= 2 * c.density / (rho[i] + rho[j]) * strength *
+                ((q < 0.5 ? 2 * g - 1 : g) * d / (q * c.radius) + (outwards[i] - outwards[j]) / 20);
+      }
       double pushes = -c.mass * c.mass * (p[i] / (rho[i] * rho[i]) + p[j] / (rho[j] * rho[j]));
       const double near = std::min(0., (v[i] - v[j]).dot(d));
       if (c.viscosityType == 2)
@@ -195,7 +208,7 @@ TEST_CASE("forces of all kinds are the sums over all pairs, in lanes, in scalars
   v.push_back({1, 0, 0});
   for (const int kernel : {0, 1})
     for (const int viscosity : {0, 1, 2})
-      for (const int tension : {0, 1, 2}) {
+      for (const int tension : {0, 1, 2, 3}) {
         CAPTURE(kernel, viscosity, tension);
         auto set = [&](auto fluid) {
           fluid.radius = 0.4, fluid.mass = 0.2, fluid.pressure = 3, fluid.density = 5;
@@ -227,6 +240,30 @@ TEST_CASE("forces of all kinds are the sums over all pairs, in lanes, in scalars
           for (std::size_t i = 0; i < x.size(); ++i)
             REQUIRE((single[i].cast<double>() - expected[i]).norm() < 1e-3 * largest);
       }
+}
+
+TEST_CASE("the cohesion of Akinci et al. pulls across a plane as the tension says, by quadrature") {
+  // pi/8 int s r^4 dr of what two volumes pull each other by (Fowler 1937), at the density at rest
+  const double tension = 0.07, radius = 0.02, volume = 1e-6, density = 1000;
+  const auto surface = SphTension<double>::of(tension, 0, radius, volume, density);
+  const int n = 4000;
+  double sum = 0;
+  for (int k = 0; k < n; ++k) {  // midpoints
+    const double q = (k + 0.5) / n, r = q * radius;
+    sum -= surface.pull(q, 2 * density, 1., 1.).along * r / (volume * volume) * std::pow(r, 4) * radius / n;
+  }
+  CHECK(std::acos(-1.) / 8 * sum == Approx(tension).epsilon(1e-6));
+  // adhesion is between fluid and boundary alone, from half the radius on, and largest at three quarters
+  const auto wall = SphTension<double>::of(tension, 0.5, radius, volume, density);
+  auto held = [&](double q, double own, double other) {
+    return -wall.pull(q, 2 * density, own, other).along * q * radius;
+  };
+  CHECK(held(0.75, 1, 0) == Approx(0.5 / tension * held(0.5 + 1e-9, 1, 1)));
+  CHECK(held(0.75, 0, 1) == held(0.75, 1, 0));
+  CHECK(held(0.7, 1, 0) < held(0.75, 1, 0));
+  CHECK(held(0.8, 1, 0) < held(0.75, 1, 0));
+  for (const double q : {0.1, 0.5, 1.}) CHECK(held(q, 1, 0) == Approx(0).margin(1e-6 * held(0.75, 1, 0)));
+  CHECK(held(0.75, 0, 0) == 0);
 }
 
 TEST_CASE("with the cubic kernel the pressure is the slope of its energy") {
@@ -314,7 +351,9 @@ TEST_CASE("what cannot be is refused with what and where") {
   CHECK_THAT(wrong({.mass = -1}, two), Catch::Contains("mass"));
   CHECK_THAT(wrong({.density = 0}, two), Catch::Contains("density"));
   CHECK_THAT(wrong({.pressure = std::nan("")}, two), Catch::Contains("pressure"));
+  CHECK_THAT(wrong({.adhesion = -1}, two), Catch::Contains("adhesion"));
   CHECK_THAT(wrong({.kernelType = 2}, two), Catch::Contains("kernelType"));
+  CHECK_THAT(wrong({.surfaceTensionType = 4}, two), Catch::Contains("surfaceTensionType"));
   CHECK_THAT(wrong({.radius = 1e-3}, {{0, 0, 0}, {1e6, 0, 0}}),
              Catch::Contains("2^20 cells") && Catch::Contains("SPHFluidForceField"));
 }

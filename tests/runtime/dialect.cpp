@@ -144,6 +144,8 @@ TEST_CASE("preconditioners are settings of the solver that links to them") {
       <Node name="below"><PCGLinearSolver preconditioner="@../p"/></Node></Node>
     <Node name="f"><PCGLinearSolver preconditioner="@w"/><WarpPreconditioner name="w" solverName="b"/>
       <BlockJacobiPreconditioner name="b"/><SSORPreconditioner name="unused"/></Node>
+    <Node name="g"><PCGLinearSolver preconditioner="@m" levels="4"/>
+      <MultigridLinearSolver name="m" refresh="7" levels="3" smootherDegree="5" tolerance="1"/></Node>
   </Node>)");
   using Solver = ShewchukPCGLinearSolver<>;
   using enum PreconditionerMethod;
@@ -161,6 +163,9 @@ TEST_CASE("preconditioners are settings of the solver that links to them") {
   is("d", ldl, true, 15);
   is("e/below", ldl, true, 0);
   is("f", blockJacobi, true, 1);
+  is("g", multigrid, false, 7);
+  CHECK(in<Solver>(scene, "g").levels == 4);  // what the solver says itself
+  CHECK(in<Solver>(scene, "g").smootherDegree == 5);
   CHECK(scene.warnings.size() == 5);  // of the four that turn, too
   CHECK(has(scene.warnings, "<SSORPreconditioner>: no solver links to it"));
   CHECK(has(scene.warnings, "<WarpPreconditioner>: it rotates with the neighbourhood"));

@@ -45,6 +45,25 @@ TEST_CASE("hostile files end in a sentence") {
   CHECK_THAT(wrong("<!-- only a comment -->"), Catch::Contains("No document element"));
 }
 
+TEST_CASE("an attribute right behind the quote of another is read, with a warning") {
+  XmlReader reader;
+  const XmlElement root = reader.parse("a.scn",
+                                       "<Node a=\"1\"b='x\"y'c=\"<d='2'e\">\n  <!-- a=\"1\"b=\"2\" -->\n"
+                                       "  text \"1\"b\n  <B f='3' g=\"4\"/></Node>");
+  REQUIRE(root.attributes.size() == 3);
+  CHECK(root.attribute("a")->value == "1");
+  CHECK(root.attribute("b")->value == "x\"y");
+  CHECK(root.attribute("c")->value == "<d='2'e");
+  REQUIRE(root.children.size() == 1);
+  CHECK(root.children[0].place() == "a.scn:4:3");
+  CHECK(root.children[0].attributes.size() == 2);
+  REQUIRE(reader.warnings.size() == 1);
+  CHECK_THAT(reader.warnings[0], Catch::Contains("a.scn:1:12: ") && Catch::Contains("blank"));
+  for (char const* content :
+       {"<Node a=\"1", "<Node a='1'b", "<!-- a='1'b", "<Node a='1'b=", "<", "<![CDATA[", ""})
+    CHECK(wrong(content) != "nothing was wrong");
+}
+
 TEST_CASE("entities are not expanded") {
   const XmlElement root =
       XmlReader().parse("billion.scn", R"(<!DOCTYPE x [<!ENTITY a "aaaaaaaaaa"><!ENTITY b "&a;&a;&a;">]>

@@ -7,6 +7,7 @@
 
 #include <sinew/control/threads.hpp>
 #include <sinew/force/fluid_boundary.hpp>
+#include <sinew/force/sph_kernels.hpp>
 #include <sinew/mechanics.hpp>
 #include <sinew/solver/dfsph.hpp>
 
@@ -103,6 +104,56 @@ TEST_CASE("viscosity keeps momentum and angular momentum, and does nothing to wh
     for (std::size_t i = 0; i < x.size(); ++i)
       CHECK((flow.velocities[i] - mean - rate.cross(x[i] - centre)).norm() < 1e-4);  // strain ~ d^2 / (h nu)
   }
+}
+
+TEST_CASE("XSPH damps waves by what the kernel leaves of them, and keeps momentum") {
+  // On a lattice inside, v_x = sin k y keeps 1 - e (1 - w), w = sum_j V W_j cos k y_j over the neighbours and
+  // itself.
+  const double d = 0.1, e = 0.6, k = 2 * std::numbers::pi / (10 * d);
+  Points x = tank::block(d, 9, 30, 9), v;
+  for (auto const& p : x) v.push_back({std::sin(k * p[1]), 0, 2});
+  DFSPHFlow flow = flow_of(d, x, v);
+  const WendlandKernel<double> kernel(flow.radius, flow.factor);
+  double left = 0;
+  for (int a = -2; a <= 2; ++a)
+    for (int b = -2; b <= 2; ++b)
+      for (int c = -2; c <= 2; ++c) {
+        const double q = std::sqrt(double(a * a + b * b + c * c)) * d / flow.radius;
+        if (q < 1) left += d * d * d * kernel.density(q) * std::cos(k * b * d);
+      }
+  CHECK(left > 0.5);
+  CHECK(left < 0.99);
+  flow.smooth(e);
+  std::size_t inside = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if ((x[i].array() < 2.2 * d).any() || x[i][0] > 6.8 * d || x[i][1] > 27.8 * d || x[i][2] > 6.8 * d)
+      continue;
+    ++inside;
+    CHECK((flow.velocities[i] - Eigen::Vector3d(v[i][0] * (1 - e * (1 - left)), 0, 2)).norm() < 1e-12);
+  }
+  CHECK(inside > 200);
+  // scattered, and with particles of a boundary, which it does not feel
+  const Points fluid = tank::block(d, 5, 5, 5);
+  x = fluid;
+  v.clear();
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double t = double(i);
+    x[i] += 0.02 * Eigen::Vector3d(std::sin(t), std::cos(3 * t), std::sin(2 * t));
+    v.push_back({std::sin(5 * t), std::cos(7 * t), std::sin(11 * t)});
+  }
+  for (auto const& p : tank::block(d, 5, 1, 5, {0, -d, 0})) x.push_back(p), v.push_back({9, 9, 9});
+  flow = flow_of(d, x, v, 25);
+  auto energy = [&] {
+    double sum = 0;
+    for (std::size_t i = 0; i < fluid.size(); ++i) sum += flow.velocities[i].squaredNorm();
+    return sum;
+  };
+  const Eigen::Vector3d before = tank::sum(flow.velocities);
+  const double whole = energy();
+  flow.smooth(1);
+  CHECK((tank::sum(flow.velocities) - before).norm() < 1e-12);
+  CHECK(energy() < 0.5 * whole);
+  for (std::size_t i = fluid.size(); i < x.size(); ++i) CHECK(flow.velocities[i] == v[i]);
 }
 
 TEST_CASE("walls take from a fluid what it loses, and hold what is thick") {

@@ -129,6 +129,22 @@ TEST_CASE("the counter counts") {
   CHECK(allocations - before >= 3);
 }
 
+TEST_CASE("multigrid allocates in the first step only") {
+  auto later = [](auto linear) {
+    auto sim = block(linear);
+    sim.init();
+    sim.animate(0.001);
+    const long before = allocations;
+    for (int i = 0; i < 20; ++i) sim.animate(0.001);
+    return allocations - before;
+  };
+  CHECK(later(MultigridLinearSolver<>{.coarsestSize = 12}) == 0);
+  CHECK(later(MultigridLinearSolver<>{.refresh = 3, .warp = true}) == 0);
+  CHECK(later(MultigridLinearSolver<CompressedRowSparseMatrixd>{.coarsestSize = 12}) == 0);
+  CHECK(later(ShewchukPCGLinearSolver<>{.precondition = PreconditionerMethod::multigrid,
+                                        .coarsestSize = 12}) == 0);
+}
+
 TEST_CASE("no step after init allocates, not even the first") {
   CHECK(allocations_of(examples::string_on_rigid(EulerExplicitSolver{})) == 0);
   CHECK(allocations_of(examples::string_on_rigid(RungeKutta2Solver{})) == 0);

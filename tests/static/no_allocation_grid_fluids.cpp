@@ -42,7 +42,13 @@ TEST_CASE("a step of a fluid on a grid in which a body swims does not allocate")
   start.center = {0, 0.1, 0};
   Simulation sim{node<"root">(
       Gravity{{0, -9.81, 0}},
-      node<"water">(Fluid3D<Vec3d>{.nx = 18, .ny = 18, .nz = 18, .cellwidth = 0.05, .height = 9}),
+      node<"water">(Fluid3D<Vec3d>{.nx = 18,
+                                   .ny = 18,
+                                   .nz = 18,
+                                   .cellwidth = 0.05,
+                                   .height = 9,
+                                   .viscosity = 1,
+                                   .walls = fluid::Walls::stick}),
       node<"box">(EulerExplicitSolver{},
                   MechanicalObject<Rigid3d>{.position = {start}},
                   UniformMass<Rigid3d>{.vertexMass = Rigid3d::MassType{.mass = 14}},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Fluids of particles against closed forms: a drop under surface tension (Rayleigh 1879), a sphere that sinks
+// Fluids of particles against closed forms: drops under surface tension (Rayleigh 1879), a sphere that sinks
 // (Stokes 1851, with walls after Faxen 1922).
 #include "catch.hpp"
 #include "fluid_tank.hpp"
@@ -127,6 +127,58 @@ TEST_CASE("a drop under surface tension swings with Rayleigh's period, and becom
     CHECK(swing.flattest < 0);
     CHECK(-swing.flattest < 0.7 * swing.longest);  // each swing is smaller than that before
   }
+}
+
+TEST_CASE("the tension of Akinci et al. makes a cube of water round, and keeps it whole") {
+  // How far it reaches along its diagonals over how far along its axes: sqrt(3) of a cube, 1 of a ball.
+  const double d = 0.1, rho = 1000, mass = rho * d * d * d;
+  const int n = 8;
+  const Points x = tank::block(d, n, n, n, Eigen::Vector3d::Constant(-n * d / 2));
+  Simulation sim{node<"drop">(DFSPHSolver{.radius = 2 * d, .density = rho, .xsph = 0.05},
+                              MechanicalObject<Vec3d>{.position = x},
+                              UniformMass<Vec3d>{.vertexMass = mass},
+                              SPHFluidForceField<Vec3d>{.radius = 2 * d,
+                                                        .mass = mass,
+                                                        .density = rho,
+                                                        .surfaceTension = 500,
+                                                        .kernelType = 1,
+                                                        .pressureType = 0,
+                                                        .viscosityType = 0,
+                                                        .surfaceTensionType = 3})};
+  sim.init();
+  auto reach = [&](auto&& along) {
+    double sum = 0;
+    const auto directions = along();
+    for (Eigen::Vector3d const& u : directions) {
+      double most = 0;
+      for (auto const& p : sim.root().state().position) most = std::max(most, p.dot(u));
+      sum += most / double(directions.size());
+    }
+    return sum;
+  };
+  auto corners = [&] {
+    return reach([] {
+      Points u;
+      for (int k = 0; k < 8; ++k)
+        u.push_back(Eigen::Vector3d(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1).normalized());
+      return u;
+    });
+  };
+  auto faces = [&] {
+    return reach([] {
+      Points u;
+      for (int k = 0; k < 3; ++k)
+        for (const int sign : {-1, 1}) u.push_back(sign * Eigen::Vector3d::Unit(k));
+      return u;
+    });
+  };
+  CHECK(corners() / faces() == Approx(std::sqrt(3.)));
+  for (int k = 0; k < 300; ++k) sim.animate(0.005);
+  CHECK(corners() / faces() == Approx(1).margin(0.1));
+  CHECK(tank::sum(sim.root().state().velocity).norm() < 1e-10);
+  // a ball of its volume
+  const double ball = std::cbrt(3 / (4 * pi)) * n * d;
+  CHECK(faces() == Approx(ball).margin(d));
 }
 
 TEST_CASE("a sphere sinks through a thick fluid with Stokes' velocity, held back by walls", "[long]") {

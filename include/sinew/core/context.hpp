@@ -11,6 +11,14 @@
 
 namespace sinew {
 
+/// The cells of a finer grid, and the hexahedron that each is a part of: several hexahedra may have one
+/// place.
+struct FinerCells {
+  std::span<Eigen::Vector3d const> positions{};
+  std::span<Hexahedron const> hexahedra{};
+  std::span<Index const> parents{};
+};
+
 /// Elements over the points of one node, as components see them at init. Empty where there is no topology. A
 /// topology that has to be made first offers generate(where), which init calls before all else. One whose
 /// elements may be removed while the scene runs offers edit(), its ElementLists.
@@ -24,8 +32,10 @@ struct TopologyView {
   std::array<int, 3> grid{0, 0, 0};  // points of a regular grid along x, y, z; zeros where there is none
   // of a grid of cells whose points are those of the state: where they lie before the state is moved
   std::span<Eigen::Vector3d const> places{};
-  // of a grid of cells over a surface: the part of each hexahedron that counts as filled; empty where all are
-  std::span<double const> fill{};
+  // of a grid of cells over a surface: the part of each hexahedron that counts as filled, for its stiffness
+  // and its mass; empty where all are
+  std::span<double const> fill{}, massFill{};
+  FinerCells finer{};
 };
 
 /// What a component of a node is given at init: where it stands (for messages), the rest positions of the

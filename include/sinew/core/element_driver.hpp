@@ -83,7 +83,7 @@ struct ElementDriver {
   /// Prepares for so many shares at once, with at least so many elements each; where there are too few, there
   /// are fewer shares. Elements that are taken one by one are not split: there the compiler may make one
   /// operation of the last product and the sum, which has other bits.
-  void split(int threads, std::size_t minimum = 256) {
+  void split(int threads, std::size_t minimum = arity == 1 ? 4096 : 256) {
     const int maximum = int(std::min(std::size_t(threads), size() / minimum));
     forget();
     if (W == 1 || maximum < 2 || threads < 2) return;

@@ -10,6 +10,7 @@
 #include <sinew/topology/adjacency.hpp>
 #include <sinew/topology/hexahedra.hpp>
 
+#include <Eigen/LU>
 #include <set>
 
 namespace sinew {
@@ -58,6 +59,7 @@ struct MeshLoader {
   DataFile filename{};
   Eigen::Vector3d translation{0, 0, 0}, rotation{0, 0, 0}, scale3d{1, 1, 1};
   double scale = 1;
+  Eigen::Matrix4d transformation = Eigen::Matrix4d::Identity();
   bool flipNormals = false, triangulate = false, createSubelements = false, onlyAttachedPoints = false;
 
   static constexpr auto fields() {
@@ -69,6 +71,12 @@ struct MeshLoader {
             "rotation", &L::rotation, "degrees", "rotates the mesh about the axes x, y and z, in this order"),
         field("scale3d", &L::scale3d, "", "sizes along the axes x, y and z, applied first"),
         field("scale", &L::scale, "", "size, beside scale3d"),
+        field("transformation",
+              &L::transformation,
+              "",
+              "4 by 4 numbers, row by row, the last of them 0 0 0 1: another one than the identity stands in "
+              "the "
+              "place of translation, rotation and sizes"),
         field(
             "flipNormals", &L::flipNormals, "", "whether the orientation of triangles and quads is reversed"),
         field("triangulate", &L::triangulate, "", "whether each quad becomes two triangles"),
@@ -118,7 +126,12 @@ struct MeshLoader {
     check_fields(*this, where);
     const std::string at = text(where, ": ", className);
     if (filename.path.empty()) throw Error(at, "filename is empty; name the file to read");
-    const Eigen::Vector3d size = scale * scale3d;
+    const bool matrix = !transformation.isIdentity(0);
+    if (matrix && transformation.row(3) != Eigen::RowVector4d(0, 0, 0, 1))
+      throw Error(at, "the last row of transformation is not 0 0 0 1; give a matrix that moves points");
+    const Eigen::Vector3d size = matrix ? Eigen::Vector3d(1, 1, 1) : Eigen::Vector3d(scale * scale3d);
+    if (matrix && transformation.topLeftCorner<3, 3>().determinant() == 0)
+      throw Error(at, "transformation would make the mesh flat; give another one");
     if (size[0] == 0 || size[1] == 0 || size[2] == 0)
       throw Error(at, "scale or scale3d is 0, which would make the mesh flat; give another size");
     Mesh mesh;
@@ -135,8 +148,9 @@ struct MeshLoader {
     }
 
     if (triangulate) detail::triangulate_quads(mesh, looks);
-    if (size.prod() < 0) detail::turn_volumes(mesh);
-    if ((size.prod() < 0) != flipNormals)
+    const bool mirrors = matrix ? transformation.topLeftCorner<3, 3>().determinant() < 0 : size.prod() < 0;
+    if (mirrors) detail::turn_volumes(mesh);
+    if (mirrors != flipNormals)
       detail::turn_faces(mesh.triangles, mesh.quads), detail::turn_faces(looks.triangles, looks.quads);
     if (createSubelements) {
       constexpr std::size_t ofTetrahedron[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
@@ -148,7 +162,8 @@ struct MeshLoader {
       detail::add_sides(mesh.edges, mesh.triangles, ofTriangle);
     }
     if (onlyAttachedPoints) remove_unused_points(mesh);
-    const Placement placed = placement(translation, rotation, size);
+    Placement placed = placement(translation, rotation, size);
+    if (matrix) placed = {transformation.topLeftCorner<3, 3>(), transformation.topRightCorner<3, 1>()};
     for (auto& p : mesh.positions) p = placed * p;
 
     normals = detail::point_normals(mesh);

@@ -67,6 +67,7 @@ class CutCells {
     std::array<Index, 3> points;
     Eigen::Vector3d weights;  // of the points nearest to it on the surface
     ImmersedBody::Vector6 mode;
+    double drag = 0;  // impulse on the body by viscosity, along the axis [N s]
   };
 
   Each<Field, N> open{};  // a
@@ -138,6 +139,18 @@ class CutCells {
         u.kind[c][at(i)] = FaceKind::wall;
     }
   }
+  /// Of the middle of a face from solids, negative inside [cells].
+  double distance(std::size_t c, std::ptrdiff_t i) const {
+    double sum = 0;
+    constexpr std::size_t corners = std::size_t(1) << (N - 1);
+    for (std::size_t k = 0; k < corners; ++k) {
+      std::ptrdiff_t j = i;
+      for (std::size_t d = 1; d < axes<N>; ++d)
+        if (k >> (d - 1) & 1) j += grid_.stride[(c + d) % axes<N>];
+      sum += distance_.value[at(j)];
+    }
+    return sum / double(corners);
+  }
   /// Velocities of the solids at their faces, rigid bodies with these motions.
   void move(std::vector<ImmersedBody> const& bodies, Velocity& u) const {
     for (Face const& f : faces) {
@@ -172,13 +185,15 @@ class CutCells {
       ImmersedBody& body = bodies[b];
       body.forces.assign(body.positions.size(), Eigen::Vector3d::Zero());
       body.load = perPressure / dt * sum(int(b), q);
-      for (Face const& f : faces)
-        if (f.body == int(b))
-          for (std::size_t k = 0; k < axes<N>; ++k)
-            body.forces[std::size_t(f.points[k])][f.axis] +=
-                f.weights[Eigen::Index(k)] * perPressure / dt * double(f.part) * drop(f, q);
+      if (body.answers()) body.motion += body.response * body.load * dt;  // drag has moved it
+      for (Face const& f : faces) {
+        if (f.body != int(b)) continue;
+        const double force = (perPressure * double(f.part) * drop(f, q) + f.drag) / dt;
+        for (std::size_t k = 0; k < axes<N>; ++k)
+          body.forces[std::size_t(f.points[k])][f.axis] += f.weights[Eigen::Index(k)] * force;
+        body.load += f.drag / dt * f.mode;
+      }
       keepMoment(body);
-      if (body.answers()) body.motion += body.response * body.load * dt;
     }
   }
 
@@ -315,7 +330,8 @@ class CutCells {
           ImmersedBody const& body = bodies[std::size_t(b)];
           Eigen::Vector3d middle(0, 0, 0);
           for (std::size_t d = 0; d < axes<N>; ++d) middle[Eigen::Index(d)] = p[d] - (d == c ? 1 : 0.5);
-          Face f{int(c), int(i), b, 1 - open[c][at(i)], false, false, body.elements[std::size_t(e)], {}, {}};
+          Face f{
+              int(c), int(i), b, 1 - open[c][at(i)], false, false, body.elements[std::size_t(e)], {}, {}, 0};
           f.weights = distance_.weights(body, e, middle, place);
           Eigen::Vector3d arm = -body.centre;
           arm.template head<N>() += corner + h * middle.template head<N>();

@@ -12,6 +12,7 @@
 #include <sinew/fluid/pressure_regions.hpp>
 #include <sinew/fluid/staggered_velocity.hpp>
 #include <sinew/fluid/viscosity.hpp>
+#include <sinew/fluid/wall_drag.hpp>
 
 #include <string>
 
@@ -93,7 +94,7 @@ class GridFluid {
     Loops::assign(pressure_, grid.size, Real(0));
     numbers_.init(grid);
     room_.init(grid.size);
-    viscosity_.init(grid);
+    if (settings.viscosity > 0) viscosity_.init(grid);
     multigrid_.init(grid);
     surface.init(grid, Real(bandCells));
     cut.init(grid);
@@ -176,6 +177,7 @@ class GridFluid {
                  ": it is outside of the grid, or smaller than a cell; move it into the grid, or take "
                  "smaller cells"));
     cut.faces.reserve(2 * cut.faces.size());
+    drag_.reserve(cut.faces.capacity(), bodies.size());
   }
 
   /// A step [s] under an acceleration [m/s^2]. Throws Error where the velocity is not finite.
@@ -216,8 +218,17 @@ class GridFluid {
     if (settings_.viscosity > 0) {
       const double number =
           settings_.viscosity / settings_.density * dt / (settings_.cellWidth * settings_.cellWidth);
-      viscosityIterations = viscosity_.apply(
-          velocity, Real(number), settings_.tolerance * 1e-2, 10 * settings_.maxIterations, loops);
+      auto apply = [&](auto const&... more) {
+        return viscosity_.apply(
+            velocity, Real(number), settings_.tolerance * 1e-2, 10 * settings_.maxIterations, loops, more...);
+      };
+      if (cut.any && !velocity.slips) {
+        drag_.begin(cut, bodies, velocity, number, settings_.density * cellVolume());
+        viscosityIterations = apply(drag_);
+        drag_.finish(cut, bodies, velocity);
+      } else {
+        viscosityIterations = apply();
+      }
     }
     accelerate(dt, acceleration, false, loops);
     project(dt, loops);
@@ -320,7 +331,7 @@ class GridFluid {
 
  private:
   static constexpr int bandCells = 6;
-  static constexpr std::size_t bytesOfCell = 48 * sizeof(Real);
+  static constexpr std::size_t bytesOfCell = 58 * sizeof(Real);
 
   std::string where_{};
   Settings settings_{};
@@ -329,6 +340,7 @@ class GridFluid {
   typename Loops::Numbers numbers_{};
   AdvectionRoom<Real, Loops> room_{};
   Viscosity<Real, N, Loops> viscosity_{};
+  WallDrag<Real, N, Loops> drag_{};
   PoissonMultigrid<Real, N, Loops> multigrid_{};
   bool prepared_ = false;  // the equations of the pressure are those of a step before
   double timeFactor_ = 0;  // the step with which the pressure was made [s]

@@ -16,6 +16,15 @@ struct CopyNumber {
   double const* from;
   SINEW_INLINE void operator()() const { *to = *from; }
 };
+/// The sum of one number for each axis.
+template <int N>
+struct SumOfNumbers {
+  double *to, *from;
+  SINEW_INLINE void operator()() const {
+    *to = 0;
+    for (int c = 0; c < N; ++c) *to += from[c];
+  }
+};
 
 /// The equations of the faces across an axis (Viscosity), and bodies of loops over them.
 template <class Real, int N>

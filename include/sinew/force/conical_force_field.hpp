@@ -129,6 +129,7 @@ struct ConePenalty {
 template <class D>
 struct ConicalForceField {
   using Role = role::ForceField;
+  static constexpr bool sharesWork = true;
   using DataTypes = D;
   using Real = typename D::Real;
   static_assert(D::spatial == 3 && !D::rigid, "Sinew: ConicalForceField is for points in space");

@@ -11,7 +11,7 @@ namespace sinew {
 
 /// Makes what is inside the closed surface of its node solid for all fluids on grids of the scene (Fluid3D,
 /// in the plane Fluid2D): triangles and quads, in the plane edges, of the topology over its points. In a node
-/// below a body, which a mapping moves, the pressure of the fluid goes back to that body. Cells are cut by
+/// below a body, which a mapping moves, pressure and drag of the fluid go back to that body. Cells are cut by
 /// the surface (Batty, Bertails, Bridson 2007), so that it need not follow them. A rigid body that one
 /// mapping carries is a part of the equations of pressure, and may be as light as it likes; others, soft ones
 /// among them, move in a step as at its start, and are to be heavier than the fluid that they carry along.

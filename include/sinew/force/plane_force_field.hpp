@@ -116,6 +116,7 @@ struct PlanePenalty {
 template <class D>
 struct PlaneForceField {
   using Role = role::ForceField;
+  static constexpr bool sharesWork = true;
   using DataTypes = D;
   using Real = typename D::Real;
   using Normal = Vec<double, D::spatial>;

@@ -14,8 +14,9 @@
 
 namespace sinew {
 
-/// Runs an SphLaw over the particles of a fluid and those of boundaries, in three passes, each of which may
-/// be shared among threads but the first: the order of all particles, densities, forces. Sums go over
+/// Runs an SphLaw over the particles of a fluid and those of boundaries, in passes, each of which may be
+/// shared among threads but the first: the order of all particles, densities, normals where the law has a use
+/// for them, forces. Sums go over
 /// neighbours in the order of their cells, so that bits repeat. A specialisation over the DataTypes of a
 /// device is in sinew/gpu.
 template <class D>
@@ -32,6 +33,7 @@ struct SphDriver {
   // in the order of the particles
   Particles particles{};                              // their weights: mass over that of the fluid's
   std::vector<FourOf<Real>> moving{};                 // velocity, p / rho^2
+  std::vector<FourOf<Real>> normals{};                // n
   std::vector<Real> densities{}, volumes{}, fluid{};  // volumes: m / rho; 1 for the fluid, 0 for the boundary
   VecCoord joined{};                                  // the fluid, then the boundary
 
@@ -39,7 +41,7 @@ struct SphDriver {
   void reserve(std::size_t all) {
     particles.reserve(all);
     joined.reserve(all);
-    moving.reserve(all);
+    for (auto* one : {&moving, &normals}) one->reserve(all);
     for (auto* one : {&densities, &volumes, &fluid}) one->reserve(all);
   }
 
@@ -57,6 +59,7 @@ struct SphDriver {
     }
     const std::size_t all = particles.order().size();
     moving.resize(all);
+    normals.resize(law.tense ? all : 0, FourOf<Real>{});
     for (auto* one : {&densities, &volumes}) one->resize(all, Real(1));
     fluid.assign(all, Real(1));
     if (boundary.size() > 0) findBoundary(law);
@@ -84,12 +87,29 @@ struct SphDriver {
   }
 
   template <class Law>
+  void findNormals(Law const& law, WorkShare const& share) {
+    if (!law.tense) return;
+    particles.forEach(share, [&](int i, auto const& each) {
+      const auto at = std::size_t(i);
+      normals[at] = {};
+      if (fluid[at] == 0) return;
+      std::array<L, 3> sums{L(0), L(0), L(0)};
+      each([&](Pairs const& p) { law.addNormal(p, Others(*this, p), sums); });
+      for (std::size_t c = 0; c < 3; ++c) normals[at].of[c] = law.surface.radius * Particles::sum(sums[c]);
+    });
+  }
+
+  template <class Law>
   void addForces(Law const& law, WorkShare const& share, VecDeriv& f, BoundaryParticles& boundary) {
     particles.forEach(share, [&](int i, auto const& each) {
       const auto at = std::size_t(i), point = std::size_t(particles.order()[at]);
       const bool wall = fluid[at] == 0;
       SphParticle<L> own{{}, L(particles.weight(at)), L(densities[at]), L(moving[at].of[3]), L(volumes[at])};
       for (std::size_t c = 0; c < 3; ++c) own.velocity[c] = L(moving[at].of[c]);
+      if (law.tense) {
+        own.fluid = L(fluid[at]);
+        for (std::size_t c = 0; c < 3; ++c) own.normal[c] = L(normals[at].of[c]);
+      }
       std::array<L, 3> sums{L(0), L(0), L(0)};
       each([&](Pairs const& p) {
         const Others other(*this, p);
@@ -138,6 +158,12 @@ struct SphDriver {
 
     Others(SphDriver const& driver, Pairs const& p) : Weight{p}, of(driver) {
       load_at(of.moving.data(), p.places, moving);
+    }
+    L fluid() const { return load(of.fluid, this->pairs); }
+    L normal(std::size_t axis) const {
+      L all[4];
+      load_at(of.normals.data(), this->pairs.places, all);
+      return all[axis];
     }
     L density() const { return load(of.densities, this->pairs); }
     L volume() const { return load(of.volumes, this->pairs); }

@@ -22,13 +22,14 @@ namespace sinew {
 /// the second sum, between what comes nearer: -m viscosity h (v_ij x_ij) / ((q^2 + h^2/100) (rho_i +
 /// rho_j)/2), q = r/h. Surface tension is -m tension c n / |n| with n = sum_j (m/rho_j - m/rho_i) grad W_ij
 /// and c the same sum of lap W_ij (1), or the cohesion -tension m sum_j W_ij (x_i - x_j) of Becker and
-/// Teschner (2007) (2). Forces are those at the start of a step, also for implicit solvers: no part of them
-/// is in a system, as in SOFA. Where pairs pull each other apart or together, momentum is kept to rounding,
-/// and with the cubic kernel and no viscosity energy is, by the order of the solver.
-/// Boundary particles of bodies (FluidBoundary) are neighbours of the mass density V_k, V_k = 1 / sum_l W_kl
-/// over those of boundaries, at their velocity and without a pressure of their own (Akinci et al. 2012); they
-/// have the opposite force of the last evaluation, which is the mean over the step under an explicit Euler
-/// solver. Sums go over neighbours in the order of their cells, so that bits repeat.
+/// Teschner (2007) (2), or that of Akinci, Akinci, Teschner (2013) with adhesion to boundaries (3,
+/// SphTension). Forces are those at the start of a step, also for implicit solvers: no part of them is in a
+/// system, as in SOFA. Where pairs pull each other apart or together, momentum is kept to rounding, and with
+/// the cubic kernel and no viscosity energy is, by the order of the solver. Boundary particles of bodies
+/// (FluidBoundary) are neighbours of the mass density V_k, V_k = 1 / sum_l W_kl over those of boundaries, at
+/// their velocity and without a pressure of their own (Akinci et al. 2012); they have the opposite force of
+/// the last evaluation, which is the mean over the step under an explicit Euler solver. Sums go over
+/// neighbours in the order of their cells, so that bits repeat.
 template <class D>
 struct SPHFluidForceField {
   using Role = role::ForceField;
@@ -38,7 +39,8 @@ struct SPHFluidForceField {
   using VecDeriv = typename D::VecDeriv;
   static constexpr std::string_view className = "SPHFluidForceField";
 
-  double radius = 1, mass = 1, pressure = 100, density = 1, viscosity = 0.001, surfaceTension = 0;
+  double radius = 1, mass = 1, pressure = 100, density = 1, viscosity = 0.001, surfaceTension = 0,
+         adhesion = 0;
   int kernelType = 0, pressureType = 1, viscosityType = 1, surfaceTensionType = 1;
 
   static constexpr auto fields() {
@@ -62,6 +64,12 @@ struct SPHFluidForceField {
               "dynamic viscosity, or the factor of the artificial one",
               range::nonNegative),
         field("surfaceTension", &F::surfaceTension, "N/m", "0 or below: none"),
+        field("adhesion",
+              &F::adhesion,
+              "N/m",
+              "pull of boundary particles under surfaceTensionType 3, at most as strong as that of a surface "
+              "tension of this size",
+              range::nonNegative),
         field("kernelType",
               &F::kernelType,
               "",
@@ -76,13 +84,14 @@ struct SPHFluidForceField {
         field("surfaceTensionType",
               &F::surfaceTensionType,
               "",
-              "0: none, 1: by the curvature, 2: cohesion",
-              range::closed(0, 2)));
+              "0: none, 1: by the curvature, 2: cohesion, 3: cohesion, area and adhesion",
+              range::closed(0, 3)));
   }
 
-  /// Curvature is a force on each particle alone; the first viscosity turns what it slows down.
+  /// Curvature is a force on each particle alone, and differences of normals turn a pair; the first viscosity
+  /// turns what it slows down.
   ForceProperties properties() const {
-    return {.internal = !hasCurvature(),
+    return {.internal = !hasCurvature() && !hasNormals(),
             .objective = !hasCurvature() && !(viscosityType == 1 && viscosity > 0),
             .conservative = kernelType == 1 && !(surfaceTension > 0),
             .exactTangent = false,
@@ -106,9 +115,9 @@ struct SPHFluidForceField {
   }
   void reserveForBoundary() { particles.reserve(most + boundary.size()); }
 
-  /// Shared among threads in three passes: the order of the particles, densities, forces.
+  /// Shared among threads in passes: the order of the particles, densities, normals, forces.
   static constexpr bool sharesWork = SphDriver<D>::sharesWork;
-  static constexpr int passes = 3;
+  static constexpr int passes = 4;
   int shares = 1;
   void split(int threads) { shares = most < 2000 ? 1 : threads; }
 
@@ -120,7 +129,8 @@ struct SPHFluidForceField {
         particles.takeVelocities(v, boundary);
       }
       if (whole || p.share.pass == 1) particles.findDensities(law, p.share);
-      if (whole || p.share.pass == 2) particles.addForces(law, p.share, f, boundary);
+      if (whole || p.share.pass == 2) particles.findNormals(law, p.share);
+      if (whole || p.share.pass == 3) particles.addForces(law, p.share, f, boundary);
     });
   }
   void addDForce(MechanicalParams const&, VecDeriv&, VecDeriv const&) const {}
@@ -142,6 +152,7 @@ struct SPHFluidForceField {
 
  private:
   bool hasCurvature() const { return surfaceTension > 0 && surfaceTensionType == 1; }
+  bool hasNormals() const { return surfaceTensionType == 3 && (surfaceTension > 0 || adhesion > 0); }
 
   template <class F>
   void withLaw(F&& f) const {
@@ -159,7 +170,10 @@ struct SPHFluidForceField {
           .viscous = viscosityType == 1 && viscosity > 0,
           .artificial = viscosityType == 2 && viscosity > 0,
           .coheres = surfaceTension > 0 && surfaceTensionType == 2,
-          .curved = hasCurvature()});
+          .curved = hasCurvature(),
+          .tense = hasNormals(),
+          .surface = SphTension<Real>::of(
+              std::max(0.0, surfaceTension), adhesion, radius, mass / density, density)});
     };
     kernelType == 1 ? with(CubicKernels<Real>(Real(radius))) : with(MuellerKernels<Real>(Real(radius)));
   }

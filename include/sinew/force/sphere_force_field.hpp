@@ -105,6 +105,7 @@ struct SpherePenalty {
 template <class D>
 struct SphereForceField {
   using Role = role::ForceField;
+  static constexpr bool sharesWork = true;
   using DataTypes = D;
   using Real = typename D::Real;
   using Center = Vec<double, D::spatial>;

@@ -5,6 +5,7 @@
 #include <sinew/core/element_driver.hpp>
 #include <sinew/core/ends.hpp>
 #include <sinew/core/lists.hpp>
+#include <sinew/force/spring_ends.hpp>
 #include <sinew/force/spring_law.hpp>
 
 #include <optional>
@@ -97,21 +98,8 @@ struct StiffSpringForceField {
     std::vector<typename Driver::Rest> rest;
     for (std::size_t s = 0; s < all.size(); ++s) {
       Spring const& spring = all[s];
-      auto check = [&](InitContext<D> const& end, int i) {
-        if (std::size_t(i) >= end.rest.size())
-          throw Error(where,
-                      text("springs[",
-                           s,
-                           "] refers to point ",
-                           i,
-                           " of ",
-                           end.where,
-                           ", which has ",
-                           end.rest.size(),
-                           " points, numbered from 0; correct the index"));
-      };
-      check(a, spring.first);
-      check(b, spring.second);
+      check_spring_end(where, s, a, spring.first);
+      check_spring_end(where, s, b, spring.second);
       if (!between && spring.first == spring.second)
         throw Error(where,
                     text("springs[", s, "] joins point ", spring.first, " to itself; give two points"));

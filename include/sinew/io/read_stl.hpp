@@ -105,7 +105,9 @@ class StlParser {
     while (in.more()) {
       keyword(in, "solid");
       in.restOfLine();
-      for (std::string word = lower_case(in.word()); word != "endsolid"; word = lower_case(in.word())) {
+      // some programs write "end solid"
+      for (std::string word = lower_case(in.word()); word != "endsolid" && word != "end";
+           word = lower_case(in.word())) {
         if (word != "facet") throw in.expected("facet or endsolid");
         keyword(in, "normal");
         for (int c = 0; c < 3; ++c)

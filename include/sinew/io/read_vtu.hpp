@@ -11,14 +11,24 @@ namespace detail {
 
 class VtuParser {
  public:
-  VtuParser(std::string_view path, std::string_view content) : file_(path, content, "UnstructuredGrid") {}
+  VtuParser(std::string_view path, std::string_view content, std::string_view type)
+      : file_(path, content, type) {}
 
   Mesh parse() {
-    const auto grid = file_.root().child("UnstructuredGrid");
-    for (const auto piece : grid.children("Piece")) {
+    const std::string_view held = file_.root().attribute("type").value();
+    if (held != "UnstructuredGrid" && held != "PolyData")
+      throw Error(file_.at(file_.root()),
+                  text("holds ", in_quotes(held), "; name a file that holds UnstructuredGrid or PolyData"));
+    for (const auto piece : file_.root().child(held.data()).children("Piece")) {
       const std::size_t first = mesh_.positions.size();
       points(piece);
-      cells(piece, Index(first));
+      if (held == "UnstructuredGrid") {
+        cells(piece, Index(first));
+        continue;
+      }
+      cells(piece, Index(first), "Lines", "NumberOfLines", vtk_cell::polyLine);
+      cells(piece, Index(first), "Polys", "NumberOfPolys", vtk_cell::polygon);
+      cells(piece, Index(first), "Strips", "NumberOfStrips", vtk_cell::triangleStrip);
     }
     if (mesh_.positions.empty()) throw Error(file_.at(file_.root()), "holds no points; export a mesh");
     return std::move(mesh_);
@@ -42,19 +52,21 @@ class VtuParser {
     }
   }
 
-  // offsets[c] is where cell c ends in the connectivity
-  void cells(Node piece, Index first) {
-    const std::uint64_t n = file_.number(piece, "NumberOfCells"),
-                        points = mesh_.positions.size() - std::size_t(first);
+  // offsets[c] is where cell c ends in the connectivity; `type`: of all, or none where the file has them
+  void cells(Node piece, Index first, char const* list = "Cells", char const* count = "NumberOfCells",
+             std::int64_t type = vtk_cell::empty) {
+    if (type != vtk_cell::empty && !piece.attribute(count)) return;
+    const std::uint64_t n = file_.number(piece, count), points = mesh_.positions.size() - std::size_t(first);
     if (n == 0) return;
     auto array = [&](char const* name) {
-      return existing(piece.child("Cells").find_child_by_attribute("DataArray", "Name", name), piece, name);
+      return existing(piece.child(list).find_child_by_attribute("DataArray", "Name", name), piece, name);
     };
     const Node cornerArray = array("connectivity"), offsetArray = array("offsets"),
-               typeArray = array("types");
+               typeArray = type == vtk_cell::empty ? array("types") : offsetArray;
     const auto connectivity = file_.values<std::int64_t>(cornerArray);
     const auto offsets = file_.values<std::int64_t>(offsetArray, n, 1);
-    const auto types = file_.values<std::int64_t>(typeArray, n, 1);
+    const auto types = type == vtk_cell::empty ? file_.values<std::int64_t>(typeArray, n, 1)
+                                               : std::vector<std::int64_t>(offsets.size(), type);
 
     std::vector<Index> corners;
     std::int64_t begin = 0;
@@ -106,7 +118,13 @@ class VtuParser {
 
 /// The mesh in `content`, the bytes of a VTU file; `path` is for messages. See read_vtu().
 inline Mesh parse_vtu(std::string_view path, std::string_view content) {
-  Mesh mesh = detail::VtuParser(path, content).parse();
+  Mesh mesh = detail::VtuParser(path, content, "UnstructuredGrid").parse();
+  check_mesh(path, mesh);
+  return mesh;
+}
+/// The same of an unstructured grid or of polygonal data (.vtp).
+inline Mesh parse_vtk_xml(std::string_view path, std::string_view content) {
+  Mesh mesh = detail::VtuParser(path, content, "").parse();
   check_mesh(path, mesh);
   return mesh;
 }
@@ -114,7 +132,7 @@ inline Mesh parse_vtu(std::string_view path, std::string_view content) {
 /// Reads an unstructured grid in VTK's XML format (.vtu): ascii, inline base64 and appended (raw or base64)
 /// data, uncompressed, all pieces one after the other. Linear cells are read, vertices ignored; polygons with
 /// more than four corners become fans of triangles; data at points and cells are ignored. Throws Error with
-/// the line on compressed data, other cells, coordinates that are not finite, points out of range, an
+/// the line on compressed arrays, other cells, coordinates that are not finite, points out of range, an
 /// incomplete file.
 inline Mesh read_vtu(std::string const& path) { return parse_vtu(path, read_file(path)); }
 

@@ -19,7 +19,7 @@ class VtkXml {
  public:
   using Node = pugi::xml_node;
 
-  /// `type` is the kind of data set that is wanted: "UnstructuredGrid".
+  /// `type` is the kind of data set that is wanted, "UnstructuredGrid", or none for any.
   VtkXml(std::string_view path, std::string_view content, std::string_view type)
       : path_(path), xml_(content) {
     separateAppended();
@@ -69,6 +69,11 @@ class VtkXml {
   std::vector<T> values(Node array) {
     const std::string_view format = array.attribute("format").value(), source = content(array);
     if (format == "ascii") return asciiValues<T>(source);
+    if (!compressor_.empty())
+      throw Error(at(array),
+                  text("is compressed with ",
+                       in_quotes(compressor_),
+                       "; save it uncompressed (ParaView: Save Data, Compressor Type: None)"));
     if (format == "binary") return convert<T>(array, bytes(array, source, true));
     if (format != "appended")
       throw Error(at(array),
@@ -122,11 +127,9 @@ class VtkXml {
                            header = root().attribute("header_type").as_string("UInt32"),
                            compressor = root().attribute("compressor").value();
     auto wrong = [&](auto const&... parts) { return Error(at(root()), text(parts...)); };
-    if (held != type) throw wrong("holds ", in_quotes(held), "; name a file that holds ", in_quotes(type));
-    if (!compressor.empty())
-      throw wrong("is compressed with ",
-                  in_quotes(compressor),
-                  "; save it uncompressed (ParaView: Save Data, Compressor Type: None)");
+    if (!type.empty() && held != type)
+      throw wrong("holds ", in_quotes(held), "; name a file that holds ", in_quotes(type));
+    compressor_ = compressor;
     if (order != "LittleEndian" && order != "BigEndian")
       throw wrong("byte_order is ", in_quotes(order), R"(; expected "LittleEndian" or "BigEndian")");
     if (header != "UInt32" && header != "UInt64")
@@ -219,7 +222,7 @@ class VtkXml {
              std::is_floating_point_v<T> ? "a type such as \"Float64\"" : "a type such as \"Int32\""));
   }
 
-  std::string path_, around_{};
+  std::string path_, around_{}, compressor_{};
   std::string_view xml_, appended_{};
   pugi::xml_document document_{};
   std::size_t headerSize_ = 4;

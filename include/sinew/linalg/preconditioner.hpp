@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/workers.hpp>
 #include <sinew/linalg/block_inverse.hpp>
 #include <sinew/linalg/block_ldl.hpp>
 #include <sinew/linalg/block_matrix.hpp>
+#include <sinew/linalg/multigrid.hpp>
 
 #include <algorithm>
 #include <array>
@@ -19,13 +21,16 @@ namespace sinew {
 ///   ssor                (D/w + L) (D/w)^-1 (D/w + L)' / (2 - w), one sweep there and back (Axelsson 1972)
 ///   incompleteCholesky  L D L' with the blocks of A and no more, IC(0) (Meijerink, van der Vorst 1977)
 ///   ldl                 A itself, factorised: of use for several steps, while A changes little
-enum class PreconditionerMethod { none, jacobi, blockJacobi, ssor, incompleteCholesky, ldl };
-inline constexpr std::array<std::string_view, 6> enum_names(PreconditionerMethod) {
-  return {"none", "jacobi", "blockJacobi", "ssor", "incompleteCholesky", "ldl"};
+///   multigrid           a V-cycle of smoothed aggregation (Vanek, Mandel, Brezina 1996), of a matrix whose
+///                       modes of least energy are known: `modes` of it, before update
+enum class PreconditionerMethod { none, jacobi, blockJacobi, ssor, incompleteCholesky, ldl, multigrid };
+inline constexpr std::array<std::string_view, 7> enum_names(PreconditionerMethod) {
+  return {"none", "jacobi", "blockJacobi", "ssor", "incompleteCholesky", "ldl", "multigrid"};
 }
 
-/// z = M^-1 r, where M is near to a block matrix and easily solved. Positive definite whatever the matrix is,
-/// so that conjugate gradients may use it. update and apply do not allocate.
+/// z = M^-1 r, where M is near to a block matrix and easily solved. Positive definite whatever the matrix is
+/// (with multigrid, where the matrix is), so that conjugate gradients may use it. update and apply do not
+/// allocate, but for the first update of multigrid.
 template <class Matrix>
 struct Preconditioner {
   using Real = typename Matrix::Real;
@@ -41,10 +46,12 @@ struct Preconditioner {
       slot{};  // SSOR, IC: blocks left of the diagonal, and the slots of their transposes in the matrix
   std::vector<Block> lower{}, inverse{};  // L with ones on its diagonal, D^-1
   BlockLdl<Matrix> factor{};
+  Multigrid multigrid{};
 
-  void init(Matrix const& a, PreconditionerMethod which, int systemDofs) {
+  void init(Matrix const& a, PreconditionerMethod which, int systemDofs, SomeWorkers workers = {}) {
     method = which;
     dofs = systemDofs;
+    if (method == PreconditionerMethod::multigrid) return multigrid.init(a, workers);
     if (method == PreconditionerMethod::ldl) return factor.init(a, dofs);
     inverse.assign(std::size_t(a.rows()), Block::Identity());
     first.assign(1, 0);
@@ -60,8 +67,9 @@ struct Preconditioner {
   /// IC(0) of a positive definite matrix may break down, and L D L' of an indefinite one has negative pivots;
   /// those of A + shift diag(A) are positive for a shift large enough (Manteuffel 1980): 0.001, doubled as
   /// long as it takes.
-  void update(Matrix const& a) {
+  void update(Matrix const& a, SomeWorkers workers = {}) {
     shift = 0;
+    if (method == PreconditionerMethod::multigrid) return multigrid.update(workers, a);
     auto positive = [&] {
       if (method == PreconditionerMethod::incompleteCholesky) return incompleteFactor(a);
       return factor.factorise(a, shift) < 0 && factor.negativePivots == 0;
@@ -79,7 +87,8 @@ struct Preconditioner {
   }
 
   template <class Vector>
-  void apply(Vector const& r, Vector& z) {
+  void apply(Vector const& r, Vector& z, SomeWorkers workers = {}) {
+    if (method == PreconditionerMethod::multigrid) return multigrid.apply(workers, r, z);
     if (method == PreconditionerMethod::ldl) return factor.solve(r, z);
     auto at = [&z](int i) { return z.template segment<B>(Eigen::Index(i) * B); };
     const int n = int(inverse.size());

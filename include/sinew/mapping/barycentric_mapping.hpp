@@ -18,7 +18,8 @@ namespace sinew {
 /// else edges; on the latter two the child follows its projection. Affine motion of the parent is reproduced
 /// exactly. Where the parent has the points of its RegularGridTopology or SparseGridTopology, the child is
 /// looked for in the cells as they lie before translation, rotation and scale3d of the parent, as in SOFA:
-/// these put the child into place with the grid.
+/// these put the child into place with the grid. Where hexahedra of a SparseGridRamificationTopology are at
+/// one place, a point goes with the one whose finer cell is around it.
 template <class I, class O>
 struct BarycentricMapping {
   using Role = role::Mapping;
@@ -57,7 +58,10 @@ struct BarycentricMapping {
     };
     if (!topology.tetrahedra.empty() || !topology.hexahedra.empty()) {
       offer(std::type_identity<TetrahedronFit>{}, topology.tetrahedra);
-      offer(std::type_identity<MultilinearFit<3>>{}, topology.hexahedra);
+      if (topology.finer.hexahedra.empty() || !topology.tetrahedra.empty())
+        offer(std::type_identity<MultilinearFit<3>>{}, topology.hexahedra);
+      else
+        chooseByFinerCells(choices, points, topology, positions);
     } else if (!topology.triangles.empty() || !topology.quads.empty()) {
       offer(std::type_identity<TriangleFit>{}, topology.triangles);
       offer(std::type_identity<MultilinearFit<2>>{}, topology.quads);
@@ -129,6 +133,23 @@ struct BarycentricMapping {
       }
     }
   };
+
+  // where several hexahedra are at one place, each point goes with the one of its finer cell
+  static void chooseByFinerCells(std::vector<Choice>& choices, std::vector<Eigen::Vector3d> const& points,
+                                 TopologyView const& topology, typename Out::VecCoord const& positions) {
+    using Fit = MultilinearFit<3>;
+    const ElementLocator<Fit> locator(topology.finer.positions, topology.finer.hexahedra);
+    for (std::size_t i = 0; i < choices.size(); ++i) {
+      const Eigen::Vector3d p = positions[i].template cast<double>();
+      const int cell = locator.locate(p).element;
+      if (cell < 0) continue;
+      const Index parent = topology.finer.parents[std::size_t(cell)];
+      choices[i].consider(
+          typename ElementLocator<Fit>::Located{parent,
+                                                Fit(points, topology.hexahedra[std::size_t(parent)]).fit(p)},
+          topology.hexahedra);
+    }
+  }
 };
 
 }  // namespace sinew

@@ -14,7 +14,8 @@ namespace sinew {
 /// Points, or frames, carried by rigid bodies:
 ///   x = c + r,  r = R p      v = c' + w x r      f_c += f,  torque += r x f
 /// and, for frames, orientations q o, angular velocities w, and torques that are added. The positions given
-/// to the child are the p (and o) in body axes, or those in the world with `globalToLocalCoords`. In the
+/// to the child are the p (and o) in body axes, or those in the world with `globalToLocalCoords`; with
+/// `initialPoints` these are the p. In the
 /// plane w x r = w (-r_y, r_x). As bodies rotate, so do the lever arms of forces, which `geometricStiffness`
 /// adds:
 ///   K_g = 1/2 ([f]x [r]x + [r]x [f]x) on angular coordinates, in the plane -f.r
@@ -32,6 +33,7 @@ struct RigidMapping {
 
   std::vector<int> rigidIndices{0};
   bool globalToLocalCoords = false;
+  std::vector<typename Out::Coord> initialPoints{};
   RotationalStiffness geometricStiffness = RotationalStiffness::none;
 
   static constexpr auto fields() {
@@ -46,6 +48,11 @@ struct RigidMapping {
                             &RigidMapping::globalToLocalCoords,
                             "",
                             "the positions of the child are given in the world, not in the body"),
+                      field("initialPoints",
+                            &RigidMapping::initialPoints,
+                            "m",
+                            "the points in body axes, in place of the positions of the child")
+                          .oneEach(Of::entries),
                       field("geometricStiffness",
                             &RigidMapping::geometricStiffness,
                             "",
@@ -60,6 +67,7 @@ struct RigidMapping {
 
   void init(InitContext<In> const& parent, InitContext<Out> const& child, typename Out::VecCoord& positions) {
     const std::string where = text(child.where, ": ", component_name<RigidMapping>());
+    if (!initialPoints.empty()) positions.assign(initialPoints.begin(), initialPoints.end());
     if (rigidIndices.size() != 1 && rigidIndices.size() != positions.size())
       throw Error(where,
                   text("rigidIndexPerPoint has ",
@@ -70,7 +78,7 @@ struct RigidMapping {
     check_numbers(
         where, "rigidIndexPerPoint", rigidIndices, parent.rest.size(), "rigid bodies", "the parent");
     local = positions;
-    if (globalToLocalCoords)
+    if (globalToLocalCoords && initialPoints.empty())
       for (std::size_t i = 0; i < local.size(); ++i) {
         auto const& body = parent.rest[body_of(i)];
         const Vec<Real, N> arm = Out::center(positions[i]) - body.center.template cast<Real>();

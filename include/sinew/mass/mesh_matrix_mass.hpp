@@ -46,6 +46,7 @@ struct MeshMatrixMass {
   std::optional<double> totalMass{};
   bool lumping = false;
   MassElements elements = MassElements::highest;
+  bool fillWeighted = false;
 
   static constexpr auto fields() {
     using M = MeshMatrixMass;
@@ -60,7 +61,11 @@ struct MeshMatrixMass {
             .oneEach(Of::elements),
         field("totalMass", &M::totalMass, "kg", "mass of the body", range::positive).also("totalmass"),
         field("lumping", &M::lumping, "", "keep the row sums only"),
-        field("elements", &M::elements, "", "which elements have mass"));
+        field("elements", &M::elements, "", "which elements have mass"),
+        field("fillWeighted",
+              &M::fillWeighted,
+              "",
+              "whether hexahedra of a grid over a surface weigh as much as they are filled"));
   }
 
   double scale = 1;  // of the densities
@@ -217,7 +222,12 @@ struct MeshMatrixMass {
         return std::abs((at(e[1]) - at(e[0])).dot((at(e[2]) - at(e[0])).cross(at(e[3]) - at(e[0])))) / 6;
       });
     if (have(MassElements::hexahedra, volumes))
-      for (auto const& e : t.hexahedra) f(e, number++, multilinear<3>(e, at));
+      for (std::size_t h = 0; h < t.hexahedra.size(); ++h) {
+        const bool weighted = fillWeighted && t.massFill.size() == t.hexahedra.size();
+        f(t.hexahedra[h],
+          number++,
+          ((weighted ? t.massFill[h] : 1) * multilinear<3>(t.hexahedra[h], at)).eval());
+      }
     // the triangles of a grid are the halves of its quads
     if (have(MassElements::triangles, surfaces && (t.grid[0] == 0 || t.quads.empty())))
       simplices(t.triangles, [&](Triangle const& e) {

@@ -6,6 +6,7 @@
 #include <sinew/runtime/value_text.hpp>
 
 #include <array>
+#include <charconv>
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -22,8 +23,9 @@ struct ValueType {
   std::string (*write)(void const* value);
   std::string (*cpp)(void const* value);
   bool isFile;
-  std::span<std::string_view const> choices;     // the words of an enumeration; none where it is none
-  std::size_t (*entries)(void const* value);     // of a list; 1 of anything else
+  std::span<std::string_view const> choices;  // the words of an enumeration; none where it is none
+  std::size_t (*entries)(void const* value);  // of a list; 1 of anything else
+  bool listOfLists = false;
 };
 
 /// What scene files, messages and reference pages know of one field of a class.
@@ -43,17 +45,40 @@ struct FieldInfo : FieldWords {
   std::string cpp(void const* component) const {
     return type->cpp(static_cast<char const*>(component) + offset);
   }
+  /// Of a field of files: the one that a value names, which may have blanks, or those of a list.
+  std::vector<std::string> fileNames(std::string_view value) const {
+    Words words(value);
+    if (!kind.starts_with("list of")) return {std::string(words.rest())};
+    std::vector<std::string> names;
+    while (!words.end()) names.emplace_back(words.next());
+    return names;
+  }
   bool known(std::string_view asked) const { return asked == name || has_name(aliases, asked); }
+  /// Of a list of lists, of which scene files have one under each number: "position1", "position2"... Which
+  /// of them a name means, from 0; -1 where it means none.
+  int numberOf(std::string_view asked) const {
+    const std::size_t digits = asked.find_last_not_of("0123456789") + 1;
+    const std::string_view base = name.substr(0, name.size() - 1);
+    if (!type->listOfLists || !name.ends_with('1') || asked.substr(0, digits) != base) return -1;
+    int number = 0;
+    const auto [end, error] = std::from_chars(asked.data() + digits, asked.data() + asked.size(), number);
+    return error == std::errc{} && end == asked.data() + asked.size() && asked[digits] != '0' &&
+                   number <= 100000
+               ? number - 1
+               : -1;
+  }
 };
 
 /// What a class says of itself, as static members of these names, to those who know it by its name only.
 struct ClassTraits {
-  std::string_view header;    // to include beside sinew.hpp, which does not have the class
-  std::string_view endings;   // of the files that a loader of meshes reads: ".vtk .vtu"
-  bool samePoints = false;    // point i below a mapping is point i above it
-  bool movesState = false;    // where no solver does
-  bool changesPoints = false;  // by changePoints: a state in its node may start without points
-  bool takenByDefault = false;  // by a scene that has to have one of its role and has none
+  std::string_view header;       // to include beside sinew.hpp, which does not have the class
+  std::string_view endings;      // of the files that a loader of meshes reads: ".vtk .vtu"
+  bool samePoints = false;       // point i below a mapping is point i above it
+  bool movesState = false;       // where no solver does
+  bool changesPoints = false;    // by changePoints: a state in its node may start without points
+  bool takenByDefault = false;   // by a scene that has to have one of its role and has none
+  bool ofPositions = false;      // an engine over points as they are, where others take those at rest
+  bool sizedValues = false;      // an engine over values of any size (engine/values.hpp)
   bool joinsTopologies = false;  // an engine that makes the elements of its `output` of those of its `input`
 };
 
@@ -101,7 +126,15 @@ std::string kind_of() {
     return text(kind_of<typename T::value_type>(), ", or none");
   else if constexpr (requires(T v) { v.inertia; })
     return "mass, volume, inertia by mass";
-  else if constexpr (HasFields<T>) {
+  else if constexpr (HasKeywords<T>) {
+    std::string parts(T::bracket[0]);
+    for_each_field_of<T>([&](auto const& fd) {
+      parts += ' ';
+      if (!fd.aliases.empty()) parts += text(fd.aliases, ' ');
+      parts += fd.name;
+    });
+    return text(parts, ' ', T::bracket[1]);
+  } else if constexpr (HasFields<T>) {
     std::string parts;
     for_each_field_of<T>([&](auto const& fd) { parts += text(parts.empty() ? "" : " ", fd.name); });
     return parts;
@@ -109,11 +142,13 @@ std::string kind_of() {
                          v.center;
                          v.orientation;
                        })
-    return requires(T v) { v.orientation.coeffs(); }
-  ? "centre, quaternion" : "centre, angle";
-  else if constexpr (is_eigen<T>) return text(int(T::SizeAtCompileTime), " numbers");
-  else if constexpr (DynamicList<T>) return text("list of ", kind_of<typename T::value_type>());
-  else return text(std::tuple_size_v<T>, " of ", kind_of<typename T::value_type>());
+    return requires(T v) { v.orientation.coeffs(); } ? "centre, quaternion" : "centre, angle";
+  else if constexpr (is_eigen<T>)
+    return text(int(T::SizeAtCompileTime), " numbers");
+  else if constexpr (DynamicList<T>)
+    return text("list of ", kind_of<typename T::value_type>());
+  else
+    return text(std::tuple_size_v<T>, " of ", kind_of<typename T::value_type>());
 }
 
 template <class T>
@@ -130,14 +165,15 @@ inline constexpr ValueType value_type{
     [](void* value, std::string_view words) { read_value(words, *static_cast<T*>(value)); },
     [](void const* value) { return write_value(*static_cast<T const*>(value)); },
     [](void const* value) { return cpp_value(*static_cast<T const*>(value)); },
-    std::is_same_v<T, DataFile>,
+    std::is_same_v<T, DataFile> || std::is_same_v<T, std::vector<DataFile>>,
     choices_of<T>,
     [](void const* value) {
       if constexpr (DynamicList<T>)
         return static_cast<T const*>(value)->size();
       else
         return std::size_t(value != nullptr);
-    }};
+    },
+    ListOfLists<T>};
 
 /// What is said of one field in a table of a class.
 struct FieldRow {
@@ -172,10 +208,9 @@ inline constexpr std::size_t length_of = decltype(boost::hana::length(List))::va
 // of what scene files know of a class, in this order: fields, state, outputs; a component that holds a Mesh
 // has fields for the lists of the mesh behind them
 template <class C>
-inline constexpr std::size_t field_count = length_of<fields_of_class<C>> +
-                                           length_of<state_fields_of_class<C>> +
-                                           length_of<outputs_of_class<C>> +
-                                           (HoldsMesh<C> ? std::size(meshFields) : 0);
+inline constexpr std::size_t field_count =
+    length_of<fields_of_class<C>> + length_of<state_fields_of_class<C>> + length_of<outputs_of_class<C>> +
+    (HoldsMesh<C> ? std::size(meshFields) : 0);
 
 // Constants of each class, and one function that knows where its values are, so that a class costs the
 // compiler little. nvcc 13 takes neither a lambda that captures in the initializer of a variable nor one that
@@ -232,6 +267,8 @@ constexpr ClassTraits class_traits() {
   if constexpr (requires { C::movesState; }) traits.movesState = C::movesState;
   traits.changesPoints = ChangesPoints<C>;
   if constexpr (requires { C::takenByDefault; }) traits.takenByDefault = C::takenByDefault;
+  if constexpr (requires { C::ofPositions; }) traits.ofPositions = C::ofPositions;
+  if constexpr (requires { C::sizedValues; }) traits.sizedValues = C::sizedValues;
   if constexpr (requires { C::joinsTopologies; }) traits.joinsTopologies = C::joinsTopologies;
   return traits;
 }

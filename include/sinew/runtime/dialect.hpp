@@ -105,9 +105,18 @@ inline constexpr std::array withoutMeaning =
                                      "CollisionLoop",
                                      "ContactListener",
                                      "ConstraintAttachButtonSetting",
-                                     "SpatialGridContainer",  // neighbours are found by cells anyway
+                                     "FixPickedParticleButtonSetting",
+                                     "AddFrameButtonSetting",
+                                     "AddRecordedCameraButtonSetting",
+                                     "StartNavigationButtonSetting",
+                                     "TaskSchedulerSettings",  // Threads says how many there are
+                                     "SpatialGridContainer",   // neighbours are found by cells anyway
 
                                      "DisplayFlagsSetting"});
+
+/// Those of them that name a folder of data.
+inline constexpr std::array dataRepositories =
+    std::to_array<std::string_view>({"AddDataRepository", "AddResourceRepository"});
 
 /// Those of them that say how a scene is looked at: pictures and windows have them.
 inline constexpr std::array ofViews = std::to_array<std::string_view>({"VisualStyle",
@@ -126,6 +135,23 @@ inline constexpr std::array ofViews = std::to_array<std::string_view>({"VisualSt
                                                                        "SpotLight",
                                                                        "PositionalLight",
                                                                        "DirectionalLight"});
+
+/// Shows values of a state by colours of its own: what is mapped onto it is a picture, too.
+inline constexpr std::string_view shownByColours = "DataDisplay";
+
+/// Forces that have the mass of their elements with them: a force and a MeshMatrixMass.
+struct ForceAndMass {
+  std::string_view name, force;
+  bool fillWeighted;  // cells of a grid over a surface weigh by how filled they are
+};
+inline constexpr std::array forcesAndMasses =
+    std::to_array<ForceAndMass>({{"HexahedronFEMForceFieldAndMass", "HexahedronFEMForceField", true},
+                                 {"HexahedralFEMForceFieldAndMass", "HexahedronFEMForceField", false}});
+constexpr ForceAndMass const* force_and_mass(std::string_view tag) {
+  for (auto const& both : forcesAndMasses)
+    if (both.name == tag) return &both;
+  return nullptr;
+}
 
 /// Classes that are not there, by names with blanks between, and what follows from it for a scene.
 struct ClassesLeftOut {
@@ -310,9 +336,36 @@ constexpr Preconditions const* preconditioner_named(std::string_view tag) {
   return nullptr;
 }
 
+/// Those of a MultigridLinearSolver that a solver with it as preconditioner has, too.
+inline constexpr std::array multigridAttributes = std::to_array<std::string_view>(
+    {"warp", "levels", "coarsestSize", "strengthThreshold", "smootherDegree"});
+
 /// Attributes that are as good as not given where they are empty, or a link to nothing: "@".
 inline constexpr std::array mayBeEmpty =
     std::to_array<std::string_view>({"src", "filename", "fileMesh", "fileTopology"});
+
+/// Attributes of which SOFA reads as much as there should be, and passes over what comes behind it: here,
+/// too, with a warning.
+struct ReadInPart {
+  std::string_view className, attribute;
+};
+inline constexpr std::array readInPart = std::to_array<ReadInPart>({{"MeshGmshLoader", "scale"},
+                                                                    {"MeshOBJLoader", "scale"},
+                                                                    {"MeshSTLLoader", "scale"},
+                                                                    {"MeshVTKLoader", "scale"},
+                                                                    {"UniformMass", "vertexMass"}});
+constexpr bool is_read_in_part(std::string_view className, std::string_view attribute) {
+  for (auto const& r : readInPart)
+    if (r.className == className && r.attribute == attribute) return true;
+  return false;
+}
+/// Lists that have as many entries as another one, of which SOFA passes over further ones: here, too, with a
+/// warning.
+struct AsManyAs {
+  std::string_view className, list, other;
+};
+inline constexpr std::array asManyAs =
+    std::to_array<AsManyAs>({{"LinearMovementConstraint", "movements", "keyTimes"}});
 
 template <class List>
 constexpr bool has(List const& list, std::string_view word) {

@@ -10,6 +10,8 @@
 #include <sinew/runtime/scope.hpp>
 #include <sinew/scene/solvers.hpp>
 
+#include <algorithm>
+#include <memory>
 #include <span>
 #include <string>
 #include <utility>
@@ -49,6 +51,7 @@ class SceneReader {
     xml_.expandObjects(
         root, [this](XmlElement const& e) { return items_.names().kindOf(e) != ElementKind::unknown; });
     for (auto const& [path, value] : options_.set) set_attribute(root, path, value);
+    addDataPaths(root);
     ScenePlace top{&root, name_of(root, "root"), nullptr};
     SceneCollector(items_, messages_).collectAll(top);
     classes_.decideAll(top);
@@ -67,6 +70,18 @@ class SceneReader {
     scene.warnings.insert(scene.warnings.end(), xml_.warnings.begin(), xml_.warnings.end());
     scene.files = values_.files;
     return scene;
+  }
+
+  // <AddDataRepository path="meshes"/> names a folder of data, from that of its file on
+  void addDataPaths(XmlElement const& in) {
+    for (XmlElement const& child : in.children) {
+      addDataPaths(child);
+      if (!dialect::has(dialect::dataRepositories, tag_of(child))) continue;
+      auto const* path = child.attribute("path");
+      if (!path || path->value.empty()) continue;
+      const bool absolute = path->value.starts_with('/');
+      xml_.addDataPath(absolute || !child.file ? path->value : child.file->folder + path->value);
+    }
   }
 
   // An animation loop without a constraint solver takes the one by default, as in SOFA.
@@ -105,12 +120,42 @@ class SceneReader {
                          text("<Node>: dt is ", scene.dt, " s, but must be a finite number greater than 0"));
   }
 
+  // A topology with other points than the state above its node, which has none, over which nothing acts: its
+  // points and elements are those of engines and pictures, and are theirs by now.
+  bool holdsDataOnly(ScenePlace const& place, SceneItem& topology) {
+    FieldInfo const* const position = topology.info->field("position");
+    if (!place.state.empty() || !position || !topology.address || !nothingActs(place)) return false;
+    ScenePlace const* const owner = place.owner();
+    SceneItem* const state = owner ? owner->ofRole(RoleKind::state) : nullptr;
+    if (!state || !state->address) return false;
+    const std::string points = position->write(topology.address);
+    std::size_t numbers = 0, own = 0;
+    for (Words words(points); !words.end(); words.next()) ++own;
+    values_.component(*state).template visit<role::State>(
+        [&](auto const& s) { numbers = 3 * s.position.size(); });
+    return own > 0 && own != numbers;
+  }
+  static bool nothingActs(ScenePlace const& place) {
+    const auto acts = [](std::unique_ptr<SceneItem> const& item) {
+      if (!item->info) return false;
+      const RoleKind role = item->info->role;
+      return role != RoleKind::engine && role != RoleKind::topology && role != RoleKind::visualModel &&
+             role != RoleKind::mapping;
+    };
+    return std::none_of(place.items.begin(), place.items.end(), acts) &&
+           std::all_of(place.children.begin(), place.children.end(), [](auto const& child) {
+             return !child->state.empty() || nothingActs(*child);
+           });
+  }
+
   // those written in a node that belong there, then those that belong there and are written elsewhere
   std::vector<SceneItem*> itemsOf(ScenePlace& place) {
     std::vector<SceneItem*> items;
     SceneItem const* const topology = place.ofRole(RoleKind::topology);
     for (auto& item : place.items) {
-      if (item->info && item->info->role == RoleKind::topology && item.get() != topology) continue;
+      if (item->info && item->info->role == RoleKind::topology &&
+          (item.get() != topology || holdsDataOnly(place, *item)))
+        continue;
       if (!item->home || item->home == &place) items.push_back(item.get());
     }
     for (SceneItem* item : moved_)

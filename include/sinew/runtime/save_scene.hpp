@@ -85,8 +85,13 @@ class SceneWriter {
       for (auto const& field : info.fields) {
         if (!field.isInput) continue;
         const bool isFile = field.isFile || field.name == "materialLibrary";
-        const std::string value =
-            isFile ? absolute(field.write(component.address())) : field.write(component.address());
+        std::string value = field.write(component.address());
+        if (isFile) {
+          std::string names;
+          for (std::string const& name : field.fileNames(value))
+            names += text(names.empty() ? "" : " ", absolute(name));
+          value = names;
+        }
         if (value != field.defaultValue) set(element, field.name, value);
       }
       if (info.role == RoleKind::visualModel)

@@ -71,6 +71,10 @@ concept DynamicList = requires(T list) {
   list.push_back(list.front());
 } && !std::is_same_v<T, std::string>;
 
+/// A list of lists of any length, each in brackets where it is written: "[0 1] [] [2]".
+template <class T>
+concept ListOfLists = DynamicList<T> && DynamicList<typename T::value_type>;
+
 template <class T>
 inline constexpr bool is_eigen = std::is_base_of_v<Eigen::MatrixBase<T>, T>;
 
@@ -138,6 +142,49 @@ std::string_view name_of(std::string_view word) {
 }
 
 template <class T>
+void read_words(Words& words, T& value);
+
+/// A struct that is written between two words, and all but its first values behind their names in capitals:
+/// "BEGIN_SPRING 0 1 KD 3 END_SPRING".
+template <class T>
+concept HasKeywords = HasFields<T> && requires {
+  T::bracket[1];
+  T::unnamed;
+};
+
+/// The other names of its fields, where they have some, are the words.
+template <class F>
+constexpr std::string_view keyword_of(F const& fd) {
+  return fd.aliases.empty() ? fd.name : fd.aliases;
+}
+
+template <class T>
+void read_keywords(Words& words, T& value) {
+  value = T{};
+  std::string_view word = need_word(words, T::bracket[0]);
+  if (word != T::bracket[0])
+    throw Error("", text("begins with ", shown(word), "; write ", T::bracket[0], " ... ", T::bracket[1]));
+  int number = 0;
+  for_each_field(value, [&](auto const&, auto& part) {
+    if (number++ < T::unnamed) read_words(words, part);
+  });
+  while ((word = need_word(words, T::bracket[1])) != T::bracket[1]) {
+    bool found = false;
+    std::string known;
+    for_each_field(value, [&](auto const& fd, auto& part) {
+      const std::string_view keyword = keyword_of(fd);
+      if (fd.aliases.empty()) return;
+      known += text(known.empty() ? "" : ", ", keyword);
+      if (found || keyword != word) return;
+      found = true;
+      read_words(words, part);
+    });
+    if (!found)
+      throw Error("", text(shown(word), " is not one of ", known, ", ", T::bracket[1], "; correct it"));
+  }
+}
+
+template <class T>
 void read_words(Words& words, T& value) {
   if constexpr (std::is_same_v<T, bool>) {
     const std::string_view word = need_word(words, "true or false");
@@ -178,6 +225,8 @@ void read_words(Words& words, T& value) {
     }
   } else if constexpr (requires { value.inertia; }) {
     read_rigid_mass(words, value);
+  } else if constexpr (HasKeywords<T>) {
+    read_keywords(words, value);
   } else if constexpr (HasFields<T>) {
     value = T{};
     for_each_field(value, [&](auto const&, auto& part) { read_words(words, part); });
@@ -199,6 +248,9 @@ void read_words(Words& words, T& value) {
       read_words(words, number);
       value(i / value.cols(), i % value.cols()) = number;
     }
+  } else if constexpr (std::is_same_v<T, std::vector<DataFile>>) {
+    value.clear();
+    while (!words.end()) value.push_back({std::string(words.next())});
   } else if constexpr (std::is_same_v<T, std::vector<int>>) {
     value.clear();
     while (!words.end()) read_range(words.next(), value);
@@ -215,6 +267,29 @@ void read_words(Words& words, T& value) {
   } else {
     for (auto& one : value) read_words(words, one);  // std::array
   }
+}
+
+/// The words of each list of a list of lists; those of a single one need no brackets.
+inline std::vector<std::string> split_lists(std::string_view all) {
+  constexpr std::string_view space = " \t\r\n,";
+  std::vector<std::string> lists;
+  if (all.find('[') == all.npos) {
+    if (all.find_first_not_of(space) != all.npos) lists.emplace_back(all);
+    return lists;
+  }
+  for (std::size_t at = all.find_first_not_of(space); at != all.npos; at = all.find_first_not_of(space, at)) {
+    const std::size_t end = all.find(']', at);
+    if (all[at] != '[' || end == all.npos)
+      throw Error("", text("each list stands in brackets, as in [0 1] [2]; correct ", shown(all.substr(at))));
+    lists.emplace_back(all.substr(at + 1, end - at - 1));
+    at = end + 1;
+  }
+  return lists;
+}
+inline std::string join_lists(std::vector<std::string> const& lists) {
+  std::string all;
+  for (auto const& list : lists) all += text(all.empty() ? "[" : " [", list, ']');
+  return all;
 }
 
 inline void append_number(std::string& to, double value) {
@@ -256,6 +331,21 @@ void write_words(std::string& to, T const& value) {
   } else if constexpr (requires { value.inertia; }) {
     write_words(to, value.mass);
     write_words(to, value.inertia);
+  } else if constexpr (HasKeywords<T>) {
+    blank();
+    to += T::bracket[0];
+    int number = 0;
+    const T standard{};
+    for_each_field(value, [&](auto const& fd, auto const& part) {
+      if (number++ >= T::unnamed) {
+        if (part == standard.*fd.member) return;
+        to += ' ';
+        to += keyword_of(fd);
+      }
+      write_words(to, part);
+    });
+    blank();
+    to += T::bracket[1];
   } else if constexpr (HasFields<T>) {
     for_each_field(value, [&](auto const&, auto const& part) { write_words(to, part); });
   } else if constexpr (requires {
@@ -283,6 +373,11 @@ void write_words(std::string& to, T const& value) {
 /// that says what is wrong with which word, and leaves value as it was.
 template <class T>
 void read_value(std::string_view text_, T& value) {
+  if constexpr (detail::ListOfLists<T>) {
+    T lists{};
+    for (auto const& list : detail::split_lists(text_)) read_value(list, lists.emplace_back());
+    return void(value = std::move(lists));
+  }
   Words words(text_);
   T read{};
   if constexpr (detail::is_eigen<T>) {
@@ -306,7 +401,10 @@ void read_value(std::string_view text_, T& value) {
 template <class T>
 std::string write_value(T const& value) {
   std::string words;
-  detail::write_words(words, value);
+  if constexpr (detail::ListOfLists<T>)
+    for (auto const& list : value) words += text(words.empty() ? "[" : " [", write_value(list), ']');
+  else
+    detail::write_words(words, value);
   return words;
 }
 

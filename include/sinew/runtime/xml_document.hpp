@@ -9,6 +9,7 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <cctype>
 #include <map>
 #include <memory>
 #include <pugixml.hpp>
@@ -100,6 +101,40 @@ inline std::size_t find_not_utf8(std::string_view bytes) {
   return bytes.npos;
 }
 
+/// A blank in front of each attribute that begins right behind the quote of the one before, as SOFA's scenes
+/// have some and XML does not allow. Returns where the first was put, or npos.
+inline std::size_t part_attributes(std::string& content) {
+  std::string parted;
+  std::size_t first = content.npos;
+  auto upTo = [&](std::size_t from, std::string_view end) {
+    const std::size_t at = content.find(end, from);
+    return at == content.npos ? content.size() : at + end.size();
+  };
+  for (std::size_t i = 0; i < content.size();) {
+    std::size_t next = upTo(i, "<");
+    parted.append(content, i, next - i);
+    i = next;
+    if (content.compare(i, 3, "!--") == 0 || content.compare(i, 8, "![CDATA[") == 0) {
+      next = upTo(i, content[i + 1] == '-' ? "-->" : "]]>");
+      parted.append(content, i, next - i);
+      i = next;
+      continue;
+    }
+    while (i < content.size() && content[i] != '>') {
+      next = content[i] == '"' || content[i] == '\'' ? upTo(i + 1, content.substr(i, 1)) : i + 1;
+      parted.append(content, i, next - i);
+      const bool value = next > i + 1;
+      i = next;
+      if (value && i < content.size() && (std::isalpha(static_cast<unsigned char>(content[i])) != 0)) {
+        first = std::min(first, parted.size());
+        parted += ' ';
+      }
+    }
+  }
+  content = std::move(parted);
+  return first;
+}
+
 }  // namespace detail
 
 /// Reads a scene file into elements. Entities are never expanded, and what a file may ask for is limited:
@@ -127,7 +162,12 @@ class XmlReader {
                        " bytes; a scene file may have ",
                        maxBytes,
                        "; keep meshes in files of their own"));
+    const std::size_t parted = detail::part_attributes(content);
     auto file = std::make_shared<XmlFile const>(path, detail::folder_of(path), std::move(content));
+    if (parted != std::string::npos)
+      warn(text(file->place(parted),
+                ": an attribute begins right behind the one before; it is read as if a blank stood between "
+                "them, which XML asks for"));
     if (const std::size_t bad = detail::find_not_utf8(file->content); bad != std::string::npos)
       throw Error(file->place(bad), "is no UTF-8 text; save the file in UTF-8");
     std::string buffer = file->content;
@@ -170,6 +210,9 @@ class XmlReader {
       });
     }
   }
+
+  /// Another folder for find(), which goes before those that there are.
+  void addDataPath(std::string path) { dataPaths_.insert(dataPaths_.begin(), std::move(path)); }
 
   /// The path of a file named in a scene: beside the scene file, or below a data path. Throws Error.
   std::string find(std::string const& name, std::string const& folder) const {

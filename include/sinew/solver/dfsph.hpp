@@ -23,8 +23,9 @@ namespace sinew {
 ///   D_i = sum_j V_j (v_i - v_j).grad W_ij      its rate [1/s]
 ///   a_i = -sum_j V_j (k_i + k_j) grad W_ij     acceleration by k = pressure / density >= 0 [m^2/s^2]
 /// In a substep h one iteration finds the k that take out the divergence, D <= 0; forces of the node act
-/// (gravity, planes, the viscosity and surface tension of an SPHFluidForceField without pressure); another
-/// one finds the k that take out what would compress the fluid, d + h D <= 1; and the fluid moves, explicit
+/// (gravity, planes, the viscosity and surface tension of an SPHFluidForceField without pressure), XSPH
+/// (Monaghan 1989) takes velocities nearer to each other, v_i += xsph sum_j V_j W_ij (v_j - v_i); another one
+/// finds the k that take out what would compress the fluid, d + h D <= 1; and the fluid moves, explicit
 /// but for its own viscosity (DFSPHFlow), and of first order in h. Both start from the k of the last substep.
 /// The step of the scene is divided so that none moves farther than cflFactor times the distance of particles
 /// in a substep. Boundary particles of bodies are met as FluidBoundary says.
@@ -36,7 +37,7 @@ struct DFSPHSolver {
   static constexpr int convergenceOrder = 0;
   static constexpr Auxiliary auxiliary{.derivs = 1};
 
-  double radius = 1, density = 1000, viscosity = 0;
+  double radius = 1, density = 1000, viscosity = 0, xsph = 0;
   double maxError = 1e-4, maxErrorV = 1e-3, maxErrorViscosity = 1e-3;
   int maxIterations = 100, maxIterationsV = 100, maxIterationsViscosity = 100;
   bool enableDivergenceSolver = true;
@@ -57,6 +58,11 @@ struct DFSPHSolver {
               "Pa s",
               "dynamic viscosity, implicit, so that it does not limit steps",
               range::nonNegative),
+        field("xsph",
+              &S::xsph,
+              "",
+              "how much of the mean velocity of its neighbours a particle takes in each substep",
+              range::closed(0, 1)),
         field("maxError",
               &S::maxError,
               "",
@@ -186,6 +192,7 @@ struct DFSPHSolver {
         ofViscosity.most = maxIterationsViscosity, ofViscosity.tolerance = maxErrorViscosity;
         flow.solveViscosity(h, viscosity / density, ofViscosity);
       }
+      if (xsph > 0) flow.smooth(xsph);
       ofDensity.most = maxIterations, ofDensity.tolerance = maxError;
       flow.solveDensity(h, ofDensity, pressures);
       withFluid(operations, [&](auto& s) { takePressure(s, s[acc.id], h); });

@@ -81,6 +81,8 @@ class DFSPHFlow {
   /// Velocities of the fluid behind h of a kinematic viscosity [m^2/s]. The error is that of the residual,
   /// over the first one.
   void solveViscosity(double h, double kinematic, Iteration& iteration);
+  /// Velocities of the fluid nearer to the mean of those around: v_i += part sum_j V_j W_ij (v_j - v_i).
+  void smooth(double part);
   /// Two particles of the fluid that are in one place, or {-1, -1}; behind place().
   std::pair<int, int> coincident();
 
@@ -92,9 +94,10 @@ class DFSPHFlow {
   // sum W (r / 2)^3 over a plane of points at distances of r / 2
   static constexpr double boundaryLayer = 0.7782;
 
-  // in the order of the particles
+  // in the order of the particles, whose weights are their volumes
   Particles particles_{};
-  std::array<std::vector<double>, 3> velocity_{}, pushed_{};                 // at first, and by the pressures
+  std::vector<FourOf<double>> moved_{};                       // velocities by the pressures, and 0
+  std::array<std::vector<double>, 3> velocity_{}, pushed_{};  // at first, and by the viscosity
   std::array<std::vector<double>, 3> residual_{}, direction_{}, product_{};  // of conjugate gradients
   std::array<std::vector<double>, 6> inverse_{};  // of the blocks of the diagonal: xx, yy, zz, xy, xz, yz
   std::vector<double> fluid_{}, volume_{};        // fluid: 1, boundary: 0
@@ -167,6 +170,7 @@ SINEW_ONCE void DFSPHFlow::reserve(std::size_t fluid, std::size_t boundary) {
   particles_.reserve(all);
   forEachArray([all](auto& v) { v.reserve(all); });
   whole_.reserve(all);
+  moved_.reserve(all);
   positions.reserve(all);
   velocities.reserve(all);
   accelerations.reserve(fluid);
@@ -179,6 +183,7 @@ SINEW_ONCE void DFSPHFlow::place(std::string_view where) {
   particles_.sort(positions, radius, where);
   forEachArray([all](auto& v) { v.resize(all, 0.0); });
   whole_.resize(all);
+  moved_.resize(all);
   densities.resize(n);
   for (std::size_t k = 0; k < all; ++k) {
     const auto i = std::size_t(particles_.order()[k]);
@@ -186,6 +191,7 @@ SINEW_ONCE void DFSPHFlow::place(std::string_view where) {
     volume_[k] = i < n ? volumes[i] : 0;
   }
   if (all > n) inShares([&](WorkShare share) { findBoundaryVolumes(share); });
+  for (std::size_t k = 0; k < all; ++k) particles_.weight(k) = volume_[k];
   inShares([&](WorkShare share) { findDensities(share); });
   for (std::size_t k = 0; k < all; ++k)
     if (const auto i = std::size_t(particles_.order()[k]); i < n) densities[i] = density_[k];
@@ -212,7 +218,7 @@ SINEW_ONCE void DFSPHFlow::findDensities(WorkShare const& share) {
     L around(0), squares(0), count(0);
     std::array<L, 3> gradient{L(0), L(0), L(0)};
     each([&](Pairs const& p) {
-      const L volume = Particles::load(volume_, p);
+      const L volume = p.weight;
       around += select(p.acts, volume * kernels.density(p.q), L(0));
       count += select(p.acts, L(1), L(0));
       L square(0);
@@ -261,7 +267,7 @@ SINEW_ONCE std::pair<int, int> DFSPHFlow::coincident() {
   return found;
 }
 
-// pushed = v + h a of the fluid
+// moved = v + h a of the fluid
 SINEW_ONCE void DFSPHFlow::push(WorkShare const& share, double h) {
   const WendlandKernel<double> kernels(radius, factor);
   particles_.forEach(share, [&](int i, auto const& each) {
@@ -270,13 +276,11 @@ SINEW_ONCE void DFSPHFlow::push(WorkShare const& share, double h) {
     const L own(pressure_[at]);
     std::array<L, 3> sums{L(0), L(0), L(0)};
     each([&](Pairs const& p) {
-      const L along = select(
-          p.acts,
-          Particles::load(volume_, p) * (own + Particles::load(pressure_, p)) * kernels.densitySlope(p.q),
-          L(0));
+      // the slope is 0 where a pair does not act: q = 1
+      const L along = p.weight * (own + Particles::load(pressure_, p)) * kernels.densitySlope(p.q);
       for (std::size_t c = 0; c < 3; ++c) sums[c] += along * p.d[c];
     });
-    for (std::size_t c = 0; c < 3; ++c) pushed_[c][at] = velocity_[c][at] - h * Particles::sum(sums[c]);
+    for (std::size_t c = 0; c < 3; ++c) moved_[at].of[c] = velocity_[c][at] - h * Particles::sum(sums[c]);
   });
 }
 
@@ -288,12 +292,13 @@ SINEW_ONCE void DFSPHFlow::correct(WorkShare const& share, double h, bool ofDens
     next_[at] = error_[at] = 0;
     if (fluid_[at] == 0 || !(diagonal_[at] > 0) || !(ofDensity || whole_[at])) return;
     std::array<L, 3> v;
-    for (std::size_t c = 0; c < 3; ++c) v[c] = L(pushed_[c][at]);
+    for (std::size_t c = 0; c < 3; ++c) v[c] = L(moved_[at].of[c]);
     L rate(0);
     each([&](Pairs const& p) {
-      L closing(0);
-      for (std::size_t c = 0; c < 3; ++c) closing += (v[c] - Particles::load(pushed_[c], p)) * p.d[c];
-      rate += select(p.acts, Particles::load(volume_, p) * kernels.densitySlope(p.q) * closing, L(0));
+      L other[4], closing(0);
+      load_at(moved_.data(), p.places, other);
+      for (std::size_t c = 0; c < 3; ++c) closing += (v[c] - other[c]) * p.d[c];
+      rate += p.weight * kernels.densitySlope(p.q) * closing;
     });
     const double residual = h * Particles::sum(rate) + (ofDensity ? density_[at] - 1 : 0);
     const double strength = h * h * diagonal_[at];
@@ -467,6 +472,28 @@ SINEW_ONCE void DFSPHFlow::solveViscosity(double h, double kinematic, Iteration&
       for (int c = 0; c < 3; ++c) velocities[i][c] = pushed_[std::size_t(c)][k];
 }
 
+SINEW_ONCE void DFSPHFlow::smooth(double part) {
+  const WendlandKernel<double> kernels(radius, factor);
+  auto const& order = particles_.order();
+  for (std::size_t k = 0; k < order.size(); ++k)
+    for (int c = 0; c < 3; ++c) velocity_[std::size_t(c)][k] = velocities[std::size_t(order[k])][c];
+  inShares([&](WorkShare share) {
+    particles_.forEach(share, [&](int i, auto const& each) {
+      const auto at = std::size_t(i);
+      if (fluid_[at] == 0) return;
+      std::array<L, 3> v, sums{L(0), L(0), L(0)};
+      for (std::size_t c = 0; c < 3; ++c) v[c] = L(velocity_[c][at]);
+      each([&](Pairs const& p) {
+        const L mean = select(
+            p.acts, Particles::load(volume_, p) * Particles::load(fluid_, p) * kernels.density(p.q), L(0));
+        for (std::size_t c = 0; c < 3; ++c) sums[c] += mean * (Particles::load(velocity_[c], p) - v[c]);
+      });
+      for (int c = 0; c < 3; ++c)
+        velocities[std::size_t(order[at])][c] += part * Particles::sum(sums[std::size_t(c)]);
+    });
+  });
+}
+
 SINEW_ONCE void DFSPHFlow::solve(double h, bool ofDensity, Iteration& iteration,
                                  std::vector<double>& pressures) {
   const std::size_t n = fluidSize(), all = positions.size();
@@ -475,7 +502,7 @@ SINEW_ONCE void DFSPHFlow::solve(double h, bool ofDensity, Iteration& iteration,
   auto const& order = particles_.order();
   for (std::size_t k = 0; k < all; ++k) {
     const auto i = std::size_t(order[k]);
-    for (int c = 0; c < 3; ++c) velocity_[std::size_t(c)][k] = pushed_[std::size_t(c)][k] = velocities[i][c];
+    for (int c = 0; c < 3; ++c) velocity_[std::size_t(c)][k] = moved_[k].of[c] = velocities[i][c];
     pressure_[k] = i < n ? pressures[i] : 0;
   }
   for (iteration.taken = 0;; ++iteration.taken) {
@@ -491,7 +518,7 @@ SINEW_ONCE void DFSPHFlow::solve(double h, bool ofDensity, Iteration& iteration,
   if (all > n) inShares([&](WorkShare share) { pushBoundary(share, h); });
   for (std::size_t k = 0; k < all; ++k)
     if (const auto i = std::size_t(order[k]); i < n) {
-      for (int c = 0; c < 3; ++c) velocities[i][c] = pushed_[std::size_t(c)][k];
+      for (int c = 0; c < 3; ++c) velocities[i][c] = moved_[k].of[c];
       pressures[i] = pressure_[k];
     }
 }

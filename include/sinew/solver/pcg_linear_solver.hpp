@@ -4,7 +4,9 @@
 #include <sinew/core/phase.hpp>
 #include <sinew/linalg/preconditioner.hpp>
 #include <sinew/solver/linear_system.hpp>
+#include <sinew/solver/multigrid_fields.hpp>
 #include <sinew/solver/point_rotations.hpp>
+#include <sinew/solver/rigid_modes.hpp>
 
 #include <string_view>
 #include <vector>
@@ -40,10 +42,13 @@ struct ShewchukPCGLinearSolver {
   PreconditionerMethod precondition = PreconditionerMethod::blockJacobi;
   double omega = 1;
   bool warp = false;
+  int levels = 10, coarsestSize = 200;
+  double strengthThreshold = 0.05;
+  int smootherDegree = 2;
 
   static constexpr auto fields() {
     using S = ShewchukPCGLinearSolver;
-    return field_list(
+    return multigrid_fields<S>(
         field("iterations", &S::iterations, "", "largest number of iterations", range::atLeast(1)),
         field("tolerance",
               &S::tolerance,
@@ -80,7 +85,8 @@ struct ShewchukPCGLinearSolver {
     age = -1;
     if (statesSolve(operations, true)) return;
     operations.initMatrix(matrix);
-    preconditioner.init(matrix, method(), matrix.dofs());
+    preconditioner.multigrid.settings = multigrid_settings(*this);
+    preconditioner.init(matrix, method(), matrix.dofs(), some_workers(operations.workers()));
     preconditioner.omega = omega;
     if (warp) rotations.init(operations, matrix);
     for (Vector* v : {&x, &b, &r, &p, &q, &rotated})
@@ -110,7 +116,9 @@ struct ShewchukPCGLinearSolver {
     if (update || !matrixFree) operations.assemble(matrix, factors);
     if (update) {
       [[maybe_unused]] const auto span = operations.root.span(Phase::factorisation);
-      preconditioner.update(matrix);
+      if (method() == PreconditionerMethod::multigrid)
+        rigid_modes(operations, preconditioner.multigrid.modes);
+      preconditioner.update(matrix, some_workers(operations.workers()));
     }
     age = update ? 0 : age + 1;
     if (warp && update) rotations.reset(operations);
@@ -138,7 +146,7 @@ struct ShewchukPCGLinearSolver {
           [&](auto& to, auto& from) {
             if (preconditioner.method == PreconditionerMethod::none) return to.eq(from);
             operations.gather(r, from.id);
-            apply(r, q);
+            apply(r, q, some_workers(operations.workers()));
             operations.scatter(to.id, q);
             if (warp) operations.projectResponse(to.id);  // which need not commute with R
           });
@@ -154,7 +162,7 @@ struct ShewchukPCGLinearSolver {
           [&](auto& to, auto& from) { matrix.multiply(operations.workers(), from.v.data(), to.v.data()); },
           [&](auto& to, auto& from) {
             if (preconditioner.method == PreconditionerMethod::none) return to.eq(from);
-            apply(from.v, to.v);
+            apply(from.v, to.v, some_workers(operations.workers()));
           });
       operations.scatter(solution.id, x);
     }
@@ -166,11 +174,11 @@ struct ShewchukPCGLinearSolver {
     return method() <= PreconditionerMethod::blockJacobi && states_solve(operations, !matrixFree, restart);
   }
   // z = P^-1 r, or R P^-1 R' r
-  void apply(Vector const& from, Vector& to) {
-    if (!warp || age == 0) return preconditioner.apply(from, to);
+  void apply(Vector const& from, Vector& to, SomeWorkers const& workers) {
+    if (!warp || age == 0) return preconditioner.apply(from, to, workers);
     rotated = from;
     rotations.apply(rotated, true);
-    preconditioner.apply(rotated, to);
+    preconditioner.apply(rotated, to, workers);
     rotations.apply(to, false);
   }
   // multiply(to, from): to = A from;  precondition(to, from): to = M^-1 from

@@ -17,7 +17,8 @@ struct VisualModel {
   using DataTypes = Vec3f;
   using VecCoord = Vec3f::VecCoord;
   static constexpr std::string_view className = "VisualModel",
-                                    aliases = "OglModel VisualModelImpl OglTetrahedralModel";
+                                    aliases =
+                                        "OglModel VisualModelImpl OglTetrahedralModel OglShaderVisualModel";
 
   Mesh mesh{};  // its positions are those at init
   std::vector<Eigen::Vector2d> texcoords{};

@@ -18,6 +18,7 @@ struct SphView {
   typename ParticleCells<D>::View cells;
   Four<Real> const *states, *motions;  // x and p / rho^2, v and rho
   Real const* weights;                 // none: there is no boundary, and all are 1
+  Four<Real> const* normals;           // none: the law has no use for them
   int fluid;                           // numbers below are of the fluid
   Real mass;
 
@@ -34,11 +35,15 @@ struct SphOther {
   int place;
 
   SINEW_INLINE Real weight() const { return of.weight(place); }
+  SINEW_INLINE Real fluid() const { return Real(of.isFluid(place)); }
+  SINEW_INLINE Real normal(std::size_t axis) const { return component(of.normals[place], axis); }
   SINEW_INLINE Real density() const { return of.motions[place].w; }
   SINEW_INLINE Real pressure() const { return of.states[place].w; }
   SINEW_INLINE Real volume() const { return of.volume(place); }
-  SINEW_INLINE Real velocity(std::size_t axis) const {
-    Four<Real> const& v = of.motions[place];
+  SINEW_INLINE Real velocity(std::size_t axis) const { return component(of.motions[place], axis); }
+
+ private:
+  SINEW_INLINE static Real component(Four<Real> const& v, std::size_t axis) {
     return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
   }
 };
@@ -82,6 +87,21 @@ struct SphDensity {
 };
 
 template <class D, class Law>
+struct SphNormal {
+  using Real = typename D::Real;
+  SphView<D> view;
+  Law law;
+  Four<Real>* normals;
+  SINEW_HD void operator()(int i) const {
+    std::array<Real, 3> n{Real(0), Real(0), Real(0)};
+    if (view.isFluid(i))
+      view.cells.each(i, [&](auto const& p) { law.addNormal(p, SphOther<D>{view, p.other}, n); });
+    for (Real& one : n) one *= law.surface.radius;
+    normals[i] = {n[0], n[1], n[2], Real(0)};
+  }
+};
+
+template <class D, class Law>
 struct SphForce {
   using Real = typename D::Real;
   SphView<D> view;
@@ -91,7 +111,12 @@ struct SphForce {
   SINEW_HD void operator()(int i) const {
     const int point = view.cells.order[i];
     const Four<Real> v = view.motions[i];
-    const SphParticle<Real> own{{v.x, v.y, v.z}, view.weight(i), v.w, view.states[i].w, view.volume(i)};
+    SphParticle<Real> own{{v.x, v.y, v.z}, view.weight(i), v.w, view.states[i].w, view.volume(i)};
+    if (law.tense) {
+      const Four<Real> n = view.normals[i];
+      own.fluid = Real(view.isFluid(i));
+      own.normal = {n.x, n.y, n.z};
+    }
     std::array<Real, 3> sums{Real(0), Real(0), Real(0)};
     const bool wall = !view.isFluid(i);  // walls do not act on walls
     view.cells.each(i, [&](auto const& p) {
@@ -151,7 +176,7 @@ struct SphDriver<CudaTypes<H>> {
   static constexpr bool sharesWork = false;
 
   gpu::ParticleCells<D> cells{};
-  gpu::WorkArray<gpu::Four<Real>> states{}, motions{};
+  gpu::WorkArray<gpu::Four<Real>> states{}, motions{}, normals{};
   gpu::WorkArray<Real> weights{};
   gpu::WorkArray<Eigen::Vector3d> boundary{};  // positions, velocities, forces
   std::size_t size = 0, bounds = 0;
@@ -194,6 +219,12 @@ struct SphDriver<CudaTypes<H>> {
                         gpu::detail::SphDensity<D, Law>{view(), law, states.data(), motions.data()});
   }
   template <class Law>
+  void findNormals(Law const& law, WorkShare const&) {
+    if (!law.tense) return;
+    normals.resize(cells.size());
+    gpu::for_each_index(cells.size(), gpu::detail::SphNormal<D, Law>{view(), law, normals.data()});
+  }
+  template <class Law>
   void addForces(Law const& law, WorkShare const&, VecDeriv& f, BoundaryParticles& to) {
     Eigen::Vector3d* const onBoundary = boundary.data() + 2 * bounds;
     gpu::for_each_index(cells.size(), gpu::detail::SphForce<D, Law>{view(), law, f.device(), onBoundary});
@@ -210,8 +241,13 @@ struct SphDriver<CudaTypes<H>> {
   Real mass{1};
 
   gpu::detail::SphView<D> view() const {
-    return {
-        cells.view(), states.data(), motions.data(), bounds > 0 ? weights.data() : nullptr, int(size), mass};
+    return {cells.view(),
+            states.data(),
+            motions.data(),
+            bounds > 0 ? weights.data() : nullptr,
+            normals.data(),
+            int(size),
+            mass};
   }
   void send(std::size_t part, std::vector<Eigen::Vector3d> const& from) {
     gpu::copy_to_device(boundary.data() + part * bounds, from.data(), bounds);

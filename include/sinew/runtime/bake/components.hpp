@@ -90,8 +90,14 @@ class BakeComponents {
     using Source = typename BakeLinks<R>::Source;
     if (const auto from = options_.embed ? std::optional<Source>() : links_.source(node, entry, field, busy_))
       return text(variable(*from->node, *from->entry), '.', classes_.memberOf(*from->entry, from->field));
-    if (info.fields[field].isFile)
-      return file(node, entry, info.fields[field].write(entry.component.address()));
+    if (info.fields[field].isFile) {
+      const std::string names = info.fields[field].write(entry.component.address());
+      if (!info.fields[field].kind.starts_with("list of")) return file(node, entry, names);
+      std::string list;
+      for (std::string const& name : info.fields[field].fileNames(names))
+        list += text(list.empty() ? "{" : ", ", file(node, entry, name));
+      return list + '}';
+    }
     TypeCode const& type = classes_.codeOf(entry).fields[field].type();
     const std::string cpp = initialiser(type, info.fields[field].cpp(entry.component.address()));
     if (cpp.size() < 1000 || type.element.empty()) return cpp;

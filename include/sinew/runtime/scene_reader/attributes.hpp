@@ -63,6 +63,19 @@ inline std::vector<XmlAttribute> take_placing(SceneItem& item) {
   return taken;
 }
 
+/// Takes out the translation of a state that follows on the first; where it is rotated in between it stays.
+inline std::vector<XmlAttribute> take_second_translation(SceneItem& item) {
+  std::vector<XmlAttribute> taken;
+  if (item.info->role != RoleKind::state || !item.info->field("translation") ||
+      item.element->attribute("rotation2"))
+    return taken;
+  std::erase_if(item.element->attributes, [&](XmlAttribute const& a) {
+    if (a.name == "translation2") taken.push_back(a);
+    return a.name == "translation2";
+  });
+  return taken;
+}
+
 /// One number is that of all directions: "2" stands for "2 2 2".
 inline std::string alike(std::string const& value) {
   Words words(value);

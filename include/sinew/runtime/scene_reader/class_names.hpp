@@ -19,6 +19,7 @@ enum class ElementKind {
   density,           // and of a mass
   boxConstraint,     // stands for two components
   implicitWithCG,    // the same
+  forceAndMass,      // the same
   component,         // of a class that the registry has, or should have
   tetrahedronModel,  // is left out, as is all that follows
   withoutMeaning,
@@ -39,6 +40,7 @@ struct SceneClassNames {
     if (tag == "BoxConstraint") return ElementKind::boxConstraint;
     if (dialect::preconditioner_named(tag)) return ElementKind::preconditioner;
     if (dialect::has(dialect::implicitWithCG, tag)) return ElementKind::implicitWithCG;
+    if (dialect::force_and_mass(tag)) return ElementKind::forceAndMass;
     if (named(tag) || dialect::is_over_elements(tag)) return ElementKind::component;
     for (auto const& other : dialect::standsFor)
       if (other.name == tag) return ElementKind::component;

@@ -73,6 +73,13 @@ class SceneClasses {
         table_.begin(), table_.end(), [](auto const& info) { return info.dataTypes.starts_with("Cuda"); });
   }
 
+  // a node that has a picture only, which is left out
+  static bool onlyShown(ScenePlace const& place) {
+    return std::any_of(place.element->children.begin(), place.element->children.end(), [](auto const& child) {
+      return tag_of(child) == dialect::shownByColours;
+    });
+  }
+
   void decideClasses(ScenePlace& place) {
     for (auto& item : place.items)
       if (!item->info && !item->failed) item->info = decide(*item);
@@ -95,6 +102,10 @@ class SceneClasses {
                      *item.element,
                      "has no parent: no node above has a MechanicalObject; add one, or remove the mapping"),
                  nullptr;
+        if (item.place->state.empty() && !item.place->visual && onlyShown(*item.place)) {
+          messages_.ignored.insert(text(item.tag, " onto ", dialect::shownByColours));
+          return nullptr;
+        }
         if (item.place->state.empty() && !item.place->visual)
           return messages_.addError(
                      *item.element,

@@ -57,6 +57,9 @@ class SceneCollector {
         case ElementKind::implicitWithCG:
           composed_.cgImplicit(place, child);
           break;
+        case ElementKind::forceAndMass:
+          composed_.forceAndMass(place, child, *dialect::force_and_mass(tag_of(child)));
+          break;
         default:
           if (auto item = items_.makeItem(place, child)) {
             const bool isState = item->candidates[0]->role == RoleKind::state;

@@ -40,6 +40,11 @@ class ComponentValues {
     if (!item.info) throw Error("", text("leads to ", item.name, ", which is wrong itself"));
     resolve_(item);
     FieldInfo const* const field = offered(*item.info, target.data);
+    if (!field)
+      for (auto const& f : item.info->fields)
+        if (const int number = f.isInput ? -1 : f.numberOf(target.data); number >= 0)
+          if (const auto lists = split_lists(f.write(item.address)); std::size_t(number) < lists.size())
+            return lists[std::size_t(number)];
     if (!field) {
       std::vector<std::string_view> names;
       for (auto const& f : item.info->fields) names.push_back(f.name);
@@ -56,11 +61,31 @@ class ComponentValues {
     if (item.info->role == RoleKind::state) return stateValue(item, *field);
     return field->write(item.address);
   }
+  /// How many numbers a value has of the list to which a link leads; 0 where that is not known.
+  std::size_t sizeOfValues(LinkTarget const& target) {
+    SceneItem* const item = target.item ? target.item : target.place->ofRole(RoleKind::state);
+    FieldInfo const* const field = item && item->info ? offered(*item->info, target.data) : nullptr;
+    if (!field) return 0;
+    if (item->info->traits.sizedValues && !field->isInput && field->kind == "list of number") {
+      resolve_(*item);
+      std::size_t size = 0;
+      read_value(item->info->field("size")->write(item->address), size);
+      return size;
+    }
+    std::size_t words = 0;
+    const std::string all = valueOf({item, nullptr, target.data});
+    for (Words w(all); !w.end(); w.next()) ++words;
+    const std::size_t entries = field->type->entries(static_cast<char*>(item->address) + field->offset);
+    return entries > 0 && words % entries == 0 ? words / entries : 0;
+  }
   /// The same for a field of a component: points in space are frames that are not rotated.
   std::string linkedValue(SceneItem& item, FieldInfo const& field, LinkTarget target) {
     if (!target.item) target.item = target.place->ofRole(RoleKind::state);
     const std::string types = target.item && target.item->info ? target.item->info->dataTypes : "Rigid3d";
-    const bool inSpace = types.empty() || types.find("Vec3") != types.npos;
+    FieldInfo const* const from =
+        target.item && target.item->info ? offered(*target.item->info, target.data) : nullptr;
+    const bool frames = from && from->kind.find("quaternion") != from->kind.npos;
+    const bool inSpace = !frames && (types.empty() || types.find("Vec3") != types.npos);
     std::string words = valueOf(std::move(target));
     if (!inSpace || item.info->role != RoleKind::state || !dialect::has(fields_of_points, field.name))
       return words;

@@ -68,6 +68,28 @@ class ComposedElements {
     items_.addItem(place, constant);
   }
 
+  /// <HexahedronFEMForceFieldAndMass density="3" .../> stands for a force and a MeshMatrixMass of the same
+  /// elements.
+  void forceAndMass(ScenePlace& place, XmlElement& element, dialect::ForceAndMass const& both) {
+    items_.hasNoChildren(element);
+    XmlElement& force = items_.partOf(element, both.force);
+    XmlElement& mass = items_.partOf(element, "MeshMatrixMass");
+    for (XmlAttribute a : element.attributes) {
+      if (a.name == "type") continue;
+      const bool ofMass = a.name == "density" || a.name == "lumpedMass";
+      if (a.name == "density") a.name = "massDensity";
+      if (a.name == "lumpedMass") a.name = "lumping";
+      (ofMass ? mass : force).attributes.push_back(a);
+      if (a.name == "template") mass.attributes.push_back(a);
+    }
+    mass.set("massDensity", "1", false);
+    mass.set("elements", "hexahedra");
+    if (both.fillWeighted) mass.set("fillWeighted", "1");
+    mass.set("name", name_of(element, element.tag) + "_mass");
+    items_.addItem(place, force);
+    items_.addItem(place, mass);
+  }
+
   /// <CGImplicit .../> of the first SOFA is an EulerImplicitSolver, damped, with a CGLinearSolver; a node
   /// that has a solver gets the latter only, with a warning.
   void cgImplicit(ScenePlace& place, XmlElement& element) {

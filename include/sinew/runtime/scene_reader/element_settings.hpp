@@ -135,17 +135,22 @@ class ElementSettings {
       return messages_.addError(*item.element,
                                 text("there is no preconditioner ", shown(link), "; correct the link"));
     takenPreconditioners_.insert(element);
-    auto const* means = dialect::preconditioner_named(tag_of(*element));
+    const std::string tag = tag_of(*element);
+    auto const* means = dialect::preconditioner_named(tag);
+    const bool multigrid = tag == "MultigridLinearSolver";
     if (means && means->warp) item.element->set("warp", "1", false);
     if (means && !means->updateStep.empty()) item.element->set("update_step", means->updateStep);
     for (XmlAttribute const& a : element->attributes) {
       if (a.name == "omega") item.element->set(a.name, a.value, false);
       if (a.name == "update_step") item.element->set(a.name, a.value);
+      if (multigrid && a.name == "refresh") item.element->set("update_step", a.value);
+      if (multigrid && dialect::has(dialect::multigridAttributes, a.name))
+        item.element->set(a.name, a.value, false);
       // what is warped
       if (means && means->warp && (a.name == "linearSolver" || a.name == "solverName") && !a.value.empty())
         takePreconditioner(item, a.value, depth + 1);
     }
-    item.element->set("precondition", means ? means->precondition : "ldl", false);
+    item.element->set("precondition", means ? means->precondition : multigrid ? "multigrid" : "ldl", false);
   }
   // by the last step of the link, in the node or above
   static XmlElement const* solverNamed(ScenePlace const& place, std::string const& link) {

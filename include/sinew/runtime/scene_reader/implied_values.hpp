@@ -52,6 +52,11 @@ class ImpliedValues {
 
   /// What a selection is not told, it takes from the state and the topology around it.
   void surroundings(SceneItem& item, std::set<std::string_view>& given) {
+    SceneItem* named = nullptr;  // the topology that it names
+    if (auto const* link = item.element->attribute("topology"); link && is_link(link->value)) try {
+        named = follow_link(item, link->value).item;
+      } catch (Error const&) {  // as in SOFA, that of the node then
+      }
     for (auto const& field : item.info->fields) {
       if (!field.isInput || given.count(field.name)) continue;
       for (ScenePlace* at = item.place; at; at = at->parent) {
@@ -59,18 +64,41 @@ class ImpliedValues {
         std::string data(field.name);
         if (field.name == "position" && !item.info->dataTypes.empty()) {
           from = at->ofRole(RoleKind::state);
-          data = "rest_position";
+          data = item.info->traits.ofPositions ? "position" : "rest_position";
           if (!from) from = at->ofRole(RoleKind::topology), data = "position";
         } else if (dialect::has(topologyLists, field.name)) {
-          from = at->ofRole(RoleKind::topology);
+          from = named && named->info ? named : at->ofRole(RoleKind::topology);
         }
-        if (!from || !offered(*from->info, data)) continue;
+        if (!from || !offered(*from->info, data) || leadsTo(*from, item)) continue;
         messages_.locate(item, [&] {
           field.read(item.address, values_.valueOf({from, nullptr, data}));
-          item.links[std::string(field.name)] = text('@', from->name, '.', data);
+          item.links[std::string(field.name)] =
+              text(from == named ? link_to(*from) : text('@', from->name), '.', data);
         });
         break;
       }
+    }
+  }
+
+  /// An engine between two states that names them by object1 and object2 has their points at rest.
+  void pairOfStates(SceneItem& item, std::set<std::string_view>& given) {
+    static constexpr std::array pairs =
+        std::to_array<std::array<std::string_view, 2>>({{"object1", "position1"}, {"object2", "position2"}});
+    for (auto const& [object, position] : pairs) {
+      auto const* link = item.element->attribute(object);
+      FieldInfo const* const field = item.info->field(position);
+      if (!link || !field || !field->isInput || given.count(position)) continue;
+      auto const* rest = item.element->attribute("useRestPosition");
+      const bool moved = rest && (rest->value == "0" || rest->value == "false");
+      messages_.locate(item, [&] {
+        LinkTarget target = follow_link(item, link->value);
+        if (!target.item) target.item = target.place->ofRole(RoleKind::state);
+        if (!target.item) throw Error("", text(object, ": ", shown(link->value), " leads to no state"));
+        target.data = moved ? "position" : "rest_position";
+        item.links[std::string(position)] = text(link_to(*target.item), '.', target.data);
+        field->read(item.address, values_.valueOf(target));
+        given.insert(position);
+      });
     }
   }
 
@@ -135,6 +163,37 @@ class ImpliedValues {
     }
   }
 
+  /// Where a RigidMapping says of another number of points than there are which bodies carry them, all are
+  /// carried by that of `index`, or the first, as in SOFA.
+  void bodiesOfPoints(SceneItem& item) {
+    FieldInfo const* const bodies = item.info->field("rigidIndexPerPoint");
+    if (!bodies || item.failed) return;
+    SceneItem* child = item.place->ofRole(RoleKind::state);
+    if (!child) child = item.place->ofRole(RoleKind::visualModel);
+    FieldInfo const* const own = item.info->field("initialPoints");
+    if (!child || !child->info || child->failed || !own) return;
+    auto entries = [](FieldInfo const& field, SceneItem const& of) {
+      return field.type->entries(static_cast<char const*>(of.address) + field.offset);
+    };
+    const std::size_t named = entries(*bodies, item);
+    std::size_t points = entries(*own, item);
+    if (points == 0) points = entries(*child->info->field("position"), *child);
+    if (named < 2 || points == 0 || named == points) return;
+    auto const* const index = item.element->attribute("index");
+    const std::string body = index ? index->value : "0";
+    messages_.locate(item, [&] { bodies->read(item.address, body); });
+    messages_.warnings.insert(text(item.element->place(),
+                                   ": <",
+                                   item.tag,
+                                   ">: rigidIndexPerPoint has ",
+                                   named,
+                                   " entries for ",
+                                   points,
+                                   " points; body ",
+                                   body,
+                                   " carries all of them, as in SOFA"));
+  }
+
   /// A field of a visual model that says how its faces look: nothing moves otherwise without it.
   static bool isLook(SceneItem const& item, FieldInfo const& field) {
     static constexpr std::array ofMesh =
@@ -170,6 +229,19 @@ class ImpliedValues {
  private:
   ComponentValues<R>& values_;
   SceneMessages& messages_;
+
+  // whether a component is made from another one, by links that are written
+  static bool leadsTo(SceneItem& from, SceneItem const& item, int depth = 0) {
+    for (auto const& a : from.element->attributes) {
+      if (!is_link(a.value) || depth > 100) continue;
+      try {
+        SceneItem* const to = follow_link(from, a.value).item;
+        if (to == &item || (to && leadsTo(*to, item, depth + 1))) return true;
+      } catch (Error const&) {  // said where it is followed
+      }
+    }
+    return false;
+  }
 
   static constexpr auto topologyLists =
       std::to_array<std::string_view>({"edges", "triangles", "quads", "tetrahedra", "hexahedra"});

@@ -36,6 +36,9 @@ class SceneValues {
     for_each_item(top, [&](SceneItem& item) {
       if (item.info) resolve(item);
     });
+    for_each_item(top, [&](SceneItem& item) {
+      if (item.info && item.info->role == RoleKind::mapping) implied_.bodiesOfPoints(item);
+    });
   }
   AnyComponent<R>& component(SceneItem const& item) { return values_.component(item); }
 
@@ -56,7 +59,9 @@ class SceneValues {
     if (item.failed) return void(item.progress = SceneItem::Progress::done);
     if (SceneItem* loader = add_loader(item, items_, messages_)) values_.make(*loader);
     const std::vector<XmlAttribute> placing = take_placing(item);
+    const std::vector<XmlAttribute> more = take_second_translation(item);
     std::set<std::string_view> given;
+    if (item.info->traits.sizedValues) setSize(item, given);
     for (auto const& a : item.element->attributes) attribute(item, a, given);
     if (auto const* src = item.element->attribute("src")) implied_.source(item, *src, given);
     if (item.info->role == RoleKind::visualModel) {
@@ -64,6 +69,9 @@ class SceneValues {
       implied_.fillLooks(item, given);
     }
     place(item, placing);
+    for (auto const& a : more) moveFurther(item, a);
+    shorten(item);
+    if (item.info->role == RoleKind::engine) implied_.pairOfStates(item, given);
     if (item.info->role == RoleKind::engine && !item.element->attribute("src"))
       implied_.surroundings(item, given);
     if (item.info->role == RoleKind::state) implied_.statePoints(item, given);
@@ -78,6 +86,36 @@ class SceneValues {
     if (item.info->role == RoleKind::mapping) check_ends(item, messages_);
     if (auto* parents = component(item).parents()) *parents = item.parents;
     item.progress = SceneItem::Progress::done;
+  }
+
+  // translation2 of a state comes behind its translation
+  void moveFurther(SceneItem& item, XmlAttribute const& a) {
+    FieldInfo const& field = *item.info->field("translation");
+    Eigen::Vector3d first, second;
+    try {
+      read_value(is_link(a.value) ? values_.linkedValue(item, field, follow_link(item, a.value)) : a.value,
+                 second);
+      read_value(field.write(item.address), first);
+      field.read(item.address, write_value(Eigen::Vector3d(first + second)));
+    } catch (Error const& error) {
+      item.failed = true;
+      messages_.addError(item.element->place(a), text('<', item.tag, ">: ", a.name, ": ", error.what()));
+    }
+  }
+
+  // the size of values that a template names; else that of the first link counts
+  static void setSize(SceneItem& item, std::set<std::string_view>& given) {
+    auto const* types = item.element->attribute("template");
+    if (item.element->attribute("size")) given.insert("size");
+    if (!types || given.count("size")) return;
+    const std::string name = canonical_template(types->value);
+    std::string size;
+    if (name.starts_with("Vec") && name.size() == 5) size = name.substr(3, 1);
+    if (name.starts_with("Rigid3")) size = "7";
+    if (name.starts_with("Rigid2")) size = "3";
+    if (size.empty()) return;
+    item.info->field("size")->read(item.address, size);
+    given.insert("size");
   }
 
   // moves a visual model
@@ -106,12 +144,17 @@ class SceneValues {
     static constexpr std::array own = std::to_array<std::string_view>({"name", "template", "src", "type"});
     if (dialect::has(own, a.name) && !(a.name == "type" && item.element->tag != "Object")) return;
     if (a.name == "object1" || a.name == "object2") return;
+    if (a.name == "topology" && item.info->role == RoleKind::engine) return;
     if (a.name == "topology") return others_.otherTopology(item, a);
-    const bool maps = item.info->role == RoleKind::mapping || item.info->role == RoleKind::engine;
+    const bool maps = item.info->role == RoleKind::mapping || item.info->traits.joinsTopologies;
     if (maps && (a.name == "input" || a.name == "output")) return;
     FieldInfo const* field = nullptr;
-    for (auto const& f : item.info->fields)
-      if (f.isInput && f.known(a.name)) field = &f;
+    int number = -1;  // of a list among several
+    for (auto const& f : item.info->fields) {
+      if (!f.isInput) continue;
+      if (const int n = f.numberOf(a.name); n >= 0) field = &f, number = n;
+      if (number < 0 && f.known(a.name)) field = &f;
+    }
     if (!field) return others_.withoutField(item, a);
     given.insert(field->name);
     try {
@@ -123,16 +166,33 @@ class SceneValues {
       } else if (is_link(a.value)) {
         LinkTarget target;
         if (!follow_field(item, *field, a, target, messages_)) return;
+        if (item.info->traits.sizedValues && given.insert("size").second)
+          if (const std::size_t size = values_.sizeOfValues(target); size > 0)
+            item.info->field("size")->read(item.address, std::to_string(size));
         linked = values_.linkedValue(item, *field, std::move(target));
-        item.links[std::string(field->name)] = a.value;
+        item.links[number < 0 ? std::string(field->name) : a.name] = a.value;
         if (Words(linked).end() && chooses_loaded(*field)) press_none(item, a, "names no element", messages_);
       }
-      setField(item, *field, is_link(a.value) ? linked : a.value, a);
+      std::string const& value = is_link(a.value) ? linked : a.value;
+      if (number >= 0)
+        setNumbered(item, *field, std::size_t(number), value);
+      else
+        setField(item, *field, value, a);
     } catch (Error const& error) {
       if (implied_.isLook(item, *field)) return implied_.leaveOut(item, a.name, error.what());
       item.failed = true;
       messages_.addError(item.element->place(a), text('<', item.tag, ">: ", a.name, ": ", error.what()));
     }
+  }
+
+  // one list of a list of lists, or all of them, each in brackets
+  static void setNumbered(SceneItem& item, FieldInfo const& field, std::size_t number,
+                          std::string const& value) {
+    if (number == 0 && value.find('[') != value.npos) return field.read(item.address, value);
+    std::vector<std::string> lists = split_lists(field.write(item.address));
+    if (lists.size() <= number) lists.resize(number + 1);
+    lists[number] = value;
+    field.read(item.address, join_lists(lists));
   }
 
   void setField(SceneItem& item, FieldInfo const& field, std::string value, XmlAttribute const& written) {
@@ -143,10 +203,78 @@ class SceneValues {
       value = whole_points(item, value, written, messages_);
     if (field.isFile) {
       auto const& file = written.file ? written.file : item.element->file;
-      value = xml_.find(std::string(Words(value).rest()), file ? file->folder : "");
-      files.push_back(value);
+      const std::string folder = file ? file->folder : "";
+      std::string found;
+      for (std::string const& name : field.fileNames(value)) {
+        files.push_back(xml_.find(name, folder));
+        found += text(found.empty() ? "" : " ", files.back());
+      }
+      value = found;
     }
-    field.read(item.address, value);
+    const std::string part = is_link(written.value) ? value : inPart(item, field, value, written);
+    field.read(item.address, part);
+  }
+
+  void warn(SceneItem const& item, XmlAttribute const& a, std::string_view what) {
+    messages_.warnings.insert(text(item.element->place(a), ": <", item.tag, ">: ", a.name, ": ", what));
+  }
+  // as much of a value as SOFA reads
+  std::string inPart(SceneItem const& item, FieldInfo const& field, std::string const& value,
+                     XmlAttribute const& written) {
+    Words words(value);
+    if (field.kind == "whole number" && !words.end()) {
+      // SOFA reads digits up to the first other letter: 1 of 1e4
+      const std::string_view word = words.next();
+      const std::size_t digits = std::min(word.find_first_not_of("0123456789"), word.size());
+      double number = 0;
+      if (!words.end() || digits == 0 || digits == word.size() || !io::parse_number(word, number))
+        return value;
+      warn(item,
+           written,
+           text(shown(word), " is read as ", word.substr(0, digits), ", as in SOFA; write a whole number"));
+      return std::string(word.substr(0, digits));
+    }
+    if (!dialect::is_read_in_part(item.info->name, written.name)) return value;
+    std::size_t most = 1;  // words
+    if (field.kind.find("inertia") != field.kind.npos)
+      most = item.info->dataTypes.find("Rigid2") != item.info->dataTypes.npos ? 3 : 11;
+    std::string part;
+    std::size_t count = 0;
+    for (; !words.end(); ++count) {
+      const std::string_view word = words.next();
+      if (count < most) part += text(part.empty() ? "" : " ", word);
+    }
+    if (count <= most) return value;
+    warn(item, written, text("has ", count, " numbers; the first ", most, " are taken, as in SOFA"));
+    return part;
+  }
+  // further entries of a list that has as many as another one are left out
+  void shorten(SceneItem& item) {
+    for (auto const& rule : dialect::asManyAs) {
+      if (rule.className != item.info->name || item.failed) continue;
+      FieldInfo const &list = *item.info->field(rule.list), &other = *item.info->field(rule.other);
+      auto count = [&](FieldInfo const& f) {
+        return f.type->entries(static_cast<char*>(item.address) + f.offset);
+      };
+      const std::size_t n = count(list), wanted = count(other);
+      auto const* a = item.element->attribute(rule.list);
+      if (wanted == 0 || n <= wanted || !a) continue;
+      std::vector<std::string> words;
+      const std::string all = list.write(item.address);
+      for (Words w(all); !w.end();) words.emplace_back(w.next());
+      std::string first;
+      for (std::size_t k = 0; k < words.size() / n * wanted; ++k) first += text(words[k], ' ');
+      list.read(item.address, first);
+      warn(item,
+           *a,
+           text("has ",
+                n,
+                " entries for ",
+                wanted,
+                " of ",
+                rule.other,
+                "; the first ones are taken, as in SOFA"));
+    }
   }
 };
 

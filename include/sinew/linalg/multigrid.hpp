@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+#include <sinew/linalg/block_ldl.hpp>
+#include <sinew/linalg/multigrid_level.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace sinew {
+
+struct MultigridSettings {
+  int levels = 10;         // at most
+  int coarsestSize = 200;  // unknowns up to which a level is solved by its factor
+  double threshold = 0.05;
+  int degree = 2;
+};
+
+/// z = M^-1 r by one V-cycle of smoothed aggregation (Vanek, Mandel, Brezina 1996) for a symmetric block
+/// matrix with a near null space of up to six modes: Chebyshev smoothing before and behind, Galerkin
+/// products, the coarsest level by its factor. It is symmetric, and positive definite where the matrix is.
+/// The first update finds aggregates and patterns, later ones fill them, without allocating unless points
+/// have come to be held, or are held no more. Bits do not depend on the number of threads.
+class Multigrid {
+ public:
+  using Row = Sixes<double>::Row;
+  MultigridSettings settings{};
+  /// Modes of the unknowns, each six numbers and two more, in the order of the matrix: what update() reads.
+  std::vector<Row> modes{};
+
+  MultigridLevel<3> fine{};
+  std::vector<MultigridLevel<6>> coarse{};
+
+  int levels() const { return int(coarse.size()) + 1; }
+  /// Blocks of all matrices over those of the first, in numbers.
+  double complexity() const {
+    double sum = 0;
+    for (auto const& level : coarse)
+      sum += 36.0 * double(2 * level.matrix.columns.size() - std::size_t(level.matrix.rows()));
+    return 1 + sum / (9.0 * double(2 * fine.matrix.columns.size() - std::size_t(fine.matrix.rows())));
+  }
+
+  /// The pattern of the matrix.
+  template <class Matrix, class Run>
+  void init(Matrix const& a, Run const& workers) {
+    constexpr int B = Matrix::blockSize;
+    static_assert(B == 3 || B == 1, "Sinew: multigrid takes matrices of numbers, or of blocks of 3 x 3");
+    fine.matrix = {};
+    fine.matrix.slicedFrom = std::size_t(-1);
+    fine.matrix.startPattern(a.dofs());
+    for (int i = 0; i < a.rows(); ++i)
+      a.forEachInRow(i, [&](int j, int, bool) { fine.matrix.preallocate(i * B, j * B, B, B); });
+    fine.matrix.finishPattern();
+    places.clear();
+    if constexpr (B == 1)
+      for (int i = 0; i < a.rows(); ++i)
+        for (int k = a.rowStart[std::size_t(i)]; k < a.rowStart[std::size_t(i) + 1]; ++k) {
+          const int j = a.columns[std::size_t(k)];
+          places.push_back(9 * fine.matrix.slot(i / 3, j / 3) + i % 3 * 3 + j % 3);
+        }
+    fine.init(workers);
+    modes.assign(fine.modes.size(), Row{});
+    alone.clear();
+    built = false;
+  }
+  /// Finds aggregates and patterns anew at the next update.
+  void reset() { built = false; }
+
+  /// The values of the matrix, with the modes.
+  template <class Matrix, class Run>
+  void update(Run const& workers, Matrix const& a) {
+    load(workers, a);
+    fine.modes = modes;
+    fine.update(workers);
+    holdModes(workers);
+    if (!finite) return;
+    if (!built) coarse.clear(), coarse.reserve(std::size_t(settings.levels));
+    bool more = next(workers, fine, 0);
+    for (std::size_t k = 0; more; ++k) more = next(workers, coarse[k], k + 1);
+    const bool direct = coarse.empty() ? solvable(fine.matrix) : solvable(coarse.back().matrix);
+    if (direct && coarse.empty())
+      factorise(fineFactor, fine.matrix);
+    else if (direct)
+      factorise(coarseFactor, coarse.back().matrix);
+    built = true;
+  }
+
+  /// Of vectors of as many numbers as the matrix has.
+  template <class Run, class Vector>
+  void apply(Run const& workers, Vector const& from, Vector& to) {
+    const Eigen::Index n = dofs;
+    double sum = 0;
+    for (Eigen::Index i = 0; i < n; ++i) sum += double(from[i]) * double(from[i]);
+    const double scale = size / std::sqrt(sum);  // numbers of about 1, whatever the units
+    if (!finite || !(sum > 0) || !std::isfinite(scale)) {
+      to = from;
+      return;
+    }
+    const int rows = fine.matrix.rows();
+    share_rows(workers, rows, [&](int i, int) {
+      const Eigen::Vector3d r = scale * (fine.unit.inverse[std::size_t(i)] * threeOf(from, i));
+      for (int c = 0; c < 3; ++c) fine.r[std::size_t(3 * i + c)] = float(r[c]);
+    });
+    cycle(workers, fine, 0);
+    share_rows(workers, rows, [&](int i, int) {
+      const Eigen::Vector3d x(double(fine.x[std::size_t(3 * i)]),
+                              double(fine.x[std::size_t(3 * i + 1)]),
+                              double(fine.x[std::size_t(3 * i + 2)]));
+      const Eigen::Vector3d z = fine.unit.inverse[std::size_t(i)].transpose() * x / scale;
+      for (int c = 0; c < 3 && 3 * i + c < dofs; ++c) to[3 * i + c] = typename Vector::Scalar(z[c]);
+    });
+  }
+
+ private:
+  std::vector<int> places{};              // of each number of a matrix of numbers, in the blocks
+  std::vector<char> alone{}, nowAlone{};  // rows with nothing beside their diagonal block
+  BlockLdl<CompressedRowSparseMatrix<double, 3>> fineFactor{};
+  BlockLdl<CompressedRowSparseMatrix<double, 6>> coarseFactor{};
+  Eigen::VectorXd load_{}, found_{};  // of the coarsest level
+  int dofs = 0;
+  double size = 1;  // root of the mean of the diagonal
+  bool built = false, finite = true;
+
+  template <class Vector>
+  Eigen::Vector3d threeOf(Vector const& v, int i) const {
+    Eigen::Vector3d three = Eigen::Vector3d::Zero();
+    for (int c = 0; c < 3 && 3 * i + c < dofs; ++c) three[c] = double(v[3 * i + c]);
+    return three;
+  }
+  template <class Matrix>
+  bool solvable(Matrix const& a) const {
+    return a.dofs() <= std::max(settings.coarsestSize, Matrix::blockSize);
+  }
+
+  template <class Run, class Matrix>
+  void load(Run const& workers, Matrix const& a) {
+    dofs = a.dofs();
+    auto& to = fine.matrix;
+    const std::size_t n = a.columns.size() * Matrix::blockSize * Matrix::blockSize;
+    if constexpr (Matrix::blockSize == 3) {
+      workers.run([&](WorkShare share) {
+        for (std::size_t k = share.begin(n); k < share.end(n); ++k) to.values[k] = double(a.values[k]);
+      });
+    } else {
+      to.setZero();
+      for (std::size_t k = 0; k < n; ++k) to.values[std::size_t(places[k])] = double(a.values[k]);
+      for (int i = 0; i < to.rows(); ++i) {
+        double* const d = to.block(to.rowStart[std::size_t(i)]);
+        d[3] = d[1], d[6] = d[2], d[7] = d[5];
+        for (int c = 0; c < 3; ++c)
+          if (3 * i + c >= dofs) d[4 * c] = 1;
+      }
+    }
+    double sum = 0, all = 0;
+    for (int i = 0; i < to.rows(); ++i)
+      for (int c = 0; c < 3; ++c)
+        sum += std::abs(to.values[std::size_t(9 * to.rowStart[std::size_t(i)] + 4 * c)]);
+    for (const double value : to.values) all += value;
+    size = std::sqrt(sum / (3.0 * to.rows()));
+    finite = std::isfinite(all) && std::isfinite(size) && size > 0;
+  }
+
+  // What is held has no part in the modes: of a row, what all blocks beside the diagonal one map to nothing.
+  template <class Run>
+  void holdModes(Run const& workers) {
+    nowAlone.resize(std::size_t(fine.matrix.rows()));
+    share_rows(workers, fine.matrix.rows(), [&](int i, int) {
+      Eigen::Matrix3d s = Eigen::Matrix3d::Zero();
+      fine.matrix.forEachInRow(i, [&](int j, int slot, bool transposed) {
+        if (j == i) return;
+        const Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor> const> a(
+            std::as_const(fine.matrix).block(slot));
+        if (transposed)
+          s.noalias() += a.transpose() * a;
+        else
+          s.noalias() += a * a.transpose();
+      });
+      const double trace = s.trace();
+      nowAlone[std::size_t(i)] = !(trace > 0);
+      if (s.determinant() > 1e-18 * trace * trace * trace) return;
+      // onto the range of s: its longest column, then that of what is left
+      Eigen::Matrix3d p = Eigen::Matrix3d::Zero();
+      for (int rank = 0; rank < 3 && trace > 0; ++rank) {
+        Eigen::Index longest = 0;
+        const double length = s.colwise().norm().maxCoeff(&longest);
+        if (!(length > 1e-12 * trace)) break;
+        const Eigen::Vector3d u = s.col(longest) / length;
+        p += u * u.transpose();
+        s -= (u * (u.transpose() * s)).eval();
+      }
+      Row* const m = &fine.modes[std::size_t(3 * i)];
+      const Row before[3] = {m[0], m[1], m[2]};
+      for (int r = 0; r < 3; ++r) m[r] = p(r, 0) * before[0] + p(r, 1) * before[1] + p(r, 2) * before[2];
+    });
+    if (nowAlone != alone) {
+      alone = nowAlone;
+      built = false;
+    }
+  }
+
+  // the level below; false where there is none
+  template <class Run, int R>
+  bool next(Run const& workers, MultigridLevel<R>& level, std::size_t index) {
+    if (!built) {
+      if (solvable(level.matrix) || int(index) + 1 >= settings.levels) return false;
+      auto& below = coarse.emplace_back();
+      if (!level.down.init(level.matrix,
+                           R == 3 ? alone : std::vector<char>{},
+                           settings.threshold,
+                           workers.count(),
+                           below.matrix)) {
+        coarse.pop_back();
+        return false;
+      }
+      below.init(workers);
+    } else if (index >= coarse.size()) {
+      return false;
+    }
+    auto& below = coarse[index];
+    level.down.orthogonalise(workers, level.modes, below.modes);
+    level.down.smooth(workers, level.matrix, 4 / (3 * level.bound));
+    level.down.galerkin.update(workers, level.matrix, level.down, below.matrix);
+    below.update(workers);
+    level.down.scale(workers, below.unit.inverse);
+    return true;
+  }
+
+  template <class Factor, class Matrix>
+  void factorise(Factor& factor, Matrix const& a) {
+    if (!built) {
+      factor.init(a, a.dofs());
+      load_.setZero(a.dofs());
+      found_.setZero(a.dofs());
+    }
+    // as for other preconditioners (Manteuffel 1980)
+    for (double shift = 0; shift<1e3; shift = shift> 0 ? 2 * shift : 1e-3)
+      if (factor.factorise(a, shift) < 0 && factor.negativePivots == 0) return;
+  }
+
+  template <class Run, int R>
+  void cycle(Run const& workers, MultigridLevel<R>& level, std::size_t index) {
+    if (index == coarse.size()) {
+      if (!solvable(level.matrix)) return level.smooth(workers, 2 * settings.degree, true, false, false);
+      constexpr int stride = MultigridLevel<R>::stride;
+      for (int i = 0; i < level.matrix.rows(); ++i)
+        for (int c = 0; c < R; ++c) load_[R * i + c] = double(level.r[std::size_t(stride * i + c)]);
+      if constexpr (R == 3)
+        fineFactor.solve(load_, found_);
+      else
+        coarseFactor.solve(load_, found_);
+      for (int i = 0; i < level.matrix.rows(); ++i)
+        for (int c = 0; c < R; ++c) level.x[std::size_t(stride * i + c)] = float(found_[R * i + c]);
+      return;
+    }
+    auto& below = coarse[index];
+    level.smooth(workers, settings.degree, true, false, true);
+    level.down.restrictTo(workers, level.r.data(), MultigridLevel<R>::stride, below.r.data());
+    cycle(workers, below, index + 1);
+    level.down.prolong(workers, below.x.data(), level.d.data(), MultigridLevel<R>::stride);
+    level.add(workers);
+    level.multiply(workers);
+    level.smooth(workers, settings.degree, false, true, false);
+  }
+};
+
+}  // namespace sinew

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: BSL-1.0
+#include "catch.hpp"
+
+#include <sinew/linalg/multigrid.hpp>
+#include <sinew/topology/regular_grid.hpp>
+
+#include <Eigen/Eigenvalues>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace test_multigrid {
+
+using namespace sinew;
+
+namespace {
+
+using Matrix3d = CompressedRowSparseMatrixMat3x3d;
+using Row = Multigrid::Row;
+
+/// A body of springs along the edges of tetrahedra, K = u u' of direction u, with the rigid motions of its
+/// points.
+struct Body {
+  Mesh mesh;
+  Matrix3d matrix{};
+  std::vector<Row> modes{};
+
+  explicit Body(std::array<int, 3> n, double mass = 0)
+      : mesh(regular_grid_tetrahedra(n[0], n[1], n[2], {1, 2, 3}, {1.0 + n[0], 2.0 + n[1], 3.0 + n[2]})) {
+    const int points = int(mesh.positions.size());
+    matrix.startPattern(3 * points);
+    each([&](int i, int j, auto const&) { matrix.preallocate(3 * i, 3 * j, 3, 3); });
+    matrix.finishPattern();
+    matrix.setZero();
+    each([&](int i, int j, Eigen::Matrix3d const& k) {
+      matrix.add(3 * i, 3 * i, k);
+      matrix.add(3 * j, 3 * j, k);
+      matrix.add(3 * std::min(i, j), 3 * std::max(i, j), Eigen::Matrix3d(-k));
+    });
+    modes.assign(std::size_t(3 * points), Row{});
+    for (int i = 0; i < points; ++i) {
+      Eigen::Vector3d const& x = mesh.positions[std::size_t(i)];
+      Row* const m = &modes[std::size_t(3 * i)];
+      m[0][0] = m[1][1] = m[2][2] = 1;
+      m[0][4] = x[2], m[0][5] = -x[1], m[1][3] = -x[2], m[1][5] = x[0], m[2][3] = x[1], m[2][4] = -x[0];
+      matrix.add(3 * i, 3 * i, Eigen::Matrix3d(mass * Eigen::Matrix3d::Identity()));
+    }
+  }
+
+  template <class F>
+  void each(F&& f) const {
+    for (auto const& t : mesh.tetrahedra)
+      for (std::size_t a = 0; a < 4; ++a)
+        for (std::size_t b = 0; b < a; ++b) {
+          const Eigen::Vector3d u =
+              (mesh.positions[std::size_t(t[a])] - mesh.positions[std::size_t(t[b])]).normalized();
+          f(t[a], t[b], Eigen::Matrix3d(u * u.transpose()));
+        }
+  }
+};
+
+Multigrid cycle_of(Body const& body, MultigridSettings settings = {.coarsestSize = 30}) {
+  Multigrid m;
+  m.settings = settings;
+  m.init(body.matrix, OneThread{});
+  m.modes = body.modes;
+  m.update(OneThread{}, body.matrix);
+  return m;
+}
+
+Eigen::MatrixXd dense(Multigrid& m, int n) {
+  Eigen::MatrixXd all(n, n);
+  Eigen::VectorXd e(n + 1), z = Eigen::VectorXd::Zero(n + 1);
+  for (int i = 0; i < n; ++i) {
+    e = Eigen::VectorXd::Unit(n + 1, i);
+    m.apply(OneThread{}, e, z);
+    all.col(i) = z.head(n);
+  }
+  return all;
+}
+
+/// The largest |A P B| over |A| |B|, and |P B_coarse - B| over |B|, of a level.
+template <int R>
+std::array<double, 2> rigid_errors(MultigridLevel<R>& level, std::vector<Row> const& below) {
+  auto const& p = level.down;
+  std::vector<Row> kept(level.modes.size(), Row{}), forces = kept;
+  double most = 0, difference = 0, force = 0;
+  for (std::size_t i = 0; i + 1 < p.start.size(); ++i)
+    for (int s = p.start[i]; s < p.start[i + 1]; ++s)
+      for (std::size_t r = 0; r < std::size_t(R); ++r)
+        for (int c = 0; c < 6; ++c)
+          kept[i * R + r] += double(p.values[std::size_t(s * R) + r][c]) *
+                             below[std::size_t(6 * p.columns[std::size_t(s)] + c)];
+  for (int i = 0; i < level.matrix.rows(); ++i)
+    level.matrix.forEachInRow(i, [&](int j, int slot, bool transposed) {
+      add_block_product<R>(std::as_const(level.matrix).block(slot),
+                           transposed,
+                           &kept[std::size_t(j * R)],
+                           &forces[std::size_t(i * R)]);
+    });
+  for (std::size_t i = 0; i < kept.size(); ++i)
+    for (int c = 0; c < 6; ++c) {
+      most = std::max(most, std::abs(level.modes[i][c]));
+      difference = std::max(difference, std::abs(kept[i][c] - level.modes[i][c]));
+      force = std::max(force, std::abs(forces[i][c]));
+    }
+  return {force / most, difference / most};
+}
+
+}  // namespace
+
+TEST_CASE("the coarse space of a free body has its rigid motions") {
+  Body body({13, 7, 7});
+  Multigrid m = cycle_of(body, {.coarsestSize = 6});
+  REQUIRE(m.levels() >= 3);
+  // P is in float
+  const double rounding = std::numeric_limits<float>::epsilon();
+  const auto [force, difference] = rigid_errors(m.fine, m.coarse[0].modes);
+  CHECK(force < 20 * rounding);
+  CHECK(difference < 20 * rounding);
+  const auto [force1, difference1] = rigid_errors(m.coarse[0], m.coarse[1].modes);
+  CHECK(force1 < 20 * rounding);
+  CHECK(difference1 < 20 * rounding);
+}
+
+TEST_CASE("a cycle is symmetric and positive definite") {
+  for (const double mass : {1e-3, 1.0}) {
+    Body body({6, 4, 4}, mass);
+    const int n = body.matrix.dofs();
+    for (const int degree : {1, 2, 3}) {
+      Multigrid m = cycle_of(body, {.coarsestSize = 30, .degree = degree});
+      REQUIRE(m.levels() >= 2);
+      const Eigen::MatrixXd z = dense(m, n);
+      CHECK((z - z.transpose()).norm() < 1e-5 * z.norm());  // of float
+      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> of(0.5 * (z + z.transpose()));
+      CHECK(of.eigenvalues()[0] > 0);
+    }
+  }
+}
+
+TEST_CASE("a system that is its own coarsest level is solved to float") {
+  Body body({3, 3, 3}, 0.1);
+  Multigrid m = cycle_of(body, {.coarsestSize = 1000});
+  CHECK(m.levels() == 1);
+  const int n = body.matrix.dofs();
+  Eigen::VectorXd b = Eigen::VectorXd::Zero(n + 1), x = b, back = b;
+  for (int i = 0; i < n; ++i) b[i] = std::sin(3.0 * i);
+  m.apply(OneThread{}, b, x);
+  body.matrix.multiply(x.data(), back.data());
+  CHECK((back - b).norm() < 1e-5 * b.norm());
+}
+
+TEST_CASE("units do not matter") {
+  Body body({6, 4, 4}, 1e-2);
+  const int n = body.matrix.dofs();
+  Eigen::VectorXd b = Eigen::VectorXd::Zero(n + 1), x = b, y = b;
+  for (int i = 0; i < n; ++i) b[i] = std::sin(3.0 * i);
+  cycle_of(body).apply(OneThread{}, b, x);
+  for (auto& v : body.matrix.values) v *= 1e60;
+  b *= 1e-60;
+  cycle_of(body).apply(OneThread{}, b, y);
+  CHECK((1e120 * y - x).norm() < 1e-5 * x.norm());
+}
+
+TEST_CASE("what is held takes nothing from coarse levels, and may change") {
+  Body body({9, 4, 4}, 1e-3);
+  auto held = body;
+  for (int dof = 0; dof < 30; ++dof) held.matrix.fix(dof);
+  // a direction of a point: rows of its projector
+  const Eigen::Vector3d normal = Eigen::Vector3d(1, 2, -1).normalized();
+  held.matrix.project(60, Eigen::Matrix3d(Eigen::Matrix3d::Identity() - normal * normal.transpose()));
+  Multigrid m = cycle_of(held);
+  for (int i = 0; i < 10; ++i)
+    CHECK(m.fine.down.start[std::size_t(i)] == m.fine.down.start[std::size_t(i) + 1]);
+  double along = 0;
+  for (int c = 0; c < 6; ++c) {
+    Eigen::Vector3d mode;
+    for (int r = 0; r < 3; ++r) mode[r] = m.fine.modes[std::size_t(60 + r)][c];
+    // modes are those of unknowns that make the diagonal block one
+    along = std::max(along, std::abs(normal.dot(m.fine.unit.inverse[20].transpose() * mode)));
+  }
+  CHECK(along < 1e-10);
+  m.update(OneThread{}, body.matrix);  // held no more
+  for (int i = 0; i < 10; ++i)
+    CHECK(m.fine.down.start[std::size_t(i)] < m.fine.down.start[std::size_t(i) + 1]);
+}
+
+TEST_CASE("zeros on the diagonal and numbers that are not finite do no harm") {
+  Body body({6, 4, 4}, 1e-3);
+  const int n = body.matrix.dofs();
+  Eigen::VectorXd b = Eigen::VectorXd::Ones(n + 1), x = Eigen::VectorXd::Zero(n + 1);
+  auto hole = body;
+  hole.matrix.forEachInRow(7, [&](int, int slot, bool) {
+    for (int k = 0; k < 9; ++k) hole.matrix.block(slot)[k] = 0;
+  });
+  cycle_of(hole).apply(OneThread{}, b, x);
+  CHECK(x.head(n).allFinite());
+  auto broken = body;
+  broken.matrix.values[100] = std::numeric_limits<double>::quiet_NaN();
+  cycle_of(broken).apply(OneThread{}, b, x);
+  auto negative = body;
+  for (auto& v : negative.matrix.values) v = -v;
+  cycle_of(negative).apply(OneThread{}, b, x);
+  CHECK(x.head(n).allFinite());
+  auto nothing = body;
+  nothing.matrix.setZero();
+  cycle_of(nothing).apply(OneThread{}, b, x);
+  CHECK(x.head(n).allFinite());
+}
+
+TEST_CASE("points are aggregated once each, by whole neighbourhoods") {
+  // a chain
+  std::vector<int> start{0}, neighbours;
+  for (int i = 0; i < 10; ++i) {
+    if (i > 0 && i != 9) neighbours.push_back(i - 1);
+    if (i < 8) neighbours.push_back(i + 1);
+    start.push_back(int(neighbours.size()));
+  }
+  const Aggregates found = aggregate_points(start, neighbours, std::vector<float>(neighbours.size(), 1.f));
+  CHECK(found.of == std::vector{0, 0, 1, 1, 1, 2, 2, 2, 2, -1});
+  CHECK(found.count == 3);
+}
+
+TEST_CASE("the largest eigenvalue of a tridiagonal matrix") {
+  // 2 on the diagonal, -1 beside it: 2 + 2 cos(pi / (n + 1))
+  const std::vector<double> diagonal(9, 2.0), beside(8, -1.0);
+  CHECK(largest_eigenvalue(diagonal, beside) ==
+        Approx(2 + 2 * std::cos(3.14159265358979 / 10)).epsilon(1e-6));
+}
+
+}  // namespace test_multigrid
