@@ -46,6 +46,25 @@ double positive_part(std::array<double, Corners> const& value) {
   }
 }
 
+/// to[k] = from[place[k]], 0 where there is none
+template <class Real>
+struct TakeAt {
+  Real const* from;
+  int const* place;
+  Real* to;
+  SINEW_HD void operator()(int k) const { to[k] = place[k] < 0 ? Real(0) : from[place[k]]; }
+};
+/// to[place[k]] += value[k]
+template <class Real>
+struct AddAt {
+  Real* to;
+  int const* place;
+  Real const* value;
+  SINEW_HD void operator()(int k) const {
+    if (place[k] >= 0) to[place[k]] += value[k];
+  }
+};
+
 /// Solids that move through a grid and cut its cells (Batty, Bertails, Bridson 2007). Of the box of a cell
 /// around each face the part a is open, and in the rest goes the solid, so that the flow out of a cell is
 ///   sum over faces of +-(a u + (1 - a) U),  U = m . V,  m = (e, r x e)
@@ -138,6 +157,7 @@ class CutCells {
       if (open[c][at(i)] == 0 && (u.cell[at(i)] != CellKind::solid || u.cell[at(below)] != CellKind::solid))
         u.kind[c][at(i)] = FaceKind::wall;
     }
+    if constexpr (!Loops::onHost) findEnds();
   }
   /// Of the middle of a face from solids, negative inside [cells].
   double distance(std::size_t c, std::ptrdiff_t i) const {
@@ -167,7 +187,8 @@ class CutCells {
 
   /// y += what pressure q lets flow out of cells by moving the bodies that answer; impulses are rho h^N times
   /// sums of q.
-  void respond(std::vector<ImmersedBody> const& bodies, double perPressure, Field const& q, Field& y) const {
+  void respond(std::vector<ImmersedBody> const& bodies, double perPressure, Field const& q, Field& y) {
+    if constexpr (!Loops::onHost) return respondThere(bodies, perPressure, q, y);
     for (std::size_t b = 0; b < bodies.size(); ++b) {
       if (!bodies[b].answers()) continue;
       const ImmersedBody::Vector6 gain = bodies[b].response * (perPressure * sum(int(b), q));
@@ -358,6 +379,59 @@ class CutCells {
     }
     return best;
   }
+
+  // The same where the fluid is on a device: pressures beside faces come, flows go. Faces are in the order of
+  // their axes; of each axis those below are first, then those above, so that no two of a part are of one
+  // cell.
+  typename Loops::template Array<int> ends_{};
+  Field beside_{};
+  std::array<std::size_t, axes<N> + 1> begins_{};  // of the faces of each axis
+
+  template <class F>
+  void forEnds(F&& f) const {
+    for (std::size_t k = 0; k < faces.size(); ++k) {
+      const std::size_t first = begins_[std::size_t(faces[k].axis)],
+                        n = begins_[std::size_t(faces[k].axis) + 1] - first;
+      f(faces[k], first + k, first + n + k);
+    }
+  }
+  void findEnds() {
+    begins_.fill(0);
+    for (Face const& f : faces) ++begins_[std::size_t(f.axis) + 1];
+    for (std::size_t c = 0; c < axes<N>; ++c) begins_[c + 1] += begins_[c];
+    ends_.assign(2 * faces.size(), -1);
+    beside_.assign(2 * faces.size(), Real(0));
+    int* const ends = ends_.data();
+    forEnds([&](Face const& f, std::size_t below, std::size_t above) {
+      if (f.below) ends[below] = f.cell - int(grid_.stride[std::size_t(f.axis)]);
+      if (f.above) ends[above] = f.cell;
+    });
+  }
+  void respondThere(std::vector<ImmersedBody> const& bodies, double perPressure, Field const& q, Field& y) {
+    if (std::none_of(bodies.begin(), bodies.end(), [](auto const& body) { return body.answers(); })) return;
+    Loops::each(ends_.size(), TakeAt<Real>{entries(q), entries(std::as_const(ends_)), overwritten(beside_)});
+    Real* const value = beside_.data();
+    sums_.assign(bodies.size(), ImmersedBody::Vector6::Zero());
+    forEnds([&](Face const& f, std::size_t below, std::size_t above) {
+      sums_[std::size_t(f.body)] += double(f.part) * (double(value[below]) - double(value[above])) * f.mode;
+    });
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+      sums_[b] = bodies[b].answers() ? (bodies[b].response * (perPressure * sums_[b])).eval()
+                                     : ImmersedBody::Vector6::Zero().eval();
+    forEnds([&](Face const& f, std::size_t below, std::size_t above) {
+      const Real flux = f.part * Real(f.mode.dot(sums_[std::size_t(f.body)]));
+      value[below] = flux;
+      value[above] = -flux;
+    });
+    Real const* const flows = entries(std::as_const(beside_));
+    int const* const ends = entries(std::as_const(ends_));
+    for (std::size_t c = 0; c < axes<N>; ++c) {
+      const std::size_t n = begins_[c + 1] - begins_[c];
+      for (const std::size_t from : {2 * begins_[c], 2 * begins_[c] + n})
+        Loops::each(n, AddAt<Real>{entries(y), ends + from, flows + from});
+    }
+  }
+  std::vector<ImmersedBody::Vector6> sums_{};
 
   double drop(Face const& f, Field const& q) const {
     return (f.below ? double(q[at(f.cell - grid_.stride[std::size_t(f.axis)])]) : 0.0) -

@@ -463,7 +463,7 @@ class GridFluid {
   }
   /// What bodies that answer add to the matrix of the pressure.
   struct Answer {
-    CutCells<Real, N, Loops> const& cut;
+    CutCells<Real, N, Loops>& cut;
     std::vector<ImmersedBody> const& bodies;
     double perPressure;
     bool any;

@@ -83,6 +83,11 @@ class GridLoops {
     for (std::size_t axis = 0; axis < N; ++axis)
       if (grid.periodic[axis]) sides(grid, axis, true, fluid::CopyOther<T>{field});
   }
+  /// body(k) for k = 0 .. count - 1.
+  template <class Body>
+  static void each(std::size_t count, Body const& body) {
+    for_each_index(count, body);
+  }
   template <class Body>
   void once(Body const& body) const {
     for_each_index(1, detail::Once<Body>{body});
