@@ -3,8 +3,6 @@
 
 #include <sinew/fluid/cut_cells.hpp>
 
-#include <Eigen/LU>
-
 #include <vector>
 
 namespace sinew::fluid {
@@ -50,10 +48,10 @@ class WallDrag {
           c += perVelocity_ * double(l.strength) * f.mode * f.mode.transpose();
       // V = V* + R P,  P = sum of k m u - C V
       const Matrix6 system = Matrix6::Identity() + bodies[b].response * c;
-      const Eigen::PartialPivLU<Matrix6> factor(system);
+      const Matrix6 inverse = inverse_of(system);
       answer.moves = true;
-      answer.gain = factor.solve(bodies[b].response);
-      bodies[b].motion = factor.solve(bodies[b].motion).eval();
+      answer.gain = inverse * bodies[b].response;
+      bodies[b].motion = (inverse * bodies[b].motion).eval();
     }
     cut.move(bodies, u);
     for (std::size_t c = 0; c < axes<N>; ++c) u.grid.wrap(std::span<Real>(u.solid[c].data(), u.grid.size));
@@ -98,6 +96,29 @@ class WallDrag {
   }
 
  private:
+  // by elimination with the largest pivots; nvcc takes Eigen's factors of such matrices for device code
+  static Matrix6 inverse_of(Matrix6 a) {
+    Matrix6 to = Matrix6::Identity();
+    for (int c = 0; c < 6; ++c) {
+      int pivot = c;
+      for (int r = c + 1; r < 6; ++r)
+        if (std::abs(a(r, c)) > std::abs(a(pivot, c))) pivot = r;
+      if (pivot != c) {
+        a.row(c).swap(a.row(pivot));
+        to.row(c).swap(to.row(pivot));
+      }
+      to.row(c) /= a(c, c);
+      a.row(c) /= a(c, c);
+      for (int r = 0; r < 6; ++r) {
+        if (r == c) continue;
+        const double factor = a(r, c);
+        to.row(r) -= factor * to.row(c);
+        a.row(r) -= factor * a.row(c);
+      }
+    }
+    return to;
+  }
+
   using Face = typename Cut::Face;
   struct Link {
     std::size_t axis;
