@@ -109,6 +109,40 @@ def accuracy(rows):
     return markdown(["ms a step (iterations)", *(f"{tetrahedra:,} tetrahedra, {young / 1e3:g} kPa" for tetrahedra, young in bodies)], lines)
 
 
+LINEAR = {"sinew": "multigrid", "sinew-pattern-kept": "multigrid, pattern kept", "cholmod": "CHOLMOD", "hypre": "BoomerAMG", "hypre-nodal": "BoomerAMG, nodal", "petsc": "GAMG"}
+BODIES = {"plain": "", "contrast": ", layers 1e4", "incompressible": ", nu 0.49"}
+
+
+def linear_bodies(rows):
+    """Each system once, with its name."""
+    return {key: f"{key[0]:,}{BODIES[key[1]]}" + (f" ({key[2]})" if key[2] else "") for key in dict.fromkeys((row["tetrahedra"], row["kind"], row.get("mesh")) for row in rows)}
+
+
+def linear_row(rows, key, solver):
+    return of(rows, tetrahedra=key[0], kind=key[1], mesh=key[2], solver=solver)
+
+
+def multigrid(rows):
+    """Set-up and solution [ms], iterations; and of the best BoomerAMG how often multigrid goes into it."""
+    lines = []
+    for key, name in linear_bodies(rows).items():
+        line = [name]
+        for solver in LINEAR:
+            row = linear_row(rows, key, solver)
+            line.append(f"{digits(1e3 * row['set_up'])} + {digits(1e3 * row['solve'])} ({row['iterations']})" if row else "-")
+        whole = {solver: row["set_up"] + row["solve"] for solver in LINEAR if (row := linear_row(rows, key, solver))}
+        others = [whole[solver] for solver in ("hypre", "hypre-nodal") if solver in whole]
+        lines.append([*line, f"{min(others) / whole['sinew']:.1f}" if others else "-"])
+    return markdown(["tetrahedra", *LINEAR.values(), "times BoomerAMG"], lines)
+
+
+def multigrid_steps(rows):
+    def words(row):
+        return f"{digits(row['steps_per_second'])} ({digits(row['iterations'])})"
+    return markdown(["tetrahedra", "made anew in each step", "in each tenth, turned"],
+                    [[name, *(words(linear_row(rows, key, f"steps-{n}")) for n in (1, 10))] for key, name in linear_bodies(rows).items()])
+
+
 LOOPS = {"matrix-vector": "matrix-vector product", "force": "force pass", "matrix-free-product": "product without matrix"}
 
 
@@ -310,17 +344,22 @@ def gpu_grids(rows):
 TABLES = {"fem": fem, "grids": grids, "small": small, "accuracy": accuracy, "roofline": roofline, "growth": growth, "threads": threads, "fluids": fluids, "portability": portability,
           "by-hand": by_hand, "vitrectomy": vitrectomy, "runtime": runtime, "families": families, "collision": collision, "compile": compiling, "contact": contact,
           "siconos": siconos, "laparoscopy": laparoscopy, "bounds": bounds, "gpu-float": gpu_float, "gpu-double": gpu_double, "gpu-iterations": gpu_iterations,
-          "gpu-copies": gpu_copies, "gpu-contact": gpu_contact, "gpu-fluids": gpu_fluids, "gpu-grids": gpu_grids}
+          "gpu-copies": gpu_copies, "gpu-contact": gpu_contact, "gpu-fluids": gpu_fluids, "gpu-grids": gpu_grids, "multigrid": multigrid, "multigrid-steps": multigrid_steps}
 # rows that two tables are made of
-SOURCE = {"gpu-float": "gpu-scenes", "gpu-double": "gpu-scenes"}
+SOURCE = {"gpu-float": "gpu-scenes", "gpu-double": "gpu-scenes", "multigrid-steps": "multigrid"}
 # the tables of each page; all of them are of one run
 PAGES = {"performance": ["fem", "grids", "small", "accuracy", "roofline", "growth", "threads", "portability", "by-hand", "runtime", "families", "collision", "compile"],
-         "contact": ["contact", "siconos"], "fluids": ["fluids"], "laparoscopy": ["laparoscopy", "bounds"], "vitrectomy": ["vitrectomy"],
+         "contact": ["contact", "siconos"], "fluids": ["fluids"], "laparoscopy": ["laparoscopy", "bounds"], "vitrectomy": ["vitrectomy"], "multigrid": ["multigrid", "multigrid-steps"],
          "gpu": ["gpu-float", "gpu-double", "gpu-iterations", "gpu-copies", "gpu-contact", "gpu-fluids", "gpu-grids"]}
 
 
+def source(table):
+    """The rows that a table is made of."""
+    return SOURCE.get(table, table)
+
+
 def rows_of(results, name):
-    return results[SOURCE.get(name, name)]
+    return results[source(name)]
 
 
 def run_line(run):
@@ -367,7 +406,7 @@ def check_blocks(name, text):
 def written(name, text, results):
     """The page with its tables and its line of the run from these results."""
     check_blocks(name, text)
-    missing = [table for table in PAGES[name] if not results.get(SOURCE.get(table, table))]
+    missing = [table for table in PAGES[name] if not results.get(source(table))]
     if missing:
         fail(f"docs/{name}.md: {', '.join(missing)} was not measured; a page is of one run, so that all of its tables are measured together")
 

@@ -30,10 +30,11 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 PROGRAMS = {"fem": ["fem"], "grids": ["grid"], "small": ["small"], "accuracy": ["accuracy"], "roofline": ["roofline"], "growth": ["growth"], "threads": ["threads"], "fluids": ["fluids"],
             "portability": ["portable_native", "portable_native_fast"], "by-hand": ["by_hand"], "vitrectomy": ["vitrectomy"], "runtime": ["runtime"],
             "families": ["families"], "collision": ["collision", "collision_portable"], "contact": ["contact_block", "contact_bodies", "contact_pile"],
-            "siconos": ["siconos"], "laparoscopy": ["laparoscopy"], "bounds": ["laparoscopy_bounds"], "compile": []}
+            "siconos": ["siconos"], "laparoscopy": ["laparoscopy"], "bounds": ["laparoscopy_bounds"],
+            "multigrid": ["linear"], "compile": []}
 TABLES = list(PROGRAMS)
 # what takes minutes and is no figure of speed, or needs a package, is measured when it is asked for
-DEFAULT = [name for name in TABLES if name not in ("siconos", "bounds")]
+DEFAULT = [name for name in TABLES if name not in ("siconos", "bounds", "multigrid")]
 WRITTEN = [name for name in pages.PAGES if name != "gpu"]
 
 
@@ -129,6 +130,7 @@ class Runs:
             "siconos": lambda: programs_table.siconos(build),
             "laparoscopy": lambda: programs_table.laparoscopy(build, 1000),
             "bounds": lambda: programs_table.bounds(build, 40),
+            "multigrid": lambda: table.multigrid(build, self.a.meshes or [], rounds),
             "compile": lambda: measure.examples(1),
         }
         return makers[name]()
@@ -170,7 +172,7 @@ def main():
     arguments = parsed()
     wanted = arguments.only or DEFAULT
     if arguments.pages:
-        wanted = [name for name in TABLES if any(name in pages.PAGES[page] for page in arguments.pages)]
+        wanted = [name for name in TABLES if any(name in map(pages.source, pages.PAGES[page]) for page in arguments.pages)]
         missing = [f"bench_{program}" for name in wanted for program in PROGRAMS[name] if not (arguments.build / f"bench_{program}").is_file()]
         if missing:
             fail(f"pages need all of their benchmarks, but {arguments.build} has no {', '.join(missing)}; ./dev bench builds what the packages "
@@ -195,9 +197,10 @@ def main():
     print(f"\nall of it took {sum(run['seconds'].values()):.0f} s of the processor; figures written to {arguments.json}")
     for page in arguments.pages or []:
         # only some tables are made in rounds
-        of_page = run if page in ("performance", "vitrectomy") else {key: value for key, value in run.items() if key != "rounds"}
-        seconds = {name: run["seconds"][name] for name in pages.PAGES[page]}
-        pages.write(page, {"run": of_page | {"seconds": seconds}} | {name: results[name] for name in pages.PAGES[page]})
+        of_page = run if page in ("performance", "vitrectomy", "multigrid") else {key: value for key, value in run.items() if key != "rounds"}
+        sources = dict.fromkeys(map(pages.source, pages.PAGES[page]))
+        seconds = {name: run["seconds"][name] for name in sources}
+        pages.write(page, {"run": of_page | {"seconds": seconds}} | {name: results[name] for name in sources})
         print(f"docs/{page}.md and its plots are written")
 
 

@@ -147,6 +147,25 @@ def accuracy(build, meshes, rounds):
     return rows
 
 
+# cells along the cube, and what it is of
+SYSTEMS = ((6, "plain"), (17, "plain"), (37, "plain"), (55, "plain"), (17, "contrast"), (37, "contrast"), (17, "incompressible"), (37, "incompressible"))
+
+
+def multigrid(build, meshes, rounds, systems=SYSTEMS):
+    rows = []
+    os.environ["OPENBLAS_NUM_THREADS"] = "1"
+    for what, kind in (*systems, *((mesh, "plain") for mesh in meshes)):
+        large = isinstance(what, int) and what > 20
+        size, *lines = [line.split() for line in output(build / "bench_linear", what, 1 if large else rounds, kind).splitlines()]
+        of = {"points": int(size[0]), "tetrahedra": int(size[1]), "kind": kind} | ({} if isinstance(what, int) else {"mesh": pathlib.Path(what).stem})
+        for name, *figures in lines:
+            if name.startswith("steps-"):
+                rows.append(of | {"solver": name, "steps_per_second": float(figures[0]), "iterations": float(figures[1])})
+            else:
+                rows.append(of | {"solver": name, "set_up": float(figures[0]), "solve": float(figures[1]), "iterations": int(figures[2]), "residual": float(figures[3])})
+    return rows
+
+
 def roofline(build, rounds, sizes=(17, 55)):
     rows = []
     for cells in sizes:

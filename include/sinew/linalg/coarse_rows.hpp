@@ -39,9 +39,6 @@ struct CoarseRows {
   std::vector<Row> blocks{};  // six a block
 
   int rows() const { return start.empty() ? 0 : int(start.size()) - 1; }
-  std::size_t bytes() const {
-    return (start.size() + columns.size()) * sizeof(int) + blocks.size() * sizeof(Row);
-  }
 
   void init(CompressedRowSparseMatrix<double, 6> const& a) {
     start.assign(1, 0);

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
-#include <utility>
 #include <vector>
 
 namespace sinew {
@@ -31,8 +30,6 @@ class GalerkinProduct {
   using Fine = CompressedRowSparseMatrix<double, R>;
   using Coarse = CompressedRowSparseMatrix<double, 6>;
   using Row = Sixes<double>::Row;
-
-  std::size_t bytes() const { return product_.size() * sizeof(Row) + columns_.size() * sizeof(int); }
 
   /// The patterns of A P and of the coarse matrix.
   template <class P>
@@ -92,21 +89,25 @@ class GalerkinProduct {
     });
     share_rows(workers, coarse.rows(), [&](int k, int thread) {
       const int first = coarse.rowStart[std::size_t(k)], count = coarse.rowStart[std::size_t(k) + 1] - first;
-      auto [place, sums] = row(thread, coarse.columns.data() + first, count, 6);
+      const Scratch own = row(thread, coarse.columns.data() + first, count, 6);
       for (int t = p.turnedStart[std::size_t(k)]; t < p.turnedStart[std::size_t(k) + 1]; ++t) {
         const std::size_t i = std::size_t(p.turnedRows[std::size_t(t)]);
-        addRows(&p.values[std::size_t(p.turnedSlots[std::size_t(t)] * R)], i, k, place, sums);
+        addRows(&p.values[std::size_t(p.turnedSlots[std::size_t(t)] * R)], i, k, own.place, own.sums);
       }
       for (int s = 0; s < count; ++s)
         for (int r = 0; r < 6; ++r)
           for (int c = 0; c < 6; ++c)
             coarse.values[std::size_t(36 * (first + s) + 6 * r + c)] =
-                s == 0 ? 0.5 * (sums[r][c] + sums[c][r]) : sums[6 * s + r][c];
+                s == 0 ? 0.5 * (own.sums[r][c] + own.sums[c][r]) : own.sums[6 * s + r][c];
     });
   }
 
+  struct Scratch {
+    int const* place;
+    Row* sums;
+  };
   /// For a thread: where each of some columns has its place among them, and zeros for `height` rows of each.
-  std::pair<int const*, Row*> row(int thread, int const* columns, int count, int height) {
+  Scratch row(int thread, int const* columns, int count, int height) {
     auto& sums = threads_[std::size_t(thread)].sums;
     std::fill_n(sums.begin(), count * height, Row{});
     return {places(thread, columns, count), sums.data()};

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/linalg/block_copy.hpp>
 #include <sinew/linalg/block_ldl.hpp>
+#include <sinew/linalg/held_modes.hpp>
 #include <sinew/linalg/multigrid_level.hpp>
 
 #include <algorithm>
@@ -34,32 +36,11 @@ class Multigrid {
   std::vector<MultigridLevel<6>> coarse{};
 
   int levels() const { return int(coarse.size()) + 1; }
-  /// Blocks of all matrices over those of the first, in numbers.
-  double complexity() const {
-    double sum = 0;
-    for (auto const& level : coarse)
-      sum += 36.0 * double(2 * level.matrix.columns.size() - std::size_t(level.matrix.rows()));
-    return 1 + sum / (9.0 * double(2 * fine.matrix.columns.size() - std::size_t(fine.matrix.rows())));
-  }
 
   /// The pattern of the matrix.
   template <class Matrix, class Run>
   void init(Matrix const& a, Run const& workers) {
-    constexpr int B = Matrix::blockSize;
-    static_assert(B == 3 || B == 1, "Sinew: multigrid takes matrices of numbers, or of blocks of 3 x 3");
-    fine.matrix = {};
-    fine.matrix.slicedFrom = std::size_t(-1);
-    fine.matrix.startPattern(a.dofs());
-    for (int i = 0; i < a.rows(); ++i)
-      a.forEachInRow(i, [&](int j, int, bool) { fine.matrix.preallocate(i * B, j * B, B, B); });
-    fine.matrix.finishPattern();
-    places.clear();
-    if constexpr (B == 1)
-      for (int i = 0; i < a.rows(); ++i)
-        for (int k = a.rowStart[std::size_t(i)]; k < a.rowStart[std::size_t(i) + 1]; ++k) {
-          const int j = a.columns[std::size_t(k)];
-          places.push_back(9 * fine.matrix.slot(i / 3, j / 3) + i % 3 * 3 + j % 3);
-        }
+    copy.init(a, fine.matrix);
     fine.init(workers);
     modes.assign(fine.modes.size(), Row{});
     alone.clear();
@@ -114,7 +95,7 @@ class Multigrid {
   }
 
  private:
-  std::vector<int> places{};              // of each number of a matrix of numbers, in the blocks
+  BlockCopy copy{};
   std::vector<char> alone{}, nowAlone{};  // rows with nothing beside their diagonal block
   BlockLdl<CompressedRowSparseMatrix<double, 3>> fineFactor{};
   BlockLdl<CompressedRowSparseMatrix<double, 6>> coarseFactor{};
@@ -137,63 +118,21 @@ class Multigrid {
   template <class Run, class Matrix>
   void load(Run const& workers, Matrix const& a) {
     dofs = a.dofs();
-    auto& to = fine.matrix;
-    const std::size_t n = a.columns.size() * Matrix::blockSize * Matrix::blockSize;
-    if constexpr (Matrix::blockSize == 3) {
-      workers.run([&](WorkShare share) {
-        for (std::size_t k = share.begin(n); k < share.end(n); ++k) to.values[k] = double(a.values[k]);
-      });
-    } else {
-      to.setZero();
-      for (std::size_t k = 0; k < n; ++k) to.values[std::size_t(places[k])] = double(a.values[k]);
-      for (int i = 0; i < to.rows(); ++i) {
-        double* const d = to.block(to.rowStart[std::size_t(i)]);
-        d[3] = d[1], d[6] = d[2], d[7] = d[5];
-        for (int c = 0; c < 3; ++c)
-          if (3 * i + c >= dofs) d[4 * c] = 1;
-      }
-    }
+    copy.load(workers, a, fine.matrix);
+    auto const& m = fine.matrix;
     double sum = 0, all = 0;
-    for (int i = 0; i < to.rows(); ++i)
+    for (int i = 0; i < m.rows(); ++i)
       for (int c = 0; c < 3; ++c)
-        sum += std::abs(to.values[std::size_t(9 * to.rowStart[std::size_t(i)] + 4 * c)]);
-    for (const double value : to.values) all += value;
-    size = std::sqrt(sum / (3.0 * to.rows()));
+        sum += std::abs(m.values[std::size_t(9 * m.rowStart[std::size_t(i)] + 4 * c)]);
+    for (const double value : m.values) all += value;
+    size = std::sqrt(sum / (3.0 * m.rows()));
     finite = std::isfinite(all) && std::isfinite(size) && size > 0;
   }
 
-  // What is held has no part in the modes: of a row, what all blocks beside the diagonal one map to nothing.
   template <class Run>
   void holdModes(Run const& workers) {
     nowAlone.resize(std::size_t(fine.matrix.rows()));
-    share_rows(workers, fine.matrix.rows(), [&](int i, int) {
-      Eigen::Matrix3d s = Eigen::Matrix3d::Zero();
-      fine.matrix.forEachInRow(i, [&](int j, int slot, bool transposed) {
-        if (j == i) return;
-        const Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor> const> a(
-            std::as_const(fine.matrix).block(slot));
-        if (transposed)
-          s.noalias() += a.transpose() * a;
-        else
-          s.noalias() += a * a.transpose();
-      });
-      const double trace = s.trace();
-      nowAlone[std::size_t(i)] = !(trace > 0);
-      if (s.determinant() > 1e-18 * trace * trace * trace) return;
-      // onto the range of s: its longest column, then that of what is left
-      Eigen::Matrix3d p = Eigen::Matrix3d::Zero();
-      for (int rank = 0; rank < 3 && trace > 0; ++rank) {
-        Eigen::Index longest = 0;
-        const double length = s.colwise().norm().maxCoeff(&longest);
-        if (!(length > 1e-12 * trace)) break;
-        const Eigen::Vector3d u = s.col(longest) / length;
-        p += u * u.transpose();
-        s -= (u * (u.transpose() * s)).eval();
-      }
-      Row* const m = &fine.modes[std::size_t(3 * i)];
-      const Row before[3] = {m[0], m[1], m[2]};
-      for (int r = 0; r < 3; ++r) m[r] = p(r, 0) * before[0] + p(r, 1) * before[1] + p(r, 2) * before[2];
-    });
+    hold_modes(workers, fine.matrix, fine.modes, nowAlone);
     if (nowAlone != alone) {
       alone = nowAlone;
       built = false;

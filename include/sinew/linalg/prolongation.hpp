@@ -31,10 +31,6 @@ struct Prolongation {
   GalerkinProduct<R> galerkin{};
 
   int coarseRows() const { return int(memberStart.size()) - 1; }
-  std::size_t bytes() const {
-    return values.size() * sizeof(FloatRow) + tentative.size() * sizeof(Row) + galerkin.bytes() +
-           (columns.size() + 2 * turnedRows.size()) * sizeof(int);
-  }
 
   /// Aggregates and patterns, that of the coarse matrix too. Connections count where the Frobenius norm of
   /// their block is above `threshold`; rows that are `alone` take nothing from the coarse side. False where
@@ -117,15 +113,15 @@ struct Prolongation {
     share_rows(workers, a.rows(), [&](int i, int thread) {
       const int first = start[std::size_t(i)], count = start[std::size_t(i) + 1] - first;
       if (count == 0) return;
-      auto [place, sums] = galerkin.row(thread, columns.data() + first, count, R);
+      auto const own = galerkin.row(thread, columns.data() + first, count, R);
       a.forEachInRow(i, [&](int j, int slot, bool transposed) {
         if (const int k = aggregate[std::size_t(j)]; k >= 0)
           add_block_product<R>(
-              a.block(slot), transposed, &tentative[std::size_t(j * R)], sums + R * place[k]);
+              a.block(slot), transposed, &tentative[std::size_t(j * R)], own.sums + R * own.place[k]);
       });
       for (int k = 0; k < count; ++k)
         for (int r = 0; r < R; ++r) {
-          Row p = -w * sums[R * k + r];
+          Row p = -w * own.sums[R * k + r];
           if (columns[std::size_t(first + k)] == aggregate[std::size_t(i)])
             p += tentative[std::size_t(i * R + r)];
           values[std::size_t((first + k) * R + r)] = __builtin_convertvector(p, FloatRow);
