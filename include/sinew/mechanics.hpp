@@ -45,6 +45,7 @@
 #include <sinew/force/mesh_spring.hpp>
 #include <sinew/force/particles_repulsion.hpp>
 #include <sinew/force/plane_force_field.hpp>
+#include <sinew/force/polynomial_rest_shape_springs.hpp>
 #include <sinew/force/polynomial_springs.hpp>
 #include <sinew/force/regular_grid_spring.hpp>
 #include <sinew/force/rest_shape_springs.hpp>
@@ -71,6 +72,7 @@
 #include <sinew/mapping/distance_mapping.hpp>
 #include <sinew/mapping/distance_to_plane_mapping.hpp>
 #include <sinew/mapping/identity_mapping.hpp>
+#include <sinew/mapping/identity_multi_mapping.hpp>
 #include <sinew/mapping/rigid_mapping.hpp>
 #include <sinew/mapping/skinning_mapping.hpp>
 #include <sinew/mapping/sph_fluid_surface_mapping.hpp>

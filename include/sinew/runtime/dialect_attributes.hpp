@@ -78,6 +78,7 @@ inline constexpr std::array withoutEffectOf = std::to_array<AttributeOf>({
     {"NNCGConstraintSolver", "sor"}, {"PreconditionedConjugateResidual", "sor"}, {"ParticleSink", "fixed"}, {"PointCollisionModel", "leafScale"}, {"ParticleSource", "lastparticles"}, {"RegularGridTopology", "position"}, {"RegularGridTopology", "tetrahedra"},
     {"RestShapeSpringsForceField", "recompute_indices"}, {"SparseGridTopology", "tetrahedra"},
     {"SparseGridRamificationTopology", "tetrahedra"}, {"SparseGridMultipleTopology", "tetrahedra"},
+    {"ContinuousIntersection", "continuousCollisionType"}, {"ContinuousIntersection", "maxIterations"},
     {"JointSpringForceField", "outfile"}, {"JointSpringForceField", "period"}, {"JointSpringForceField", "reinit"},
     {"PatchTestMovementProjectiveConstraint", "meshIndices"},
     {"TriangularBiquadraticSpringsForceField", "matrixRegularization"},  // SOFA does not read it either

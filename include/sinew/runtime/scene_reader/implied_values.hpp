@@ -64,7 +64,7 @@ class ImpliedValues {
         } else if (dialect::has(topologyLists, field.name)) {
           from = at->ofRole(RoleKind::topology);
         }
-        if (!from || !offered(*from->info, data)) continue;
+        if (!from || !offered(*from->info, data) || takesFrom(*from, item)) continue;
         messages_.locate(item, [&] {
           field.read(item.address, values_.valueOf({from, nullptr, data}));
           item.links[std::string(field.name)] = text('@', from->name, '.', data);
@@ -217,6 +217,19 @@ class ImpliedValues {
     }
     if (from == item.place->ofRole(RoleKind::topology))
       if (FieldInfo const* const same = item.info->field("points_of_topology")) same->read(item.address, "1");
+  }
+  // whether links of a component lead to another one, through others or not
+  static bool takesFrom(SceneItem& from, SceneItem const& item, int depth = 0) {
+    if (&from == &item || depth > 8) return &from == &item;
+    for (auto const& a : from.element->attributes) {
+      if (!is_link(a.value) || a.name == "input" || a.name == "output") continue;
+      try {
+        if (const LinkTarget to = follow_link(from, a.value); to.item && takesFrom(*to.item, item, depth + 1))
+          return true;
+      } catch (Error const&) {  // is said where the attribute is read
+      }
+    }
+    return false;
   }
   static bool isIdentity(ScenePlace const& place) {
     SceneItem const* const mapping = place.ofRole(RoleKind::mapping);
