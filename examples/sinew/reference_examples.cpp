@@ -409,6 +409,12 @@ constexpr auto classExamples = std::to_array<ClassExample>({
                              polynomialDegree="3" polynomialStiffness="5 0 400"/>)",
      chain,
      "StiffSpringForceField"},
+    {"PolynomialRestShapeSpringsForceField",
+     R"(
+<PolynomialRestShapeSpringsForceField points="0" polynomialStiffness="20 0 500" polynomialDegree="3" initialLength="0.5"
+                                      smoothShift="-20"/>)",
+     chain,
+     "FixedConstraint"},
     {"QuadBendingSprings",
      R"(
 <MeshSpringForceField stiffness="50" damping="0.1"/>
@@ -858,6 +864,25 @@ constexpr auto classExamples = std::to_array<ClassExample>({
     <MechanicalObject/>
     <SubsetMultiMapping input="@../upper @../lower" indexPairs="0 1  1 0"/>
     <StiffSpringForceField spring="0 1 50 0.2 0.5"/>
+  </Node>
+</Node>)"},
+    {"IdentityMultiMapping", R"(
+<Node name="root" gravity="0 -9.81 0">
+  <EulerImplicitSolver/>
+  <SparseLDLSolver/>
+  <Node name="upper">
+    <MechanicalObject position="0 0 0  0 -0.5 0"/>
+    <UniformMass vertexMass="0.1"/>
+    <FixedConstraint indices="0"/>
+  </Node>
+  <Node name="lower">
+    <MechanicalObject position="0 -1 0"/>
+    <UniformMass vertexMass="0.1"/>
+  </Node>
+  <Node name="all">
+    <MechanicalObject/>
+    <IdentityMultiMapping input="@../upper @../lower"/>
+    <StiffSpringForceField spring="0 1 100 0.1 0.5  1 2 50 0.2 0.5"/>
   </Node>
 </Node>)"},
     {"VolumeMapping", R"(

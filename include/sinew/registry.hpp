@@ -50,13 +50,14 @@ template <class D>
 using SpatialSprings =
     Registry<TriangularBendingSprings<D>, TriangleBendingSprings<D>, QuadularBendingSprings<D>,
              QuadBendingSprings<D>, FastTriangularBendingSprings<D>, PolynomialSpringsForceField<D>,
-             PolynomialSpringsForceField<D, Linked>>;
+             PolynomialSpringsForceField<D, Linked>, PolynomialRestShapeSpringsForceField<D>>;
 template <class D>
 using FrameElements = Registry<BeamFEMForceField<D>, BeamMass<D>, TriangularShellForceField<D>>;
 template <class D>
-using SpatialRigids = Registry<AngularSpringForceField<D>, FixedRotationConstraint<D>, FrameElements<D>,
-                               JointSpringForceField<D>, JointSpringForceField<D, Linked>,
-                               PatchTestMovementProjectiveConstraint<D>>;
+using SpatialRigids =
+    Registry<AngularSpringForceField<D>, FixedRotationConstraint<D>, FrameElements<D>,
+             JointSpringForceField<D>, JointSpringForceField<D, Linked>, StiffSpringForceField<D>,
+             StiffSpringForceField<D, Linked>, PatchTestMovementProjectiveConstraint<D>>;
 template <class D>
 using PointConstraints =
     Registry<FixedConstraint<D>, PartialFixedConstraint<D>, FixedPlaneConstraint<D>,
@@ -117,7 +118,8 @@ using MeasuringMappings =
              SquareMapping<Vec1d, Vec1d>>;
 using MultiMappings = Registry<SubsetMultiMapping<Vec3d, Vec3d>, SubsetMultiMapping<Vec2d, Vec2d>,
                                SubsetMultiMapping<Vec1d, Vec1d>, SubsetMultiMapping<Rigid3d, Rigid3d>,
-                               SubsetMultiMapping<Rigid3d, Vec3d>, SubsetMultiMapping<Vec3d, Vec3f>>;
+                               SubsetMultiMapping<Rigid3d, Vec3d>, SubsetMultiMapping<Vec3d, Vec3f>,
+                               IdentityMultiMapping<Vec3d, Vec3d>, IdentityMultiMapping<Rigid3d, Rigid3d>>;
 using SurfaceMappings = Registry<SPHFluidSurfaceMapping<Vec3d, Vec3f>>;
 using SkinningMappings = Registry<SkinningMapping<Rigid3d, Vec3d>, SkinningMapping<Rigid3d, Vec3f>>;
 using StandardMappings =

@@ -10,3 +10,8 @@ TEST_CASE("constraints over Vec3d are projectors, and move as they say") {
 TEST_CASE("constraints over Vec3f are projectors, and move as they say") {
   laws::check_constraints<PointConstraints<Vec3f>, Vec3f>();
 }
+
+TEST_CASE("movements of patches are projectors, and move as they say") {
+  laws::check_constraints<Registry<PatchTestMovementProjectiveConstraint<Vec3d>>, Vec3d>();
+  laws::check_constraints<Registry<PatchTestMovementProjectiveConstraint<Vec3f>>, Vec3f>();
+}

@@ -22,6 +22,7 @@
 #include "samples/fixed_rotation.hpp"
 #include "samples/fluid_boundary.hpp"
 #include "samples/hermite_spline.hpp"
+#include "samples/identity_multi_mapping.hpp"
 #include "samples/immersed_solid.hpp"
 #include "samples/joint_spring.hpp"
 #include "samples/linear_movement.hpp"

@@ -5,6 +5,7 @@
 #include <sinew/core/element_driver.hpp>
 #include <sinew/core/ends.hpp>
 #include <sinew/core/lists.hpp>
+#include <sinew/force/rigid_spring_law.hpp>
 #include <sinew/force/spring_ends.hpp>
 #include <sinew/force/spring_law.hpp>
 
@@ -36,9 +37,9 @@ struct Spring {
 };
 
 /// Springs inside one body (`E` = Within), or between the states at two paths (`E` = Between<"a", "b/c">, at
-/// a common ancestor; `E` = Linked in a runtime tree); `first` then counts points of the first. They are
-/// given one by one as `springs`, or as lists that have one entry for each: springsIndices1 and
-/// springsIndices2, of which the springs have `stiffness`, `damping` and `lengths`.
+/// a common ancestor; `E` = Linked in a runtime tree); `first` then counts points of the first. Of rigid
+/// bodies they join the centres. They are given one by one as `springs`, or as lists that have one entry for
+/// each: springsIndices1 and springsIndices2, of which the springs have `stiffness`, `damping` and `lengths`.
 template <class D, class E = Within>
 struct StiffSpringForceField {
   using Ends = E;
@@ -87,7 +88,7 @@ struct StiffSpringForceField {
             .oneEach(Of::entries));
   }
 
-  using Driver = ElementDriver<SpringLaw, D>;
+  using Driver = std::conditional_t<D::rigid, ElementDriver<RigidSpringLaw, D>, ElementDriver<SpringLaw, D>>;
   Driver driver{};
 
   void init(InitContext<D> const& context) { init(context, context); }
@@ -105,8 +106,10 @@ struct StiffSpringForceField {
                     text("springs[", s, "] joins point ", spring.first, " to itself; give two points"));
       if (!of(where, "enabled", enabled, s, all.size(), true)) continue;
       const Real length =
-          spring.length ? Real(*spring.length)
-                        : (b.rest[std::size_t(spring.second)] - a.rest[std::size_t(spring.first)]).norm();
+          spring.length
+              ? Real(*spring.length)
+              : (D::center(b.rest[std::size_t(spring.second)]) - D::center(a.rest[std::size_t(spring.first)]))
+                    .norm();
       const bool string = of(where, "elongationOnly", elongationOnly, s, all.size(), false);
       points.push_back({spring.first, spring.second});
       rest.push_back({Real(spring.stiffness), Real(spring.damping), string ? -length : length});

@@ -182,7 +182,14 @@ inline constexpr std::array inert = std::to_array<ClassesLeftOut>(
       "does nothing: constraints by multipliers are solved where the root has a FreeMotionAnimationLoop"},
      {"CollisionGroupManager DefaultCollisionGroupManager TreeCollisionGroupManager CollisionGroup",
       "does nothing: bodies that touch stay under their own solvers; put them below one, so that their "
-      "contact is part of its system"}});
+      "contact is part of its system"},
+     {"MechanicalStateController",
+      "does nothing: it moves a body by events of a mouse or a device; take a HapticController, a "
+      "TrajectoryController, or the mouse of sinew view"},
+     {"SubsetTopologicalMapping",
+      "does nothing: a part of a mesh is what its own topology says; elements that are removed from the "
+      "whole go "
+      "from the part where that is below an IdentityMapping, and by their points"}});
 
 /// Classes that need a package, and are in programs that were built where it was installed.
 struct ClassOfPackage {

@@ -283,7 +283,12 @@ void Initialisation<RootScope>::initStatesBelow(S const& scope) {
     scope.raise();  // what follows a wrong state has nothing to stand on
   });
   scope.forEachComponent(states);
+  // beside a visual model alone it is of faces over the points of that, as a tube has them
+  bool state = false, visual = false;
+  scope.forEachComponent(on<role::State>([&](auto&) { state = true; }));
+  scope.forEachComponent(on<role::VisualModel>([&](auto&) { visual = true; }));
   auto topologies = on<role::Topology>([&](auto& c) {
+    if (!state && visual) return;
     scope.ifNew(c, again_, [&] { scope.withContext([&](auto const& context) { c.init(context); }); });
   });
   scope.forEachComponent(topologies);

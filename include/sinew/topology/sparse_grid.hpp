@@ -64,10 +64,11 @@ TopologyView sparse_grid_view(T const& t) {
 
 /// The finest cells of a topology, in the box around the surface.
 template <class T>
-detail::SurfaceCells cells_of_surface(T const& t, std::string const& at, Mesh const& surface) {
+detail::SurfaceCells cells_of_surface(T const& t, std::string const& at, Mesh const& surface,
+                                      bool mayBeOpen = false) {
   auto [low, high] = detail::box_of_surface(surface, t.min, t.max);
   const auto n = t.cellWidth > 0 ? detail::cubic_cells(t.cellWidth, low, high) : t.n;
-  return {at, surface, detail::finer_grid(at, n, t.nbVirtualFinerLevels), low, high};
+  return {at, surface, detail::finer_grid(at, n, t.nbVirtualFinerLevels), low, high, mayBeOpen};
 }
 
 template <class T>

@@ -10,10 +10,11 @@
 
 namespace sinew {
 
-/// A SparseGridRamificationTopology over several closed surfaces, one in another or beside it, each of a
-/// material of its own. A cell inside a surface has its coefficient c, one that touches it (a + c)/2 with
-/// that of the surfaces before, 0 where there was none; so surfaces come after those that enclose them.
-/// Young's moduli are multiplied by them. What joins cells is the surface of fileTopology.
+/// A SparseGridRamificationTopology over several surfaces, one in another or beside it, each of a material of
+/// its own. A cell inside a surface has its coefficient c, one that touches it (a + c)/2 with that of the
+/// surfaces before, 0 where there was none; so surfaces come after those that enclose them. Young's moduli
+/// are multiplied by them. Surfaces may be open: what they cut off from the border of the grid is inside.
+/// What joins cells is the surface of fileTopology.
 struct SparseGridMultipleTopology {
   using Role = role::Topology;
   static constexpr std::string_view className = "SparseGridMultipleTopology";
@@ -106,12 +107,12 @@ SINEW_ONCE void SparseGridMultipleTopology::generate(std::string_view where) {
   SparseGridMultipleTopology boxed = *this;
   boxed.min = low, boxed.max = high;
 
-  auto grid = cells_of_surface(boxed, at, surfaces[0]);
+  auto grid = cells_of_surface(boxed, at, surfaces[0], true);
   const std::vector<SurfaceCells::Kind> first = grid.kinds;
   std::vector<double> stiffness(first.size(), 0), mass(first.size(), 0);
   std::fill(grid.kinds.begin(), grid.kinds.end(), SurfaceCells::outside);
   for (std::size_t s = 0; s < surfaces.size(); ++s) {
-    const auto kinds = s == 0 ? first : cells_of_surface(boxed, at, surfaces[s]).kinds;
+    const auto kinds = s == 0 ? first : cells_of_surface(boxed, at, surfaces[s], true).kinds;
     const double k = s < stiffnessCoefs.size() ? stiffnessCoefs[s] : 1,
                  m = s < massCoefs.size() ? massCoefs[s] : 1;
     for (std::size_t c = 0; c < kinds.size(); ++c)

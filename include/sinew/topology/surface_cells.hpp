@@ -26,8 +26,8 @@ std::array<Eigen::Vector3d, 2> box_of_surface(Mesh const& surface, std::optional
 bool triangle_meets_box(Eigen::Vector3d const (&triangle)[3], Eigen::Vector3d const& center,
                         Eigen::Vector3d const& half);
 
-/// The cells of a regular grid, and on which side of a closed surface they are. Where it winds around a cell,
-/// that is inside.
+/// The cells of a regular grid, and on which side of a surface they are. Where a closed one winds around a
+/// cell, that is inside; of an open one, cells that it cuts off from the border of the grid.
 struct SurfaceCells {
   enum Kind : char { unknown, touched, inside, outside };
 
@@ -37,9 +37,10 @@ struct SurfaceCells {
   std::vector<Kind> kinds{};       // x fastest
   Eigen::Vector3d slack{0, 0, 0};  // what is this near touches, so that rounding opens no gap between cells
 
-  /// Throws Error of a grid above 2^24 points or an empty box, and where the surface is not closed.
+  /// Throws Error of a grid above 2^24 points or an empty box, and where the surface has to be closed and is
+  /// not.
   SurfaceCells(std::string const& at, Mesh const& surface, std::array<int, 3> const& n,
-               Eigen::Vector3d const& low, Eigen::Vector3d const& high);
+               Eigen::Vector3d const& low, Eigen::Vector3d const& high, bool mayBeOpen = false);
 
   std::size_t number(Eigen::Vector3i const& c) const {
     return std::size_t(c[0]) +
@@ -74,7 +75,7 @@ struct SurfaceCells {
     middle[longest] = (a[longest] + b[longest]) / 2;
     forCellsNear(triangle, middle, b, f);
   }
-  void decideRest(Mesh const& surface, std::string const& at);
+  void decideRest(Mesh const& surface, std::string const& at, bool mayBeOpen);
 };
 
 }  // namespace sinew::detail
@@ -160,7 +161,7 @@ SINEW_ONCE std::array<Eigen::Vector3d, 2> box_of_surface(Mesh const& surface,
 }
 
 SINEW_ONCE SurfaceCells::SurfaceCells(std::string const& at, Mesh const& surface, std::array<int, 3> const& n,
-                                      Eigen::Vector3d const& low, Eigen::Vector3d const& high)
+                                      Eigen::Vector3d const& low, Eigen::Vector3d const& high, bool mayBeOpen)
     : points(n) {
   check_grid(at, points, low, high, 2, 24);
   for (int c = 0; c < 3; ++c) {
@@ -175,10 +176,10 @@ SINEW_ONCE SurfaceCells::SurfaceCells(std::string const& at, Mesh const& surface
                                         surface.positions[std::size_t(t[2])]};
     forCellsNear(corners, [&](Eigen::Vector3i const& c) { kind(c) = touched; });
   }
-  decideRest(surface, at);
+  decideRest(surface, at, mayBeOpen);
 }
 
-SINEW_ONCE void SurfaceCells::decideRest(Mesh const& surface, std::string const& at) {
+SINEW_ONCE void SurfaceCells::decideRest(Mesh const& surface, std::string const& at, bool mayBeOpen) {
   // cells that no part of the surface separates are on one side of it: each connected lot of them is decided
   // by how often the surface winds around its first cell, its last and one between, which lie away from the
   // surface
@@ -198,6 +199,14 @@ SINEW_ONCE void SurfaceCells::decideRest(Mesh const& surface, std::string const&
             kind(next) = outside;
             region.push_back(next);
           }
+        if (mayBeOpen) {
+          const bool atBorder =
+              std::any_of(region.begin(), region.end(), [this](Eigen::Vector3i const& cell) {
+                return (cell.array() == 0).any() || (cell.array() == cells.array() - 1).any();
+              });
+          for (auto const& cell : region) kind(cell) = atBorder ? outside : inside;
+          continue;
+        }
         int windings = 0;
         for (const std::size_t c : {std::size_t(0), region.size() / 2, region.size() - 1}) {
           const Eigen::Vector3d p = (corner(region[c]) + corner(region[c] + Eigen::Vector3i::Ones())) / 2;

@@ -119,6 +119,8 @@ struct TopologicalChangeProcessor {
     const double due = next.time + done / count * changes.back().time, now = time + shift;
     if (due > now && std::abs(due - now) >= std::numeric_limits<double>::epsilon()) return false;
     take(kindOf(topology), next.elements, elements);
+    if (next.isShort)
+      noticed = "fewer numbers follow REMOVE= in the file than it says; those missing count as 0, as in SOFA";
     return true;
   }
   void elementsRemoved() { ++done; }

@@ -69,7 +69,7 @@ class ImpliedValues {
         } else if (dialect::has(topologyLists, field.name)) {
           from = named && named->info ? named : at->ofRole(RoleKind::topology);
         }
-        if (!from || !offered(*from->info, data) || leadsTo(*from, item)) continue;
+        if (!from || !offered(*from->info, data) || takesFrom(*from, item)) continue;
         messages_.locate(item, [&] {
           field.read(item.address, values_.valueOf({from, nullptr, data}));
           item.links[std::string(field.name)] =
@@ -230,19 +230,6 @@ class ImpliedValues {
   ComponentValues<R>& values_;
   SceneMessages& messages_;
 
-  // whether a component is made from another one, by links that are written
-  static bool leadsTo(SceneItem& from, SceneItem const& item, int depth = 0) {
-    for (auto const& a : from.element->attributes) {
-      if (!is_link(a.value) || depth > 100) continue;
-      try {
-        SceneItem* const to = follow_link(from, a.value).item;
-        if (to == &item || (to && leadsTo(*to, item, depth + 1))) return true;
-      } catch (Error const&) {  // said where it is followed
-      }
-    }
-    return false;
-  }
-
   static constexpr auto topologyLists =
       std::to_array<std::string_view>({"edges", "triangles", "quads", "tetrahedra", "hexahedra"});
 
@@ -258,6 +245,24 @@ class ImpliedValues {
     }
     if (from == item.place->ofRole(RoleKind::topology))
       if (FieldInfo const* const same = item.info->field("points_of_topology")) same->read(item.address, "1");
+  }
+  // whether links of a component lead to another one, through others or not
+  static bool takesFrom(SceneItem& from, SceneItem const& item) {
+    std::set<SceneItem const*> seen;
+    return takesFrom(from, item, seen);
+  }
+  static bool takesFrom(SceneItem& from, SceneItem const& item, std::set<SceneItem const*>& seen) {
+    if (&from == &item) return true;
+    if (!seen.insert(&from).second || seen.size() > 1000) return false;
+    for (auto const& a : from.element->attributes) {
+      if (!is_link(a.value) || a.name == "input" || a.name == "output") continue;
+      try {
+        if (SceneItem* const to = follow_link(from, a.value).item; to && takesFrom(*to, item, seen))
+          return true;
+      } catch (Error const&) {  // is said where the attribute is read
+      }
+    }
+    return false;
   }
   static bool isIdentity(ScenePlace const& place) {
     SceneItem const* const mapping = place.ofRole(RoleKind::mapping);
