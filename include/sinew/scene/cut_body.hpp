@@ -23,6 +23,14 @@ struct CutOrder {
       before{};  // where the points were when the blade started; empty: where they are
 };
 
+/// What a cut has done.
+struct Cut {
+  TopologyChange change{};
+  std::size_t elements = 0;  // through which the blade has gone
+  std::size_t faces = 0;     // that have parted
+  CutFront front{};          // what the blade is not done with
+};
+
 /// A body that is cut: all states that have its points, one by one, with the topologies and visual models
 /// over them.
 template <class RootScope>

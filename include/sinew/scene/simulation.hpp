@@ -26,14 +26,6 @@
 
 namespace sinew {
 
-/// What a cut has done.
-struct Cut {
-  TopologyChange change{};
-  std::size_t elements = 0;  // through which the blade has gone
-  std::size_t faces = 0;     // that have parted
-  CutFront front{};          // what the blade is not done with
-};
-
 /// A typed scene that runs: init(), then animate(dt) as often as wanted. After init a step neither allocates
 /// nor makes an indirect call. Copies of a simulation are independent of each other. A runtime tree runs in
 /// the same way (runtime/node.hpp).
@@ -320,6 +312,8 @@ void Simulation<Root>::animate(double dt) {
     if constexpr (holds<Root, role::TopologicalChange>())
       step.changeTopology([&](auto const& path, auto const& elements) { removeElements(path, elements); });
     step.begin();
+    if constexpr (holds<Root, role::Cutting>())
+      step.cut([&](auto const& path, auto const& order) { return cut(path, order); });
     if constexpr (collides<RootScope>) step.detectContacts();
     if constexpr (collides<RootScope> && holds<Root, role::Carving>())
       if (step.carve([&](auto const& path, auto const& elements) { removeElements(path, elements); }))
