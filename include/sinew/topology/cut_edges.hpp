@@ -29,7 +29,7 @@ class CutEdges {
     std::stable_sort(crossings.begin(), crossings.end(), before);
     crossings.erase(std::unique(crossings.begin(), crossings.end(), sameEdge), crossings.end());
     used.assign(crossings.size(), 0);
-    on.assign(rest.size(), 0);
+    on = inFront;
     setSides(crossed.sides);
     findWhole();
     if (whole == 0) return;

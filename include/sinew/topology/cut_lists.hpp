@@ -120,12 +120,11 @@ class CutLists {
                         now.crossings.end());
     for (std::size_t i = 0; i < parts_.copied.size(); ++i)
       if (isEnd(i)) now.points.push_back(Index(i));
-    std::sort(now.points.begin(), now.points.end());
-    now.points.erase(std::unique(now.points.begin(), now.points.end()), now.points.end());
     std::vector<char> known(edges_.rest.size() + parts_.origins.size(), 0);
     for (auto const& part : parts_.parts) {
       if (!hasEnd(part.points)) continue;
       for (std::size_t k = 0; k < N; ++k) {
+        if (parts_.inCut(part.points[k])) now.points.push_back(part.now[k]);
         if (std::size_t(part.points[k]) >= edges_.rest.size()) continue;
         auto const& side = edges_.side[std::size_t(part.points[k])];
         if (side.side == 0 || known[std::size_t(part.now[k])]) continue;
@@ -135,6 +134,8 @@ class CutLists {
     }
     for (auto const& side : edges_.side)
       if (side.side != 0 && parts_.partsAt(side.point).empty()) now.sides.push_back(side);
+    std::sort(now.points.begin(), now.points.end());
+    now.points.erase(std::unique(now.points.begin(), now.points.end()), now.points.end());
     return now;
   }
 

@@ -63,6 +63,9 @@ class CutParts {
   std::vector<char> copied{};      // points that are there more than once now
   std::vector<char> inSheet{};     // points of faces that part
 
+  bool isOld(Index point) const { return std::size_t(point) < edges_.rest.size(); }
+  /// Whether the cut passes through a point.
+  bool inCut(Index point) const { return !isOld(point) || edges_.on[std::size_t(point)]; }
   /// Of the parts at a point, before points part, the numbers.
   std::span<std::pair<Index, Index> const> partsAt(Index point) const {
     const auto range = std::equal_range(partsAt_.begin(),
@@ -87,9 +90,6 @@ class CutParts {
   std::vector<std::pair<Index, Index>> partsAt_{};  // point, part
   std::vector<Face> closed_{};
   std::vector<char> near_{};  // points all of whose elements are needed
-
-  bool isOld(Index point) const { return std::size_t(point) < edges_.rest.size(); }
-  bool inCut(Index point) const { return !isOld(point) || edges_.on[std::size_t(point)]; }
 
   void findParts() {
     auto const& elements = edges_.elements;
