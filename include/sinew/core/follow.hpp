@@ -6,6 +6,8 @@
 #include <sinew/core/renumbering.hpp>
 #include <sinew/core/role.hpp>
 
+#include <functional>
+
 namespace sinew {
 
 /// What becomes of all that a component may refer to, when points and elements go or come. Parts of an
@@ -19,6 +21,8 @@ struct Followed {
   Renumbering const& secondPoints;
   Renumbering const& parentPoints;
   TopologyChange const& topology;
+  /// Of a body that is cut: whether what joins two of its points still does, and between which then.
+  std::function<bool(Index&, Index&)> joined{};
 
   Renumbering const& numbered(Of what) const;
   int dimensionOf(Of what) const {
@@ -58,15 +62,23 @@ struct ListsThatFollow {
   static bool isEntry(Of what) { return what == Of::points || what == Of::secondPoints; }
 
   template <class T>
-  void markStructs(std::vector<T> const& list) {
-    for (auto const& item : list) {
+  void markStructs(std::vector<T>& list) {
+    for (auto& item : list) {
       bool stays = true;
-      for_each_number(item, [&](Of what, int i) { stays = stays && change.numbered(what).stays(i); });
+      int* ends[2]{};
+      for_each_number(item, [&](Of what, int& i) {
+        stays = stays && change.numbered(what).stays(i);
+        if (isEntry(what)) ends[what == Of::secondPoints] = &i;
+      });
+      if (change.joined && ends[0] && ends[1]) stays = stays && change.joined(*ends[0], *ends[1]);
       structs.push_back(stays);
     }
   }
-  void markNumbers(std::vector<int> const& list, Of what);
+  std::vector<int>* endLists[2]{};  // of the points that others join
+  void markNumbers(std::vector<int>& list, Of what);
+  void markJoined();
   void marked() {
+    markJoined();
     const auto before = Index(structs.size());
     std::vector<Origin> comeBehind = comeOfEntries;
     for (Origin& o : comeBehind) o.a += before, o.b += before;
@@ -144,13 +156,21 @@ std::vector<bool> mapped_points_that_stay(M const& mapping, Renumbering const& p
 }  // namespace sinew
 
 #if SINEW_DEFINES
+#include <algorithm>
 #include <map>
 #include <set>
 
 namespace sinew::detail {
 
-SINEW_ONCE void ListsThatFollow::markNumbers(std::vector<int> const& list, Of what) {
+SINEW_ONCE void ListsThatFollow::markJoined() {
+  if (!change.joined || !endLists[0] || !endLists[1]) return;
+  for (std::size_t i = 0; i < std::min(endLists[0]->size(), endLists[1]->size()); ++i)
+    if (!change.joined((*endLists[0])[i], (*endLists[1])[i])) entries[i] = false;
+}
+
+SINEW_ONCE void ListsThatFollow::markNumbers(std::vector<int>& list, Of what) {
   if (!isEntry(what)) return;
+  endLists[what == Of::secondPoints] = &list;
   if (entries.size() < list.size()) entries.resize(list.size(), true);
   for (std::size_t i = 0; i < list.size(); ++i)
     if (!change.numbered(what).stays(list[i])) entries[i] = false;

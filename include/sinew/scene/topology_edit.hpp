@@ -8,6 +8,7 @@
 #include <sinew/scene/states_of.hpp>
 #include <sinew/topology/removal_plan.hpp>
 
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -79,6 +80,7 @@ class TopologyEdit {
   RemovedBorder border_{};
   std::map<void const*, BorderLists> borders_{};  // of the topologies and visual models that are the border
   CutPlan cut_{};
+  std::function<bool(Index&, Index&)> joined_{};             // of what joins points of the body that is cut
   std::map<void const*, CutPlan::Lists const*> cutLists_{};  // of topologies and visual models that are cut
 
   void find(std::string_view path) {
@@ -170,6 +172,19 @@ class TopologyEdit {
       ofTopology_[topology_].points = cut_.points;
       return;
     }
+    joined_ = [this, blade = order.stroke.blade, x = body.positions()](Index& i, Index& j) {
+      const Edge edge{std::min(i, j), std::max(i, j)};
+      if (std::binary_search(cut_.split.begin(), cut_.split.end(), edge)) return false;
+      const auto moved = std::lower_bound(
+          cut_.moved.begin(), cut_.moved.end(), edge, [](auto const& m, Edge const& e) { return m[0] < e; });
+      if (moved != cut_.moved.end() && (*moved)[0] == edge) {
+        const Edge now = (*moved)[1];
+        const bool rising = i < j;
+        i = now[rising ? 0 : 1], j = now[rising ? 1 : 0];
+        return true;
+      }
+      return !blade.crossing(x[std::size_t(i)], x[std::size_t(j)], Eigen::Vector3d::Zero());
+    };
     samePoints_ = body.states;
     touchedStates_ = samePoints_;
     for (void const* state : samePoints_) ofState_[state] = cut_.points;
@@ -342,7 +357,8 @@ class TopologyEdit {
                       {ofState(scope.stateAddress()),
                        ofState(scope.stateAddress()),
                        {},
-                       ofTopology(scope.topologyAddress())});
+                       ofTopology(scope.topologyAddress()),
+                       samePoints_.contains(scope.stateAddress()) ? joined_ : nullptr});
     }
   }
   void give(ElementLists const& lists, CutPlan::Lists const& now) const {

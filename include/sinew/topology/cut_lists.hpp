@@ -86,6 +86,27 @@ class CutLists {
   }
   std::size_t facesApart() const { return bare_.size() / 2; }
 
+  std::vector<Edge> splitEdges() const {
+    std::vector<Edge> all;
+    for (EdgeSplit const& s : edges_.splits) all.push_back({s.a, s.b});
+    std::sort(all.begin(), all.end());
+    return all;
+  }
+  /// Edges of elements, the lower point first before.
+  std::vector<std::array<Edge, 2>> movedEdges() const {
+    std::vector<std::array<Edge, 2>> all;
+    for (auto const& part : parts_.parts)
+      for (std::size_t i = 0; i < N; ++i)
+        for (std::size_t j = 0; j < N; ++j) {
+          const Edge before{part.points[i], part.points[j]}, now{part.now[i], part.now[j]};
+          if (before[0] < before[1] && std::size_t(before[1]) < edges_.rest.size() &&
+              (parts_.copied[std::size_t(before[0])] || parts_.copied[std::size_t(before[1])]))
+            all.push_back({before, now});
+        }
+    std::sort(all.begin(), all.end());
+    return all;
+  }
+
   /// What the blade is not done with: crossings of edges that an element has through
   /// which it has not gone, or which is at the end of the cut.
   CutFront front() const {

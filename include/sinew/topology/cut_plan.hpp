@@ -5,6 +5,7 @@
 #include <sinew/core/component.hpp>
 #include <sinew/topology/cut_rules.hpp>
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -21,8 +22,10 @@ struct CutPlan {
   std::vector<TopologyChange> ofTopology{};  // of each
   std::vector<Lists> lists{};                // what each has then
   CutFront front{};
-  std::size_t elements = 0;  // through which the blade has gone
-  std::size_t faces = 0;     // that part
+  std::vector<Edge> split{};                 // edges that have come apart, in rising order
+  std::vector<std::array<Edge, 2>> moved{};  // edges with a point that is there twice: before, and now
+  std::size_t elements = 0;                  // through which the blade has gone
+  std::size_t faces = 0;                     // that part
 
   bool changes() const { return points.changes(); }
 };
@@ -74,6 +77,8 @@ CutPlan plan_cut_of(std::vector<Eigen::Vector3d> const& rest, std::span<std::arr
   const CutLists<N> cut(edges, parts);
   plan.faces = cut.facesApart();
   plan.front = cut.front();
+  plan.split = cut.splitEdges();
+  plan.moved = cut.movedEdges();
   plan.points = Renumbering::grown(rest.size(), parts.origins);
   if (plan.points.size() > rules.capacity)
     throw Error({},
