@@ -51,6 +51,9 @@
 #include <sinew/topology/quality.hpp>
 #include <sinew/topology/regular_grid.hpp>
 #include <sinew/topology/regular_grid_topology.hpp>
+#include <sinew/topology/blade.hpp>
+#include <sinew/topology/cut_plan.hpp>
+#include <sinew/topology/cut_rules.hpp>
 #include <sinew/topology/removal_plan.hpp>
 #include <sinew/topology/round_grid.hpp>
 #include <sinew/topology/shape_file.hpp>

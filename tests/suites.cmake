@@ -16,7 +16,7 @@ elseif(NOT SINEW_TEST_SUITE STREQUAL "quick")
   message(FATAL_ERROR "SINEW_TEST_SUITE is '${SINEW_TEST_SUITE}'; it is quick or all")
 endif()
 
-set(quick_topology adjacency hexahedra mesh_topology regular_grid regular_grid_topology removal_plan round_grids surface_mesh)
+set(quick_topology adjacency cut_plan hexahedra mesh_topology regular_grid regular_grid_topology removal_plan round_grids surface_mesh)
 set(quick_collision axis_box bounding_tree broad_phase closest_points contact_laws contact_scenes friction overlap ray_hits surface_elements
     time_of_impact)
 set(quick_scene bad_input element_removal picking place reset simulation)

@@ -122,6 +122,7 @@ RoleWords words_of(sinew::RoleKind role) {
         "../collision.md#models",
         "collision models"},
        {"Carving", "Takes away what tools touch.", collision, howFound},
+       {"Cutting", "Parts what blades go through.", "../runtime.md#cuts", "cuts"},
        {"Topological changes",
         "Take elements out of the topology of the node, or the nearest above, while the scene runs.",
         "../runtime.md#elements-that-go",

@@ -1281,6 +1281,24 @@ constexpr auto classExamples = std::to_array<ClassExample>({
   <FixedConstraint indices="0 1"/>
   <TopologyBoundingTrasher box="-1 -1 -0.5 2 3 1"/>
 </Node>)"},
+    {"CuttingManager", R"(
+<Node name="root" gravity="0 0 -9.81">
+  <CuttingManager toolModel="@blade" bodyModel="@sheet"/>
+  <Node name="sheet">
+    <EulerImplicitSolver rayleighStiffness="0.05"/>
+    <CGLinearSolver iterations="50" tolerance="1e-8"/>
+    <GridMeshCreator name="grid" resolution="8 8" trianglePattern="1"/>
+    <MeshTopology triangles="@grid.triangles"/>
+    <MechanicalObject src="@grid"/>
+    <DiagonalMass massDensity="1"/>
+    <TriangleFEMForceField youngModulus="2000" poissonRatio="0.3" thickness="0.01"/>
+    <FixedConstraint indices="0 7 56 63"/>
+  </Node>
+  <Node name="blade">
+    <MechanicalObject position="0.5 -0.1 -1  0.5 -0.1 1"/>
+    <LinearMovementConstraint indices="0 1" keyTimes="0 1" movements="0 0 0  0 1 0"/>
+  </Node>
+</Node>)"},
     {"CarvingManager", R"(
 <Node name="root" gravity="0 0 -9.81">
   <DefaultPipeline/>

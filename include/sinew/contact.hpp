@@ -9,6 +9,7 @@
 #include <sinew/collision/collision_model.hpp>
 #include <sinew/collision/contact_manager.hpp>
 #include <sinew/collision/continuous_intersection.hpp>
+#include <sinew/collision/cutting_manager.hpp>
 #include <sinew/collision/default_pipeline.hpp>
 #include <sinew/collision/discrete_intersection.hpp>
 #include <sinew/collision/line_collision_model.hpp>

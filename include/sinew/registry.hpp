@@ -186,7 +186,7 @@ using ConvexCollisionModels = Registry<>;
 using StandardCollision =
     Registry<DefaultPipeline, BruteForceBroadPhase, TreeBroadPhase, BVHNarrowPhase, LocalMinDistance,
              MinProximityIntersection, DiscreteIntersection, ContinuousIntersection, DefaultContactManager,
-             CarvingManager, PointCollisionModels<Vec3d>, SphereCollisionModel<Rigid3d>,
+             CarvingManager, CuttingManager, PointCollisionModels<Vec3d>, SphereCollisionModel<Rigid3d>,
              ConvexCollisionModels>;
 
 template <class D>

@@ -18,6 +18,7 @@
 #include <sinew/core/roles/constraint_solver.hpp>
 #include <sinew/core/roles/contact_manager.hpp>
 #include <sinew/core/roles/context.hpp>
+#include <sinew/core/roles/cutting.hpp>
 #include <sinew/core/roles/engine.hpp>
 #include <sinew/core/roles/execution.hpp>
 #include <sinew/core/roles/force_field.hpp>

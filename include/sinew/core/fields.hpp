@@ -45,7 +45,7 @@ struct DataFile {
 };
 
 /// What the entries of a list stand for, so that they follow when points and elements are removed while a
-/// scene runs (scene/element_removal.hpp).
+/// scene runs (scene/topology_edit.hpp).
 enum class Of {
   nothing,
   points,        // of the state on which the component acts; of the first end of an interaction

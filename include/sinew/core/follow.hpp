@@ -4,18 +4,25 @@
 #include <sinew/core/compiled.hpp>
 #include <sinew/core/fields.hpp>
 #include <sinew/core/renumbering.hpp>
+#include <sinew/core/role.hpp>
+
+#include <functional>
 
 namespace sinew {
 
-/// What becomes of all that a component may refer to, when points and elements are removed. A component whose
-/// values do not follow by Field::numbersOf and Field::oneEach alone offers follow(Followed const&), called
-/// before its fields are changed. One for which an empty list of points means all of them, or that has the
-/// number of a single point, has a member `none`, set where the last of its points goes.
+/// What becomes of all that a component may refer to, when points and elements go or come. Parts of an
+/// element are in a list where it was. Points that come are in that of a constraint or a collision model,
+/// where all those were between which they are; a force stays on the points on which it was. A component
+/// whose values do not follow by Field::numbersOf and Field::oneEach alone offers follow(Followed const&),
+/// called before its fields are changed. One for which an empty list of points means all of them, or that has
+/// the number of a single point, has a member `none`, set where the last of its points goes.
 struct Followed {
   Renumbering const& points;
   Renumbering const& secondPoints;
   Renumbering const& parentPoints;
   TopologyChange const& topology;
+  /// Of a body that is cut: whether what joins two of its points still does, and between which then.
+  std::function<bool(Index&, Index&)> joined{};
 
   Renumbering const& numbered(Of what) const;
   int dimensionOf(Of what) const {
@@ -46,25 +53,39 @@ void for_each_number(T& owner, F&& f) {
 /// How the lists of one component follow: first all are marked, then changed.
 struct ListsThatFollow {
   Followed const& change;
+  bool grows;                              // points between its own are its own
   std::vector<bool> structs{}, entries{};  // which stay, of lists of structs and of lists of points
   Renumbering ofStructs{}, ofEntries{}, ofBoth{};
+  std::vector<Index> come{};  // points that come into the lists of points
   bool emptied = false;
 
   static bool isEntry(Of what) { return what == Of::points || what == Of::secondPoints; }
 
   template <class T>
-  void markStructs(std::vector<T> const& list) {
-    for (auto const& item : list) {
+  void markStructs(std::vector<T>& list) {
+    for (auto& item : list) {
       bool stays = true;
-      for_each_number(item, [&](Of what, int i) { stays = stays && change.numbered(what).stays(i); });
+      int* ends[2]{};
+      for_each_number(item, [&](Of what, int& i) {
+        stays = stays && change.numbered(what).stays(i);
+        if (isEntry(what)) ends[what == Of::secondPoints] = &i;
+      });
+      if (change.joined && ends[0] && ends[1]) stays = stays && change.joined(*ends[0], *ends[1]);
       structs.push_back(stays);
     }
   }
-  void markNumbers(std::vector<int> const& list, Of what);
+  std::vector<int>* endLists[2]{};  // of the points that others join
+  void markNumbers(std::vector<int>& list, Of what);
+  void markJoined();
   void marked() {
+    markJoined();
+    const auto before = Index(structs.size());
+    std::vector<Origin> comeBehind = comeOfEntries;
+    for (Origin& o : comeBehind) o.a += before, o.b += before;
     ofStructs = Renumbering::of(structs), ofEntries = Renumbering::of(entries);
     structs.insert(structs.end(), entries.begin(), entries.end());
     ofBoth = Renumbering::of(structs);
+    ofEntries.come = comeOfEntries, ofBoth.come = comeBehind;
   }
 
   template <class T>
@@ -73,6 +94,7 @@ struct ListsThatFollow {
     for (auto& item : list)
       for_each_number(item, [&](Of what, int& i) { change.numbered(what).renumber(i); });
   }
+  std::vector<Origin> comeOfEntries{};
   void changeNumbers(std::vector<int>& list, Of what);
   void changeNumber(int& number, Of what);
   template <class T>
@@ -88,7 +110,8 @@ struct ListsThatFollow {
 template <class C>
 void follow_fields(C& component, Followed const& change) {
   if constexpr (requires { component.follow(change); }) component.follow(change);
-  detail::ListsThatFollow lists{change};
+  detail::ListsThatFollow lists{change,
+                                HasRole<C, role::ProjectiveConstraint> || HasRole<C, role::CollisionModel>};
   for_each_field(component, [&]<class List>(auto const& fd, List& list) {
     if constexpr (detail::is_struct_list<List>)
       lists.markStructs(list);
@@ -133,25 +156,53 @@ std::vector<bool> mapped_points_that_stay(M const& mapping, Renumbering const& p
 }  // namespace sinew
 
 #if SINEW_DEFINES
+#include <algorithm>
+#include <map>
+#include <set>
+
 namespace sinew::detail {
 
-SINEW_ONCE void ListsThatFollow::markNumbers(std::vector<int> const& list, Of what) {
+SINEW_ONCE void ListsThatFollow::markJoined() {
+  if (!change.joined || !endLists[0] || !endLists[1]) return;
+  for (std::size_t i = 0; i < std::min(endLists[0]->size(), endLists[1]->size()); ++i)
+    if (!change.joined((*endLists[0])[i], (*endLists[1])[i])) entries[i] = false;
+}
+
+SINEW_ONCE void ListsThatFollow::markNumbers(std::vector<int>& list, Of what) {
   if (!isEntry(what)) return;
+  endLists[what == Of::secondPoints] = &list;
   if (entries.size() < list.size()) entries.resize(list.size(), true);
   for (std::size_t i = 0; i < list.size(); ++i)
     if (!change.numbered(what).stays(list[i])) entries[i] = false;
+  if (!grows || what != Of::points || change.points.come.empty() || !come.empty()) return;
+  std::map<Index, Index> entryOf;
+  for (std::size_t i = 0; i < list.size(); ++i) entryOf.emplace(list[i], Index(i));
+  for (std::size_t k = 0; k < change.points.come.size(); ++k) {
+    Origin const& o = change.points.come[k];
+    const auto a = entryOf.find(o.a), b = entryOf.find(o.b);
+    if (a == entryOf.end() || b == entryOf.end()) continue;
+    comeOfEntries.push_back({a->second, b->second, o.weight});
+    come.push_back(Index(change.points.kept.size() + k));
+  }
 }
 
 SINEW_ONCE void ListsThatFollow::changeNumbers(std::vector<int>& list, Of what) {
   const bool before = !list.empty();
   Renumbering const& numbered = change.numbered(what);
-  if (isEntry(what))
-    ofEntries.filter(list);
-  else if (what == Of::parentPoints)
+  std::vector<Index> more;
+  if (isEntry(what)) {
+    Renumbering::of(entries).filter(list);
+    if (what == Of::points) more = come;
+  } else if (what == Of::parentPoints) {
     change.points.filter(list);
-  else
+  } else {
+    const std::set<Index> had(list.begin(), list.end());
+    for (std::size_t k = 0; k < numbered.come.size(); ++k)
+      if (had.contains(numbered.come[k].a)) more.push_back(Index(numbered.kept.size() + k));
     std::erase_if(list, [&](int i) { return !numbered.stays(i); });
+  }
   for (int& i : list) numbered.renumber(i);
+  list.insert(list.end(), more.begin(), more.end());
   emptied = emptied || (before && list.empty());
 }
 

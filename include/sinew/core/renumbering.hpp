@@ -6,33 +6,66 @@
 
 #include <array>
 #include <cstddef>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace sinew {
 
-/// Points or elements of which some go. What stays keeps its order.
+/// Of what a point or an element is that comes: x = (1 - weight) x_a + weight x_b, by old numbers. A part or
+/// a copy of one has a = b.
+struct Origin {
+  Index a, b;
+  double weight;
+};
+
+/// The value of what comes, from that of what it comes of. What cannot be weighed is that of the nearer one.
+template <class T>
+T value_between(T const& a, T const& b, double weight) {
+  if constexpr (std::is_floating_point_v<T>)
+    return weight == 0 ? a : (1 - T(weight)) * a + T(weight) * b;
+  else if constexpr (requires(typename T::Scalar factor) { factor* b; })
+    return weight == 0 ? a : T((1 - typename T::Scalar(weight)) * a + typename T::Scalar(weight) * b);
+  else
+    return weight < 0.5 ? a : b;
+}
+
+/// Points or elements of which some go, and others come. What stays keeps its order, and what comes is behind
+/// it.
 struct Renumbering {
-  std::vector<Index> kept{};  // old numbers, by new ones
-  std::vector<Index> now{};   // new numbers, by old ones; -1 for what has gone
+  std::vector<Index> kept{};   // old numbers of what stays, by new ones
+  std::vector<Index> now{};    // new numbers, by old ones; -1 for what has gone
+  std::vector<Origin> come{};  // of what all that comes is
 
   static Renumbering of(std::vector<bool> const& stays);
   /// The same in place: allocates nothing for as many as there were room for.
   void set(std::vector<bool> const& stays);
+  /// So many that all stay, and others that come.
+  static Renumbering grown(std::size_t stay, std::vector<Origin> come);
 
   std::vector<bool> stays() const {
     std::vector<bool> all;
     for (const Index n : now) all.push_back(n >= 0);
     return all;
   }
-  bool changes() const { return kept.size() != now.size(); }
+  bool changes() const { return kept.size() != now.size() || !come.empty(); }
+  /// How many there are now.
+  std::size_t size() const { return kept.size() + come.size(); }
   bool stays(Index old) const { return std::size_t(old) >= now.size() || now[std::size_t(old)] >= 0; }
 
-  /// Takes out of a list with one entry for each what has gone.
+  /// Takes out of a list with one entry for each what has gone, and puts behind it what has come.
   template <class List>
   void filter(List& list) const {
     if (!changes() || list.size() != now.size()) return;
+    std::vector<typename List::value_type> values;
+    values.reserve(come.size());
+    for (auto const& [a, b, weight] : come) {
+      using Value = typename List::value_type;
+      values.push_back(value_between<Value>(list[std::size_t(a)], list[std::size_t(b)], weight));
+    }
     for (std::size_t i = 0; i < kept.size(); ++i) list[i] = list[std::size_t(kept[i])];
     list.resize(kept.size());
+    list.insert(list.end(), values.begin(), values.end());
   }
   /// Puts the new number in the place of the old one.
   void renumber(Index& number) const {
@@ -106,6 +139,7 @@ namespace sinew {
 SINEW_ONCE void Renumbering::set(std::vector<bool> const& stays) {
   kept.clear();
   now.clear();
+  come.clear();
   for (std::size_t i = 0; i < stays.size(); ++i) {
     now.push_back(stays[i] ? Index(kept.size()) : -1);
     if (stays[i]) kept.push_back(Index(i));
@@ -118,9 +152,18 @@ SINEW_ONCE Renumbering Renumbering::of(std::vector<bool> const& stays) {
   return r;
 }
 
+SINEW_ONCE Renumbering Renumbering::grown(std::size_t stay, std::vector<Origin> come) {
+  Renumbering r = of(std::vector<bool>(stay, true));
+  r.come = std::move(come);
+  return r;
+}
+
 SINEW_ONCE Renumbering TopologyChange::ofDimension(int dimension, std::size_t size) const {
   if (dimension == 0) return {};
   constexpr int simplex[] = {0, 1, 3}, other[] = {-1, 2, 4};
+  // (of bodies with others besides none is cut)
+  if (Renumbering const& only = elements[std::size_t(simplex[dimension - 1])]; !only.come.empty())
+    return only;
   std::vector<bool> stays = elements[std::size_t(simplex[dimension - 1])].stays();
   if (dimension > 1) {
     Renumbering const& others = elements[std::size_t(other[dimension - 1])];

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <sinew/collision/contact.hpp>
-#include <sinew/scene/element_removal.hpp>
 #include <sinew/scene/path.hpp>
+#include <sinew/scene/topology_edit.hpp>
 
 #include <algorithm>
 #include <array>

@@ -177,6 +177,7 @@ struct Collision {
         });
       });
       if (any_below<role::Carving>(root)) why = "tools carve in this scene";
+      if (any_below<role::Cutting>(root)) why = "blades cut in this scene";
       if (hasSeveralModels(scope)) why = "a state has several models of points or spheres";
       if (!why.empty()) {
         mark(false);

@@ -4,6 +4,7 @@
 #include <sinew/scene/carving.hpp>
 #include <sinew/scene/changing_points.hpp>
 #include <sinew/scene/collision.hpp>
+#include <sinew/scene/cutting.hpp>
 #include <sinew/scene/fluid_boundaries.hpp>
 #include <sinew/scene/immersed_bodies.hpp>
 #include <sinew/scene/loose_interactions.hpp>
@@ -242,6 +243,8 @@ void Initialisation<RootScope>::run() {
   Collision<RootScope>{root_}.init(bool(again_));
   if constexpr (holds<typename RootScope::NodeType, role::Carving>())
     if (again_.touched.empty()) Carving<RootScope>{root_}.check();
+  if constexpr (holds<typename RootScope::NodeType, role::Cutting>())
+    if (again_.touched.empty()) Cutting<RootScope>{root_}.check();
   if constexpr (holds<typename RootScope::NodeType, role::TopologicalChange>())
     if (again_.touched.empty()) TopologicalChanges<RootScope>{root_}.prepare();
   FluidBoundaries<RootScope>{root_}.init();

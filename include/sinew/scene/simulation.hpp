@@ -7,11 +7,11 @@
 #include <sinew/scene/mistakes.hpp>
 
 #include <sinew/core/step_warnings.hpp>
-#include <sinew/scene/element_removal.hpp>
 #include <sinew/scene/force_report.hpp>
 #include <sinew/scene/initialise.hpp>
 #include <sinew/scene/picking.hpp>
 #include <sinew/scene/step.hpp>
+#include <sinew/scene/topology_edit.hpp>
 #include <sinew/scene/visuals.hpp>
 
 #include <algorithm>
@@ -145,6 +145,21 @@ class Simulation {
   /// nothing has changed then.
   TopologyChange removeElements(std::string_view path, ElementNumbers const& elements);
 
+  /// Cuts the topology of the node at a path from the root ("liver"), tetrahedra or else triangles, along
+  /// what a blade sweeps, where the body is now (plan_cut): elements through which it goes are parted, their
+  /// points are there twice, and what comes is between what there was, in place, at rest and in velocity. All
+  /// that refers to them follows: parts of an element have its material, constraints hold points between
+  /// those that they held, states with the same points are cut with them, the surface that collides, and one
+  /// that is looked at or listed whole beside the volume, get the faces that are laid bare; the rest is
+  /// initialised again. Volume and strain stay, and so do mass and momentum of masses by density. Throws
+  /// Error where the blade is none, where something stands on the points that cannot follow, and where there
+  /// would be too many points: nothing has changed then. A blade that misses does nothing.
+  Cut cut(std::string_view path, Blade const& blade, CutRules const& rules = {}) {
+    return cut(path, CutOrder{.stroke = {SweptBlade("Simulation::cut", blade)}, .rules = rules});
+  }
+  /// The same with what a blade was not done with, and is not now.
+  Cut cut(std::string_view path, CutOrder const& order);
+
   /// What the ray from `origin` along `direction` meets first of the collision models, where they are now, up
   /// to maxDistance [m]: triangles and spheres, from outside or inside, and lines and points that it passes
   /// within `tolerance` of. Throws Error where the ray is not one.
@@ -251,7 +266,7 @@ TopologyChange Simulation<Root>::removeElements(std::string_view path, ElementNu
     Root next(root_);
     const auto scope = scopeOf(next);
     scope.settled();
-    ElementRemoval removal(scope, path, elements);
+    TopologyEdit removal(scope, path, elements);
     removal.apply();
     Initialisation<RootScope>(scope, removal.touched()).run();
     change = removal.change();
@@ -259,6 +274,30 @@ TopologyChange Simulation<Root>::removeElements(std::string_view path, ElementNu
     propagate();
   }
   return change;
+}
+
+template <class Root>
+Cut Simulation<Root>::cut(std::string_view path, CutOrder const& order) {
+  initialisedFor("cut");
+  Cut done;
+  if constexpr (proved) {
+    check_rules(text("cut of '", path, "'"), order.rules);
+    {
+      const auto here = rootScope();
+      TopologyEdit edit(here, path, order);
+      done = {edit.change(), edit.cut().elements, edit.cut().faces, edit.cut().front};
+      if (!edit.cut().changes()) return done;
+    }
+    Root next(root_);
+    const auto scope = scopeOf(next);
+    scope.settled();
+    TopologyEdit edit(scope, path, order);
+    edit.apply();
+    Initialisation<RootScope>(scope, edit.touched()).run();
+    root_ = std::move(next);
+    propagate();
+  }
+  return done;
 }
 
 template <class Root>
@@ -273,6 +312,8 @@ void Simulation<Root>::animate(double dt) {
     if constexpr (holds<Root, role::TopologicalChange>())
       step.changeTopology([&](auto const& path, auto const& elements) { removeElements(path, elements); });
     step.begin();
+    if constexpr (holds<Root, role::Cutting>())
+      step.cut([&](auto const& path, auto const& order) { return cut(path, order); });
     if constexpr (collides<RootScope>) step.detectContacts();
     if constexpr (collides<RootScope> && holds<Root, role::Carving>())
       if (step.carve([&](auto const& path, auto const& elements) { removeElements(path, elements); }))

@@ -5,6 +5,7 @@
 #include <sinew/scene/carving.hpp>
 #include <sinew/scene/changing_points.hpp>
 #include <sinew/scene/collision.hpp>
+#include <sinew/scene/cutting.hpp>
 #include <sinew/scene/fluid_boundaries.hpp>
 #include <sinew/scene/immersed_bodies.hpp>
 #include <sinew/scene/loose_interactions.hpp>
@@ -93,6 +94,13 @@ struct Step {
                  if (carving.active) carving.removed += removed;
                }));
     return removed > 0;
+  }
+
+  /// Cuts what blades have gone through, by cut(path, order).
+  template <class F>
+  void cut(F&& f) const {
+    [[maybe_unused]] const auto span = root.span(Phase::carving);
+    Cutting<RootScope>{root}.make(notes(), f);
   }
 
   /// The external forces of interactions between solvers.

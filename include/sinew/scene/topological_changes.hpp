@@ -2,7 +2,7 @@
 #pragma once
 
 #include <sinew/core/step_warnings.hpp>
-#include <sinew/scene/element_removal.hpp>
+#include <sinew/scene/topology_edit.hpp>
 
 #include <algorithm>
 #include <string>

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <sinew/core/follow.hpp>
+#include <sinew/scene/cut_body.hpp>
 #include <sinew/scene/removed_border.hpp>
 #include <sinew/scene/scope.hpp>
 #include <sinew/scene/states_of.hpp>
 #include <sinew/topology/removal_plan.hpp>
 
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -19,21 +21,30 @@ namespace sinew {
 template <class T>
 inline constexpr bool editable_topology = requires(T t) { t.edit(); };
 
-/// Takes elements out of one topology of a scene, with all that refers to them; the scene then has to be
-/// initialised again where touched() says. Triangles and quads that are the whole border of the volume, of a
-/// visual model or of a topology on which no forces act, become that of what is left; others only go. Works
-/// on a scene that may be thrown away: an Error leaves it half changed.
+/// Takes elements out of one topology of a scene, or cuts them, with all that refers to them; the scene then
+/// has to be initialised again where touched() says. Triangles and quads that are the whole border of the
+/// volume, of a visual model or of a topology on which no forces act, become that of what is left; others
+/// only go. Works on a scene that may be thrown away: an Error leaves it half changed.
 template <class RootScope>
-class ElementRemoval {
+class TopologyEdit {
  public:
   /// Throws Error where there is no topology at `path`, or no element of a number in it.
-  ElementRemoval(RootScope const& root, std::string_view path, ElementNumbers const& gone) : root_(root) {
+  TopologyEdit(RootScope const& root, std::string_view path, ElementNumbers const& gone) : root_(root) {
     find(path);
     check(path, gone);
     plan(gone);
     planMapped();
   }
 
+  /// Throws Error where there is no topology at `path` that can be cut, where something stands on its points
+  /// that cannot follow, and where there would be too many of them.
+  TopologyEdit(RootScope const& root, std::string_view path, CutOrder const& order) : root_(root) {
+    find(path);
+    planCut(order);
+  }
+
+  /// What a cut has done; there is nothing to apply where no element is cut.
+  CutPlan const& cut() const { return cut_; }
   /// What becomes of the topology and its points.
   TopologyChange const& change() const { return ofTopology_.at(topology_); }
 
@@ -68,6 +79,9 @@ class ElementRemoval {
   std::set<void const*> mechanical_{};     // topologies on which forces and masses act
   RemovedBorder border_{};
   std::map<void const*, BorderLists> borders_{};  // of the topologies and visual models that are the border
+  CutPlan cut_{};
+  std::function<bool(Index&, Index&)> joined_{};             // of what joins points of the body that is cut
+  std::map<void const*, CutPlan::Lists const*> cutLists_{};  // of topologies and visual models that are cut
 
   void find(std::string_view path) {
     const std::string wanted = text(root_.path(), path.empty() ? "" : "/", path);
@@ -147,6 +161,45 @@ class ElementRemoval {
     if (!left)
       throw Error(all[first].path,
                   "no element would be left; take the node out of the scene instead (Simulation::change)");
+  }
+
+  // what becomes of the states over the same points, of all topologies over these, and of what is mapped from
+  // there
+  void planCut(CutOrder const& order) {
+    CutBody<RootScope> body(root_, topology_, state_);
+    cut_ = body.plan(order);
+    if (cut_.elements == 0) {
+      ofTopology_[topology_].points = cut_.points;
+      return;
+    }
+    joined_ = [this, blade = order.stroke.blade, x = body.positions()](Index& i, Index& j) {
+      const Edge edge{std::min(i, j), std::max(i, j)};
+      if (std::binary_search(cut_.split.begin(), cut_.split.end(), edge)) return false;
+      const auto moved = std::lower_bound(
+          cut_.moved.begin(), cut_.moved.end(), edge, [](auto const& m, Edge const& e) { return m[0] < e; });
+      if (moved != cut_.moved.end() && (*moved)[0] == edge) {
+        const Edge now = (*moved)[1];
+        const bool rising = i < j;
+        i = now[rising ? 0 : 1], j = now[rising ? 1 : 0];
+        return true;
+      }
+      return !blade.crossing(x[std::size_t(i)], x[std::size_t(j)], Eigen::Vector3d::Zero());
+    };
+    samePoints_ = body.states;
+    touchedStates_ = samePoints_;
+    for (void const* state : samePoints_) ofState_[state] = cut_.points;
+    for (std::size_t t = 0; t < body.bodies.size(); ++t) {
+      ofTopology_[body.bodies[t].address] = cut_.ofTopology[t];
+      cutLists_[body.bodies[t].address] = &cut_.lists[t];
+      if (cut_.ofTopology[t].changes() && !body.bodies[t].editable)
+        throw Error(body.bodies[t].path,
+                    "this topology is made from a few numbers, and cannot be cut; take a MeshTopology");
+    }
+    traverse(root_, on<role::Mapping>([this](auto& mapping, auto const& scope) {
+               scope.withMapped(mapping, [&](auto&, auto& child, auto& parent) {
+                 if (touchedStates_.contains(&parent)) touchedStates_.insert(&child);
+               });
+             }));
   }
 
   // what becomes of the states that are mapped from it, parents first
@@ -234,6 +287,12 @@ class ElementRemoval {
 
   template <class C, class S>
   void follow(C& c, S const& scope) const {
+    if constexpr (HasRole<C, role::VisualModel>)
+      if (const auto found = cutLists_.find(&c); found != cutLists_.end())
+        return c.follow(ofState(&c), found->second->triangles, found->second->edges);
+    if constexpr (HasRole<C, role::Topology> && editable_topology<C>)
+      if (const auto found = cutLists_.find(&c); found != cutLists_.end())
+        return give(c.edit(), *found->second);
     if constexpr (HasRole<C, role::State> || HasRole<C, role::VisualModel>) {
       const auto border = borders_.find(&c);
       [[maybe_unused]] auto changeFaces = [&](auto&& edit) {
@@ -298,8 +357,15 @@ class ElementRemoval {
                       {ofState(scope.stateAddress()),
                        ofState(scope.stateAddress()),
                        {},
-                       ofTopology(scope.topologyAddress())});
+                       ofTopology(scope.topologyAddress()),
+                       samePoints_.contains(scope.stateAddress()) ? joined_ : nullptr});
     }
+  }
+  void give(ElementLists const& lists, CutPlan::Lists const& now) const {
+    if (lists.positions) cut_.points.filter(*lists.positions);
+    if (lists.edges) *lists.edges = now.edges;
+    if (lists.triangles) *lists.triangles = now.triangles;
+    if (lists.tetrahedra) *lists.tetrahedra = now.tetrahedra;
   }
   static void follow(ElementLists const& lists, TopologyChange const& change) {
     if (lists.positions) change.points.filter(*lists.positions);
