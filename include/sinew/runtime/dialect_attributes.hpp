@@ -76,7 +76,7 @@ inline constexpr std::array withoutEffectOf = std::to_array<AttributeOf>({
     {"MeshSTLLoader", "prisms"}, {"MeshSTLLoader", "pyramids"}, {"MeshVTKLoader", "polygons"},
     {"MeshVTKLoader", "polylines"}, {"MeshVTKLoader", "prisms"}, {"MeshVTKLoader", "pyramids"}, {"VisualModel", "dfactor"}, {"VisualModel", "sfactor"},
     {"NNCGConstraintSolver", "sor"}, {"PreconditionedConjugateResidual", "sor"}, {"ParticleSink", "fixed"}, {"PointCollisionModel", "leafScale"}, {"ParticleSource", "lastparticles"}, {"RegularGridTopology", "position"}, {"RegularGridTopology", "tetrahedra"},
-    {"RestShapeSpringsForceField", "recompute_indices"}, {"SparseGridTopology", "tetrahedra"},
+    {"RestShapeSpringsForceField", "recompute_indices"}, {"PolynomialRestShapeSpringsForceField", "recompute_indices"}, {"SparseGridTopology", "tetrahedra"},
     {"SparseGridRamificationTopology", "tetrahedra"}, {"SparseGridMultipleTopology", "tetrahedra"},
     {"ContinuousIntersection", "continuousCollisionType"}, {"ContinuousIntersection", "maxIterations"},
     {"JointSpringForceField", "outfile"}, {"JointSpringForceField", "period"}, {"JointSpringForceField", "reinit"},
