@@ -154,9 +154,8 @@ TEST_CASE("bad plans of topological changes are refused, and a scene that meets 
 
   for (std::string_view const content : {"T= x",
                                          "REMOVE= 1 0",
-                                         "T= 1 REMOVE= 3 0 1",
                                          "T= 1 REMOVE= 1 -1",
-                                         "T= 1 REMOVE= 99999999999 1",
+                                         "T= 1 REMOVE= -2 1",
                                          "T= 2 REMOVE= 1 0 T= 1 REMOVE= 1 0",
                                          "T= 1 ADD= Triangles 1 0 1 2",
                                          "T= nan REMOVE= 1 0",
@@ -166,6 +165,16 @@ TEST_CASE("bad plans of topological changes are refused, and a scene that meets 
     CHECK_THAT(error_of([&] { io::parse_topological_changes("changes.txt", content); }),
                Catch::Contains("changes.txt"));
   }
+
+  // where fewer numbers follow than the count says, the missing ones are 0
+  const auto few =
+      io::parse_topological_changes("changes.txt", "T= 1 REMOVE= 3 5 7 T= 2 REMOVE= 1 4 REMOVE= 9 2");
+  REQUIRE(few.size() == 3);
+  CHECK(few[0].elements == std::vector<int>{5, 7, 0});
+  CHECK(few[0].isShort);
+  CHECK(few[1].elements == std::vector<int>{4});
+  CHECK(!few[1].isShort);
+  CHECK(few[2].elements == std::vector<int>{2, 0});
 
   // a mass that cannot be: the step throws, and nothing has gone
   auto sim = scene_of(strip(

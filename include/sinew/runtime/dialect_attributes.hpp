@@ -77,7 +77,7 @@ inline constexpr std::array withoutEffectOf = std::to_array<AttributeOf>({
     {"MeshVTKLoader", "polylines"}, {"MeshVTKLoader", "prisms"}, {"MeshVTKLoader", "pyramids"}, {"ContinuousIntersection", "continuousCollisionType"}, {"ContinuousIntersection", "maxIterations"},
     {"ContinuousIntersection", "tolerance"}, {"VisualModel", "dfactor"}, {"VisualModel", "sfactor"},
     {"NNCGConstraintSolver", "sor"}, {"PreconditionedConjugateResidual", "sor"}, {"ParticleSink", "fixed"}, {"PointCollisionModel", "leafScale"}, {"ParticleSource", "lastparticles"}, {"RegularGridTopology", "position"}, {"RegularGridTopology", "tetrahedra"},
-    {"RestShapeSpringsForceField", "recompute_indices"}, {"SparseGridTopology", "tetrahedra"},
+    {"RestShapeSpringsForceField", "recompute_indices"}, {"PolynomialRestShapeSpringsForceField", "recompute_indices"}, {"SparseGridTopology", "tetrahedra"},
     {"SubsetTopology", "indices"}, {"SphereROI", "isVisible"}, {"ExtrudeSurface", "isVisible"},
     {"ExtrudeQuadsAndGenerateHexas", "isVisible"}, {"RandomPointDistributionInSurface", "isVisible"},
     {"NearestPointROI", "useRestPosition"}, {"MeshROI", "ROIedges"},
