@@ -69,7 +69,8 @@ class ImpliedValues {
         } else if (dialect::has(topologyLists, field.name)) {
           from = named && named->info ? named : at->ofRole(RoleKind::topology);
         }
-        if (!from || !offered(*from->info, data) || leadsTo(*from, item)) continue;
+        std::set<SceneItem const*> seen;
+        if (!from || !offered(*from->info, data) || leadsTo(*from, item, seen)) continue;
         messages_.locate(item, [&] {
           field.read(item.address, values_.valueOf({from, nullptr, data}));
           item.links[std::string(field.name)] =
@@ -199,13 +200,14 @@ class ImpliedValues {
   ComponentValues<R>& values_;
   SceneMessages& messages_;
 
-  // whether a component is made from another one, by links that are written
-  static bool leadsTo(SceneItem& from, SceneItem const& item, int depth = 0) {
+  // whether a component is made from another one, by links that are written; `seen`: what was asked before
+  static bool leadsTo(SceneItem& from, SceneItem const& item, std::set<SceneItem const*>& seen) {
+    if (!seen.insert(&from).second) return false;
     for (auto const& a : from.element->attributes) {
-      if (!is_link(a.value) || depth > 100) continue;
+      if (!is_link(a.value)) continue;
       try {
         SceneItem* const to = follow_link(from, a.value).item;
-        if (to == &item || (to && leadsTo(*to, item, depth + 1))) return true;
+        if (to == &item || (to && leadsTo(*to, item, seen))) return true;
       } catch (Error const&) {  // said where it is followed
       }
     }
