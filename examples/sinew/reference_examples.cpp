@@ -978,6 +978,447 @@ constexpr auto classExamples = std::to_array<ClassExample>({
     <FixedConstraint indices="0 5 10"/>
   </Node>
 </Node>)"},
+    {"MeshBoundaryROI",
+     R"(
+<MeshBoundaryROI name="rim"/>
+<FixedConstraint indices="@rim.indices"/>)",
+     sheet,
+     "FixedConstraint"},
+    {"MeshROI", R"(
+<MeshSTLLoader name="cube" filename="data/cube.stl" scale3d="0.1 1 1" translation="-0.05 -0.5 -0.5"/>
+<MeshROI name="end" ROIposition="@cube.position" ROItriangles="@cube.triangles"/>
+<FixedConstraint indices="@end.indices"/>)"},
+    {"ProximityROI", R"(
+<ProximityROI name="end" centers="0 0.05 0.05" radii="0.2" N="9"/>
+<FixedConstraint indices="@end.indices"/>)"},
+    {"ComplementaryROI", R"(
+<BoxROI name="free" box="0.05 -1 -1  1 1 1"/>
+<ComplementaryROI name="end" position="@free.position" nbSet="1" setIndices1="@free.indices"/>
+<FixedConstraint indices="@end.indices"/>)"},
+    {"MergeSets", R"(
+<BoxROI name="low" box="-0.01 -1 -1  0.01 0.06 1"/>
+<BoxROI name="high" box="-0.01 0.04 -1  0.01 1 1"/>
+<MergeSets name="end" in1="@low.indices" in2="@high.indices"/>
+<FixedConstraint indices="@end.out"/>)"},
+    {"MergeVectors", R"(
+<BoxROI name="low" box="-0.01 -1 -1  0.01 0.06 1"/>
+<BoxROI name="high" box="-0.01 0.04 -1  0.01 1 1"/>
+<MergeVectors name="end" nbInputs="2" input1="@low.indices" input2="@high.indices"/>
+<FixedConstraint indices="@end.output"/>)"},
+    {"MergeROIs", R"(
+<BoxROI name="low" box="-0.01 -1 -1  0.01 0.06 1"/>
+<BoxROI name="high" box="-0.01 0.04 -1  0.01 1 1"/>
+<MergeROIs name="both" nbROIs="2" indices1="@low.indices" indices2="@high.indices"/>
+<FixedConstraint indices="@low.indices"/>)"},
+    {"SelectLabelROI", R"(
+<SelectLabelROI name="end" labels="[1] [] [2] [3] [] [1 2]" selectLabels="1"/>
+<FixedConstraint indices="@end.indices"/>)"},
+    {"MeshSampler", R"(
+<MeshSampler name="few" number="3" position="@RegularGridTopology.position"/>
+<FixedConstraint indices="@few.outputIndices"/>)"},
+    {"IndicesFromValues", R"(
+<IndicesFromValues name="corners" template="Vec3d" values="0 0 0  0 0.1 0" global="@RegularGridTopology.position"/>
+<FixedConstraint indices="@corners.indices"/>)"},
+    {"MapIndices", R"(
+<MapIndices name="end" in="2 1 0" indices="0 5 10" transpose="1"/>
+<FixedConstraint indices="@end.out"/>)"},
+    {"ValuesFromPositions", R"(
+<ValuesFromPositions name="stiffer" inputValues="20000 80000" direction="1 0 0"/>
+<FixedConstraint indices="0 5 10 15 20 25 30 35 40"/>)"},
+    {"AverageCoord", R"(
+<AverageCoord name="middle"/>
+<FixedConstraint indices="0 5 10 15 20 25 30 35 40"/>)"},
+    {"ValuesFromIndices", R"(
+<ValuesFromIndices name="corners" in="@RegularGridTopology.position" indices="0 4"/>
+<FixedConstraint indices="0 5 10 15 20 25 30 35 40"/>)"},
+    {"DifferenceEngine", R"(
+<ValuesFromIndices name="here" in="@RegularGridTopology.position" indices="0 1"/>
+<ValuesFromIndices name="there" in="@RegularGridTopology.position" indices="4 3"/>
+<DifferenceEngine name="between" input="@there.out" substractor="@here.out"/>
+<FixedConstraint indices="0 5 10 15 20 25 30 35 40"/>)"},
+    {"NormEngine", R"(
+<NormEngine name="distances" input="@RegularGridTopology.position"/>
+<FixedConstraint indices="0 5 10 15 20 25 30 35 40"/>)"},
+    {"SumEngine", R"(
+<SumEngine name="sum" input="@RegularGridTopology.position"/>
+<FixedConstraint indices="0 5 10 15 20 25 30 35 40"/>)"},
+    {"MathOp", R"(
+<MathOp name="products" nbInputs="2" op="*" input1="1 2 3" input2="5 5 5"/>
+<FixedConstraint indices="@products.output"/>)"},
+    {"Indices2ValuesMapper", R"(
+<Indices2ValuesMapper name="moduli" inputValues="1 2 1" indices="1 2" values="20000 50000"/>
+<FixedConstraint indices="0 5 10 15 20 25 30 35 40"/>)"},
+    {"ROIValueMapper", R"(
+<BoxROI name="end" box="-0.01 -1 -1  0.01 1 1"/>
+<ROIValueMapper name="weights" nbROIs="1" indices1="@end.indices" value1="2"/>
+<FixedConstraint indices="@end.indices"/>)"},
+    {"HausdorffDistance", R"(
+<HausdorffDistance name="apart" points1="@RegularGridTopology.position" points2="0 0 0"/>
+<FixedConstraint indices="0 5 10 15 20 25 30 35 40"/>)"},
+    {"VolumeFromVolumetricElements", R"(
+<VolumeFromVolumetricElements name="content"/>
+<FixedConstraint indices="0 5 10 15 20 25 30 35 40"/>)"},
+    {"MeshSplittingEngine", R"(
+<BoxROI name="end" box="-0.01 -1 -1  0.01 1 1"/>
+<MeshSplittingEngine name="parts" position="@RegularGridTopology.position" nbInputs="1" indices1="@end.indices"/>
+<FixedConstraint indices="@end.indices"/>)"},
+    {"MeshSubsetEngine", R"(
+<BoxROI name="end" box="-0.01 -1 -1  0.11 1 1"/>
+<MeshSubsetEngine name="part" inputPosition="@RegularGridTopology.position" inputHexahedra="@RegularGridTopology.hexahedra"
+                  indices="@end.indices"/>
+<FixedConstraint indices="0 5 10 15 20 25 30 35 40"/>)"},
+    {"MeshBarycentricMapperEngine", R"(
+<Hexa2TetraTopologicalMapping input="@RegularGridTopology" output="@cut"/>
+<MeshBarycentricMapperEngine name="place" inputPositions="@cut.position" mappedPointPositions="0.11 0.03 0.02"
+                             tetrahedra="@cut.tetrahedra"/>
+<MeshTopology name="cut"/>
+<FixedConstraint indices="0 5 10 15 20 25 30 35 40"/>)"},
+    {"IndexValueMapper", R"(
+<Node name="body" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <GenerateGrid name="block" max="0.4 0.1 0.1" resolution="4 2 2"/>
+  <MeshTopology position="@block.position" tetrahedra="@block.tetrahedra"/>
+  <MechanicalObject/>
+  <UniformMass totalMass="1"/>
+  <BoxROI name="half" box="-1 -1 -1  0.21 1 1"/>
+  <BoxROI name="rest" box="0.19 -1 -1  1 1 1"/>
+  <IndexValueMapper name="stiff" indices="@half.tetrahedronIndices" value="90000"/>
+  <IndexValueMapper name="both" inputValues="@stiff.outputValues" indices="@rest.tetrahedronIndices" value="30000"/>
+  <TetrahedronFEMForceField youngModulus="@both.outputValues" poissonRatio="0.3"/>
+  <FixedConstraint indices="0 5 10 15 20 25 30 35 40"/>
+</Node>)"},
+    {"GenerateGrid", R"(
+<Node name="body" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <GenerateGrid name="made" max="0.4 0.1 0.1" resolution="4 2 2"/>
+  <MeshTopology position="@made.position" hexahedra="@made.hexahedra"/>
+  <MechanicalObject/>
+  <UniformMass totalMass="1"/>
+  <HexahedronFEMForceField youngModulus="50000" poissonRatio="0.3"/>
+  <FixedConstraint indices="0 5 10 15 20 25 30 35 40"/>
+</Node>)"},
+    {"GenerateCylinder", R"(
+<Node name="body" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <GenerateCylinder name="made" radius="0.1" height="0.4" resHeight="5"/>
+  <MeshTopology position="@made.position" tetrahedra="@made.tetrahedra"/>
+  <MechanicalObject/>
+  <UniformMass totalMass="1"/>
+  <TetrahedronFEMForceField youngModulus="50000" poissonRatio="0.3"/>
+  <FixedConstraint indices="0 1 2"/>
+</Node>)"},
+    {"GenerateSphere", R"(
+<Node name="body" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <GenerateSphere name="made" radius="0.1" tessellationDegree="3"/>
+  <MeshTopology position="@made.position" tetrahedra="@made.tetrahedra"/>
+  <MechanicalObject/>
+  <UniformMass totalMass="1"/>
+  <TetrahedronFEMForceField youngModulus="50000" poissonRatio="0.3"/>
+  <FixedConstraint indices="1 2 3"/>
+</Node>)"},
+    {"MeshTetraStuffing", R"(
+<Node name="body" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <MeshSTLLoader name="cube" filename="data/cube.stl" scale3d="0.4 0.2 0.2"/>
+  <MeshTetraStuffing name="made" size="0.08" inputPoints="@cube.position" inputTriangles="@cube.triangles" snapPoints="1"
+                     splitTetrahedra="1"/>
+  <MeshTopology position="@made.outputPoints" tetrahedra="@made.outputTetrahedra"/>
+  <MechanicalObject/>
+  <UniformMass totalMass="1"/>
+  <TetrahedronFEMForceField youngModulus="50000" poissonRatio="0.3"/>
+  <FixedConstraint indices="0 1 2"/>
+</Node>)"},
+    {"ExtrudeQuadsAndGenerateHexas", R"(
+<Node name="body" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <GridMeshCreator name="grid" resolution="5 3" trianglePattern="0" scale3d="0.4 0.2 1"/>
+  <ExtrudeQuadsAndGenerateHexas name="made" surfaceVertices="@grid.position" surfaceQuads="@grid.quads" thicknessOut="0.1"
+                                numberOfSlices="2" flipNormals="1"/>
+  <MeshTopology position="@made.extrudedVertices" hexahedra="@made.extrudedHexas"/>
+  <MechanicalObject/>
+  <UniformMass totalMass="1"/>
+  <HexahedronFEMForceField youngModulus="50000" poissonRatio="0.3"/>
+  <FixedConstraint indices="0 1 2"/>
+</Node>)"},
+    {"ExtrudeSurface", R"(
+<Node name="skin" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <GridMeshCreator name="grid" resolution="5 3"/>
+  <ExtrudeSurface name="made" surfaceVertices="@grid.position" triangles="@grid.triangles" surfaceTriangles="0-15"
+                  heightFactor="0.1"/>
+  <MeshTopology position="@made.extrusionVertices" triangles="@made.extrusionTriangles"/>
+  <MechanicalObject/>
+  <UniformMass totalMass="0.1"/>
+  <MeshSpringForceField stiffness="200" damping="0.5"/>
+  <FixedConstraint indices="0 1"/>
+</Node>)"},
+    {"ExtrudeEdgesAndGenerateQuads", R"(
+<Node name="skin" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <StringMeshCreator name="line" resolution="5"/>
+  <ExtrudeEdgesAndGenerateQuads name="made" curveVertices="@line.position" curveEdges="@line.edges"
+                                extrudeDirection="0 0 1" numberOfSections="3"/>
+  <MeshTopology position="@made.extrudedVertices" quads="@made.extrudedQuads"/>
+  <MechanicalObject/>
+  <UniformMass totalMass="0.1"/>
+  <MeshSpringForceField stiffness="200" damping="0.5"/>
+  <FixedConstraint indices="0 1"/>
+</Node>)"},
+    {"Spiral", R"(
+<Node name="skin" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <GridMeshCreator name="grid" resolution="21 3" scale3d="2 0.2 1" translation="0.2 0 0" rotation="90 0 0"/>
+  <Spiral name="made" rest_position="@grid.position"/>
+  <MeshTopology position="@made.position" triangles="@grid.triangles"/>
+  <MechanicalObject/>
+  <UniformMass totalMass="0.1"/>
+  <MeshSpringForceField stiffness="200" damping="0.5"/>
+  <FixedConstraint indices="0 1"/>
+</Node>)"},
+    {"MeshClosingEngine", R"(
+<Node name="skin" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <GenerateCylinder name="tube" radius="0.1" height="0.3"/>
+  <MeshClosingEngine name="made" inputPosition="@tube.output_TrianglesPosition" inputTriangles="@tube.triangles"/>
+  <MeshTopology position="@made.position" triangles="@made.triangles"/>
+  <MechanicalObject/>
+  <UniformMass totalMass="0.1"/>
+  <MeshSpringForceField stiffness="200" damping="0.5"/>
+  <FixedConstraint indices="0 1"/>
+</Node>)"},
+    {"NormalsFromPoints", R"(
+<Node name="skin" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <GenerateSphere name="ball"/>
+  <NormalsFromPoints name="outwards" position="@ball.output_TrianglesPosition" triangles="@ball.triangles"/>
+  <MeshTopology position="@ball.output_TrianglesPosition" triangles="@ball.triangles"/>
+  <MechanicalObject/>
+  <UniformMass totalMass="0.1"/>
+  <MeshSpringForceField stiffness="200" damping="0.5"/>
+  <FixedConstraint indices="0 1"/>
+</Node>)"},
+    {"SmoothMeshEngine", R"(
+<Node name="skin" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <GenerateSphere name="ball" platonicSolid="octahedron" tessellationDegree="3"/>
+  <MeshTopology name="rough" position="@ball.output_TrianglesPosition" triangles="@ball.triangles"/>
+  <SmoothMeshEngine name="made" input_position="@rough.position"/>
+  <MeshTopology position="@made.output_position" triangles="@ball.triangles"/>
+  <MechanicalObject/>
+  <UniformMass totalMass="0.1"/>
+  <MeshSpringForceField stiffness="200" damping="0.5"/>
+  <FixedConstraint indices="0 1"/>
+</Node>)"},
+    {"DilateEngine", R"(
+<Node name="skin" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <GenerateSphere name="ball"/>
+  <DilateEngine name="made" input_position="@ball.output_TrianglesPosition" triangles="@ball.triangles" distance="0.05"/>
+  <MeshTopology position="@made.output_position" triangles="@ball.triangles"/>
+  <MechanicalObject/>
+  <UniformMass totalMass="0.1"/>
+  <MeshSpringForceField stiffness="200" damping="0.5"/>
+  <FixedConstraint indices="0 1"/>
+</Node>)"},
+    {"VolumeFromTriangles", R"(
+<Node name="skin" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <GenerateSphere name="ball"/>
+  <MeshTopology position="@ball.output_TrianglesPosition" triangles="@ball.triangles"/>
+  <VolumeFromTriangles name="content"/>
+  <MechanicalObject/>
+  <UniformMass totalMass="0.1"/>
+  <MeshSpringForceField stiffness="200" damping="0.5"/>
+  <FixedConstraint indices="0 1"/>
+</Node>)"},
+    {"RandomPointDistributionInSurface", R"(
+<Node name="cloud" gravity="0 -9.81 0">
+  <EulerExplicitSolver/>
+  <GenerateSphere name="ball" radius="0.5" tessellationDegree="3"/>
+  <RandomPointDistributionInSurface name="grains" vertices="@ball.output_TrianglesPosition" triangles="@ball.triangles"
+                                    numberOfInPoints="20"/>
+  <MechanicalObject position="@grains.inPoints"/>
+  <UniformMass vertexMass="0.01"/>
+</Node>)"},
+    {"JoinPoints", R"(
+<Node name="drops" gravity="0 -9.81 0">
+  <EulerExplicitSolver/>
+  <JoinPoints name="drops" points="0 1 0  0.01 1 0  0.5 1 0" distance="0.05"/>
+  <MechanicalObject position="@drops.mergedPoints"/>
+  <UniformMass vertexMass="0.01"/>
+</Node>)"},
+    {"MergeMeshes", R"(
+<Node name="body" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <GenerateGrid name="left" max="0.2 0.1 0.1" resolution="2 1 1"/>
+  <GenerateCylinder name="right" origin="0.5 0 0" radius="0.1" height="0.2"/>
+  <MergeMeshes name="made" nbMeshes="2" position1="@left.position" tetrahedra1="@left.tetrahedra" position2="@right.position"
+               tetrahedra2="@right.tetrahedra"/>
+  <MeshTopology position="@made.position" tetrahedra="@made.tetrahedra"/>
+  <MechanicalObject/>
+  <UniformMass totalMass="1"/>
+  <TetrahedronFEMForceField youngModulus="50000" poissonRatio="0.3"/>
+  <FixedConstraint indices="0 1 2"/>
+</Node>)"},
+    {"MergePoints", R"(
+<Node name="drops" gravity="0 -9.81 0">
+  <EulerExplicitSolver/>
+  <MergePoints name="all" template="Vec3d" position1="0 1 0  0.5 1 0" position2="0 2 0"/>
+  <MechanicalObject position="@all.points"/>
+  <UniformMass vertexMass="0.01"/>
+</Node>)"},
+    {"TransformPosition", R"(
+<Node name="drops" gravity="0 -9.81 0">
+  <EulerExplicitSolver/>
+  <TransformPosition name="lifted" method="translation" translation="0 2 0" input_position="0 0 0  1 0 0"/>
+  <MechanicalObject position="@lifted.output_position"/>
+  <UniformMass vertexMass="0.01"/>
+</Node>)"},
+    {"ProjectiveTransformEngine", R"(
+<Node name="drops" gravity="0 -9.81 0">
+  <EulerExplicitSolver/>
+  <ProjectiveTransformEngine name="image" input_position="0 1 4  1 1 4" focal_distance="0.5"/>
+  <MechanicalObject position="@image.output_position"/>
+  <UniformMass vertexMass="0.01"/>
+</Node>)"},
+    {"TranslateTransformMatrixEngine", R"(
+<Node name="skin" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <TranslateTransformMatrixEngine name="placed" translation="0 0.5 0"/>
+  <MeshSTLLoader name="cube" filename="data/cube.stl" transformation="@placed.outT"/>
+  <MeshTopology src="@cube"/>
+  <MechanicalObject src="@cube"/>
+  <UniformMass totalMass="0.1"/>
+  <MeshSpringForceField stiffness="200" damping="0.5"/>
+  <FixedConstraint indices="0 1"/>
+</Node>)"},
+    {"RotateTransformMatrixEngine", R"(
+<Node name="skin" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <RotateTransformMatrixEngine name="placed" rotation="0 0 30"/>
+  <MeshSTLLoader name="cube" filename="data/cube.stl" transformation="@placed.outT"/>
+  <MeshTopology src="@cube"/>
+  <MechanicalObject src="@cube"/>
+  <UniformMass totalMass="0.1"/>
+  <MeshSpringForceField stiffness="200" damping="0.5"/>
+  <FixedConstraint indices="0 1"/>
+</Node>)"},
+    {"ScaleTransformMatrixEngine", R"(
+<Node name="skin" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <ScaleTransformMatrixEngine name="placed" scale="2 1 1"/>
+  <MeshSTLLoader name="cube" filename="data/cube.stl" transformation="@placed.outT"/>
+  <MeshTopology src="@cube"/>
+  <MechanicalObject src="@cube"/>
+  <UniformMass totalMass="0.1"/>
+  <MeshSpringForceField stiffness="200" damping="0.5"/>
+  <FixedConstraint indices="0 1"/>
+</Node>)"},
+    {"InvertTransformMatrixEngine", R"(
+<Node name="skin" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <RotateTransformMatrixEngine name="turned" rotation="0 0 30"/>
+  <InvertTransformMatrixEngine name="back" inT="@turned.outT"/>
+  <MeshSTLLoader name="cube" filename="data/cube.stl" transformation="@back.outT"/>
+  <MeshTopology src="@cube"/>
+  <MechanicalObject src="@cube"/>
+  <UniformMass totalMass="0.1"/>
+  <MeshSpringForceField stiffness="200" damping="0.5"/>
+  <FixedConstraint indices="0 1"/>
+</Node>)"},
+    {"Vertex2Frame", R"(
+<Node name="frames" gravity="0 -9.81 0">
+  <EulerExplicitSolver/>
+  <MeshSTLLoader name="cube" filename="data/cube.stl"/>
+  <Vertex2Frame name="made" position="@cube.position" normals="@cube.normals"/>
+  <MechanicalObject template="Rigid3d" position="@made.frames"/>
+  <UniformMass vertexMass="0.1"/>
+</Node>)"},
+    {"QuatToRigidEngine", R"(
+<Node name="frames" gravity="0 -9.81 0">
+  <EulerExplicitSolver/>
+  <QuatToRigidEngine name="made" positions="0 1 0  1 1 0" orientations="0 0 0.6 0.8"/>
+  <MechanicalObject template="Rigid3d" position="@made.rigids"/>
+  <UniformMass vertexMass="0.1"/>
+</Node>)"},
+    {"RigidToQuatEngine", R"(
+<Node name="centres" gravity="0 -9.81 0">
+  <EulerExplicitSolver/>
+  <RigidToQuatEngine name="parts" rigids="0 1 0  0 0 0.6 0.8"/>
+  <MechanicalObject position="@parts.positions"/>
+  <UniformMass vertexMass="0.1"/>
+</Node>)"},
+    {"DisplacementMatrixEngine", R"(
+<Node name="frames" gravity="0 -9.81 0">
+  <EulerExplicitSolver/>
+  <DisplacementMatrixEngine name="moved" x0="0 0 0  0 0 0 1" x="0 1 0  0 0 0.6 0.8"/>
+  <MechanicalObject template="Rigid3d" position="@moved.x"/>
+  <UniformMass vertexMass="0.1"/>
+</Node>)"},
+    {"MeshOffLoader", R"(
+<Node name="body" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <MeshOffLoader name="mesh" filename="data/tent.off"/>
+  <MeshTopology src="@mesh"/>
+  <MechanicalObject src="@mesh"/>
+  <UniformMass totalMass="0.1"/>
+  <MeshSpringForceField stiffness="200" damping="0.5"/>
+  <FixedConstraint indices="0 1"/>
+</Node>)"},
+    {"GIDMeshLoader", R"(
+<Node name="body" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <GIDMeshLoader name="mesh" filename="data/wedge.gidmsh"/>
+  <MeshTopology src="@mesh"/>
+  <MechanicalObject src="@mesh"/>
+  <UniformMass totalMass="1"/>
+  <TetrahedronFEMForceField youngModulus="50000" poissonRatio="0.3"/>
+  <FixedConstraint indices="0 1 2"/>
+</Node>)"},
+    {"MeshTrianLoader", R"(
+<Node name="body" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <MeshTrianLoader name="mesh" filename="data/sail.trian"/>
+  <MeshTopology src="@mesh"/>
+  <MechanicalObject src="@mesh"/>
+  <UniformMass totalMass="0.1"/>
+  <MeshSpringForceField stiffness="200" damping="0.5"/>
+  <FixedConstraint indices="0 1"/>
+</Node>)"},
+    {"VoxelGridLoader", R"(
+<Node name="body" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <VoxelGridLoader name="mesh" filename="data/letter.raw" resolution="4 4 2" voxelSize="0.1 0.1 0.1" bgValue="0"/>
+  <MeshTopology src="@mesh"/>
+  <MechanicalObject src="@mesh"/>
+  <UniformMass totalMass="1"/>
+  <HexahedronFEMForceField youngModulus="50000" poissonRatio="0.3"/>
+  <FixedConstraint indices="0 1 2"/>
+</Node>)"},
     {"NearestPointROI", R"(
 <Node name="root" gravity="0 -9.81 0">
   <EulerImplicitSolver/>

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
@@ -42,6 +43,7 @@ class SceneReader {
   SceneClasses classes_{table_, messages_};
   SceneValues<R> values_{items_, xml_, messages_};
   std::vector<SceneItem*> moved_{};
+  std::set<SceneItem const*> dataOnly_{};  // topologies
   std::vector<ViewElement> view_{};
 
   ReadScene<R> build(XmlElement root) {
@@ -58,6 +60,8 @@ class SceneReader {
     values_.readAll(top);
     for_each_item(top, [&](SceneItem& item) {
       if (item.home && item.home != item.place) moved_.push_back(&item);
+      if (item.info && item.info->role == RoleKind::topology && holdsDataOnly(*item.place, item))
+        dataOnly_.insert(&item);
     });
     ReadScene<R> scene{RuntimeNode<R>(top.name)};
     readNode(top, scene);
@@ -154,7 +158,7 @@ class SceneReader {
     SceneItem const* const topology = place.ofRole(RoleKind::topology);
     for (auto& item : place.items) {
       if (item->info && item->info->role == RoleKind::topology &&
-          (item.get() != topology || holdsDataOnly(place, *item)))
+          (item.get() != topology || dataOnly_.count(item.get())))
         continue;
       if (!item->home || item->home == &place) items.push_back(item.get());
     }

@@ -120,13 +120,24 @@ inline std::string whole_points(SceneItem const& item, std::string const& value,
                            : types.find("Vec") != types.npos ? std::size_t(types[types.find("Vec") + 3] - '0')
                                                              : 1;
   std::vector<std::string> numbers;
-  for (Words words(value); !words.end();) numbers.emplace_back(words.next());
+  bool joined = false;  // "0-0.5" is two numbers, as in SOFA
+  for (Words words(value); !words.end();) {
+    std::string_view word = words.next();
+    for (std::size_t at = 1; at < word.size(); ++at) {
+      if (word[at] != '-' || word[at - 1] < '0' || word[at - 1] > '9') continue;
+      numbers.emplace_back(word.substr(0, at));
+      word.remove_prefix(at), at = 0;
+      joined = true;
+    }
+    numbers.emplace_back(word);
+  }
   auto note = [&](auto const&... what) {
     messages.warnings.insert(text(item.element->place(a), ": <", item.tag, ">: ", a.name, ": ", what...));
   };
   const std::size_t left = numbers.size() % each;
-  bool changed = left > 0 && numbers.size() > each;
-  if (changed) {
+  bool changed = joined || (left > 0 && numbers.size() > each);
+  if (joined) note("has numbers without a blank between, which are taken apart; put one there");
+  if (left > 0 && numbers.size() > each) {
     numbers.resize(numbers.size() - left);
     note("goes on with ",
          left,
