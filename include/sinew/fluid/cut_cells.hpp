@@ -188,17 +188,10 @@ class CutCells {
   /// y += what pressure q lets flow out of cells by moving the bodies that answer; impulses are rho h^N times
   /// sums of q.
   void respond(std::vector<ImmersedBody> const& bodies, double perPressure, Field const& q, Field& y) {
-    if constexpr (!Loops::onHost) return respondThere(bodies, perPressure, q, y);
-    for (std::size_t b = 0; b < bodies.size(); ++b) {
-      if (!bodies[b].answers()) continue;
-      const ImmersedBody::Vector6 gain = bodies[b].response * (perPressure * sum(int(b), q));
-      for (Face const& f : faces) {
-        if (f.body != int(b)) continue;
-        const Real flux = f.part * Real(f.mode.dot(gain));
-        if (f.below) y[at(f.cell - grid_.stride[std::size_t(f.axis)])] += flux;
-        if (f.above) y[at(f.cell)] -= flux;
-      }
-    }
+    if constexpr (Loops::onHost)
+      respondHere(bodies, perPressure, q, y);
+    else
+      respondThere(bodies, perPressure, q, y);
   }
   /// Gives bodies their forces over a step, and those that answer their motions.
   void push(std::vector<ImmersedBody>& bodies, double perPressure, double dt, Field const& q) const {
@@ -380,6 +373,19 @@ class CutCells {
     return best;
   }
 
+  void respondHere(std::vector<ImmersedBody> const& bodies, double perPressure, Field const& q,
+                   Field& y) const {
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+      if (!bodies[b].answers()) continue;
+      const ImmersedBody::Vector6 gain = bodies[b].response * (perPressure * sum(int(b), q));
+      for (Face const& f : faces) {
+        if (f.body != int(b)) continue;
+        const Real flux = f.part * Real(f.mode.dot(gain));
+        if (f.below) y[at(f.cell - grid_.stride[std::size_t(f.axis)])] += flux;
+        if (f.above) y[at(f.cell)] -= flux;
+      }
+    }
+  }
   // The same where the fluid is on a device: pressures beside faces come, flows go. Faces are in the order of
   // their axes; of each axis those below are first, then those above, so that no two of a part are of one
   // cell.

@@ -33,7 +33,7 @@ class HostLoops {
   /// Numbers that loops find, and which others read where they are.
   struct Numbers {
     std::vector<double> rows{};  // sums of them
-    std::array<double, 8> value{};
+    double value[8] = {};
 
     template <int N>
     void init(CellGrid<N> const& grid) {
