@@ -116,6 +116,41 @@ TEST_CASE("cuts that cannot be made are counted, and nothing has changed") {
   CHECK(!sim.warnings().list().empty());
 }
 
+TEST_CASE("hundreds of random strokes, with jumps, removals and a blade that is none") {
+  for (int seed = 0; seed < 3; ++seed) {
+    std::mt19937 random{unsigned(seed)};
+    std::uniform_real_distribution<double> u(-1, 1);
+    const Body b = block(6, 2, 2, 0.15);
+    auto limited = manager();
+    limited.capacity = 500;
+    limited.snapping = 0.1 * seed;
+    auto sim = scene(b, limited, {{3, 1, -1}, {3, 1, 3}}, 0.1);
+    sim.init();
+    for (int i = 0; i < (sanitized ? 60 : 150); ++i) {
+      auto& blade = sim.at<"tool">().state().position;
+      const bool jumps = i % 10 == 0;
+      for (auto& p : blade) p += Point(u(random), u(random), u(random)) * (jumps ? 3. : 0.4);
+      const Point lost = Point(3, 1, 1) - (blade[0] + blade[1]) / 2;
+      if (lost.norm() > 3)
+        for (auto& p : blade) p += lost;
+      if (i % 40 == 39)
+        sim.removeElements("body", {.tetrahedra = {Index(body_of(sim).tetrahedra.size() / 2)}});
+      const double before = volume(body_of(sim));
+      sim.animate(0.01);
+      const Body now = body_of(sim);
+      CHECK(volume(now) == Approx(before).epsilon(1e-12));
+      CHECK(worst(now) >= std::min(0.1, worst(b)) * (1 - 1e-9));
+      CHECK(has_its_skin(now));
+      CHECK(now.points.size() <= 500);
+    }
+    CHECK(manager_of(sim).cut > 100);
+    sim.at<"tool">().state().position[0][0] = std::nan("");
+    const long refused = manager_of(sim).refused;
+    CHECK_THROWS_AS(sim.animate(0.01), Error);  // a state that is not finite
+    CHECK(manager_of(sim).refused == refused + 1);
+  }
+}
+
 TEST_CASE("a manager without blade or body is refused, and one that is not active does nothing") {
   const Body b = block(2, 2, 2);
   auto refused = [&](CuttingManager const& m, std::vector<Point> const& blade, std::string_view words) {

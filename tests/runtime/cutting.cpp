@@ -38,7 +38,7 @@ Started started(std::string const& text) {
   auto read = parse_scene<Few>("cutting.scn", text);
   const double dt = read.dt;
   Started s{Sim(std::move(read.root)), dt};
-  s.sim.init();
+  s.sim.init(read.time, read.step);
   return s;
 }
 std::string scene_of(std::string const& name) {

@@ -115,7 +115,7 @@ TEST_CASE("a material remembers in the parts what it did in the whole") {
   for (int i = 0; i < 10; ++i) sim.animate(0.01);
   auto& force = sim.at<"body">().get<TetrahedronViscoelasticityFEMForceField<Vec3d>>();
   const auto before = force.memory;
-  const Cut done = sim.cut("body", Plane{2.3}.blade(-1, 3, -1, 3));
+  const Cut done = sim.cut("body", Plane{2.6}.blade(-1, 3, -1, 3));
   auto const& come = done.change.of(ElementKind::tetrahedron).come;
   REQUIRE(come.size() > 8);
   const std::size_t each = before.size() / b.tetrahedra.size();

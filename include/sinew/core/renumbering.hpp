@@ -19,12 +19,16 @@ struct Origin {
   double weight;
 };
 
+/// A vector, whose multiples add up.
+template <class T>
+concept Weighable = requires(T const& value, typename T::Scalar factor) { factor * value; };
+
 /// The value of what comes, from that of what it comes of. What cannot be weighed is that of the nearer one.
 template <class T>
 T value_between(T const& a, T const& b, double weight) {
   if constexpr (std::is_floating_point_v<T>)
     return weight == 0 ? a : (1 - T(weight)) * a + T(weight) * b;
-  else if constexpr (requires(typename T::Scalar factor) { factor* b; })
+  else if constexpr (Weighable<T>)
     return weight == 0 ? a : T((1 - typename T::Scalar(weight)) * a + typename T::Scalar(weight) * b);
   else
     return weight < 0.5 ? a : b;

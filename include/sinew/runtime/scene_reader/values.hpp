@@ -159,7 +159,9 @@ class SceneValues {
     given.insert(field->name);
     try {
       std::string linked;
-      if (is_link(a.value) && item.info->role == RoleKind::carving) {
+      const bool namesNode = item.info->role == RoleKind::carving ||
+                             (item.info->role == RoleKind::cutting && field->name != "indices");
+      if (is_link(a.value) && namesNode) {
         const LinkTarget model = follow_link(item, a.value);  // a model, by its node
         linked = (model.item ? model.item->place : model.place)->path();
         linked.erase(0, linked.find('/', 1));  // from the root on
