@@ -1107,7 +1107,7 @@ constexpr auto classExamples = std::to_array<ClassExample>({
   <CGLinearSolver iterations="100" tolerance="1e-8"/>
   <GenerateSphere name="ball" platonicSolid="octahedron" tessellationDegree="3"/>
   <MeshTopology name="rough" position="@ball.output_TrianglesPosition" triangles="@ball.triangles"/>
-  <SmoothMeshEngine name="made" input_position="@rough.position"/>
+  <SmoothMeshEngine name="made" topology="@rough" input_position="@rough.position"/>
   <MeshTopology position="@made.output_position" triangles="@ball.triangles"/>
   <MechanicalObject/>
   <UniformMass totalMass="0.1"/>

@@ -79,7 +79,7 @@ inline constexpr std::array withoutEffectOf = std::to_array<AttributeOf>({
     {"RestShapeSpringsForceField", "recompute_indices"}, {"SparseGridTopology", "tetrahedra"},
     {"SubsetTopology", "indices"}, {"SphereROI", "isVisible"}, {"ExtrudeSurface", "isVisible"},
     {"ExtrudeQuadsAndGenerateHexas", "isVisible"}, {"RandomPointDistributionInSurface", "isVisible"},
-    {"NearestPointROI", "useRestPosition"}, {"MeshROI", "ROIedges"},
+    {"MeshROI", "ROIedges"},
     {"ValuesFromIndices", "outStr"}, {"MergeMeshes", "polygons"}, {"MergePoints", "noUpdate"},
     {"GenerateCylinder", "BezierTetrahedronWeights"}, {"GenerateCylinder", "BezierTriangleWeights"},
     {"GenerateCylinder", "isBezierTetrahedronRational"}, {"GenerateCylinder", "isBezierTriangleRational"},
