@@ -155,7 +155,7 @@ inline constexpr std::array notSimulated = std::to_array<NotSimulated>({
     {"", "triAngle", "0"}, {"", "triangulate", "0"}, {"", "updateStateWhenDiverged", "1"}, {"", "updateStiffnessMatrix", "0"},
     {"", "useLineLine", "1"}, {"LCPConstraintSolver", "multi_grid", "0|false"}, {"", "useLinePoint", "1"},
     {"", "usePointPoint", "1"}, {"BarycentricMapping", "useRestPosition", "0"},
-    {"NearestPointROI", "useRestPosition", "1"}, {"", "useSphereTriangle", "1"},
+    {"", "useSphereTriangle", "1"},
     {"", "useSurfaceNormals", "0"}, {"", "useTangentStiffness", "1"}, {"", "useTopology", "1"},
     {"", "velocityFactor", "1"}, {"", "vertexMass", ""}, {"", "volumeConservationMode", "0"},
     {"", "voxelSize", "1 1 1"}});
