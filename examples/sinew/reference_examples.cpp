@@ -907,7 +907,7 @@ constexpr auto classExamples = std::to_array<ClassExample>({
 <BoxROI name="low" box="-0.01 -1 -1  0.01 0.06 1"/>
 <BoxROI name="high" box="-0.01 0.04 -1  0.01 1 1"/>
 <MergeROIs name="both" nbROIs="2" indices1="@low.indices" indices2="@high.indices"/>
-<SelectLabelROI name="which" labels="@both.roiIndices" selectLabels="0"/>
+<SelectLabelROI name="which" labels="@both.roiIndices" selectLabels="5"/>
 <FixedConstraint indices="@which.indices"/>)"},
     {"SelectLabelROI", R"(
 <SelectLabelROI name="end" labels="[1] [] [2] [3] [] [1 2]" selectLabels="1"/>
