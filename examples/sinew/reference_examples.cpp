@@ -1001,15 +1001,22 @@ constexpr auto classExamples = std::to_array<ClassExample>({
 <MergeSets name="end" in1="@low.indices" in2="@high.indices"/>
 <FixedConstraint indices="@end.out"/>)"},
     {"MergeVectors", R"(
-<BoxROI name="low" box="-0.01 -1 -1  0.01 0.06 1"/>
-<BoxROI name="high" box="-0.01 0.04 -1  0.01 1 1"/>
-<MergeVectors name="end" nbInputs="2" input1="@low.indices" input2="@high.indices"/>
-<FixedConstraint indices="@end.output"/>)"},
+<Node name="body" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <RegularGridTopology n="5 3 3" max="0.4 0.1 0.1"/>
+  <MechanicalObject/>
+  <MergeVectors name="modulus" nbInputs="2" input1="50000" input2=""/>
+  <UniformMass totalMass="1"/>
+  <TetrahedronFEMForceField youngModulus="@modulus.output" poissonRatio="0.3"/>
+  <FixedConstraint indices="0 5 10 15 20 25 30 35 40"/>
+</Node>)"},
     {"MergeROIs", R"(
 <BoxROI name="low" box="-0.01 -1 -1  0.01 0.06 1"/>
 <BoxROI name="high" box="-0.01 0.04 -1  0.01 1 1"/>
 <MergeROIs name="both" nbROIs="2" indices1="@low.indices" indices2="@high.indices"/>
-<FixedConstraint indices="@low.indices"/>)"},
+<SelectLabelROI name="which" labels="@both.roiIndices" selectLabels="5"/>
+<FixedConstraint indices="@which.indices"/>)"},
     {"SelectLabelROI", R"(
 <SelectLabelROI name="end" labels="[1] [] [2] [3] [] [1 2]" selectLabels="1"/>
 <FixedConstraint indices="@end.indices"/>)"},
@@ -1023,56 +1030,164 @@ constexpr auto classExamples = std::to_array<ClassExample>({
 <MapIndices name="end" in="2 1 0" indices="0 5 10" transpose="1"/>
 <FixedConstraint indices="@end.out"/>)"},
     {"ValuesFromPositions", R"(
-<ValuesFromPositions name="stiffer" inputValues="20000 80000" direction="1 0 0"/>
-<FixedConstraint indices="0 5 10 15 20 25 30 35 40"/>)"},
+<Node name="body" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <GenerateGrid name="block" max="0.4 0.1 0.1" resolution="4 2 2"/>
+  <MeshTopology position="@block.position" tetrahedra="@block.tetrahedra"/>
+  <MechanicalObject/>
+  <ValuesFromPositions name="stiffer" inputValues="20000 80000" direction="1 0 0"/>
+  <UniformMass totalMass="1"/>
+  <TetrahedronFEMForceField youngModulus="@stiffer.tetrahedronValues" poissonRatio="0.3"/>
+  <FixedConstraint indices="0 5 10 15 20 25 30 35 40"/>
+</Node>)"},
     {"AverageCoord", R"(
-<AverageCoord name="middle"/>
-<FixedConstraint indices="0 5 10 15 20 25 30 35 40"/>)"},
+<Node name="body" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <GenerateGrid name="block" max="0.4 0.1 0.1" resolution="4 2 2"/>
+  <MeshTopology position="@block.position" tetrahedra="@block.tetrahedra"/>
+  <MechanicalObject/>
+  <AverageCoord name="middle"/>
+  <SphereForceField center="@middle.average" radius="0.01"/>
+  <UniformMass totalMass="1"/>
+  <TetrahedronFEMForceField youngModulus="50000" poissonRatio="0.3"/>
+  <FixedConstraint indices="0 5 10 15 20 25 30 35 40"/>
+</Node>)"},
     {"ValuesFromIndices", R"(
-<ValuesFromIndices name="corners" in="@RegularGridTopology.position" indices="0 4"/>
-<FixedConstraint indices="0 5 10 15 20 25 30 35 40"/>)"},
+<Node name="body" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <RegularGridTopology n="5 3 3" max="0.4 0.1 0.1"/>
+  <MechanicalObject/>
+  <ValuesFromIndices name="modulus" in="10000 50000 90000" indices="1"/>
+  <UniformMass totalMass="1"/>
+  <TetrahedronFEMForceField youngModulus="@modulus.out" poissonRatio="0.3"/>
+  <FixedConstraint indices="0 5 10 15 20 25 30 35 40"/>
+</Node>)"},
     {"DifferenceEngine", R"(
-<ValuesFromIndices name="here" in="@RegularGridTopology.position" indices="0 1"/>
-<ValuesFromIndices name="there" in="@RegularGridTopology.position" indices="4 3"/>
-<DifferenceEngine name="between" input="@there.out" substractor="@here.out"/>
-<FixedConstraint indices="0 5 10 15 20 25 30 35 40"/>)"},
+<Node name="body" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <RegularGridTopology n="5 3 3" max="0.4 0.1 0.1"/>
+  <MechanicalObject/>
+  <DifferenceEngine name="modulus" input="60000" substractor="10000"/>
+  <UniformMass totalMass="1"/>
+  <TetrahedronFEMForceField youngModulus="@modulus.output" poissonRatio="0.3"/>
+  <FixedConstraint indices="0 5 10 15 20 25 30 35 40"/>
+</Node>)"},
     {"NormEngine", R"(
-<NormEngine name="distances" input="@RegularGridTopology.position"/>
-<FixedConstraint indices="0 5 10 15 20 25 30 35 40"/>)"},
+<Node name="body" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <RegularGridTopology n="5 3 3" max="0.4 0.1 0.1"/>
+  <MechanicalObject/>
+  <NormEngine name="modulus" input="30000 40000 0"/>
+  <UniformMass totalMass="1"/>
+  <TetrahedronFEMForceField youngModulus="@modulus.output" poissonRatio="0.3"/>
+  <FixedConstraint indices="0 5 10 15 20 25 30 35 40"/>
+</Node>)"},
     {"SumEngine", R"(
-<SumEngine name="sum" input="@RegularGridTopology.position"/>
-<FixedConstraint indices="0 5 10 15 20 25 30 35 40"/>)"},
+<Node name="body" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <RegularGridTopology n="5 3 3" max="0.4 0.1 0.1"/>
+  <MechanicalObject/>
+  <SumEngine name="modulus" input="20000 30000"/>
+  <UniformMass totalMass="1"/>
+  <TetrahedronFEMForceField youngModulus="@modulus.output" poissonRatio="0.3"/>
+  <FixedConstraint indices="0 5 10 15 20 25 30 35 40"/>
+</Node>)"},
     {"MathOp", R"(
-<MathOp name="products" nbInputs="2" op="*" input1="1 2 3" input2="5 5 5"/>
-<FixedConstraint indices="@products.output"/>)"},
+<Node name="body" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <RegularGridTopology n="5 3 3" max="0.4 0.1 0.1"/>
+  <MechanicalObject/>
+  <MathOp name="modulus" nbInputs="2" op="*" input1="25000" input2="2"/>
+  <UniformMass totalMass="1"/>
+  <TetrahedronFEMForceField youngModulus="@modulus.output" poissonRatio="0.3"/>
+  <FixedConstraint indices="0 5 10 15 20 25 30 35 40"/>
+</Node>)"},
     {"Indices2ValuesMapper", R"(
-<Indices2ValuesMapper name="moduli" inputValues="1 2 1" indices="1 2" values="20000 50000"/>
-<FixedConstraint indices="0 5 10 15 20 25 30 35 40"/>)"},
+<Node name="body" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <RegularGridTopology n="5 3 3" max="0.4 0.1 0.1"/>
+  <MechanicalObject/>
+  <Indices2ValuesMapper name="modulus" inputValues="2" indices="1 2" values="20000 50000"/>
+  <UniformMass totalMass="1"/>
+  <TetrahedronFEMForceField youngModulus="@modulus.outputValues" poissonRatio="0.3"/>
+  <FixedConstraint indices="0 5 10 15 20 25 30 35 40"/>
+</Node>)"},
     {"ROIValueMapper", R"(
-<BoxROI name="end" box="-0.01 -1 -1  0.01 1 1"/>
-<ROIValueMapper name="weights" nbROIs="1" indices1="@end.indices" value1="2"/>
-<FixedConstraint indices="@end.indices"/>)"},
+<Node name="body" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <RegularGridTopology n="5 3 3" max="0.4 0.1 0.1"/>
+  <MechanicalObject/>
+  <ROIValueMapper name="modulus" nbROIs="1" indices1="0" value1="50000"/>
+  <UniformMass totalMass="1"/>
+  <TetrahedronFEMForceField youngModulus="@modulus.outputValues" poissonRatio="0.3"/>
+  <FixedConstraint indices="0 5 10 15 20 25 30 35 40"/>
+</Node>)"},
     {"HausdorffDistance", R"(
-<HausdorffDistance name="apart" points1="@RegularGridTopology.position" points2="0 0 0"/>
-<FixedConstraint indices="0 5 10 15 20 25 30 35 40"/>)"},
+<Node name="body" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <GenerateGrid name="block" max="0.4 0.1 0.1" resolution="4 2 2"/>
+  <MeshTopology position="@block.position" tetrahedra="@block.tetrahedra"/>
+  <MechanicalObject/>
+  <HausdorffDistance name="reach" points1="@block.position" points2="0 0 0"/>
+  <UniformMass totalMass="@reach.max"/>
+  <TetrahedronFEMForceField youngModulus="50000" poissonRatio="0.3"/>
+  <FixedConstraint indices="0 5 10 15 20 25 30 35 40"/>
+</Node>)"},
     {"VolumeFromVolumetricElements", R"(
-<VolumeFromVolumetricElements name="content"/>
-<FixedConstraint indices="0 5 10 15 20 25 30 35 40"/>)"},
+<Node name="body" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <GenerateGrid name="block" max="0.4 0.1 0.1" resolution="4 2 2"/>
+  <MeshTopology position="@block.position" tetrahedra="@block.tetrahedra"/>
+  <MechanicalObject/>
+  <VolumeFromVolumetricElements name="content"/>
+  <UniformMass totalMass="@content.volume"/>
+  <TetrahedronFEMForceField youngModulus="50000" poissonRatio="0.3"/>
+  <FixedConstraint indices="0 5 10 15 20 25 30 35 40"/>
+</Node>)"},
     {"MeshSplittingEngine", R"(
 <BoxROI name="end" box="-0.01 -1 -1  0.01 1 1"/>
 <MeshSplittingEngine name="parts" position="@RegularGridTopology.position" nbInputs="1" indices1="@end.indices"/>
-<FixedConstraint indices="@end.indices"/>)"},
+<MapIndices name="kept" in="0 2" indices="@parts.indexPairs" transpose="1"/>
+<FixedConstraint indices="@kept.out"/>)"},
     {"MeshSubsetEngine", R"(
-<BoxROI name="end" box="-0.01 -1 -1  0.11 1 1"/>
-<MeshSubsetEngine name="part" inputPosition="@RegularGridTopology.position" inputHexahedra="@RegularGridTopology.hexahedra"
-                  indices="@end.indices"/>
-<FixedConstraint indices="0 5 10 15 20 25 30 35 40"/>)"},
+<Node name="body" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <GenerateGrid name="block" max="0.8 0.1 0.1" resolution="8 2 2"/>
+  <BoxROI name="half" position="@block.position" box="-1 -1 -1  0.41 1 1"/>
+  <MeshSubsetEngine name="part" inputPosition="@block.position" inputTetrahedra="@block.tetrahedra" indices="@half.indices"/>
+  <MeshTopology position="@part.position" tetrahedra="@part.tetrahedra"/>
+  <MechanicalObject/>
+  <UniformMass totalMass="1"/>
+  <TetrahedronFEMForceField youngModulus="50000" poissonRatio="0.3"/>
+  <FixedConstraint indices="0 5 10 15 20 25 30 35 40"/>
+</Node>)"},
     {"MeshBarycentricMapperEngine", R"(
-<Hexa2TetraTopologicalMapping input="@RegularGridTopology" output="@cut"/>
-<MeshBarycentricMapperEngine name="place" inputPositions="@cut.position" mappedPointPositions="0.11 0.03 0.02"
-                             tetrahedra="@cut.tetrahedra"/>
-<MeshTopology name="cut"/>
-<FixedConstraint indices="0 5 10 15 20 25 30 35 40"/>)"},
+<Node name="body" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <GenerateGrid name="block" max="0.4 0.1 0.1" resolution="4 2 2"/>
+  <MeshTopology position="@block.position" tetrahedra="@block.tetrahedra"/>
+  <MechanicalObject/>
+  <MeshBarycentricMapperEngine name="place" inputPositions="@block.position" mappedPointPositions="0.11 0.03 0.02"/>
+  <BoxROI name="all" box="-1 -1 -1  1 1 1"/>
+  <IndexValueMapper name="soft" indices="@all.tetrahedronIndices" value="50000"/>
+  <IndexValueMapper name="stiff" inputValues="@soft.outputValues" indices="@place.tableElements" value="1e6"/>
+  <UniformMass totalMass="1"/>
+  <TetrahedronFEMForceField youngModulus="@stiff.outputValues" poissonRatio="0.3"/>
+  <FixedConstraint indices="0 5 10 15 20 25 30 35 40"/>
+</Node>)"},
     {"IndexValueMapper", R"(
 <Node name="body" gravity="0 -9.81 0">
   <EulerImplicitSolver rayleighStiffness="0.01"/>
@@ -1198,16 +1313,13 @@ constexpr auto classExamples = std::to_array<ClassExample>({
   <FixedConstraint indices="0 1"/>
 </Node>)"},
     {"NormalsFromPoints", R"(
-<Node name="skin" gravity="0 -9.81 0">
-  <EulerImplicitSolver rayleighStiffness="0.01"/>
-  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+<Node name="frames" gravity="0 -9.81 0">
+  <EulerExplicitSolver/>
   <GenerateSphere name="ball"/>
   <NormalsFromPoints name="outwards" position="@ball.output_TrianglesPosition" triangles="@ball.triangles"/>
-  <MeshTopology position="@ball.output_TrianglesPosition" triangles="@ball.triangles"/>
-  <MechanicalObject/>
-  <UniformMass totalMass="0.1"/>
-  <MeshSpringForceField stiffness="200" damping="0.5"/>
-  <FixedConstraint indices="0 1"/>
+  <Vertex2Frame name="made" position="@ball.output_TrianglesPosition" normals="@outwards.normals"/>
+  <MechanicalObject template="Rigid3d" position="@made.frames"/>
+  <UniformMass vertexMass="0.1"/>
 </Node>)"},
     {"SmoothMeshEngine", R"(
 <Node name="skin" gravity="0 -9.81 0">
@@ -1215,7 +1327,7 @@ constexpr auto classExamples = std::to_array<ClassExample>({
   <CGLinearSolver iterations="100" tolerance="1e-8"/>
   <GenerateSphere name="ball" platonicSolid="octahedron" tessellationDegree="3"/>
   <MeshTopology name="rough" position="@ball.output_TrianglesPosition" triangles="@ball.triangles"/>
-  <SmoothMeshEngine name="made" input_position="@rough.position"/>
+  <SmoothMeshEngine name="made" topology="@rough" input_position="@rough.position"/>
   <MeshTopology position="@made.output_position" triangles="@ball.triangles"/>
   <MechanicalObject/>
   <UniformMass totalMass="0.1"/>
@@ -1242,7 +1354,7 @@ constexpr auto classExamples = std::to_array<ClassExample>({
   <MeshTopology position="@ball.output_TrianglesPosition" triangles="@ball.triangles"/>
   <VolumeFromTriangles name="content"/>
   <MechanicalObject/>
-  <UniformMass totalMass="0.1"/>
+  <UniformMass totalMass="@content.volume"/>
   <MeshSpringForceField stiffness="200" damping="0.5"/>
   <FixedConstraint indices="0 1"/>
 </Node>)"},

@@ -54,6 +54,10 @@ TEST_CASE("engines have as many numbered inputs as they say, and links lead to n
   CHECK(split.positions[0].size() == 8);
   CHECK(only<MechanicalObject<Vec3d>>(scene).position == split.positions[1]);
   CHECK(split.positions[1].size() == 13);
+  auto first = read(
+      "<MeshSplittingEngine name='s' position='0 0 0 1 0 0' nbInputs='1' indices1='1'/>"
+      "<MechanicalObject position='@s.position1'/>");
+  CHECK(only<MechanicalObject<Vec3d>>(first).position == Points{{1, 0, 0}});
   CHECK_THAT(error_of([] { read("<MergeVectors nbInputs='1' input1='1' input2='x'/>"); }),
              Contains("<MergeVectors>: input2:") && Contains("'x'"));
   CHECK_THAT(error_of([] { read("<MergeVectors nbInputs='1' input1='1' input2='2'/>"); }),

@@ -39,7 +39,7 @@ std::vector<Attribute> attributes_of_sofa() {
 // loader where the class has no field for one; externalForce becomes a component of its own
 bool taken(ClassInfo const& info, std::string_view name) {
   static const std::set<std::string_view> placing{"translation", "rotation", "scale", "scale3d", "vertices"};
-  return name == "topology" || name == "filename" || (info.role == RoleKind::state && name == "externalForce") || (info.role == RoleKind::visualModel && placing.count(name) > 0);
+  return name == "topology" || name == "filename" || (info.role == RoleKind::engine && name == "useRestPosition") || (info.role == RoleKind::state && name == "externalForce") || (info.role == RoleKind::visualModel && placing.count(name) > 0);
 }
 
 ReadScene<Standard> parse(std::string const& component, bool lenient = false) {
@@ -103,7 +103,10 @@ bool same_value(std::string const& a, std::string const& b) {
   return true;
 }
 std::string in_sofas_words(std::string const& value) {
-  return value == "true" ? "1" : value == "false" ? "0" : value;
+  std::string words = value == "true" ? "1" : value == "false" ? "0" : value;
+  for (char& c : words)
+    if (c == '[' || c == ']' || c == ',') c = ' ';  // of matrices
+  return words;
 }
 
 }  // namespace

@@ -70,7 +70,7 @@ SINEW_ONCE void VoxelGridLoader::update(std::string_view where) {
   check_fields(*this, where);
   const std::string at = text(where, ": ", className);
   if (filename.path.empty()) throw Error(at, "filename is empty; name the file to read");
-  const auto [nx, ny, nz] = resolution;
+  const int nx = resolution[0], ny = resolution[1], nz = resolution[2];
   const double voxels = double(nx) * ny * nz;
   if (!(voxels > 0)) throw Error(at, "resolution has a 0; give the voxels along x, y and z");
   std::string content;

@@ -80,7 +80,7 @@ inline constexpr std::array withoutEffectOf = std::to_array<AttributeOf>({
     {"RestShapeSpringsForceField", "recompute_indices"}, {"PolynomialRestShapeSpringsForceField", "recompute_indices"}, {"SparseGridTopology", "tetrahedra"},
     {"SubsetTopology", "indices"}, {"SphereROI", "isVisible"}, {"ExtrudeSurface", "isVisible"},
     {"ExtrudeQuadsAndGenerateHexas", "isVisible"}, {"RandomPointDistributionInSurface", "isVisible"},
-    {"NearestPointROI", "useRestPosition"}, {"MeshROI", "ROIedges"},
+    {"MeshROI", "ROIedges"},
     {"ValuesFromIndices", "outStr"}, {"MergeMeshes", "polygons"}, {"MergePoints", "noUpdate"},
     {"GenerateCylinder", "BezierTetrahedronWeights"}, {"GenerateCylinder", "BezierTriangleWeights"},
     {"GenerateCylinder", "isBezierTetrahedronRational"}, {"GenerateCylinder", "isBezierTriangleRational"},
@@ -166,7 +166,7 @@ inline constexpr std::array notSimulated = std::to_array<NotSimulated>({
     {"", "triAngle", "0"}, {"", "triangulate", "0"}, {"", "updateStateWhenDiverged", "1"}, {"", "updateStiffnessMatrix", "0"},
     {"", "useLineLine", "1"}, {"LCPConstraintSolver", "multi_grid", "0|false"}, {"", "useLinePoint", "1"},
     {"", "usePointPoint", "1"}, {"BarycentricMapping", "useRestPosition", "0"},
-    {"NearestPointROI", "useRestPosition", "1"}, {"", "useSphereTriangle", "1"},
+    {"", "useSphereTriangle", "1"},
     {"", "useSurfaceNormals", "0"}, {"", "useTangentStiffness", "1"}, {"", "useTopology", "1"},
     {"", "velocityFactor", "1"}, {"", "vertexMass", ""}, {"", "volumeConservationMode", "0"},
     {"", "voxelSize", "1 1 1"}});

@@ -39,12 +39,13 @@ class ComponentValues {
     SceneItem& item = *target.item;
     if (!item.info) throw Error("", text("leads to ", item.name, ", which is wrong itself"));
     resolve_(item);
+    // of lists under numbers one
+    for (auto const& f : item.info->fields)
+      if (const int number = f.isInput ? -1 : f.numberOf(target.data); number >= 0)
+        if (const auto lists = split_lists(f.write(item.address)); std::size_t(number) < lists.size())
+          return lists[std::size_t(number)];
     FieldInfo const* const field = offered(*item.info, target.data);
-    if (!field)
-      for (auto const& f : item.info->fields)
-        if (const int number = f.isInput ? -1 : f.numberOf(target.data); number >= 0)
-          if (const auto lists = split_lists(f.write(item.address)); std::size_t(number) < lists.size())
-            return lists[std::size_t(number)];
+    if (field && !field->isInput && field->numberOf(target.data) >= 0) return {};
     if (!field) {
       std::vector<std::string_view> names;
       for (auto const& f : item.info->fields) names.push_back(f.name);

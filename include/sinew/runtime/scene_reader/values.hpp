@@ -144,7 +144,7 @@ class SceneValues {
     static constexpr std::array own = std::to_array<std::string_view>({"name", "template", "src", "type"});
     if (dialect::has(own, a.name) && !(a.name == "type" && item.element->tag != "Object")) return;
     if (a.name == "object1" || a.name == "object2") return;
-    if (a.name == "topology" && item.info->role == RoleKind::engine) return;
+    if ((a.name == "topology" || a.name == "useRestPosition") && item.info->role == RoleKind::engine) return;
     if (a.name == "topology") return others_.otherTopology(item, a);
     const bool maps = item.info->role == RoleKind::mapping || item.info->traits.joinsTopologies;
     if (maps && (a.name == "input" || a.name == "output")) return;
