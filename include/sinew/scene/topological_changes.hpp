@@ -93,7 +93,8 @@ struct TopologicalChanges {
       return numbers.size() == list.size();
     };
     auto keep = [&](auto const& a, std::vector<Index>& ofA, auto const& b, std::vector<Index>& ofB) {
-      if (!(all(a, ofA) & all(b, ofB))) return false;
+      const bool allOfA = all(a, ofA), allOfB = all(b, ofB);
+      if (!allOfA || !allOfB) return false;
       auto& from = ofA.empty() ? ofB : ofA;
       from.erase(from.begin());
       return true;
