@@ -219,6 +219,7 @@ struct TetrahedronViscoelasticityFEMForceField {
 
   /// Tetrahedra that stay keep their history, and parts have that of what they are of.
   void follow(Followed const& change) {
+    if (memory.empty()) return;
     const Renumbering elements = change.topology.ofDimension(3, memory.size() / memorySize);
     std::vector<double> come;
     for (Origin const& part : elements.come)
