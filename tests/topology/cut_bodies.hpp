@@ -5,6 +5,7 @@
 
 #include <sinew/topology/adjacency.hpp>
 #include <sinew/topology/blade_crossings.hpp>
+#include <sinew/topology/cut_pattern.hpp>
 #include <sinew/topology/cut_plan.hpp>
 #include <sinew/topology/hexahedra.hpp>
 #include <sinew/topology/quality.hpp>
