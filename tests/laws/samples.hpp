@@ -40,6 +40,7 @@
 #include "samples/project_to_line.hpp"
 #include "samples/read_state.hpp"
 #include "samples/rest_shape_springs.hpp"
+#include "samples/rigid_mapping.hpp"
 #include "samples/skinning_mapping.hpp"
 #include "samples/sliding_lagrangian_constraint.hpp"
 #include "samples/sph_fluid.hpp"

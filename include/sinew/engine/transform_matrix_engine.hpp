@@ -115,10 +115,12 @@ SINEW_ONCE Eigen::Matrix4d ScaleTransform::matrix(Eigen::Vector3d const& scale) 
 
 SINEW_ONCE void InvertTransformMatrixEngine::update(std::string_view where) {
   check_fields(*this, where);
-  const Eigen::FullPivLU<Eigen::Matrix4d> factors(inT);
-  if (!factors.isInvertible())
-    throw Error(text(where, ": ", className), "inT has no inverse; no size of it may be 0");
-  outT = factors.inverse();
+  // by cofactors, over the largest entry, so that what is small is not taken for singular
+  const double size = inT.cwiseAbs().maxCoeff();
+  bool invertible = false;
+  if (size > 0) (inT / size).eval().computeInverseWithCheck(outT, invertible, 1e-60);
+  if (!invertible) throw Error(text(where, ": ", className), "inT has no inverse; no size of it may be 0");
+  outT /= size;
 }
 
 }  // namespace sinew
