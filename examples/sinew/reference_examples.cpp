@@ -1325,7 +1325,7 @@ constexpr auto classExamples = std::to_array<ClassExample>({
 <Node name="skin" gravity="0 -9.81 0">
   <EulerImplicitSolver rayleighStiffness="0.01"/>
   <CGLinearSolver iterations="100" tolerance="1e-8"/>
-  <GenerateSphere name="ball" platonicSolid="octahedron" tessellationDegree="3"/>
+  <GenerateSphere name="ball" platonicSolid="octahedron" tessellationDegree="1"/>
   <MeshTopology name="rough" position="@ball.output_TrianglesPosition" triangles="@ball.triangles"/>
   <SmoothMeshEngine name="made" topology="@rough" input_position="@rough.position"/>
   <MeshTopology position="@made.output_position" triangles="@ball.triangles"/>
@@ -1378,15 +1378,15 @@ constexpr auto classExamples = std::to_array<ClassExample>({
 <Node name="body" gravity="0 -9.81 0">
   <EulerImplicitSolver rayleighStiffness="0.01"/>
   <CGLinearSolver iterations="100" tolerance="1e-8"/>
-  <GenerateGrid name="left" max="0.2 0.1 0.1" resolution="2 1 1"/>
-  <GenerateCylinder name="right" origin="0.5 0 0" radius="0.1" height="0.2"/>
+  <GenerateGrid name="left" max="0.1 0.1 0.1" resolution="1 1 1"/>
+  <GenerateGrid name="right" min="0.2 0 0" max="0.3 0.1 0.1" resolution="1 1 1"/>
   <MergeMeshes name="made" nbMeshes="2" position1="@left.position" tetrahedra1="@left.tetrahedra" position2="@right.position"
                tetrahedra2="@right.tetrahedra"/>
   <MeshTopology position="@made.position" tetrahedra="@made.tetrahedra"/>
   <MechanicalObject/>
   <UniformMass totalMass="1"/>
   <TetrahedronFEMForceField youngModulus="50000" poissonRatio="0.3"/>
-  <FixedConstraint indices="0 1 2"/>
+  <FixedConstraint indices="0 1 2 8 9 10"/>
 </Node>)"},
     {"MergePoints", R"(
 <Node name="drops" gravity="0 -9.81 0">

@@ -25,8 +25,9 @@ struct TubularMapping {
                 "TubularMapping puts points around frames in space");
   static constexpr std::string_view className = "TubularMapping";
 
-  int nbPointsOnEachCircle = 0, peak = 0;
+  int nbPointsOnEachCircle = 0;
   double radius = 0;
+  int peak = 0;
 
   static constexpr auto fields() {
     using M = TubularMapping;
