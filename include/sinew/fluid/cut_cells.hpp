@@ -254,16 +254,16 @@ class CutCells {
     // the corners of the face, and those of the cells on both sides; behind the last cell there is none
     const std::ptrdiff_t s = grid_.stride[c];
     const std::ptrdiff_t place = i / s % (grid_.cells[c] + 2);
-    std::array<std::array<double, 3>, std::size_t(1) << (N - 1)> line;  // along c
+    double line[std::size_t(1) << (N - 1)][3];  // along c
     bool outside = false, inside = false;
-    for (std::size_t k = 0; k < line.size(); ++k) {
+    for (std::size_t k = 0; k < std::size_t(1) << (N - 1); ++k) {
       std::ptrdiff_t j = i;
       for (std::size_t d = 1; d < axes<N>; ++d)
         if (k >> (d - 1) & 1) j += grid_.stride[(c + d) % axes<N>];
       const double here = distance_.value[at(j)];
       const double below = place > 1 ? distance_.value[at(j - s)] : here;
       const double above = place <= grid_.cells[c] ? distance_.value[at(j + s)] : here;
-      line[k] = {(below + here) / 2, here, (here + above) / 2};
+      line[k][0] = (below + here) / 2, line[k][1] = here, line[k][2] = (here + above) / 2;
       for (const double value : line[k]) (value > 0 ? outside : inside) = true;
     }
     if (!outside || !inside) return outside ? 1 : 0;
@@ -290,9 +290,10 @@ class CutCells {
   // The part of a cell outside solids: in space the mean of four sections, across the axis along which
   // distances change least.
   double roomOf(std::ptrdiff_t i) const {
-    std::array<double, std::size_t(1) << N> value;
+    // plain, since nvcc's front end takes std::array<double, 1 << N> for others of its kind
+    double value[std::size_t(1) << N];
     bool outside = false, inside = false;
-    for (std::size_t k = 0; k < value.size(); ++k) {
+    for (std::size_t k = 0; k < std::size_t(1) << N; ++k) {
       std::ptrdiff_t j = i;
       for (std::size_t c = 0; c < axes<N>; ++c)
         if (k >> c & 1) j += grid_.stride[c];
