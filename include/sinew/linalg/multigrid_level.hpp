@@ -129,8 +129,8 @@ struct MultigridLevel {
   // they find is a few per cent below (Kuczynski, Wozniakowski 1992).
   template <class Run>
   double largestEigenvalue(Run const& workers) {
-    constexpr std::size_t steps = 8;
-    std::array<double, steps> diagonal{}, beside{};
+    // a number, since nvcc takes a local name in a type with it to where the type is met again
+    std::array<double, 8> diagonal{}, beside{};
     std::uint32_t seed = 1;
     for (std::size_t i = 0; i + 1 < d.size(); ++i) {
       seed = seed * 1664525u + 1013904223u;
@@ -139,7 +139,7 @@ struct MultigridLevel {
     std::fill(x.begin(), x.end(), 0.f);
     double norm = std::sqrt(dot(workers, d, d));
     std::size_t done = 0;
-    for (std::size_t k = 0; k < steps; ++k) {
+    for (std::size_t k = 0; k < diagonal.size(); ++k) {
       const float scale = float(1 / norm), last = k == 0 ? 0.f : float(beside[k - 1]);
       each(workers, [&](auto&& part) { part(d) *= scale; });
       multiply(workers);
