@@ -47,9 +47,9 @@ TEST_CASE("a peak falls to nothing over the first frames, or the last") {
   auto radius = [](Vec3d::VecCoord const& points, std::size_t frame) {
     return points[4 * frame].tail<2>().norm();
   };
-  auto points = mapped({.nbPointsOnEachCircle = 4, .peak = 2, .radius = 0.5}, frames(5));
+  auto points = mapped({.nbPointsOnEachCircle = 4, .radius = 0.5, .peak = 2}, frames(5));
   for (std::size_t i = 0; i < 5; ++i) CHECK(radius(points, i) == Approx(std::min(0.25 * double(i), 0.5)));
-  points = mapped({.nbPointsOnEachCircle = 4, .peak = -2, .radius = 0.5}, frames(5));
+  points = mapped({.nbPointsOnEachCircle = 4, .radius = 0.5, .peak = -2}, frames(5));
   for (std::size_t i = 0; i < 5; ++i) CHECK(radius(points, i) == Approx(std::min(0.25 * double(4 - i), 0.5)));
 }
 

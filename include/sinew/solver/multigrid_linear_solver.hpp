@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/core/phase.hpp>
+#include <sinew/core/workers.hpp>
 #include <sinew/solver/linear_system.hpp>
 #include <sinew/solver/multigrid_fields.hpp>
 #include <sinew/solver/point_rotations.hpp>

@@ -84,7 +84,8 @@ class ImpliedValues {
   void pairOfStates(SceneItem& item, std::set<std::string_view>& given) {
     static constexpr std::array pairs =
         std::to_array<std::array<std::string_view, 2>>({{"object1", "position1"}, {"object2", "position2"}});
-    for (auto const& [object, position] : pairs) {
+    for (auto const& pair : pairs) {
+      const std::string_view object = pair[0], position = pair[1];
       auto const* link = item.element->attribute(object);
       FieldInfo const* const field = item.info->field(position);
       if (!link || !field || !field->isInput || given.count(position)) continue;
