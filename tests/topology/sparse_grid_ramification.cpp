@@ -2,6 +2,7 @@
 // Grids over surfaces whose cells hold several parts of a body, or several bodies.
 #include <sinew/mapping/barycentric_mapping.hpp>
 #include <sinew/topology/sparse_grid_multiple_topology.hpp>
+#include <sinew/topology/sparse_grid_ramification_topology.hpp>
 #include <sinew/topology/sparse_grid_topology.hpp>
 
 #include <cstdio>

@@ -50,6 +50,8 @@ void link_neighbours(CellParts& parts, Joined&& joined) {
       if (q >= 0 && joined(below, parts.cells[p], axis)) parts.links.push_back({q, int(p), axis});
     }
 }
+/// Joins cells with a face in common; with a surface, two that touch it only where that crosses the face.
+void link_by_faces(CellParts& parts, SurfaceCells const& grid, Mesh const* surface);
 
 /// The cells of twice the length. With `split`, members that are linked inside a cell are one part of it.
 /// A cell is as filled as its eight members in the mean; a part of one that is split, as its last member over
@@ -132,6 +134,30 @@ SINEW_ONCE void fill_by_surface(CellParts& parts, SurfaceCells const& grid, bool
   for (auto const& c : parts.cells)
     parts.stiffness.push_back(fillWeighted && grid.kinds[grid.number(c)] == SurfaceCells::touched ? 0.5 : 1);
   parts.mass = parts.stiffness;
+}
+
+SINEW_ONCE void link_by_faces(CellParts& parts, SurfaceCells const& grid, Mesh const* surface) {
+  std::vector<bool> crossed[3];  // the face of a cell to the one below it
+  if (surface)
+    for (auto& faces : crossed) faces.assign(grid.kinds.size(), false);
+  for (std::size_t t = 0; surface && t < surface->triangles.size(); ++t) {
+    Eigen::Vector3d x[3];
+    for (std::size_t k = 0; k < 3; ++k) x[k] = surface->positions[std::size_t(surface->triangles[t][k])];
+    grid.forCellsNear(x, [&](Eigen::Vector3i const& cell) {
+      const Eigen::Vector3d low = grid.corner(cell), high = grid.corner(cell + Eigen::Vector3i::Ones());
+      for (int axis = 0; axis < 3; ++axis) {
+        Eigen::Vector3d center = (low + high) / 2, half = (high - low) / 2;
+        center[axis] = low[axis], half[axis] = 0;
+        if (triangle_meets_box(x, center, half + grid.slack)) crossed[axis][grid.number(cell)] = true;
+      }
+    });
+  }
+  link_neighbours(parts, [&](Eigen::Vector3i const& below, Eigen::Vector3i const& above, int axis) {
+    auto touched = [&](Eigen::Vector3i const& c) {
+      return grid.kinds[grid.number(c)] == SurfaceCells::touched;
+    };
+    return !surface || !touched(below) || !touched(above) || crossed[axis][grid.number(above)];
+  });
 }
 
 SINEW_ONCE CellParts coarser_parts(CellParts& finer, bool split) {

@@ -3,7 +3,8 @@
 
 #include <sinew/core/compiled.hpp>
 #include <sinew/core/component.hpp>
-#include <sinew/topology/sparse_grid_ramification_topology.hpp>
+#include <sinew/topology/element_checks.hpp>
+#include <sinew/topology/sparse_grid.hpp>
 
 #include <optional>
 #include <vector>
