@@ -72,7 +72,8 @@ class CutParts {
                                         partsAt_.end(),
                                         std::pair<Index, Index>(point, 0),
                                         [](auto const& p, auto const& q) { return p.first < q.first; });
-    return {range.first, range.second};
+    return std::span(partsAt_).subspan(std::size_t(range.first - partsAt_.begin()),
+                                       std::size_t(range.second - range.first));
   }
   /// A face of an element, outwards where that is positively oriented.
   static Face faceWithout(Element const& e, std::size_t k) {
