@@ -99,7 +99,6 @@ struct Step {
   /// Cuts what blades have gone through, by cut(path, order).
   template <class F>
   void cut(F&& f) const {
-    [[maybe_unused]] const auto span = root.span(Phase::carving);
     Cutting<RootScope>{root}.make(notes(), f);
   }
 
