@@ -46,6 +46,10 @@ TEST_CASE("a scene file says how many threads work") {
     INFO(bad);
     CHECK_THROWS_WITH(simulation("<Threads count=\"" + bad + "\"/>", ""), Catch::Matchers::Contains("count"));
   }
+  // read in part, as SOFA reads whole numbers, and said
+  const auto scene = parse_scene<Small>("test.scn", "<Node><Threads count=\"1e9\"/></Node>");
+  REQUIRE(scene.warnings.size() == 1);
+  CHECK_THAT(scene.warnings[0], Catch::Matchers::Contains("count: '1e9' is read as 1, as in SOFA"));
 }
 
 }  // namespace test_threads
