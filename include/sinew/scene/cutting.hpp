@@ -28,8 +28,6 @@ struct Cutting {
   bool make(StepNotes const& notes, F&& cut) const {
     int count = 0;
     traverse(root, on<role::Cutting>([&](auto const&, auto const&) { ++count; }));
-    if (count == 0) return false;
-    [[maybe_unused]] const auto span = root.span(Phase::carving);
     bool any = false;
     for (int number = 0; number < count; ++number) {
       std::optional<CutOrder> order;

@@ -76,6 +76,7 @@ struct Step {
   /// Removes what tools touch, by remove(path, elements); says whether something went.
   template <class Remove>
   bool carve(Remove&& remove) const {
+    if (!any_below<role::Carving>(root)) return false;
     [[maybe_unused]] const auto span = root.span(Phase::carving);
     const std::vector<Carved> all = Carving<RootScope>{root}.touched();
     long removed = 0;
@@ -99,6 +100,8 @@ struct Step {
   /// Cuts what blades have gone through, by cut(path, order).
   template <class F>
   void cut(F&& f) const {
+    if (!any_below<role::Cutting>(root)) return;
+    [[maybe_unused]] const auto span = root.span(Phase::carving);
     Cutting<RootScope>{root}.make(notes(), f);
   }
 
