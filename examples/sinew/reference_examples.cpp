@@ -170,6 +170,26 @@ constexpr std::string_view friction = R"(
     <PointCollisionModel/>
   </Node>
 </Node>)";
+constexpr std::string_view parts = R"(
+<Node name="root" gravity="0 -9.81 0" dt="0.02">
+  <MultiStepAnimationLoop collisionSteps="2" integrationSteps="5"/>
+  <DefaultPipeline/>
+  <BruteForceBroadPhase/>
+  <BVHNarrowPhase/>
+  <MinProximityIntersection alarmDistance="0.05" contactDistance="0.01"/>
+  <DefaultContactManager/>
+  <Node name="floor">
+    <MeshTopology triangles="0 1 2  0 2 3"/>
+    <MechanicalObject position="-1 0 1  1 0 1  1 0 -1  -1 0 -1"/>
+    <TriangleCollisionModel moving="false" simulated="false" contactStiffness="500"/>
+  </Node>
+  <Node name="ball">
+    <EulerExplicitSolver/>
+    <MechanicalObject position="0 0.12 0"/>
+    <UniformMass vertexMass="0.1"/>
+    <SphereCollisionModel radius="0.05" contactStiffness="500"/>
+  </Node>
+</Node>)";
 
 /// f(line) for each line of a text but the empty one at its beginning.
 template <class F>
@@ -204,6 +224,7 @@ constexpr auto roleExamples = std::to_array<RoleExample>(
      {sinew::RoleKind::intersection, contact, "MinProximityIntersection"},
      {sinew::RoleKind::contactManager, contact, "DefaultContactManager"},
      {sinew::RoleKind::collisionModel, contact, "SphereCollisionModel"},
+     {sinew::RoleKind::stepDivision, parts, "MultiStepAnimationLoop"},
      {sinew::RoleKind::animationLoop, friction, "FreeMotionAnimationLoop"},
      {sinew::RoleKind::lagrangianConstraint, multipliers, "FixedLagrangianConstraint"},
      {sinew::RoleKind::constraintSolver, friction, "BlockGaussSeidelConstraintSolver"},

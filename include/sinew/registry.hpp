@@ -214,9 +214,10 @@ using GridFluids = Registry<Fluid2D<Vec2d>, Fluid3D<Vec3d>, Fluid3D<Vec3f>>;
 using ChangingTopologies = Registry<TopologicalChangeProcessor, TopologyBoundingTrasher<Vec3d>>;
 
 /// Every component that Sinew brings, over the DataTypes that scenes use.
-struct Standard : Registry<Gravity, Threads, StandardTopologies, MadeMeshes, ChangingTopologies, VisualModel,
-                           StandardEngines, GridFluids, StandardForces, StandardMappings, StandardSolvers,
-                           StandardCollision, StandardMultipliers, Playback<Vec3d>, Playback<Rigid3d>> {
+struct Standard
+    : Registry<Gravity, Threads, MultiStepAnimationLoop, StandardTopologies, MadeMeshes, ChangingTopologies,
+               VisualModel, StandardEngines, GridFluids, StandardForces, StandardMappings, StandardSolvers,
+               StandardCollision, StandardMultipliers, Playback<Vec3d>, Playback<Rigid3d>> {
   static constexpr bool proved = true;  // tests/runtime/promises.cpp
 };
 
