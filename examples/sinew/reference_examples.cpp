@@ -113,6 +113,21 @@ constexpr std::string_view boxInPool = R"(
     </Node>
   </Node>
 </Node>)";
+constexpr std::string_view namedBlock = R"(
+<Node name="block" gravity="0 0 -9.81">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <SparseLDLSolver/>
+  <RegularGridTopology name="grid" n="4 3 3" max="0.3 0.2 0.2"/>
+  <MechanicalObject/>
+  <UniformMass totalMass="12"/>
+  <HexahedronFEMForceField youngModulus="50000" poissonRatio="0.3"/>
+  <FixedConstraint indices="0 4 8 12 16 20 24 28 32"/>
+  <Node name="cut">
+    <MeshTopology name="large"/>
+    <Hexa2TetraTopologicalMapping input="@../grid" output="@large"/>
+  </Node>
+  <HERE/>
+</Node>)";
 constexpr std::string_view contact = R"(
 <Node name="root" gravity="0 -9.81 0">
   <DefaultPipeline/>
@@ -1772,6 +1787,28 @@ constexpr auto classExamples = std::to_array<ClassExample>({
      beams,
      "FixedConstraint",
      Place::beside},
+    {"Mesh2PointTopologicalMapping",
+     R"(
+<Node name="middles">
+  <MeshTopology name="points"/>
+  <Mesh2PointTopologicalMapping hexaBaryCoords="0.5 0.5 0.5" input="@../grid" output="@points"/>
+  <MechanicalObject/>
+  <BarycentricMapping/>
+  <ConstantForceField totalForce="0 0 -1"/>
+</Node>)",
+     namedBlock,
+     "HERE"},
+    {"SimpleTesselatedTetraTopologicalMapping",
+     R"(
+<Node name="fine">
+  <MeshTopology name="small"/>
+  <SimpleTesselatedTetraTopologicalMapping input="@../cut/large" output="@small"/>
+  <MechanicalObject/>
+  <BarycentricMapping/>
+  <ConstantForceField totalForce="0 0 -1"/>
+</Node>)",
+     namedBlock,
+     "HERE"},
     {"Triangle2EdgeTopologicalMapping",
      R"(
 <Node name="border">

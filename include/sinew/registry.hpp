@@ -166,8 +166,9 @@ using StandardEngines =
              MeshTrianLoader, VoxelGridLoader, SphereLoader, MeshEngines, ListEngines, PlacingEngines,
              GenerateRigidMass<Rigid3d>, Hexa2TetraTopologicalMapping, Tetra2TriangleTopologicalMapping,
              Hexa2QuadTopologicalMapping, Quad2TriangleTopologicalMapping, Triangle2EdgeTopologicalMapping,
-             Edge2QuadTopologicalMapping, SpatialEngines<Vec3d>, PointsFromIndices<Vec3d>, Regions<Vec3f>,
-             SpatialEngines<Rigid3d>, BoxROI<Vec1d>, Regions<Vec2d>, Regions<Rigid2d>>;
+             Edge2QuadTopologicalMapping, Mesh2PointTopologicalMapping,
+             SimpleTesselatedTetraTopologicalMapping, SpatialEngines<Vec3d>, PointsFromIndices<Vec3d>,
+             Regions<Vec3f>, SpatialEngines<Rigid3d>, BoxROI<Vec1d>, Regions<Vec2d>, Regions<Rigid2d>>;
 using StandardTopologies =
     Registry<TetrahedronTopology, MeshTopology, RegularGridTopology, SparseGridTopology,
              SparseGridRamificationTopology, SparseGridMultipleTopology, SurfaceSampling>;
