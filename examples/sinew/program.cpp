@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "options.hpp"
 
+#ifdef SINEW_ZLIB
+#include <sinew/io/gzip.hpp>
+#endif
+
 #include <cstdio>
 #include <exception>
 
 int cli::program(int argc, char** argv) try {
+#ifdef SINEW_ZLIB
+  sinew::io::use_gzip();
+#endif
   int status = cli::ok;
   const cli::Options options = cli::read_options(argc, argv, status);
   switch (options.command) {

@@ -113,6 +113,21 @@ constexpr std::string_view boxInPool = R"(
     </Node>
   </Node>
 </Node>)";
+constexpr std::string_view namedBlock = R"(
+<Node name="block" gravity="0 0 -9.81">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <SparseLDLSolver/>
+  <RegularGridTopology name="grid" n="4 3 3" max="0.3 0.2 0.2"/>
+  <MechanicalObject/>
+  <UniformMass totalMass="12"/>
+  <HexahedronFEMForceField youngModulus="50000" poissonRatio="0.3"/>
+  <FixedConstraint indices="0 4 8 12 16 20 24 28 32"/>
+  <Node name="cut">
+    <MeshTopology name="large"/>
+    <Hexa2TetraTopologicalMapping input="@../grid" output="@large"/>
+  </Node>
+  <HERE/>
+</Node>)";
 constexpr std::string_view contact = R"(
 <Node name="root" gravity="0 -9.81 0">
   <DefaultPipeline/>
@@ -170,6 +185,26 @@ constexpr std::string_view friction = R"(
     <PointCollisionModel/>
   </Node>
 </Node>)";
+constexpr std::string_view parts = R"(
+<Node name="root" gravity="0 -9.81 0" dt="0.02">
+  <MultiStepAnimationLoop collisionSteps="2" integrationSteps="5"/>
+  <DefaultPipeline/>
+  <BruteForceBroadPhase/>
+  <BVHNarrowPhase/>
+  <MinProximityIntersection alarmDistance="0.05" contactDistance="0.01"/>
+  <DefaultContactManager/>
+  <Node name="floor">
+    <MeshTopology triangles="0 1 2  0 2 3"/>
+    <MechanicalObject position="-1 0 1  1 0 1  1 0 -1  -1 0 -1"/>
+    <TriangleCollisionModel moving="false" simulated="false" contactStiffness="500"/>
+  </Node>
+  <Node name="ball">
+    <EulerExplicitSolver/>
+    <MechanicalObject position="0 0.12 0"/>
+    <UniformMass vertexMass="0.1"/>
+    <SphereCollisionModel radius="0.05" contactStiffness="500"/>
+  </Node>
+</Node>)";
 
 /// f(line) for each line of a text but the empty one at its beginning.
 template <class F>
@@ -204,6 +239,7 @@ constexpr auto roleExamples = std::to_array<RoleExample>(
      {sinew::RoleKind::intersection, contact, "MinProximityIntersection"},
      {sinew::RoleKind::contactManager, contact, "DefaultContactManager"},
      {sinew::RoleKind::collisionModel, contact, "SphereCollisionModel"},
+     {sinew::RoleKind::stepDivision, parts, "MultiStepAnimationLoop"},
      {sinew::RoleKind::animationLoop, friction, "FreeMotionAnimationLoop"},
      {sinew::RoleKind::lagrangianConstraint, multipliers, "FixedLagrangianConstraint"},
      {sinew::RoleKind::constraintSolver, friction, "BlockGaussSeidelConstraintSolver"},
@@ -1751,6 +1787,28 @@ constexpr auto classExamples = std::to_array<ClassExample>({
      beams,
      "FixedConstraint",
      Place::beside},
+    {"Mesh2PointTopologicalMapping",
+     R"(
+<Node name="middles">
+  <MeshTopology name="points"/>
+  <Mesh2PointTopologicalMapping hexaBaryCoords="0.5 0.5 0.5" input="@../grid" output="@points"/>
+  <MechanicalObject/>
+  <BarycentricMapping/>
+  <ConstantForceField totalForce="0 0 -1"/>
+</Node>)",
+     namedBlock,
+     "HERE"},
+    {"SimpleTesselatedTetraTopologicalMapping",
+     R"(
+<Node name="fine">
+  <MeshTopology name="small"/>
+  <SimpleTesselatedTetraTopologicalMapping input="@../cut/large" output="@small"/>
+  <MechanicalObject/>
+  <BarycentricMapping/>
+  <ConstantForceField totalForce="0 0 -1"/>
+</Node>)",
+     namedBlock,
+     "HERE"},
     {"Triangle2EdgeTopologicalMapping",
      R"(
 <Node name="border">

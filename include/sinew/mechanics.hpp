@@ -2,6 +2,7 @@
 #pragma once
 
 // Scenes of bodies: states, masses, forces, constraints, mappings and solvers, over meshes that are given.
+#include <sinew/control/multi_step_animation_loop.hpp>
 #include <sinew/control/step_callback.hpp>
 #include <sinew/control/threads.hpp>
 #include <sinew/scene/simulation.hpp>

@@ -166,8 +166,9 @@ using StandardEngines =
              MeshTrianLoader, VoxelGridLoader, SphereLoader, MeshEngines, ListEngines, PlacingEngines,
              GenerateRigidMass<Rigid3d>, Hexa2TetraTopologicalMapping, Tetra2TriangleTopologicalMapping,
              Hexa2QuadTopologicalMapping, Quad2TriangleTopologicalMapping, Triangle2EdgeTopologicalMapping,
-             Edge2QuadTopologicalMapping, SpatialEngines<Vec3d>, PointsFromIndices<Vec3d>, Regions<Vec3f>,
-             SpatialEngines<Rigid3d>, BoxROI<Vec1d>, Regions<Vec2d>, Regions<Rigid2d>>;
+             Edge2QuadTopologicalMapping, Mesh2PointTopologicalMapping,
+             SimpleTesselatedTetraTopologicalMapping, SpatialEngines<Vec3d>, PointsFromIndices<Vec3d>,
+             Regions<Vec3f>, SpatialEngines<Rigid3d>, BoxROI<Vec1d>, Regions<Vec2d>, Regions<Rigid2d>>;
 using StandardTopologies =
     Registry<TetrahedronTopology, MeshTopology, RegularGridTopology, SparseGridTopology,
              SparseGridRamificationTopology, SparseGridMultipleTopology, SurfaceSampling>;
@@ -214,9 +215,10 @@ using GridFluids = Registry<Fluid2D<Vec2d>, Fluid3D<Vec3d>, Fluid3D<Vec3f>>;
 using ChangingTopologies = Registry<TopologicalChangeProcessor, TopologyBoundingTrasher<Vec3d>>;
 
 /// Every component that Sinew brings, over the DataTypes that scenes use.
-struct Standard : Registry<Gravity, Threads, StandardTopologies, MadeMeshes, ChangingTopologies, VisualModel,
-                           StandardEngines, GridFluids, StandardForces, StandardMappings, StandardSolvers,
-                           StandardCollision, StandardMultipliers, Playback<Vec3d>, Playback<Rigid3d>> {
+struct Standard
+    : Registry<Gravity, Threads, MultiStepAnimationLoop, StandardTopologies, MadeMeshes, ChangingTopologies,
+               VisualModel, StandardEngines, GridFluids, StandardForces, StandardMappings, StandardSolvers,
+               StandardCollision, StandardMultipliers, Playback<Vec3d>, Playback<Rigid3d>> {
   static constexpr bool proved = true;  // tests/runtime/promises.cpp
 };
 

@@ -33,6 +33,7 @@
 #include <sinew/core/roles/projective_constraint.hpp>
 #include <sinew/core/roles/state.hpp>
 #include <sinew/core/roles/step_callback.hpp>
+#include <sinew/core/roles/step_division.hpp>
 #include <sinew/core/roles/topological_change.hpp>
 #include <sinew/core/roles/topology.hpp>
 #include <sinew/core/roles/visual_model.hpp>

@@ -19,6 +19,14 @@ namespace sinew::io {
 /// if the file is missing, empty, unreadable, or not a regular file (a folder, a pipe, a device).
 std::string read_file(std::string const& path);
 
+/// What unpacks a file that is compressed by gzip, and what compresses bytes to one, where the program brings
+/// them: use_gzip() (io/gzip.hpp).
+struct Gzip {
+  std::string (*unpack)(std::string const& path, std::string_view packed) = nullptr;
+  std::string (*pack)(std::string_view bytes) = nullptr;
+};
+inline Gzip gzip{};
+
 /// `word` in quotes, fit for a message: shortened, and without unprintable bytes.
 std::string in_quotes(std::string_view word);
 
@@ -182,6 +190,13 @@ SINEW_ONCE std::string read_file(std::string const& path) {
                      static_cast<char const*>(std::strerror(errno)),
                      "; check the disk or the network"));
   bytes.resize(filled);
+  if (bytes.starts_with("\x1f\x8b")) {
+    if (!gzip.unpack)
+      throw Error(path,
+                  "is compressed by gzip, which this program does not read; unpack it with gunzip first, or "
+                  "call use_gzip() of sinew/io/gzip.hpp");
+    bytes = gzip.unpack(path, bytes);
+  }
   if (bytes.starts_with("\xEF\xBB\xBF")) bytes.erase(0, 3);
   if (bytes.empty()) throw Error(path, "is empty; export it again, or name another file");
   return bytes;

@@ -30,6 +30,9 @@ struct BarycentricMapping {
   static_assert(!In::rigid && !Out::rigid && In::size == 3 && Out::size == 3,
                 "BarycentricMapping joins points in space");
   static constexpr std::string_view className = "BarycentricMapping";
+  // points that lie in elements of the parent
+  static constexpr std::string_view aliases =
+      "Mesh2PointMechanicalMapping SimpleTesselatedTetraMechanicalMapping";
   static constexpr bool needsParentTetrahedra = true;
 
   static constexpr auto fields() { return field_list(); }

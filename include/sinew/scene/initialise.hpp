@@ -39,6 +39,8 @@ class Initialisation {
   bool constrained_ = false;           // the scene solves constraints by multipliers
 
   void checkFields();
+  // steps in parts
+  void checkDivision();
   // topologies are made first; then states, parents before children
   void initStates();
   template <class S>
@@ -250,10 +252,27 @@ void Initialisation<RootScope>::run() {
   FluidBoundaries<RootScope>{root_}.init();
   ImmersedBodies<RootScope>{root_}.init();
   initSolvers();
+  checkDivision();
   root_.raise();
   if constexpr (collides<RootScope>) Collision<RootScope>{root_}.findCarriers();
   LooseInteractions<RootScope>{root_}.init();
   root_.settled();
+}
+
+template <class RootScope>
+void Initialisation<RootScope>::checkDivision() {
+  bool impacts = false;
+  traverse(root_, on<role::Intersection>([&](auto const& intersection, auto const&) {
+             impacts = impacts || intersection.continuous;
+           }));
+  with_first<role::StepDivision>(root_, [&](auto const& division) {
+    if (division.integrationSteps > 1 && (constrained_ || impacts))
+      throw Error(text(root_.path(), ": ", component_name<std::decay_t<decltype(division)>>()),
+                  text("integrationSteps is ",
+                       division.integrationSteps,
+                       constrained_ ? ", but constraints by multipliers" : ", but contacts by impacts",
+                       " are those of one integration; leave it at 1, and raise collisionSteps"));
+  });
 }
 
 template <class RootScope>

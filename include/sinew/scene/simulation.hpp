@@ -241,6 +241,8 @@ class Simulation {
   }
 
   void propagate();
+  // a part of a step
+  void advance(Step<RootScope> const& step, bool detects);
 };
 
 // Outside the class, so that a program may have them instantiated in one place: runtime/precompiled.hpp.
@@ -308,24 +310,38 @@ void Simulation<Root>::animate(double dt) {
   if constexpr (proved) {
     const auto scope = rootScope();
     [[maybe_unused]] const auto span = scope.span(Phase::step);
-    const Step<RootScope> step{scope, step_ + 1, time_, dt, warnings_};
-    if constexpr (holds<Root, role::TopologicalChange>())
-      step.changeTopology([&](auto const& path, auto const& elements) { removeElements(path, elements); });
-    step.begin();
-    if constexpr (holds<Root, role::Cutting>())
-      step.cut([&](auto const& path, auto const& order) { return cut(path, order); });
-    if constexpr (collides<RootScope>) step.detectContacts();
-    if constexpr (collides<RootScope> && holds<Root, role::Carving>())
-      if (step.carve([&](auto const& path, auto const& elements) { removeElements(path, elements); }))
-        step.detectContacts();
-    step.computeLoose();
-    step.stepModels();
-    step.integrate(keepsForces_);
-    time_ += dt;
+    long detections = 1, integrations = 1;
+    with_first<role::StepDivision>(scope, [&](auto const& division) {
+      detections = division.collisionSteps, integrations = division.integrationSteps;
+    });
+    const double begin = time_, parts = double(detections) * double(integrations);
+    long part = 0;
+    for (long i = 0; i < detections; ++i)
+      for (long k = 0; k < integrations; ++k) {
+        advance({scope, step_ + 1, time_, dt / parts, warnings_, step_ + part == 0}, k == 0);
+        time_ = begin + dt * (double(++part) / parts);
+      }
     ++step_;
     visualsAreCurrent_ = false;
-    step.end();
+    Step<RootScope>{scope, step_, begin, dt, warnings_}.end();
   }
+}
+
+template <class Root>
+void Simulation<Root>::advance(Step<RootScope> const& step, bool detects) {
+  if constexpr (holds<Root, role::TopologicalChange>())
+    step.changeTopology([&](auto const& path, auto const& elements) { removeElements(path, elements); });
+  step.begin();
+  if constexpr (holds<Root, role::Cutting>())
+    step.cut([&](auto const& path, auto const& order) { return cut(path, order); });
+  if constexpr (collides<RootScope>)
+    if (detects) step.detectContacts();
+  if constexpr (collides<RootScope> && holds<Root, role::Carving>())
+    if (step.carve([&](auto const& path, auto const& elements) { removeElements(path, elements); }))
+      step.detectContacts();
+  step.computeLoose();
+  step.stepModels();
+  step.integrate(keepsForces_);
 }
 
 template <class Root>

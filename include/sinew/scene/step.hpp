@@ -33,6 +33,7 @@ struct Step {
   long number;      // of the step, from 1
   double time, dt;  // at its start, and its length [s]
   StepWarnings& warnings;
+  bool first = number == 1;  // nothing was integrated before since init or reset
 
   /// What acts before a step: all may look at the scene, points go and come, then it may be moved.
   void begin() const {
@@ -129,7 +130,7 @@ struct Step {
         with_first<role::AnimationLoop>(root, [&](auto& loop) { integrateConstrained(loop, keepsForces); });
     if (!constrained)
       for_each_solver(root, [&](auto& ode, auto const& scope) { solve(ode, scope, keepsForces); });
-    if (number == 1) warnOfThresholds();
+    if (first) warnOfThresholds();
   }
 
   /// Checks states, and calls what watches them. The time is that of the end of the step.
@@ -275,7 +276,7 @@ void Step<RootScope>::detectContacts() const {
     });
   };
   // in the first step the host looks at all that may start in each other
-  Collision<RootScope>{root}.detect(dt, number > 1, newPattern, [&](auto const& where, std::string_view why) {
+  Collision<RootScope>{root}.detect(dt, !first, newPattern, [&](auto const& where, std::string_view why) {
     notes().warn(where, "contacts of bodies on a device are found on the host", [&] {
       return text("contacts of bodies on a device are found on the host, from copies: ", why);
     });
