@@ -496,6 +496,22 @@ constexpr auto classExamples = std::to_array<ClassExample>({
      sheet,
      "TriangleFEMForceField",
      Place::beside},
+    {"TetrahedronDiffusionFEMForceField", R"(
+<Node name="body" gravity="0 0 0">
+  <GenerateGrid name="grid" min="0 0 0" max="0.4 0.1 0.1" resolution="5 3 3"/>
+  <MeshTopology position="@grid.output_position" tetrahedra="@grid.tetrahedra"/>
+  <MechanicalObject/>
+  <BoxROI name="hot" box="-0.01 -0.01 -0.01  0.01 0.11 0.11"/>
+  <ValuesFromPositions name="start" position="@grid.output_position" inputValues="80 20" direction="1 0 0"/>
+  <Node name="temperature">
+    <EulerImplicitSolver firstOrder="true"/>
+    <CGLinearSolver iterations="100" tolerance="1e-8"/>
+    <MechanicalObject template="Vec1d" position="@../start.values"/>
+    <MeshMatrixMass massDensity="3.6e6"/>
+    <TetrahedronDiffusionFEMForceField constantDiffusionCoefficient="0.5"/>
+    <FixedConstraint indices="@../hot.indices"/>
+  </Node>
+</Node>)"},
     {"TetrahedronFEMForceField", "", softBody, ""},
     {"TetrahedronHyperelasticityFEMForceField", R"(
 <TetrahedronHyperelasticityFEMForceField materialName="NeoHookean" ParameterSet="20000 30000"/>)"},

@@ -54,6 +54,7 @@
 #include <sinew/force/stiff_spring.hpp>
 #include <sinew/force/surface_pressure.hpp>
 #include <sinew/force/tait_surface_pressure.hpp>
+#include <sinew/force/tetrahedron_diffusion.hpp>
 #include <sinew/force/tetrahedron_fem.hpp>
 #include <sinew/force/tetrahedron_hyperelasticity.hpp>
 #include <sinew/force/tetrahedron_viscoelasticity.hpp>

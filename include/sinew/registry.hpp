@@ -87,6 +87,10 @@ using PointMappings = Registry<IdentityMapping<In, Out>, SubsetMapping<In, Out>>
 template <class In, class Out>
 using SpatialMappings = Registry<PointMappings<In, Out>, BarycentricMapping<In, Out>>;
 
+// values on the points of a body, such as temperatures
+template <class D>
+using BodyFields = Registry<TetrahedronDiffusionFEMForceField<D>>;
+
 // what scenes over the rarer DataTypes, and in single precision, need
 template <class D>
 using CoreRigids =
@@ -105,7 +109,8 @@ using Playback = Registry<ReadState<D>, WriteState<D>>;
 
 using StandardForces =
     Registry<SpatialComponents<Vec3d>, RigidComponents<Rigid3d>, SpatialRigids<Rigid3d>, CorePoints<Vec1d>,
-             MeshSpringForceField<Vec1d>, CorePoints<Vec2d>, MeshSpringForceField<Vec2d>,
+             MeshSpringForceField<Vec1d>, BodyFields<Vec1d>, MeshMatrixMass<Vec1d>,
+             LinearMovementConstraint<Vec1d>, CorePoints<Vec2d>, MeshSpringForceField<Vec2d>,
              PlaneForceField<Vec2d>, Particles<Vec2d>, ImmersedSolid<Vec2d>, CorePoints<Vec6d>,
              CoreRigids<Rigid2d>, CoreBodies<Vec3f>, CoreRigids<Rigid3f>>;
 using MeasuringMappings =

@@ -78,7 +78,7 @@ inline constexpr std::array withoutEffectOf = std::to_array<AttributeOf>({
     {"ContinuousIntersection", "tolerance"}, {"VisualModel", "dfactor"}, {"VisualModel", "sfactor"},
     {"NNCGConstraintSolver", "sor"}, {"PreconditionedConjugateResidual", "sor"}, {"ParticleSink", "fixed"}, {"PointCollisionModel", "leafScale"}, {"ParticleSource", "lastparticles"}, {"RegularGridTopology", "position"}, {"RegularGridTopology", "tetrahedra"},
     {"RestShapeSpringsForceField", "recompute_indices"}, {"PolynomialRestShapeSpringsForceField", "recompute_indices"}, {"SparseGridTopology", "tetrahedra"},
-    {"SubsetTopology", "indices"}, {"SphereROI", "isVisible"}, {"ExtrudeSurface", "isVisible"},
+    {"SubsetTopology", "indices"}, {"TetrahedronDiffusionFEMForceField", "scalarDiffusion"}, {"SphereROI", "isVisible"}, {"ExtrudeSurface", "isVisible"},
     {"ExtrudeQuadsAndGenerateHexas", "isVisible"}, {"RandomPointDistributionInSurface", "isVisible"},
     {"MeshROI", "ROIedges"},
     {"ValuesFromIndices", "outStr"}, {"MergeMeshes", "polygons"}, {"MergePoints", "noUpdate"},

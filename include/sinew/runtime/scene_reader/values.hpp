@@ -146,6 +146,9 @@ class SceneValues {
     if (a.name == "object1" || a.name == "object2") return;
     if ((a.name == "topology" || a.name == "useRestPosition") && item.info->role == RoleKind::engine) return;
     if (a.name == "topology") return others_.otherTopology(item, a);
+    if ((a.name == "geometryState" && item.info->role == RoleKind::mass) ||
+        (a.name == "tagMechanics" && item.info->role == RoleKind::forceField))
+      return others_.geometry(item, a);
     const bool maps = item.info->role == RoleKind::mapping || item.info->traits.joinsTopologies;
     if (maps && (a.name == "input" || a.name == "output")) return;
     FieldInfo const* field = nullptr;
