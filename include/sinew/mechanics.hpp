@@ -23,6 +23,7 @@
 #include <sinew/constraint/particle_sink.hpp>
 #include <sinew/constraint/particle_source.hpp>
 #include <sinew/constraint/patch_test_movement.hpp>
+#include <sinew/constraint/position_based_dynamics.hpp>
 #include <sinew/constraint/project_direction.hpp>
 #include <sinew/constraint/project_to_line.hpp>
 #include <sinew/constraint/project_to_plane.hpp>

@@ -110,9 +110,10 @@ using Playback = Registry<ReadState<D>, WriteState<D>>;
 using StandardForces =
     Registry<SpatialComponents<Vec3d>, RigidComponents<Rigid3d>, SpatialRigids<Rigid3d>, CorePoints<Vec1d>,
              MeshSpringForceField<Vec1d>, BodyFields<Vec1d>, MeshMatrixMass<Vec1d>,
-             LinearMovementConstraint<Vec1d>, CorePoints<Vec2d>, MeshSpringForceField<Vec2d>,
-             PlaneForceField<Vec2d>, Particles<Vec2d>, ImmersedSolid<Vec2d>, CorePoints<Vec6d>,
-             CoreRigids<Rigid2d>, CoreBodies<Vec3f>, CoreRigids<Rigid3f>>;
+             LinearMovementConstraint<Vec1d>, PositionBasedDynamicsProjectiveConstraint<Vec3d>,
+             PositionBasedDynamicsProjectiveConstraint<Rigid3d>, CorePoints<Vec2d>,
+             MeshSpringForceField<Vec2d>, PlaneForceField<Vec2d>, Particles<Vec2d>, ImmersedSolid<Vec2d>,
+             CorePoints<Vec6d>, CoreRigids<Rigid2d>, CoreBodies<Vec3f>, CoreRigids<Rigid3f>>;
 using MeasuringMappings =
     Registry<DistanceMapping<Vec3d, Vec1d>, DistanceMapping<Rigid3d, Vec1d>, DistanceMapping<Vec2d, Vec1d>,
              VolumeMapping<Vec3d, Vec1d>, CenterOfMassMapping<Vec3d, Vec3d>,
@@ -171,8 +172,9 @@ using StandardEngines =
              MeshTrianLoader, VoxelGridLoader, SphereLoader, MeshEngines, ListEngines, PlacingEngines,
              GenerateRigidMass<Rigid3d>, Hexa2TetraTopologicalMapping, Tetra2TriangleTopologicalMapping,
              Hexa2QuadTopologicalMapping, Quad2TriangleTopologicalMapping, Triangle2EdgeTopologicalMapping,
-             Edge2QuadTopologicalMapping, SpatialEngines<Vec3d>, PointsFromIndices<Vec3d>, Regions<Vec3f>,
-             SpatialEngines<Rigid3d>, BoxROI<Vec1d>, Regions<Vec2d>, Regions<Rigid2d>>;
+             Edge2QuadTopologicalMapping, SpatialEngines<Vec3d>, PointsFromIndices<Vec3d>,
+             ClusteringEngine<Vec3d>, ShapeMatching<Vec3d>, Regions<Vec3f>, SpatialEngines<Rigid3d>,
+             BoxROI<Vec1d>, Regions<Vec2d>, Regions<Rigid2d>>;
 using StandardTopologies =
     Registry<TetrahedronTopology, MeshTopology, RegularGridTopology, SparseGridTopology,
              SparseGridRamificationTopology, SparseGridMultipleTopology, SurfaceSampling>;

@@ -102,7 +102,7 @@ TEST_CASE("values come from a file of vertices with one coordinate") {
       "test.scn",
       "<Node><MeshOBJLoader name='values' filename='t.obj'/>"
       "<Node name='heat'><MechanicalObject template='Vec1' position='@../values.position'/></Node></Node>");
-  auto file = read_scene<Mine>((folder.path / "test.scn").string());
+  auto file = read_scene<Mine>(folder / "test.scn");
   auto const& x = file.root.find_node("heat")->get<MechanicalObject<Vec1d>>()->position;
   REQUIRE(x.size() == 5);
   CHECK(x[0][0] == 7);
