@@ -259,6 +259,21 @@ TEST_CASE("heat is conserved in a body that is insulated, and evens out") {
   for (std::size_t i = 0; i < u.size(); ++i) CHECK(diagonal.lumped.at(i) == Approx(rows.lumped.at(i)));
 }
 
+TEST_CASE("a point of no element keeps its value") {
+  Bar bar(3, 1);
+  bar.points.push_back({5, 5, 5});
+  Vec1d::VecCoord u(bar.points.size(), Vec1d::Coord(1));
+  u[0][0] = 2, u.back()[0] = 9;
+  Simulation sim{heat(bar, u, {.massDensity = {2.0}}, 1.0)};
+  sim.init();
+  for (int i = 0; i < 10; ++i) sim.animate(1.0);
+  CHECK(sim.at<"mesh/heat">().state().position.back()[0] == 9);
+  CHECK(sim.at<"mesh/heat">().state().position[0][0] < 1.5);
+  DiagonalMass<Vec1d> lumped{.massDensity = 2.0};
+  lumped.init(bar.context<Vec1d>(u));
+  CHECK(lumped.lumped.at(u.size() - 1) > 0);
+}
+
 TEST_CASE("two values of a point diffuse without each other, in single precision too") {
   const Bar bar(4, 2);
   Vec2d::VecCoord two;

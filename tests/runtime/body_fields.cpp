@@ -120,7 +120,7 @@ TEST_CASE("what is wrong with values on a body is told") {
   says(
       "<Node><EulerImplicitSolver firstOrder='1'/><CGLinearSolver/><MechanicalObject template='Vec1' "
       "position='1'/>"
-      "<UniformMass vertexMass='1'/><TetrahedronDiffusionFEMForceField/></Node>",
+      "<TetrahedronDiffusionFEMForceField/></Node>",
       "its values lie on no body");
   // other points than those of the elements
   says(scene(temperatures + diffusion + "<MeshMatrixMass massDensity='1' geometryState='@T'/>"),

@@ -71,9 +71,10 @@ struct DiagonalMass {
                          vertexMass.size() == n ? vertexMass : std::vector<MassType>(n, vertexMass.front()));
     }
     if constexpr (!D::rigid) {
-      const std::vector<double> share = sizes(context, where);
+      std::vector<double> share = sizes(context, where);
       double whole = 0;
       for (const double v : share) whole += v;
+      if (!context.body.empty()) fill_unused(share);
       density = massDensity ? *massDensity : *totalMass / whole;
       std::vector<MassType> masses(n);
       for (std::size_t i = 0; i < n; ++i) masses[i] = MassType(density * share[i]);

@@ -98,7 +98,9 @@ struct MeshMatrixMass {
     check_values_of_body(where, context);
     check_element_indices(where, context.topology, n);
 
+    const bool ofValues = !context.body.empty();
     consistent.startPattern(int(n));
+    for (int i = 0; ofValues && i < int(n); ++i) consistent.preallocate(i, i, 1, 1);
     const std::size_t count = forEachElement(context, [&](auto const& e, std::size_t, auto const&) {
       for (const Index i : e)
         for (const Index j : e) consistent.preallocate(i, j, 1, 1);
@@ -130,6 +132,9 @@ struct MeshMatrixMass {
           total += m;
         }
     });
+    if (ofValues)
+      for (const std::size_t i : fill_unused(rows))
+        values[std::size_t(consistent.slot(int(i), int(i)))] = rows[i];
     scale = massDensity.empty() ? totalMass.value_or(1) / total : 1;
     for (std::size_t k = 0; k < values.size(); ++k) consistent.values[k] = Real(scale * values[k]);
     std::vector<MassType> sums(n);

@@ -34,7 +34,7 @@ class ShapeClusters {
             std::span<Eigen::Vector3d const> rest, std::span<double const> masses, HeldPoints const& held,
             double affineRatio);
   /// Takes the points x to their goals, `iterations` times. Allocates nothing.
-  void match(std::vector<Eigen::Vector3d>& x, int iterations) const;
+  void match(std::vector<Eigen::Vector3d>& x, int iterations);
 
  private:
   struct Member {
@@ -53,7 +53,7 @@ class ShapeClusters {
   std::vector<double> share_{};  // of each point: 1 / the number of its clusters, 0 where it is in none
   std::vector<Eigen::Vector3d> held_{};
   double affineRatio_ = 0;
-  mutable std::vector<Eigen::Vector3d> goals_{};
+  std::vector<Eigen::Vector3d> goals_{};
 
   Eigen::Vector3d const& now(std::vector<Eigen::Vector3d> const& x, int point) const {
     const auto i = std::size_t(point);
@@ -149,7 +149,7 @@ SINEW_ONCE void ShapeClusters::init(std::string_view where, std::vector<std::vec
   }
 }
 
-SINEW_ONCE void ShapeClusters::match(std::vector<Eigen::Vector3d>& x, int iterations) const {
+SINEW_ONCE void ShapeClusters::match(std::vector<Eigen::Vector3d>& x, int iterations) {
   for (int iteration = 0; iteration < iterations; ++iteration) {
     std::fill(goals_.begin(), goals_.end(), Eigen::Vector3d::Zero());
     for (Cluster const& cluster : clusters_) {

@@ -57,7 +57,9 @@ class ImpliedValues {
       if (!field.isInput || field.name == linked.name || given.count(field.name)) continue;
       FieldInfo const* const from = engine.info->field(field.name);
       if (!from || !from->isInput) continue;
-      field.read(item.address, values_.valueOf({&engine, nullptr, std::string(field.name)}));
+      const std::string name(field.name);
+      field.read(item.address, values_.valueOf({&engine, nullptr, name}));
+      if (engine.element->attribute(name)) item.links[name] = text(link_to(engine), '.', name);
       given.insert(field.name);
     }
   }
