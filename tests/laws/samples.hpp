@@ -36,7 +36,6 @@
 #include "samples/patch_test_movement.hpp"
 #include "samples/polynomial_rest_shape_springs.hpp"
 #include "samples/polynomial_springs.hpp"
-#include "samples/position_based_dynamics.hpp"
 #include "samples/project_direction.hpp"
 #include "samples/project_to_line.hpp"
 #include "samples/read_state.hpp"
