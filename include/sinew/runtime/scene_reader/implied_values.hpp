@@ -54,7 +54,7 @@ class ImpliedValues {
   /// given, and does it itself.
   void law(SceneItem& item, FieldInfo const& linked, SceneItem& engine, std::set<std::string_view>& given) {
     for (auto const& field : item.info->fields) {
-      if (!field.isInput || field.name == linked.name || given.count(field.name)) continue;
+      if (!field.isInput || field.name == linked.name || item.element->attribute(field.name)) continue;
       FieldInfo const* const from = engine.info->field(field.name);
       if (!from || !from->isInput) continue;
       const std::string name(field.name);
