@@ -80,15 +80,14 @@ TEST_CASE("the constraint of a scene of SOFA takes the clusters and the settings
 }
 
 TEST_CASE("what is given to the constraint goes before what its ShapeMatching has") {
-  const auto file =
+  auto file =
       read(scene(clustering + matching,
-                 "<PositionBasedDynamicsProjectiveConstraint iterations='7' cluster='[0 1 2 3 4]' "
-                 "position='@shapeMatching.targetPosition'/>"));
+                 "<PositionBasedDynamicsProjectiveConstraint position='@shapeMatching.targetPosition' "
+                 "iterations='7' cluster='[0 1 2 3 4]'/>"));
   CHECK(file.root.get<Pbd>()->iterations == 7);
   CHECK(file.root.get<Pbd>()->affineRatio == 0.1);
   // goals may be given, too
-  const auto fixed =
-      read(scene("", "<PositionBasedDynamicsProjectiveConstraint position='@topo.position'/>"));
+  auto fixed = read(scene("", "<PositionBasedDynamicsProjectiveConstraint position='@topo.position'/>"));
   CHECK(fixed.root.get<Pbd>()->position.size() == 5);
 }
 
