@@ -56,6 +56,7 @@
 #include <sinew/topology/cut_rules.hpp>
 #include <sinew/topology/removal_plan.hpp>
 #include <sinew/topology/round_grid.hpp>
+#include <sinew/topology/shape_clusters.hpp>
 #include <sinew/topology/shape_file.hpp>
 #include <sinew/topology/sparse_grid_multiple_topology.hpp>
 #include <sinew/topology/sparse_grid_ramification_topology.hpp>

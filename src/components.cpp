@@ -21,6 +21,7 @@
 #include <sinew/collision/surface_elements.hpp>
 #include <sinew/collision/vertex_contacts.hpp>
 #include <sinew/constraint/constrained_points.hpp>
+#include <sinew/engine/clustering_engine.hpp>
 #include <sinew/engine/complementary_roi.hpp>
 #include <sinew/engine/difference_engine.hpp>
 #include <sinew/engine/dilate_engine.hpp>

@@ -50,6 +50,19 @@ constexpr std::string_view beams = R"(
   <BeamFEMForceField youngModulus="1e7" poissonRatio="0.45" radius="0.01"/>
   <FixedConstraint indices="0"/>
 </Node>)";
+// a body that keeps its shape without elements
+constexpr std::string_view jelly = R"(
+<Node name="jelly" gravity="0 -9.81 0">
+  <EulerImplicitSolver/>
+  <CGLinearSolver iterations="25" tolerance="1e-8"/>
+  <RegularGridTopology n="5 3 3" max="0.4 0.1 0.1"/>
+  <MechanicalObject/>
+  <UniformMass totalMass="4"/>
+  <PlaneForceField normal="0 1 0" d="-0.05" stiffness="500"/>
+  <ClusteringEngine name="clustering" number="4" radius="0.15"/>
+  <ShapeMatching name="matching" cluster="@clustering.cluster"/>
+  <PositionBasedDynamicsProjectiveConstraint stiffness="0.3" position="@matching.targetPosition"/>
+</Node>)";
 // a body that another one follows
 constexpr std::string_view carrier = R"(
 <Node name="body" gravity="0 -9.81 0">
@@ -532,6 +545,22 @@ constexpr auto classExamples = std::to_array<ClassExample>({
      sheet,
      "TriangleFEMForceField",
      Place::beside},
+    {"TetrahedronDiffusionFEMForceField", R"(
+<Node name="body" gravity="0 0 0">
+  <GenerateGrid name="grid" min="0 0 0" max="0.4 0.1 0.1" resolution="5 3 3"/>
+  <MeshTopology position="@grid.output_position" tetrahedra="@grid.tetrahedra"/>
+  <MechanicalObject/>
+  <BoxROI name="hot" box="-0.01 -0.01 -0.01  0.01 0.11 0.11"/>
+  <ValuesFromPositions name="start" position="@grid.output_position" inputValues="80 20" direction="1 0 0"/>
+  <Node name="temperature">
+    <EulerImplicitSolver firstOrder="true"/>
+    <CGLinearSolver iterations="100" tolerance="1e-8"/>
+    <MechanicalObject template="Vec1d" position="@../start.values"/>
+    <MeshMatrixMass massDensity="3.6e6"/>
+    <TetrahedronDiffusionFEMForceField constantDiffusionCoefficient="0.5"/>
+    <FixedConstraint indices="@../hot.indices"/>
+  </Node>
+</Node>)"},
     {"TetrahedronFEMForceField", "", softBody, ""},
     {"TetrahedronHyperelasticityFEMForceField", R"(
 <TetrahedronHyperelasticityFEMForceField materialName="NeoHookean" ParameterSet="20000 30000"/>)"},
@@ -691,6 +720,9 @@ constexpr auto classExamples = std::to_array<ClassExample>({
 <ParabolicConstraint indices="0" P1="0 0 0" P2="0.5 1 0" P3="1 0 0" BeginTime="0" EndTime="0.8"/>)",
      chain,
      "FixedConstraint"},
+    {"PositionBasedDynamicsProjectiveConstraint", jelly},
+    {"ClusteringEngine", jelly},
+    {"ShapeMatching", jelly},
     {"PatchTestMovementProjectiveConstraint",
      R"(
 <PatchTestMovementProjectiveConstraint indices="0 1 2 3 4 5 9 10 14 15 19 20 21 22 23 24" endConstraintTime="1"

@@ -5,6 +5,7 @@
 // All components of engine, topology:
 #include <sinew/engine/average_coord.hpp>
 #include <sinew/engine/box_roi.hpp>
+#include <sinew/engine/clustering_engine.hpp>
 #include <sinew/engine/complementary_roi.hpp>
 #include <sinew/engine/difference_engine.hpp>
 #include <sinew/engine/dilate_engine.hpp>
@@ -54,6 +55,7 @@
 #include <sinew/engine/rigid_to_quat.hpp>
 #include <sinew/engine/roi_value_mapper.hpp>
 #include <sinew/engine/select_label_roi.hpp>
+#include <sinew/engine/shape_matching.hpp>
 #include <sinew/engine/simple_tesselated_tetra_topological_mapping.hpp>
 #include <sinew/engine/smooth_mesh.hpp>
 #include <sinew/engine/sphere_loader.hpp>

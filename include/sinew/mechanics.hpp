@@ -24,6 +24,7 @@
 #include <sinew/constraint/particle_sink.hpp>
 #include <sinew/constraint/particle_source.hpp>
 #include <sinew/constraint/patch_test_movement.hpp>
+#include <sinew/constraint/position_based_dynamics.hpp>
 #include <sinew/constraint/project_direction.hpp>
 #include <sinew/constraint/project_to_line.hpp>
 #include <sinew/constraint/project_to_plane.hpp>
@@ -55,6 +56,7 @@
 #include <sinew/force/stiff_spring.hpp>
 #include <sinew/force/surface_pressure.hpp>
 #include <sinew/force/tait_surface_pressure.hpp>
+#include <sinew/force/tetrahedron_diffusion.hpp>
 #include <sinew/force/tetrahedron_fem.hpp>
 #include <sinew/force/tetrahedron_hyperelasticity.hpp>
 #include <sinew/force/tetrahedron_viscoelasticity.hpp>

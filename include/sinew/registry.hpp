@@ -87,6 +87,10 @@ using PointMappings = Registry<IdentityMapping<In, Out>, SubsetMapping<In, Out>>
 template <class In, class Out>
 using SpatialMappings = Registry<PointMappings<In, Out>, BarycentricMapping<In, Out>>;
 
+// values on the points of a body, such as temperatures
+template <class D>
+using BodyFields = Registry<TetrahedronDiffusionFEMForceField<D>>;
+
 // what scenes over the rarer DataTypes, and in single precision, need
 template <class D>
 using CoreRigids =
@@ -105,9 +109,11 @@ using Playback = Registry<ReadState<D>, WriteState<D>>;
 
 using StandardForces =
     Registry<SpatialComponents<Vec3d>, RigidComponents<Rigid3d>, SpatialRigids<Rigid3d>, CorePoints<Vec1d>,
-             MeshSpringForceField<Vec1d>, CorePoints<Vec2d>, MeshSpringForceField<Vec2d>,
-             PlaneForceField<Vec2d>, Particles<Vec2d>, ImmersedSolid<Vec2d>, CorePoints<Vec6d>,
-             CoreRigids<Rigid2d>, CoreBodies<Vec3f>, CoreRigids<Rigid3f>>;
+             MeshSpringForceField<Vec1d>, BodyFields<Vec1d>, MeshMatrixMass<Vec1d>,
+             LinearMovementConstraint<Vec1d>, PositionBasedDynamicsProjectiveConstraint<Vec3d>,
+             PositionBasedDynamicsProjectiveConstraint<Rigid3d>, CorePoints<Vec2d>,
+             MeshSpringForceField<Vec2d>, PlaneForceField<Vec2d>, Particles<Vec2d>, ImmersedSolid<Vec2d>,
+             CorePoints<Vec6d>, CoreRigids<Rigid2d>, CoreBodies<Vec3f>, CoreRigids<Rigid3f>>;
 using MeasuringMappings =
     Registry<DistanceMapping<Vec3d, Vec1d>, DistanceMapping<Rigid3d, Vec1d>, DistanceMapping<Vec2d, Vec1d>,
              VolumeMapping<Vec3d, Vec1d>, CenterOfMassMapping<Vec3d, Vec3d>,
@@ -168,7 +174,8 @@ using StandardEngines =
              Hexa2QuadTopologicalMapping, Quad2TriangleTopologicalMapping, Triangle2EdgeTopologicalMapping,
              Edge2QuadTopologicalMapping, Mesh2PointTopologicalMapping,
              SimpleTesselatedTetraTopologicalMapping, SpatialEngines<Vec3d>, PointsFromIndices<Vec3d>,
-             Regions<Vec3f>, SpatialEngines<Rigid3d>, BoxROI<Vec1d>, Regions<Vec2d>, Regions<Rigid2d>>;
+             ClusteringEngine<Vec3d>, ShapeMatching<Vec3d>, Regions<Vec3f>, SpatialEngines<Rigid3d>,
+             BoxROI<Vec1d>, Regions<Vec2d>, Regions<Rigid2d>>;
 using StandardTopologies =
     Registry<TetrahedronTopology, MeshTopology, RegularGridTopology, SparseGridTopology,
              SparseGridRamificationTopology, SparseGridMultipleTopology, SurfaceSampling>;

@@ -91,6 +91,16 @@ concept Resettable = requires(C c) { c.reset(); };
 template <class C>
 inline constexpr bool needs_masses = requires { C::needsMasses; };
 
+/// A force field or a mass that may be over values on a body: its state has no topology of its own then, and
+/// the elements are those of the body above (BodyView).
+template <class C>
+inline constexpr bool over_body = [] {
+  if constexpr (requires { C::overBody; })
+    return bool(C::overBody);
+  else
+    return false;
+}();
+
 /// Whether a component does all that its role and its hooks promise.
 template <class C>
 concept ActsAsSaid = is_called(named::beginStep<C> || named::beforeStep<C>, ActsBeforeStep<C>) &&

@@ -13,7 +13,8 @@ namespace sinew {
 /// A mass for each point: given one by one, or from a density (or the total) over the elements of the
 /// topology, which share theirs out among their points. Elements are the tetrahedra and hexahedra; where
 /// there are none, the triangles and quads (and the density is that of an area); else the edges (that of a
-/// length).
+/// length). Over values with fewer coordinates than space, such as temperatures, that stand in a child node
+/// of the body, they are those of the body, and the density is a heat capacity [J/(m^3 K)].
 template <class D>
 struct DiagonalMass {
   using Role = role::Mass;
@@ -23,6 +24,7 @@ struct DiagonalMass {
   using VecDeriv = typename D::VecDeriv;
   using MassType = typename D::MassType;
   static constexpr std::string_view className = "DiagonalMass";
+  static constexpr bool overBody = !D::rigid && D::spatial < 3;
 
   std::optional<double> massDensity{};
   std::optional<double> totalMass{};
@@ -69,9 +71,10 @@ struct DiagonalMass {
                          vertexMass.size() == n ? vertexMass : std::vector<MassType>(n, vertexMass.front()));
     }
     if constexpr (!D::rigid) {
-      const std::vector<double> share = sizes(context, where);
+      std::vector<double> share = sizes(context, where);
       double whole = 0;
       for (const double v : share) whole += v;
+      if (!context.body.empty()) fill_unused(share);
       density = massDensity ? *massDensity : *totalMass / whole;
       std::vector<MassType> masses(n);
       for (std::size_t i = 0; i < n; ++i) masses[i] = MassType(density * share[i]);
@@ -97,9 +100,9 @@ struct DiagonalMass {
  private:
   // the volume, area or length that each point stands for: the integral of its shape function
   static std::vector<double> sizes(InitContext<D> const& context, std::string const& where) {
-    std::vector<Eigen::Vector3d> x(context.rest.size(), Eigen::Vector3d::Zero());
-    for (std::size_t i = 0; i < x.size(); ++i)
-      x[i].head<D::spatial>() = D::center(context.rest[i]).template cast<double>();
+    check_values_of_body(where, context);
+    std::vector<Eigen::Vector3d> x(context.rest.size());
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] = context.place(Index(i));
     auto at = [&x](Index i) -> Eigen::Vector3d const& { return x[std::size_t(i)]; };
     std::vector<double> size(x.size(), 0.0);
     auto share = [&size](auto const& element, double whole) {

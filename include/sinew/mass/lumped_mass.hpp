@@ -11,6 +11,17 @@
 
 namespace sinew {
 
+/// Gives points of no element, on which values lie, the mean capacity of all: nothing flows to them, so that
+/// they keep their values with any. Returns which points these are.
+inline std::vector<std::size_t> fill_unused(std::vector<double>& capacities) {
+  double mean = 0;
+  for (const double c : capacities) mean += c / double(capacities.size());
+  std::vector<std::size_t> unused;
+  for (std::size_t i = 0; i < capacities.size(); ++i)
+    if (capacities[i] == 0) capacities[i] = mean, unused.push_back(i);
+  return unused;
+}
+
 /// Masses lumped at the points, one for all or one for each: the loops behind UniformMass and DiagonalMass.
 /// The mass of a point is a scalar, that of a rigid body also has an inertia I in body axes; R rotates it to
 /// the world.

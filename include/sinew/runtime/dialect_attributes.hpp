@@ -76,9 +76,10 @@ inline constexpr std::array withoutEffectOf = std::to_array<AttributeOf>({
     {"MeshSTLLoader", "prisms"}, {"MeshSTLLoader", "pyramids"}, {"MeshVTKLoader", "polygons"},
     {"MeshVTKLoader", "polylines"}, {"MeshVTKLoader", "prisms"}, {"MeshVTKLoader", "pyramids"}, {"ContinuousIntersection", "continuousCollisionType"}, {"ContinuousIntersection", "maxIterations"},
     {"ContinuousIntersection", "tolerance"}, {"VisualModel", "dfactor"}, {"VisualModel", "sfactor"},
-    {"NNCGConstraintSolver", "sor"}, {"PreconditionedConjugateResidual", "sor"}, {"ParticleSink", "fixed"}, {"PointCollisionModel", "leafScale"}, {"ParticleSource", "lastparticles"}, {"RegularGridTopology", "position"}, {"RegularGridTopology", "tetrahedra"},
+    {"NNCGConstraintSolver", "sor"}, {"PreconditionedConjugateResidual", "sor"}, {"ParticleSink", "fixed"}, {"PositionBasedDynamicsProjectiveConstraint", "old_position"},
+    {"PositionBasedDynamicsProjectiveConstraint", "velocity"}, {"PointCollisionModel", "leafScale"}, {"ParticleSource", "lastparticles"}, {"RegularGridTopology", "position"}, {"RegularGridTopology", "tetrahedra"},
     {"RestShapeSpringsForceField", "recompute_indices"}, {"PolynomialRestShapeSpringsForceField", "recompute_indices"}, {"SparseGridTopology", "tetrahedra"},
-    {"SubsetTopology", "indices"}, {"SphereROI", "isVisible"}, {"ExtrudeSurface", "isVisible"},
+    {"SubsetTopology", "indices"}, {"TetrahedronDiffusionFEMForceField", "scalarDiffusion"}, {"SphereROI", "isVisible"}, {"ExtrudeSurface", "isVisible"},
     {"ExtrudeQuadsAndGenerateHexas", "isVisible"}, {"RandomPointDistributionInSurface", "isVisible"},
     {"MeshROI", "ROIedges"},
     {"ValuesFromIndices", "outStr"}, {"MergeMeshes", "polygons"}, {"MergePoints", "noUpdate"},
@@ -125,7 +126,7 @@ struct NotSimulated {
   std::string_view className, attribute, standard;
 };
 inline constexpr std::array notSimulated = std::to_array<NotSimulated>({
-    {"AverageCoord", "vecId", "1"}, {"GenerateCylinder", "BezierTetrahedronDegree", ""},
+    {"AverageCoord", "vecId", "1"}, {"ClusteringEngine", "outFile", ""}, {"GenerateCylinder", "BezierTetrahedronDegree", ""},
     {"GenerateCylinder", "BezierTriangleDegree", ""}, {"GenerateSphere", "BezierTetrahedronDegree", ""},
     {"GenerateSphere", "BezierTriangleDegree", ""}, {"MeshTrianLoader", "trian2", "0"},
     {"", "AnisotropyDirections", ""}, {"", "box", ""},

@@ -41,6 +41,7 @@ struct RuntimeScope {
                  [](void const* s) { return static_cast<S const*>(s)->topology(); },
                  [](void const* s) { return static_cast<S const*>(s)->topologyAddress(); },
                  nullptr};
+    top.mount.body = [](void const* s, BodySearch next) { return static_cast<S const*>(s)->body(next); };
     if constexpr (S::threaded) top.mount.workers = typed.workers().workers;
     if constexpr (S::hasState) {
       auto& state = typed.stateScope().node.state();
@@ -132,6 +133,25 @@ struct RuntimeScope {
   template <class D>
   InitContext<D> context() const {
     return detail::init_context<D>(path(), state<D>(), topology());
+  }
+  BodyView body(BodySearch next = BodySearch::values) const {
+    if (atMount) return mount().scope ? mount().body(mount().scope, next) : BodyView{};
+    const bool topologyHere = node.topology() && next != BodySearch::state;
+    if (topologyHere && next == BodySearch::values) return {};
+    BodyView found;
+    if (topologyHere) next = BodySearch::state;
+    if (node.state() && next == BodySearch::values)
+      next = BodySearch::topology;
+    else if (node.state() && next == BodySearch::state)
+      node.state()->component.template visit<role::State>([&](auto const& s) {
+        if constexpr (BodyView::inSpace<std::decay_t<decltype(s)>>) found = BodyView::over(s);
+      });
+    if (!found.state) found = above().body(next);
+    if (topologyHere) {
+      found.topology = topology();
+      found.topologyAddress = topologyAddress();
+    }
+    return found;
   }
   RuntimeScope parentScope() const { return above().stateScope(); }
   template <class D>
@@ -246,6 +266,10 @@ struct RuntimeScope {
     std::vector<void const*> all;
     if (entry.component.template is<role::State>() && !mapped()) return all;
     addSurroundings(all);
+    if (const BodyView found = body(); found.state) {
+      all.push_back(found.state);
+      all.push_back(found.topologyAddress);
+    }
     for (auto* end : endsOf(entry))
       if (end) RuntimeScope(*end).addSurroundings(all);
     // masses that it may have asked for

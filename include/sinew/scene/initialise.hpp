@@ -138,10 +138,17 @@ class Initialisation {
   struct Given {
     InitContext<D> context;
     std::vector<double> masses{};
+    std::vector<Eigen::Vector3d> places{};
 
     template <class S>
     explicit Given(S const& scope) : context(scope.template context<D>()) {
       if constexpr (needs_masses<C>) context.masses = masses = massesOf(scope, context);
+      if constexpr (over_body<C>)
+        if (const BodyView body = scope.body(); body.state) {
+          body.placesOf(body.state, places);
+          context.topology = body.topology;
+          context.body = places;
+        }
     }
   };
   // of the points of a state: the sums of the rows of M; empty where there is no mass
@@ -150,7 +157,7 @@ class Initialisation {
     std::vector<double> masses;
     scope.stateScope().withMass([&](auto& mass) {
       if constexpr (std::is_same_v<typename std::decay_t<decltype(mass)>::DataTypes, D>) {
-        mass.init(context);
+        mass.init(Given<std::decay_t<decltype(mass)>, D>(scope).context);
         typename D::VecDeriv along(context.rest.size(), D::Deriv::Unit(0)),
             sums(along.size(), D::Deriv::Zero());
         mass.addMDx(sums, context.rest, along, 1.0);

@@ -20,6 +20,7 @@ struct NoScope {
   static Eigen::Vector3d gravity() { return Eigen::Vector3d::Zero(); }
   static TopologyView topology() { return {}; }
   static void const* topologyAddress() { return nullptr; }
+  static BodyView body(BodySearch) { return {}; }
   static constexpr OneThread workers() { return {}; }
   template <class F>
   static void withLinearSolverIfAny(F&&) {}
@@ -208,6 +209,19 @@ struct Scope {
   template <class D>
   InitContext<D> context() const {
     return detail::init_context<D>(path(), state<D>(), topology());
+  }
+  /// The body on which the values of the state of this node lie.
+  BodyView body(BodySearch next = BodySearch::values) const {
+    if constexpr (always<role::Topology>) {
+      if (next == BodySearch::values) return {};
+      if (next == BodySearch::topology) {
+        BodyView found = bodyState(BodySearch::state);
+        found.topology = topology();
+        found.topologyAddress = topologyAddress();
+        return found;
+      }
+    }
+    return bodyState(next);
   }
   /// The scope that owns the state that the mapping of this node follows.
   auto const& parentScope() const { return above.stateScope(); }
@@ -407,6 +421,15 @@ struct Scope {
   }
 
  private:
+  BodyView bodyState(BodySearch next) const {
+    if constexpr (ownsState) {
+      using S = std::decay_t<decltype(node.state())>;
+      if (next == BodySearch::values) return above.body(BodySearch::topology);
+      if constexpr (BodyView::inSpace<S>)
+        if (next == BodySearch::state) return BodyView::over(node.state());
+    }
+    return above.body(next);
+  }
   template <class Child>
   auto below(Child& child) const {
     return typename ScopeBelow<Child, Scope>::type{child, *this};

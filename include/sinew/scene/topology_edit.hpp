@@ -31,6 +31,7 @@ class TopologyEdit {
   /// Throws Error where there is no topology at `path`, or no element of a number in it.
   TopologyEdit(RootScope const& root, std::string_view path, ElementNumbers const& gone) : root_(root) {
     find(path);
+    refuseValues();
     check(path, gone);
     plan(gone);
     planMapped();
@@ -40,6 +41,7 @@ class TopologyEdit {
   /// that cannot follow, and where there would be too many of them.
   TopologyEdit(RootScope const& root, std::string_view path, CutOrder const& order) : root_(root) {
     find(path);
+    refuseValues();
     planCut(order);
   }
 
@@ -103,6 +105,19 @@ class TopologyEdit {
     traverse(root_, on<role::State>([&](auto& s, auto const&) {
                if (static_cast<void const*>(&s) == state_) points_ = s.size();
              }));
+  }
+
+  // values on the body, such as temperatures, have no law for points that go and come
+  void refuseValues() const {
+    traverse(
+        root_, on<role::ForceField, role::Mass>([this](auto& c, auto const& scope) {
+          if constexpr (over_body<std::decay_t<decltype(c)>>)
+            if (scope.body().state == state_)
+              throw Error(
+                  text(scope.path(), ": ", component_name<std::decay_t<decltype(c)>>()),
+                  "it is over values on the points of a body, and elements cannot go from that body, nor "
+                  "be cut; take the body or the values out of the scene");
+        }));
   }
 
   std::vector<Topology> topologiesOver(void const* state) const {

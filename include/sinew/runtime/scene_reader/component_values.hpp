@@ -92,6 +92,10 @@ class ComponentValues {
       return words;
     if (item.info->dataTypes.find("Rigid3") != std::string_view::npos) return every(words, 3, 3, "0 0 0 1 ");
     if (item.info->dataTypes.find("Rigid2") != std::string_view::npos) return every(words, 3, 2, "0 ");
+    // a file of values has them as the first coordinates of its points
+    if (item.info->dataTypes.find("Vec1") != std::string_view::npos && from &&
+        from->kind == "list of 3 numbers")
+      return every(words, 3, 1, "");
     return words;
   }
   /// The last topology of a node that has points; null where none has.

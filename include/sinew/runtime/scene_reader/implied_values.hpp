@@ -50,6 +50,20 @@ class ImpliedValues {
     }
   }
 
+  /// A link to what an engine makes that goes on in each step: the component takes all that the engine was
+  /// given, and does it itself.
+  void law(SceneItem& item, FieldInfo const& linked, SceneItem& engine, std::set<std::string_view>& given) {
+    for (auto const& field : item.info->fields) {
+      if (!field.isInput || field.name == linked.name || item.element->attribute(field.name)) continue;
+      FieldInfo const* const from = engine.info->field(field.name);
+      if (!from || !from->isInput) continue;
+      const std::string name(field.name);
+      field.read(item.address, values_.valueOf({&engine, nullptr, name}));
+      if (engine.element->attribute(name)) item.links[name] = text(link_to(engine), '.', name);
+      given.insert(field.name);
+    }
+  }
+
   /// What a selection is not told, it takes from the state and the topology around it.
   void surroundings(SceneItem& item, std::set<std::string_view>& given) {
     SceneItem* named = nullptr;  // the topology that it names
@@ -62,9 +76,10 @@ class ImpliedValues {
       for (ScenePlace* at = item.place; at; at = at->parent) {
         SceneItem* from = nullptr;
         std::string data(field.name);
-        if (field.name == "position" && !item.info->dataTypes.empty()) {
+        const bool besides = field.name == "rest_position" && !item.info->traits.law.empty();
+        if ((field.name == "position" || besides) && !item.info->dataTypes.empty()) {
           from = at->ofRole(RoleKind::state);
-          data = item.info->traits.ofPositions ? "position" : "rest_position";
+          data = item.info->traits.ofPositions && !besides ? "position" : "rest_position";
           if (!from) from = at->ofRole(RoleKind::topology), data = "position";
         } else if (dialect::has(topologyLists, field.name)) {
           from = named && named->info ? named : at->ofRole(RoleKind::topology);

@@ -146,6 +146,9 @@ class SceneValues {
     if (a.name == "object1" || a.name == "object2") return;
     if ((a.name == "topology" || a.name == "useRestPosition") && item.info->role == RoleKind::engine) return;
     if (a.name == "topology") return others_.otherTopology(item, a);
+    if ((a.name == "geometryState" && item.info->role == RoleKind::mass) ||
+        (a.name == "tagMechanics" && item.info->role == RoleKind::forceField))
+      return others_.geometry(item, a);
     const bool maps = item.info->role == RoleKind::mapping || item.info->traits.joinsTopologies;
     if (maps && (a.name == "input" || a.name == "output")) return;
     FieldInfo const* field = nullptr;
@@ -168,6 +171,9 @@ class SceneValues {
       } else if (is_link(a.value)) {
         LinkTarget target;
         if (!follow_field(item, *field, a, target, messages_)) return;
+        if (target.item && target.item->info && !target.item->info->traits.law.empty() &&
+            target.item->info->traits.law == target.data && item.info->role != RoleKind::engine)
+          return implied_.law(item, *field, *target.item, given);
         if (item.info->traits.sizedValues && given.insert("size").second)
           if (const std::size_t size = values_.sizeOfValues(target); size > 0)
             item.info->field("size")->read(item.address, std::to_string(size));
