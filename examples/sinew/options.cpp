@@ -358,15 +358,13 @@ Options read_options(int argc, char** argv, int& status) {
       ->type_name("N")
       ->check(CLI::Range(1, 256).description(""));
   sweep->add_option("--part", part, "Run only every N-th combination, from the I-th on")->type_name("I/N");
-  auto* merge = sweep->add_option("--merge", o.sweep.merge, "Put tables of parts together, and run nothing")
-                    ->type_name("FILES")
-                    ->expected(1, 1'000'000);
+  sweep->add_option("--merge", o.sweep.merge, "Put tables of parts together, and run nothing")
+      ->type_name("FILES")
+      ->expected(1, 1'000'000);
   sweep->add_option("--time-limit", o.sweep.timeLimit, "Seconds after which a run is ended, with an error")
       ->type_name("SECONDS")
       ->check(positive_seconds().description(""));
   sweep->add_flag("--retry", o.sweep.retry, "Run those again that had an error");
-  for (char const* option : {"--set", "--table", "--measure", "--part", "--retry", "scene"})
-    merge->excludes(sweep->get_option(option));
   bool sweepQuiet = false, sweepJson = false;
   add_output(*sweep, sweepQuiet, sweepJson);
 
@@ -395,6 +393,10 @@ Options read_options(int argc, char** argv, int& status) {
     o.sweep.set = settings_of(sweepSet, "--set");
     if (!part.empty()) std::tie(o.sweep.part, o.sweep.parts) = part_of(part);
     if (sweep->parsed() && !o.sweep.merge.empty()) {
+      for (char const* option : {"scene", "--set", "--table", "--measure", "--part", "--retry"})
+        if (sweep->count(option) > 0)
+          throw CLI::ValidationError("--merge",
+                                     std::string("runs nothing, and takes no ") + option + "; leave it out");
       if (o.sweep.file.empty())
         throw CLI::ValidationError("--merge", "name the table that is written: --output FILE");
     } else if (sweep->parsed()) {

@@ -200,6 +200,7 @@ std::string SweepPlan::probe(std::optional<std::size_t> run) const {
   giveFiles(source.root, std::nullopt);
   const std::vector<std::string> files = source.files;
   Scene scene = start(std::move(source), asked);
+  if (options.output == Output::words) print_notes(scene.ignored, scene.warnings);
   auto& simulation = scene.simulation;
   const auto frame = sinew::capture(simulation.root(), simulation.step(), simulation.time());
   Cells cells;
@@ -208,7 +209,9 @@ std::string SweepPlan::probe(std::optional<std::size_t> run) const {
     add_measured(cells, m, scene, frame);
   }
   std::string lines = key(files) + '\n';
-  for (auto const& [name, value] : cells) lines += name + '\n';
+  std::set<std::string_view> names;
+  for (auto const& cell : cells)
+    if (names.insert(cell.first).second) lines += cell.first + '\n';
   return lines;
 }
 
