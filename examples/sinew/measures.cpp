@@ -53,7 +53,7 @@ Place find(Measure const& measure, Node& top) {
       known.push_back(child->name);
       if (child->name == step) next = {child.get()};
     }
-    if (!next.node && at.node == &top && (step == top.name || step == "root")) continue;
+    if (!next.node && at.node == &top && step == top.name) continue;
     if (!next.node)
       throw wrong(measure,
                   text("there is no '",

@@ -51,7 +51,7 @@ void look_at_scene(SweepPlan& plan) {
 // what a sweep comes to
 struct SweepSummary {
   std::string scene, output;
-  std::size_t runs, part, before = 0, done = 0, failed = 0;
+  std::size_t runs, part, before = 0, done = 0, failed = 0, firstFailed = 0;
   double seconds = 0;
   bool interrupted = false;
   std::string firstError{};
@@ -91,10 +91,10 @@ void run_missing(SweepPlan const& plan, SweepTable& table, std::vector<std::size
     if (!ended) break;
     std::string line = ended->said ? *ended->said : plan.failed(ended->job, ended->error);
     if (has_error(line)) {
-      ++summary.failed;
-      if (summary.firstError.empty()) {
-        const auto fields = csv_fields(line);
-        summary.firstError = text("run ", ended->job + 1, ": ", fields ? fields->back() : "");
+      const auto fields = csv_fields(line);
+      if (summary.failed++ == 0 || ended->job < summary.firstFailed) {
+        summary.firstFailed = ended->job;
+        summary.firstError = fields ? fields->back() : "";
       }
     }
     table.add(ended->job, std::move(line));
@@ -206,7 +206,10 @@ int sweep(SweepOptions const& options) {
   } else if (words) {
     std::printf("%s in %.3g s", amount(summary.done, "run", "runs").c_str(), summary.seconds);
     if (summary.failed > 0)
-      std::printf("; %zu with an error, the first one %s", summary.failed, summary.firstError.c_str());
+      std::printf("; %zu with an error, run %zu: %s",
+                  summary.failed,
+                  summary.firstFailed + 1,
+                  summary.firstError.c_str());
     std::printf("\nwrote %s\n", plan.output.c_str());
     if (summary.interrupted)
       std::printf(
