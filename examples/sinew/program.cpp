@@ -29,6 +29,8 @@ int cli::program(int argc, char** argv) try {
       return cli::bake(options.bake);
     case cli::Command::compare:
       return cli::compare(options.compare);
+    case cli::Command::sweep:
+      return cli::sweep(options.sweep);
     default:
       return status;
   }
