@@ -159,7 +159,7 @@ inline constexpr std::array notSimulated = std::to_array<NotSimulated>({
     {"SphereGridTopology", "pyramids", ""}, {"", "radius", "1e-05"}, {"", "rayleighMass", "0"},
     {"", "rayleighStiffness", "0"}, {"PolynomialSpringsForceField", "recompute_indices", "0"},
     {"", "resizeToModel", "0"}, {"", "responseFactor", "1"},
-    {"", "restRotations", "0"}, {"", "restScale", "1"}, {"", "rotation2", "0 0 0"},
+    {"", "restRotations", "0"}, {"MechanicalObject", "restScale", "1"}, {"", "rotation2", "0 0 0"},
     {"", "separateGravity", "0"}, {"", "size", "0|1"}, {"", "solveConstraint", "0"},
     {"", "spring", ""}, {"", "springsIndices1", ""},
     {"", "springsIndices2", ""},     {"", "transformation", "[1 0 0 0,0 1 0 0,0 0 1 0,0 0 0 1]"}, {"", "translation2", "0 0 0"},
