@@ -89,7 +89,8 @@ struct IsForeign : std::bool_constant<HasRole<C, role::InteractionForceField> ||
                                       HasRole<C, role::ConstraintCorrection> ||
                                       (HasRole<C, role::AnimationLoop> && !IsLoop<C>::value) ||
                                       (HasRole<C, role::ConstraintSolver> && !IsConstraintSolver<C>::value) ||
-                                      ActsBeforeStep<C> || (HasRole<C, role::ForceField> && Resettable<C>) ||
+                                      ActsBeforeStep<C> ||
+                                      (HasRole<C, role::ForceField> && Resettable<C> && !IdleBeforeStep<C>) ||
                                       (HasRole<C, role::OdeSolver> && !IsOdeSolver<C>::value) ||
                                       (HasRole<C, role::LinearSolver> && !IsLinearSolver<C>::value)> {};
 
