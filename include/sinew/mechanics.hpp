@@ -38,6 +38,7 @@
 #include <sinew/force/ellipsoid_force_field.hpp>
 #include <sinew/force/fast_triangular_bending_springs.hpp>
 #include <sinew/force/fluid_boundary.hpp>
+#include <sinew/force/gear_spring.hpp>
 #include <sinew/force/hexahedron_fem.hpp>
 #include <sinew/force/immersed_solid.hpp>
 #include <sinew/force/joint_spring.hpp>

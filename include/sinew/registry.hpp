@@ -56,8 +56,9 @@ using FrameElements = Registry<BeamFEMForceField<D>, BeamMass<D>, TriangularShel
 template <class D>
 using SpatialRigids =
     Registry<AngularSpringForceField<D>, FixedRotationConstraint<D>, FrameElements<D>,
-             JointSpringForceField<D>, JointSpringForceField<D, Linked>, StiffSpringForceField<D>,
-             StiffSpringForceField<D, Linked>, PatchTestMovementProjectiveConstraint<D>>;
+             GearSpringForceField<D>, GearSpringForceField<D, Linked>, JointSpringForceField<D>,
+             JointSpringForceField<D, Linked>, StiffSpringForceField<D>, StiffSpringForceField<D, Linked>,
+             PatchTestMovementProjectiveConstraint<D>>;
 template <class D>
 using PointConstraints =
     Registry<FixedConstraint<D>, PartialFixedConstraint<D>, FixedPlaneConstraint<D>,
