@@ -429,6 +429,11 @@ constexpr auto classExamples = std::to_array<ClassExample>({
 <QuadBendingSprings stiffness="20" damping="0.05"/>)",
      sheet,
      "TriangleFEMForceField"},
+    {"QuadBendingFEMForceField",
+     R"(
+<QuadBendingFEMForceField youngModulus="5000" poissonRatio="0.3" thickness="0.01"/>)",
+     sheet,
+     "TriangleFEMForceField"},
     {"QuadPressureForceField",
      R"(<QuadPressureForceField pressure="0 0 2" quadList="0 1 2 3"/>)",
      sheet,

@@ -42,7 +42,8 @@ using ElementForces =
     Registry<TetrahedronFEMForceField<D>, HexahedronFEMForceField<D>, TriangleFEMForceField<D>,
              SurfacePressureForceField<D>, TrianglePressureForceField<D>, QuadPressureForceField<D>,
              EdgePressureForceField<D>, TriangularQuadraticSpringsForceField<D>,
-             TriangularBiquadraticSpringsForceField<D>, TriangularTensorMassForceField<D>>;
+             TriangularBiquadraticSpringsForceField<D>, TriangularTensorMassForceField<D>,
+             QuadBendingFEMForceField<D>>;
 template <class D>
 using HyperelasticForces =
     Registry<TetrahedronHyperelasticityFEMForceField<D>, TetrahedronViscoelasticityFEMForceField<D>>;

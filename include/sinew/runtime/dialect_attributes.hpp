@@ -42,7 +42,7 @@ inline constexpr std::array withoutEffect = std::to_array<std::string_view>({
     "pointSize", "pointSmooth", "pointsOutROI", "polygonsGroups",
     "positionsDefinition", "precomputeSymbolicDecomposition", "preconditioner", "preconditioners",
     "preserveOrder", "primitiveType", "printLog", "printMass", "prismsGroups", "profiling",
-    "putOnlyTexCoords", "pyramidsGroups", "quadPressureMap", "quadsGroups", "reserve", "residual",
+    "putOnlyTexCoords", "pyramidsGroups", "quadInfo", "quadPressureMap", "quadsGroups", "reserve", "residual",
     "residualGraph", "restPosition", "rotatedInitialElements", "rotationTex", "saveEnergyInFile",
     "shadows", "showCellWidth", "showTranslation", "sourceFactor", "springColor", "srgbTexturing", "static", "stiffnessMatrices",
     "stressMaxValue", "tags", "tangents", "taskSchedulerType", "tetrahedraGroups", "tetrahedraOutROI",
