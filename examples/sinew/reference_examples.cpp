@@ -427,6 +427,14 @@ constexpr auto classExamples = std::to_array<ClassExample>({
      sheet,
      "TriangleFEMForceField",
      Place::beside},
+    {"GearSpringForceField", R"(
+<Node name="gears" gravity="0 0 0">
+  <EulerImplicitSolver/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <MechanicalObject template="Rigid3d" position="0 0 0  0 0 0 1   3 0 0  0 0 0 1" velocity="0 0 0  0 0 2   0 0 0  0 0 0"/>
+  <UniformMass vertexMass="1 1  0.1 0 0  0 0.1 0  0 0 0.1"/>
+  <GearSpringForceField spring="BEGIN_SPRING 0 0 1 1 AXIS 2 2 KS_T 1000 KS_R 100 1000 KD 0.001 RATIO 0.5 END_SPRING"/>
+</Node>)"},
     {"HexahedronFEMForceField", R"(<HexahedronFEMForceField youngModulus="50000" poissonRatio="0.3"/>)"},
     {"JointSpringForceField", R"(
 <Node name="links" gravity="0 -9.81 0">
@@ -468,6 +476,11 @@ constexpr auto classExamples = std::to_array<ClassExample>({
      R"(
 <MeshSpringForceField stiffness="50" damping="0.1"/>
 <QuadBendingSprings stiffness="20" damping="0.05"/>)",
+     sheet,
+     "TriangleFEMForceField"},
+    {"QuadBendingFEMForceField",
+     R"(
+<QuadBendingFEMForceField youngModulus="5000" poissonRatio="0.3" thickness="0.01"/>)",
      sheet,
      "TriangleFEMForceField"},
     {"QuadPressureForceField",

@@ -40,6 +40,7 @@
 #include <sinew/force/ellipsoid_force_field.hpp>
 #include <sinew/force/fast_triangular_bending_springs.hpp>
 #include <sinew/force/fluid_boundary.hpp>
+#include <sinew/force/gear_spring.hpp>
 #include <sinew/force/hexahedron_fem.hpp>
 #include <sinew/force/immersed_solid.hpp>
 #include <sinew/force/joint_spring.hpp>
@@ -49,6 +50,7 @@
 #include <sinew/force/plane_force_field.hpp>
 #include <sinew/force/polynomial_rest_shape_springs.hpp>
 #include <sinew/force/polynomial_springs.hpp>
+#include <sinew/force/quad_bending_fem.hpp>
 #include <sinew/force/regular_grid_spring.hpp>
 #include <sinew/force/rest_shape_springs.hpp>
 #include <sinew/force/sph_fluid.hpp>

@@ -42,7 +42,8 @@ using ElementForces =
     Registry<TetrahedronFEMForceField<D>, HexahedronFEMForceField<D>, TriangleFEMForceField<D>,
              SurfacePressureForceField<D>, TrianglePressureForceField<D>, QuadPressureForceField<D>,
              EdgePressureForceField<D>, TriangularQuadraticSpringsForceField<D>,
-             TriangularBiquadraticSpringsForceField<D>, TriangularTensorMassForceField<D>>;
+             TriangularBiquadraticSpringsForceField<D>, TriangularTensorMassForceField<D>,
+             QuadBendingFEMForceField<D>>;
 template <class D>
 using HyperelasticForces =
     Registry<TetrahedronHyperelasticityFEMForceField<D>, TetrahedronViscoelasticityFEMForceField<D>>;
@@ -56,8 +57,9 @@ using FrameElements = Registry<BeamFEMForceField<D>, BeamMass<D>, TriangularShel
 template <class D>
 using SpatialRigids =
     Registry<AngularSpringForceField<D>, FixedRotationConstraint<D>, FrameElements<D>,
-             JointSpringForceField<D>, JointSpringForceField<D, Linked>, StiffSpringForceField<D>,
-             StiffSpringForceField<D, Linked>, PatchTestMovementProjectiveConstraint<D>>;
+             GearSpringForceField<D>, GearSpringForceField<D, Linked>, JointSpringForceField<D>,
+             JointSpringForceField<D, Linked>, StiffSpringForceField<D>, StiffSpringForceField<D, Linked>,
+             PatchTestMovementProjectiveConstraint<D>>;
 template <class D>
 using PointConstraints =
     Registry<FixedConstraint<D>, PartialFixedConstraint<D>, FixedPlaneConstraint<D>,

@@ -21,6 +21,7 @@
 #include "samples/fixed_plane.hpp"
 #include "samples/fixed_rotation.hpp"
 #include "samples/fluid_boundary.hpp"
+#include "samples/gear_spring.hpp"
 #include "samples/hermite_spline.hpp"
 #include "samples/identity_multi_mapping.hpp"
 #include "samples/immersed_solid.hpp"

@@ -81,6 +81,14 @@ concept ActsBeforeStep = requires {
   typename C::DataTypes;
 };
 
+/// One that says that it does not with its DataTypes (`actsBeforeStep = false`), and may have those
+/// functions.
+template <class C>
+concept IdleBeforeStep = requires {
+  C::actsBeforeStep;
+  requires !C::actsBeforeStep;
+};
+
 /// A component, whatever its role, that a step leaves other than init did, in more than what the next step
 /// computes anew: reset() makes it what it was, at time 0. It may return a bool: true says that elements are
 /// there again whose places in a matrix have to be found.
@@ -103,9 +111,10 @@ inline constexpr bool over_body = [] {
 
 /// Whether a component does all that its role and its hooks promise.
 template <class C>
-concept ActsAsSaid = is_called(named::beginStep<C> || named::beforeStep<C>, ActsBeforeStep<C>) &&
-                     (!ActsBeforeStep<C> || may_have<C>(named::beginStep<C> || named::beforeStep<C>)) &&
-                     is_called(named::reset<C>, Resettable<C>);
+concept ActsAsSaid =
+    is_called(named::beginStep<C> || named::beforeStep<C>, ActsBeforeStep<C> || IdleBeforeStep<C>) &&
+    (!ActsBeforeStep<C> || may_have<C>(named::beginStep<C> || named::beforeStep<C>)) &&
+    is_called(named::reset<C>, Resettable<C>);
 template <class C>
 inline constexpr bool keeps_promise =
     spelled_right<C> && ActsAsSaid<C> && Promise<typename C::Role>::template kept<C>;
@@ -114,7 +123,7 @@ inline constexpr bool keeps_promise =
 template <class C>
 struct Uncalled {
   static_assert(
-      ActsBeforeStep<C> || !(named::beginStep<C> || named::beforeStep<C>),
+      ActsBeforeStep<C> || IdleBeforeStep<C> || !(named::beginStep<C> || named::beforeStep<C>),
       "Sinew: a component has a beginStep or beforeStep that nothing calls; add 'static constexpr bool "
       "actsBeforeStep = true;' and the DataTypes of the state on which it acts.");
   static_assert(

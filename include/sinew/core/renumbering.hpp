@@ -21,7 +21,7 @@ struct Origin {
 
 /// A vector, whose multiples add up.
 template <class T>
-concept Weighable = requires(T const& value, typename T::Scalar factor) { factor * value; };
+concept Weighable = requires(T const& value, typename T::Scalar factor) { factor* value; };
 
 /// The value of what comes, from that of what it comes of. What cannot be weighed is that of the nearer one.
 template <class T>
@@ -70,6 +70,20 @@ struct Renumbering {
     for (std::size_t i = 0; i < kept.size(); ++i) list[i] = list[std::size_t(kept[i])];
     list.resize(kept.size());
     list.insert(list.end(), values.begin(), values.end());
+  }
+  /// The same where each has `width` values in a row; what comes has those of what it is of.
+  template <class Value>
+  void filterRows(std::vector<Value>& list, std::size_t width) const {
+    if (!changes() || list.size() != width * now.size()) return;
+    std::vector<Value> values;
+    values.reserve(width * size());
+    auto take = [&](Index old) {
+      const auto first = list.begin() + std::ptrdiff_t(width) * old;
+      values.insert(values.end(), first, first + std::ptrdiff_t(width));
+    };
+    for (const Index old : kept) take(old);
+    for (Origin const& part : come) take(part.a);
+    list = std::move(values);
   }
   /// Puts the new number in the place of the old one.
   void renumber(Index& number) const {
