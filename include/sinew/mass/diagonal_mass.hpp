@@ -13,7 +13,7 @@ namespace sinew {
 /// A mass for each point: given one by one, or from a density (or the total) over the elements of the
 /// topology, which share theirs out among their points. Elements are the tetrahedra and hexahedra; where
 /// there are none, the triangles and quads (and the density is that of an area); else the edges (that of a
-/// length).
+/// length). A point that no element has has no mass: it has no weight, and no explicit solver can move it.
 template <class D>
 struct DiagonalMass {
   using Role = role::Mass;
@@ -69,13 +69,14 @@ struct DiagonalMass {
                          vertexMass.size() == n ? vertexMass : std::vector<MassType>(n, vertexMass.front()));
     }
     if constexpr (!D::rigid) {
-      const std::vector<double> share = sizes(context, where);
+      std::vector<bool> alone(n, true);
+      const std::vector<double> share = sizes(context, where, alone);
       double whole = 0;
       for (const double v : share) whole += v;
       density = massDensity ? *massDensity : *totalMass / whole;
       std::vector<MassType> masses(n);
       for (std::size_t i = 0; i < n; ++i) masses[i] = MassType(density * share[i]);
-      lumped.init(where, masses);
+      lumped.init(where, masses, alone);
     } else {
       throw Error(where, "a density is for points; give vertexMass");
     }
@@ -96,14 +97,19 @@ struct DiagonalMass {
 
  private:
   // the volume, area or length that each point stands for: the integral of its shape function
-  static std::vector<double> sizes(InitContext<D> const& context, std::string const& where) {
+  // and which points no element has
+  static std::vector<double> sizes(InitContext<D> const& context, std::string const& where,
+                                   std::vector<bool>& alone) {
     std::vector<Eigen::Vector3d> x(context.rest.size(), Eigen::Vector3d::Zero());
     for (std::size_t i = 0; i < x.size(); ++i)
       x[i].head<D::spatial>() = D::center(context.rest[i]).template cast<double>();
     auto at = [&x](Index i) -> Eigen::Vector3d const& { return x[std::size_t(i)]; };
     std::vector<double> size(x.size(), 0.0);
-    auto share = [&size](auto const& element, double whole) {
-      for (const Index i : element) size[std::size_t(i)] += whole / double(element.size());
+    auto share = [&](auto const& element, double whole) {
+      for (const Index i : element) {
+        size[std::size_t(i)] += whole / double(element.size());
+        alone[std::size_t(i)] = false;
+      }
     };
     TopologyView const& t = context.topology;
     check_element_indices(where, t, x.size());
@@ -112,7 +118,10 @@ struct DiagonalMass {
         const Eigen::Vector3d a = at(e[1]) - at(e[0]), b = at(e[2]) - at(e[0]), c = at(e[3]) - at(e[0]);
         share(e, std::abs(a.dot(b.cross(c))) / 6);
       }
-      for (auto const& e : t.hexahedra) addHexahedron(e, x, size);
+      for (auto const& e : t.hexahedra) {
+        addHexahedron(e, x, size);
+        for (const Index i : e) alone[std::size_t(i)] = false;
+      }
     } else if (!t.triangles.empty() || !t.quads.empty()) {
       // the triangles of a grid are the halves of its quads
       if (t.grid[0] == 0 || t.quads.empty())
