@@ -14,7 +14,8 @@ namespace sinew {
 /// topology, which share theirs out among their points. Elements are the tetrahedra and hexahedra; where
 /// there are none, the triangles and quads (and the density is that of an area); else the edges (that of a
 /// length). Over values with fewer coordinates than space, such as temperatures, that stand in a child node
-/// of the body, they are those of the body, and the density is a heat capacity [J/(m^3 K)].
+/// of the body, they are those of the body, and the density is a heat capacity [J/(m^3 K)]. A point that no
+/// element has has no mass: it has no weight, and no explicit solver can move it.
 template <class D>
 struct DiagonalMass {
   using Role = role::Mass;
@@ -71,14 +72,18 @@ struct DiagonalMass {
                          vertexMass.size() == n ? vertexMass : std::vector<MassType>(n, vertexMass.front()));
     }
     if constexpr (!D::rigid) {
-      std::vector<double> share = sizes(context, where);
+      std::vector<bool> alone(n, true);
+      std::vector<double> share = sizes(context, where, alone);
       double whole = 0;
       for (const double v : share) whole += v;
-      if (!context.body.empty()) fill_unused(share);
+      if (!context.body.empty()) {
+        fill_unused(share);
+        alone.assign(n, false);
+      }
       density = massDensity ? *massDensity : *totalMass / whole;
       std::vector<MassType> masses(n);
       for (std::size_t i = 0; i < n; ++i) masses[i] = MassType(density * share[i]);
-      lumped.init(where, masses);
+      lumped.init(where, masses, alone);
     } else {
       throw Error(where, "a density is for points; give vertexMass");
     }
@@ -98,15 +103,20 @@ struct DiagonalMass {
   }
 
  private:
-  // the volume, area or length that each point stands for: the integral of its shape function
-  static std::vector<double> sizes(InitContext<D> const& context, std::string const& where) {
+  // the volume, area or length that each point stands for: the integral of its shape function; and which
+  // points no element has
+  static std::vector<double> sizes(InitContext<D> const& context, std::string const& where,
+                                   std::vector<bool>& alone) {
     check_values_of_body(where, context);
     std::vector<Eigen::Vector3d> x(context.rest.size());
     for (std::size_t i = 0; i < x.size(); ++i) x[i] = context.place(Index(i));
     auto at = [&x](Index i) -> Eigen::Vector3d const& { return x[std::size_t(i)]; };
     std::vector<double> size(x.size(), 0.0);
-    auto share = [&size](auto const& element, double whole) {
-      for (const Index i : element) size[std::size_t(i)] += whole / double(element.size());
+    auto share = [&](auto const& element, double whole) {
+      for (const Index i : element) {
+        size[std::size_t(i)] += whole / double(element.size());
+        alone[std::size_t(i)] = false;
+      }
     };
     TopologyView const& t = context.topology;
     check_element_indices(where, t, x.size());
@@ -115,7 +125,10 @@ struct DiagonalMass {
         const Eigen::Vector3d a = at(e[1]) - at(e[0]), b = at(e[2]) - at(e[0]), c = at(e[3]) - at(e[0]);
         share(e, std::abs(a.dot(b.cross(c))) / 6);
       }
-      for (auto const& e : t.hexahedra) addHexahedron(e, x, size);
+      for (auto const& e : t.hexahedra) {
+        addHexahedron(e, x, size);
+        for (const Index i : e) alone[std::size_t(i)] = false;
+      }
     } else if (!t.triangles.empty() || !t.quads.empty()) {
       // the triangles of a grid are the halves of its quads
       if (t.grid[0] == 0 || t.quads.empty())

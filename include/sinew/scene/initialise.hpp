@@ -73,8 +73,8 @@ class Initialisation {
               "of the state of its node");
         child.place(scope.path(), scope.topology().positions);
         child.takeGiven();
-        initMapping(c, scope, child.position, child.position);
         mapsRest = child.restPosition.empty();
+        initMapping(c, scope, mapsRest ? child.position : child.restPosition, child.position);
         if (mapsRest) child.restPosition.assign(child.position.size(), C::Out::zero());
       }
     });
