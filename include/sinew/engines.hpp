@@ -6,6 +6,7 @@
 #include <sinew/engine/average_coord.hpp>
 #include <sinew/engine/box_roi.hpp>
 #include <sinew/engine/complementary_roi.hpp>
+#include <sinew/engine/data_link.hpp>
 #include <sinew/engine/difference_engine.hpp>
 #include <sinew/engine/dilate_engine.hpp>
 #include <sinew/engine/displacement_matrix_engine.hpp>

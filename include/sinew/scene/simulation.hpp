@@ -324,6 +324,7 @@ void Simulation<Root>::animate(double dt) {
     time_ += dt;
     ++step_;
     visualsAreCurrent_ = false;
+    step.follow();
     step.end();
   }
 }
@@ -387,6 +388,10 @@ void Simulation<Root>::propagate() {
     o.propagate(vec_id::position, vec_id::velocity);
     return 0;
   });
+  if constexpr (proved) {
+    const auto scope = rootScope();
+    LiveEngines<RootScope>{scope, time_}.update(true);
+  }
   visualsAreCurrent_ = false;
 }
 
