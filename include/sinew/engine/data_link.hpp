@@ -41,8 +41,8 @@ struct At {
 /// another component, that acts with it from the next step on:
 ///
 ///   node<"root">(..., node<"body">(MechanicalObject<Vec3d>{...}, AverageCoord<Vec3d>{}),
-///                DataLink<At<"body", &MechanicalObject<Vec3d>::position>,
-///                         At<"body", &AverageCoord<Vec3d>::position>>{})
+///                data_link(At<"body", &MechanicalObject<Vec3d>::position>{},
+///                          At<"body", &AverageCoord<Vec3d>::position>{}))
 ///
 /// Links act in their order, from the root on: one that leads into an engine stands before those that lead
 /// out of it. Both values are numbers, or lists of numbers, points or frames, in the same order. A state
@@ -69,5 +69,11 @@ struct DataLink {
                     OfNumbers<std::decay_t<decltype(std::declval<typename To::Class&>().*To::member)>>,
                 "Sinew: a data link joins values that are numbers, or lists of numbers, points or frames.");
 };
+
+/// The link from one value to another.
+template <class From, class To>
+DataLink<From, To> data_link(From, To) {
+  return {};
+}
 
 }  // namespace sinew

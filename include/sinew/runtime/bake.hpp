@@ -113,7 +113,8 @@ class Baker {
         if (link.from.list >= 0 || link.to.list >= 0)
           refuse("it is one of several lists under numbers; give the engine one list");
         if (link.pointsTo > 0) refuse("points become frames; let an engine make frames (QuatToRigidEngine)");
-        parts.push_back(text("DataLink<", valueAt(link.from, refuse), ", ", valueAt(link.to, refuse), ">{}"));
+        parts.push_back(
+            text("data_link(", valueAt(link.from, refuse), "{}, ", valueAt(link.to, refuse), "{})"));
       }
   }
   template <class F>

@@ -30,6 +30,7 @@ struct LiveLink {
   LiveValue from, to;
   int pointsTo = 0;         // of points that become frames: how many numbers a frame has, 7 or 3; else 0
   bool keepsCount = false;  // of points
+  bool ofEdits = false;     // from a topology, which only edits of the scene change
 
   // bound
   void const* source = nullptr;

@@ -52,7 +52,10 @@ class SceneWriter {
       RuntimeNode<R>* const at = const_cast<RuntimeNode<R>&>(node).find_node(target.node);
       auto* const entry = at ? at->find(target.component) : nullptr;
       if (!entry) continue;
-      for (LiveLink const& link : target.links)
+      for (LiveLink const& link : target.links) {
+        // a topology whose points come and go is not written
+        RuntimeNode<R>* const from = at->top().resolve(text(path, '/', link.from.node));
+        if (link.ofEdits && (!from || pointsChange(*from))) continue;
         live_[entry->component.address()][link.to.field] = text('@',
                                                                 path,
                                                                 '/',
@@ -61,6 +64,7 @@ class SceneWriter {
                                                                 link.from.component,
                                                                 '.',
                                                                 link.from.field);
+      }
     }
     for (auto const& child : node.children()) gatherLive(*child, text(path, '/', child->name));
   }

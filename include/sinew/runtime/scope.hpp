@@ -390,7 +390,7 @@ struct RuntimeScope {
         RuntimeEntry<R> const* const source = at ? at->find(link.from.component) : nullptr;
         if (source)
           link.source = static_cast<char const*>(source->component.address()) + link.from.offset;
-        else
+        else if (!link.ofEdits)
           RuntimeScope(*target.at)
               .warn(*target.entry,
                     text(link.to.field,
@@ -406,6 +406,7 @@ struct RuntimeScope {
     auto const& component = target.entry->component;
     const auto label = [&] { return text(path(), ": ", node.labelOf(*target.entry)); };
     for (LiveLink& link : target.links) {
+      if (link.ofEdits && !first) continue;
       if (first) link.to.numbers.get(link.value, link.to.list, link.numbers);
       if (!link.look()) continue;
       if (link.keepsCount && link.next.size() != link.numbers.size())

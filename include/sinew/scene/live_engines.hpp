@@ -159,8 +159,8 @@ struct LiveEngines {
       std::swap(link.numbers, link.next);
       if constexpr (HasRole<C, role::Engine>)
         link.pending = true;
-      else if (take_values(target, to))
-        propagate();
+      else if constexpr (!HasRole<C, role::VisualModel>)
+        if (take_values(target, to)) propagate();
     });
   }
   // an engine is brought up to date

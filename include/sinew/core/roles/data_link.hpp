@@ -29,8 +29,8 @@ struct Promise<role::DataLink> : NoPromise {
   template <class C>
   struct Broken {
     static_assert(LinksData<C>,
-                  "Sinew: a data link has no From or no To; write DataLink<At<\"body\", "
-                  "&MechanicalObject<Vec3d>::position>, At<\"body\", &AverageCoord<Vec3d>::position>>{}.");
+                  "Sinew: a data link has no From or no To; write data_link(At<\"body\", "
+                  "&MechanicalObject<Vec3d>::position>{}, At<\"body\", &AverageCoord<Vec3d>::position>{}).");
   };
 };
 

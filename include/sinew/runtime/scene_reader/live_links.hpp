@@ -7,6 +7,7 @@
 #include <sinew/runtime/scene_reader/links.hpp>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <set>
 #include <string>
@@ -20,7 +21,8 @@ namespace detail {
 
 /// Which engines are evaluated again while the scene runs, and what follows what they make: found from the
 /// links, when all components are read. An engine lives where a link into it leads to positions or velocities
-/// of a state that moves, or to a living engine. What takes no value while the scene runs is said to keep
+/// of a state that moves, or to a living engine; elements of a topology it takes again when that is edited.
+/// What takes no value while the scene runs is said to keep
 /// that of the start.
 template <class R>
 class LiveLinks {
@@ -92,7 +94,7 @@ class LiveLinks {
     }
     SceneItem* const from = target.item ? target.item : target.place->ofRole(RoleKind::state);
     if (!from || !from->info || from->failed || !from->address) return;
-    if (!is(*from, RoleKind::engine) && !is(*from, RoleKind::state)) return;
+    if (!is(*from, RoleKind::engine) && !is(*from, RoleKind::state) && !is(*from, RoleKind::topology)) return;
     Link link{from, nullptr, -1, &item, nullptr, -1, target.data, name};
     link.fromField = fieldOf(*from->info, target.data, false, link.fromList);
     link.toField = fieldOf(*item.info, name, true, link.toList);
@@ -165,7 +167,11 @@ class LiveLinks {
     if (links == into_.end()) return;
     typename LiveGraph<R>::Target target{placeOf(item), item.name};
     for (Link const& link : links->second) {
-      if (!changes(link)) continue;
+      static constexpr auto elements =
+          std::to_array<std::string_view>({"edges", "triangles", "quads", "tetrahedra", "hexahedra"});
+      const bool ofEdits = live_.count(&item) && is(*link.from, RoleKind::topology) && hasNumbers(link) &&
+                           dialect::has(elements, link.fromField->name);
+      if (!changes(link) && !ofEdits) continue;
       if (is(item, RoleKind::engine)) {
         if (keeps(item)) continue;
         if (!hasNumbers(link)) {
@@ -185,7 +191,8 @@ class LiveLinks {
       target.links.push_back({.from = value(*link.from, *link.fromField, link.fromName, link.fromList),
                               .to = value(item, *link.toField, link.toName, link.toList),
                               .pointsTo = framesOf(link),
-                              .keepsCount = is(item, RoleKind::state) || is(item, RoleKind::visualModel)});
+                              .keepsCount = is(item, RoleKind::state) || is(item, RoleKind::visualModel),
+                              .ofEdits = ofEdits});
     }
     if (!target.links.empty()) graph.targets.push_back(std::move(target));
   }
