@@ -230,6 +230,7 @@ TEST_CASE("what takes no value while the scene runs is said, with both names") {
                  Contains("<RestShapeSpringsForceField>: points is read at the start only") &&
                  Contains("indices of 'low' (BoxROI)") && Contains("'hold' keeps the value of the start") &&
                  Contains("rest_position"));
+  CHECK(deaf.root.live.targets.empty());
   CHECK(read("<Node name='body'>" + solver + body +
              "<BoxROI name='low' box='-9 -9 -9 9 9 9' position='@dofs.rest_position'/>"
              "<RestShapeSpringsForceField points='@low.indices'/></Node>")

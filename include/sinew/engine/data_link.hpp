@@ -57,9 +57,9 @@ struct DataLink {
   static constexpr auto fields() { return field_list(); }
 
   // after init
-  std::vector<double> numbers{}, next{};  // what was taken last, and what is looked at
-  void const *source = nullptr, *target = nullptr;
-  bool pending = false;  // of one into an engine: it has to be evaluated
+  std::vector<double> numbers{}, next{};            // what was taken last, and what is looked at
+  void const *source = nullptr, *target = nullptr;  // components
+  bool pending = false;                             // of one into an engine: it has to be evaluated
 
   static_assert(
       detail::takes_while_running<typename To::Class, To::member>,

@@ -19,6 +19,7 @@ namespace detail {
 template <class R>
 class Baker {
   using Node = RuntimeNode<R>;
+  using Entry = RuntimeEntry<R>;
 
  public:
   Baker(ReadScene<R>& scene, std::string const& path, BakeOptions const& options)

@@ -267,12 +267,12 @@ void field_addresses(void const* component, void const** to) {
 }
 
 template <class C>
-inline constexpr bool moves_without_solver = [] {
+constexpr bool moves_without_solver() {
   if constexpr (HasRole<C, role::ProjectiveConstraint> && !JoinsTwo<C>)
     return requires(C c, typename C::DataTypes::VecCoord x) { c.projectPosition(0.0, x); };
   else
     return ActsBeforeStep<C> && named::beginStep<C>;
-}();
+}
 template <class C>
 constexpr ClassTraits class_traits() {
   ClassTraits traits{};
@@ -280,7 +280,7 @@ constexpr ClassTraits class_traits() {
   if constexpr (requires { C::endings; }) traits.endings = C::endings;
   if constexpr (requires { C::samePoints; }) traits.samePoints = C::samePoints;
   if constexpr (requires { C::movesState; }) traits.movesState = C::movesState;
-  traits.movesWithoutSolver = traits.movesState || moves_without_solver<C>;
+  traits.movesWithoutSolver = traits.movesState || moves_without_solver<C>();
   traits.changesPoints = ChangesPoints<C>;
   if constexpr (requires { C::takenByDefault; }) traits.takenByDefault = C::takenByDefault;
   if constexpr (requires { C::ofPositions; }) traits.ofPositions = C::ofPositions;

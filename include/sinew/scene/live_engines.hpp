@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/core/value_numbers.hpp>
+#include <sinew/scene/checks.hpp>
 #include <sinew/scene/mechanical_operations.hpp>
 #include <sinew/scene/scope.hpp>
 #include <sinew/scene/solvers.hpp>
@@ -9,6 +10,7 @@
 
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 namespace sinew {
@@ -94,7 +96,9 @@ struct LiveEngines {
 
   template <class S>
   void updateLinks(S const& scope, bool first) const {
-    if (first) traverse(scope, on<role::DataLink>([&](auto& link, auto const& at) { findEnds(link, at); }));
+    // of a copy they are elsewhere
+    traverse(scope, on<role::DataLink>([&](auto& link, auto const& at) { findEnds(link, at); }));
+    if (first) traverse(scope, on<role::DataLink>([&](auto& link, auto const& at) { begin(link, at); }));
     traverse(scope, on<role::DataLink>([&](auto& link, auto const& at) {
                look(link, at);
                take(link, at);
@@ -109,13 +113,22 @@ struct LiveEngines {
   void findEnds(Link& link, S const& at) const {
     using From = typename Link::From;
     using To = typename Link::To;
+    static_assert(
+        !std::is_same_v<checks::AtPath<S, From::path>, NoScope> &&
+            !std::is_same_v<checks::AtPath<S, To::path>, NoScope>,
+        "Sinew: a data link names a node that is not there. Paths are names joined by '/', from the "
+        "node of the link on; look for a misspelt name.");
     at.template descend<From::path>(
         [&](auto const& from) { link.source = &from.node.template get<typename From::Class>(); });
+    at.template descend<To::path>(
+        [&](auto const& to) { link.target = &to.node.template get<typename To::Class>(); });
+  }
+  template <class Link, class S>
+  void begin(Link& link, S const& at) const {
+    using To = typename Link::To;
+    link.pending = HasRole<typename To::Class, role::Engine>;
     at.template descend<To::path>([&](auto const& to) {
-      auto& target = to.node.template get<typename To::Class>();
-      link.target = &target;
-      link.pending = HasRole<typename To::Class, role::Engine>;
-      to_numbers(target.*To::member, link.numbers);
+      to_numbers(to.node.template get<typename To::Class>().*To::member, link.numbers);
     });
     // links that were looked at before this one
     bool found = false, out = false;

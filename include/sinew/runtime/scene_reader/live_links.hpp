@@ -21,9 +21,8 @@ namespace detail {
 
 /// Which engines are evaluated again while the scene runs, and what follows what they make: found from the
 /// links, when all components are read. An engine lives where a link into it leads to positions or velocities
-/// of a state that moves, or to a living engine; elements of a topology it takes again when that is edited.
-/// What takes no value while the scene runs is said to keep
-/// that of the start.
+/// of a state that moves, or to a living engine; it takes elements of a topology again when that is edited.
+/// What takes no value while the scene runs is said to keep that of the start.
 template <class R>
 class LiveLinks {
  public:
@@ -34,10 +33,11 @@ class LiveLinks {
     for_each_item(top, [&](SceneItem& item) { addLinks(item); });
     while (spread()) {
     }
+    leaveUnheard();
     LiveGraph<R> graph;
     for (const bool states : {false, true})
       for_each_item(top, [&](SceneItem& item) {
-        if (states ? placed_.count(&item) : live_.count(&item)) order(item);
+        if (states ? placed_.count(&item) : running_.count(&item)) order(item);
       });
     for (SceneItem* item : order_) addTarget(*item, graph);
     for_each_item(top, [&](SceneItem& item) {
@@ -61,9 +61,10 @@ class LiveLinks {
   };
   SceneMessages& messages_;
   std::map<SceneItem*, std::vector<Link>> into_{};
-  std::vector<Link> moved_{};      // to positions that are moved once more, at the start
-  std::set<SceneItem*> live_{};    // engines
-  std::set<SceneItem*> placed_{};  // states that follow engines, or states
+  std::vector<Link> moved_{};       // to positions that are moved once more, at the start
+  std::set<SceneItem*> live_{};     // engines that follow what moves,
+  std::set<SceneItem*> running_{};  // and of these what is evaluated again
+  std::set<SceneItem*> placed_{};   // states that follow engines, or states
   std::vector<SceneItem*> order_{};
   std::set<SceneItem*> ordered_{}, busy_{};
 
@@ -135,6 +136,29 @@ class LiveLinks {
       }
     return more;
   }
+  // an engine that leads to what is read at the start only does not have to be evaluated again
+  void leaveUnheard() {
+    std::set<SceneItem*> heard, leads;
+    for (auto const& [item, links] : into_)
+      for (Link const& link : links) {
+        leads.insert(link.from);
+        if (!is(*item, RoleKind::engine) && follows(link)) heard.insert(link.from);
+      }
+    for (std::size_t before = heard.size() + 1; before != heard.size();) {
+      before = heard.size();
+      for (auto const& [item, links] : into_)
+        if (live_.count(item) && (heard.count(item) || !leads.count(item)))
+          for (Link const& link : links) heard.insert(link.from);
+    }
+    for (SceneItem* engine : live_)
+      if (heard.count(engine) || !leads.count(engine)) running_.insert(engine);
+  }
+  // whether an attribute of a component that is no engine takes values while the scene runs
+  static bool follows(Link const& link) {
+    if (is(*link.to, RoleKind::state)) return places(link);
+    if (is(*link.to, RoleKind::visualModel) && link.to->place->ofRole(RoleKind::mapping)) return false;
+    return link.toField->live && hasNumbers(link);
+  }
   static bool hasNumbers(Link const& link) {
     return link.fromField->type->numbers.get && link.toField->type->numbers.set;
   }
@@ -150,7 +174,7 @@ class LiveLinks {
         if (changes(link)) orderBefore(*link.from);
     busy_.erase(&item);
     ordered_.insert(&item);
-    if (live_.count(&item) || placed_.count(&item)) order_.push_back(&item);
+    if (running_.count(&item) || placed_.count(&item)) order_.push_back(&item);
   }
   void orderBefore(SceneItem& from) {
     order(from);
@@ -169,22 +193,20 @@ class LiveLinks {
     for (Link const& link : links->second) {
       static constexpr auto elements =
           std::to_array<std::string_view>({"edges", "triangles", "quads", "tetrahedra", "hexahedra"});
-      const bool ofEdits = live_.count(&item) && is(*link.from, RoleKind::topology) && hasNumbers(link) &&
+      const bool ofEdits = running_.count(&item) && is(*link.from, RoleKind::topology) && hasNumbers(link) &&
                            dialect::has(elements, link.fromField->name);
       if (!changes(link) && !ofEdits) continue;
       if (is(item, RoleKind::engine)) {
-        if (keeps(item)) continue;
+        if (!running_.count(&item)) continue;
         if (!hasNumbers(link)) {
           say(link, "cannot take it while the scene runs");
           continue;
         }
-      } else if (is(item, RoleKind::state) && !places(link)) {
-        if (is(*link.from, RoleKind::engine) && !link.toField->live) say(link, "is read at the start only");
-        continue;
-      } else if (is(item, RoleKind::visualModel) && item.place->ofRole(RoleKind::mapping)) {
-        continue;
-      } else if (!link.toField->live || !hasNumbers(link)) {
-        if (is(*link.from, RoleKind::engine)) say(link, "is read at the start only");
+      } else if (!follows(link)) {
+        // what a mapping moves is where that puts it
+        const bool mapped = (is(item, RoleKind::state) || is(item, RoleKind::visualModel)) &&
+                            link.toField->live && item.place->ofRole(RoleKind::mapping);
+        if (is(*link.from, RoleKind::engine) && !mapped) say(link, "is read at the start only");
         continue;
       }
       nameApart(item, target.component), nameApart(*link.from);
