@@ -31,6 +31,7 @@ struct LiveLink {
   int pointsTo = 0;         // of points that become frames: how many numbers a frame has, 7 or 3; else 0
   bool keepsCount = false;  // of points
   bool ofEdits = false;     // from a topology, which only edits of the scene change
+  bool seen = false;        // of such a one: `numbers` are those of before the last edit
 
   // bound
   void const* source = nullptr;

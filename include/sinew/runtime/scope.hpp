@@ -407,7 +407,11 @@ struct RuntimeScope {
     const auto label = [&] { return text(path(), ": ", node.labelOf(*target.entry)); };
     for (LiveLink& link : target.links) {
       if (link.ofEdits && !first) continue;
-      if (first) link.to.numbers.get(link.value, link.to.list, link.numbers);
+      if (link.ofEdits && !std::exchange(link.seen, true)) {
+        link.from.numbers.get(link.source, link.from.list, link.numbers);
+        continue;
+      }
+      if (first && !link.ofEdits) link.to.numbers.get(link.value, link.to.list, link.numbers);
       if (!link.look()) continue;
       if (link.keepsCount && link.next.size() != link.numbers.size())
         check_count_stays(label(),
