@@ -7,6 +7,7 @@
 #include <sinew/engine/box_roi.hpp>
 #include <sinew/engine/clustering_engine.hpp>
 #include <sinew/engine/complementary_roi.hpp>
+#include <sinew/engine/data_link.hpp>
 #include <sinew/engine/difference_engine.hpp>
 #include <sinew/engine/dilate_engine.hpp>
 #include <sinew/engine/displacement_matrix_engine.hpp>

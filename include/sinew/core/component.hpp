@@ -19,6 +19,7 @@
 #include <sinew/core/roles/contact_manager.hpp>
 #include <sinew/core/roles/context.hpp>
 #include <sinew/core/roles/cutting.hpp>
+#include <sinew/core/roles/data_link.hpp>
 #include <sinew/core/roles/engine.hpp>
 #include <sinew/core/roles/execution.hpp>
 #include <sinew/core/roles/force_field.hpp>
@@ -109,12 +110,20 @@ inline constexpr bool over_body = [] {
     return false;
 }();
 
+/// A component that makes something of fields which may take other values while the scene runs
+/// (Field::whileRunning): takeValues(where, points) does that, and checks them. `points` is how many points
+/// the state has on which it acts. It is called between two steps, and allocates nothing for no more entries
+/// than there were before. What it throws stops the step.
+template <class C>
+concept TakesValues =
+    requires(C c, std::string_view where, std::size_t points) { c.takeValues(where, points); };
+
 /// Whether a component does all that its role and its hooks promise.
 template <class C>
 concept ActsAsSaid =
     is_called(named::beginStep<C> || named::beforeStep<C>, ActsBeforeStep<C> || IdleBeforeStep<C>) &&
     (!ActsBeforeStep<C> || may_have<C>(named::beginStep<C> || named::beforeStep<C>)) &&
-    is_called(named::reset<C>, Resettable<C>);
+    is_called(named::reset<C>, Resettable<C>) && is_called(named::takeValues<C>, TakesValues<C>);
 template <class C>
 inline constexpr bool keeps_promise =
     spelled_right<C> && ActsAsSaid<C> && Promise<typename C::Role>::template kept<C>;
@@ -133,6 +142,9 @@ struct Uncalled {
   static_assert(
       is_called(named::reset<C>, Resettable<C>),
       "Sinew: a component has a reset that nothing calls; write 'void reset()', or 'bool reset()'.");
+  static_assert(is_called(named::takeValues<C>, TakesValues<C>),
+                "Sinew: a component has a takeValues that nothing calls; write 'void "
+                "takeValues(std::string_view where, std::size_t points)'.");
 };
 
 /// The type that says in a sentence what is wrong with a component that does not keep its promise.

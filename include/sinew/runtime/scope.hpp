@@ -4,6 +4,7 @@
 #include <sinew/core/workers.hpp>
 #include <sinew/runtime/erased_assembly.hpp>
 #include <sinew/runtime/node.hpp>
+#include <sinew/scene/live_engines.hpp>
 #include <sinew/scene/scope.hpp>
 
 #include <new>
@@ -328,6 +329,17 @@ struct RuntimeScope {
       f(RuntimeDofs<D::size, typename D::Real>{{owner.template state<D>().dofOffset}});
   }
 
+  /// Values that follow others take theirs, below this top node; `follow()` moves what is mapped from a state
+  /// that has moved.
+  template <class F>
+  void updateLive(bool first, F const& follow) const {
+    if (first || !node.live.bound) bindLive();
+    for (NodeType* graph : node.live.graphs)
+      for (auto& target : graph->live.targets)
+        if (target.entry)
+          RuntimeScope(*target.at, false, profile).updateTarget(target, first, FunctionRef(follow));
+  }
+
   /// A matrix as components see it.
   template <class Matrix>
   static AnyMatrix assembled(Matrix& matrix) {
@@ -384,6 +396,73 @@ struct RuntimeScope {
         : f(&function), call([](void const* p) { (*static_cast<F const*>(p))(); }) {}
     void operator()() const { call(f); }
   };
+  // finds what follows what; a link from a component that was removed is no more
+  void bindLive() const {
+    node.live.graphs.clear();
+    addGraphs(node);
+    node.live.bound = true;
+  }
+  void addGraphs(NodeType& from) const {
+    if (!from.live.targets.empty()) node.live.graphs.push_back(&from);
+    for (auto& target : from.live.targets) {
+      target.at = from.find_node(target.node);
+      target.entry = target.at ? target.at->find(target.component) : nullptr;
+      if (!target.entry) continue;
+      std::erase_if(target.links, [&](LiveLink& link) {
+        link.value = static_cast<char*>(target.entry->component.address()) + link.to.offset;
+        NodeType* const at = from.find_node(link.from.node);
+        RuntimeEntry<R> const* const source = at ? at->find(link.from.component) : nullptr;
+        if (source)
+          link.source = static_cast<char const*>(source->component.address()) + link.from.offset;
+        else if (!link.ofEdits)
+          RuntimeScope(*target.at)
+              .warn(*target.entry,
+                    text(link.to.field,
+                         " followed '",
+                         link.from.component,
+                         "', which is not there any more; it keeps the value that it has"));
+        return !source;
+      });
+    }
+    for (auto const& child : from.children()) addGraphs(*child);
+  }
+  void updateTarget(typename LiveGraph<R>::Target& target, bool first, FunctionRef follow) const {
+    auto const& component = target.entry->component;
+    const auto label = [&] { return text(path(), ": ", node.labelOf(*target.entry)); };
+    for (LiveLink& link : target.links) {
+      if (link.ofEdits && !first) continue;
+      if (link.ofEdits && !std::exchange(link.seen, true)) {
+        link.from.numbers.get(link.source, link.from.list, link.numbers);
+        continue;
+      }
+      if (first && !link.ofEdits) link.to.numbers.get(link.value, link.to.list, link.numbers);
+      if (!link.look()) continue;
+      if (link.keepsCount && link.next.size() != link.numbers.size())
+        check_count_stays(label(),
+                          link.to.field,
+                          text("'", link.from.component, "'"),
+                          link.next.size(),
+                          link.numbers.size());
+      if (!link.to.numbers.set(link.value, link.to.list, link.next))
+        throw Error(label(),
+                    text(link.to.field,
+                         " follows ",
+                         link.from.field,
+                         " of '",
+                         link.from.component,
+                         "', which has ",
+                         link.next.size(),
+                         " numbers now; these are no value of it"));
+      std::swap(link.numbers, link.next);
+      target.pending = true;
+    }
+    if (!target.pending) return;
+    bool moved = false;
+    component.template visit<role::Engine>([&](auto& c) { evaluate_engine(c, *this); });
+    component.template visit<AnyRole>([&](auto& c) { moved = take_values(c, *this); });
+    target.pending = false;
+    if (moved) follow();
+  }
   void locate(void const* c, FunctionRef f) const {
     auto const& entry = node.entryOf(c);
     try {

@@ -323,7 +323,9 @@ void Simulation<Root>::animate(double dt) {
       }
     ++step_;
     visualsAreCurrent_ = false;
-    Step<RootScope>{scope, step_, begin, dt, warnings_}.end();
+    const Step<RootScope> whole{scope, step_, begin, dt, warnings_};
+    whole.follow();
+    whole.end();
   }
 }
 
@@ -403,6 +405,10 @@ void Simulation<Root>::propagate() {
     o.propagate(vec_id::position, vec_id::velocity);
     return 0;
   });
+  if constexpr (proved) {
+    const auto scope = rootScope();
+    LiveEngines<RootScope>{scope, time_}.update(true);
+  }
   visualsAreCurrent_ = false;
 }
 

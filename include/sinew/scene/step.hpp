@@ -8,6 +8,7 @@
 #include <sinew/scene/cutting.hpp>
 #include <sinew/scene/fluid_boundaries.hpp>
 #include <sinew/scene/immersed_bodies.hpp>
+#include <sinew/scene/live_engines.hpp>
 #include <sinew/scene/loose_interactions.hpp>
 #include <sinew/scene/mechanical_operations.hpp>
 #include <sinew/scene/overlap_warnings.hpp>
@@ -131,6 +132,19 @@ struct Step {
     if (!constrained)
       for_each_solver(root, [&](auto& ode, auto const& scope) { solve(ode, scope, keepsForces); });
     if (first) warnOfThresholds();
+  }
+
+  /// What follows other values takes those at the end of the step.
+  void follow() const {
+    if constexpr (holds<typename RootScope::NodeType, role::DataLink>()) {
+      try {
+        LiveEngines<RootScope>{root, time + dt}.update(false);
+      } catch (Error const& error) {
+        const StepInfo info{number, time + dt, dt};
+        traverse(root, on<role::State>([&](auto& state, auto const& s) { end(state, s, info); }));
+        throw Error(text("step ", number, " (time ", time + dt, " s)"), error.what());
+      }
+    }
   }
 
   /// Checks states, and calls what watches them. The time is that of the end of the step.

@@ -48,11 +48,13 @@ struct MechanicalObject {
         field("position",
               &M::position,
               "m",
-              "positions at the start; where there is one at most, those of the node's topology"),
+              "positions at the start; where there is one at most, those of the node's topology")
+            .whileRunning(),
         field("velocity",
               &M::velocity,
               "m/s",
-              "velocities at the start; where they are fewer than points, the others have the last"),
+              "velocities at the start; where they are fewer than points, the others have the last")
+            .whileRunning(),
         field("rest_position", &M::restPosition, "m", "undeformed positions"),
         field("reset_position",
               &M::resetPosition,

@@ -78,8 +78,14 @@ struct VisualModel {
   void facesWere(std::vector<Triangle> const& triangles, std::vector<Quad> const& quads);
 
   void init(std::string const& where);
+  /// The vertices are where those of the mesh are.
+  void takeValues(std::string_view, std::size_t) { place(); }
 
  private:
+  void place() {
+    position.clear();
+    for (auto const& p : mesh.positions) position.emplace_back(float(p[0]), float(p[1]), float(p[2]));
+  }
   bool facesHaveLooks() const {
     return !textureTriangles.empty() || !textureQuads.empty() || !faceMaterials.empty();
   }
@@ -229,8 +235,7 @@ SINEW_ONCE void VisualModel::init(std::string const& where) {
   check_mesh(text(where, ": VisualModel"), mesh);
   if (const std::string wrong = wrongLooks(); !wrong.empty())
     throw Error(text(where, ": VisualModel"), wrong);
-  position.clear();
-  for (auto const& p : mesh.positions) position.emplace_back(float(p[0]), float(p[1]), float(p[2]));
+  place();
 }
 
 }  // namespace sinew

@@ -136,7 +136,10 @@ class SceneValues {
       read_value(position.write(item.address), engine.inputPosition);
       engine.update(item.name);
       position.read(item.address, write_value(engine.outputPosition));
-      item.links.erase("position");
+      if (const auto link = item.links.find("position"); link != item.links.end()) {
+        item.moved = link->second;
+        item.links.erase(link);
+      }
     });
   }
 
