@@ -104,10 +104,23 @@ TEST_CASE("DiagonalMass says what is wrong with its elements") {
   auto said = [&](TopologyView const& t) { return error_of([&] { masses({.massDensity = 1}, x, t); }); };
   CHECK(said({.edges = all}).empty());
   CHECK(contains(said({}), "/root: DiagonalMass<Vec3d>: a density needs elements"));
-  CHECK(contains(said({.edges = edge}), "mass of point 2 is 0 kg"));
   CHECK(contains(said({.edges = outside}), "edge 0 refers to point 3, but there are 3 points"));
   CHECK(contains(said({.edges = negative}), "edge 0 refers to point -1"));
   CHECK(contains(said({.triangles = flat}), "mass of point 0 is 0 kg"));
+}
+
+TEST_CASE("a point that no element has weighs nothing, and stays") {
+  const std::vector<Eigen::Vector3d> x{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
+  const std::vector<Edge> edge{{0, 1}};
+  DiagonalMass<Vec3d> mass{.massDensity = 4};
+  mass.init({"/root", x, {.edges = edge}});
+  CHECK(contains(mass.warning(), "no element has point 2"));
+  std::vector<Eigen::Vector3d> f(3, Eigen::Vector3d::Zero()), a(3);
+  mass.addForce({.gravity = {0, 0, -10}}, f, x, f);
+  CHECK(f[0] == Eigen::Vector3d(0, 0, -20));
+  CHECK(f[2] == Eigen::Vector3d(0, 0, 0));
+  mass.accFromF(a, x, f);
+  CHECK(a[2] == Eigen::Vector3d(0, 0, 0));
 }
 
 }  // namespace test_diagonal_mass

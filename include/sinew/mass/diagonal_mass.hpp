@@ -6,12 +6,17 @@
 #include <sinew/topology/element_checks.hpp>
 #include <sinew/topology/hexahedra.hpp>
 
+#include <cmath>
+#include <limits>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace sinew {
 
 /// A mass for each point: given one by one, or from a density (or the total) over the elements of the
-/// topology, which share theirs out among their points. Elements are the tetrahedra and hexahedra; where
+/// topology, which share theirs out among their points; a point that no element has weighs nothing, and stays
+/// where it is as long as nothing pulls it. Elements are the tetrahedra and hexahedra; where
 /// there are none, the triangles and quads (and the density is that of an area); else the edges (that of a
 /// length).
 template <class D>
@@ -44,6 +49,17 @@ struct DiagonalMass {
 
   LumpedMass<D> lumped{};
   double density = 0;
+  std::vector<int> loose{};  // points that no element has; set by init, with what asks for a warning
+  bool expected = false;     // since elements may come
+
+  std::string warning() const {
+    if (loose.empty() || expected) return {};
+    return text("no element has point ",
+                loose[0],
+                loose.size() > 1 ? text(", nor ", loose.size() - 1, " others") : std::string(),
+                ", so that they have no mass and stay where they are; leave them out, or give them an element or "
+                "a mass");
+  }
 
   /// The density stays, not the total.
   void follow(Followed const&) {
@@ -55,6 +71,8 @@ struct DiagonalMass {
   void init(InitContext<D> const& context) {
     const std::string where = text(context.where, ": ", component_name<DiagonalMass>());
     const std::size_t n = context.rest.size();
+    loose.clear();
+    expected = context.topology.grows;
     if (int(massDensity.has_value()) + int(totalMass.has_value()) + int(!vertexMass.empty()) != 1)
       throw Error(where, "give exactly one of massDensity, totalMass and vertexMass");
     if (!vertexMass.empty()) {
@@ -69,12 +87,23 @@ struct DiagonalMass {
                          vertexMass.size() == n ? vertexMass : std::vector<MassType>(n, vertexMass.front()));
     }
     if constexpr (!D::rigid) {
-      const std::vector<double> share = sizes(context, where);
+      const std::vector<double> share = sizes(context, where, massDensity.has_value());
       double whole = 0;
       for (const double v : share) whole += v;
       density = massDensity ? *massDensity : *totalMass / whole;
       std::vector<MassType> masses(n);
-      for (std::size_t i = 0; i < n; ++i) masses[i] = MassType(density * share[i]);
+      double least = std::numeric_limits<double>::infinity();
+      for (std::size_t i = 0; i < n; ++i) {
+        masses[i] = MassType(density * share[i]);
+        if (share[i] > 0) least = std::min(least, double(masses[i]));
+      }
+      // inertia without weight, so that the system has a row for it
+      const std::vector<bool> inElement = pointsOfElements(context.topology, n);
+      for (std::size_t i = 0; LumpedMass<D>::flat && i < n; ++i)
+        if (!inElement[i]) {
+          loose.push_back(int(i));
+          masses[i] = MassType(std::isfinite(least) ? least : 1);
+        }
       lumped.init(where, masses);
     } else {
       throw Error(where, "a density is for points; give vertexMass");
@@ -83,6 +112,10 @@ struct DiagonalMass {
 
   void addForce(MechanicalParams const& p, VecDeriv& f, VecCoord const& x, VecDeriv const& v) const {
     lumped.addForce(p, f, x, v);
+    if constexpr (LumpedMass<D>::flat)
+      for (const int i : loose)
+        for (int c = 0; c < D::spatial; ++c)
+          f[std::size_t(i)][c] -= lumped.at(std::size_t(i)) * Real(p.gravity[c]);
   }
   void addMDx(VecDeriv& f, VecCoord const& x, VecDeriv const& dx, double factor) const {
     lumped.addMDx(f, x, dx, Real(factor));
@@ -95,8 +128,20 @@ struct DiagonalMass {
   }
 
  private:
+  static std::vector<bool> pointsOfElements(TopologyView const& t, std::size_t points) {
+    std::vector<bool> in(points, false);
+    auto mark = [&](auto const& list) {
+      for (auto const& e : list)
+        for (const Index i : e) in[std::size_t(i)] = true;
+      return !list.empty();
+    };
+    const bool solid = int(mark(t.tetrahedra)) + int(mark(t.hexahedra)) > 0;
+    if (!solid && int(mark(t.triangles)) + int(mark(t.quads)) == 0) mark(t.edges);
+    return in;
+  }
+
   // the volume, area or length that each point stands for: the integral of its shape function
-  static std::vector<double> sizes(InitContext<D> const& context, std::string const& where) {
+  static std::vector<double> sizes(InitContext<D> const& context, std::string const& where, bool density) {
     std::vector<Eigen::Vector3d> x(context.rest.size(), Eigen::Vector3d::Zero());
     for (std::size_t i = 0; i < x.size(); ++i)
       x[i].head<D::spatial>() = D::center(context.rest[i]).template cast<double>();
@@ -121,7 +166,7 @@ struct DiagonalMass {
       for (auto const& e : t.quads) share(e, (at(e[2]) - at(e[0])).cross(at(e[3]) - at(e[1])).norm() / 2);
     } else if (!t.edges.empty()) {
       for (auto const& e : t.edges) share(e, (at(e[1]) - at(e[0])).norm());
-    } else {
+    } else if (!t.grows || !density) {
       throw Error(
           where,
           "a density needs elements; give the node a topology with tetrahedra or others, or vertexMass");
