@@ -62,6 +62,7 @@ struct AttributeOf {
 inline constexpr std::array withoutEffectOf = std::to_array<AttributeOf>({
     {"AffineMovementConstraint", "meshIndices"}, {"AngularSpringForceField", "limit"},
     {"AngularSpringForceField", "recompute_indices"}, {"BeamFEMForceField", "useSymmetricAssembly"},
+    {"BilateralLagrangianConstraint", "topology1"}, {"BilateralLagrangianConstraint", "topology2"},
     {"BoxROI", "box_roi"}, {"BoxROI", "indices"}, {"CarvingManager", "key"}, {"CarvingManager", "keySwitch"},
     {"CarvingManager", "mouseEvent"}, {"CarvingManager", "narrowPhaseDetection"},
     {"CarvingManager", "omniEvent"}, {"CubeTopology", "hexahedra"}, {"CubeTopology", "tetrahedra"},

@@ -60,6 +60,8 @@ struct TopologicalChanges {
         at(number, [&](auto& c, auto const& scope) {
           here = this->place(scope);
           due = find(c, scope, here.points, time, order);
+          if (due && !order.box.empty())
+            addThoseIn(order.box, scope.topology(), positionsOf(scope.pointsAddress()), order.gone);
           keepsLast = due && order.removes() && keepOne(scope.topology(), order.gone);
           if (keepsLast)
             notes.warn(scope.path(), "the last element of a body stays", [] {
@@ -134,6 +136,34 @@ struct TopologicalChanges {
                      (states.contains(scope.pointsAddress()) && !t.conversion.empty()))
                    t.grows = true;
              }));
+  }
+  std::vector<Eigen::Vector3d> positionsOf(void const* state) const {
+    std::vector<Eigen::Vector3d> x;
+    traverse(root, on<role::State>([&](auto const& s, auto const&) {
+               if (static_cast<void const*>(&s) == state) x = centers_of(s, s.position);
+             }));
+    return x;
+  }
+  // elements of the highest dimension all of whose points are in a box
+  static void addThoseIn(std::vector<Vec<double, 6>> const& box, TopologyView const& t,
+                         std::vector<Eigen::Vector3d> const& x, ElementNumbers& gone) {
+    auto isIn = [&](Index i) {
+      return std::any_of(box.begin(), box.end(), [&](auto const& b) {
+        Eigen::Array3d const p = x[std::size_t(i)].array(), a = b.template head<3>().array(),
+                             c = b.template tail<3>().array();
+        return (p >= a.min(c)).all() && (p <= a.max(c)).all();
+      });
+    };
+    auto add = [&](auto const& list, std::vector<Index>& numbers) {
+      for (std::size_t e = 0; e < list.size(); ++e)
+        if (std::all_of(list[e].begin(), list[e].end(), isIn)) numbers.push_back(Index(e));
+    };
+    if (!t.tetrahedra.empty() || !t.hexahedra.empty())
+      add(t.tetrahedra, gone.tetrahedra), add(t.hexahedra, gone.hexahedra);
+    else if (!t.triangles.empty() || !t.quads.empty())
+      add(t.triangles, gone.triangles), add(t.quads, gone.quads);
+    else
+      add(t.edges, gone.edges);
   }
   template <class C, class S>
   std::optional<CutOrder> incision(C& c, S const& scope, std::vector<Eigen::Vector3d> const& path) const {

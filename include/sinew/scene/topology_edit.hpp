@@ -86,6 +86,7 @@ class TopologyEdit {
   std::set<void const*> mechanical_{};     // topologies on which forces and masses act
   RemovedBorder border_{};
   std::map<void const*, BorderLists> borders_{};  // of the topologies and visual models that are the border
+  std::map<void const*, void const*> copies_{};   // of visual models with the faces of a topology: that
   CutPlan cut_{};
   std::function<bool(Index&, Index&)> joined_{};             // of what joins points of the body that is cut
   std::vector<AddPlan::Lists> added_{};  // of topologies and visual models to which elements come
@@ -331,7 +332,7 @@ class TopologyEdit {
                  if (!touchedStates_.contains(&parent)) return;
                  mapped = &child;
                  if constexpr (requires { std::decay_t<decltype(part)>::samePoints; })
-                   if (samePoints_.contains(&parent)) copyOfBody(child);
+                   if (samePoints_.contains(&parent)) copyOfBody(child, scope.topologyAddress());
                  stays.resize(sizeOf(child), true);
                  const std::vector<bool> here = pointsThatStay(part, scope, child, parent);
                  for (std::size_t i = 0; i < stays.size(); ++i) stays[i] = stays[i] && here[i];
@@ -348,11 +349,23 @@ class TopologyEdit {
              }));
   }
   template <class Child>
-  void copyOfBody(Child const& child) {
+  void copyOfBody(Child const& child, void const* above) {
     samePoints_.insert(&child);
-    if constexpr (HasRole<Child, role::VisualModel>)
-      if (const BorderLists lists = border_.listed(child.mesh.triangles, child.mesh.quads); lists.any())
+    if constexpr (HasRole<Child, role::VisualModel>) {
+      if (const BorderLists lists = border_.listed(child.mesh.triangles, child.mesh.quads); lists.any()) {
         borders_[&child] = lists;
+        return;
+      }
+      traverse(root_, on<role::Topology>([&](auto& t, auto const&) {
+                 if (static_cast<void const*>(&t) != above) return;
+                 const TopologyView view = t.view();
+                 auto same = [](auto const& a, auto const& b) {
+                   return std::equal(a.begin(), a.end(), b.begin(), b.end());
+                 };
+                 if (same(child.mesh.triangles, view.triangles) && same(child.mesh.quads, view.quads))
+                   copies_[&child] = above;
+               }));
+    }
   }
   template <class M, class S, class Child, class Parent>
   std::vector<bool> pointsThatStay(M const& mapping, S const& scope, Child const& child,
@@ -426,6 +439,14 @@ class TopologyEdit {
       };
       changeFaces(
           [&](auto const& of, auto& triangles, auto& quads) { border_.takeAway(of, triangles, quads); });
+      if constexpr (HasRole<C, role::VisualModel>)
+        if (const auto copy = copies_.find(&c); copy != copies_.end()) {
+          const auto triangles = c.mesh.triangles;
+          const auto quads = c.mesh.quads;
+          ofTopology(copy->second).of(ElementKind::triangle).filter(c.mesh.triangles);
+          ofTopology(copy->second).of(ElementKind::quad).filter(c.mesh.quads);
+          if constexpr (requires { c.facesWere(triangles, quads); }) c.facesWere(triangles, quads);
+        }
       if (ofState(&c).changes()) c.follow(ofState(&c));
       changeFaces([&](auto const& of, auto& triangles, auto& quads) {
         border_.exposeFaces(of, change().points, &triangles, &quads);

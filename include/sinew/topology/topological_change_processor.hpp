@@ -37,6 +37,7 @@ struct TopologicalChangeProcessor {
   double timeToRemove = 0;
   std::vector<int> pointsToRemove{}, edgesToRemove{}, trianglesToRemove{}, quadsToRemove{},
       tetrahedraToRemove{}, hexahedraToRemove{};
+  std::vector<Vec<double, 6>> box{};
   bool saveIndicesAtInit = false;
   double epsilonSnapPath = 0.1;
 
@@ -69,6 +70,11 @@ struct TopologicalChangeProcessor {
         list("quadsToRemove", &P::quadsToRemove, "numbers of quads"),
         list("tetrahedraToRemove", &P::tetrahedraToRemove, "numbers of tetrahedra"),
         list("hexahedraToRemove", &P::hexahedraToRemove, "numbers of hexahedra"),
+        field("box",
+              &P::box,
+              "m",
+              "the elements go that lie in one of these at the time, two opposite corners each: xmin ymin zmin "
+              "xmax ymax zmax; a list that is linked to a BoxROI over moving points gives it"),
         field("saveIndicesAtInit",
               &P::saveIndicesAtInit,
               "",
@@ -120,7 +126,7 @@ struct TopologicalChangeProcessor {
   void prepare(std::string const& where, TopologyView const& topology) {
     const auto lists = inputs();
     const bool given =
-        std::any_of(lists.begin(), lists.end(), [](auto const* list) { return !list->empty(); });
+        !box.empty() || std::any_of(lists.begin(), lists.end(), [](auto const* list) { return !list->empty(); });
     bool adds = false;
     if (useDataInputs) {
       if (!given)
@@ -129,7 +135,7 @@ struct TopologicalChangeProcessor {
                     "trianglesToRemove");
       checkNumbers(where, topology);
     } else if (given) {
-      throw Error(where, "lists of elements are given, but not taken; set useDataInputs, or leave them out");
+      throw Error(where, "lists of elements or boxes are given, but not taken; set useDataInputs, or leave them out");
     } else if (filename.path.empty()) {
       throw Error(where,
                   "there is nothing to do; give the file of changes (filename), or useDataInputs and numbers "
@@ -155,6 +161,7 @@ struct TopologicalChangeProcessor {
       if (due >= time + shift) return false;
       const auto from = inputs();
       for (std::size_t kind = 0; kind < kinds; ++kind) take(kind, *from[kind], size, order.gone);
+      order.box = box;
       return true;
     }
     io::TopologicalEntry const* next = due(done, time + shift);

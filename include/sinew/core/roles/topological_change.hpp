@@ -14,6 +14,7 @@ namespace sinew {
 /// One change of a topology while a scene runs: one of these is given.
 struct TopologicalOrder {
   ElementNumbers gone{};
+  std::vector<Vec<double, 6>> box{};  // elements in one of these go too: the lower corner, and the upper one [m]
   AddedElements added{};
   std::vector<Eigen::Vector3d> incision{};  // a path on the surface [m]
 
