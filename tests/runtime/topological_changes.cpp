@@ -198,9 +198,10 @@ TEST_CASE("bad plans of topological changes are refused, and a scene that meets 
 
 TEST_CASE("a file adds elements, points and parts of elements, and takes the whole away") {
   const files::TempFolder folder;
-  const std::string file = folder.write("changes.txt",
-                                        "T= 0.02\n ADD= PointsInTriangle 1\n11 0.5 0.25\nT= 0.02\n ADD= Triangles 3 "
-                                        "Ancestors 11 11 11\n10 13 14 13 12 14 12 10 14\nT= 0.04\n REMOVE= 1\n11 3\n");
+  const std::string file =
+      folder.write("changes.txt",
+                   "T= 0.02\n ADD= PointsInTriangle 1\n11 0.5 0.25\nT= 0.02\n ADD= Triangles 3 "
+                   "Ancestors 11 11 11\n10 13 14 13 12 14 12 10 14\nT= 0.04\n REMOVE= 1\n11 3\n");
   auto sim = scene_of(strip(text("<TopologicalChangeProcessor filename=\"", file, "\"/>")));
   auto byHand = scene_of(strip(""));
   for (int i = 0; i < 12; ++i) {
@@ -235,8 +236,7 @@ std::string filling(std::string_view more, std::string_view file) {
       <TriangleFEMForceField youngModulus="10" poissonRatio="0.3"/><TriangleCollisionModel/>
       <Node name="look"><OglModel/><IdentityMapping/></Node></Node>)",
               more,
-              file.empty() ? std::string()
-                           : text("<TopologicalChangeProcessor filename=\"", file, "\"/>"),
+              file.empty() ? std::string() : text("<TopologicalChangeProcessor filename=\"", file, "\"/>"),
               "</Node></Node>");
 }
 
@@ -273,7 +273,8 @@ TEST_CASE("a topology that something adds to may be empty at the start, with wha
 TEST_CASE("what a step changes is made whole or not at all") {
   const files::TempFolder folder;
   const std::string file = folder.write(
-      "wrong.txt", "T= 0.02\nADD= Triangles 1\n0 2 5\nT= 0.02\nREMOVE= 1\n0\nT= 0.02\nADD= Triangles 1\n0 1 99\n");
+      "wrong.txt",
+      "T= 0.02\nADD= Triangles 1\n0 2 5\nT= 0.02\nREMOVE= 1\n0\nT= 0.02\nADD= Triangles 1\n0 1 99\n");
   auto sim = scene_of(strip(text("<TopologicalChangeProcessor filename=\"", file, "\"/>")));
   sim.animate(0.01), sim.animate(0.01);
   const auto triangles = topology(sim).triangles;
@@ -319,9 +320,10 @@ TEST_CASE("points go with their springs, and elements where a box is that moving
 
 TEST_CASE("a file cuts triangles along a path") {
   const files::TempFolder folder;
-  const std::string file =
-      folder.write("cut.txt", "T= 0.01\nINCISE= 2\n-0.5 2.5 0 0.7 2.5 0\nT= 0.03\nINCISE= 2\n0.7 2.5 0 1.5 2.5 0\n");
-  auto sim = scene_of(strip(text("<TopologicalChangeProcessor filename=\"", file, "\" saveIndicesAtInit=\"true\"/>")));
+  const std::string file = folder.write(
+      "cut.txt", "T= 0.01\nINCISE= 2\n-0.5 2.5 0 0.7 2.5 0\nT= 0.03\nINCISE= 2\n0.7 2.5 0 1.5 2.5 0\n");
+  auto sim = scene_of(
+      strip(text("<TopologicalChangeProcessor filename=\"", file, "\" saveIndicesAtInit=\"true\"/>")));
   const std::size_t n = points(sim).size();
   for (int i = 0; i < 10; ++i) sim.animate(0.01);
   // the strip is in two parts: edges across the path are gone

@@ -25,8 +25,12 @@ struct Block {
     points = grid.position;
     all = hexahedra_to_tetrahedra(grid.hexahedra);
   }
-  std::vector<Tetrahedron> first(std::size_t n) const { return {all.begin(), all.begin() + std::ptrdiff_t(n)}; }
-  std::vector<Tetrahedron> behind(std::size_t n) const { return {all.begin() + std::ptrdiff_t(n), all.end()}; }
+  std::vector<Tetrahedron> first(std::size_t n) const {
+    return {all.begin(), all.begin() + std::ptrdiff_t(n)};
+  }
+  std::vector<Tetrahedron> behind(std::size_t n) const {
+    return {all.begin() + std::ptrdiff_t(n), all.end()};
+  }
 };
 
 auto scene(Block const& block, std::vector<Tetrahedron> const& tetrahedra) {
@@ -116,14 +120,13 @@ TEST_CASE("a triangle is parted at a point in it: area, mass, momentum and mater
       Gravity{{0, 0, -1}},
       EulerImplicitSolver{},
       CGLinearSolver<>{.iterations = 300, .tolerance = 1e-15, .threshold = 1e-30},
-      node<"sheet">(
-          MeshTopology{.triangles = {{0, 1, 2}, {1, 3, 2}}},
-          MechanicalObject<Vec3d>{.position = points,
-                                  .velocity = {{1, 0, 0}, {0, 2, 0}, {0, 0, 3}, {1, 1, 1}}},
-          DiagonalMass<Vec3d>{.massDensity = 5},
-          TriangleFEMForceField<Vec3d>{.youngModulus = {100, 200}, .poissonRatio = {0.2, 0.3}},
-          FixedConstraint<Vec3d>{.indices = {0, 1, 2}},
-          node<"edges">(MeshTopology{.edges = {{0, 1}, {1, 3}, {3, 2}, {2, 0}}})))};
+      node<"sheet">(MeshTopology{.triangles = {{0, 1, 2}, {1, 3, 2}}},
+                    MechanicalObject<Vec3d>{.position = points,
+                                            .velocity = {{1, 0, 0}, {0, 2, 0}, {0, 0, 3}, {1, 1, 1}}},
+                    DiagonalMass<Vec3d>{.massDensity = 5},
+                    TriangleFEMForceField<Vec3d>{.youngModulus = {100, 200}, .poissonRatio = {0.2, 0.3}},
+                    FixedConstraint<Vec3d>{.indices = {0, 1, 2}},
+                    node<"edges">(MeshTopology{.edges = {{0, 1}, {1, 3}, {3, 2}, {2, 0}}})))};
   sim.init();
   auto& sheet = sim.at<"sheet">();
   auto momentum = [&] {
@@ -155,14 +158,14 @@ TEST_CASE("a triangle is parted at a point in it: area, mass, momentum and mater
   sim.animate(0.01);
 }
 
-TEST_CASE("a point has the place, rest place and velocity between its own; UniformMass keeps what a point weighs") {
-  Simulation sim{node<"root">(
-      EulerExplicitSolver{},
-      MeshTopology{.triangles = {{0, 1, 2}}},
-      MechanicalObject<Vec3d>{.position = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}},
-                              .velocity = {{1, 0, 0}, {0, 2, 0}, {0, 0, 3}},
-                              .restPosition = {{0, 0, 1}, {2, 0, 1}, {0, 2, 1}}},
-      UniformMass<Vec3d>{.totalMass = 6})};
+TEST_CASE(
+    "a point has the place, rest place and velocity between its own; UniformMass keeps what a point weighs") {
+  Simulation sim{node<"root">(EulerExplicitSolver{},
+                              MeshTopology{.triangles = {{0, 1, 2}}},
+                              MechanicalObject<Vec3d>{.position = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}},
+                                                      .velocity = {{1, 0, 0}, {0, 2, 0}, {0, 0, 3}},
+                                                      .restPosition = {{0, 0, 1}, {2, 0, 1}, {0, 2, 1}}},
+                              UniformMass<Vec3d>{.totalMass = 6})};
   sim.init();
   sim.addElements("", {.points = {{0, 1, 0.25, 2, 0.5}, {0, 1, 0.5}}});
   auto const& s = sim.root().state();
@@ -189,9 +192,8 @@ TEST_CASE("triangles and edges of quads follow, and faces of hexahedra") {
       node<"solid">(MeshTopology{.hexahedra = {{0, 1, 4, 3, 6, 7, 10, 9}}},
                     MechanicalObject<Vec3d>{.position = points},
                     UniformMass<Vec3d>{},
-                    node<"faces">(MeshTopology{.quads = border_of({}, std::vector<Hexahedron>{
-                                                                          {0, 1, 4, 3, 6, 7, 10, 9}})
-                                                            .quads})))};
+                    node<"faces">(MeshTopology{
+                        .quads = border_of({}, std::vector<Hexahedron>{{0, 1, 4, 3, 6, 7, 10, 9}}).quads})))};
   sim.init();
   sim.addElements("sheet", {.quads = {{1, 2, 5, 4}}});
   CHECK(sim.at<"sheet/halves">().get<MeshTopology>().triangles ==
@@ -226,8 +228,8 @@ TEST_CASE("what cannot come is refused, and the scene is what it was") {
   CHECK_THAT(refused("body", {.tetrahedra = {{0, 1, 2, 27}}}), Contains("has point 27, but there are 27"));
   CHECK_THAT(refused("body", {.tetrahedra = {{0, 1, 2, -1}}}), Contains("has point -1"));
   CHECK_THAT(refused("body", {.points = {{0, 30, 0.5}}}), Contains("beside point 30"));
-  CHECK_THAT(refused("body", {.points = {{0, 1, std::nan("")}}}), Contains("no finite number") ||
-                                                                      Contains("not a finite number"));
+  CHECK_THAT(refused("body", {.points = {{0, 1, std::nan("")}}}),
+             Contains("no finite number") || Contains("not a finite number"));
   AddedElements ofNone{.tetrahedra = {block.all[n]}};
   ofNone.ancestors[3] = {1000};
   CHECK_THAT(refused("body", ofNone), Contains("the ancestor 1000 is no tetrahedron"));

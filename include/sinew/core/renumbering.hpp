@@ -27,7 +27,7 @@ struct Origin {
 
 /// A vector, whose multiples add up.
 template <class T>
-concept Weighable = requires(T const& value, typename T::Scalar factor) { factor * value; };
+concept Weighable = requires(T const& value, typename T::Scalar factor) { factor* value; };
 
 /// The value of what comes, from that of what it comes of. What cannot be weighed is that of the nearer one.
 template <class T>

@@ -15,12 +15,12 @@ struct TopologicalEntry {
   enum class What { remove, add, addPoints, incise };
   double time = 0;
   What what = What::remove;
-  int kind = 0;                     // of the elements that come: ElementKind
-  std::vector<int> numbers{};       // of elements that go; of the points of those that come, one element after
-                                    // the other; of the triangles in which points come
-  std::vector<int> ancestors{};     // of elements that come: of which each is a part; empty: of none
-  std::vector<double> values{};     // of points that come: the weights of the first two corners; of an
-                                    // incision: its coordinates [m]
+  int kind = 0;                  // of the elements that come: ElementKind
+  std::vector<int> numbers{};    // of elements that go; of the points of those that come, one element after
+                                 // the other; of the triangles in which points come
+  std::vector<int> ancestors{};  // of elements that come: of which each is a part; empty: of none
+  std::vector<double> values{};  // of points that come: the weights of the first two corners; of an
+                                 // incision: its coordinates [m]
   bool isShort = false, isLong = false;  // fewer or more numbers follow than the count says
 };
 
@@ -157,11 +157,12 @@ class TopologicalFile {
         e.numbers.push_back(number("the number of the triangle in which a point comes"));
         const double a = real("the weight of a corner"), b = real("the weight of a corner");
         if (!(a >= 0 && b >= 0 && a + b <= 1 + 1e-9))
-          throw in_.error(text("the weights ",
-                               a,
-                               " and ",
-                               b,
-                               " are those of no point in the triangle; give two from 0 on whose sum is 1 at most"));
+          throw in_.error(
+              text("the weights ",
+                   a,
+                   " and ",
+                   b,
+                   " are those of no point in the triangle; give two from 0 on whose sum is 1 at most"));
         e.values.push_back(a), e.values.push_back(b);
       }
       return skipMore(e);

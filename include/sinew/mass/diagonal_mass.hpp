@@ -54,11 +54,12 @@ struct DiagonalMass {
 
   std::string warning() const {
     if (loose.empty() || expected) return {};
-    return text("no element has point ",
-                loose[0],
-                loose.size() > 1 ? text(", nor ", loose.size() - 1, " others") : std::string(),
-                ", so that they have no mass and stay where they are; leave them out, or give them an element or "
-                "a mass");
+    return text(
+        "no element has point ",
+        loose[0],
+        loose.size() > 1 ? text(", nor ", loose.size() - 1, " others") : std::string(),
+        ", so that they have no mass and stay where they are; leave them out, or give them an element or "
+        "a mass");
   }
 
   /// The density stays, not the total.

@@ -48,8 +48,8 @@ class BodyOfPoints {
     TopologyView view;
     bool editable;
     std::string path;
-    std::string_view conversion{};   // by which a topology follows another
-    void const* copies = nullptr;    // the topology above a visual model
+    std::string_view conversion{};  // by which a topology follows another
+    void const* copies = nullptr;   // the topology above a visual model
   };
   std::set<void const*> states{};  // and visual models
   std::vector<Body> bodies{};

@@ -329,10 +329,13 @@ void Simulation<Root>::changeTopology(StepOf const& step) {
   try {
     step.changeTopology([&](auto const& path, auto const& order) {
       if (!before) before.emplace(root_);
-      if constexpr (std::is_same_v<decltype(order), CutOrder const&>)
+      using Order = std::decay_t<decltype(order)>;
+      if constexpr (std::is_same_v<Order, CutOrder>)
         return cut(path, order);
+      else if constexpr (std::is_same_v<Order, AddedElements>)
+        addElements(path, order);
       else
-        editTopology(path, order);
+        removeElements(path, order);
     });
   } catch (...) {
     if (before) root_ = std::move(*before);

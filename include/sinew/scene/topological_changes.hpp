@@ -24,28 +24,29 @@ struct TopologicalChanges {
              }));
     traverse(root, on<role::TopologicalChange>([this](auto& c, auto const& scope) {
                if constexpr (MayAddElements<std::decay_t<decltype(c)>>)
-                 if (c.mayAdd(whereOf(c, scope)) && scope.topologyAddress()) markGrowing(scope.topologyAddress());
+                 if (c.mayAdd(whereOf(c, scope)) && scope.topologyAddress())
+                   markGrowing(scope.topologyAddress());
              }));
   }
 
   /// Throws Error where there is no topology whose elements can be removed.
   void prepare() const {
-    traverse(
-        root, on<role::TopologicalChange>([this](auto& c, auto const& scope) {
-          const std::string where = whereOf(c, scope);
-          if (!scope.topologyAddress())
-            throw Error(where,
-                        "neither its node nor one above has a topology; give one of them a MeshTopology");
-          if (!this->place(scope).editable)
-            throw Error(where,
-                        "the elements of its topology are made from a few numbers, and none of them can be "
-                        "removed; give the node a MeshTopology with these elements");
-          c.prepare(where, scope.topology());
-        }));
+    traverse(root, on<role::TopologicalChange>([this](auto& c, auto const& scope) {
+               const std::string where = whereOf(c, scope);
+               if (!scope.topologyAddress())
+                 throw Error(
+                     where, "neither its node nor one above has a topology; give one of them a MeshTopology");
+               if (!this->place(scope).editable)
+                 throw Error(
+                     where,
+                     "the elements of its topology are made from a few numbers, and none of them can be "
+                     "removed; give the node a MeshTopology with these elements");
+               c.prepare(where, scope.topology());
+             }));
   }
 
-  /// By edit(path, order), which returns what a cut has done, and after which the scene is another one, at the
-  /// same place. Says whether something has changed.
+  /// By edit(path, order), which returns what a cut has done, and after which the scene is another one, at
+  /// the same place. Says whether something has changed.
   template <class Edit>
   bool make(double time, StepNotes const& notes, Edit&& edit) const {
     int count = 0;

@@ -21,10 +21,10 @@ namespace sinew {
 template <class T>
 inline constexpr bool editable_topology = requires(T t) { t.edit(); };
 
-/// Takes elements out of one topology of a scene, puts some into it, or cuts them, with all that refers to them; the scene then
-/// has to be initialised again where touched() says. Triangles and quads that are the whole border of the
-/// volume, of a visual model or of a topology on which no forces act, become that of what is left; others
-/// only go. Works on a scene that may be thrown away: an Error leaves it half changed.
+/// Takes elements out of one topology of a scene, puts some into it, or cuts them, with all that refers to
+/// them; the scene then has to be initialised again where touched() says. Triangles and quads that are the
+/// whole border of the volume, of a visual model or of a topology on which no forces act, become that of what
+/// is left; others only go. Works on a scene that may be thrown away: an Error leaves it half changed.
 template <class RootScope>
 class TopologyEdit {
  public:
@@ -43,8 +43,8 @@ class TopologyEdit {
     planCut(order);
   }
 
-  /// Throws Error where there is no topology at `path` that can get these elements, and where something stands
-  /// on its points that cannot follow.
+  /// Throws Error where there is no topology at `path` that can get these elements, and where something
+  /// stands on its points that cannot follow.
   TopologyEdit(RootScope const& root, std::string_view path, AddedElements const& added) : root_(root) {
     find(path);
     planAddition(added);
@@ -88,8 +88,8 @@ class TopologyEdit {
   std::map<void const*, BorderLists> borders_{};  // of the topologies and visual models that are the border
   std::map<void const*, void const*> copies_{};   // of visual models with the faces of a topology: that
   CutPlan cut_{};
-  std::function<bool(Index&, Index&)> joined_{};             // of what joins points of the body that is cut
-  std::vector<AddPlan::Lists> added_{};  // of topologies and visual models to which elements come
+  std::function<bool(Index&, Index&)> joined_{};  // of what joins points of the body that is cut
+  std::vector<AddPlan::Lists> added_{};           // of topologies and visual models to which elements come
   // what topologies and visual models have that are cut, or to which elements come
   std::map<void const*, AddPlan::Lists const*> lists_{};
 
@@ -254,8 +254,9 @@ class TopologyEdit {
       ofTopology_[body.bodies[t].address] = plan.ofTopology[t];
       if (!plan.ofTopology[t].changes()) continue;
       if (!body.bodies[t].editable)
-        throw Error(body.bodies[t].path,
-                    "this topology is made from a few numbers, and nothing can come to it; take a MeshTopology");
+        throw Error(
+            body.bodies[t].path,
+            "this topology is made from a few numbers, and nothing can come to it; take a MeshTopology");
       lists_[body.bodies[t].address] = &added_[t];
     }
     if (plan.points.changes()) {
@@ -286,10 +287,11 @@ class TopologyEdit {
       for_each_field(c, [&](auto const& fd, auto const& value) {
         if constexpr (detail::is_list<std::decay_t<decltype(value)>>)
           if (!fd.numbers && value.size() > 1 && comes(here, fd.entries))
-            throw Error(text(scope.path(), ": ", component_name<C>()),
-                        text(fd.name,
-                             " has a value for each element, and one is to come without an ancestor whose value "
-                             "it could have; give one value for all, or ancestors"));
+            throw Error(
+                text(scope.path(), ": ", component_name<C>()),
+                text(fd.name,
+                     " has a value for each element, and one is to come without an ancestor whose value "
+                     "it could have; give one value for all, or ancestors"));
       });
     }
   }
@@ -421,8 +423,7 @@ class TopologyEdit {
   void follow(C& c, S const& scope) const {
     if constexpr (HasRole<C, role::VisualModel>)
       if (const auto found = lists_.find(&c); found != lists_.end())
-        return c.follow(
-            ofState(&c), found->second->triangles, found->second->quads, found->second->edges);
+        return c.follow(ofState(&c), found->second->triangles, found->second->quads, found->second->edges);
     if constexpr (HasRole<C, role::Topology> && editable_topology<C>)
       if (const auto found = lists_.find(&c); found != lists_.end())
         return give(c.edit(), *found->second, ofTopology(&c).points);

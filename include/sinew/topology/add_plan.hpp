@@ -37,12 +37,12 @@ struct TopologyOfBody {
 };
 
 /// Puts elements behind those of topologies[first], over its points and those that come. Others follow that
-/// have the same elements of a kind, the border of its volumes or faces, or two triangles for each quad: faces
-/// that come inside go, those that are laid bare come behind what there is, each oriented as those before. So
-/// do those that follow these. An element whose parts come no longer counts for a border. A topology without
-/// elements follows by its conversion. Throws Error where a
-/// point or an ancestor is not there, an element has a point twice or is there already, a place is no number,
-/// and where elements of a higher dimension would make another body.
+/// have the same elements of a kind, the border of its volumes or faces, or two triangles for each quad:
+/// faces that come inside go, those that are laid bare come behind what there is, each oriented as those
+/// before. So do those that follow these. An element whose parts come no longer counts for a border. A
+/// topology without elements follows by its conversion. Throws Error where a point or an ancestor is not
+/// there, an element has a point twice or is there already, a place is no number, and where elements of a
+/// higher dimension would make another body.
 AddPlan plan_addition(std::size_t points, std::vector<TopologyOfBody> const& topologies, std::size_t first,
                       AddedElements const& added);
 
@@ -138,9 +138,10 @@ inline void check_addition(std::size_t points, TopologyView const& body, AddedEl
                          ", numbered from 0; correct the number"));
   });
   if (before > 0 && now > before)
-    throw Error({},
-                "elements of a higher dimension than the body has would take the place of its mass and forces; "
-                "give them a topology of their own");
+    throw Error(
+        {},
+        "elements of a higher dimension than the body has would take the place of its mass and forces; "
+        "give them a topology of their own");
 }
 
 /// The elements of one topology before and after, and what has become of each.
@@ -168,8 +169,8 @@ struct ElementsThatFollow {
           list.insert(list.end(), more.begin(), more.end());
           auto const& ancestors = added.ancestors[std::size_t(kind)];
           for (std::size_t k = 0; k < more.size(); ++k)
-            come[std::size_t(kind)].push_back(
-                ancestors.empty() ? Origin::none() : Origin{ancestors[k], ancestors[k], 0});
+            come[std::size_t(kind)].push_back(ancestors.empty() ? Origin::none()
+                                                                : Origin{ancestors[k], ancestors[k], 0});
           changes = true;
         }
       });
@@ -269,7 +270,8 @@ inline bool follow_source(ElementsThatFollow& t, ElementsThatFollow const& sourc
   const std::string_view conversion = t.of.conversion.substr(0, t.of.conversion.find(' '));
   bool any = false;
   auto same = [&](int kind, auto const& a, auto const& b, auto& list, auto const& lists) {
-    if (!(a.empty() ? isCopy && kind < 3 : true) || !std::equal(a.begin(), a.end(), b.begin(), b.end())) return;
+    if (!(a.empty() ? isCopy && kind < 3 : true) || !std::equal(a.begin(), a.end(), b.begin(), b.end()))
+      return;
     t.copy(kind, list, lists, source);
     any = true;
   };
@@ -322,9 +324,8 @@ inline bool follow_source(ElementsThatFollow& t, ElementsThatFollow const& sourc
   }
   const auto edgesWere = border_edges(from.triangles),
              edgesAre = border_edges(outermost(source.lists.triangles, source.come[1]));
-  if (const int o = made("Triangle2EdgeTopologicalMapping",
-                         is.edges,
-                         ElementsThatFollow::listed(is.edges, edgesWere));
+  if (const int o =
+          made("Triangle2EdgeTopologicalMapping", is.edges, ElementsThatFollow::listed(is.edges, edgesWere));
       o != 0 && !source.lists.triangles.empty()) {
     t.border(0, t.lists.edges, edgesWere, edgesAre, o);
     return true;

@@ -46,12 +46,12 @@ struct MeshTopology {
         more...);
   }
   static constexpr auto fields() {
-    return listed(
-        field("conversion",
-              &MeshTopology::conversion,
-              "",
-              "the class of the topological mapping that makes its elements of those of the topology above, by "
-              "which it follows that where it has none yet; in a scene file the mapping gives it"));
+    return listed(field(
+        "conversion",
+        &MeshTopology::conversion,
+        "",
+        "the class of the topological mapping that makes its elements of those of the topology above, by "
+        "which it follows that where it has none yet; in a scene file the mapping gives it"));
   }
   static constexpr auto outputs() { return listed(); }
 

@@ -18,15 +18,16 @@ namespace sinew {
 
 /// Changes the topology of its node at given times: by a file, or by lists of what goes (useDataInputs). The
 /// file removes elements, adds some over the points that are there and points in triangles, and cuts
-/// triangles along a path. A change acts at the begin of the first step whose time is not before its own; several
-/// that are due follow each other, where SOFA takes the last ones only, and what comes at one time comes
-/// together. What a step changes is made whole or not at all. Elements to remove are those of the highest
-/// dimension that the topology has, where the file does not say which.
+/// triangles along a path. A change acts at the begin of the first step whose time is not before its own;
+/// several that are due follow each other, where SOFA takes the last ones only, and what comes at one time
+/// comes together. What a step changes is made whole or not at all. Elements to remove are those of the
+/// highest dimension that the topology has, where the file does not say which.
 ///
 /// Numbers are those that SOFA's containers have after each change, in which the last element or point takes
 /// the place of one that goes, so that a file means here what it means there. Sinew's own topologies keep the
-/// order of what stays. Elements that come stand behind the others, as in SOFA; their shape at rest is that of
-/// the rest positions of their points, and points come where they lie in a triangle, at rest and in velocity.
+/// order of what stays. Elements that come stand behind the others, as in SOFA; their shape at rest is that
+/// of the rest positions of their points, and points come where they lie in a triangle, at rest and in
+/// velocity.
 struct TopologicalChangeProcessor {
   using Role = role::TopologicalChange;
   static constexpr std::string_view className = "TopologicalChangeProcessor";
@@ -51,7 +52,8 @@ struct TopologicalChangeProcessor {
               &P::filename,
               "",
               "text file of changes, each a line \"T= seconds\" and after it \"REMOVE= count\", \"ADD= "
-              "Tetrahedra count\" (or another kind, or PointsInTriangle) or \"INCISE= count\" with its numbers"),
+              "Tetrahedra count\" (or another kind, or PointsInTriangle) or \"INCISE= count\" with its "
+              "numbers"),
         field("interval",
               &P::interval,
               "s",
@@ -70,11 +72,12 @@ struct TopologicalChangeProcessor {
         list("quadsToRemove", &P::quadsToRemove, "numbers of quads"),
         list("tetrahedraToRemove", &P::tetrahedraToRemove, "numbers of tetrahedra"),
         list("hexahedraToRemove", &P::hexahedraToRemove, "numbers of hexahedra"),
-        field("box",
-              &P::box,
-              "m",
-              "the elements go that lie in one of these at the time, two opposite corners each: xmin ymin zmin "
-              "xmax ymax zmax; a list that is linked to a BoxROI over moving points gives it"),
+        field(
+            "box",
+            &P::box,
+            "m",
+            "the elements go that lie in one of these at the time, two opposite corners each: xmin ymin zmin "
+            "xmax ymax zmax; a list that is linked to a BoxROI over moving points gives it"),
         field("saveIndicesAtInit",
               &P::saveIndicesAtInit,
               "",
@@ -100,7 +103,8 @@ struct TopologicalChangeProcessor {
   static constexpr auto state() {
     using P = TopologicalChangeProcessor;
     auto numbers = [](std::string_view name, auto member) {
-      return field(name, member, "", "by SOFA's numbers, those here; none: they are the same", range::nonNegative);
+      return field(
+          name, member, "", "by SOFA's numbers, those here; none: they are the same", range::nonNegative);
     };
     return field_list(field("done", &P::done, "", "changes so far", range::nonNegative),
                       numbers("edge_numbers", &P::edges),
@@ -125,8 +129,9 @@ struct TopologicalChangeProcessor {
 
   void prepare(std::string const& where, TopologyView const& topology) {
     const auto lists = inputs();
-    const bool given =
-        !box.empty() || std::any_of(lists.begin(), lists.end(), [](auto const* list) { return !list->empty(); });
+    const bool given = !box.empty() || std::any_of(lists.begin(), lists.end(), [](auto const* list) {
+      return !list->empty();
+    });
     bool adds = false;
     if (useDataInputs) {
       if (!given)
@@ -135,7 +140,8 @@ struct TopologicalChangeProcessor {
                     "trianglesToRemove");
       checkNumbers(where, topology);
     } else if (given) {
-      throw Error(where, "lists of elements or boxes are given, but not taken; set useDataInputs, or leave them out");
+      throw Error(
+          where, "lists of elements or boxes are given, but not taken; set useDataInputs, or leave them out");
     } else if (filename.path.empty()) {
       throw Error(where,
                   "there is nothing to do; give the file of changes (filename), or useDataInputs and numbers "
@@ -149,7 +155,8 @@ struct TopologicalChangeProcessor {
       throw Error(where, "the topology of its node has no elements that could be removed; give it some");
   }
 
-  bool findChange(TopologyView const& topology, std::size_t pointCount, double time, TopologicalOrder& order) {
+  bool findChange(TopologyView const& topology, std::size_t pointCount, double time,
+                  TopologicalOrder& order) {
     noticed = {};
     taken = 1;
     const Sizes size = sizes(topology, pointCount);
@@ -348,9 +355,10 @@ struct TopologicalChangeProcessor {
       more(list);
       auto& ancestors = added.ancestors[std::size_t(e.kind)];
       if (before > 0 && ancestors.empty() != e.ancestors.empty())
-        throw Error({},
-                    "some elements that come at one time have ancestors, and others have none; give all of a kind "
-                    "some");
+        throw Error(
+            {},
+            "some elements that come at one time have ancestors, and others have none; give all of a kind "
+            "some");
       for (const int a : e.ancestors) ancestors.push_back(numberOf(std::size_t(e.kind), a));
     };
     switch (ElementKind(e.kind)) {

@@ -14,7 +14,8 @@ namespace sinew {
 /// One change of a topology while a scene runs: one of these is given.
 struct TopologicalOrder {
   ElementNumbers gone{};
-  std::vector<Vec<double, 6>> box{};  // elements in one of these go too: the lower corner, and the upper one [m]
+  std::vector<Vec<double, 6>>
+      box{};  // elements in one of these go too: the lower corner, and the upper one [m]
   AddedElements added{};
   std::vector<Eigen::Vector3d> incision{};  // a path on the surface [m]
 
@@ -46,9 +47,8 @@ struct TopologicalOrder {
 
 /// prepare(where, topology) checks it at init, with "/path: Class" for messages.
 template <class C>
-concept PreparesRemoval = requires(C c, std::string const where, TopologyView const topology) {
-  c.prepare(where, topology);
-};
+concept PreparesRemoval =
+    requires(C c, std::string const where, TopologyView const topology) { c.prepare(where, topology); };
 /// findRemoved(topology, time, elements), before a step that begins at a time [s], lists elements that go, and
 /// returns whether it has done so; over DataTypes with the positions of the state of the node,
 /// findRemoved(topology, positions, time, elements). The elements are taken out, with all that refers to them;
@@ -73,8 +73,8 @@ concept FindsChanges = requires(C c, TopologyView const topology, TopologicalOrd
 };
 
 template <class C>
-concept ChangesTopology = HasRole<C, role::TopologicalChange> && PreparesRemoval<C> &&
-                          (FindsRemovedElements<C> || FindsChanges<C>);
+concept ChangesTopology =
+    HasRole<C, role::TopologicalChange> && PreparesRemoval<C> && (FindsRemovedElements<C> || FindsChanges<C>);
 
 // Hooks, what it may have beside these:
 
@@ -104,10 +104,11 @@ struct Promise<role::TopologicalChange> : NoPromise {
     static_assert(prepares,
                   "Sinew: a component with role::TopologicalChange has no 'void prepare(std::string const& "
                   "where, TopologyView const& topology)', which checks it.");
-    static_assert(finds,
-                  "Sinew: a component with role::TopologicalChange has no 'bool findRemoved(TopologyView const& "
-                  "topology, double time, ElementNumbers& elements)', which lists what goes, or no 'void "
-                  "elementsRemoved()', which is told that it has gone; nor findChange and changeMade.");
+    static_assert(
+        finds,
+        "Sinew: a component with role::TopologicalChange has no 'bool findRemoved(TopologyView const& "
+        "topology, double time, ElementNumbers& elements)', which lists what goes, or no 'void "
+        "elementsRemoved()', which is told that it has gone; nor findChange and changeMade.");
   };
 };
 
