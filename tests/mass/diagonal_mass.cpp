@@ -116,6 +116,7 @@ TEST_CASE("a point that no element has has no mass, stays where no force acts, a
   DiagonalMass<Vec3d> mass{.massDensity = 2};
   mass.init(InitContext<Vec3d>{"/root", x, {.edges = edge}});
   CHECK(mass.lumped.totalMass(3) == Approx(2));
+  CHECK(contains(mass.warning(), "no element has point 2"));
   MechanicalParams p;
   p.gravity = {0, -10, 0};
   std::vector<Eigen::Vector3d> f(3, Eigen::Vector3d::Zero()), a = f;

@@ -37,6 +37,7 @@ struct TopologyView {
   // and its mass; empty where all are
   std::span<double const> fill{}, massFill{};
   FinerCells finer{};
+  bool grows = false;  // it may be without elements: some may come while the scene runs
 };
 
 /// What a component of a node is given at init: where it stands (for messages), the rest positions of the

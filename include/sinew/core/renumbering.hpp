@@ -12,11 +12,17 @@
 
 namespace sinew {
 
-/// Of what a point or an element is that comes: x = (1 - weight) x_a + weight x_b, by old numbers. A part or
-/// a copy of one has a = b.
+/// Of what a point or an element is that comes, by old numbers:
+///   x = (1 - weight - weightOfC) x_a + weight x_b + weightOfC x_c
+/// A part or a copy of one has a = b, what is on an edge no c (-1), and what is of nothing no a: it is none.
 struct Origin {
   Index a, b;
   double weight;
+  Index c = -1;
+  double weightOfC = 0;
+
+  static Origin none() { return {-1, -1, 0}; }
+  bool isNone() const { return a < 0; }
 };
 
 /// A vector, whose multiples add up.
@@ -32,6 +38,28 @@ T value_between(T const& a, T const& b, double weight) {
     return weight == 0 ? a : T((1 - typename T::Scalar(weight)) * a + typename T::Scalar(weight) * b);
   else
     return weight < 0.5 ? a : b;
+}
+
+/// The same from a list with a value for each; that of what is of nothing is zero.
+template <class List>
+auto value_of(List const& list, Origin const& o) -> typename List::value_type {
+  using T = typename List::value_type;
+  auto at = [&](Index i) -> T { return list[std::size_t(i)]; };
+  if (o.isNone()) {
+    if constexpr (requires { T::Zero(); })
+      return T::Zero();
+    else
+      return T{};
+  }
+  if (o.c < 0) return value_between<T>(at(o.a), at(o.b), o.weight);
+  const double rest = 1 - o.weight - o.weightOfC;
+  if constexpr (std::is_floating_point_v<T>)
+    return T(rest) * at(o.a) + T(o.weight) * at(o.b) + T(o.weightOfC) * at(o.c);
+  else if constexpr (Weighable<T>)
+    return T(typename T::Scalar(rest) * at(o.a) + typename T::Scalar(o.weight) * at(o.b) +
+             typename T::Scalar(o.weightOfC) * at(o.c));
+  else
+    return rest >= o.weight && rest >= o.weightOfC ? at(o.a) : o.weight >= o.weightOfC ? at(o.b) : at(o.c);
 }
 
 /// Points or elements of which some go, and others come. What stays keeps its order, and what comes is behind
@@ -63,10 +91,7 @@ struct Renumbering {
     if (!changes() || list.size() != now.size()) return;
     std::vector<typename List::value_type> values;
     values.reserve(come.size());
-    for (auto const& [a, b, weight] : come) {
-      using Value = typename List::value_type;
-      values.push_back(value_between<Value>(list[std::size_t(a)], list[std::size_t(b)], weight));
-    }
+    for (Origin const& o : come) values.push_back(value_of(list, o));
     for (std::size_t i = 0; i < kept.size(); ++i) list[i] = list[std::size_t(kept[i])];
     list.resize(kept.size());
     list.insert(list.end(), values.begin(), values.end());
@@ -82,7 +107,11 @@ struct Renumbering {
       values.insert(values.end(), first, first + std::ptrdiff_t(width));
     };
     for (const Index old : kept) take(old);
-    for (Origin const& part : come) take(part.a);
+    for (Origin const& part : come)
+      if (part.isNone())
+        values.resize(values.size() + width, Value{});
+      else
+        take(part.a);
     list = std::move(values);
   }
   /// Puts the new number in the place of the old one.
@@ -100,12 +129,34 @@ constexpr std::string_view element_kind_name(int kind) {
   return names[std::size_t(kind)];
 }
 
-/// Numbers of elements of a topology, kind by kind.
+/// Numbers of elements of a topology, kind by kind, and of its points.
 struct ElementNumbers {
-  std::vector<Index> edges{}, triangles{}, quads{}, tetrahedra{}, hexahedra{};
+  std::vector<Index> edges{}, triangles{}, quads{}, tetrahedra{}, hexahedra{}, points{};
 
   std::array<std::vector<Index> const*, element_kinds> lists() const {
     return {&edges, &triangles, &quads, &tetrahedra, &hexahedra};
+  }
+};
+
+/// Elements that come to a topology, in the numbers of its points with those that come behind them.
+struct AddedElements {
+  std::vector<Origin> points{};  // where they come, between points that are there
+  std::vector<Edge> edges{};
+  std::vector<Triangle> triangles{};
+  std::vector<Quad> quads{};
+  std::vector<Tetrahedron> tetrahedra{};
+  std::vector<Hexahedron> hexahedra{};
+  /// Of each kind, the element of the same kind of which each is a part, whose values it has; empty: of none.
+  std::array<std::vector<Index>, element_kinds> ancestors{};
+
+  bool empty() const {
+    return points.empty() && edges.empty() && triangles.empty() && quads.empty() && tetrahedra.empty() &&
+           hexahedra.empty();
+  }
+  /// f(kind, list) for each kind.
+  template <class F>
+  void forEach(F&& f) const {
+    f(0, edges), f(1, triangles), f(2, quads), f(3, tetrahedra), f(4, hexahedra);
   }
 };
 

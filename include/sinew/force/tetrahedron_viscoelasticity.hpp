@@ -217,7 +217,7 @@ struct TetrahedronViscoelasticityFEMForceField {
                       field("memory", &F::memory, "", "strains and stresses of both, of all elements"));
   }
 
-  /// Tetrahedra that stay keep their history, and parts have that of what they are of.
+  /// Tetrahedra that stay keep their history, parts have that of what they are of, and others have none.
   void follow(Followed const& change) {
     if (memory.empty()) return;
     change.topology.ofDimension(3, memory.size() / memorySize).filterRows(memory, memorySize);

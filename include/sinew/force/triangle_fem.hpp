@@ -226,7 +226,7 @@ struct TriangleFEMForceField {
         triangles.push_back({q[0], q[1], q[2]});
         triangles.push_back({q[0], q[2], q[3]});
       }
-    if (triangles.empty())
+    if (triangles.empty() && !t.grows)
       throw Error(where, "the topology has no triangle; give the node a topology with triangles or quads");
     detail::check_indices(where, "triangle", triangles, context.rest.size());
     check_one_or_each(where, "youngModulus", youngModulus.size(), triangles.size(), "triangles");

@@ -6,7 +6,11 @@
 #include <sinew/topology/element_checks.hpp>
 #include <sinew/topology/hexahedra.hpp>
 
+#include <cmath>
+#include <limits>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace sinew {
 
@@ -47,6 +51,18 @@ struct DiagonalMass {
 
   LumpedMass<D> lumped{};
   double density = 0;
+  bool expected = false;  // points that no element has, since elements may come; set by init
+
+  std::string warning() const {
+    auto const& loose = lumped.massless;
+    if (loose.empty() || expected) return {};
+    return text(
+        "no element has point ",
+        loose[0],
+        loose.size() > 1 ? text(", nor ", loose.size() - 1, " others") : std::string(),
+        ", so that they have no mass and stay where they are; leave them out, or give them an element or "
+        "a mass");
+  }
 
   /// The density stays, not the total.
   void follow(Followed const&) {
@@ -58,6 +74,7 @@ struct DiagonalMass {
   void init(InitContext<D> const& context) {
     const std::string where = text(context.where, ": ", component_name<DiagonalMass>());
     const std::size_t n = context.rest.size();
+    expected = context.topology.grows;
     if (int(massDensity.has_value()) + int(totalMass.has_value()) + int(!vertexMass.empty()) != 1)
       throw Error(where, "give exactly one of massDensity, totalMass and vertexMass");
     if (!vertexMass.empty()) {
@@ -105,8 +122,8 @@ struct DiagonalMass {
  private:
   // the volume, area or length that each point stands for: the integral of its shape function; and which
   // points no element has
-  static std::vector<double> sizes(InitContext<D> const& context, std::string const& where,
-                                   std::vector<bool>& alone) {
+  std::vector<double> sizes(InitContext<D> const& context, std::string const& where,
+                            std::vector<bool>& alone) const {
     check_values_of_body(where, context);
     std::vector<Eigen::Vector3d> x(context.rest.size());
     for (std::size_t i = 0; i < x.size(); ++i) x[i] = context.place(Index(i));
@@ -137,7 +154,7 @@ struct DiagonalMass {
       for (auto const& e : t.quads) share(e, (at(e[2]) - at(e[0])).cross(at(e[3]) - at(e[1])).norm() / 2);
     } else if (!t.edges.empty()) {
       for (auto const& e : t.edges) share(e, (at(e[1]) - at(e[0])).norm());
-    } else {
+    } else if (!t.grows || !massDensity) {
       throw Error(
           where,
           "a density needs elements; give the node a topology with tetrahedra or others, or vertexMass");

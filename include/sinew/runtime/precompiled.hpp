@@ -81,6 +81,8 @@ extern template void ConstrainedStep<RuntimeScope<Standard>>::findCompliance(Con
 extern template void Step<RuntimeScope<Standard>>::detectContacts() const;
 extern template TopologyChange Simulation<RuntimeNode<Standard>>::removeElements(std::string_view,
                                                                                  ElementNumbers const&);
+extern template TopologyChange Simulation<RuntimeNode<Standard>>::addElements(std::string_view,
+                                                                              AddedElements const&);
 extern template void Simulation<RuntimeNode<Standard>>::animate(double);
 extern template void Simulation<RuntimeNode<Standard>>::reset();
 extern template void Simulation<RuntimeNode<Standard>>::finish();

@@ -246,6 +246,8 @@ void Initialisation<RootScope>::run() {
   root_.raise();
   checkFields();
   ChangingPoints<RootScope>{root_}.begin();
+  if constexpr (holds<typename RootScope::NodeType, role::TopologicalChange>())
+    if (again_.touched.empty()) TopologicalChanges<RootScope>{root_}.begin();
   initStates();
   initComponents();
   ChangingPoints<RootScope>{root_}.init();

@@ -62,17 +62,14 @@ struct Step {
   /// bodies that start in each other, or come there before a contact is seen.
   void detectContacts() const;
 
-  /// Removes elements whose time has come, or that are where none may be, by remove(path, elements).
-  template <class Remove>
-  void changeTopology(Remove&& remove) const {
-    TopologicalChanges<RootScope>{root}.make(time, notes(), [&](auto const& path, auto const& elements) {
-      try {
-        remove(path, elements);
-      } catch (Error const& error) {
-        throw Error(text("the topological change at step ", number - 1, " (time ", time, " s)"),
-                    text("elements of '", path, "' cannot be removed: ", error.what()));
-      }
-    });
+  /// Changes topologies where the time has come, or elements are where none may be, by edit(path, order).
+  template <class Edit>
+  void changeTopology(Edit&& edit) const {
+    try {
+      TopologicalChanges<RootScope>{root}.make(time, notes(), edit);
+    } catch (Error const& error) {
+      throw Error(text("the topological change at step ", number - 1, " (time ", time, " s)"), error.what());
+    }
   }
 
   /// Removes what tools touch, by remove(path, elements); says whether something went.

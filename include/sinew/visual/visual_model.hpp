@@ -73,7 +73,7 @@ struct VisualModel {
   void follow(Renumbering const& points);
   /// Vertices come, and these are the faces and edges then. Those that are new have no looks of their own.
   void follow(Renumbering const& points, std::vector<Triangle> const& triangles,
-              std::vector<Edge> const& edges);
+              std::vector<Quad> const& quads, std::vector<Edge> const& edges);
   /// The mesh had these faces before: those that stay keep their looks, others have none.
   void facesWere(std::vector<Triangle> const& triangles, std::vector<Quad> const& quads);
 
@@ -198,14 +198,15 @@ SINEW_ONCE void VisualModel::follow(Renumbering const& points) {
 }
 
 SINEW_ONCE void VisualModel::follow(Renumbering const& points, std::vector<Triangle> const& triangles,
-                                    std::vector<Edge> const& edges) {
+                                    std::vector<Quad> const& quads, std::vector<Edge> const& edges) {
   const std::size_t before = mesh.positions.size();
   points.filter(mesh.positions);
   if (textureTriangles.empty() && textureQuads.empty() && texcoords.size() == before)
     points.filter(texcoords);
   const auto were = std::exchange(mesh.triangles, triangles);
+  const auto quadsWere = std::exchange(mesh.quads, quads);
   mesh.edges = edges;
-  facesWere(were, mesh.quads);
+  facesWere(were, quadsWere);
 }
 
 SINEW_ONCE void VisualModel::facesWere(std::vector<Triangle> const& triangles,

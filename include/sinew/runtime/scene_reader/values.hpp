@@ -180,7 +180,12 @@ class SceneValues {
         if (item.info->traits.sizedValues && given.insert("size").second)
           if (const std::size_t size = values_.sizeOfValues(target); size > 0)
             item.info->field("size")->read(item.address, std::to_string(size));
+        SceneItem const* const box = moving_box(item, *field, target);
         linked = values_.linkedValue(item, *field, std::move(target));
+        if (box) {  // what is in it at the time
+          item.info->field("box")->read(item.address, box->info->field("box")->write(box->address));
+          linked.clear();
+        }
         item.links[number < 0 ? std::string(field->name) : a.name] = a.value;
         if (Words(linked).end() && chooses_loaded(*field)) press_none(item, a, "names no element", messages_);
       }
