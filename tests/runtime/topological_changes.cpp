@@ -247,11 +247,11 @@ TEST_CASE("a topology that something adds to may be empty at the start, with wha
   const std::string file =
       folder.write("fill.txt", "T= 0\nADD= Tetrahedra 1\n0 1 2 3\nT= 0.03\nADD= Tetrahedra 1\n1 2 3 4\n");
   auto sim = scene_of(filling("", file));
-  auto& strip = *sim.root().find_node("strip");
   CHECK(topology(sim).tetrahedra.empty());
   std::vector<std::size_t> faces, seen;
   for (int i = 0; i < 6; ++i) {
     sim.animate(0.01);
+    auto& strip = *sim.root().find_node("strip");
     faces.push_back(strip.find_node("skin")->get<MeshTopology>()->triangles.size());
     seen.push_back(strip.find_node("skin/look")->get<VisualModel>()->mesh.triangles.size());
     // 1/6 m^3 at first, and 1/3 m^3 more

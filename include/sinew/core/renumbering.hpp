@@ -237,6 +237,7 @@ SINEW_ONCE Renumbering TopologyChange::ofDimension(int dimension, std::size_t si
   if (dimension > 1) {
     Renumbering const& others = elements[std::size_t(other[dimension - 1])];
     const std::size_t rest = size > stays.size() ? size - stays.size() : 0, count = others.now.size();
+    if (stays.empty() && rest == count && !others.come.empty()) return others;
     if (count > 0 && rest % count == 0)
       for (const Index n : others.now) stays.insert(stays.end(), rest / count, n >= 0);
   }

@@ -188,7 +188,7 @@ class TopologicalFile {
     e.what = What::incise;
     const std::size_t n = count("points of the path");
     double value = 0;
-    for (next_ = word(); parse_number(next_, value); next_ = word()) {
+    for (; next_ = word(), parse_number(next_, value); next_ = {}) {
       if (!(std::abs(value) <= std::numeric_limits<double>::max()))
         throw in_.expected("a coordinate, a finite number");
       e.values.push_back(value);

@@ -31,6 +31,7 @@ namespace sinew {
 struct TopologicalChangeProcessor {
   using Role = role::TopologicalChange;
   static constexpr std::string_view className = "TopologicalChangeProcessor";
+  using What = io::TopologicalEntry::What;
 
   DataFile filename{};
   double interval = 0, shift = 0;
@@ -114,9 +115,11 @@ struct TopologicalChangeProcessor {
                       numbers("hexahedron_numbers", &P::hexahedra),
                       numbers("point_numbers", &P::points));
   }
-  /// Times are those of another run; what has gone or come stays so.
+  /// Times are those of another run. What has gone or come stays so, and so a file that adds or cuts goes on
+  /// from where it was.
   void reset() {
-    done = 0;
+    if (std::all_of(changes.begin(), changes.end(), [](auto const& c) { return c.what == What::remove; }))
+      done = 0;
     front = {};
     end.reset();
   }
@@ -233,7 +236,6 @@ struct TopologicalChangeProcessor {
   std::string_view notice() const { return noticed; }
 
  private:
-  using What = io::TopologicalEntry::What;
   static constexpr std::size_t kinds = element_kinds + 1;  // and points behind them
   using Sizes = std::array<std::size_t, kinds>;
   static constexpr std::string_view gone = "elements to remove are not there any more";
