@@ -42,8 +42,7 @@ auto held_points(InitContext<typename C::DataTypes> const& context, std::vector<
 template <class C, class Held>
 void hold_points(std::string_view where, std::size_t points, std::vector<int> const& indices, bool all,
                  Held& held) {
-  if (!all)
-    check_points([&] { return text(where, ": ", component_name<C>()); }, "indices", indices, points);
+  if (!all) check_points([&] { return text(where, ": ", component_name<C>()); }, "indices", indices, points);
   if (!all) return void(held = indices);
   std::vector<int> each(points);
   std::iota(each.begin(), each.end(), 0);

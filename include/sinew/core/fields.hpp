@@ -97,8 +97,8 @@ struct Field : FieldWords {
     follows.entries = what;
     return follows;
   }
-  /// The same field, which may take another value while the scene runs, of something that changes; a component
-  /// that made something of it has takeValues (TakesValues).
+  /// The same field, which may take another value while the scene runs, of something that changes; a
+  /// component that made something of it has takeValues (TakesValues).
   constexpr Field whileRunning() const {
     Field follows = *this;
     follows.live = true;

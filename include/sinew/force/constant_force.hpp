@@ -38,8 +38,7 @@ struct ConstantForceField {
             .oneEach(Of::entries)
             .whileRunning(),
         field("force", &F::force, "N", "force on each point, where forces is not given").whileRunning(),
-        field(
-            "totalForce", &F::totalForce, "N", "force that the points share evenly, where neither is given")
+        field("totalForce", &F::totalForce, "N", "force that the points share evenly, where neither is given")
             .whileRunning());
   }
 
