@@ -51,6 +51,7 @@
 #include "samples/surface_pressure.hpp"
 #include "samples/tetrahedron_hyperelasticity.hpp"
 #include "samples/tetrahedron_viscoelasticity.hpp"
+#include "samples/triangle_fem.hpp"
 #include "samples/tubular_mapping.hpp"
 #include "samples/uniform_mass.hpp"
 #include "samples/unilateral_lagrangian_constraint.hpp"

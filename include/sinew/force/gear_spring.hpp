@@ -259,7 +259,7 @@ struct GearSpringForceField {
     bool world = false;
     for (GearSpring const& s : springs)
       world = world || (!between && (s.first == s.firstParent || s.second == s.secondParent));
-    return {.internal = !world, .objective = !world};
+    return {.internal = !world, .objective = !world, .exactTangent = false};
   }
 
   using Driver = ElementDriver<GearSpringLaw, D>;
