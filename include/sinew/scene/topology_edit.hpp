@@ -282,7 +282,7 @@ class TopologyEdit {
                      throw Error(scope.path(), "its points are frames, and none can come between them");
                }));
     }
-    traverse(root_, on<AnyRole>([this](auto& c, auto const& scope) { checkElementValues(c, scope); }));
+    traverse(root_, on<AnyRole>([this](auto& c, auto const& scope) { this->checkElementValues(c, scope); }));
     touchMapped();
   }
   // what has a value for each element, where one comes that has none
