@@ -33,6 +33,7 @@
 #include <sinew/linalg/aggregation.hpp>
 #include <sinew/linalg/chebyshev.hpp>
 #include <sinew/linalg/minimum_degree.hpp>
+#include <sinew/topology/add_plan.hpp>
 #include <sinew/topology/adjacency.hpp>
 #include <sinew/topology/bcc_lattice.hpp>
 #include <sinew/topology/bcc_stencils.hpp>
@@ -45,6 +46,7 @@
 #include <sinew/topology/element_checks.hpp>
 #include <sinew/topology/element_fit.hpp>
 #include <sinew/topology/hexahedra.hpp>
+#include <sinew/topology/incision.hpp>
 #include <sinew/topology/inertia.hpp>
 #include <sinew/topology/isosurface_stuffing.hpp>
 #include <sinew/topology/mesh_topology.hpp>

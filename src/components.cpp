@@ -44,6 +44,7 @@
 #include <sinew/engine/merge_rois.hpp>
 #include <sinew/engine/merge_sets.hpp>
 #include <sinew/engine/merge_vectors.hpp>
+#include <sinew/engine/mesh2point_topological_mapping.hpp>
 #include <sinew/engine/mesh_barycentric_mapper.hpp>
 #include <sinew/engine/mesh_boundary_roi.hpp>
 #include <sinew/engine/mesh_closing.hpp>
@@ -62,6 +63,7 @@
 #include <sinew/engine/roi.hpp>
 #include <sinew/engine/roi_value_mapper.hpp>
 #include <sinew/engine/select_label_roi.hpp>
+#include <sinew/engine/simple_tesselated_tetra_topological_mapping.hpp>
 #include <sinew/engine/smooth_mesh.hpp>
 #include <sinew/engine/sphere_loader.hpp>
 #include <sinew/engine/spiral.hpp>
