@@ -9,9 +9,6 @@
 #include <exception>
 
 int cli::program(int argc, char** argv) try {
-#ifdef SINEW_ZLIB
-  sinew::io::use_gzip();
-#endif
   int status = cli::ok;
   const cli::Options options = cli::read_options(argc, argv, status);
   switch (options.command) {

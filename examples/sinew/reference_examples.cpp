@@ -735,7 +735,23 @@ constexpr auto classExamples = std::to_array<ClassExample>({
      "FixedConstraint"},
     {"PositionBasedDynamicsProjectiveConstraint", jelly},
     {"ClusteringEngine", jelly},
-    {"ShapeMatching", jelly},
+    {"ShapeMatching", R"(
+<Node name="root" gravity="0 -9.81 0">
+  <Node name="block">
+    <EulerImplicitSolver rayleighStiffness="0.01"/>
+    <CGLinearSolver iterations="25" tolerance="1e-8"/>
+    <RegularGridTopology n="5 3 3" max="0.4 0.1 0.1"/>
+    <MechanicalObject name="dofs"/>
+    <UniformMass totalMass="4"/>
+    <HexahedronFEMForceField youngModulus="50000" poissonRatio="0.3"/>
+    <FixedConstraint indices="0 5 10 15 20 25 30 35 40"/>
+    <ClusteringEngine name="clustering" number="1"/>
+    <ShapeMatching name="matching" position="@dofs.position" cluster="@clustering.cluster"/>
+  </Node>
+  <Node name="unbent">
+    <MechanicalObject position="@../block/matching.targetPosition"/>
+  </Node>
+</Node>)"},
     {"PatchTestMovementProjectiveConstraint",
      R"(
 <PatchTestMovementProjectiveConstraint indices="0 1 2 3 4 5 9 10 14 15 19 20 21 22 23 24" endConstraintTime="1"

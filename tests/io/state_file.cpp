@@ -341,6 +341,8 @@ TEST_CASE("where no file of states can be written is said before the first step"
   files::check_says(error(folder / ""), folder / "", "is a folder");
   files::check_says(error(folder / "none/f"), folder / "none/f", "there is no folder " + (folder / "none/"));
   files::check_says(error(folder / "f.gz"), folder / "f.gz", "does not compress");
+  const std::string packed = folder.write("g.gz", "\x1f\x8b and more");
+  files::check_says(error_of([&] { io::read_file(packed); }), packed, "unpack it with gunzip first");
 }
 
 TEST_CASE("a disk that is full is said with the file") {

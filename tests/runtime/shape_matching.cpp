@@ -91,6 +91,37 @@ TEST_CASE("what is given to the constraint goes before what its ShapeMatching ha
   CHECK(fixed.root.get<Pbd>()->position.size() == 5);
 }
 
+TEST_CASE("a state that no constraint moves has the shape that is matched, where its points are") {
+  auto file = read(
+      "<Node dt='0.05' gravity='0 -1 0'><Node name='body'><EulerImplicitSolver/><CGLinearSolver "
+      "iterations='25' "
+      "tolerance='1e-12'/><MechanicalObject name='dofs' position='0 0 0  1 0 0  0 1 0  0 0 1' velocity='0.1 "
+      "0 0  "
+      "0 0.2 0  0 0 0.3  0.2 0.1 0'/><UniformMass vertexMass='3'/><ShapeMatching name='matching' "
+      "position='@dofs.position' cluster='[0 1 2 3]'/></Node>"
+      "<Node name='unbent'><MechanicalObject position='@../body/matching.targetPosition'/></Node></Node>");
+  for (auto const& warning : file.warnings) FAIL(warning);
+  Simulation sim{std::move(file.root)};
+  sim.init();
+  auto positions = [&](std::string_view node) -> auto const& {
+    return sim.root().find_node(node)->get<MechanicalObject<Vec3d>>()->position;
+  };
+  const auto rest = positions("body");
+  for (int step = 0; step < 20; ++step) {
+    sim.animate(0.05);
+    auto const &x = positions("body"), &goal = positions("unbent");
+    REQUIRE(goal.size() == 4);
+    Eigen::Vector3d offset(0, 0, 0);
+    for (std::size_t i = 0; i < 4; ++i) {
+      offset += goal[i] - x[i];
+      for (std::size_t j = 0; j < i; ++j)
+        CHECK((goal[i] - goal[j]).norm() == Approx((rest[i] - rest[j]).norm()).epsilon(1e-12));
+    }
+    CHECK(offset.norm() < 1e-12);
+    CHECK((x[0] - goal[0]).norm() > 1e-3 * (step + 1));
+  }
+}
+
 TEST_CASE("what is wrong with clusters in a scene is told") {
   auto says = [](std::string const& text, std::string_view part) {
     const std::string said = error_of([&] {

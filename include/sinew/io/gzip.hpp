@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-// Files that are compressed by gzip, by zlib: what includes this is linked with it (-lz).
+// A program that includes this in one of its sources reads files that are compressed by gzip, whatever their
+// name, and compresses states that are written to a name that ends in ".gz". It is linked with zlib (-lz).
 #include <sinew/core/error.hpp>
 #include <sinew/core/memory_limit.hpp>
 #include <sinew/io/text_reader.hpp>
@@ -18,7 +19,7 @@ namespace sinew::io {
 
 /// The bytes of a gzip file, of all its members one after the other. Throws Error where it is damaged, cut
 /// off, or unpacks to more than memory_limit.
-inline std::string unpack_gzip(std::string const& path, std::string_view packed) {
+__attribute__((used)) inline std::string unpack_gzip(std::string const& path, std::string_view packed) {
   struct Stream : ::z_stream {
     Stream() : ::z_stream{} {}
     ~Stream() { ::inflateEnd(this); }
@@ -65,7 +66,7 @@ inline std::string unpack_gzip(std::string const& path, std::string_view packed)
 }
 
 /// A gzip file of these bytes.
-inline std::string pack_gzip(std::string_view bytes) {
+__attribute__((used)) inline std::string pack_gzip(std::string_view bytes) {
   ::z_stream stream{};
   constexpr int gzipOnly = 16 + MAX_WBITS, memory = 8;
   if (::deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, gzipOnly, memory, Z_DEFAULT_STRATEGY) !=
@@ -89,9 +90,5 @@ inline std::string pack_gzip(std::string_view bytes) {
   ::deflateEnd(&stream);
   return packed;
 }
-
-/// From now on the program reads files that are compressed by gzip, whatever their name, and compresses
-/// states that are written to a name that ends in ".gz".
-inline void use_gzip() { gzip = {unpack_gzip, pack_gzip}; }
 
 }  // namespace sinew::io

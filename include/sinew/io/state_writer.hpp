@@ -25,10 +25,10 @@ class StateWriter {
       : path_(std::move(path)), layout_(std::move(layout)), binary_(binary) {
     struct stat info;
     if (path_.empty()) throw Error("", "filename is empty; name the file to write");
-    if (compressed() && !gzip.pack)
+    if (compressed() && !is_there(pack_gzip))
       throw Error(path_,
-                  "this program does not compress files; remove .gz, choose format=\"binary\", or call "
-                  "use_gzip() of sinew/io/gzip.hpp");
+                  "this program does not compress files; remove .gz, choose format=\"binary\", or include "
+                  "sinew/io/gzip.hpp");
     const bool exists = ::stat(path_.c_str(), &info) == 0;
     if (exists && S_ISDIR(info.st_mode)) throw Error(path_, "is a folder; name a file in it");
     device_ = exists && !S_ISREG(info.st_mode);
@@ -100,7 +100,7 @@ class StateWriter {
     if (::close(std::exchange(fd_, -1)) != 0) fail();
     if (device_) return;
     if (compressed()) {
-      write_file(path_, gzip.pack(read_file(name_)));
+      write_file(path_, pack_gzip(read_file(name_)));
       if (::unlink(name_.c_str()) != 0) fail();
     } else if (::rename(name_.c_str(), path_.c_str()) != 0) {
       fail();

@@ -50,8 +50,19 @@ class ImpliedValues {
     }
   }
 
-  /// A link to what an engine makes that goes on in each step: the component takes all that the engine was
-  /// given, and does it itself.
+  /// Whether a link leads to what an engine makes that goes on in each step, from a component that has all
+  /// that the engine is given but the places of points.
+  static bool takesLaw(SceneItem const& item, LinkTarget const& target) {
+    if (!target.item || !target.item->info || target.item->info->traits.law.empty() ||
+        target.item->info->traits.law != target.data || item.info->role == RoleKind::engine)
+      return false;
+    auto const& fields = target.item->info->fields;
+    return std::all_of(fields.begin(), fields.end(), [&](FieldInfo const& field) {
+      return !field.isInput || field.name == "position" || field.name == "rest_position" ||
+             item.info->field(field.name);
+    });
+  }
+  /// The component takes all that the engine was given, and does it itself.
   void law(SceneItem& item, FieldInfo const& linked, SceneItem& engine, std::set<std::string_view>& given) {
     for (auto const& field : item.info->fields) {
       if (!field.isInput || field.name == linked.name || item.element->attribute(field.name)) continue;

@@ -104,7 +104,14 @@ class LiveLinks {
 
   // whether what a link leads to changes while the scene runs
   bool changes(Link const& link) const {
-    if (live_.count(link.from)) return true;
+    if (live_.count(link.from)) {
+      if (!link.fromField->isInput) return true;
+      // what it is given itself
+      auto const& given = into_.at(link.from);
+      return std::any_of(given.begin(), given.end(), [&](Link const& above) {
+        return above.toField == link.fromField && changes(above);
+      });
+    }
     if (!is(*link.from, RoleKind::state)) return false;
     if (link.fromField->name != "position" && link.fromField->name != "velocity") return false;
     return placed_.count(link.from) || moves(*link.from->place) || movesWithoutSolver(*link.from->place);

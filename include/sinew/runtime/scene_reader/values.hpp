@@ -174,9 +174,7 @@ class SceneValues {
       } else if (is_link(a.value)) {
         LinkTarget target;
         if (!follow_field(item, *field, a, target, messages_)) return;
-        if (target.item && target.item->info && !target.item->info->traits.law.empty() &&
-            target.item->info->traits.law == target.data && item.info->role != RoleKind::engine)
-          return implied_.law(item, *field, *target.item, given);
+        if (implied_.takesLaw(item, target)) return implied_.law(item, *field, *target.item, given);
         if (item.info->traits.sizedValues && given.insert("size").second)
           if (const std::size_t size = values_.sizeOfValues(target); size > 0)
             item.info->field("size")->read(item.address, std::to_string(size));
