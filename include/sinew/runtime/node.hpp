@@ -29,6 +29,7 @@ struct Mount {
   void* state = nullptr;
   bool mapped = false;
   Workers* workers = nullptr;
+  void* distribution = nullptr;  // of a scene that is distributed
 };
 
 /// One component of a runtime node, and what is known of it besides.
