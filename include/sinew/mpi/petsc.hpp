@@ -35,8 +35,10 @@ inline void start_petsc() {
     PetscOptionsSetValue(nullptr, "-no_signal_handler", "true");
     PetscInitializeNoArguments();
     PetscPushErrorHandler(detail::keep_petsc_words, nullptr);
-    KSPInitializePackage();
   }
+  // of their names
+  KSPInitializePackage();
+  PCInitializePackage();
 }
 /// PETSc as long as it lives, in a program that has MPI.
 struct PetscSession {

@@ -30,9 +30,15 @@ class DistributedSimulation {
   /// a component is not distributed yet, where ranks have other scenes, and where there are more ranks than
   /// parts.
   void init() {
+    init([](auto const&) {});
+  }
+  /// f(scope of the root) sees the whole scene before it is shared out.
+  template <class F>
+  void init(F&& f) {
     ranks_->collectively("init", [&] {
       refuse_undistributed(scopeOf(local_.root()));
       local_.init();
+      f(scopeOf(local_.root()));
       local_.change([&](auto& next) {
         const auto scope = scopeOf(next);
         return ShareOut(scope, next.distribution()).apply();
@@ -48,6 +54,7 @@ class DistributedSimulation {
   Communicator& ranks() const { return *ranks_; }
   /// The part of this rank: own points, then ghosts.
   auto& root() { return local_.root(); }
+  auto scope() { return scopeOf(local_.root()); }
   /// A vector of a state, at all points of the scene, in its order.
   template <class State, class Id>
   auto everywhere(State& state, Id id) {
