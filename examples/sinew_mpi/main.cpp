@@ -19,7 +19,6 @@
 namespace {
 
 using namespace sinew;
-using Tree = RuntimeNode<mpi::Distributable>;
 
 // what is said to all ranks alike is printed by the first one
 struct Silence {
@@ -42,22 +41,34 @@ struct Silence {
 };
 
 void refuse_options(cli::RunOptions const& o) {
+  const std::pair<char const*, bool> all[] = {{"--png", !o.png.empty()},
+                                              {"--film", !o.film.empty()},
+                                              {"--gltf", !o.gltf.empty()},
+                                              {"--record", !o.record.empty()},
+                                              {"--forces", !o.forces.empty()},
+                                              {"--save", !o.save.empty()},
+                                              {"--threads", o.threads > 0},
+                                              {"--profile", o.profile},
+                                              {"--trace", !o.trace.empty()},
+                                              {"--json", o.output == cli::Output::json}};
   std::string first;
-  for (auto const& [name, given] : {std::pair{"--png", !o.png.empty()},
-                                    {"--film", !o.film.empty()},
-                                    {"--gltf", !o.gltf.empty()},
-                                    {"--record", !o.record.empty()},
-                                    {"--forces", !o.forces.empty()},
-                                    {"--save", !o.save.empty()},
-                                    {"--threads", o.threads > 0},
-                                    {"--profile", o.profile},
-                                    {"--trace", !o.trace.empty()},
-                                    {"--json", o.output == cli::Output::json}})
+  for (auto const& [name, given] : all)
     if (given && first.empty()) first = name;
   if (!first.empty())
     throw cli::Failure{
         cli::badUsage,
         {text(first, " is not there with --mpi yet; leave it out, or run the scene in one process")}};
+}
+
+// A class that the registry does not have is distributed no more than one that nobody knows.
+std::string not_distributed(std::string const& message) {
+  constexpr std::string_view begin = "there is no component ";
+  const std::size_t at = message.find(begin), end = at == message.npos ? at : message.find('>', at);
+  if (end == message.npos) return message;
+  return text(
+      message.substr(0, at),
+      message.substr(at + begin.size(), end + 1 - at - begin.size()),
+      " is not distributed yet, or no component at all; leave it out, or run the scene without --mpi");
 }
 
 // the bodies over time, for ParaView, by rank 0
@@ -112,9 +123,10 @@ int run(cli::RunOptions const& options, std::shared_ptr<mpi::Communicator> const
           options.scene.path,
           {options.scene.data, options.scene.lenient, options.scene.set, options.scene.missing}));
     } catch (SceneError const& error) {
-      throw Error(text(options.scene.path,
-                       ", with --mpi, which has those components only that are distributed (docs/mpi.md)"),
-                  text("\n", error.what()));
+      std::string all;
+      for (auto const& message : error.messages)
+        all += text(all.empty() ? "" : "\n", not_distributed(message));
+      throw Error("", all);
     }
   });
   const double dt = options.scene.dt > 0 ? options.scene.dt : read->dt;

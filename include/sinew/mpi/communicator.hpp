@@ -8,19 +8,28 @@
 #include <mpi.h>
 
 #include <algorithm>
-#include <array>
+#include <cstddef>
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <memory>
 #include <new>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace sinew::mpi {
+
+/// Holds memory to the end of the program, which MPI may still read or write where a rank has failed.
+template <class T>
+void keep(T memory) {
+  static std::vector<T> all;
+  all.push_back(std::move(memory));
+}
 
 /// What is thrown in a rank that waits, when another one has raised an error. collectively() turns it into
 /// the error itself.
@@ -41,14 +50,15 @@ class Communicator {
     MPI_Comm_dup(of, &errors_);
     MPI_Comm_rank(comm_, &rank_);
     MPI_Comm_size(comm_, &size_);
-    terms_.resize(std::size_t(size_));
+    buffers_->terms.resize(std::size_t(size_));
   }
   Communicator(Communicator const&) = delete;
   Communicator& operator=(Communicator const&) = delete;
   ~Communicator() {
     int ended = 0;
     MPI_Finalized(&ended);
-    if (ended || failed_) return;  // messages may still be under way where a rank has failed
+    if (failed_) keep(std::move(buffers_));
+    if (ended || failed_) return;
     MPI_Comm_free(&comm_);
     MPI_Comm_free(&errors_);
   }
@@ -83,11 +93,11 @@ class Communicator {
   /// The sum over all ranks, added in their order.
   double sum(double value, std::string_view what = "a sum over all ranks") {
     MPI_Request request;
-    term_ = value;
-    MPI_Iallgather(&term_, 1, MPI_DOUBLE, terms_.data(), 1, MPI_DOUBLE, comm_, &request);
+    buffers_->term = value;
+    MPI_Iallgather(&buffers_->term, 1, MPI_DOUBLE, buffers_->terms.data(), 1, MPI_DOUBLE, comm_, &request);
     wait({&request, 1}, what);
     double all = 0;
-    for (const double term : terms_) all += term;
+    for (const double term : buffers_->terms) all += term;
     return all;
   }
   /// All ranks have come here.
@@ -99,13 +109,47 @@ class Communicator {
   /// Values of rank 0 go to all.
   template <class T>
   void broadcast(std::vector<T>& values, std::string_view what) {
-    count_ = values.size();
+    auto& b = *buffers_;
+    b.count = values.size();
     MPI_Request request;
-    MPI_Ibcast(&count_, int(sizeof count_), MPI_BYTE, 0, comm_, &request);
+    MPI_Ibcast(&b.count, int(sizeof b.count), MPI_BYTE, 0, comm_, &request);
     wait({&request, 1}, what);
-    values.resize(count_);
-    MPI_Ibcast(values.data(), int(count_ * sizeof(T)), MPI_BYTE, 0, comm_, &request);
+    values.resize(b.count);
+    b.all.resize(b.count * sizeof(T));
+    if (rank_ == 0) std::memcpy(b.all.data(), values.data(), b.all.size());
+    MPI_Ibcast(b.all.data(), int(b.all.size()), MPI_BYTE, 0, comm_, &request);
     wait({&request, 1}, what);
+    std::memcpy(static_cast<void*>(values.data()), b.all.data(), b.all.size());
+  }
+  /// Of each rank so many values, on all ranks, in the order of ranks.
+  template <class T>
+  std::vector<T> gather(std::vector<T> const& own, std::vector<std::size_t> const& counts,
+                        std::string_view what) {
+    auto& b = *buffers_;
+    b.counts.clear(), b.starts.clear();
+    int end = 0;
+    for (const std::size_t n : counts) {
+      b.starts.push_back(end);
+      b.counts.push_back(int(n * sizeof(T)));
+      end += b.counts.back();
+    }
+    const auto bytes = reinterpret_cast<std::byte const*>(own.data());
+    b.own.assign(bytes, bytes + b.counts[std::size_t(rank_)]);
+    b.all.resize(std::size_t(end));
+    MPI_Request request;
+    MPI_Iallgatherv(b.own.data(),
+                    int(b.own.size()),
+                    MPI_BYTE,
+                    b.all.data(),
+                    b.counts.data(),
+                    b.starts.data(),
+                    MPI_BYTE,
+                    comm_,
+                    &request);
+    wait({&request, 1}, what);
+    std::vector<T> values(std::size_t(end) / sizeof(T));
+    std::memcpy(static_cast<void*>(values.data()), b.all.data(), b.all.size());
+    return values;
   }
 
   /// What all ranks do together: f() on each. Where it throws on some, it ends on all, wherever they wait,
@@ -147,10 +191,18 @@ class Communicator {
   int rank_ = 0, size_ = 1, reporter_ = 0;
   bool failed_ = false, stuck_ = false;
   std::string waited_{};  // for what, when an error came
-  // MPI may read and write these after a wait that has ended by an error
-  std::size_t count_ = 0;
-  double term_ = 0;
-  std::vector<double> terms_{};
+  // MPI may read and write these after a wait that has ended by an error, until it ends itself
+  struct Buffers {
+    double term = 0;
+    std::vector<double> terms{};
+    std::size_t count = 0;
+    std::vector<int> counts{}, starts{};
+    std::vector<std::byte> own{}, all{};
+    Report report{};
+    std::vector<Report> reports{};
+    std::vector<MPI_Request> sent{}, come{};
+  };
+  std::unique_ptr<Buffers> buffers_ = std::make_unique<Buffers>();
 
   template <class Done>
   void poll(std::string_view what, Done&& done) {
@@ -180,21 +232,22 @@ class Communicator {
   // each rank tells each other whether it has raised an error, and where it was
   std::string agree(std::optional<std::string> const& said) {
     failed_ = true;
-    std::vector<Report> reports(std::size_t(size_), Report{});
-    Report own{};
+    std::vector<Report>& reports = buffers_->reports;
+    std::vector<MPI_Request>&sent = buffers_->sent, &come = buffers_->come;
+    Report& own = buffers_->report;
+    reports.assign(std::size_t(size_), Report{});
+    sent.assign(2 * std::size_t(size_), MPI_REQUEST_NULL);
+    come.assign(std::size_t(size_), MPI_REQUEST_NULL);
     own.raised = said ? 1 : 0;
     std::string const& words = said ? *said : waited_;
     std::memcpy(own.words, words.data(), std::min(words.size(), length - 1));
-    std::vector<MPI_Request> sent, come(std::size_t(size_), MPI_REQUEST_NULL);
+    const int bytes = int(sizeof own);
     for (int r = 0; r < size_; ++r) {
+      const std::size_t i = std::size_t(r);
       if (r == rank_) continue;
-      if (said) {
-        sent.emplace_back();
-        MPI_Isend(nullptr, 0, MPI_BYTE, r, poke, errors_, &sent.back());
-      }
-      sent.emplace_back();
-      MPI_Isend(&own, int(sizeof own), MPI_BYTE, r, told, errors_, &sent.back());
-      MPI_Irecv(&reports[std::size_t(r)], int(sizeof own), MPI_BYTE, r, told, errors_, &come[std::size_t(r)]);
+      if (said) MPI_Isend(nullptr, 0, MPI_BYTE, r, poke, errors_, &sent[2 * i]);
+      MPI_Isend(&own, bytes, MPI_BYTE, r, told, errors_, &sent[2 * i + 1]);
+      MPI_Irecv(&reports[i], bytes, MPI_BYTE, r, told, errors_, &come[i]);
     }
     reports[std::size_t(rank_)] = own;
     const double start = MPI_Wtime();

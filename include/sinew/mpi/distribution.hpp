@@ -19,28 +19,6 @@
 
 namespace sinew::mpi {
 
-/// Messages under way. Copies have none.
-struct Messages {
-  std::vector<MPI_Request> all{};
-
-  Messages() = default;
-  Messages(Messages&&) = default;
-  Messages(Messages const&) {}
-  Messages& operator=(Messages&&) = default;
-  Messages& operator=(Messages const&) { return *this; }
-  /// Where an error has ended the wait for them.
-  ~Messages() {
-    int ended = 0;
-    MPI_Finalized(&ended);
-    if (ended) return;
-    for (MPI_Request& request : all)
-      if (request != MPI_REQUEST_NULL) {
-        MPI_Cancel(&request);
-        MPI_Request_free(&request);
-      }
-  }
-};
-
 /// The points of one state that two ranks have, and how their values come: from the owner to the others.
 struct Halo {
   struct Neighbour {
@@ -70,6 +48,26 @@ struct Halo {
   }
 };
 
+/// Those of all states, and messages under way, which copies have none of.
+struct Halos {
+  std::vector<Halo> all{};
+  std::vector<MPI_Request> messages{};
+
+  Halos() = default;
+  Halos(Halos&&) = default;
+  Halos(Halos const& o) : all(o.all) {}
+  Halos& operator=(Halos&&) = default;
+  Halos& operator=(Halos const& o) {
+    all = o.all;
+    return *this;
+  }
+  /// Where an error has ended the wait for them, they may still come.
+  ~Halos() {
+    for (MPI_Request const& request : messages)
+      if (request != MPI_REQUEST_NULL) return keep(std::move(all));
+  }
+};
+
 /// What a rank knows of a scene whose points are shared out among several: which are ghosts, and how their
 /// values come from the ranks that own them. Mechanical operations ask it (scene/state_vectors.hpp,
 /// scene/mechanical_forces.hpp): vectors are right at own points, sums are over these, and ghost points of
@@ -81,9 +79,9 @@ class Distribution {
 
   Communicator& ranks() const { return *ranks_; }
   /// Whether the scene is shared out already; before, each rank has all of it.
-  bool active() const { return !halos_.empty(); }
-  Halo const& halo(int number) const { return halos_[std::size_t(number)]; }
-  void add(Halo halo) { halos_.push_back(std::move(halo)); }
+  bool active() const { return !halos_.all.empty(); }
+  Halo const& halo(int number) const { return halos_.all[std::size_t(number)]; }
+  void add(Halo halo) { halos_.all.push_back(std::move(halo)); }
 
   double sum(double value) const { return active() ? ranks_->sum(value) : value; }
 
@@ -91,16 +89,16 @@ class Distribution {
   template <class Vectors, class... Ids>
   void begin(Vectors const& vectors, Ids... ids) {
     if (!active()) return;
-    messages_.all.clear();
+    halos_.messages.clear();
     vectors.forEachIndependent([&](auto& s) {
-      for (Halo::Neighbour& n : halos_[std::size_t(s.halo)].neighbours) {
+      for (Halo::Neighbour& n : halos_.all[std::size_t(s.halo)].neighbours) {
         const std::size_t bytes = (sizeof(s[ids][0]) + ...);
         n.out.resize(bytes * n.sent.size());
         n.in.resize(bytes * n.ghosts);
         std::byte* to = n.out.data();
         (pack(to, s[ids], n.sent), ...);
-        messages_.all.push_back(ranks_->receive(n.rank, n.in.data(), n.in.size(), s.halo));
-        messages_.all.push_back(ranks_->send(n.rank, n.out.data(), n.out.size(), s.halo));
+        halos_.messages.push_back(ranks_->receive(n.rank, n.in.data(), n.in.size(), s.halo));
+        halos_.messages.push_back(ranks_->send(n.rank, n.out.data(), n.out.size(), s.halo));
       }
     });
   }
@@ -108,9 +106,9 @@ class Distribution {
   template <class Vectors, class... Ids>
   void end(Vectors const& vectors, Ids... ids) {
     if (!active()) return;
-    ranks_->wait(messages_.all, "ghost points of its neighbours");
+    ranks_->wait(halos_.messages, "ghost points of its neighbours");
     vectors.forEachIndependent([&](auto& s) {
-      for (Halo::Neighbour const& n : halos_[std::size_t(s.halo)].neighbours) {
+      for (Halo::Neighbour const& n : halos_.all[std::size_t(s.halo)].neighbours) {
         std::byte const* from = n.in.data();
         (unpack(from, s[ids], n.first, n.ghosts), ...);
       }
@@ -166,35 +164,17 @@ class Distribution {
   std::vector<Value> everywhere(State const& s, std::vector<Value> const& own) const {
     if (!active()) return own;
     Halo const& h = halo(s.halo);
-    std::vector<Value> byRank(h.parts.size()), all(h.parts.size());
-    std::vector<int> counts, starts;
-    int start = 0;
-    for (const std::size_t n : h.ownedBy) {
-      counts.push_back(int(n * sizeof(Value)));
-      starts.push_back(start);
-      start += counts.back();
-    }
-    MPI_Request request;
-    MPI_Iallgatherv(own.data(),
-                    counts[std::size_t(ranks_->rank())],
-                    MPI_BYTE,
-                    byRank.data(),
-                    counts.data(),
-                    starts.data(),
-                    MPI_BYTE,
-                    ranks_->handle(),
-                    &request);
-    ranks_->wait({&request, 1}, "values at the points of all ranks");
-    std::vector<std::size_t> next;
-    for (const int first : starts) next.push_back(std::size_t(first) / sizeof(Value));
+    const auto byRank = ranks_->gather(own, h.ownedBy, "values at the points of all ranks");
+    std::vector<Value> all(h.parts.size());
+    std::vector<std::size_t> next(1, 0);
+    for (const std::size_t n : h.ownedBy) next.push_back(next.back() + n);
     for (std::size_t i = 0; i < all.size(); ++i) all[i] = byRank[next[std::size_t(h.parts[i])]++];
     return all;
   }
 
  private:
   std::shared_ptr<Communicator> ranks_{};
-  std::vector<Halo> halos_{};
-  Messages messages_{};
+  Halos halos_{};
 
   template <class Values>
   static void pack(std::byte*& to, Values const& values, std::vector<int> const& points) {

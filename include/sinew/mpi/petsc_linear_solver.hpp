@@ -210,7 +210,7 @@ struct PetscLinearSolver {
     check(KSPSetFromOptions(method));
     optionsAreRead = false;
   }
-  // of points in space, as their positions are now
+  // of points in space, at rest
   template <class Operations>
   void giveRigidMotions(MPI_Comm ranks, Operations& operations) {
     bool points = B == 3;
@@ -219,7 +219,7 @@ struct PetscLinearSolver {
       using D = typename std::decay_t<decltype(s)>::DataTypes;
       if constexpr (!D::rigid && D::size == 3 && D::spatial == 3) {
         for (std::size_t i = 0; i < s.owned(); ++i)
-          for (int c = 0; c < 3; ++c) places.push_back(PetscScalar(s.position[i][c]));
+          for (int c = 0; c < 3; ++c) places.push_back(PetscScalar(s.restPosition[i][c]));
       } else {
         points = false;
       }
