@@ -18,9 +18,10 @@ namespace {
   path += "sinew-mpi";
   execv(path.c_str(), argv);
   execvp("sinew-mpi", argv);
-  throw cli::Failure{cli::badUsage,
-                     {"sinew: --mpi needs the program sinew-mpi, which is not here; build Sinew where MPI, PETSc and "
-                      "METIS are (Debian: libopenmpi-dev openmpi-bin petsc-dev libmetis-dev)"}};
+  throw cli::Failure{
+      cli::badUsage,
+      {"sinew: --mpi needs the program sinew-mpi, which is not here; build Sinew where MPI, PETSc and "
+       "METIS are (Debian: libopenmpi-dev openmpi-bin petsc-dev libmetis-dev)"}};
 }
 
 }  // namespace

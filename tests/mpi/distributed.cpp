@@ -72,7 +72,8 @@ TEST_CASE("a mass of the whole body is shared out with it") {
     many.init();
     for (int i = 0; i < 20; ++i) one.animate(1e-4), many.animate(1e-4);
     auto& state = hana::at_c<0>(many.root().children).state();
-    const Positions v = one.template at<"body">().state().velocity, w = many.everywhere(state, vec_id::velocity);
+    const Positions v = one.template at<"body">().state().velocity,
+                    w = many.everywhere(state, vec_id::velocity);
     CHECK(distance(v, w) < 1e-11 * length(v));
     CHECK(many.time() == one.time());
   };

@@ -5,6 +5,7 @@
 #include <sinew/mpi/partition.hpp>
 #include <sinew/scene/scope.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -63,8 +64,8 @@ struct Halos {
   }
   /// Where an error has ended the wait for them, they may still come.
   ~Halos() {
-    for (MPI_Request const& request : messages)
-      if (request != MPI_REQUEST_NULL) return keep(std::move(all));
+    auto pending = [](MPI_Request const& request) { return request != MPI_REQUEST_NULL; };
+    if (std::any_of(messages.begin(), messages.end(), pending)) keep(std::move(all));
   }
 };
 
