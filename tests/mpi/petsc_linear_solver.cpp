@@ -76,9 +76,9 @@ TEST_CASE("PETSc's solvers and preconditioners find what L D L' finds") {
     CHECK((fem_bar::velocities(sim) - v).norm() < 1e-6 * v.norm());
     auto copy = sim;
     copy.init();
-    copy.animate(0.02);
-    sim.animate(0.02);
-    CHECK(copy.root().state().velocity == sim.root().state().velocity);
+    // a preconditioner that is made anew may not have the same bits: gamg draws random numbers
+    const Eigen::VectorXd w = fem_bar::velocities(sim, 1);
+    CHECK((fem_bar::velocities(copy, 1) - w).norm() < 1e-6 * w.norm());
   }
   auto single = fem_bar::simulation(PetscLinearSolver<CompressedRowSparseMatrixMat3x3f>{}, 8, true, true);
   CHECK((fem_bar::velocities(single) - v).norm() < 1e-3 * v.norm());
