@@ -163,8 +163,9 @@ struct ElementDriver {
   [[gnu::flatten]] void addForce(Law const& law, Derivs f, Coords x, ConstDerivs v,
                                  [[maybe_unused]] WorkShare share = {}) {
     if constexpr (W > 1) return forceOfShare(law, f, x, v, share);
-    for (std::size_t p = first(share), end = last(share); p < end; ++p) {
-      Pack& pack = packs[p];
+    Pack* const end = packs.data() + last(share);
+    for (Pack* p = packs.data() + first(share); p != end; ++p) {
+      Pack& pack = *p;
       OfPoints<typename DL::Coord> xs;
       OfPoints<typename DL::Deriv> vs, fs;
       pack.gather(x, xs);
@@ -177,8 +178,9 @@ struct ElementDriver {
   [[gnu::flatten]] void addDForce(Law const& law, Derivs df, ConstDerivs dx, Real k, Real b,
                                   [[maybe_unused]] WorkShare share = {}) const {
     if constexpr (W > 1) return dforceOfShare(law, df, dx, k, b, share);
-    for (std::size_t p = first(share), end = last(share); p < end; ++p) {
-      Pack const& pack = packs[p];
+    Pack const* const end = packs.data() + last(share);
+    for (Pack const* p = packs.data() + first(share); p != end; ++p) {
+      Pack const& pack = *p;
       OfPoints<typename DL::Deriv> dxs, dfs;
       pack.gather(dx, dxs);
       law.dforce(pack.rest, pack.tangent, dxs, dfs, L(k), L(b));
