@@ -212,6 +212,9 @@ Options read_options(int argc, char** argv, int& status) {
                   "Threads that work, instead of those that the scene asks for; the results are the same")
       ->type_name("N")
       ->check(CLI::Range(1, 256).description(""));
+  run->add_flag("--mpi",
+                o.run.mpi,
+                "Simulate in several processes, which mpirun has started: mpirun -n 4 sinew run FILE --mpi");
   auto* profile = run->add_flag("--profile", o.run.profile, "Print where the time of the steps goes");
   run->add_option("--trace",
                   o.run.trace,

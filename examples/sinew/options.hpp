@@ -56,6 +56,7 @@ struct RunOptions {
   SeenOptions seen{};
   long every = 1;
   int threads = 0;  // as the scene says
+  bool mpi = false;
   bool profile = false;
   std::string trace{};
   Output output = Output::words;

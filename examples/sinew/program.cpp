@@ -5,14 +5,37 @@
 #include <sinew/io/gzip.hpp>
 #endif
 
+#include <unistd.h>
+
 #include <cstdio>
 #include <exception>
+#include <string>
+
+namespace {
+
+// Goes on as the program for several processes, which stands beside this one, or in PATH.
+[[noreturn]] void hand_over(char** argv) {
+  std::string path(4096, '\0');
+  const auto length = readlink("/proc/self/exe", path.data(), path.size());
+  path.resize(length > 0 ? std::size_t(length) : 0);
+  path.resize(path.rfind('/') + 1);
+  path += "sinew-mpi";
+  execv(path.c_str(), argv);
+  execvp("sinew-mpi", argv);
+  throw cli::Failure{
+      cli::badUsage,
+      {"sinew: --mpi needs the program sinew-mpi, which is not here; build Sinew where MPI, PETSc and "
+       "METIS are (Debian: libopenmpi-dev openmpi-bin petsc-dev libmetis-dev)"}};
+}
+
+}  // namespace
 
 int cli::program(int argc, char** argv) try {
   int status = cli::ok;
   const cli::Options options = cli::read_options(argc, argv, status);
   switch (options.command) {
     case cli::Command::run:
+      if (options.run.mpi) hand_over(argv);
       return cli::run(options.run);
     case cli::Command::view:
       return cli::view(options.view);

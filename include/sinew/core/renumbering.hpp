@@ -4,6 +4,7 @@
 #include <sinew/core/compiled.hpp>
 #include <sinew/core/mesh.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <type_traits>
@@ -62,8 +63,8 @@ auto value_of(List const& list, Origin const& o) -> typename List::value_type {
     return rest >= o.weight && rest >= o.weightOfC ? at(o.a) : o.weight >= o.weightOfC ? at(o.b) : at(o.c);
 }
 
-/// Points or elements of which some go, and others come. What stays keeps its order, and what comes is behind
-/// it.
+/// Points or elements of which some go, and others come. What stays keeps its order, or takes another where a
+/// scene is distributed, and what comes is behind it.
 struct Renumbering {
   std::vector<Index> kept{};   // old numbers of what stays, by new ones
   std::vector<Index> now{};    // new numbers, by old ones; -1 for what has gone
@@ -72,6 +73,8 @@ struct Renumbering {
   static Renumbering of(std::vector<bool> const& stays);
   /// The same in place: allocates nothing for as many as there were room for.
   void set(std::vector<bool> const& stays);
+  /// Of so many, those with these old numbers stay, in this order.
+  static Renumbering inOrder(std::vector<Index> kept, std::size_t before);
   /// So many that all stay, and others that come.
   static Renumbering grown(std::size_t stay, std::vector<Origin> come);
 
@@ -80,7 +83,8 @@ struct Renumbering {
     for (const Index n : now) all.push_back(n >= 0);
     return all;
   }
-  bool changes() const { return kept.size() != now.size() || !come.empty(); }
+  bool changes() const { return kept.size() != now.size() || !come.empty() || !keepsOrder(); }
+  bool keepsOrder() const { return std::is_sorted(kept.begin(), kept.end()); }
   /// How many there are now.
   std::size_t size() const { return kept.size() + come.size(); }
   bool stays(Index old) const { return std::size_t(old) >= now.size() || now[std::size_t(old)] >= 0; }
@@ -92,8 +96,15 @@ struct Renumbering {
     std::vector<typename List::value_type> values;
     values.reserve(come.size());
     for (Origin const& o : come) values.push_back(value_of(list, o));
-    for (std::size_t i = 0; i < kept.size(); ++i) list[i] = list[std::size_t(kept[i])];
-    list.resize(kept.size());
+    if (keepsOrder()) {
+      for (std::size_t i = 0; i < kept.size(); ++i) list[i] = list[std::size_t(kept[i])];
+      list.resize(kept.size());
+    } else {
+      List inOrder;
+      inOrder.reserve(kept.size() + come.size());
+      for (const Index old : kept) inOrder.push_back(list[std::size_t(old)]);
+      list = std::move(inOrder);
+    }
     list.insert(list.end(), values.begin(), values.end());
   }
   /// The same where each has `width` values in a row; what comes has those of what it is of.
@@ -221,6 +232,14 @@ SINEW_ONCE Renumbering Renumbering::of(std::vector<bool> const& stays) {
   return r;
 }
 
+SINEW_ONCE Renumbering Renumbering::inOrder(std::vector<Index> kept, std::size_t before) {
+  Renumbering r;
+  r.now.assign(before, -1);
+  for (std::size_t i = 0; i < kept.size(); ++i) r.now[std::size_t(kept[i])] = Index(i);
+  r.kept = std::move(kept);
+  return r;
+}
+
 SINEW_ONCE Renumbering Renumbering::grown(std::size_t stay, std::vector<Origin> come) {
   Renumbering r = of(std::vector<bool>(stay, true));
   r.come = std::move(come);
@@ -233,15 +252,18 @@ SINEW_ONCE Renumbering TopologyChange::ofDimension(int dimension, std::size_t si
   // (of bodies with others besides none is cut)
   if (Renumbering const& only = elements[std::size_t(simplex[dimension - 1])]; !only.come.empty())
     return only;
-  std::vector<bool> stays = elements[std::size_t(simplex[dimension - 1])].stays();
-  if (dimension > 1) {
-    Renumbering const& others = elements[std::size_t(other[dimension - 1])];
-    const std::size_t rest = size > stays.size() ? size - stays.size() : 0, count = others.now.size();
-    if (stays.empty() && rest == count && !others.come.empty()) return others;
-    if (count > 0 && rest % count == 0)
-      for (const Index n : others.now) stays.insert(stays.end(), rest / count, n >= 0);
-  }
-  return Renumbering::of(stays);
+  Renumbering const& simplices = elements[std::size_t(simplex[dimension - 1])];
+  if (dimension == 1) return simplices;
+  Renumbering const& others = elements[std::size_t(other[dimension - 1])];
+  const std::size_t first = simplices.now.size(), count = others.now.size();
+  const std::size_t rest = size > first ? size - first : 0;
+  if (first == 0 && rest == count && !others.come.empty()) return others;
+  if (count == 0 || rest % count != 0) return simplices;
+  std::vector<Index> kept = simplices.kept;
+  for (const Index old : others.kept)
+    for (std::size_t part = 0; part < rest / count; ++part)
+      kept.push_back(Index(first + std::size_t(old) * (rest / count) + part));
+  return Renumbering::inOrder(std::move(kept), first + rest);
 }
 
 SINEW_ONCE int TopologyChange::dimension() const {

@@ -31,6 +31,7 @@ struct Mount {
   bool mapped = false;
   Workers* workers = nullptr;
   BodyView (*body)(void const*, BodySearch) = nullptr;
+  void* distribution = nullptr;  // of a scene that is distributed
 };
 
 /// One component of a runtime node, and what is known of it besides.

@@ -25,6 +25,7 @@ struct RuntimeScope {
   static constexpr bool provedAtInit = true, isVisual = false;
   static constexpr bool profiled = true;  // where the top node has a profile
   static constexpr bool threaded = true;  // where a node says so
+  static constexpr bool distributed = requires { typename R::Distribution; };
   NodeType& node;
   bool atMount = false;
   Profile* profile = nullptr;
@@ -32,6 +33,13 @@ struct RuntimeScope {
   RuntimeScope(NodeType& n, bool above = false, Profile* timer = nullptr)
       : node(n), atMount(above), profile(timer) {}
   RuntimeScope(NodeType& top, NoScope const&) : node(top), profile(top.profile) { top.mount = {}; }
+  /// Of a distributed scene, whose registry says what is known of its parts.
+  template <class A>
+  requires(A::distributed)
+  RuntimeScope(NodeType& top, A const& above) : node(top), profile(top.profile) {
+    top.mount = {};
+    top.mount.distribution = &above.distribution();
+  }
   template <class N, class A>
   RuntimeScope(NodeType& top, Scope<N, A> const& typed) : node(top) {
     using S = Scope<N, A>;
@@ -43,6 +51,11 @@ struct RuntimeScope {
                  [](void const* s) { return static_cast<S const*>(s)->topologyAddress(); },
                  nullptr};
     top.mount.body = [](void const* s, BodySearch next) { return static_cast<S const*>(s)->body(next); };
+    static_assert(
+        S::distributed == distributed,
+        "Sinew: a runtime tree in a distributed scene needs a registry that has `using Distribution = "
+        "mpi::Distribution`, and one in another scene a registry without it.");
+    if constexpr (S::distributed) top.mount.distribution = &typed.distribution();
     if constexpr (S::threaded) top.mount.workers = typed.workers().workers;
     if constexpr (S::hasState) {
       auto& state = typed.stateScope().node.state();
@@ -99,6 +112,9 @@ struct RuntimeScope {
         return found;
       }
     return {node.top().mount.workers};
+  }
+  auto& distribution() const {
+    return *static_cast<typename R::Distribution*>(node.top().mount.distribution);
   }
   TopologyView topology() const {
     if (atMount) return mount().scope ? mount().topology(mount().scope) : TopologyView{};

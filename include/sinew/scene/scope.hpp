@@ -15,7 +15,8 @@ namespace sinew {
 
 /// What is above the root of a scene.
 struct NoScope {
-  static constexpr bool hasState = false, isMapped = false, profiled = false, threaded = false;
+  static constexpr bool hasState = false, isMapped = false, profiled = false, threaded = false,
+                        distributed = false;
   static std::string path() { return ""; }
   static Eigen::Vector3d gravity() { return Eigen::Vector3d::Zero(); }
   static TopologyView topology() { return {}; }
@@ -108,6 +109,8 @@ struct Scope {
   static constexpr bool isVisual = N::template count<role::VisualModel> > 0;
   static constexpr bool profiled = A::profiled;
   static constexpr bool threaded = A::threaded || N::template count<role::Execution> > 0;
+  /// Other processes have other parts of the scene: sinew/mpi/distribution.hpp.
+  static constexpr bool distributed = A::distributed;
 
   /// The node has a component of this role, whatever happens at run time.
   template <class R>
@@ -162,6 +165,9 @@ struct Scope {
     else
       return above.workers();
   }
+
+  /// What is known of the parts of a distributed scene.
+  auto& distribution() const { return above.distribution(); }
 
   /// The nearest topology upwards, of the nodes that share this node's points.
   TopologyView topology() const {

@@ -229,7 +229,7 @@ class Simulation {
   static constexpr NoScope above_{};
 
   static RootScope scopeOf(Root& root) {
-    if constexpr (RootScope::profiled && requires { root.aboveRoot; })
+    if constexpr ((RootScope::profiled || RootScope::distributed) && requires { root.aboveRoot; })
       return {root, root.aboveRoot};
     else
       return {root, above_};
