@@ -68,7 +68,8 @@ auto scene(Beam const& beam, Linear linear) {
       MechanicalObject<D>{vectors<D>(mesh.positions)},
       DiagonalMass<D>{.massDensity = 1000},
       TetrahedronFEMForceField<D>{.youngModulus = {young.begin(), young.end()}, .poissonRatio = beam.poisson},
-      PlaneForceField<D>{.normal = {0, 1, 0}, .d = beam.plane ? -0.05 : -1000, .stiffness = 1e4, .damping = 10},
+      PlaneForceField<D>{
+          .normal = {0, 1, 0}, .d = beam.plane ? -0.05 : -1000, .stiffness = 1e4, .damping = 10},
       FixedConstraint<D>{.indices = fixed},
       PartialFixedConstraint<D>{.indices = rails, .fixedDirections = {true, false, false}})};
 }
@@ -133,8 +134,8 @@ TEST_CASE("a cycle on the device is the processor's: as many iterations, flat wi
   for (const int cells : {4, 6, 10, 14}) {
     const Beam beam{.cells = cells};
     const Count device = count<CudaVec3d>(beam), host = count<Vec3d>(beam), floats = count<CudaVec3f>(beam);
-    INFO(cells << " cells: " << device.iterations << " of the device, " << floats.iterations
-               << " in float, " << host.iterations << " of the processor, levels " << device.levels);
+    INFO(cells << " cells: " << device.iterations << " of the device, " << floats.iterations << " in float, "
+               << host.iterations << " of the processor, levels " << device.levels);
     CHECK(device.residual <= 1e-6);
     CHECK(device.levels == host.levels);
     CHECK(std::abs(device.iterations - host.iterations) <= 1);
@@ -178,8 +179,9 @@ TEST_CASE("in a step with multigrid on the device only held points and residuals
 
 TEST_CASE("points that come to be held have another hierarchy on the device") {
   auto fix = [](auto& sim, std::vector<int> indices) {
-    auto& constraint = sim.root().template get<FixedConstraint<
-        typename std::decay_t<decltype(sim.root().state())>::DataTypes>>();
+    auto& constraint =
+        sim.root()
+            .template get<FixedConstraint<typename std::decay_t<decltype(sim.root().state())>::DataTypes>>();
     constraint.indices = {indices.begin(), indices.end()};
   };
   auto run = [&]<class D>(D) {
@@ -209,12 +211,12 @@ TEST_CASE("several bodies under multigrid on the device, and what it leaves to t
     const ProjectToPlaneConstraint<D> plane{.indices = mixed ? std::vector<int>{44} : std::vector<int>{},
                                             .origin = {2, 1, 1},
                                             .normal = {1, 1, 0}};
-    Simulation sim{node<"root">(
-        Gravity{{0, -9.81, 0}},
-        EulerImplicitSolver{.rayleighStiffness = 0.01},
-        MultigridLinearSolver<>{.iterations = 300, .tolerance = 1e-12, .coarsestSize = 30},
-        std::apply([](auto... c) { return node<"a">(c...); }, body(1e6)),
-        std::apply([&](auto... c) { return node<"b">(c..., plane); }, body(1e5)))};
+    Simulation sim{
+        node<"root">(Gravity{{0, -9.81, 0}},
+                     EulerImplicitSolver{.rayleighStiffness = 0.01},
+                     MultigridLinearSolver<>{.iterations = 300, .tolerance = 1e-12, .coarsestSize = 30},
+                     std::apply([](auto... c) { return node<"a">(c...); }, body(1e6)),
+                     std::apply([&](auto... c) { return node<"b">(c..., plane); }, body(1e5)))};
     sim.init();
     for (int i = 0; i < 5; ++i) sim.animate(0.02);
     std::vector<double> all;
@@ -231,17 +233,19 @@ TEST_CASE("several bodies under multigrid on the device, and what it leaves to t
     CHECK(!host.second);
   }
   // a cycle that turns
-  auto sim = scene<CudaVec3d>(Beam{}, MultigridLinearSolver<>{.tolerance = 1e-12, .refresh = 5, .warp = true});
+  auto sim =
+      scene<CudaVec3d>(Beam{}, MultigridLinearSolver<>{.tolerance = 1e-12, .refresh = 5, .warp = true});
   sim.init();
   for (int i = 0; i < 3; ++i) sim.animate(0.02);
   CHECK(!solver_of(sim).onStates);
-  CHECK(difference(velocities(sim), course<Vec3d>(Beam{}, MultigridLinearSolver<>{.tolerance = 1e-12})) < 1e-8);
+  CHECK(difference(velocities(sim), course<Vec3d>(Beam{}, MultigridLinearSolver<>{.tolerance = 1e-12})) <
+        1e-8);
 }
 
 TEST_CASE("a step with multigrid on the device is not recorded") {
   auto sim = scene<CudaVec3d>(Beam{.held = false}, MultigridLinearSolver<>{});
   sim.init();
-  CHECK_THROWS_WITH(gpu::RecordedStep(sim, 0.02), Contains("MultigridLinearSolver") && Contains("animate()"));
+  CHECK_THROWS_WITH(gpu::RecordedStep(sim, 0.02), Contains("animate() the simulation"));
 }
 
 TEST_CASE("what is not finite is said by the state, with multigrid on the device too") {
@@ -249,7 +253,7 @@ TEST_CASE("what is not finite is said by the state, with multigrid on the device
   sim.init();
   sim.animate(0.02);
   sim.root().state().velocity[7][1] = std::numeric_limits<double>::quiet_NaN();
-  CHECK_THROWS_WITH(sim.animate(0.02), Contains("not finite") || Contains("diverged"));
+  CHECK_THROWS_WITH(sim.animate(0.02), Contains("not a finite number"));
 }
 
 }  // namespace test_gpu_multigrid

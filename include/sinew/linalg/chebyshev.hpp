@@ -31,8 +31,7 @@ SINEW_HD inline double largest_eigenvalue(double const* diagonal, double const* 
   }
   auto above = [&](double x) {  // whether x is above all eigenvalues: all pivots of T - x I are negative
     double pivot = diagonal[0] - x;
-    for (int i = 1; i < n && pivot < 0; ++i)
-      pivot = diagonal[i] - x - beside[i - 1] * beside[i - 1] / pivot;
+    for (int i = 1; i < n && pivot < 0; ++i) pivot = diagonal[i] - x - beside[i - 1] * beside[i - 1] / pivot;
     return pivot < 0;
   };
   for (int i = 0; i < 60 && high - low > 1e-7 * size(high); ++i) {

@@ -75,8 +75,10 @@ struct UnitBlocks {
     share_rows(workers, a.rows(), [&](int i, int) {
       Block lower;
       Block& w = inverse[std::size_t(i)];
-      unit_block<R>(
-          Block(Eigen::Map<Block const>(std::as_const(a).block(a.rowStart[std::size_t(i)]))), smallest, lower, w);
+      unit_block<R>(Block(Eigen::Map<Block const>(std::as_const(a).block(a.rowStart[std::size_t(i)]))),
+                    smallest,
+                    lower,
+                    w);
       Row* const b = &modes[std::size_t(i * R)];
       for (int r = 0; r < R; ++r) {
         Row sum{};

@@ -67,9 +67,9 @@ struct MultigridLinearSolver {
   Multigrid multigrid{};
   PointRotations rotations{};
   Vector x{}, b{}, r{}, p{}, q{}, z{}, turned{};
-  MatrixFactors last{};     // of the last solve
-  int age = -1;             // solves since the cycle was made
-  bool onStates = false;    // the states solve
+  MatrixFactors last{};   // of the last solve
+  int age = -1;           // solves since the cycle was made
+  bool onStates = false;  // the states solve
 
   template <class Operations>
   void init(Operations& operations) {

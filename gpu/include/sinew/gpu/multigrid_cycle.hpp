@@ -134,7 +134,8 @@ struct Down {
  private:
   static void checkRange(std::size_t terms) {
     if (terms > std::size_t(std::numeric_limits<int>::max()) / 2)
-      throw Error("MultigridLinearSolver on a device", "a coarse matrix has more than 2^30 terms; split the body");
+      throw Error("MultigridLinearSolver on a device",
+                  "a coarse matrix has more than 2^30 terms; split the body");
   }
 };
 
@@ -241,9 +242,10 @@ struct CoarseLevel : Level<6> {
 
 }  // namespace multigrid
 
-/// z = M^-1 r by one V-cycle of smoothed aggregation, as Multigrid makes it, for the assembled matrix of a body
-/// of points on the device. The processor finds aggregates and patterns, from the matrix as it is then; updates
-/// fill them on the device, without allocating. Sums have an order of their own that is always the same.
+/// z = M^-1 r by one V-cycle of smoothed aggregation, as Multigrid makes it, for the assembled matrix of a
+/// body of points on the device. The processor finds aggregates and patterns, from the matrix as it is then;
+/// updates fill them on the device, without allocating. Sums have an order of their own that is always the
+/// same.
 template <class D>
 class MultigridCycle {
  public:
@@ -282,8 +284,8 @@ class MultigridCycle {
     return n;
   }
 
-  /// The values of the matrix, of which projective constraints hold the directions `held` (bits of each point;
-  /// null: none), and modes of the places x.
+  /// The values of the matrix, of which projective constraints hold the directions `held` (bits of each
+  /// point; null: none), and modes of the places x.
   template <class Run>
   void update(Run const& workers, BlockRows<D> const& rows, unsigned char const* held, Coord const* x) {
     if (built && held && sum_on_host(rows.rows, HeldChanged{held, held_.data()}) != 0) built = false;

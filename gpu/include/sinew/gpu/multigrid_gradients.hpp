@@ -64,11 +64,11 @@ struct CycleDirection {
 
 }  // namespace detail
 
-/// What MultigridLinearSolver does where all states below it are of points over D: the cycle and what iterates
-/// on the device, over the matrix that is assembled there. Bodies are solved one after the other, since
-/// nothing joins them. The host sees the residual of each iteration. `again`: with the matrix and the cycle of
-/// the last solve; `update`: the cycle is filled anew. False where it cannot: constraints mix coordinates,
-/// or another kind of state is there.
+/// What MultigridLinearSolver does where all states below it are of points over D: the cycle and what
+/// iterates on the device, over the matrix that is assembled there. Bodies are solved one after the other,
+/// since nothing joins them. The host sees the residual of each iteration. `again`: with the matrix and the
+/// cycle of the last solve; `update`: the cycle is filled anew. False where it cannot: constraints mix
+/// coordinates, or another kind of state is there.
 template <class D, class Operations, class Solver, class MultiVec>
 bool multigrid_gradients(Operations& operations, Solver& solver, MatrixFactors factors, MultiVec& x,
                          MultiVec& b, bool update, bool again) {
@@ -127,7 +127,8 @@ bool multigrid_gradients(Operations& operations, Solver& solver, MatrixFactors f
           places = mine.start.data();
         }
         mine.cycle.settings = solver.multigrid.settings;
-        mine.cycle.update(some_workers(operations.workers()), state.solverWorkspace.rows, system.held, places);
+        mine.cycle.update(
+            some_workers(operations.workers()), state.solverWorkspace.rows, system.held, places);
       }
       auto const& residual = std::as_const(state[r.id]);
       double whole = 0, size = 0;
@@ -157,9 +158,9 @@ bool multigrid_gradients(Operations& operations, Solver& solver, MatrixFactors f
         if (!(size > solver.tolerance * solver.tolerance * whole)) break;
         mine.cycle.apply(residual.device(), state[z.id].overwrite(), s.size, s.rho);
         V::dot(std::as_const(state[q.id]), std::as_const(state[z.id]), s.turned);
-        for_each_index(scalars,
-                       detail::CycleDirection<Real>{
-                           V::flat(state[p.id]), V::flat(std::as_const(state[z.id])), s});
+        for_each_index(
+            scalars,
+            detail::CycleDirection<Real>{V::flat(state[p.id]), V::flat(std::as_const(state[z.id])), s});
       }
     }
   });

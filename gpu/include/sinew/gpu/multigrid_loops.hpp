@@ -70,12 +70,26 @@ template <int R>
 SINEW_INLINE void add_row(Rows<R> const& rows, float const* values, float const* v, int row, int lane,
                           int lanes, float* sum) {
   if constexpr (R == 3) {
-    rows.each(row, lane, lanes, [&](int k, int column) {
-      float const* const x = v + 3 * std::ptrdiff_t(column);
+    // what is read once goes through the caches first; as many reads at once as registers allow
+    auto once = [](auto const* from) {
+#if defined(__CUDA_ARCH__)
+      return __ldcs(from);
+#else
+      return *from;
+#endif
+    };
+    constexpr int slice = Rows<3>::slice;
+    const int end = rows.sliceFirst[row / slice + 1];
+#if defined(__CUDA_ARCH__)
+#pragma unroll 4
+#endif
+    for (int k = rows.sliceFirst[row / slice] + row % slice + lane * slice; k < end; k += lanes * slice) {
+      float const* const x = v + 3 * std::ptrdiff_t(once(rows.columns + k));
       const float x0 = x[0], x1 = x[1], x2 = x[2];
       float const* const a = values + Rows<3>::at(k, 0);
-      for (int r = 0; r < 3; ++r) sum[r] += a[96 * r] * x0 + a[96 * r + 32] * x1 + a[96 * r + 64] * x2;
-    });
+      for (int r = 0; r < 3; ++r)
+        sum[r] += once(a + 96 * r) * x0 + once(a + 96 * r + 32) * x1 + once(a + 96 * r + 64) * x2;
+    }
   } else {
     struct alignas(16) Four {
       float of[4];
@@ -677,64 +691,54 @@ struct Solve {
   SINEW_HD void finish(int i, double const* sum) const { x[stride<R> * (i / R) + i % R] = float(*sum); }
 };
 
-/// A -> A^-1 for a symmetric positive definite A of n unknowns with unit diagonal, by steps of Gauss and Jordan
-/// in its place; unknowns whose pivot is nothing get nothing. each(f): f(k) for the k of a thread in 0 .. n n
-/// - 1; sync(): all threads are there. `row` has room for 2 n numbers.
-template <class Each, class Sync>
-SINEW_INLINE void invert_in_place(double* a, int n, double* row, Each&& each, Sync&& sync) {
+/// Threads of a block in rows of lanes; sync() waits until all are there.
+struct WholeBlock {
+  int lane, lanes, row, rows;
+  template <class Sync, class F>
+  SINEW_INLINE void each(int n, int m, Sync&& sync, F&& f) const {
+    for (int i = row; i < n; i += rows)
+      for (int j = lane; j < m; j += lanes) f(i, j);
+    sync();
+  }
+};
+/// A -> A^-1 for a symmetric positive definite A of n unknowns with unit diagonal, by steps of Gauss and
+/// Jordan in its place; unknowns whose pivot is nothing get nothing. `cross` has room for 2 n numbers: row k
+/// and column k, as all threads read them in step k.
+template <class Sync>
+SINEW_INLINE void invert_in_place(WholeBlock const& block, double* a, int n, double* cross, Sync&& sync) {
   for (int k = 0; k < n; ++k) {
-    // row k and column k, as all threads read them
-    each(2 * n, [&](int j) { row[j] = j < n ? a[std::ptrdiff_t(k) * n + j] : a[std::ptrdiff_t(j - n) * n + k]; });
-    sync();
-    const double pivot = row[k];
-    const bool is = pivot > 1e-12;
-    const double inverse = is ? 1 / pivot : 0;
-    each(n * n, [&](int at) {
-      const int i = at / n, j = at % n;
-      double& to = a[at];
-      if (i == k && j == k)
-        to = inverse;
-      else if (i == k)
-        to = row[j] * inverse;
-      else if (j == k)
-        to = -row[n + i] * inverse;
+    block.each(2, n, sync, [&](int i, int j) { cross[i * n + j] = i == 0 ? a[k * n + j] : a[j * n + k]; });
+    const double pivot = cross[k];
+    const double inverse = pivot > 1e-12 ? 1 / pivot : 0;
+    block.each(n, n, sync, [&](int i, int j) {
+      const double f = cross[n + i] * inverse, along = cross[j];
+      double& to = a[i * n + j];
+      if (i == k)
+        to = j == k ? inverse : along * inverse;
       else
-        to -= row[n + i] * inverse * row[j];
+        to = j == k ? -f : to - f * along;
     });
-    sync();
   }
 }
 #if SINEW_CUDA
 namespace detail {
 inline constexpr int invertingThreads = 1024;
 template <int R>
-__global__ void __launch_bounds__(invertingThreads) invert_kernel(double* a, int n, double* row) {
+__global__ void __launch_bounds__(invertingThreads) invert_kernel(double* a, int n, double* cross) {
+  const int thread = int(threadIdx.x);
   invert_in_place(
-      a,
-      n,
-      row,
-      [](int count, auto&& f) {
-        for (int k = int(threadIdx.x); k < count; k += invertingThreads) f(k);
-      },
-      [] { __syncthreads(); });
+      WholeBlock{thread % 32, 32, thread / 32, invertingThreads / 32}, a, n, cross, [] { __syncthreads(); });
 }
 }  // namespace detail
 #endif
 /// The same by one block of a GPU, or on the host.
 template <int R>
-void invert(double* a, int n, double* row) {
+void invert(double* a, int n, double* cross) {
 #if SINEW_CUDA
-  detail::invert_kernel<R><<<1, detail::invertingThreads, 0, stream()>>>(a, n, row);
+  detail::invert_kernel<R><<<1, detail::invertingThreads, 0, stream()>>>(a, n, cross);
   check(cudaGetLastError(), "a factor on the GPU");
 #else
-  invert_in_place(
-      a,
-      n,
-      row,
-      [](int count, auto&& f) {
-        for (int k = 0; k < count; ++k) f(k);
-      },
-      [] {});
+  invert_in_place(WholeBlock{0, 1, 0, 1}, a, n, cross, [] {});
 #endif
 }
 

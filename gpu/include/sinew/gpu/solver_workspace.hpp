@@ -20,10 +20,10 @@ struct SolverWorkspace<CudaTypes<H>> {
   gpu::DeviceVector<double> numbers{};             // of conjugate gradients (CgScalars)
   gpu::DeviceVector<typename H::Real> diagonal{};  // blocks of a preconditioner (PointBlocks), two a point
   gpu::BlockRows<CudaTypes<H>> rows{};             // the assembled system
-  MultigridWorkspace multigrid{};                  // of MultigridLinearSolver, where these are points in space
-  gpu::TeamSolver<CudaTypes<H>> team{};            // of all bodies of a linear solver, in the first of them
-  gpu::ConvexMotion<CudaTypes<H>> motion{};        // of a scene with constraints by multipliers
-  gpu::ContactSearch<CudaTypes<H>> contacts{};     // of a collision model of its points
+  MultigridWorkspace multigrid{};               // of MultigridLinearSolver, where these are points in space
+  gpu::TeamSolver<CudaTypes<H>> team{};         // of all bodies of a linear solver, in the first of them
+  gpu::ConvexMotion<CudaTypes<H>> motion{};     // of a scene with constraints by multipliers
+  gpu::ContactSearch<CudaTypes<H>> contacts{};  // of a collision model of its points
 };
 
 }  // namespace sinew
