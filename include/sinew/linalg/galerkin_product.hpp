@@ -80,8 +80,7 @@ class GalerkinProduct {
         double const* const block = a.block(slot);
         for (int s = p.start[std::size_t(j)]; s < p.start[std::size_t(j) + 1]; ++s) {
           Row from[std::size_t(R)];
-          for (int r Sixes<double>::convert(p.values[std::size_t(s * R + r)], = 0; r < R; ++r) from[r])
-            ;
+          for (int r = 0; r < R; ++r) Sixes<double>::convert(p.values[std::size_t(s * R + r)], from[r]);
           add_block_product<R>(block, transposed, from, sums + R * place[p.columns[std::size_t(s)]]);
         }
       });
