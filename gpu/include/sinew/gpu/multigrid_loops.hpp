@@ -691,54 +691,66 @@ struct Solve {
   SINEW_HD void finish(int i, double const* sum) const { x[stride<R> * (i / R) + i % R] = float(*sum); }
 };
 
-/// Threads of a block in rows of lanes; sync() waits until all are there.
-struct WholeBlock {
-  int lane, lanes, row, rows;
-  template <class Sync, class F>
-  SINEW_INLINE void each(int n, int m, Sync&& sync, F&& f) const {
-    for (int i = row; i < n; i += rows)
-      for (int j = lane; j < m; j += lanes) f(i, j);
-    sync();
-  }
-};
 /// A -> A^-1 for a symmetric positive definite A of n unknowns with unit diagonal, by steps of Gauss and
-/// Jordan in its place; unknowns whose pivot is nothing get nothing. `cross` has room for 2 n numbers: row k
-/// and column k, as all threads read them in step k.
-template <class Sync>
-SINEW_INLINE void invert_in_place(WholeBlock const& block, double* a, int n, double* cross, Sync&& sync) {
+/// Jordan in its place; unknowns whose pivot is nothing get nothing. each(f): f(k) for the k of a thread in 0
+/// .. n n
+/// - 1; sync(): all threads are there. `row` has room for 2 n numbers.
+template <class Each, class Sync>
+SINEW_INLINE void invert_in_place(double* a, int n, double* row, Each&& each, Sync&& sync) {
   for (int k = 0; k < n; ++k) {
-    block.each(2, n, sync, [&](int i, int j) { cross[i * n + j] = i == 0 ? a[k * n + j] : a[j * n + k]; });
-    const double pivot = cross[k];
-    const double inverse = pivot > 1e-12 ? 1 / pivot : 0;
-    block.each(n, n, sync, [&](int i, int j) {
-      const double f = cross[n + i] * inverse, along = cross[j];
-      double& to = a[i * n + j];
-      if (i == k)
-        to = j == k ? inverse : along * inverse;
+    // row k and column k, as all threads read them
+    each(2 * n,
+         [&](int j) { row[j] = j < n ? a[std::ptrdiff_t(k) * n + j] : a[std::ptrdiff_t(j - n) * n + k]; });
+    sync();
+    const double pivot = row[k];
+    const bool is = pivot > 1e-12;
+    const double inverse = is ? 1 / pivot : 0;
+    each(n * n, [&](int at) {
+      const int i = at / n, j = at % n;
+      double& to = a[at];
+      if (i == k && j == k)
+        to = inverse;
+      else if (i == k)
+        to = row[j] * inverse;
+      else if (j == k)
+        to = -row[n + i] * inverse;
       else
-        to = j == k ? -f : to - f * along;
+        to -= row[n + i] * inverse * row[j];
     });
+    sync();
   }
 }
 #if SINEW_CUDA
 namespace detail {
 inline constexpr int invertingThreads = 1024;
 template <int R>
-__global__ void __launch_bounds__(invertingThreads) invert_kernel(double* a, int n, double* cross) {
-  const int thread = int(threadIdx.x);
+__global__ void __launch_bounds__(invertingThreads) invert_kernel(double* a, int n, double* row) {
   invert_in_place(
-      WholeBlock{thread % 32, 32, thread / 32, invertingThreads / 32}, a, n, cross, [] { __syncthreads(); });
+      a,
+      n,
+      row,
+      [](int count, auto&& f) {
+        for (int k = int(threadIdx.x); k < count; k += invertingThreads) f(k);
+      },
+      [] { __syncthreads(); });
 }
 }  // namespace detail
 #endif
 /// The same by one block of a GPU, or on the host.
 template <int R>
-void invert(double* a, int n, double* cross) {
+void invert(double* a, int n, double* row) {
 #if SINEW_CUDA
-  detail::invert_kernel<R><<<1, detail::invertingThreads, 0, stream()>>>(a, n, cross);
+  detail::invert_kernel<R><<<1, detail::invertingThreads, 0, stream()>>>(a, n, row);
   check(cudaGetLastError(), "a factor on the GPU");
 #else
-  invert_in_place(WholeBlock{0, 1, 0, 1}, a, n, cross, [] {});
+  invert_in_place(
+      a,
+      n,
+      row,
+      [](int count, auto&& f) {
+        for (int k = 0; k < count; ++k) f(k);
+      },
+      [] {});
 #endif
 }
 
