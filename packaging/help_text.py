@@ -19,7 +19,7 @@ class Entry:
 def entry(line):
     """One line of a section: names, value, what it excludes, and, from the column on, the explanation."""
     words, explanation = line[:COLUMN], line[COLUMN:]
-    if not words.endswith(" ") or words.endswith(" Excludes: ") or explanation.startswith("--"):
+    if not words.endswith(" ") or words.endswith(" Excludes: ") or explanation.startswith(("--", "...")):
         words, explanation = line, ""
     words, _, excludes = words.strip().partition(" Excludes: ")
     names, _, value = words.removesuffix(" REQUIRED").partition(" ")

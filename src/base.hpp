@@ -33,6 +33,7 @@
 #include <sinew/linalg/aggregation.hpp>
 #include <sinew/linalg/chebyshev.hpp>
 #include <sinew/linalg/minimum_degree.hpp>
+#include <sinew/topology/add_plan.hpp>
 #include <sinew/topology/adjacency.hpp>
 #include <sinew/topology/bcc_lattice.hpp>
 #include <sinew/topology/bcc_stencils.hpp>
@@ -45,6 +46,7 @@
 #include <sinew/topology/element_checks.hpp>
 #include <sinew/topology/element_fit.hpp>
 #include <sinew/topology/hexahedra.hpp>
+#include <sinew/topology/incision.hpp>
 #include <sinew/topology/inertia.hpp>
 #include <sinew/topology/isosurface_stuffing.hpp>
 #include <sinew/topology/mesh_topology.hpp>
@@ -56,6 +58,7 @@
 #include <sinew/topology/cut_rules.hpp>
 #include <sinew/topology/removal_plan.hpp>
 #include <sinew/topology/round_grid.hpp>
+#include <sinew/topology/shape_clusters.hpp>
 #include <sinew/topology/shape_file.hpp>
 #include <sinew/topology/sparse_grid_multiple_topology.hpp>
 #include <sinew/topology/sparse_grid_ramification_topology.hpp>

@@ -21,6 +21,7 @@
 #include <sinew/collision/surface_elements.hpp>
 #include <sinew/collision/vertex_contacts.hpp>
 #include <sinew/constraint/constrained_points.hpp>
+#include <sinew/engine/clustering_engine.hpp>
 #include <sinew/engine/complementary_roi.hpp>
 #include <sinew/engine/difference_engine.hpp>
 #include <sinew/engine/dilate_engine.hpp>
@@ -43,6 +44,7 @@
 #include <sinew/engine/merge_rois.hpp>
 #include <sinew/engine/merge_sets.hpp>
 #include <sinew/engine/merge_vectors.hpp>
+#include <sinew/engine/mesh2point_topological_mapping.hpp>
 #include <sinew/engine/mesh_barycentric_mapper.hpp>
 #include <sinew/engine/mesh_boundary_roi.hpp>
 #include <sinew/engine/mesh_closing.hpp>
@@ -61,6 +63,7 @@
 #include <sinew/engine/roi.hpp>
 #include <sinew/engine/roi_value_mapper.hpp>
 #include <sinew/engine/select_label_roi.hpp>
+#include <sinew/engine/simple_tesselated_tetra_topological_mapping.hpp>
 #include <sinew/engine/smooth_mesh.hpp>
 #include <sinew/engine/sphere_loader.hpp>
 #include <sinew/engine/spiral.hpp>

@@ -19,7 +19,7 @@ endif()
 set(quick_topology adjacency cut_plan hexahedra mesh_topology regular_grid regular_grid_topology removal_plan round_grids surface_mesh)
 set(quick_collision axis_box bounding_tree broad_phase closest_points contact_laws contact_scenes friction overlap ray_hits surface_elements
     time_of_impact)
-set(quick_scene bad_input element_removal picking place reset simulation)
+set(quick_scene bad_input element_removal live_engines picking place reset simulation)
 set(quick_components constraint/constraints control/trajectory fluid/fluid_components fluid/poisson_multigrid mapping/measuring_mappings solver/direct_solvers solver/solver_fields)
 set(quick_core data_types dual element_driver element_force error lanes block_ldl block_matrix factored_rows preconditioner convex_step)
 set(quick_lagrangian constrained_step contact_friction)
@@ -27,7 +27,7 @@ set(quick_lagrangian constrained_step contact_friction)
 set(quick_laws constraints_vec3 elements_vec3d force_rigid3d force_vec3d hyperelastic_vec3d loads_vec3d mappings_points
     mappings_rigid masses spatial_springs_vec3d)
 set(quick_validation cantilever kepler settled statics vibration)
-set(quick_runtime bad_places bake_text change contact dialect dialect_run every_class read_scene same_bits_string sofa_attributes
+set(quick_runtime bad_places bake_text change contact dialect dialect_run every_class live_engines read_scene same_bits_string sofa_attributes
     step_forces)
 set(quick_baked tetrahedra)
 set(quick_ccd collision/hull_pairs)

@@ -1,22 +1,13 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "forces.hpp"
 
+#include "csv.hpp"
+
 #include <sinew/io/output_file.hpp>
 
 namespace cli {
 
 namespace {
-
-// a field of a table: in quotes where it has what separates fields and lines
-std::string field(std::string_view word) {
-  if (word.find_first_of(",\"\n\r") == word.npos) return std::string(word);
-  std::string quoted = "\"";
-  for (const char c : word) {
-    if (c == '"') quoted += '"';
-    quoted += c;
-  }
-  return quoted + '"';
-}
 
 // "/liver" for the node /root/liver, as in records; "/" for the top
 std::string below_top(std::string const& path) {
@@ -39,9 +30,9 @@ void ForcesFile::add(sinew::StandardSimulation& simulation) {
                          ',',
                          enum_names(f.kind)[std::size_t(f.kind)],
                          ',',
-                         field(below_top(f.body)),
+                         csv_field(below_top(f.body)),
                          ',',
-                         field(below_top(f.other)),
+                         csv_field(below_top(f.other)),
                          ',',
                          f.index);
     for (Eigen::Vector3d const& v : {f.point, f.normal, f.wrench.force, f.wrench.torque})

@@ -33,6 +33,16 @@ Settings settings_of(std::vector<std::string> const& words, std::string const& o
   return settings;
 }
 
+// "3/10"
+std::pair<int, int> part_of(std::string const& word) {
+  int part = 0, parts = 0, end = 0;
+  if (std::sscanf(word.c_str(), "%7d/%7d%n", &part, &parts, &end) != 2 || std::size_t(end) != word.size() ||
+      part < 1 || part > parts)
+    throw CLI::ValidationError(
+        "--part", "'" + word + "' is not of the form I/N, as in 3/10: parts are numbered from 1 to N");
+  return {part, parts};
+}
+
 // "1280x960"
 std::pair<int, int> size_of(std::string const& word) {
   int width = 0, height = 0, end = 0;
@@ -61,6 +71,9 @@ struct SceneWords {
            "--set", set, "Replace a value of the scene, as in liver/fem.youngModulus=1000; repeatable")
         ->type_name("PATH.ATTRIBUTE=VALUE")
         ->allow_extra_args(false);
+    addRest(app, scene, withDt);
+  }
+  static void addRest(CLI::App& app, SceneOptions& scene, bool withDt) {
     app.add_option("--data", scene.data, "Folder where files are looked for that the scene names; repeatable")
         ->type_name("DIR")
         ->check(CLI::ExistingDirectory.description(""))
@@ -199,6 +212,9 @@ Options read_options(int argc, char** argv, int& status) {
                   "Threads that work, instead of those that the scene asks for; the results are the same")
       ->type_name("N")
       ->check(CLI::Range(1, 256).description(""));
+  run->add_flag("--mpi",
+                o.run.mpi,
+                "Simulate in several processes, which mpirun has started: mpirun -n 4 sinew run FILE --mpi");
   auto* profile = run->add_flag("--profile", o.run.profile, "Print where the time of the steps goes");
   run->add_option("--trace",
                   o.run.trace,
@@ -291,6 +307,70 @@ Options read_options(int argc, char** argv, int& status) {
       ->check(CLI::Range(0, 1000).description(""));
   add_output(*compare, compareQuiet, compareJson);
 
+  auto* sweep = app.add_subcommand("sweep", "Run a scene for many values of its attributes, into one table");
+  sweep->footer(
+      "Each value of one --set runs with each of the others. The same command again goes on with what is "
+      "missing.\n"
+      "Examples:  sinew sweep liver.scn --set Liver/FEM.youngModulus=log:1e3:1e5:9 --time 2\n"
+      "           sinew sweep liver.scn --set Liver/FEM.youngModulus=1000:5000:1000 --set "
+      "root.gravity='0 -9.81 0,0 0 0'\n"
+      "                       --measure Liver/dofs.position[12]\n"
+      "As a job array, then in one table:\n"
+      "           sinew sweep ... --part $SLURM_ARRAY_TASK_ID/10 --output part_$SLURM_ARRAY_TASK_ID.csv\n"
+      "           sinew sweep --merge part_*.csv --output liver.csv");
+  sweep->add_option("scene", o.sweep.scene.path, "Scene file")->type_name("FILE");
+  std::vector<std::string> sweepSet;
+  std::string part;
+  sweep
+      ->add_option(
+          "--set",
+          sweepSet,
+          "Values that an attribute takes: 1:10:2 is from 1 to 10 by 2, log:1e3:1e6:4 and lin:0:1:5 so "
+          "many between two ends, and others stand apart by commas, as in polar,large; repeatable")
+      ->type_name("PATH.ATTRIBUTE=VALUES")
+      ->allow_extra_args(false);
+  sweep
+      ->add_option("--table",
+                   o.sweep.table,
+                   "File of combinations (CSV): a line of attributes, then their values, a line for each run")
+      ->type_name("FILE");
+  sweep
+      ->add_option("--measure",
+                   o.sweep.measure,
+                   "What else the table has of the end of each run: a field of a component, as in "
+                   "liver/dofs.position[3], residual of a solver, or kineticEnergy, potentialEnergy, "
+                   "largestDisplacement or reaction of a node; repeatable")
+      ->type_name("PATH.NAME")
+      ->allow_extra_args(false);
+  sweep
+      ->add_option("-o,--output",
+                   o.sweep.file,
+                   "Table that is written (CSV), or gone on with (default: SCENE.sweep.csv, in this folder)")
+      ->type_name("FILE");
+  add_duration(*sweep, o.sweep.duration);
+  SceneWords::addRest(*sweep, o.sweep.scene, true);
+  sweep
+      ->add_option(
+          "--jobs", o.sweep.jobs, "Processes that run at a time (default: as many as there are cores)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 4096).description(""));
+  sweep
+      ->add_option("--threads",
+                   o.sweep.threads,
+                   "Threads of each run, instead of those that the scene asks for; the results are the same")
+      ->type_name("N")
+      ->check(CLI::Range(1, 256).description(""));
+  sweep->add_option("--part", part, "Run only every N-th combination, from the I-th on")->type_name("I/N");
+  sweep->add_option("--merge", o.sweep.merge, "Put tables of parts together, and run nothing")
+      ->type_name("FILES")
+      ->expected(1, 1'000'000);
+  sweep->add_option("--time-limit", o.sweep.timeLimit, "Seconds after which a run is ended, with an error")
+      ->type_name("SECONDS")
+      ->check(positive_seconds().description(""));
+  sweep->add_flag("--retry", o.sweep.retry, "Run those again that had an error");
+  bool sweepQuiet = false, sweepJson = false;
+  add_output(*sweep, sweepQuiet, sweepJson);
+
   try {
     app.parse(argc, argv);
     o.run.scene.set = settings_of(runWords.set, "--set");
@@ -313,6 +393,21 @@ Options read_options(int argc, char** argv, int& status) {
         throw CLI::ValidationError("compare", "give a second scene, or --set-a or --set-b");
       c.b.path = c.a.path;
     }
+    o.sweep.set = settings_of(sweepSet, "--set");
+    if (!part.empty()) std::tie(o.sweep.part, o.sweep.parts) = part_of(part);
+    if (sweep->parsed() && !o.sweep.merge.empty()) {
+      for (char const* option : {"scene", "--set", "--table", "--measure", "--part", "--retry"})
+        if (sweep->count(option) > 0)
+          throw CLI::ValidationError("--merge",
+                                     std::string("runs nothing, and takes no ") + option + "; leave it out");
+      if (o.sweep.file.empty())
+        throw CLI::ValidationError("--merge", "name the table that is written: --output FILE");
+    } else if (sweep->parsed()) {
+      if (o.sweep.scene.path.empty()) throw CLI::RequiredError("scene");
+      if (o.sweep.set.empty() && o.sweep.table.empty())
+        throw CLI::ValidationError(
+            "sweep", "give --set, as in --set liver/fem.youngModulus=1000:5000:1000, or --table");
+    }
   } catch (CLI::ParseError const& e) {
     status = app.exit(e) == 0 ? ok : badUsage;
     return {};
@@ -322,12 +417,15 @@ Options read_options(int argc, char** argv, int& status) {
   auto given = [](CLI::App* command) { return command->count("--steps") + command->count("--time") > 0; };
   o.run.duration.given = given(run);
   o.compare.duration.given = given(compare);
+  o.sweep.output = output_of(sweepQuiet, sweepJson);
+  o.sweep.duration.given = given(sweep);
   o.command = run->parsed()     ? Command::run
               : view->parsed()  ? Command::view
               : serve->parsed() ? Command::serve
               : check->parsed() ? Command::check
               : list->parsed()  ? Command::list
               : bake->parsed()  ? Command::bake
+              : sweep->parsed() ? Command::sweep
                                 : Command::compare;
   return o;
 }

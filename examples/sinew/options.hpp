@@ -28,6 +28,7 @@ struct SceneOptions {
   double dt = 0;              // 0: the scene's
   std::size_t maxMemory = 0;  // bytes; 0: what the machine has
   std::string missing{};      // as ReadSceneOptions has it
+  int processes = 1;          // that share what the machine has
 };
 
 /// How far to simulate: so many steps, or so many seconds where `time` is not 0.
@@ -55,6 +56,7 @@ struct RunOptions {
   SeenOptions seen{};
   long every = 1;
   int threads = 0;  // as the scene says
+  bool mpi = false;
   bool profile = false;
   std::string trace{};
   Output output = Output::words;
@@ -87,8 +89,21 @@ struct CompareOptions {
   int rounds = 3;
   Output output = Output::words;
 };
+struct SweepOptions {
+  SceneOptions scene{};
+  Duration duration{};
+  Settings set{};       // paths, and words for their values
+  std::string table{};  // a file of combinations
+  std::vector<std::string> measure{}, merge{};
+  std::string file{};         // that is written; empty: named after the scene
+  int jobs = 0, threads = 0;  // as many as there are cores, and as the scene says
+  int part = 1, parts = 1;
+  double timeLimit = 0;  // of a run [s]; 0: none
+  bool retry = false;
+  Output output = Output::words;
+};
 
-enum class Command { none, run, view, serve, check, list, bake, compare };
+enum class Command { none, run, view, serve, check, list, bake, compare, sweep };
 struct Options {
   Command command = Command::none;
   RunOptions run{};
@@ -98,6 +113,7 @@ struct Options {
   ListOptions list{};
   BakeOptions bake{};
   CompareOptions compare{};
+  SweepOptions sweep{};
 };
 
 /// Reads the command line. Where that ends the program, as --help and mistakes do, the command is none and
@@ -112,6 +128,7 @@ int check(CheckOptions const& options);
 int list(ListOptions const& options);
 int bake(BakeOptions const& options);
 int compare(CompareOptions const& options);
+int sweep(SweepOptions const& options);
 
 /// The program: reads the command line, runs its command, prints what fails; the exit status.
 int program(int argc, char** argv);

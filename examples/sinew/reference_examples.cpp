@@ -50,6 +50,19 @@ constexpr std::string_view beams = R"(
   <BeamFEMForceField youngModulus="1e7" poissonRatio="0.45" radius="0.01"/>
   <FixedConstraint indices="0"/>
 </Node>)";
+// a body that keeps its shape without elements
+constexpr std::string_view jelly = R"(
+<Node name="jelly" gravity="0 -9.81 0">
+  <EulerImplicitSolver/>
+  <CGLinearSolver iterations="25" tolerance="1e-8"/>
+  <RegularGridTopology n="5 3 3" max="0.4 0.1 0.1"/>
+  <MechanicalObject/>
+  <UniformMass totalMass="4"/>
+  <PlaneForceField normal="0 1 0" d="-0.05" stiffness="500"/>
+  <ClusteringEngine name="clustering" number="4" radius="0.15"/>
+  <ShapeMatching name="matching" cluster="@clustering.cluster"/>
+  <PositionBasedDynamicsProjectiveConstraint stiffness="0.3" position="@matching.targetPosition"/>
+</Node>)";
 // a body that another one follows
 constexpr std::string_view carrier = R"(
 <Node name="body" gravity="0 -9.81 0">
@@ -113,6 +126,21 @@ constexpr std::string_view boxInPool = R"(
     </Node>
   </Node>
 </Node>)";
+constexpr std::string_view namedBlock = R"(
+<Node name="block" gravity="0 0 -9.81">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <SparseLDLSolver/>
+  <RegularGridTopology name="grid" n="3 2 2" max="0.2 0.1 0.1"/>
+  <MechanicalObject/>
+  <UniformMass totalMass="2"/>
+  <HexahedronFEMForceField youngModulus="50000" poissonRatio="0.3"/>
+  <FixedConstraint indices="0 3 6 9"/>
+  <Node name="cut">
+    <MeshTopology name="large"/>
+    <Hexa2TetraTopologicalMapping input="@../grid" output="@large"/>
+  </Node>
+  <HERE/>
+</Node>)";
 constexpr std::string_view contact = R"(
 <Node name="root" gravity="0 -9.81 0">
   <DefaultPipeline/>
@@ -170,6 +198,26 @@ constexpr std::string_view friction = R"(
     <PointCollisionModel/>
   </Node>
 </Node>)";
+constexpr std::string_view parts = R"(
+<Node name="root" gravity="0 -9.81 0" dt="0.02">
+  <MultiStepAnimationLoop collisionSteps="2" integrationSteps="5"/>
+  <DefaultPipeline/>
+  <BruteForceBroadPhase/>
+  <BVHNarrowPhase/>
+  <MinProximityIntersection alarmDistance="0.05" contactDistance="0.01"/>
+  <DefaultContactManager/>
+  <Node name="floor">
+    <MeshTopology triangles="0 1 2  0 2 3"/>
+    <MechanicalObject position="-1 0 1  1 0 1  1 0 -1  -1 0 -1"/>
+    <TriangleCollisionModel moving="false" simulated="false" contactStiffness="500"/>
+  </Node>
+  <Node name="ball">
+    <EulerExplicitSolver/>
+    <MechanicalObject position="0 0.12 0"/>
+    <UniformMass vertexMass="0.1"/>
+    <SphereCollisionModel radius="0.05" contactStiffness="500"/>
+  </Node>
+</Node>)";
 
 /// f(line) for each line of a text but the empty one at its beginning.
 template <class F>
@@ -204,6 +252,7 @@ constexpr auto roleExamples = std::to_array<RoleExample>(
      {sinew::RoleKind::intersection, contact, "MinProximityIntersection"},
      {sinew::RoleKind::contactManager, contact, "DefaultContactManager"},
      {sinew::RoleKind::collisionModel, contact, "SphereCollisionModel"},
+     {sinew::RoleKind::stepDivision, parts, "MultiStepAnimationLoop"},
      {sinew::RoleKind::animationLoop, friction, "FreeMotionAnimationLoop"},
      {sinew::RoleKind::lagrangianConstraint, multipliers, "FixedLagrangianConstraint"},
      {sinew::RoleKind::constraintSolver, friction, "BlockGaussSeidelConstraintSolver"},
@@ -378,6 +427,14 @@ constexpr auto classExamples = std::to_array<ClassExample>({
      sheet,
      "TriangleFEMForceField",
      Place::beside},
+    {"GearSpringForceField", R"(
+<Node name="gears" gravity="0 0 0">
+  <EulerImplicitSolver/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <MechanicalObject template="Rigid3d" position="0 0 0  0 0 0 1   3 0 0  0 0 0 1" velocity="0 0 0  0 0 2   0 0 0  0 0 0"/>
+  <UniformMass vertexMass="1 1  0.1 0 0  0 0.1 0  0 0 0.1"/>
+  <GearSpringForceField spring="BEGIN_SPRING 0 0 1 1 AXIS 2 2 KS_T 1000 KS_R 100 1000 KD 0.001 RATIO 0.5 END_SPRING"/>
+</Node>)"},
     {"HexahedronFEMForceField", R"(<HexahedronFEMForceField youngModulus="50000" poissonRatio="0.3"/>)"},
     {"JointSpringForceField", R"(
 <Node name="links" gravity="0 -9.81 0">
@@ -419,6 +476,11 @@ constexpr auto classExamples = std::to_array<ClassExample>({
      R"(
 <MeshSpringForceField stiffness="50" damping="0.1"/>
 <QuadBendingSprings stiffness="20" damping="0.05"/>)",
+     sheet,
+     "TriangleFEMForceField"},
+    {"QuadBendingFEMForceField",
+     R"(
+<QuadBendingFEMForceField youngModulus="5000" poissonRatio="0.3" thickness="0.01"/>)",
      sheet,
      "TriangleFEMForceField"},
     {"QuadPressureForceField",
@@ -496,6 +558,22 @@ constexpr auto classExamples = std::to_array<ClassExample>({
      sheet,
      "TriangleFEMForceField",
      Place::beside},
+    {"TetrahedronDiffusionFEMForceField", R"(
+<Node name="body" gravity="0 0 0">
+  <GenerateGrid name="grid" min="0 0 0" max="0.4 0.1 0.1" resolution="5 3 3"/>
+  <MeshTopology position="@grid.output_position" tetrahedra="@grid.tetrahedra"/>
+  <MechanicalObject/>
+  <BoxROI name="hot" box="-0.01 -0.01 -0.01  0.01 0.11 0.11"/>
+  <ValuesFromPositions name="start" position="@grid.output_position" inputValues="80 20" direction="1 0 0"/>
+  <Node name="temperature">
+    <EulerImplicitSolver firstOrder="true"/>
+    <CGLinearSolver iterations="100" tolerance="1e-8"/>
+    <MechanicalObject template="Vec1d" position="@../start.values"/>
+    <MeshMatrixMass massDensity="3.6e6"/>
+    <TetrahedronDiffusionFEMForceField constantDiffusionCoefficient="0.5"/>
+    <FixedConstraint indices="@../hot.indices"/>
+  </Node>
+</Node>)"},
     {"TetrahedronFEMForceField", "", softBody, ""},
     {"TetrahedronHyperelasticityFEMForceField", R"(
 <TetrahedronHyperelasticityFEMForceField materialName="NeoHookean" ParameterSet="20000 30000"/>)"},
@@ -655,6 +733,25 @@ constexpr auto classExamples = std::to_array<ClassExample>({
 <ParabolicConstraint indices="0" P1="0 0 0" P2="0.5 1 0" P3="1 0 0" BeginTime="0" EndTime="0.8"/>)",
      chain,
      "FixedConstraint"},
+    {"PositionBasedDynamicsProjectiveConstraint", jelly},
+    {"ClusteringEngine", jelly},
+    {"ShapeMatching", R"(
+<Node name="root" gravity="0 -9.81 0">
+  <Node name="block">
+    <EulerImplicitSolver rayleighStiffness="0.01"/>
+    <CGLinearSolver iterations="25" tolerance="1e-8"/>
+    <RegularGridTopology n="5 3 3" max="0.4 0.1 0.1"/>
+    <MechanicalObject name="dofs"/>
+    <UniformMass totalMass="4"/>
+    <HexahedronFEMForceField youngModulus="50000" poissonRatio="0.3"/>
+    <FixedConstraint indices="0 5 10 15 20 25 30 35 40"/>
+    <ClusteringEngine name="clustering" number="1"/>
+    <ShapeMatching name="matching" position="@dofs.position" cluster="@clustering.cluster"/>
+  </Node>
+  <Node name="unbent">
+    <MechanicalObject position="@../block/matching.targetPosition"/>
+  </Node>
+</Node>)"},
     {"PatchTestMovementProjectiveConstraint",
      R"(
 <PatchTestMovementProjectiveConstraint indices="0 1 2 3 4 5 9 10 14 15 19 20 21 22 23 24" endConstraintTime="1"
@@ -1751,6 +1848,28 @@ constexpr auto classExamples = std::to_array<ClassExample>({
      beams,
      "FixedConstraint",
      Place::beside},
+    {"Mesh2PointTopologicalMapping",
+     R"(
+<Node name="middles">
+  <MeshTopology name="points"/>
+  <Mesh2PointTopologicalMapping hexaBaryCoords="0.5 0.5 0.5" input="@../grid" output="@points"/>
+  <MechanicalObject/>
+  <BarycentricMapping/>
+  <ConstantForceField totalForce="0 0 -1"/>
+</Node>)",
+     namedBlock,
+     "HERE"},
+    {"SimpleTesselatedTetraTopologicalMapping",
+     R"(
+<Node name="fine">
+  <MeshTopology name="small"/>
+  <SimpleTesselatedTetraTopologicalMapping input="@../cut/large" output="@small"/>
+  <MechanicalObject/>
+  <BarycentricMapping/>
+  <ConstantForceField totalForce="0 0 -1"/>
+</Node>)",
+     namedBlock,
+     "HERE"},
     {"Triangle2EdgeTopologicalMapping",
      R"(
 <Node name="border">

@@ -108,6 +108,7 @@ void table_of(std::string& out, Entry const& e, bool input, Prose& prose, Refere
                            [&](std::string_view a) { also += text(also.empty() ? "" : ", ", code(a)); });
       meaning += text("; also ", also);
     }
+    if (f.field->live) meaning += "; may follow [what moves](../scene-files.md#engines)";
     std::string kind = prose(typical(f.kinds));
     if (f.kinds.size() > 1) kind += " (by template)";
     out += text("| ", code(name), " | ", kind, " | ", prose(f.unit), " | ");

@@ -158,15 +158,6 @@ class RunWarnings {
   }
 };
 
-// all Threads of a scene have so many; the root has some
-void use_threads(Node& node, int count) {
-  bool found = node.parent() != nullptr;
-  for (auto& entry : node.components())
-    if (auto* threads = entry.component.getIf<sinew::Threads>()) threads->count = count, found = true;
-  if (!found) node.add(sinew::Threads{.count = count});
-  for (auto const& child : node.children()) use_threads(*child, count);
-}
-
 // the lines of a profile
 std::vector<Json> profile_json(sinew::Profile const& profile) {
   std::vector<Json> all;

@@ -41,7 +41,7 @@ bool has_place(std::string_view message) {
 }
 
 #if defined(__SANITIZE_ADDRESS__)
-void limit_allocations(std::size_t) {}  // its shadow is larger than any machine
+void limit_allocations(std::size_t, int) {}  // its shadow is larger than any machine
 #else
 // Memory that is free without swapping [bytes]; 0 where it is not known.
 std::size_t free_memory() {
@@ -54,8 +54,8 @@ std::size_t free_memory() {
 }
 
 // what is asked for beyond that fails at once, and does not make the machine swap
-void limit_allocations(std::size_t asked) {
-  const std::size_t bytes = asked > 0 ? asked : free_memory();
+void limit_allocations(std::size_t asked, int processes) {
+  const std::size_t bytes = asked > 0 ? asked : free_memory() / std::size_t(processes);
   if (bytes == 0) return;
   rlimit limit{};
   if (getrlimit(RLIMIT_DATA, &limit) != 0) return;
@@ -64,11 +64,11 @@ void limit_allocations(std::size_t asked) {
 }
 #endif
 
-void limit_memory(std::size_t asked) {
+void limit_memory(std::size_t asked, int processes) {
   sinew::memory_limit = asked > 0 ? asked : std::size_t(512) << 20;
   // once: what the scenes that are there have taken is free no more
   static bool limited = false;
-  if (!std::exchange(limited, true)) limit_allocations(asked);
+  if (!std::exchange(limited, true)) limit_allocations(asked, processes);
 }
 
 }  // namespace
@@ -90,12 +90,20 @@ Count count(Node const& top) {
   return count;
 }
 
+void use_threads(Node& node, int count) {
+  bool found = node.parent() != nullptr;
+  for (auto& entry : node.components())
+    if (auto* threads = entry.component.getIf<sinew::Threads>()) threads->count = count, found = true;
+  if (!found) node.add(sinew::Threads{.count = count});
+  for (auto const& child : node.children()) use_threads(*child, count);
+}
+
 std::string located(std::string const& path, std::string const& message) {
   return has_place(message) || message.starts_with(path + ':') ? message : text(path, ": ", message);
 }
 
 sinew::ReadScene<sinew::Standard> read(SceneOptions const& options) {
-  limit_memory(options.maxMemory);
+  limit_memory(options.maxMemory, options.processes);
   try {
     auto scene = sinew::read_scene<sinew::Standard>(
         options.path, {options.data, options.lenient, options.set, options.missing});

@@ -35,6 +35,8 @@ sinew::ReadScene<sinew::Standard> read(SceneOptions const& options);
 Scene load(SceneOptions const& options);
 /// The same from what was read.
 Scene start(sinew::ReadScene<sinew::Standard> scene, SceneOptions const& options);
+/// Gives all Threads of a scene so many, and the root some where it has none.
+void use_threads(Node& node, int count);
 /// Where a mistake is that only shows when the scene is initialised: as it says itself, or in the file.
 std::string located(std::string const& path, std::string const& message);
 

@@ -20,6 +20,7 @@
 #include <sinew/scene/simulation.hpp>
 #include <sinew/solver/cg_linear_solver.hpp>
 #include <sinew/solver/euler_implicit.hpp>
+#include <sinew/solver/multigrid_linear_solver.hpp>
 #include <sinew/state/mechanical_object.hpp>
 #include <sinew/topology/regular_grid_topology.hpp>
 #include <sinew/visual/visual_model.hpp>
@@ -33,7 +34,7 @@ namespace {
 // as few classes as the scene takes: all of CudaStandard compile for minutes
 struct Few
     : Registry<Gravity, RegularGridTopology, VisualModel, BoxROI<Vec3f>, EulerImplicitSolver,
-               CGLinearSolver<>, MechanicalObject<CudaVec3f>, UniformMass<CudaVec3f>,
+               CGLinearSolver<>, MultigridLinearSolver<>, MechanicalObject<CudaVec3f>, UniformMass<CudaVec3f>,
                RegularGridSpringForceField<CudaVec3f>, FixedConstraint<CudaVec3f>, MechanicalObject<Vec3f>,
                SubsetMapping<CudaVec3f, Vec3f>, BarycentricMapping<CudaVec3f, Vec3f>> {};
 
@@ -87,6 +88,37 @@ auto& bar(Sim& sim) {
 }
 
 }  // namespace
+
+TEST_CASE("MultigridLinearSolver of a scene file solves on the device") {
+  auto solved = [](std::string const& solver) {
+    auto sim = start(parse_scene<Few>("bar.scn", R"(<Node name="root" gravity="0 -9.81 0" dt="0.02">
+  <EulerImplicitSolver rayleighStiffness="0.01" rayleighMass="0.1"/>
+  )" + solver + R"(
+  <Node name="bar">
+    <RegularGridTopology n="13 5 5" min="0 0 0" max="3 1 1"/>
+    <MechanicalObject template="CudaVec3f"/>
+    <UniformMass vertexMass="2"/>
+    <RegularGridSpringForceField linesStiffness="1e5" linesDamping="10" cubesStiffness="4e4" cubesDamping="10"/>
+    <BoxROI name="held" box="-0.1 -0.1 -0.1  0.1 1.1 1.1"/>
+    <FixedConstraint indices="@held.indices"/>
+  </Node>
+</Node>)"));
+    run(sim, 20);
+    return sim;
+  };
+  auto multigrid = solved("<MultigridLinearSolver tolerance=\"1e-6\" coarsestSize=\"60\"/>"),
+       gradients = solved("<CGLinearSolver iterations=\"500\" tolerance=\"1e-6\"/>");
+  CHECK(multigrid.root().get<MultigridLinearSolver<>>()->onStates);
+  CHECK(bar(multigrid).solverWorkspace.multigrid.cycle.levels() > 1);
+  double difference = 0, moved = 0;
+  for (std::size_t i = 0; i < bar(multigrid).position.size(); ++i) {
+    auto const& at = std::as_const(bar(multigrid).position)[i];
+    difference = std::max(difference, double((at - std::as_const(bar(gradients).position)[i]).norm()));
+    moved = std::max(moved, double((at - std::as_const(bar(multigrid).restPosition)[i]).norm()));
+  }
+  CHECK(moved > 0.03);
+  CHECK(difference < 1e-3 * moved);
+}
 
 TEST_CASE("a scene file over CudaVec3f gives the bits of the typed scene, and Vec3f's numbers") {
   auto sim = start(parse_scene<Few>("bar.scn", scene));

@@ -5,6 +5,7 @@
 #include <sinew/scene/mouse_interactor.hpp>
 
 // All components of control:
+#include <sinew/control/multi_step_animation_loop.hpp>
 #include <sinew/control/read_state.hpp>
 #include <sinew/control/step_callback.hpp>
 #include <sinew/control/threads.hpp>

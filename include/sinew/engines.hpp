@@ -5,7 +5,9 @@
 // All components of engine, topology:
 #include <sinew/engine/average_coord.hpp>
 #include <sinew/engine/box_roi.hpp>
+#include <sinew/engine/clustering_engine.hpp>
 #include <sinew/engine/complementary_roi.hpp>
+#include <sinew/engine/data_link.hpp>
 #include <sinew/engine/difference_engine.hpp>
 #include <sinew/engine/dilate_engine.hpp>
 #include <sinew/engine/displacement_matrix_engine.hpp>
@@ -30,6 +32,7 @@
 #include <sinew/engine/merge_rois.hpp>
 #include <sinew/engine/merge_sets.hpp>
 #include <sinew/engine/merge_vectors.hpp>
+#include <sinew/engine/mesh2point_topological_mapping.hpp>
 #include <sinew/engine/mesh_barycentric_mapper.hpp>
 #include <sinew/engine/mesh_boundary_roi.hpp>
 #include <sinew/engine/mesh_closing.hpp>
@@ -53,6 +56,8 @@
 #include <sinew/engine/rigid_to_quat.hpp>
 #include <sinew/engine/roi_value_mapper.hpp>
 #include <sinew/engine/select_label_roi.hpp>
+#include <sinew/engine/shape_matching.hpp>
+#include <sinew/engine/simple_tesselated_tetra_topological_mapping.hpp>
 #include <sinew/engine/smooth_mesh.hpp>
 #include <sinew/engine/sphere_loader.hpp>
 #include <sinew/engine/sphere_roi.hpp>

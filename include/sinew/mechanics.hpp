@@ -2,6 +2,7 @@
 #pragma once
 
 // Scenes of bodies: states, masses, forces, constraints, mappings and solvers, over meshes that are given.
+#include <sinew/control/multi_step_animation_loop.hpp>
 #include <sinew/control/step_callback.hpp>
 #include <sinew/control/threads.hpp>
 #include <sinew/scene/simulation.hpp>
@@ -23,6 +24,7 @@
 #include <sinew/constraint/particle_sink.hpp>
 #include <sinew/constraint/particle_source.hpp>
 #include <sinew/constraint/patch_test_movement.hpp>
+#include <sinew/constraint/position_based_dynamics.hpp>
 #include <sinew/constraint/project_direction.hpp>
 #include <sinew/constraint/project_to_line.hpp>
 #include <sinew/constraint/project_to_plane.hpp>
@@ -38,6 +40,7 @@
 #include <sinew/force/ellipsoid_force_field.hpp>
 #include <sinew/force/fast_triangular_bending_springs.hpp>
 #include <sinew/force/fluid_boundary.hpp>
+#include <sinew/force/gear_spring.hpp>
 #include <sinew/force/hexahedron_fem.hpp>
 #include <sinew/force/immersed_solid.hpp>
 #include <sinew/force/joint_spring.hpp>
@@ -47,6 +50,7 @@
 #include <sinew/force/plane_force_field.hpp>
 #include <sinew/force/polynomial_rest_shape_springs.hpp>
 #include <sinew/force/polynomial_springs.hpp>
+#include <sinew/force/quad_bending_fem.hpp>
 #include <sinew/force/regular_grid_spring.hpp>
 #include <sinew/force/rest_shape_springs.hpp>
 #include <sinew/force/sph_fluid.hpp>
@@ -54,6 +58,7 @@
 #include <sinew/force/stiff_spring.hpp>
 #include <sinew/force/surface_pressure.hpp>
 #include <sinew/force/tait_surface_pressure.hpp>
+#include <sinew/force/tetrahedron_diffusion.hpp>
 #include <sinew/force/tetrahedron_fem.hpp>
 #include <sinew/force/tetrahedron_hyperelasticity.hpp>
 #include <sinew/force/tetrahedron_viscoelasticity.hpp>

@@ -42,7 +42,8 @@ using ElementForces =
     Registry<TetrahedronFEMForceField<D>, HexahedronFEMForceField<D>, TriangleFEMForceField<D>,
              SurfacePressureForceField<D>, TrianglePressureForceField<D>, QuadPressureForceField<D>,
              EdgePressureForceField<D>, TriangularQuadraticSpringsForceField<D>,
-             TriangularBiquadraticSpringsForceField<D>, TriangularTensorMassForceField<D>>;
+             TriangularBiquadraticSpringsForceField<D>, TriangularTensorMassForceField<D>,
+             QuadBendingFEMForceField<D>>;
 template <class D>
 using HyperelasticForces =
     Registry<TetrahedronHyperelasticityFEMForceField<D>, TetrahedronViscoelasticityFEMForceField<D>>;
@@ -56,8 +57,9 @@ using FrameElements = Registry<BeamFEMForceField<D>, BeamMass<D>, TriangularShel
 template <class D>
 using SpatialRigids =
     Registry<AngularSpringForceField<D>, FixedRotationConstraint<D>, FrameElements<D>,
-             JointSpringForceField<D>, JointSpringForceField<D, Linked>, StiffSpringForceField<D>,
-             StiffSpringForceField<D, Linked>, PatchTestMovementProjectiveConstraint<D>>;
+             GearSpringForceField<D>, GearSpringForceField<D, Linked>, JointSpringForceField<D>,
+             JointSpringForceField<D, Linked>, StiffSpringForceField<D>, StiffSpringForceField<D, Linked>,
+             PatchTestMovementProjectiveConstraint<D>>;
 template <class D>
 using PointConstraints =
     Registry<FixedConstraint<D>, PartialFixedConstraint<D>, FixedPlaneConstraint<D>,
@@ -87,6 +89,10 @@ using PointMappings = Registry<IdentityMapping<In, Out>, SubsetMapping<In, Out>>
 template <class In, class Out>
 using SpatialMappings = Registry<PointMappings<In, Out>, BarycentricMapping<In, Out>>;
 
+// values on the points of a body, such as temperatures
+template <class D>
+using BodyFields = Registry<TetrahedronDiffusionFEMForceField<D>>;
+
 // what scenes over the rarer DataTypes, and in single precision, need
 template <class D>
 using CoreRigids =
@@ -105,9 +111,11 @@ using Playback = Registry<ReadState<D>, WriteState<D>>;
 
 using StandardForces =
     Registry<SpatialComponents<Vec3d>, RigidComponents<Rigid3d>, SpatialRigids<Rigid3d>, CorePoints<Vec1d>,
-             MeshSpringForceField<Vec1d>, CorePoints<Vec2d>, MeshSpringForceField<Vec2d>,
-             PlaneForceField<Vec2d>, Particles<Vec2d>, ImmersedSolid<Vec2d>, CorePoints<Vec6d>,
-             CoreRigids<Rigid2d>, CoreBodies<Vec3f>, CoreRigids<Rigid3f>>;
+             MeshSpringForceField<Vec1d>, BodyFields<Vec1d>, MeshMatrixMass<Vec1d>,
+             LinearMovementConstraint<Vec1d>, PositionBasedDynamicsProjectiveConstraint<Vec3d>,
+             PositionBasedDynamicsProjectiveConstraint<Rigid3d>, CorePoints<Vec2d>,
+             MeshSpringForceField<Vec2d>, PlaneForceField<Vec2d>, Particles<Vec2d>, ImmersedSolid<Vec2d>,
+             CorePoints<Vec6d>, CoreRigids<Rigid2d>, CoreBodies<Vec3f>, CoreRigids<Rigid3f>>;
 using MeasuringMappings =
     Registry<DistanceMapping<Vec3d, Vec1d>, DistanceMapping<Rigid3d, Vec1d>, DistanceMapping<Vec2d, Vec1d>,
              VolumeMapping<Vec3d, Vec1d>, CenterOfMassMapping<Vec3d, Vec3d>,
@@ -166,8 +174,10 @@ using StandardEngines =
              MeshTrianLoader, VoxelGridLoader, SphereLoader, MeshEngines, ListEngines, PlacingEngines,
              GenerateRigidMass<Rigid3d>, Hexa2TetraTopologicalMapping, Tetra2TriangleTopologicalMapping,
              Hexa2QuadTopologicalMapping, Quad2TriangleTopologicalMapping, Triangle2EdgeTopologicalMapping,
-             Edge2QuadTopologicalMapping, SpatialEngines<Vec3d>, PointsFromIndices<Vec3d>, Regions<Vec3f>,
-             SpatialEngines<Rigid3d>, BoxROI<Vec1d>, Regions<Vec2d>, Regions<Rigid2d>>;
+             Edge2QuadTopologicalMapping, Mesh2PointTopologicalMapping,
+             SimpleTesselatedTetraTopologicalMapping, SpatialEngines<Vec3d>, PointsFromIndices<Vec3d>,
+             ClusteringEngine<Vec3d>, ShapeMatching<Vec3d>, Regions<Vec3f>, SpatialEngines<Rigid3d>,
+             BoxROI<Vec1d>, Regions<Vec2d>, Regions<Rigid2d>>;
 using StandardTopologies =
     Registry<TetrahedronTopology, MeshTopology, RegularGridTopology, SparseGridTopology,
              SparseGridRamificationTopology, SparseGridMultipleTopology, SurfaceSampling>;
@@ -214,9 +224,10 @@ using GridFluids = Registry<Fluid2D<Vec2d>, Fluid3D<Vec3d>, Fluid3D<Vec3f>>;
 using ChangingTopologies = Registry<TopologicalChangeProcessor, TopologyBoundingTrasher<Vec3d>>;
 
 /// Every component that Sinew brings, over the DataTypes that scenes use.
-struct Standard : Registry<Gravity, Threads, StandardTopologies, MadeMeshes, ChangingTopologies, VisualModel,
-                           StandardEngines, GridFluids, StandardForces, StandardMappings, StandardSolvers,
-                           StandardCollision, StandardMultipliers, Playback<Vec3d>, Playback<Rigid3d>> {
+struct Standard
+    : Registry<Gravity, Threads, MultiStepAnimationLoop, StandardTopologies, MadeMeshes, ChangingTopologies,
+               VisualModel, StandardEngines, GridFluids, StandardForces, StandardMappings, StandardSolvers,
+               StandardCollision, StandardMultipliers, Playback<Vec3d>, Playback<Rigid3d>> {
   static constexpr bool proved = true;  // tests/runtime/promises.cpp
 };
 

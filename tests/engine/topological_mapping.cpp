@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
+#include <sinew/engine/mesh2point_topological_mapping.hpp>
+#include <sinew/engine/simple_tesselated_tetra_topological_mapping.hpp>
 #include <sinew/engine/topological_mapping.hpp>
 #include <sinew/topology/regular_grid.hpp>
 
@@ -137,6 +139,106 @@ TEST_CASE("a topological mapping says which element is wrong") {
   CHECK_THROWS_WITH(twice.update("t"), Catch::Contains("uses a point twice"));
   Tetra2TriangleTopologicalMapping negative{.elements = {{0, 1, 2, -2}}};
   CHECK_THROWS_AS(negative.update("t"), Error);
+}
+
+namespace {
+
+double volume_of(std::vector<Eigen::Vector3d> const& x, Tetrahedron const& t) {
+  auto edge = [&](std::size_t k) -> Eigen::Vector3d { return x[std::size_t(t[k])] - x[std::size_t(t[0])]; };
+  return edge(1).cross(edge(2)).dot(edge(3)) / 6;
+}
+/// The message of what update() throws.
+template <class E>
+std::string wrong(E engine) {
+  try {
+    engine.update("t");
+  } catch (Error const& error) {
+    return error.what();
+  }
+  return {};
+}
+
+}  // namespace
+
+TEST_CASE("eight tetrahedra of each fill it, match those beside them, and have its points first") {
+  const Mesh mesh = grid();
+  const auto large = hexahedra_to_tetrahedra(mesh.hexahedra);
+  SimpleTesselatedTetraTopologicalMapping fine{.position = mesh.positions, .tetrahedra = large};
+  fine.update("t");
+  const auto edges = edges_of(large);
+  REQUIRE(fine.finePosition.size() == mesh.positions.size() + edges.size());
+  CHECK(std::equal(mesh.positions.begin(), mesh.positions.end(), fine.finePosition.begin()));
+  REQUIRE(fine.fineTetrahedra.size() == 8 * large.size());
+  for (std::size_t e = 0; e < fine.fineTetrahedra.size(); ++e)
+    CHECK(volume_of(fine.finePosition, fine.fineTetrahedra[e]) ==
+          Approx(volume_of(mesh.positions, large[e / 8]) / 8));
+  // an inner face has two tetrahedra: four triangles are left of each of the surface
+  const auto surface = boundary_triangles(fine.fineTetrahedra);
+  CHECK(surface.size() == 4 * boundary_triangles(large).size());
+  CHECK(volume_inside(fine.finePosition, surface) == Approx(24));
+
+  // middles are in the order of the edges that are given
+  SimpleTesselatedTetraTopologicalMapping ordered = fine;
+  ordered.edges = edges;
+  ordered.update("t");
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    CHECK(ordered.finePosition[mesh.positions.size() + e] ==
+          0.5 * (mesh.positions[std::size_t(edges[e][0])] + mesh.positions[std::size_t(edges[e][1])]));
+  ordered.edges.pop_back();
+  CHECK(wrong(ordered).find("is not in edges") != std::string::npos);
+  CHECK(wrong(SimpleTesselatedTetraTopologicalMapping{.position = mesh.positions}).find("no tetrahedron") !=
+        std::string::npos);
+  fine.tetrahedra[3][1] = 1000;
+  CHECK(wrong(fine).find("refers to point 1000") != std::string::npos);
+}
+
+TEST_CASE("points made of elements are where their coordinates say, kind by kind") {
+  const Mesh mesh = regular_grid(3, 2, 2, {0, 0, 0}, {4, 2, 6});
+  Mesh2PointTopologicalMapping all{.position = mesh.positions,
+                                   .edges = {{0, 1}},
+                                   .triangles = {{0, 1, 3}},
+                                   .quads = {{0, 1, 4, 3}},
+                                   .tetrahedra = {{0, 1, 3, 6}},
+                                   .hexahedra = mesh.hexahedra,
+                                   .pointBaryCoords = {{0, 0, 0}, {0, 0, 1}},
+                                   .edgeBaryCoords = {{0.25, 0, 0}},
+                                   .triangleBaryCoords = {{0.5, 0.25, 0}},
+                                   .quadBaryCoords = {{0.25, 0.75, 0}},
+                                   .tetraBaryCoords = {{0.25, 0.25, 0.25}},
+                                   .hexaBaryCoords = {{0.5, 0.5, 0.5}, {0.25, 0.5, 0.75}},
+                                   .copyEdges = true,
+                                   .copyTriangles = true,
+                                   .copyTetrahedra = true};
+  all.update("t");
+  auto const& x = mesh.positions;
+  std::vector<Eigen::Vector3d> expected;
+  for (auto const& p : x) expected.push_back(p), expected.push_back(p + Eigen::Vector3d(0, 0, 1));
+  expected.insert(expected.end(),
+                  {{0.5, 0, 0}, {1, 0.5, 0}, {0.5, 1.5, 0}, {0.5, 0.5, 1.5}, {1, 1, 3}, {0.5, 1, 4.5}});
+  expected.insert(expected.end(), {{3, 1, 3}, {2.5, 1, 4.5}});
+  REQUIRE(all.made.size() == expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) CHECK((all.made[i] - expected[i]).norm() < 1e-14);
+  // each point has two, of which elements take the first
+  CHECK(all.copiedEdges == std::vector<Edge>{{0, 2}});
+  CHECK(all.copiedTriangles == std::vector<Triangle>{{0, 2, 6}});
+  CHECK(all.copiedTetrahedra == std::vector<Tetrahedron>{{0, 2, 6, 12}});
+
+  // edges that are not given are those of the elements, each once
+  Mesh2PointTopologicalMapping middles{
+      .position = x, .hexahedra = mesh.hexahedra, .edgeBaryCoords = {{0.5, 0, 0}}};
+  middles.update("t");
+  CHECK(middles.made.size() == edges_of(mesh.hexahedra).size());
+
+  CHECK(wrong(Mesh2PointTopologicalMapping{.position = x}).find("makes no point") != std::string::npos);
+  middles.triangleBaryCoords = {{0, 0, 0}};
+  CHECK(wrong(middles).find("the topology has none") != std::string::npos);
+  middles.triangleBaryCoords.clear();
+  middles.copyTriangles = true;
+  CHECK(wrong(middles).find("copyTriangles needs points") != std::string::npos);
+  middles.hexahedra[0][2] = -1;
+  CHECK_FALSE(wrong(middles).empty());
+  all.edgeBaryCoords[0][0] = std::numeric_limits<double>::quiet_NaN();
+  CHECK(wrong(all).find("edgeBaryCoords") != std::string::npos);
 }
 
 }  // namespace test_topological_mapping

@@ -136,6 +136,35 @@ TEST_CASE("a membrane turns and bends freely") {
   }
 }
 
+TEST_CASE(
+    "a membrane with triangles of another size at rest is in uniform tension, and has none at that size") {
+  const int n = 3;
+  const double E = 1000, nu = 0.3, h = 0.1, s = 0.9;
+  Sheet sheet(n, n);
+  for (auto& x : sheet.x) x = tilt * x;
+  // membrane forces sum to tension times the length of the edge that they act on
+  const double tension = E / (1 - nu) * (1 / s - 1) * h;
+  for (const TriangleMethod method : {TriangleMethod::large, TriangleMethod::polar}) {
+    auto fem = ready(
+        Triangles{
+            .youngModulus = {E}, .poissonRatio = {nu}, .thickness = h, .method = method, .restScale = s},
+        sheet.x,
+        {.triangles = sheet.triangles});
+    // the rest area is smaller by s^2 and gradients greater by 1/s: a force per length of s times the tension
+    const auto f = force(fem, sheet.x);
+    Vector3d edge = Vector3d::Zero();
+    for (std::size_t i = 0; i < f.size(); ++i) {
+      const bool inside = i % 4 != 0 && i % 4 != 3 && i / 4 != 0 && i / 4 != 3;
+      if (inside) CHECK(f[i].norm() < 1e-12 * tension);
+      if (i % 4 == 0) edge += f[i];
+    }
+    CHECK((edge - tilt * Vector3d(s * tension * n, 0, 0)).norm() < 1e-12 * tension);
+    Vec3d::VecCoord shrunk = sheet.x;
+    for (auto& x : shrunk) x = s * x + Vector3d(1, 2, 3);
+    CHECK(potential_energy(fem, shrunk) < 1e-26 * E);
+  }
+}
+
 TEST_CASE("membranes are checked") {
   const Sheet sheet(1, 1);
   const TopologyView topology{.triangles = sheet.triangles};
@@ -149,6 +178,8 @@ TEST_CASE("membranes are checked") {
           topology,
           {"less than 0.5 in plane strain"});
   refuses(Triangles{.thickness = 0}, sheet.x, topology, {"thickness is 0 m", "greater than 0"});
+  refuses(Triangles{.restScale = 0}, sheet.x, topology, {"restScale is 0", "greater than 0"});
+  refuses(Triangles{.restScale = one::notANumber}, sheet.x, topology, {"restScale is nan"});
   refuses(Triangles{.thickness = one::notANumber}, sheet.x, topology, {"thickness is nan"});
   Vec3d::VecCoord line = sheet.x;
   for (auto& x : line) x[1] = 0;

@@ -79,7 +79,7 @@ elseif(CASE STREQUAL "gpu by nvcc")
     message(FATAL_ERROR "the program should say where the bar is, or that there is no GPU:\n${output}")
   endif()
 elseif(CASE STREQUAL "wrong component")
-  refused("the component gpus is none of Sinew's; there are compiled, standard, gpu, ccd, cholmod, view, window and serve." ${installed} -DCOMPONENTS=gpus)
+  refused("the component gpus is none of Sinew's; there are compiled, standard, gpu, ccd, cholmod, mpi, view, window and serve." ${installed} -DCOMPONENTS=gpus)
 elseif(CASE STREQUAL "standard")
   refused("the component standard was not installed; configure Sinew with -DSINEW_STANDARD=ON, build it and install it again."
           ${installed} -DCOMPONENTS=standard)

@@ -24,6 +24,16 @@ TEST_CASE("read_obj reads lines, triangles and quads") {
   CHECK(io::read_obj(folder.write("a.obj", samples::obj)) == expected);
 }
 
+TEST_CASE("an OBJ file may have values, vertices with one coordinate") {
+  const Mesh values = io::parse_obj("f", "v 0.5\nv -2  # cold\nv 3\n");
+  REQUIRE(values.positions.size() == 3);
+  CHECK(values.positions[1] == Eigen::Vector3d(-2, 0, 0));
+  // a vertex that has lost a coordinate is a mistake
+  for (auto const* wrong : {"v 0 0 0\nv 1\n", "v 1 2\n", "v\n", "v 1\nv 2 3\n", "v x\n"})
+    CHECK(error_of([&] { io::parse_obj("f", wrong); }).find("coordinate") != std::string::npos);
+  CHECK(error_of([&] { io::parse_obj("f", "v 1\nv 0 0 0\n"); }).find("f:2") != std::string::npos);
+}
+
 TEST_CASE("read_obj cuts polygons into fans and polylines into edges") {
   const Mesh mesh =
       io::parse_obj("f", "v 0 0 0\nv 1 0 0\nv 2 1 0\nv 1 2 0\nv 0 1 0\nf 1 2 3 4 5\nl 5 4 3\nf 2 3 1");

@@ -159,7 +159,6 @@ TEST_CASE("what is wrong with a text of states is said with its line") {
   says(replaced(sample, "  X= 0 0 0 1 0 0.5", "  Y= 0 0 0 1 0 0.5"), "tool.state:5", "found \"Y=\"");
   says(replaced(sample, "V= 0 0 0 0 0 1\nT= 0.5", "X= 0 0 0 0 0 1\nT= 0.5"), "tool.state:3", "X= twice");
   says(replaced(sample, "0 0.5", std::string("0 \0", 3)), "tool.state:5", "which is not text");
-  says("\x1f\x8b compressed", "tool.state", "gunzip");
   // rigids in a file for points: 7 numbers
   says("T= 0\n  X= 0 0 0 0 0 0 1\n",
        "tool.state:2",
@@ -341,7 +340,9 @@ TEST_CASE("where no file of states can be written is said before the first step"
   CHECK(error("").find("filename is empty") == 0);
   files::check_says(error(folder / ""), folder / "", "is a folder");
   files::check_says(error(folder / "none/f"), folder / "none/f", "there is no folder " + (folder / "none/"));
-  files::check_says(error(folder / "f.gz"), folder / "f.gz", "not compressed");
+  files::check_says(error(folder / "f.gz"), folder / "f.gz", "does not compress");
+  const std::string packed = folder.write("g.gz", "\x1f\x8b and more");
+  files::check_says(error_of([&] { io::read_file(packed); }), packed, "unpack it with gunzip first");
 }
 
 TEST_CASE("a disk that is full is said with the file") {

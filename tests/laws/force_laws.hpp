@@ -158,10 +158,17 @@ struct ForceSuite {
   MechanicalParams params{.time = 10};  // after the key times of forces that have them
 
   template <class C>
+  std::span<Eigen::Vector3d const> bodyOf() const {
+    if constexpr (over_body<C>)
+      return body.points;
+    else
+      return {};
+  }
+  template <class C>
   void run() {
     sample::for_each_variant<C>(random, [&](C const& sampled) {
       INFO(component_name<C>());
-      SubjectOf<C> subject(sampled, InitContext<D>{"sample", rest, body.topology()});
+      SubjectOf<C> subject(sampled, InitContext<D>{"sample", rest, body.topology(), {}, bodyOf<C>()});
       check(subject);
     });
   }

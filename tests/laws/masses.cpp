@@ -74,6 +74,10 @@ struct MassSuite {
         InitContext<D>{"sample", x, D::spatial == 3 ? body.topology() : TopologyView{.edges = chain}},
         random);
     check(mass);
+    if constexpr (over_body<C>) {
+      SubjectOf<C> ofBody(InitContext<D>{"sample", x, body.topology(), {}, body.points}, random);
+      check(ofBody);
+    }
   }
 
   static double norm(VecDeriv const& a) { return double(vec::flat(a).norm()); }

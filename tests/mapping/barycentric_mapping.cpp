@@ -312,6 +312,24 @@ TEST_CASE("elements of the highest dimension carry, both kinds of it") {
   CHECK(surface.carriers[1].points[1] == 8);
 }
 
+TEST_CASE("a child that starts elsewhere is carried by where it rests, if it says so") {
+  const Points parent = grid({3, 3, 3}).position;
+  const auto cells = grid({3, 3, 3});
+  const Points rest{{0.3, 0.4, 0.6}, {1.2, 0.1, 0.9}};
+  Points child{{5, 5, 5}, {6, 6, 6}};
+  Barycentric mapping{.useRestPosition = true};
+  mapping.init({"/parent", parent, {.hexahedra = cells.hexahedra}}, {"/parent/child", rest, {}}, child);
+  Points moved = parent;
+  for (auto& x : moved) x += Eigen::Vector3d(1, 2, 3);
+  mapping.apply(child, moved);
+  for (std::size_t i = 0; i < 2; ++i) CHECK((child[i] - rest[i] - Eigen::Vector3d(1, 2, 3)).norm() < 1e-14);
+  Points three(3, rest[0]);
+  CHECK(
+      error_of([&] {
+        mapping.init({"/parent", parent, {.hexahedra = cells.hexahedra}}, {"/parent/child", rest, {}}, three);
+      }).find("the child has 3 points and 2 rest positions") != std::string::npos);
+}
+
 TEST_CASE("BarycentricMapping says what is wrong with its parent") {
   const Points x = grid({2, 2, 1}).position;
   auto said = [&](TopologyView const& topology) {

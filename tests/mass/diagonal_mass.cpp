@@ -104,10 +104,29 @@ TEST_CASE("DiagonalMass says what is wrong with its elements") {
   auto said = [&](TopologyView const& t) { return error_of([&] { masses({.massDensity = 1}, x, t); }); };
   CHECK(said({.edges = all}).empty());
   CHECK(contains(said({}), "/root: DiagonalMass<Vec3d>: a density needs elements"));
-  CHECK(contains(said({.edges = edge}), "mass of point 2 is 0 kg"));
+  CHECK(said({.edges = edge}).empty());
   CHECK(contains(said({.edges = outside}), "edge 0 refers to point 3, but there are 3 points"));
   CHECK(contains(said({.edges = negative}), "edge 0 refers to point -1"));
   CHECK(contains(said({.triangles = flat}), "mass of point 0 is 0 kg"));
+}
+
+TEST_CASE("a point that no element has has no mass, stays where no force acts, and says where one does") {
+  const std::vector<Eigen::Vector3d> x{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
+  const std::vector<Edge> edge{{0, 1}};
+  DiagonalMass<Vec3d> mass{.massDensity = 2};
+  mass.init(InitContext<Vec3d>{"/root", x, {.edges = edge}});
+  CHECK(mass.lumped.totalMass(3) == Approx(2));
+  CHECK(contains(mass.warning(), "no element has point 2"));
+  MechanicalParams p;
+  p.gravity = {0, -10, 0};
+  std::vector<Eigen::Vector3d> f(3, Eigen::Vector3d::Zero()), a = f;
+  mass.addForce(p, f, x, a);
+  CHECK(f[2].norm() == 0);
+  mass.accFromF(a, x, f);
+  CHECK(a[0] == Eigen::Vector3d(0, -10, 0));
+  CHECK(a[2].norm() == 0);
+  f[2] = {1, 0, 0};
+  CHECK(contains(error_of([&] { mass.accFromF(a, x, f); }), "point 2 has a force and no mass"));
 }
 
 }  // namespace test_diagonal_mass

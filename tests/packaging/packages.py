@@ -34,6 +34,7 @@ for line, entry in {
     "  --quiet Excludes: --profile --json": help_text.Entry(["--quiet"], "", ["--profile", "--json"], ""),
     "  --markdown FOLDER Excludes: component": help_text.Entry(["--markdown"], "FOLDER", ["component"], ""),
     "  --set PATH.ATTRIBUTE=VALUE ...": help_text.Entry(["--set"], "PATH.ATTRIBUTE=VALUE ...", [], ""),
+    "  --set PATH.ATTRIBUTE=VALUES ...": help_text.Entry(["--set"], "PATH.ATTRIBUTE=VALUES ...", [], ""),
     "  scene FILE REQUIRED         Scene file": help_text.Entry(["scene"], "FILE", [], "Scene file"),
     "  --threads N": help_text.Entry(["--threads"], "N", [], ""),
 }.items():
@@ -51,7 +52,7 @@ def completed(*words):
 
 
 commands = re.findall(r"^  (\w+) ", output(program, "--help").partition("Subcommands:")[2], re.MULTILINE)
-check(set(commands) >= {"run", "view", "serve", "check", "list", "bake", "compare"}, f"the program has only the commands {commands}")
+check(set(commands) >= {"run", "view", "serve", "check", "list", "bake", "compare", "sweep"}, f"the program has only the commands {commands}")
 check(set(commands) <= set(completed(program, "")), f"bash completes {completed(program, '')} as commands, of {commands}")
 for command in commands:
     section = page.partition(f"\n.SH SINEW {command.upper()}\n")[2].partition("\n.SH ")[0]

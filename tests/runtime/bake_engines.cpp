@@ -48,6 +48,11 @@ inline auto scene(std::string const& data = "/data \"here\"") {
   CHECK_THAT(cpp, Contains("MechanicalObject<Vec3d>{.position = class2.position}"));
   CHECK_THAT(cpp, Contains("FixedConstraint<Vec3d>{.indices = highPoints.indices}"));
   CHECK_THAT(cpp, Contains("FixedConstraint<Vec3f>{.indices = highPoints.indices}"));
+  // it follows the body while the scene runs, and what it makes goes on
+  CHECK_THAT(cpp, Contains("          highPoints,\n"));
+  CHECK_THAT(cpp, Contains("data_link(") && Contains("At<\"a\", &MechanicalObject<Vec3d>::position>{}"));
+  CHECK_THAT(cpp, Contains("At<\"a\", &HighPoints<Vec3d>::position>{}"));
+  CHECK_THAT(cpp, Contains("At<\"b\", &FixedConstraint<Vec3f>::indices>{}"));
   // in another type the values stand there
   CHECK_THAT(cpp,
              Contains(".position = {{0.f, 0.f, 0.f}, {1.f, 0.f, 0.f}, {0.f, 1.f, 0.f}, {2.f, 2.f, 2.f}}}"));
@@ -55,7 +60,7 @@ inline auto scene(std::string const& data = "/data \"here\"") {
 
   const std::string embedded = baked({.embed = true});
   check_shape(embedded);
-  CHECK_THAT(embedded, Contains("inline auto scene() {") && !Contains("Loader") && !Contains("HighPoints"));
+  CHECK_THAT(embedded, Contains("inline auto scene() {") && !Contains("Loader") && Contains("HighPoints"));
   CHECK_THAT(embedded,
              Contains("MechanicalObject<Vec3d>{.position = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {2, 2, 2}}}"));
   CHECK_THAT(embedded, Contains("FixedConstraint<Vec3d>{.indices = {2, 3}}"));

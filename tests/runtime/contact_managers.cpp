@@ -171,6 +171,15 @@ TEST_CASE("scene files say responses by multipliers, their friction, and rules, 
       Catch::Contains("FreeMotionAnimationLoop"));
   CHECK_THROWS_WITH(of("DefaultContactManager response='FrictionContactConstraint' responseParams='mu=-1'"),
                     Catch::Contains("coefficient of friction"));
+  // SOFA's augmented Lagrangian: the same contact, without friction where none is given
+  const std::string augmented = "DefaultContactManager response='AugmentedLagrangianResponseConstraint'";
+  CHECK(of(augmented + " responseParams='mu=0.5&amp;epsilon=10'") == is(0.5));
+  CHECK(std::abs(of(augmented)) < 3e-3);
+  CHECK(of(byRules + "earth ball AugmentedLagrangianResponseConstraint?epsilon=2&amp;mu=0.2'") == is(0.2));
+  CHECK_THROWS_WITH(of(augmented + " responseParams='epsilon=-1'"), Catch::Contains("penalty"));
+  CHECK_THROWS_WITH(
+      of("DefaultContactManager response='FrictionContactConstraint' responseParams='epsilon=1'"),
+      Catch::Contains("has no parameter 'epsilon'"));
 }
 
 TEST_CASE("contacts by multipliers go on from a checkpoint with the same bits") {

@@ -36,10 +36,10 @@ std::vector<Attribute> attributes_of_sofa() {
 }
 
 // what the reader takes beside fields: where a visual model is put, the topology that is named, and a file, which it reads by a
-// loader where the class has no field for one; externalForce becomes a component of its own
+// loader where the class has no field for one; the tag of the points of a diffusion; externalForce becomes a component of its own
 bool taken(ClassInfo const& info, std::string_view name) {
   static const std::set<std::string_view> placing{"translation", "rotation", "scale", "scale3d", "vertices"};
-  return name == "topology" || name == "filename" || (info.role == RoleKind::engine && name == "useRestPosition") || (info.role == RoleKind::state && name == "externalForce") || (info.role == RoleKind::visualModel && placing.count(name) > 0);
+  return name == "topology" || name == "filename" || (info.role == RoleKind::forceField && name == "tagMechanics") || (info.role == RoleKind::engine && name == "useRestPosition") || (info.role == RoleKind::state && name == "externalForce") || (info.role == RoleKind::visualModel && placing.count(name) > 0);
 }
 
 ReadScene<Standard> parse(std::string const& component, bool lenient = false) {
@@ -216,7 +216,7 @@ TEST_CASE("a name that stands for another method than SOFA's says what differs")
   for (auto const& other : dialect::anotherMethod) {
     INFO(other.name);
     const bool known = std::any_of(table.begin(), table.end(), [&](auto const& info) { return info.known(other.name); });
-    CHECK((known || dialect::preconditioner_named(other.name)));
+    CHECK((known || dialect::preconditioner_named(other.name) || DefaultContactManager::All::find(other.name) >= 0));
   }
   const auto scene = parse("<EulerImplicitSolver/><AsyncSparseLDLSolver/><UniformMass totalMass='1'/>");
   REQUIRE(scene.warnings.size() == 1);

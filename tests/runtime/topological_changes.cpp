@@ -157,7 +157,16 @@ TEST_CASE("bad plans of topological changes are refused, and a scene that meets 
                                          "T= 1 REMOVE= 1 -1",
                                          "T= 1 REMOVE= -2 1",
                                          "T= 2 REMOVE= 1 0 T= 1 REMOVE= 1 0",
-                                         "T= 1 ADD= Triangles 1 0 1 2",
+                                         "T= 1 ADD= Triangles 1 0 1",
+                                         "T= 1 ADD= Triangles 1 Ancestors x 0 1 2",
+                                         "T= 1 ADD= Cones 1 0",
+                                         "T= 1 ADD= Quads -1",
+                                         "ADD= Triangles 1 0 1 2",
+                                         "T= 1 ADD= PointsInTriangle 1 0 0.7 0.7",
+                                         "T= 1 ADD= PointsInTriangle 1 0 nan 0.2",
+                                         "T= 1 INCISE= 1 0 0 0",
+                                         "T= 1 INCISE= 2 0 0 0 1",
+                                         "T= 1 INCISE= 2 0 0 0 1 0 inf",
                                          "T= nan REMOVE= 1 0",
                                          "T= 1",
                                          "{"}) {
@@ -170,11 +179,11 @@ TEST_CASE("bad plans of topological changes are refused, and a scene that meets 
   const auto few =
       io::parse_topological_changes("changes.txt", "T= 1 REMOVE= 3 5 7 T= 2 REMOVE= 1 4 REMOVE= 9 2");
   REQUIRE(few.size() == 3);
-  CHECK(few[0].elements == std::vector<int>{5, 7, 0});
+  CHECK(few[0].numbers == std::vector<int>{5, 7, 0});
   CHECK(few[0].isShort);
-  CHECK(few[1].elements == std::vector<int>{4});
+  CHECK(few[1].numbers == std::vector<int>{4});
   CHECK(!few[1].isShort);
-  CHECK(few[2].elements == std::vector<int>{2, 0});
+  CHECK(few[2].numbers == std::vector<int>{2, 0});
 
   // a mass that cannot be: the step throws, and nothing has gone
   auto sim = scene_of(strip(
@@ -185,6 +194,155 @@ TEST_CASE("bad plans of topological changes are refused, and a scene that meets 
   CHECK(before.size() == 12);
   sim.animate(0.01);
   CHECK(topology(sim).triangles.size() == 11);
+}
+
+TEST_CASE("a file adds elements, points and parts of elements, and takes the whole away") {
+  const files::TempFolder folder;
+  const std::string file =
+      folder.write("changes.txt",
+                   "T= 0.02\n ADD= PointsInTriangle 1\n11 0.5 0.25\nT= 0.02\n ADD= Triangles 3 "
+                   "Ancestors 11 11 11\n10 13 14 13 12 14 12 10 14\nT= 0.04\n REMOVE= 1\n11 3\n");
+  auto sim = scene_of(strip(text("<TopologicalChangeProcessor filename=\"", file, "\"/>")));
+  auto byHand = scene_of(strip(""));
+  for (int i = 0; i < 12; ++i) {
+    if (i == 2) {
+      const Triangle t = topology(byHand).triangles[11];
+      AddedElements parts{.points = {{t[0], t[1], 0.25, t[2], 0.25}},
+                          .triangles = {{10, 13, 14}, {13, 12, 14}, {12, 10, 14}}};
+      parts.ancestors[1] = {11, 11, 11};
+      byHand.addElements("strip", parts);
+    }
+    if (i == 4) byHand.removeElements("strip", {.triangles = {11}});
+    sim.animate(0.01), byHand.animate(0.01);
+    CHECK(topology(sim).triangles == topology(byHand).triangles);
+    CHECK(points(sim) == points(byHand));
+  }
+  CHECK(topology(sim).triangles.size() == 14);
+  CHECK(points(sim).size() == 15);
+  REQUIRE(sim.warnings().list().size() == 1);
+  CHECK_THAT(sim.warnings().list()[0].message, Catch::Contains("more numbers follow"));
+}
+
+namespace {
+
+std::string filling(std::string_view more, std::string_view file) {
+  return text(R"(<Node name="root" gravity="0 0 -1" dt="0.01"><Node name="strip">
+    <EulerImplicitSolver/><CGLinearSolver iterations="200" tolerance="1e-14" threshold="0"/>
+    <TetrahedronSetTopologyContainer name="volume" position="0 0 0  1 0 0  0 1 0  0 0 1  1 1 1"/>
+    <MechanicalObject/><DiagonalMass massDensity="6"/>
+    <TetrahedronFEMForceField youngModulus="1000" poissonRatio="0.3"/><FixedConstraint indices="0 1 2"/>
+    <Node name="skin"><TriangleSetTopologyContainer name="triangles"/>
+      <Tetra2TriangleTopologicalMapping input="@../volume" output="@triangles"/>
+      <TriangleFEMForceField youngModulus="10" poissonRatio="0.3"/><TriangleCollisionModel/>
+      <Node name="look"><OglModel/><IdentityMapping/></Node></Node>)",
+              more,
+              file.empty() ? std::string() : text("<TopologicalChangeProcessor filename=\"", file, "\"/>"),
+              "</Node></Node>");
+}
+
+}  // namespace
+
+TEST_CASE("a topology that something adds to may be empty at the start, with what is made of it; no other") {
+  const files::TempFolder folder;
+  const std::string file =
+      folder.write("fill.txt", "T= 0\nADD= Tetrahedra 1\n0 1 2 3\nT= 0.03\nADD= Tetrahedra 1\n1 2 3 4\n");
+  auto sim = scene_of(filling("", file));
+  CHECK(topology(sim).tetrahedra.empty());
+  std::vector<std::size_t> faces, seen;
+  for (int i = 0; i < 6; ++i) {
+    sim.animate(0.01);
+    auto& strip = *sim.root().find_node("strip");
+    faces.push_back(strip.find_node("skin")->get<MeshTopology>()->triangles.size());
+    seen.push_back(strip.find_node("skin/look")->get<VisualModel>()->mesh.triangles.size());
+    // 1/6 m^3 at first, and 1/3 m^3 more
+    double mass = 0;
+    auto const& m = *strip.get<DiagonalMass<Vec3d>>();
+    for (std::size_t p = 0; p < m.lumped.mass.size(); ++p)
+      if (std::find(m.loose.begin(), m.loose.end(), int(p)) == m.loose.end()) mass += m.lumped.mass[p];
+    CHECK(mass == Approx(i < 3 ? 1 : 3));
+    if (i < 3) CHECK(points(sim)[4] == Eigen::Vector3d(1, 1, 1));  // no element has it yet
+  }
+  CHECK(faces == std::vector<std::size_t>{4, 4, 4, 6, 6, 6});
+  CHECK(seen == faces);
+  CHECK_THAT(error_of([] { scene_of(filling("", "")); }), Catch::Contains("the topology has no tetrahedron"));
+  const std::string removes = folder.write("removes.txt", "T= 0\nREMOVE= 1\n0\n");
+  CHECK_THAT(error_of([&] { scene_of(filling("", removes)); }),
+             Catch::Contains("the topology has no tetrahedron"));
+}
+
+TEST_CASE("what a step changes is made whole or not at all") {
+  const files::TempFolder folder;
+  const std::string file = folder.write(
+      "wrong.txt",
+      "T= 0.02\nADD= Triangles 1\n0 2 5\nT= 0.02\nREMOVE= 1\n0\nT= 0.02\nADD= Triangles 1\n0 1 99\n");
+  auto sim = scene_of(strip(text("<TopologicalChangeProcessor filename=\"", file, "\"/>")));
+  sim.animate(0.01), sim.animate(0.01);
+  const auto triangles = topology(sim).triangles;
+  const auto x = points(sim);
+  for (int i = 0; i < 2; ++i) {
+    CHECK_THAT(error_of([&] { sim.animate(0.01); }),
+               Catch::Contains("the topological change at step 2") && Catch::Contains("has point 99") &&
+                   Catch::Contains("/root/strip"));
+    CHECK(topology(sim).triangles == triangles);
+    CHECK(points(sim) == x);
+  }
+}
+
+TEST_CASE("points go with their springs, and elements where a box is that moving points come into") {
+  auto springs = scene_of(R"(<Node name="root" gravity="0 -10 0"><EulerImplicitSolver/>
+    <CGLinearSolver iterations="100" tolerance="1e-9" threshold="1e-9"/>
+    <Node name="held"><MechanicalObject name="dof" position="0 2 0  1 2 0  2 2 0"/><FixedConstraint indices="0 1 2"/></Node>
+    <Node name="strip"><PointSetTopologyContainer position="0 1 0  1 1 0  2 1 0"/><MechanicalObject name="dof"/>
+      <UniformMass vertexMass="10"/>
+      <TopologicalChangeProcessor useDataInputs="true" pointsToRemove="0 1" timeToRemove="0.02"/></Node>
+    <SpringForceField object1="@held/dof" object2="@strip/dof" spring="0 0 100 0 1  1 1 100 0 1  2 2 100 0 1  1 2 100 0 1"/>
+    </Node>)");
+  for (int i = 0; i < 5; ++i) {
+    springs.animate(0.01);
+    CHECK(points(springs).size() == (i < 3 ? 3u : 1u));
+  }
+  CHECK(points(springs)[0][0] < 2);
+
+  std::string xml = strip(R"(<BoxROI name="low" box="-1 -1 -9  2 9 -0.05" position="@dof.position"
+    triangles="@mesh.triangles"/><TopologicalChangeProcessor useDataInputs="true" trianglesToRemove="@low.triangleIndices"
+    timeToRemove="0.01" interval="0.01"/>)");
+  xml.insert(xml.find("<MechanicalObject") + 17, R"( name="dof")");
+  xml.insert(xml.find("<MeshTopology") + 13, R"( name="mesh")");
+  auto sim = scene_of(xml);
+  std::size_t last = 12;
+  for (int i = 0; i < 40; ++i) {
+    sim.animate(0.01);
+    CHECK(topology(sim).triangles.size() <= last);
+    last = topology(sim).triangles.size();
+  }
+  CHECK(last < 12);
+}
+
+TEST_CASE("a file cuts triangles along a path") {
+  const files::TempFolder folder;
+  const std::string file = folder.write(
+      "cut.txt", "T= 0.01\nINCISE= 2\n-0.5 2.5 0 0.7 2.5 0\nT= 0.03\nINCISE= 2\n0.7 2.5 0 1.5 2.5 0\n");
+  auto sim = scene_of(
+      strip(text("<TopologicalChangeProcessor filename=\"", file, "\" saveIndicesAtInit=\"true\"/>")));
+  const std::size_t n = points(sim).size();
+  for (int i = 0; i < 10; ++i) sim.animate(0.01);
+  // the strip is in two parts: edges across the path are gone
+  CHECK(points(sim).size() > n);
+  auto const& rest = sim.root().find_node("strip")->get<MechanicalObject<Vec3d>>()->restPosition;
+  double area = 0;
+  for (Triangle const& t : topology(sim).triangles) {
+    double low = 9, high = -9;
+    for (const Index i : t) {
+      low = std::min(low, rest[std::size_t(i)][1]);
+      high = std::max(high, rest[std::size_t(i)][1]);
+    }
+    CHECK(!(low < 2.3 && high > 2.7));
+    area += (rest[std::size_t(t[1])] - rest[std::size_t(t[0])])
+                .cross(rest[std::size_t(t[2])] - rest[std::size_t(t[0])])
+                .norm() /
+            2;
+  }
+  CHECK(area == Approx(6));
 }
 
 }  // namespace test_topological_changes

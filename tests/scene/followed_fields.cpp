@@ -105,6 +105,19 @@ TEST_CASE("tetrahedra that stay keep their past; values of elements split from h
   change.elements[4] = without(2, {0});
   follow_fields(split, {{}, {}, {}, change});
   CHECK(split.youngModulus == std::vector<double>(6, 2));
+
+  // the plastic strain of each has six entries
+  TetrahedronFEMForceField<Vec3d> plastic{.plasticMaxThreshold = 1};
+  for (std::size_t i = 0; i < 18; ++i) plastic.plasticStrain.push_back(double(i));
+  change.elements[4] = {};
+  change.elements[3] = without(3, {1});
+  change.elements[3].come = {{2, 2, 0.5}};
+  follow_fields(plastic, {{}, {}, {}, change});
+  REQUIRE(plastic.plasticStrain.size() == 18);
+  CHECK(plastic.plasticStrain[5] == 5);
+  CHECK(plastic.plasticStrain[6] == 12);
+  CHECK(plastic.plasticStrain[12] == 12);
+  CHECK(plastic.plasticStrain[17] == 17);
 }
 
 TEST_CASE("values of elements stay where no element of the topology goes") {

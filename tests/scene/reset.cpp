@@ -5,6 +5,7 @@
 #include <sinew/constraint/fixed_constraint.hpp>
 #include <sinew/context/gravity.hpp>
 #include <sinew/force/stiff_spring.hpp>
+#include <sinew/force/tetrahedron_fem.hpp>
 #include <sinew/force/tetrahedron_viscoelasticity.hpp>
 #include <sinew/mass/uniform_mass.hpp>
 #include <sinew/solver/bdf2.hpp>
@@ -51,7 +52,11 @@ TEST_CASE("what solvers remember of steps goes with a reset") {
 }
 
 TEST_CASE("a material forgets its past in a reset") {
-  auto block = [](auto... solvers) {
+  const TetrahedronViscoelasticityFEMForceField<Vec3d> viscoelastic{
+      .materialName = ViscoelasticMaterial::Prony, .parameterSet = {200, 800, 0.03, 300, 0.5, 400}};
+  const TetrahedronFEMForceField<Vec3d> plastic{
+      .youngModulus = {2000}, .plasticMaxThreshold = 0.05, .plasticYieldThreshold = 0.01};
+  auto block = [](auto const& material, auto... solvers) {
     return Simulation{node<"root">(
         Gravity{{0, -9.81, 0}},
         solvers...,
@@ -59,14 +64,15 @@ TEST_CASE("a material forgets its past in a reset") {
         MechanicalObject<Vec3d>{.position = {{0, 0, 0}, {1.1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1.2}},
                                 .restPosition = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}}},
         UniformMass<Vec3d>{.vertexMass = 0.2},
-        TetrahedronViscoelasticityFEMForceField<Vec3d>{.materialName = ViscoelasticMaterial::Prony,
-                                                       .parameterSet = {200, 800, 0.03, 300, 0.5, 400}},
+        material,
         FixedConstraint<Vec3d>{.indices = {0, 2, 3}})};
   };
   const CGLinearSolver<> cg{.iterations = 50, .tolerance = 1e-12};
-  comes_back(block(EulerImplicitSolver{}, cg));
-  comes_back(block(BDFOdeSolver{.order = 2}, cg));
-  comes_back(block(EulerImplicitSolver{.trapezoidalScheme = true, .maxNbIterationsNewton = 3}, cg));
+  comes_back(block(viscoelastic, EulerImplicitSolver{}, cg));
+  comes_back(block(plastic, EulerImplicitSolver{}, cg));
+  comes_back(block(viscoelastic, BDFOdeSolver{.order = 2}, cg));
+  comes_back(
+      block(viscoelastic, EulerImplicitSolver{.trapezoidalScheme = true, .maxNbIterationsNewton = 3}, cg));
 }
 
 }  // namespace test_reset

@@ -4,6 +4,7 @@
 namespace sinew {
 template TopologyChange Simulation<RuntimeNode<Standard>>::removeElements(std::string_view,
                                                                           ElementNumbers const&);
+template TopologyChange Simulation<RuntimeNode<Standard>>::addElements(std::string_view, AddedElements const&);
 template void Simulation<RuntimeNode<Standard>>::reset();
 template void Simulation<RuntimeNode<Standard>>::finish();
 }  // namespace sinew

@@ -46,7 +46,7 @@ struct MeshCollisionModel {
   void init(InitContext<D> const& context) {
     surface.elements = Kind::elements(context);
     describe_surface(*this, surface, context.where, context.rest.size());
-    if (surface.elements.empty())
+    if (surface.elements.empty() && !context.topology.grows)
       throw Error(context.where,
                   text(component_name<MeshCollisionModel>(),
                        ": there is no ",

@@ -4,6 +4,7 @@
 #include <sinew/collision/contact_constraint.hpp>
 #include <sinew/core/error.hpp>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -70,8 +71,10 @@ struct ContactResponses {
                        "', which this contact manager does not have; take one of: ",
                        names()));
     const bool takesFriction[] = {HasFriction<Responses>...};
+    const bool byPenalty = (is_by_penalty<Responses>(name) || ...);
     if (mark != wanted.npos && takesFriction[choice.place])
-      choice.friction = parse_friction(where, name, wanted.substr(mark + 1));
+      choice.friction = parse_friction(where, name, wanted.substr(mark + 1), byPenalty);
+    if (byPenalty) choice.friction = std::max(choice.friction, 0.0);
     return choice;
   }
   /// By a law of force, the only one that ODE solvers see.
@@ -105,9 +108,14 @@ struct ContactResponses {
   }
 
  private:
-  // "name=value&name=value"
-  static double parse_friction(std::string_view where, std::string_view response,
-                               std::string_view parameters) {
+  template <class R>
+  static bool is_by_penalty(std::string_view name) {
+    if constexpr (requires { R::byPenalty; }) return name == R::byPenalty;
+    return false;
+  }
+  // "name=value&name=value"; epsilon, where it is one, is read and has no effect
+  static double parse_friction(std::string_view where, std::string_view response, std::string_view parameters,
+                               bool byPenalty) {
     double mu = -1;
     while (!parameters.empty()) {
       const std::size_t end = std::min(parameters.find('&'), parameters.size()),
@@ -116,16 +124,29 @@ struct ContactResponses {
                              value = parameters.substr(std::min(equals + 1, end),
                                                        end - std::min(equals + 1, end));
       parameters.remove_prefix(std::min(end + 1, parameters.size()));
-      if (name != "mu")
-        throw Error(where, text("the response '", response, "' has no parameter '", name, "'; it has: mu"));
-      const auto [last, error] = std::from_chars(value.data(), value.data() + value.size(), mu);
-      if (error != std::errc{} || last != value.data() + value.size() || !std::isfinite(mu) || mu < 0)
+      const bool penalty = byPenalty && name == "epsilon";
+      if (name != "mu" && !penalty)
         throw Error(where,
                     text("the response '",
                          response,
-                         "' has mu='",
+                         "' has no parameter '",
+                         name,
+                         "'; it has: mu",
+                         byPenalty ? ", epsilon" : ""));
+      double number = 0;
+      const auto [last, error] = std::from_chars(value.data(), value.data() + value.size(), number);
+      if (error != std::errc{} || last != value.data() + value.size() || !std::isfinite(number) || number < 0)
+        throw Error(where,
+                    text("the response '",
+                         response,
+                         "' has ",
+                         name,
+                         "='",
                          value,
-                         "'; the coefficient of friction is a number of at least 0, such as in mu=0.5"));
+                         penalty ? "'; the penalty is a number of at least 0"
+                                 : "'; the coefficient of friction is a number of at least 0, such as in "
+                                   "mu=0.5"));
+      if (!penalty) mu = number;
     }
     return mu;
   }

@@ -12,7 +12,10 @@ namespace sinew {
 /// In a step with an impact s counts from there. Needs a FreeMotionAnimationLoop in the root.
 struct FrictionContactConstraint {
   static constexpr std::string_view className = "FrictionContactConstraint";
-  static constexpr std::string_view aliases = "FrictionContact";
+  static constexpr std::string_view aliases = "FrictionContact AugmentedLagrangianResponseConstraint";
+  /// SOFA's name of a response that iterates to the same contact by a penalty; without friction unless asked
+  /// for.
+  static constexpr std::string_view byPenalty = "AugmentedLagrangianResponseConstraint";
 
   double mu = 0.8;  // where neither responseParams nor the contactFriction of the models say it
 

@@ -6,6 +6,7 @@
 #include <sinew/core/lists.hpp>
 #include <sinew/core/point_loop.hpp>
 
+#include <numeric>
 #include <vector>
 
 namespace sinew {
@@ -35,6 +36,17 @@ auto held_points(InitContext<typename C::DataTypes> const& context, std::vector<
     for (std::size_t i = 0; i < held.size(); ++i) held[i] = int(i);
   }
   return held;
+}
+
+/// The same, into the list that there is.
+template <class C, class Held>
+void hold_points(std::string_view where, std::size_t points, std::vector<int> const& indices, bool all,
+                 Held& held) {
+  if (!all) check_points([&] { return text(where, ": ", component_name<C>()); }, "indices", indices, points);
+  if (!all) return void(held = indices);
+  std::vector<int> each(points);
+  std::iota(each.begin(), each.end(), 0);
+  held = each;
 }
 
 /// Throws Error unless times rise and have one value each.

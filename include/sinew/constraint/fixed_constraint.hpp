@@ -23,7 +23,9 @@ struct FixedConstraint {
   static constexpr auto fields() {
     using F = FixedConstraint;
     return field_list(
-        field("indices", &F::indices, "", "points held in place", range::nonNegative).numbersOf(Of::points),
+        field("indices", &F::indices, "", "points held in place", range::nonNegative)
+            .numbersOf(Of::points)
+            .whileRunning(),
         field("fixAll", &F::fixAll, "", "all points are held"),
         field(
             "activate_projectVelocity", &F::activateProjectVelocity, "", "held points lose their velocity"));
@@ -31,7 +33,10 @@ struct FixedConstraint {
 
   typename D::template Array<int> held{};
 
-  void init(InitContext<D> const& context) { held = held_points<FixedConstraint>(context, indices, fixAll); }
+  void init(InitContext<D> const& context) { takeValues(context.where, context.rest.size()); }
+  void takeValues(std::string_view where, std::size_t points) {
+    hold_points<FixedConstraint>(where, points, indices, fixAll, held);
+  }
 
   void projectResponse(VecDeriv& dx) const { each_point<D>(held.size(), Stop{entries(dx), entries(held)}); }
   struct Stop {

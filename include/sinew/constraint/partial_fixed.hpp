@@ -27,13 +27,16 @@ struct PartialFixedConstraint {
   static constexpr auto fields() {
     using F = PartialFixedConstraint;
     return field_list(
-        field("indices", &F::indices, "", "points that are held", range::nonNegative).numbersOf(Of::points),
+        field("indices", &F::indices, "", "points that are held", range::nonNegative)
+            .numbersOf(Of::points)
+            .whileRunning(),
         field("fixAll", &F::fixAll, "", "all points are held"),
         field("fixedDirections",
               &F::fixedDirections,
               "",
               "1 for each degree of freedom that is held, 0 for one that is free",
-              range::closed(0, 1)),
+              range::closed(0, 1))
+            .whileRunning(),
         field(
             "projectVelocity", &F::activateProjectVelocity, "", "held degrees of freedom lose their velocity")
             .also("activate_projectVelocity"));
@@ -41,8 +44,9 @@ struct PartialFixedConstraint {
 
   typename D::template Array<int> held{};
 
-  void init(InitContext<D> const& context) {
-    held = held_points<PartialFixedConstraint>(context, indices, fixAll);
+  void init(InitContext<D> const& context) { takeValues(context.where, context.rest.size()); }
+  void takeValues(std::string_view where, std::size_t points) {
+    hold_points<PartialFixedConstraint>(where, points, indices, fixAll, held);
   }
 
   void projectResponse(VecDeriv& dx) const {

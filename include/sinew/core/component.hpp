@@ -19,6 +19,7 @@
 #include <sinew/core/roles/contact_manager.hpp>
 #include <sinew/core/roles/context.hpp>
 #include <sinew/core/roles/cutting.hpp>
+#include <sinew/core/roles/data_link.hpp>
 #include <sinew/core/roles/engine.hpp>
 #include <sinew/core/roles/execution.hpp>
 #include <sinew/core/roles/force_field.hpp>
@@ -33,6 +34,7 @@
 #include <sinew/core/roles/projective_constraint.hpp>
 #include <sinew/core/roles/state.hpp>
 #include <sinew/core/roles/step_callback.hpp>
+#include <sinew/core/roles/step_division.hpp>
 #include <sinew/core/roles/topological_change.hpp>
 #include <sinew/core/roles/topology.hpp>
 #include <sinew/core/roles/visual_model.hpp>
@@ -80,6 +82,14 @@ concept ActsBeforeStep = requires {
   typename C::DataTypes;
 };
 
+/// One that says that it does not with its DataTypes (`actsBeforeStep = false`), and may have those
+/// functions.
+template <class C>
+concept IdleBeforeStep = requires {
+  C::actsBeforeStep;
+  requires !C::actsBeforeStep;
+};
+
 /// A component, whatever its role, that a step leaves other than init did, in more than what the next step
 /// computes anew: reset() makes it what it was, at time 0. It may return a bool: true says that elements are
 /// there again whose places in a matrix have to be found.
@@ -90,11 +100,30 @@ concept Resettable = requires(C c) { c.reset(); };
 template <class C>
 inline constexpr bool needs_masses = requires { C::needsMasses; };
 
+/// A force field or a mass that may be over values on a body: its state has no topology of its own then, and
+/// the elements are those of the body above (BodyView).
+template <class C>
+inline constexpr bool over_body = [] {
+  if constexpr (requires { C::overBody; })
+    return bool(C::overBody);
+  else
+    return false;
+}();
+
+/// A component that makes something of fields which may take other values while the scene runs
+/// (Field::whileRunning): takeValues(where, points) does that, and checks them. `points` is how many points
+/// the state has on which it acts. It is called between two steps, and allocates nothing for no more entries
+/// than there were before. What it throws stops the step.
+template <class C>
+concept TakesValues =
+    requires(C c, std::string_view where, std::size_t points) { c.takeValues(where, points); };
+
 /// Whether a component does all that its role and its hooks promise.
 template <class C>
-concept ActsAsSaid = is_called(named::beginStep<C> || named::beforeStep<C>, ActsBeforeStep<C>) &&
-                     (!ActsBeforeStep<C> || may_have<C>(named::beginStep<C> || named::beforeStep<C>)) &&
-                     is_called(named::reset<C>, Resettable<C>);
+concept ActsAsSaid =
+    is_called(named::beginStep<C> || named::beforeStep<C>, ActsBeforeStep<C> || IdleBeforeStep<C>) &&
+    (!ActsBeforeStep<C> || may_have<C>(named::beginStep<C> || named::beforeStep<C>)) &&
+    is_called(named::reset<C>, Resettable<C>) && is_called(named::takeValues<C>, TakesValues<C>);
 template <class C>
 inline constexpr bool keeps_promise =
     spelled_right<C> && ActsAsSaid<C> && Promise<typename C::Role>::template kept<C>;
@@ -103,7 +132,7 @@ inline constexpr bool keeps_promise =
 template <class C>
 struct Uncalled {
   static_assert(
-      ActsBeforeStep<C> || !(named::beginStep<C> || named::beforeStep<C>),
+      ActsBeforeStep<C> || IdleBeforeStep<C> || !(named::beginStep<C> || named::beforeStep<C>),
       "Sinew: a component has a beginStep or beforeStep that nothing calls; add 'static constexpr bool "
       "actsBeforeStep = true;' and the DataTypes of the state on which it acts.");
   static_assert(
@@ -113,6 +142,9 @@ struct Uncalled {
   static_assert(
       is_called(named::reset<C>, Resettable<C>),
       "Sinew: a component has a reset that nothing calls; write 'void reset()', or 'bool reset()'.");
+  static_assert(is_called(named::takeValues<C>, TakesValues<C>),
+                "Sinew: a component has a takeValues that nothing calls; write 'void "
+                "takeValues(std::string_view where, std::size_t points)'.");
 };
 
 /// The type that says in a sentence what is wrong with a component that does not keep its promise.

@@ -8,6 +8,7 @@
 #include <array>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace sinew {
 
@@ -36,6 +37,7 @@ struct TopologyView {
   // and its mass; empty where all are
   std::span<double const> fill{}, massFill{};
   FinerCells finer{};
+  bool grows = false;  // it may be without elements: some may come while the scene runs
 };
 
 /// What a component of a node is given at init: where it stands (for messages), the rest positions of the
@@ -47,7 +49,41 @@ struct InitContext {
   TopologyView topology;
   /// Of the points [kg], for a component that asks for them by `needsMasses`; empty where there is no mass.
   std::span<double const> masses{};
+  /// Where the points of the body are at rest [m] on which the values of this state lie, for a component that
+  /// asks for it by `overBody`; empty where the topology is over the points of this state.
+  std::span<Eigen::Vector3d const> body{};
+
+  /// Where a point of the topology is at rest [m].
+  Eigen::Vector3d place(Index i) const {
+    if (!body.empty()) return body[std::size_t(i)];
+    Eigen::Vector3d x = Eigen::Vector3d::Zero();
+    x.template head<D::spatial>() = D::center(rest[std::size_t(i)]).template cast<double>();
+    return x;
+  }
+  /// How many points the topology may refer to.
+  std::size_t points() const { return body.empty() ? rest.size() : body.size(); }
 };
+
+/// The body on which the values of a state lie, such as temperatures: the nearest topology above it, where it
+/// has none of its own, and the nearest state in space from there on. Nulls where there is none.
+struct BodyView {
+  TopologyView topology{};
+  void const *topologyAddress = nullptr, *state = nullptr;
+  void (*placesOf)(void const* state, std::vector<Eigen::Vector3d>& places) = nullptr;
+
+  template <class S>
+  static constexpr bool inSpace = !S::DataTypes::rigid && S::DataTypes::size == 3;
+  template <class S>
+  static BodyView over(S const& state) {
+    static_assert(inSpace<S>);
+    return {.state = &state, .placesOf = [](void const* s, std::vector<Eigen::Vector3d>& places) {
+              for (auto const& x : static_cast<S const*>(s)->restPosition)
+                places.push_back(x.template cast<double>());
+            }};
+  }
+};
+/// What is looked for next, on the way up from the values: their state, a topology above it, its state.
+enum class BodySearch { values, topology, state };
 
 /// Arguments of the mechanical operations. The product with a vector is (m M + b B + k K) dx, where
 /// K = df/dx and B = df/dv, so an implicit step has negative b and k.

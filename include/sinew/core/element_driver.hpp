@@ -46,7 +46,8 @@ struct ElementDriver {
 
   std::vector<Pack> packs{};
   std::vector<Slots> slots{};
-  int shares = 1;  // that run at once
+  int shares = 1;         // that run at once
+  std::size_t inner = 0;  // packs at the begin that need no ghost point; see Elements
   KeptSums<Real, Pack::template realsOf<Deriv>> keptForces{};
   KeptSums<Real, blockSize> keptBlocks{};
 
@@ -96,6 +97,18 @@ struct ElementDriver {
       for (auto const& all : slots[p].slot)
         for (int l = 0; l < W; ++l) f(l < packs[p].active ? all[l] : -1);
     });
+  }
+
+  /// Points from this one on are ghosts.
+  void setGhosts(std::size_t first) {
+    inner = 0;
+    auto own = [first](Pack const& pack) {
+      for (auto const& ends : pack.index)
+        for (const int i : ends)
+          if (std::size_t(i) >= first) return false;
+      return true;
+    };
+    while (inner < packs.size() && own(packs[inner])) ++inner;
   }
 
   std::size_t size() const {
@@ -150,7 +163,9 @@ struct ElementDriver {
   [[gnu::flatten]] void addForce(Law const& law, Derivs f, Coords x, ConstDerivs v,
                                  [[maybe_unused]] WorkShare share = {}) {
     if constexpr (W > 1) return forceOfShare(law, f, x, v, share);
-    for (Pack& pack : packs) {
+    Pack* const end = packs.data() + last(share);
+    for (Pack* p = packs.data() + first(share); p != end; ++p) {
+      Pack& pack = *p;
       OfPoints<typename DL::Coord> xs;
       OfPoints<typename DL::Deriv> vs, fs;
       pack.gather(x, xs);
@@ -163,7 +178,9 @@ struct ElementDriver {
   [[gnu::flatten]] void addDForce(Law const& law, Derivs df, ConstDerivs dx, Real k, Real b,
                                   [[maybe_unused]] WorkShare share = {}) const {
     if constexpr (W > 1) return dforceOfShare(law, df, dx, k, b, share);
-    for (Pack const& pack : packs) {
+    Pack const* const end = packs.data() + last(share);
+    for (Pack const* p = packs.data() + first(share); p != end; ++p) {
+      Pack const& pack = *p;
       OfPoints<typename DL::Deriv> dxs, dfs;
       pack.gather(dx, dxs);
       law.dforce(pack.rest, pack.tangent, dxs, dfs, L(k), L(b));
@@ -212,8 +229,19 @@ struct ElementDriver {
   }
 
  private:
+  // the packs of a share, of those that are asked for; elements that are taken one by one are in no shares
+  std::size_t first(WorkShare share) const {
+    if (share.elements == Elements::outer) return inner;
+    return W == 1 ? 0 : share.begin(packs.size());
+  }
+  std::size_t last(WorkShare share) const {
+    if (share.elements == Elements::inner) return inner;
+    return W == 1 ? packs.size() : share.end(packs.size());
+  }
+
   void forget() {
     shares = 1;
+    inner = 0;
     keptForces = {};
     keptBlocks = {};
   }
@@ -256,8 +284,8 @@ struct ElementDriver {
       });
       return;
     }
-    const std::size_t end = share.end(self.packs.size());
-    for (std::size_t p = share.begin(self.packs.size()); p < end; ++p) {
+    const std::size_t end = self.last(share);
+    for (std::size_t p = self.first(share); p < end; ++p) {
       auto& pack = self.packs[p];
       OfPoints<typename DL::Deriv> fs;
       law(pack, fs);

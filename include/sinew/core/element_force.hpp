@@ -26,6 +26,11 @@ typename C::Driver::Law law_of(C const& c) {
     return Law{};
 }
 
+/// A force field whose driver does all of its loops, so that it can take some elements before others.
+template <class C>
+inline constexpr bool takes_elements =
+    ElementForce<C> && !JoinsTwo<C> && !named::addForce<C> && !named::addDForce<C>;
+
 /// f += forces at (x, v).
 template <class C>
 void add_force(C& c, MechanicalParams const& p, VecDerivOf<C>& f, VecCoordOf<C> const& x,

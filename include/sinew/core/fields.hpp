@@ -69,6 +69,7 @@ struct FieldWords {
   std::string_view aliases{};  // other names in scene files, apart by blanks
   Of entries = Of::nothing;    // a list that follows: of numbers of these, or with one value for each
   bool numbers = false;
+  bool live = false;  // takes another value between two steps, which acts from the next one on
 };
 
 /// One value of a component that its user may set: the single declaration from which range checks, messages,
@@ -94,6 +95,13 @@ struct Field : FieldWords {
   constexpr Field oneEach(Of what) const {
     Field follows = *this;
     follows.entries = what;
+    return follows;
+  }
+  /// The same field, which may take another value while the scene runs, of something that changes; a
+  /// component that made something of it has takeValues (TakesValues).
+  constexpr Field whileRunning() const {
+    Field follows = *this;
+    follows.live = true;
     return follows;
   }
 };

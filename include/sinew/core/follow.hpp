@@ -81,7 +81,10 @@ struct ListsThatFollow {
     markJoined();
     const auto before = Index(structs.size());
     std::vector<Origin> comeBehind = comeOfEntries;
-    for (Origin& o : comeBehind) o.a += before, o.b += before;
+    for (Origin& o : comeBehind) {
+      o.a += before, o.b += before;
+      if (o.c >= 0) o.c += before;
+    }
     ofStructs = Renumbering::of(structs), ofEntries = Renumbering::of(entries);
     structs.insert(structs.end(), entries.begin(), entries.end());
     ofBoth = Renumbering::of(structs);
@@ -179,9 +182,9 @@ SINEW_ONCE void ListsThatFollow::markNumbers(std::vector<int>& list, Of what) {
   for (std::size_t i = 0; i < list.size(); ++i) entryOf.emplace(list[i], Index(i));
   for (std::size_t k = 0; k < change.points.come.size(); ++k) {
     Origin const& o = change.points.come[k];
-    const auto a = entryOf.find(o.a), b = entryOf.find(o.b);
-    if (a == entryOf.end() || b == entryOf.end()) continue;
-    comeOfEntries.push_back({a->second, b->second, o.weight});
+    const auto a = entryOf.find(o.a), b = entryOf.find(o.b), c = entryOf.find(o.c);
+    if (a == entryOf.end() || b == entryOf.end() || (o.c >= 0 && c == entryOf.end())) continue;
+    comeOfEntries.push_back({a->second, b->second, o.weight, o.c < 0 ? -1 : c->second, o.weightOfC});
     come.push_back(Index(change.points.kept.size() + k));
   }
 }

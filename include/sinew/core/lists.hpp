@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <span>
 #include <string_view>
+#include <type_traits>
 
 namespace sinew {
 
@@ -17,6 +18,21 @@ void check_numbers(std::string_view where, std::string_view list, std::span<int 
 /// The same for points of a state.
 inline void check_points(std::string_view where, std::string_view list, std::span<int const> numbers,
                          std::size_t count) {
+  check_numbers(where, list, numbers, count, "points", "the state");
+}
+
+/// The same, where the component that is named is only known when it has to be: `where()` says it.
+template <class Where>
+requires std::is_invocable_v<Where const&>
+void check_numbers(Where const& where, std::string_view list, std::span<int const> numbers, std::size_t count,
+                   std::string_view things, std::string_view owner) {
+  for (const int i : numbers)
+    if (i < 0 || std::size_t(i) >= count) check_numbers(where(), list, numbers, count, things, owner);
+}
+template <class Where>
+requires std::is_invocable_v<Where const&>
+void check_points(Where const& where, std::string_view list, std::span<int const> numbers,
+                  std::size_t count) {
   check_numbers(where, list, numbers, count, "points", "the state");
 }
 

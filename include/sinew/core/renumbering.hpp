@@ -4,6 +4,7 @@
 #include <sinew/core/compiled.hpp>
 #include <sinew/core/mesh.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <type_traits>
@@ -12,16 +13,22 @@
 
 namespace sinew {
 
-/// Of what a point or an element is that comes: x = (1 - weight) x_a + weight x_b, by old numbers. A part or
-/// a copy of one has a = b.
+/// Of what a point or an element is that comes, by old numbers:
+///   x = (1 - weight - weightOfC) x_a + weight x_b + weightOfC x_c
+/// A part or a copy of one has a = b, what is on an edge no c (-1), and what is of nothing no a: it is none.
 struct Origin {
   Index a, b;
   double weight;
+  Index c = -1;
+  double weightOfC = 0;
+
+  static Origin none() { return {-1, -1, 0}; }
+  bool isNone() const { return a < 0; }
 };
 
 /// A vector, whose multiples add up.
 template <class T>
-concept Weighable = requires(T const& value, typename T::Scalar factor) { factor * value; };
+concept Weighable = requires(T const& value, typename T::Scalar factor) { factor* value; };
 
 /// The value of what comes, from that of what it comes of. What cannot be weighed is that of the nearer one.
 template <class T>
@@ -34,8 +41,30 @@ T value_between(T const& a, T const& b, double weight) {
     return weight < 0.5 ? a : b;
 }
 
-/// Points or elements of which some go, and others come. What stays keeps its order, and what comes is behind
-/// it.
+/// The same from a list with a value for each; that of what is of nothing is zero.
+template <class List>
+auto value_of(List const& list, Origin const& o) -> typename List::value_type {
+  using T = typename List::value_type;
+  auto at = [&](Index i) -> T { return list[std::size_t(i)]; };
+  if (o.isNone()) {
+    if constexpr (requires { T::Zero(); })
+      return T::Zero();
+    else
+      return T{};
+  }
+  if (o.c < 0) return value_between<T>(at(o.a), at(o.b), o.weight);
+  const double rest = 1 - o.weight - o.weightOfC;
+  if constexpr (std::is_floating_point_v<T>)
+    return T(rest) * at(o.a) + T(o.weight) * at(o.b) + T(o.weightOfC) * at(o.c);
+  else if constexpr (Weighable<T>)
+    return T(typename T::Scalar(rest) * at(o.a) + typename T::Scalar(o.weight) * at(o.b) +
+             typename T::Scalar(o.weightOfC) * at(o.c));
+  else
+    return rest >= o.weight && rest >= o.weightOfC ? at(o.a) : o.weight >= o.weightOfC ? at(o.b) : at(o.c);
+}
+
+/// Points or elements of which some go, and others come. What stays keeps its order, or takes another where a
+/// scene is distributed, and what comes is behind it.
 struct Renumbering {
   std::vector<Index> kept{};   // old numbers of what stays, by new ones
   std::vector<Index> now{};    // new numbers, by old ones; -1 for what has gone
@@ -44,6 +73,8 @@ struct Renumbering {
   static Renumbering of(std::vector<bool> const& stays);
   /// The same in place: allocates nothing for as many as there were room for.
   void set(std::vector<bool> const& stays);
+  /// Of so many, those with these old numbers stay, in this order.
+  static Renumbering inOrder(std::vector<Index> kept, std::size_t before);
   /// So many that all stay, and others that come.
   static Renumbering grown(std::size_t stay, std::vector<Origin> come);
 
@@ -52,7 +83,8 @@ struct Renumbering {
     for (const Index n : now) all.push_back(n >= 0);
     return all;
   }
-  bool changes() const { return kept.size() != now.size() || !come.empty(); }
+  bool changes() const { return kept.size() != now.size() || !come.empty() || !keepsOrder(); }
+  bool keepsOrder() const { return std::is_sorted(kept.begin(), kept.end()); }
   /// How many there are now.
   std::size_t size() const { return kept.size() + come.size(); }
   bool stays(Index old) const { return std::size_t(old) >= now.size() || now[std::size_t(old)] >= 0; }
@@ -63,13 +95,35 @@ struct Renumbering {
     if (!changes() || list.size() != now.size()) return;
     std::vector<typename List::value_type> values;
     values.reserve(come.size());
-    for (auto const& [a, b, weight] : come) {
-      using Value = typename List::value_type;
-      values.push_back(value_between<Value>(list[std::size_t(a)], list[std::size_t(b)], weight));
+    for (Origin const& o : come) values.push_back(value_of(list, o));
+    if (keepsOrder()) {
+      for (std::size_t i = 0; i < kept.size(); ++i) list[i] = list[std::size_t(kept[i])];
+      list.resize(kept.size());
+    } else {
+      List inOrder;
+      inOrder.reserve(kept.size() + come.size());
+      for (const Index old : kept) inOrder.push_back(list[std::size_t(old)]);
+      list = std::move(inOrder);
     }
-    for (std::size_t i = 0; i < kept.size(); ++i) list[i] = list[std::size_t(kept[i])];
-    list.resize(kept.size());
     list.insert(list.end(), values.begin(), values.end());
+  }
+  /// The same where each has `width` values in a row; what comes has those of what it is of.
+  template <class Value>
+  void filterRows(std::vector<Value>& list, std::size_t width) const {
+    if (!changes() || list.size() != width * now.size()) return;
+    std::vector<Value> values;
+    values.reserve(width * size());
+    auto take = [&](Index old) {
+      const auto first = list.begin() + std::ptrdiff_t(width) * old;
+      values.insert(values.end(), first, first + std::ptrdiff_t(width));
+    };
+    for (const Index old : kept) take(old);
+    for (Origin const& part : come)
+      if (part.isNone())
+        values.resize(values.size() + width, Value{});
+      else
+        take(part.a);
+    list = std::move(values);
   }
   /// Puts the new number in the place of the old one.
   void renumber(Index& number) const {
@@ -86,12 +140,34 @@ constexpr std::string_view element_kind_name(int kind) {
   return names[std::size_t(kind)];
 }
 
-/// Numbers of elements of a topology, kind by kind.
+/// Numbers of elements of a topology, kind by kind, and of its points.
 struct ElementNumbers {
-  std::vector<Index> edges{}, triangles{}, quads{}, tetrahedra{}, hexahedra{};
+  std::vector<Index> edges{}, triangles{}, quads{}, tetrahedra{}, hexahedra{}, points{};
 
   std::array<std::vector<Index> const*, element_kinds> lists() const {
     return {&edges, &triangles, &quads, &tetrahedra, &hexahedra};
+  }
+};
+
+/// Elements that come to a topology, in the numbers of its points with those that come behind them.
+struct AddedElements {
+  std::vector<Origin> points{};  // where they come, between points that are there
+  std::vector<Edge> edges{};
+  std::vector<Triangle> triangles{};
+  std::vector<Quad> quads{};
+  std::vector<Tetrahedron> tetrahedra{};
+  std::vector<Hexahedron> hexahedra{};
+  /// Of each kind, the element of the same kind of which each is a part, whose values it has; empty: of none.
+  std::array<std::vector<Index>, element_kinds> ancestors{};
+
+  bool empty() const {
+    return points.empty() && edges.empty() && triangles.empty() && quads.empty() && tetrahedra.empty() &&
+           hexahedra.empty();
+  }
+  /// f(kind, list) for each kind.
+  template <class F>
+  void forEach(F&& f) const {
+    f(0, edges), f(1, triangles), f(2, quads), f(3, tetrahedra), f(4, hexahedra);
   }
 };
 
@@ -156,6 +232,14 @@ SINEW_ONCE Renumbering Renumbering::of(std::vector<bool> const& stays) {
   return r;
 }
 
+SINEW_ONCE Renumbering Renumbering::inOrder(std::vector<Index> kept, std::size_t before) {
+  Renumbering r;
+  r.now.assign(before, -1);
+  for (std::size_t i = 0; i < kept.size(); ++i) r.now[std::size_t(kept[i])] = Index(i);
+  r.kept = std::move(kept);
+  return r;
+}
+
 SINEW_ONCE Renumbering Renumbering::grown(std::size_t stay, std::vector<Origin> come) {
   Renumbering r = of(std::vector<bool>(stay, true));
   r.come = std::move(come);
@@ -168,14 +252,18 @@ SINEW_ONCE Renumbering TopologyChange::ofDimension(int dimension, std::size_t si
   // (of bodies with others besides none is cut)
   if (Renumbering const& only = elements[std::size_t(simplex[dimension - 1])]; !only.come.empty())
     return only;
-  std::vector<bool> stays = elements[std::size_t(simplex[dimension - 1])].stays();
-  if (dimension > 1) {
-    Renumbering const& others = elements[std::size_t(other[dimension - 1])];
-    const std::size_t rest = size > stays.size() ? size - stays.size() : 0, count = others.now.size();
-    if (count > 0 && rest % count == 0)
-      for (const Index n : others.now) stays.insert(stays.end(), rest / count, n >= 0);
-  }
-  return Renumbering::of(stays);
+  Renumbering const& simplices = elements[std::size_t(simplex[dimension - 1])];
+  if (dimension == 1) return simplices;
+  Renumbering const& others = elements[std::size_t(other[dimension - 1])];
+  const std::size_t first = simplices.now.size(), count = others.now.size();
+  const std::size_t rest = size > first ? size - first : 0;
+  if (first == 0 && rest == count && !others.come.empty()) return others;
+  if (count == 0 || rest % count != 0) return simplices;
+  std::vector<Index> kept = simplices.kept;
+  for (const Index old : others.kept)
+    for (std::size_t part = 0; part < rest / count; ++part)
+      kept.push_back(Index(first + std::size_t(old) * (rest / count) + part));
+  return Renumbering::inOrder(std::move(kept), first + rest);
 }
 
 SINEW_ONCE int TopologyChange::dimension() const {

@@ -7,6 +7,10 @@
 
 namespace sinew {
 
+/// Of a loop over elements: all of them, or those between points of this process alone, which can be taken
+/// while ghost points are under way from others, or the rest.
+enum class Elements { all, inner, outer };
+
 /// The share of a loop that one of several threads does: number `index` of `count` shares of about the same
 /// size. Work that needs what all shares have done is of a later `pass`, which begins when all are through
 /// with the one before. Of loops over elements, what several shares add to one place is added in a second
@@ -14,6 +18,7 @@ namespace sinew {
 struct WorkShare {
   int index = 0, count = 1;
   int pass = 0;
+  Elements elements = Elements::all;
 
   /// Of n things, those from begin(n) to end(n).
   std::size_t begin(std::size_t n) const { return n * std::size_t(index) / std::size_t(count); }

@@ -36,9 +36,10 @@ struct AverageCoord {
   /// Throws Error where there is no point, or an index is out of range; the output then stays.
   void update(std::string_view where) {
     check_fields(*this, where);
-    const std::string at = text(where, ": ", component_name<AverageCoord>());
+    const auto at = [&] { return text(where, ": ", component_name<AverageCoord>()); };
     check_points(at, "indices", indices, position.size());
-    if (position.empty()) throw Error(at, "there is no point; put it into the node of a state that has some");
+    if (position.empty())
+      throw Error(at(), "there is no point; put it into the node of a state that has some");
     typename D::Coord sum = D::zero();
     for (const int i : indices) sum += position[std::size_t(i)];
     if (indices.empty())

@@ -40,10 +40,10 @@ namespace sinew {
 
 SINEW_ONCE void DifferenceEngine::update(std::string_view where) {
   check_fields(*this, where);
-  const std::string at = text(where, ": ", className);
+  const auto at = [&] { return text(where, ": ", className); };
   const std::size_t n = count_values(at, "input", input, size),
                     m = count_values(at, "substractor", substractor, size);
-  if (n != m) throw Error(at, text("input has ", n, " values and substractor ", m, "; give both as many"));
+  if (n != m) throw Error(at(), text("input has ", n, " values and substractor ", m, "; give both as many"));
   output = input;
   for (std::size_t i = 0; i < output.size(); ++i) output[i] -= substractor[i];
 }

@@ -45,7 +45,7 @@ namespace sinew {
 
 SINEW_ONCE void NormEngine::update(std::string_view where) {
   check_fields(*this, where);
-  const std::size_t n = count_values(text(where, ": ", className), "input", input, size);
+  const std::size_t n = count_values([&] { return text(where, ": ", className); }, "input", input, size);
   output.clear();
   for (std::size_t i = 0; i < n; ++i) {
     const Eigen::Map<Eigen::ArrayXd const> x(input.data() + i * std::size_t(size), size);

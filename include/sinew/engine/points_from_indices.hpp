@@ -5,7 +5,8 @@
 
 #include <algorithm>
 #include <array>
-#include <set>
+#include <cstddef>
+#include <numeric>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,6 +31,8 @@ struct PointsFromIndices {
   }
 
   typename D::VecCoord chosen{};  // after update
+  std::vector<std::size_t> order{};
+  std::vector<bool> stays{};
 
   static constexpr auto outputs() {
     return field_list(
@@ -48,14 +51,23 @@ struct PointsFromIndices {
                          ", but position has ",
                          position.size(),
                          " points, numbered from 0; correct the index, or link position to other points"));
+    // of those at one place, which lie side by side when sorted, the first of the list stays
+    const auto place = [this](std::size_t k) {
+      std::array<typename D::Real, D::spatial> at;
+      std::copy_n(position[std::size_t(indices[k])].data(), at.size(), at.begin());
+      return at;
+    };
+    order.resize(indices.size());
+    std::iota(order.begin(), order.end(), std::size_t(0));
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      const auto x = place(a), y = place(b);
+      return x != y ? x < y : a < b;
+    });
+    stays.assign(indices.size(), true);
+    for (std::size_t k = 1; k < order.size(); ++k) stays[order[k]] = place(order[k]) != place(order[k - 1]);
     chosen.clear();
-    std::set<std::array<typename D::Real, D::spatial>> there;
-    for (const int i : indices) {
-      auto const& x = position[std::size_t(i)];
-      std::array<typename D::Real, D::spatial> place;
-      std::copy_n(x.data(), place.size(), place.begin());
-      if (there.insert(place).second) chosen.push_back(x);
-    }
+    for (std::size_t k = 0; k < indices.size(); ++k)
+      if (stays[k]) chosen.push_back(position[std::size_t(indices[k])]);
   }
 };
 

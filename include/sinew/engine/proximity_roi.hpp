@@ -31,7 +31,7 @@ struct ProximityROI {
         field("radii",
               &R::radii,
               "m",
-              "of the spheres; the last is that of all further ones",
+              "of the spheres; the last is that of all further ones; where there is none, none are selected",
               range::nonNegative),
         field("N", &R::N, "", "points at most; none are selected where it is 0", range::nonNegative),
         field("position", &R::position, "m", "points to choose from").also("rest_position"));
@@ -50,14 +50,10 @@ struct ProximityROI {
                       field("distance", &R::distance, "m", "of each to the nearest centre"));
   }
 
-  /// Throws Error where centres have no radius; the outputs then stay.
   void update(std::string_view where) {
     check_fields(*this, where);
-    if (!centers.empty() && radii.empty())
-      throw Error(text(where, ": ", component_name<ProximityROI>()),
-                  "radii is empty; give one radius or more");
     indices.clear(), indicesOut.clear(), pointsInROI.clear(), distance.clear();
-    if (centers.empty() || N == 0) return;
+    if (centers.empty() || radii.empty() || N == 0) return;
     std::vector<std::pair<double, int>> heap;
     const auto nearer = [](auto const& a, auto const& b) { return a.first < b.first; };
     for (std::size_t i = 0; i < position.size(); ++i) {

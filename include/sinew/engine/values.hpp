@@ -5,6 +5,7 @@
 #include <sinew/core/component.hpp>
 
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 namespace sinew {
@@ -22,6 +23,14 @@ constexpr auto size_of_values() {
 /// How many values a list has. Throws Error unless its numbers are whole values.
 std::size_t count_values(std::string_view where, std::string_view list, std::vector<double> const& numbers,
                          int size);
+/// The same, where the engine that is named is only known when it has to be: `where()` says it.
+template <class Where>
+requires std::is_invocable_v<Where const&>
+std::size_t count_values(Where const& where, std::string_view list, std::vector<double> const& numbers,
+                         int size) {
+  return numbers.size() % std::size_t(size) == 0 ? numbers.size() / std::size_t(size)
+                                                 : count_values(where(), list, numbers, size);
+}
 
 }  // namespace sinew
 

@@ -43,7 +43,7 @@ namespace sinew {
 
 SINEW_ONCE void ValuesFromIndices::update(std::string_view where) {
   check_fields(*this, where);
-  const std::string at = text(where, ": ", className);
+  const auto at = [&] { return text(where, ": ", className); };
   check_numbers(at, "indices", indices, count_values(at, "in", in, size), "values", "in");
   out.clear();
   for (const int i : indices) {

@@ -223,7 +223,7 @@ struct BeamFEMForceField {
     const BeamSection section =
         beam_section(where, crossSectionShape, radius, radiusInner, lengthY, lengthZ, poissonRatio);
     auto const& edges = context.topology.edges;
-    if (edges.empty())
+    if (edges.empty() && !context.topology.grows)
       throw Error(
           where,
           "the topology has no edge; give the node a topology with edges (in MeshTopology: edges or lines)");

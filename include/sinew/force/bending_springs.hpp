@@ -91,7 +91,7 @@ struct BendingSprings {
       if (!Kind::triangles) join(hinge.next[0][1], hinge.next[1][1]);
     }
     hadEdges = hadEdges || !ends.empty();
-    if (!hadEdges)
+    if (!hadEdges && !t.grows)
       throw Error(where,
                   text("no two ",
                        Kind::triangles ? "triangles" : "quads",

@@ -32,11 +32,14 @@ struct ConstantForceField {
     return field_list(
         field("indices", &F::indices, "", "points that the forces act on; none for all", range::nonNegative)
             .numbersOf(Of::points)
-            .also("points"),
-        field("forces", &F::forces, "N", "one force for all indices, or one for each").oneEach(Of::entries),
-        field("force", &F::force, "N", "force on each point, where forces is not given"),
-        field(
-            "totalForce", &F::totalForce, "N", "force that the points share evenly, where neither is given"));
+            .also("points")
+            .whileRunning(),
+        field("forces", &F::forces, "N", "one force for all indices, or one for each")
+            .oneEach(Of::entries)
+            .whileRunning(),
+        field("force", &F::force, "N", "force on each point, where forces is not given").whileRunning(),
+        field("totalForce", &F::totalForce, "N", "force that the points share evenly, where neither is given")
+            .whileRunning());
   }
 
   // a constant torque in space has no energy: what it does depends on the path of the rotation
@@ -54,21 +57,24 @@ struct ConstantForceField {
   std::size_t size = 0;  // points that a force acts on
 
   void init(InitContext<D> const& context) {
-    const std::string where = text(context.where, ": ", component_name<ConstantForceField>());
+    if (!none) rest = context.rest;
+    takeValues(context.where, context.rest.size());
+  }
+  void takeValues(std::string_view place, std::size_t points) {
+    const auto where = [&] { return text(place, ": ", component_name<ConstantForceField>()); };
     size = 0;
     if (none) return;
-    size = indices.empty() ? context.rest.size() : indices.size();
+    size = indices.empty() ? points : indices.size();
     if (forces.empty() && !force && !totalForce)
-      throw Error(where, "there is no force; give one of forces, force and totalForce");
+      throw Error(where(), "there is no force; give one of forces, force and totalForce");
     if (!forces.empty() && forces.size() != 1 && forces.size() != size)
-      throw Error(where,
+      throw Error(where(),
                   text("forces has ",
                        forces.size(),
                        " entries for ",
                        size,
                        " indices; give one force, or one for each index"));
-    check_points(where, "indices", indices, context.rest.size());
-    rest = context.rest;
+    check_points(where, "indices", indices, points);
   }
 
   std::size_t point(std::size_t i) const { return indices.empty() ? i : std::size_t(indices[i]); }

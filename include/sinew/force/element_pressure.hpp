@@ -135,7 +135,7 @@ struct ElementPressure {
   void init(InitContext<D> const& context) {
     const std::string where = text(context.where, ": ", component_name<ElementPressure>());
     const auto elements = Kind::of(context.topology);
-    if (elements.empty() && edges.empty() && !none)
+    if (elements.empty() && edges.empty() && !none && !context.topology.grows)
       throw Error(where, text("the topology has no ", Kind::kind, "; give the node a topology with some"));
     detail::check_indices(where, Kind::kind, elements, context.rest.size());
     if (dmin > dmax) throw Error(where, text("dmin is ", dmin, ", above dmax, ", dmax, "; exchange them"));

@@ -121,7 +121,7 @@ struct FastTriangularBendingSprings {
                       Real(2. / 3 * (ha + hb) / (ha * ha * hb * hb) * length * bendingStiffness)});
     }
     hadEdges = hadEdges || !points.empty();
-    if (!hadEdges)
+    if (!hadEdges && !context.topology.grows)
       throw Error(where,
                   "no two triangles share an edge; give the node a topology with some that do, and that are "
                   "larger than minDistValidity");

@@ -475,7 +475,7 @@ struct HexahedronFEMForceField {
     auto const& hexahedra = context.topology.hexahedra;
     auto const& fill = context.topology.fill;
     const std::string where = text(context.where, ": ", component_name<HexahedronFEMForceField>());
-    if (hexahedra.empty())
+    if (hexahedra.empty() && !context.topology.grows)
       throw Error(where, "the topology has no hexahedron; give the node a topology with hexahedra");
     detail::check_indices(where, "hexahedron", hexahedra, context.rest.size());
     check_one_or_each(where, "youngModulus", youngModulus.size(), hexahedra.size(), "hexahedra");

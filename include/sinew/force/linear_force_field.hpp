@@ -32,7 +32,7 @@ struct LinearForceField {
     return field_list(field("points", &F::points, "", "points that the force acts on", range::nonNegative)
                           .numbersOf(Of::points)
                           .also("indices"),
-                      field("force", &F::force, "", "factor of all forces").also("factor"),
+                      field("force", &F::force, "", "factor of all forces").also("factor").whileRunning(),
                       field("times", &F::times, "s", "key times, in rising order"),
                       field("forces", &F::forces, "N", "force on each of the points at each key time"));
   }

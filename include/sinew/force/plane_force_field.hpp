@@ -129,8 +129,8 @@ struct PlaneForceField {
   static constexpr auto fields() {
     using F = PlaneForceField;
     return field_list(
-        field("normal", &F::normal, "", "normal of the plane, used at the length given"),
-        field("d", &F::d, "m", "the plane is where normal.x = d"),
+        field("normal", &F::normal, "", "normal of the plane, used at the length given").whileRunning(),
+        field("d", &F::d, "m", "the plane is where normal.x = d").whileRunning(),
         field("stiffness", &F::stiffness, "N/m", "force per depth behind the plane", range::nonNegative),
         field("damping", &F::damping, "N s/m^2", "force per depth and speed", range::nonNegative),
         field("maxForce", &F::maxForce, "N", "largest force on a point; 0 for any", range::nonNegative),
@@ -143,12 +143,15 @@ struct PlaneForceField {
   Driver driver{};
 
   void init(InitContext<D> const& context) {
-    if (!(normal.norm() > 0))
-      throw Error(text(context.where, ": ", component_name<PlaneForceField>()),
-                  "normal is zero; give the normal of the plane");
+    takeValues(context.where, context.rest.size());
     std::vector<typename Driver::Indices> points(context.rest.size());
     for (std::size_t i = 0; i < points.size(); ++i) points[i] = {int(i)};
     driver.init(points, std::vector<typename Driver::Rest>(points.size(), {Real(stiffness), Real(damping)}));
+  }
+  void takeValues(std::string_view where, std::size_t /*points*/) const {
+    if (!(normal.norm() > 0))
+      throw Error(text(where, ": ", component_name<PlaneForceField>()),
+                  "normal is zero; give the normal of the plane");
   }
   void followPoints(Renumbering const&, std::size_t points)
   requires(counts_points<Driver>)

@@ -118,8 +118,8 @@ struct SphereForceField {
   static constexpr auto fields() {
     using F = SphereForceField;
     return field_list(
-        field("center", &F::center, "m", "centre of the sphere"),
-        field("radius", &F::radius, "m", "radius of the sphere", range::positive),
+        field("center", &F::center, "m", "centre of the sphere").whileRunning(),
+        field("radius", &F::radius, "m", "radius of the sphere", range::positive).whileRunning(),
         field("stiffness", &F::stiffness, "N/m", "force per depth inside the sphere", range::nonNegative),
         field("damping", &F::damping, "N s/m^2", "force per depth and speed", range::nonNegative),
         field("bilateral", &F::bilateral, "", "points outside are drawn to the sphere"));

@@ -117,7 +117,7 @@ struct SurfacePressureForceField {
   static constexpr auto fields() {
     using F = SurfacePressureForceField;
     return field_list(
-        field("pressure", &F::pressure, "Pa", "force per area along the normal"),
+        field("pressure", &F::pressure, "Pa", "force per area along the normal").whileRunning(),
         field("min", &F::min, "m", "lowest corner of a box around the elements"),
         field("max", &F::max, "m", "highest corner of a box around the elements"),
         field("triangleIndices", &F::triangleIndices, "", "triangles under pressure", range::nonNegative)

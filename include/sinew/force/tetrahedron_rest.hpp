@@ -67,7 +67,7 @@ std::vector<Tetrahedron> tetrahedra_of(std::string const& where, InitContext<D> 
   if (std::any_of(tetrahedra.begin(), tetrahedra.end(), insideOut))
     tetrahedra = hexahedra_to_tetrahedra(hexahedra);
   check_tetrahedra<D>(text(where, ": its hexahedra, six tetrahedra each"), tetrahedra, context.rest);
-  if (tetrahedra.empty())
+  if (tetrahedra.empty() && !context.topology.grows)
     throw Error(where,
                 "the topology has no tetrahedron; give the node a topology with tetrahedra or hexahedra");
   return tetrahedra;

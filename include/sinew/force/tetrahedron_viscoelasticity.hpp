@@ -217,18 +217,10 @@ struct TetrahedronViscoelasticityFEMForceField {
                       field("memory", &F::memory, "", "strains and stresses of both, of all elements"));
   }
 
-  /// Tetrahedra that stay keep their history, and parts have that of what they are of.
+  /// Tetrahedra that stay keep their history, parts have that of what they are of, and others have none.
   void follow(Followed const& change) {
     if (memory.empty()) return;
-    const Renumbering elements = change.topology.ofDimension(3, memory.size() / memorySize);
-    std::vector<double> come;
-    for (Origin const& part : elements.come)
-      for (std::size_t k = 0; k < memorySize; ++k)
-        come.push_back(memory[std::size_t(part.a) * memorySize + k]);
-    std::vector<bool> stays;
-    for (const Index n : elements.now) stays.insert(stays.end(), memorySize, n >= 0);
-    Renumbering::of(stays).filter(memory);
-    memory.insert(memory.end(), come.begin(), come.end());
+    change.topology.ofDimension(3, memory.size() / memorySize).filterRows(memory, memorySize);
   }
 
   void init(InitContext<D> const& context) {

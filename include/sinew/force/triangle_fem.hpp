@@ -164,7 +164,8 @@ struct TriangleFEM {
 };
 
 /// An elastic membrane of corotational triangles: those of the topology, or two in each of its quads where it
-/// has none.
+/// has none. `restScale` shrinks the triangles at rest, each in its plane: a membrane that is held at the
+/// size of its state then has the tension E (1/s - 1)/(1 - nu) h per length in plane stress.
 template <class D>
 struct TriangleFEMForceField {
   using Role = role::ForceField;
@@ -178,6 +179,7 @@ struct TriangleFEMForceField {
   double thickness = 1;
   bool planeStrain = false;
   TriangleMethod method = TriangleMethod::large;
+  double restScale = 1;
 
   static constexpr auto fields() {
     using F = TriangleFEMForceField;
@@ -196,7 +198,12 @@ struct TriangleFEMForceField {
             .oneEach(Of::surfaces),
         field("thickness", &F::thickness, "m", "thickness of the membrane", range::positive),
         field("planeStrain", &F::planeStrain, "", "thickness is held, in the place of stress free"),
-        field("method", &F::method, "", "how the frame of an element is found"));
+        field("method", &F::method, "", "how the frame of an element is found"),
+        field("restScale",
+              &F::restScale,
+              "",
+              "lengths of a triangle without force over those at rest: below 1 the membrane is in tension",
+              range::positive));
   }
 
   ForceProperties properties() const {
@@ -219,7 +226,7 @@ struct TriangleFEMForceField {
         triangles.push_back({q[0], q[1], q[2]});
         triangles.push_back({q[0], q[2], q[3]});
       }
-    if (triangles.empty())
+    if (triangles.empty() && !t.grows)
       throw Error(where, "the topology has no triangle; give the node a topology with triangles or quads");
     detail::check_indices(where, "triangle", triangles, context.rest.size());
     check_one_or_each(where, "youngModulus", youngModulus.size(), triangles.size(), "triangles");
@@ -232,7 +239,7 @@ struct TriangleFEMForceField {
     std::vector<typename Driver::Rest> rest;
     for (std::size_t e = 0; e < triangles.size(); ++e) {
       typename D::Coord x[3];
-      for (std::size_t k = 0; k < 3; ++k) x[k] = context.rest[std::size_t(triangles[e][k])];
+      for (std::size_t k = 0; k < 3; ++k) x[k] = context.rest[std::size_t(triangles[e][k])] * Real(restScale);
       const double E = one_or_each(youngModulus, e), nu = one_or_each(poissonRatio, e);
       const LameModuli moduli = planeStrain ? lame_moduli(E, nu) : plane_stress_moduli(E, nu);
       rest.push_back(TriangleFEM<D>::restOf(x, Real(thickness), Real(moduli.mu), Real(moduli.lambda)));

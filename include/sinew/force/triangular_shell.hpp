@@ -247,7 +247,7 @@ struct TriangularShellForceField {
         triangles.push_back({q[0], q[1], q[2]});
         triangles.push_back({q[0], q[2], q[3]});
       }
-    if (triangles.empty())
+    if (triangles.empty() && !t.grows)
       throw Error(where, "the topology has no triangle; give the node a topology with triangles or quads");
     std::vector<typename Driver::Rest> rest;
     for (std::size_t e = 0; e < triangles.size(); ++e) {

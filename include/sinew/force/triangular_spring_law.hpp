@@ -185,7 +185,7 @@ void init_triangular_springs(C& c, InitContext<typename C::DataTypes> const& con
   using D = typename C::DataTypes;
   const std::string where = text(context.where, ": ", component_name<C>());
   auto const& triangles = context.topology.triangles;
-  if (triangles.empty() && !c.hadElements)
+  if (triangles.empty() && !c.hadElements && !context.topology.grows)
     throw Error(where, "the topology has no triangle; give the node a topology with triangles or quads");
   detail::check_indices(where, "triangle", triangles, context.rest.size());
   c.hadElements = true;

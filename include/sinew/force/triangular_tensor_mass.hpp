@@ -141,7 +141,7 @@ struct TriangularTensorMassForceField {
   void init(InitContext<D> const& context) {
     const std::string where = text(context.where, ": ", component_name<TriangularTensorMassForceField>());
     auto const& triangles = context.topology.triangles;
-    if (triangles.empty() && !hadElements)
+    if (triangles.empty() && !hadElements && !context.topology.grows)
       throw Error(where, "the topology has no triangle; give the node a topology with triangles or quads");
     detail::check_indices(where, "triangle", triangles, context.rest.size());
     hadElements = true;

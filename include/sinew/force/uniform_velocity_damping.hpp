@@ -23,7 +23,8 @@ struct UniformVelocityDampingForceField {
     using F = UniformVelocityDampingForceField;
     return field_list(
         field("dampingCoefficient", &F::dampingCoefficient, "N s/m", "force per speed", range::nonNegative)
-            .also("damping"),
+            .also("damping")
+            .whileRunning(),
         field("implicit", &F::implicit, "", "the damping is part of the matrix of implicit steps"));
   }
 

@@ -23,7 +23,8 @@ Mesh parse_obj(std::string_view path, std::string_view content);
 /// Reads the polygons of a Wavefront OBJ file: vertices (v), triangles, quads and larger polygons (f; the
 /// latter as fans of triangles, which fits convex ones), lines (l, as edges); coordinates in a texture (vt),
 /// the names of materials (usemtl) and the last of the files that have them (mtllib), which are not read.
-/// Normals and groups are ignored. Throws Error with the line on other keywords, coordinates that are not
+/// Normals and groups are ignored. A file may have values, vertices with one coordinate all (v x), which have
+/// 0 for y and z. Throws Error with the line on other keywords, coordinates that are not
 /// finite, unknown vertices, and unknown coordinates in a texture, where the file has any.
 ObjFile read_obj_file(std::string const& path);
 /// The mesh alone.
@@ -53,7 +54,7 @@ class ObjParser {
     for (; !in_.atEnd(); in_.restOfLine()) {
       const std::string_view key = word();
       if (key == "v") {
-        mesh().positions.push_back(coordinates<3>());
+        vertex();
       } else if (key == "vt") {
         looks().texcoords.push_back(coordinates<2>());
       } else if (key == "f") {
@@ -114,14 +115,29 @@ class ObjParser {
     const std::string_view w = in_.wordOnLine();
     return w.starts_with('#') ? std::string_view{} : w;
   }
-  // those of a texture may be fewer than two, and are 0 then
+  // vertices with one coordinate are values, and all of a file are then
+  void vertex() {
+    bool value = false;
+    const Eigen::Vector3d p = coordinates<3>(&value);
+    if (mesh().positions.empty()) values_ = value;
+    if (value && !values_) throw in_.expected("a coordinate");
+    if (!value && values_)
+      throw in_.error(
+          "a vertex has three coordinates, but those before have one (values, \"v x\"); give all "
+          "the same number");
+    mesh().positions.push_back(p);
+  }
+  // those of a texture may be fewer than two, and are 0 then, as those of a vertex behind a single one
   template <int N>
-  Eigen::Matrix<double, N, 1> coordinates() {
+  Eigen::Matrix<double, N, 1> coordinates(bool* single = nullptr) {
     Eigen::Matrix<double, N, 1> p;
     p.setZero();
     for (int k = 0; k < N; ++k) {
       const std::string_view w = word();
-      if (w.empty() && N == 2 && k == 1) break;
+      if (w.empty() && k == 1 && (N == 2 || single)) {
+        if (single) *single = true;
+        break;
+      }
       if (w.empty() || !parse_number(w, p[k])) throw in_.expected("a coordinate");
       if (!std::isfinite(p[k]))
         throw in_.error(text("the coordinate ", in_quotes(w), " is not a finite number; correct it"));
@@ -207,6 +223,7 @@ class ObjParser {
   std::vector<Index> corners_{}, textured_{}, ofTriangles_{}, ofQuads_{};
   Index material_ = -1;
   Greatest vertices_{}, texcoords_{};
+  bool values_ = false;
 };
 
 }  // namespace sinew::io::detail

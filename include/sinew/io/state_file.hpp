@@ -395,7 +395,6 @@ class FramesOfText {
 template <class Real>
 StateFrames<Real> parse_state_file(std::string const& path, std::string_view content,
                                    StateLayout const& layout, bool allowTruncated = false) {
-  if (content.starts_with("\x1f\x8b")) throw Error(path, "is compressed; unpack it with gunzip first");
   StateFrames<Real> frames =
       content.starts_with(state_file::magic.substr(0, std::min(content.size(), state_file::magic.size())))
           ? state_file::FramesOfBytes<Real>(path, content, layout, allowTruncated).read()

@@ -13,9 +13,10 @@
 namespace sinew::io {
 
 /// Writes states to a file (state_file.hpp), frame by frame and without allocating for one: under the name
-/// "path.part", which finish(), or the end of the writer, makes the name asked for. So what was there stays
-/// until a record is complete, and a program that is killed leaves its frames in the part. Nothing is created
-/// before the first frame. A device such as /dev/stdout is written to directly. Functions throw Error.
+/// "path.part", which finish(), or the end of the writer, makes the name asked for; compressed where that
+/// ends in ".gz" and the program does so (io/gzip.hpp). So what was there stays until a record is complete,
+/// and a program that is killed leaves its frames in the part. Nothing is created before the first frame. A
+/// device such as /dev/stdout is written to directly. Functions throw Error.
 template <class Real>
 class StateWriter {
  public:
@@ -24,8 +25,10 @@ class StateWriter {
       : path_(std::move(path)), layout_(std::move(layout)), binary_(binary) {
     struct stat info;
     if (path_.empty()) throw Error("", "filename is empty; name the file to write");
-    if (path_.ends_with(".gz"))
-      throw Error(path_, "files are not compressed here; remove .gz, or choose format=\"binary\"");
+    if (compressed() && !is_there(pack_gzip))
+      throw Error(path_,
+                  "this program does not compress files; remove .gz, choose format=\"binary\", or include "
+                  "sinew/io/gzip.hpp");
     const bool exists = ::stat(path_.c_str(), &info) == 0;
     if (exists && S_ISDIR(info.st_mode)) throw Error(path_, "is a folder; name a file in it");
     device_ = exists && !S_ISREG(info.st_mode);
@@ -95,7 +98,13 @@ class StateWriter {
       if (::pwrite(fd_, header.data(), header.size(), 0) != ::ssize_t(header.size())) fail();
     }
     if (::close(std::exchange(fd_, -1)) != 0) fail();
-    if (!device_ && ::rename(name_.c_str(), path_.c_str()) != 0) fail();
+    if (device_) return;
+    if (compressed()) {
+      write_file(path_, pack_gzip(read_file(name_)));
+      if (::unlink(name_.c_str()) != 0) fail();
+    } else if (::rename(name_.c_str(), path_.c_str()) != 0) {
+      fail();
+    }
   }
 
   bool writes(std::string_view path, StateLayout const& layout, bool binary) const {
@@ -105,6 +114,8 @@ class StateWriter {
   std::size_t frames() const { return frames_; }
 
  private:
+  bool compressed() const { return path_.ends_with(".gz"); }
+
   static constexpr std::size_t flushAt = 1 << 16;  // bytes
 
   std::string path_, name_{}, buffer_{};

@@ -19,6 +19,16 @@ namespace sinew::io {
 /// if the file is missing, empty, unreadable, or not a regular file (a folder, a pipe, a device).
 std::string read_file(std::string const& path);
 
+/// The bytes of a file that is compressed by gzip, and such a file of bytes: null unless the program includes
+/// io/gzip.hpp somewhere.
+__attribute__((weak)) std::string unpack_gzip(std::string const& path, std::string_view packed);
+__attribute__((weak)) std::string pack_gzip(std::string_view bytes);
+/// Whether the program has one of them.
+template <class F>
+bool is_there(F* function) {
+  return function != nullptr;
+}
+
 /// `word` in quotes, fit for a message: shortened, and without unprintable bytes.
 std::string in_quotes(std::string_view word);
 
@@ -182,6 +192,13 @@ SINEW_ONCE std::string read_file(std::string const& path) {
                      static_cast<char const*>(std::strerror(errno)),
                      "; check the disk or the network"));
   bytes.resize(filled);
+  if (bytes.starts_with("\x1f\x8b")) {
+    if (!is_there(unpack_gzip))
+      throw Error(path,
+                  "is compressed by gzip, which this program does not read; unpack it with gunzip first, or "
+                  "include sinew/io/gzip.hpp");
+    bytes = unpack_gzip(path, bytes);
+  }
   if (bytes.starts_with("\xEF\xBB\xBF")) bytes.erase(0, 3);
   if (bytes.empty()) throw Error(path, "is empty; export it again, or name another file");
   return bytes;

@@ -18,7 +18,6 @@ struct BlockCopy {
   void init(Matrix const& a, Copy& to) {
     constexpr int B = Matrix::blockSize;
     static_assert(B == 3 || B == 1, "Sinew: multigrid takes matrices of numbers, or of blocks of 3 x 3");
-    to = {};
     to.slicedFrom = std::size_t(-1);
     to.startPattern(a.dofs());
     for (int i = 0; i < a.rows(); ++i)

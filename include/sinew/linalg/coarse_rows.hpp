@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/platform.hpp>
 #include <sinew/core/work_share.hpp>
 #include <sinew/linalg/block_matrix.hpp>
 
@@ -23,10 +24,42 @@ void share_rows(Run const& workers, int rows, F&& f) {
     workers.run(some);
 }
 
-/// A row of six numbers of a 6 x 6 block, and two more that fill a register.
+/// A row of six numbers of a 6 x 6 block, and two more that fill a register. nvcc, which knows no registers
+/// of the processor, sees eight numbers in the same places.
 template <class Real>
 struct Sixes {
+#if defined(__CUDACC__)
+  struct alignas(8 * sizeof(Real)) Row {
+    Real of[8];
+    SINEW_HD Real& operator[](int i) { return of[i]; }
+    SINEW_HD Real operator[](int i) const { return of[i]; }
+    SINEW_HD Row& operator+=(Row const& b) {
+      for (int i = 0; i < 8; ++i) of[i] += b.of[i];
+      return *this;
+    }
+    SINEW_HD friend Row operator+(Row a, Row const& b) { return a += b; }
+    SINEW_HD friend Row operator*(Row a, Row const& b) {
+      for (int i = 0; i < 8; ++i) a.of[i] *= b.of[i];
+      return a;
+    }
+    SINEW_HD friend Row operator*(Row a, Real b) {
+      for (int i = 0; i < 8; ++i) a.of[i] *= b;
+      return a;
+    }
+    SINEW_HD friend Row operator*(Real a, Row const& b) { return b * a; }
+  };
+#else
   typedef Real Row __attribute__((vector_size(8 * sizeof(Real))));
+#endif
+  /// to = row, of other numbers.
+  template <class Other>
+  SINEW_INLINE static void convert(Other const& row, Row& to) {
+#if defined(__CUDACC__)
+    for (int i = 0; i < 8; ++i) to[i] = Real(row[i]);
+#else
+    to = __builtin_convertvector(row, Row);
+#endif
+  }
 };
 
 /// A symmetric matrix of 6 x 6 blocks in float, by whole rows, for products: of a block the columns, each of

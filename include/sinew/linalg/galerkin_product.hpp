@@ -49,7 +49,6 @@ class GalerkinProduct {
       start_.push_back(int(columns_.size()));
     }
     product_.assign(columns_.size() * R, Row{});
-    coarse = {};
     coarse.startPattern(6 * p.coarseRows());
     std::fill(seen.begin(), seen.end(), -1);
     for (int k = 0; k < p.coarseRows(); ++k) {
@@ -81,8 +80,7 @@ class GalerkinProduct {
         double const* const block = a.block(slot);
         for (int s = p.start[std::size_t(j)]; s < p.start[std::size_t(j) + 1]; ++s) {
           Row from[std::size_t(R)];
-          for (int r = 0; r < R; ++r)
-            from[r] = __builtin_convertvector(p.values[std::size_t(s * R + r)], Row);
+          for (int r = 0; r < R; ++r) Sixes<double>::convert(p.values[std::size_t(s * R + r)], from[r]);
           add_block_product<R>(block, transposed, from, sums + R * place[p.columns[std::size_t(s)]]);
         }
       });

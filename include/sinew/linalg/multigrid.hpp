@@ -53,7 +53,7 @@ class Multigrid {
   template <class Matrix, class Run>
   void update(Run const& workers, Matrix const& a) {
     load(workers, a);
-    fine.modes = modes;
+    std::copy(modes.begin(), modes.end(), fine.modes.begin());
     fine.update(workers);
     holdModes(workers);
     if (!finite) return;

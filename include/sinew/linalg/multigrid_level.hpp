@@ -35,7 +35,6 @@ struct MultigridLevel {
   void init(Run const& workers) {
     const std::size_t n = std::size_t(matrix.rows());
     if constexpr (R == 3) {
-      product = {};
       product.startPattern(matrix.dofs());
       for (int i = 0; i < matrix.rows(); ++i) {
         product.pattern[std::size_t(i)].clear();

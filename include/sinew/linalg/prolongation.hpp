@@ -124,7 +124,7 @@ struct Prolongation {
           Row p = -w * own.sums[R * k + r];
           if (columns[std::size_t(first + k)] == aggregate[std::size_t(i)])
             p += tentative[std::size_t(i * R + r)];
-          values[std::size_t((first + k) * R + r)] = __builtin_convertvector(p, FloatRow);
+          Sixes<float>::convert(p, values[std::size_t((first + k) * R + r)]);
         }
     });
   }
@@ -140,7 +140,7 @@ struct Prolongation {
           Row sum{};
           for (int c = 0; c < 6; ++c)
             for (int d = 0; d <= c; ++d) sum[c] += w(c, d) * double(p[d]);
-          p = __builtin_convertvector(sum, FloatRow);
+          Sixes<float>::convert(sum, p);
         }
       }
     });

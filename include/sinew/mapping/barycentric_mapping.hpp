@@ -20,6 +20,10 @@ namespace sinew {
 /// looked for in the cells as they lie before translation, rotation and scale3d of the parent, as in SOFA:
 /// these put the child into place with the grid. Where hexahedra of a SparseGridRamificationTopology are at
 /// one place, a point goes with the one whose finer cell is around it.
+///
+/// Points of the child are looked for where they are given, among elements at rest. With `useRestPosition`
+/// they are looked for where they rest: a child that starts elsewhere is then carried from there to its
+/// parent.
 template <class I, class O>
 struct BarycentricMapping {
   using Role = role::Mapping;
@@ -30,9 +34,19 @@ struct BarycentricMapping {
   static_assert(!In::rigid && !Out::rigid && In::size == 3 && Out::size == 3,
                 "BarycentricMapping joins points in space");
   static constexpr std::string_view className = "BarycentricMapping";
+  // points that lie in elements of the parent
+  static constexpr std::string_view aliases =
+      "Mesh2PointMechanicalMapping SimpleTesselatedTetraMechanicalMapping";
   static constexpr bool needsParentTetrahedra = true;
 
-  static constexpr auto fields() { return field_list(); }
+  bool useRestPosition = false;
+
+  static constexpr auto fields() {
+    return field_list(field("useRestPosition",
+                            &BarycentricMapping::useRestPosition,
+                            "",
+                            "whether points of the child are looked for where they rest"));
+  }
 
   // of each point; the other four points of hexahedra, empty where there is none
   std::vector<Carrier<Weight>> carriers{}, others{};
@@ -50,18 +64,26 @@ struct BarycentricMapping {
       for (auto const& x : parent.rest) points.push_back(x.template cast<double>());
 
     std::vector<Choice> choices(positions.size());
+    auto const& places = useRestPosition ? child.rest : positions;
+    if (places.size() != positions.size())
+      throw Error(where,
+                  text("the child has ",
+                       positions.size(),
+                       " points and ",
+                       places.size(),
+                       " rest positions; give it as many, or leave out useRestPosition"));
     auto offer = [&]<class Fit>(std::type_identity<Fit>, auto const& elements) {
       const ElementLocator<Fit> locator(points, elements);
       for (std::size_t i = 0; i < choices.size() && !elements.empty(); ++i)
         if (choices[i].score < 0)
-          choices[i].consider(locator.locate(positions[i].template cast<double>()), elements);
+          choices[i].consider(locator.locate(places[i].template cast<double>()), elements);
     };
     if (!topology.tetrahedra.empty() || !topology.hexahedra.empty()) {
       offer(std::type_identity<TetrahedronFit>{}, topology.tetrahedra);
       if (topology.finer.hexahedra.empty() || !topology.tetrahedra.empty())
         offer(std::type_identity<MultilinearFit<3>>{}, topology.hexahedra);
       else
-        chooseByFinerCells(choices, points, topology, positions);
+        chooseByFinerCells(choices, points, topology, places);
     } else if (!topology.triangles.empty() || !topology.quads.empty()) {
       offer(std::type_identity<TriangleFit>{}, topology.triangles);
       offer(std::type_identity<MultilinearFit<2>>{}, topology.quads);

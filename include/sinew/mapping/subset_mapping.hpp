@@ -10,7 +10,7 @@
 namespace sinew {
 
 /// Point i of the child is point indices[i] of the parent. Where no indices are given, each point of the
-/// child is the point of the parent that is at the same place at rest.
+/// child is the point of the parent that is nearest to its place at rest, and within `radius` of it.
 template <class I, class O>
 struct SubsetMapping {
   using Role = role::Mapping;
@@ -21,15 +21,22 @@ struct SubsetMapping {
   static constexpr std::string_view className = "SubsetMapping";
 
   std::vector<int> indices{};
+  double radius = 1e-5;
 
   static constexpr auto fields() {
+    using M = SubsetMapping;
     return field_list(field("indices",
-                            &SubsetMapping::indices,
+                            &M::indices,
                             "",
-                            "point of the parent that each point of the child is; those at the same place, "
+                            "point of the parent that each point of the child is; the nearest, "
                             "where none is given",
                             range::nonNegative)
-                          .numbersOf(Of::parentPoints));
+                          .numbersOf(Of::parentPoints),
+                      field("radius",
+                            &M::radius,
+                            "m",
+                            "how far a point of the child may be from the nearest of the parent",
+                            range::positive));
   }
 
   SubsetLoops<In, Out> loops{};
@@ -37,7 +44,7 @@ struct SubsetMapping {
   void init(InitContext<In> const& parent, InitContext<Out> const& child, typename Out::VecCoord& positions) {
     const std::string where = text(child.where, ": ", component_name<SubsetMapping>());
     if (indices.empty())
-      for (auto const& x : positions) indices.push_back(pointAt(where, parent.rest, x));
+      for (auto const& x : positions) indices.push_back(nearest(where, parent.rest, x));
     check_numbers(where, "indices", indices, parent.rest.size(), "points", "the parent");
     if (positions.empty()) positions.resize(indices.size());
     if (positions.size() != indices.size())
@@ -67,18 +74,25 @@ struct SubsetMapping {
   }
 
  private:
-  // of those at the same place the first
-  static int pointAt(std::string const& where, typename In::VecCoord const& rest,
-                     typename Out::Coord const& x) {
+  // of those as near the first
+  int nearest(std::string const& where, typename In::VecCoord const& rest,
+              typename Out::Coord const& x) const {
     const typename In::Coord place = x.template cast<typename In::Real>();
-    for (std::size_t i = 0; i < rest.size(); ++i)
-      if ((rest[i] - place).norm() <= 1e-5) return int(i);
+    double least = radius;
+    int found = -1;
+    for (std::size_t i = 0; i < rest.size(); ++i) {
+      const double distance = double((rest[i] - place).norm());
+      if (distance < least || (found < 0 && distance == least)) least = distance, found = int(i);
+    }
+    if (found >= 0) return found;
     std::string words;
     for (int c = 0; c < In::size; ++c) words += text(c ? " " : "", double(x[c]));
     throw Error(where,
-                text("the parent has no point within 1e-5 m of ",
+                text("the parent has no point within ",
+                     radius,
+                     " m of ",
                      words,
-                     "; give indices, or the child places of points of its parent"));
+                     "; give indices, a greater radius, or the child places of points of its parent"));
   }
 };
 

@@ -6,14 +6,20 @@
 #include <sinew/topology/element_checks.hpp>
 #include <sinew/topology/hexahedra.hpp>
 
+#include <cmath>
+#include <limits>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace sinew {
 
 /// A mass for each point: given one by one, or from a density (or the total) over the elements of the
 /// topology, which share theirs out among their points. Elements are the tetrahedra and hexahedra; where
 /// there are none, the triangles and quads (and the density is that of an area); else the edges (that of a
-/// length).
+/// length). Over values with fewer coordinates than space, such as temperatures, that stand in a child node
+/// of the body, they are those of the body, and the density is a heat capacity [J/(m^3 K)]. A point that no
+/// element has has no mass: it has no weight, and no explicit solver can move it.
 template <class D>
 struct DiagonalMass {
   using Role = role::Mass;
@@ -23,6 +29,7 @@ struct DiagonalMass {
   using VecDeriv = typename D::VecDeriv;
   using MassType = typename D::MassType;
   static constexpr std::string_view className = "DiagonalMass";
+  static constexpr bool overBody = !D::rigid && D::spatial < 3;
 
   std::optional<double> massDensity{};
   std::optional<double> totalMass{};
@@ -44,6 +51,18 @@ struct DiagonalMass {
 
   LumpedMass<D> lumped{};
   double density = 0;
+  bool expected = false;  // points that no element has, since elements may come; set by init
+
+  std::string warning() const {
+    auto const& loose = lumped.massless;
+    if (loose.empty() || expected) return {};
+    return text(
+        "no element has point ",
+        loose[0],
+        loose.size() > 1 ? text(", nor ", loose.size() - 1, " others") : std::string(),
+        ", so that they have no mass and stay where they are; leave them out, or give them an element or "
+        "a mass");
+  }
 
   /// The density stays, not the total.
   void follow(Followed const&) {
@@ -55,6 +74,7 @@ struct DiagonalMass {
   void init(InitContext<D> const& context) {
     const std::string where = text(context.where, ": ", component_name<DiagonalMass>());
     const std::size_t n = context.rest.size();
+    expected = context.topology.grows;
     if (int(massDensity.has_value()) + int(totalMass.has_value()) + int(!vertexMass.empty()) != 1)
       throw Error(where, "give exactly one of massDensity, totalMass and vertexMass");
     if (!vertexMass.empty()) {
@@ -69,13 +89,18 @@ struct DiagonalMass {
                          vertexMass.size() == n ? vertexMass : std::vector<MassType>(n, vertexMass.front()));
     }
     if constexpr (!D::rigid) {
-      const std::vector<double> share = sizes(context, where);
+      std::vector<bool> alone(n, true);
+      std::vector<double> share = sizes(context, where, alone);
       double whole = 0;
       for (const double v : share) whole += v;
+      if (!context.body.empty()) {
+        fill_unused(share);
+        alone.assign(n, false);
+      }
       density = massDensity ? *massDensity : *totalMass / whole;
       std::vector<MassType> masses(n);
       for (std::size_t i = 0; i < n; ++i) masses[i] = MassType(density * share[i]);
-      lumped.init(where, masses);
+      lumped.init(where, masses, alone);
     } else {
       throw Error(where, "a density is for points; give vertexMass");
     }
@@ -95,15 +120,20 @@ struct DiagonalMass {
   }
 
  private:
-  // the volume, area or length that each point stands for: the integral of its shape function
-  static std::vector<double> sizes(InitContext<D> const& context, std::string const& where) {
-    std::vector<Eigen::Vector3d> x(context.rest.size(), Eigen::Vector3d::Zero());
-    for (std::size_t i = 0; i < x.size(); ++i)
-      x[i].head<D::spatial>() = D::center(context.rest[i]).template cast<double>();
+  // the volume, area or length that each point stands for: the integral of its shape function; and which
+  // points no element has
+  std::vector<double> sizes(InitContext<D> const& context, std::string const& where,
+                            std::vector<bool>& alone) const {
+    check_values_of_body(where, context);
+    std::vector<Eigen::Vector3d> x(context.rest.size());
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] = context.place(Index(i));
     auto at = [&x](Index i) -> Eigen::Vector3d const& { return x[std::size_t(i)]; };
     std::vector<double> size(x.size(), 0.0);
-    auto share = [&size](auto const& element, double whole) {
-      for (const Index i : element) size[std::size_t(i)] += whole / double(element.size());
+    auto share = [&](auto const& element, double whole) {
+      for (const Index i : element) {
+        size[std::size_t(i)] += whole / double(element.size());
+        alone[std::size_t(i)] = false;
+      }
     };
     TopologyView const& t = context.topology;
     check_element_indices(where, t, x.size());
@@ -112,7 +142,10 @@ struct DiagonalMass {
         const Eigen::Vector3d a = at(e[1]) - at(e[0]), b = at(e[2]) - at(e[0]), c = at(e[3]) - at(e[0]);
         share(e, std::abs(a.dot(b.cross(c))) / 6);
       }
-      for (auto const& e : t.hexahedra) addHexahedron(e, x, size);
+      for (auto const& e : t.hexahedra) {
+        addHexahedron(e, x, size);
+        for (const Index i : e) alone[std::size_t(i)] = false;
+      }
     } else if (!t.triangles.empty() || !t.quads.empty()) {
       // the triangles of a grid are the halves of its quads
       if (t.grid[0] == 0 || t.quads.empty())
@@ -121,7 +154,7 @@ struct DiagonalMass {
       for (auto const& e : t.quads) share(e, (at(e[2]) - at(e[0])).cross(at(e[3]) - at(e[1])).norm() / 2);
     } else if (!t.edges.empty()) {
       for (auto const& e : t.edges) share(e, (at(e[1]) - at(e[0])).norm());
-    } else {
+    } else if (!t.grows || !massDensity) {
       throw Error(
           where,
           "a density needs elements; give the node a topology with tetrahedra or others, or vertexMass");

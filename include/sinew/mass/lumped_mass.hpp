@@ -11,6 +11,17 @@
 
 namespace sinew {
 
+/// Gives points of no element, on which values lie, the mean capacity of all: nothing flows to them, so that
+/// they keep their values with any. Returns which points these are.
+inline std::vector<std::size_t> fill_unused(std::vector<double>& capacities) {
+  double mean = 0;
+  for (const double c : capacities) mean += c / double(capacities.size());
+  std::vector<std::size_t> unused;
+  for (std::size_t i = 0; i < capacities.size(); ++i)
+    if (capacities[i] == 0) capacities[i] = mean, unused.push_back(i);
+  return unused;
+}
+
 /// Masses lumped at the points, one for all or one for each: the loops behind UniformMass and DiagonalMass.
 /// The mass of a point is a scalar, that of a rigid body also has an inertia I in body axes; R rotates it to
 /// the world.
@@ -27,10 +38,16 @@ struct LumpedMass {
   static constexpr bool flat = !D::rigid && std::is_same_v<VecDeriv, std::vector<Deriv>>;
 
   typename D::template Array<MassType> mass{}, inverse{};
+  std::vector<int> massless{};  // points without mass, which nothing may accelerate
+  std::string place{};          // of the component, for messages
 
-  void init(std::string const& where, std::vector<MassType> const& given) {
+  /// `maybeMassless`: which points may have no mass, where some may.
+  void init(std::string const& where, std::vector<MassType> const& given,
+            std::vector<bool> const& maybeMassless = {}) {
     mass = given;
     inverse.clear();
+    massless.clear();
+    place = where;
     for (std::size_t i = 0; i < mass.size(); ++i) {
       if constexpr (D::rigid) {
         auto const& inertia = mass[i].inertia;
@@ -50,6 +67,11 @@ struct LumpedMass {
                    "positive definite"));
         inverse.push_back({1 / mass[i].mass, inertia.inverse()});
       } else {
+        if (flat && mass[i] == 0 && i < maybeMassless.size() && maybeMassless[i]) {
+          massless.push_back(int(i));
+          inverse.push_back(0);
+          continue;
+        }
         if (!(mass[i] > 0) || !std::isfinite(mass[i]))
           throw Error(
               where,
@@ -87,8 +109,16 @@ struct LumpedMass {
       forEachScalar(
           f, mass, [&](Real& fi, Real m, Real d) { fi += factor * m * d; }, dx);
   }
-  /// a = M^-1 f
+  /// a = M^-1 f, and 0 for points without mass and force. Throws Error at one without mass that has a force.
   void accFromF(VecDeriv& a, VecCoord const& x, VecDeriv const& f) const {
+    if constexpr (flat)
+      for (const int i : massless)
+        if (!f[std::size_t(i)].isZero(0))
+          throw Error(place,
+                      text("point ",
+                           i,
+                           " has a force and no mass, as no element has it; take an implicit solver, or give "
+                           "the point an element or a mass"));
     if constexpr (!flat)
       forEachPoint(a, inverse, x, f, Set{});
     else

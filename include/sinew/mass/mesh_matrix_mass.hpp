@@ -28,6 +28,9 @@ inline constexpr std::array<std::string_view, 6> enum_names(MassElements) {
 /// for edges (that of a length); or for those of one kind. `lumping` keeps its row sums only, on the
 /// diagonal. Without a density the body has a total of 1 kg.
 ///
+/// Over values with fewer coordinates than space, such as temperatures, that stand in a child node of the
+/// body, the elements are those of the body, undeformed, and the density is a heat capacity [J/(m^3 K)].
+///
 /// M^-1 f, which explicit solvers ask for, is taken with the row sums, lumped or not: the inverse of M is
 /// full, and would carry the forces on fixed points to their neighbours. EulerExplicitSolver solves M a = f
 /// where a linear solver stands by. (SOFA refuses without one.)
@@ -41,6 +44,7 @@ struct MeshMatrixMass {
   using VecDeriv = typename D::VecDeriv;
   using MassType = typename D::MassType;
   static constexpr std::string_view className = "MeshMatrixMass";
+  static constexpr bool overBody = D::spatial < 3;
 
   std::vector<double> massDensity{};
   std::optional<double> totalMass{};
@@ -91,9 +95,12 @@ struct MeshMatrixMass {
     const std::size_t n = context.rest.size();
     if (!massDensity.empty() && totalMass)
       throw Error(where, "massDensity and totalMass are both given; give one of them");
+    check_values_of_body(where, context);
     check_element_indices(where, context.topology, n);
 
+    const bool ofValues = !context.body.empty();
     consistent.startPattern(int(n));
+    for (int i = 0; ofValues && i < int(n); ++i) consistent.preallocate(i, i, 1, 1);
     const std::size_t count = forEachElement(context, [&](auto const& e, std::size_t, auto const&) {
       for (const Index i : e)
         for (const Index j : e) consistent.preallocate(i, j, 1, 1);
@@ -125,6 +132,9 @@ struct MeshMatrixMass {
           total += m;
         }
     });
+    if (ofValues)
+      for (const std::size_t i : fill_unused(rows))
+        values[std::size_t(consistent.slot(int(i), int(i)))] = rows[i];
     scale = massDensity.empty() ? totalMass.value_or(1) / total : 1;
     for (std::size_t k = 0; k < values.size(); ++k) consistent.values[k] = Real(scale * values[k]);
     std::vector<MassType> sums(n);
@@ -195,11 +205,7 @@ struct MeshMatrixMass {
   // f(points, number, integral of N_i N_j) for each element; returns how many there are
   template <class F>
   std::size_t forEachElement(InitContext<D> const& context, F&& f) const {
-    auto at = [&context](Index i) {
-      Eigen::Vector3d x = Eigen::Vector3d::Zero();
-      x.head<D::spatial>() = D::center(context.rest[std::size_t(i)]).template cast<double>();
-      return x;
-    };
+    auto at = [&context](Index i) { return context.place(i); };
     std::size_t number = 0;
     // of k + 1 corners and size V: V (1 + delta_ij) / ((k + 1) (k + 2))
     auto simplices = [&](auto const& all, auto const& sizeOf) {

@@ -19,6 +19,7 @@ namespace detail {
 template <class R>
 class Baker {
   using Node = RuntimeNode<R>;
+  using Entry = RuntimeEntry<R>;
 
  public:
   Baker(ReadScene<R>& scene, std::string const& path, BakeOptions const& options)
@@ -64,7 +65,9 @@ class Baker {
       throw Error(node.path(), "the name of a node of a typed scene is not empty and has no '/'; rename it");
     std::vector<std::string> parts;
     for (auto& entry : node.components())
-      if (classes_.infoOf(entry).role != RoleKind::engine) parts.push_back(components_.inTree(node, entry));
+      if (classes_.infoOf(entry).role != RoleKind::engine || lives(node, entry))
+        parts.push_back(components_.inTree(node, entry));
+    addLinks(node, parts);
     const std::string head = text("node<", cpp_literal(node.name), ">(");
     tree_ += head;
     std::size_t width = used + head.size() + 1 + tail;
@@ -86,6 +89,53 @@ class Baker {
       if (left) tree_ += ',';
     }
     tree_ += ')';
+  }
+  // whether an engine is evaluated again while the scene runs
+  bool lives(Node& node, Entry const& entry) {
+    return scene_.root.live.find(BakeLinks<R>::pathFrom(scene_.root, node), entry.name) != nullptr;
+  }
+  // what follows other values while the scene runs: links of the top node
+  void addLinks(Node& node, std::vector<std::string>& parts) {
+    for (auto const& target : node.live.targets)
+      for (LiveLink const& link : target.links) {
+        auto refuse = [&](std::string_view why) {
+          throw Error(text(node.path(), target.node.empty() ? "" : "/", target.node),
+                      text(link.to.field,
+                           " of '",
+                           target.component,
+                           "' follows ",
+                           link.from.field,
+                           " of '",
+                           link.from.component,
+                           "' while the scene runs, which a typed scene cannot express: ",
+                           why));
+        };
+        if (&node != &scene_.root) refuse("the scene is a part of another one; bake it by itself");
+        if (link.from.list >= 0 || link.to.list >= 0)
+          refuse("it is one of several lists under numbers; give the engine one list");
+        if (link.pointsTo > 0) refuse("points become frames; let an engine make frames (QuatToRigidEngine)");
+        parts.push_back(
+            text("data_link(", valueAt(link.from, refuse), "{}, ", valueAt(link.to, refuse), "{})"));
+      }
+  }
+  template <class F>
+  std::string valueAt(LiveValue const& value, F const& refuse) {
+    Node* const at = scene_.root.find_node(value.node);
+    Entry* const entry = at ? at->find(value.component) : nullptr;
+    if (!entry) refuse(text("'", value.component, "' is not there"));
+    for (auto const& other : at->components()) {
+      if (&other == entry) break;
+      if (other.component.type() == entry->component.type())
+        refuse(text("there are several ", entry->component.name(), " in the node; give each its own"));
+    }
+    ClassInfo const& info = classes_.infoOf(*entry);
+    std::size_t field = 0;
+    while (field < info.fields.size() && info.fields[field].offset != value.offset) ++field;
+    if (field == info.fields.size()) refuse(text("'", value.component, "' has no ", value.field));
+    std::string member = classes_.memberOf(*entry, field);
+    if (info.role == RoleKind::visualModel) member = "position";
+    return text(
+        "At<", cpp_literal(value.node), ", &", class_name(info, classes_.codeOf(*entry)), "::", member, ">");
   }
   std::string whole() const {
     namespace fs = std::filesystem;

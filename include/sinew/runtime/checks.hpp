@@ -260,6 +260,7 @@ void check_counts(RuntimeScope<R> const& scope) {
     one.template operator()<role::ContactManager>(Rule::secondStage, 5);
     one.template operator()<role::AnimationLoop>(Rule::secondLoop, 1);
     one.template operator()<role::ConstraintSolver>(Rule::secondLoop, 2);
+    one.template operator()<role::StepDivision>(Rule::secondLoop, 3);
   }
   std::set<std::string_view> names;
   for (auto const& child : scope.node.children())

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/value_numbers.hpp>
 #include <sinew/runtime/any_component.hpp>
 #include <sinew/runtime/cpp_text.hpp>
 #include <sinew/runtime/value_text.hpp>
@@ -26,6 +27,7 @@ struct ValueType {
   std::span<std::string_view const> choices;  // the words of an enumeration; none where it is none
   std::size_t (*entries)(void const* value);  // of a list; 1 of anything else
   bool listOfLists = false;
+  NumberAccess numbers{};
 };
 
 /// What scene files, messages and reference pages know of one field of a class.
@@ -71,14 +73,16 @@ struct FieldInfo : FieldWords {
 
 /// What a class says of itself, as static members of these names, to those who know it by its name only.
 struct ClassTraits {
-  std::string_view header;       // to include beside sinew.hpp, which does not have the class
-  std::string_view endings;      // of the files that a loader of meshes reads: ".vtk .vtu"
-  bool samePoints = false;       // point i below a mapping is point i above it
-  bool movesState = false;       // where no solver does
-  bool changesPoints = false;    // by changePoints: a state in its node may start without points
-  bool takenByDefault = false;   // by a scene that has to have one of its role and has none
-  bool ofPositions = false;      // an engine over points as they are, where others take those at rest
-  bool sizedValues = false;      // an engine over values of any size (engine/values.hpp)
+  std::string_view header;          // to include beside sinew.hpp, which does not have the class
+  std::string_view endings;         // of the files that a loader of meshes reads: ".vtk .vtu"
+  bool samePoints = false;          // point i below a mapping is point i above it
+  bool movesState = false;          // where no solver does
+  bool movesWithoutSolver = false;  // the same, of all that may: a constraint that puts points to places, too
+  bool changesPoints = false;       // by changePoints: a state in its node may start without points
+  bool takenByDefault = false;      // by a scene that has to have one of its role and has none
+  bool ofPositions = false;         // an engine over points as they are, where others take those at rest
+  bool sizedValues = false;         // an engine over values of any size (engine/values.hpp)
+  std::string_view law;             // an output of an engine that goes on in each step, by what takes it
   bool joinsTopologies = false;  // an engine that makes the elements of its `output` of those of its `input`
 };
 
@@ -173,7 +177,8 @@ inline constexpr ValueType value_type{
       else
         return std::size_t(value != nullptr);
     },
-    ListOfLists<T>};
+    ListOfLists<T>,
+    number_access<T>()};
 
 /// What is said of one field in a table of a class.
 struct FieldRow {
@@ -181,7 +186,11 @@ struct FieldRow {
   ValueType const* type;
   bool isInput;
 };
-inline constexpr FieldWords meshFields[] = {{"position", "", "vertices of the surface", range::any},
+inline constexpr FieldWords meshFields[] = {{.name = "position",
+                                             .unit = "",
+                                             .documentation = "vertices of the surface",
+                                             .range = range::any,
+                                             .live = true},
                                             {"edges", "", "edges of the surface", range::any},
                                             {"triangles", "", "triangles of the surface", range::any},
                                             {"quads", "", "quads of the surface", range::any}};
@@ -259,16 +268,25 @@ void field_addresses(void const* component, void const** to) {
 }
 
 template <class C>
+constexpr bool moves_without_solver() {
+  if constexpr (HasRole<C, role::ProjectiveConstraint> && !JoinsTwo<C>)
+    return requires(C c, typename C::DataTypes::VecCoord x) { c.projectPosition(0.0, x); };
+  else
+    return ActsBeforeStep<C> && named::beginStep<C>;
+}
+template <class C>
 constexpr ClassTraits class_traits() {
   ClassTraits traits{};
   if constexpr (requires { C::header; }) traits.header = C::header;
   if constexpr (requires { C::endings; }) traits.endings = C::endings;
   if constexpr (requires { C::samePoints; }) traits.samePoints = C::samePoints;
   if constexpr (requires { C::movesState; }) traits.movesState = C::movesState;
+  traits.movesWithoutSolver = traits.movesState || moves_without_solver<C>();
   traits.changesPoints = ChangesPoints<C>;
   if constexpr (requires { C::takenByDefault; }) traits.takenByDefault = C::takenByDefault;
   if constexpr (requires { C::ofPositions; }) traits.ofPositions = C::ofPositions;
   if constexpr (requires { C::sizedValues; }) traits.sizedValues = C::sizedValues;
+  if constexpr (requires { C::law; }) traits.law = C::law;
   if constexpr (requires { C::joinsTopologies; }) traits.joinsTopologies = C::joinsTopologies;
   return traits;
 }

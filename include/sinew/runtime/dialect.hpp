@@ -288,6 +288,9 @@ inline constexpr std::array anotherMethod = std::to_array<AnotherMethod>(
     {{"AsyncSparseLDLSolver",
       "the matrix of each step is factorised before it is solved, as with SparseLDLSolver; SOFA goes on with "
       "the factorisation of an earlier step while a thread makes the next"},
+     {"AugmentedLagrangianResponseConstraint",
+      "contacts are those of FrictionContactConstraint, to which the iterations of SOFA's response converge; "
+      "epsilon, the penalty of these, has no effect"},
      {"EigenSparseQR",
       "the matrix is factorised as L D L', as with SparseLDLSolver, and has to be symmetric"},
      {"EigenSparseLU",

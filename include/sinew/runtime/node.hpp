@@ -3,6 +3,7 @@
 
 #include <sinew/core/profile.hpp>
 #include <sinew/runtime/any_component.hpp>
+#include <sinew/runtime/live_graph.hpp>
 #include <sinew/runtime/view_element.hpp>
 
 #include <algorithm>
@@ -29,6 +30,8 @@ struct Mount {
   void* state = nullptr;
   bool mapped = false;
   Workers* workers = nullptr;
+  BodyView (*body)(void const*, BodySearch) = nullptr;
+  void* distribution = nullptr;  // of a scene that is distributed
 };
 
 /// One component of a runtime node, and what is known of it besides.
@@ -61,11 +64,12 @@ class RuntimeNode {
   std::vector<std::string> errors{};    // of the top node: what init has found wrong so far
   std::vector<std::string> warnings{};  // of the top node: what the last init has noticed
   std::vector<ViewElement> view{};      // of the top node: what a scene file says of how it is looked at
+  LiveGraph<R> live{};                  // what follows other values while the scene runs
   Profile* profile = nullptr;           // of the top node: what times its steps; copies are not timed
 
   explicit RuntimeNode(std::string n = "root", Verdict = {}) : name(std::move(n)) {}
   RuntimeNode(RuntimeNode const& other)
-      : name(other.name), mount(other.mount), view(other.view), entries_(other.entries_) {
+      : name(other.name), mount(other.mount), view(other.view), live(other.live), entries_(other.entries_) {
     for (auto const& child : other.children_) children_.push_back(std::make_unique<RuntimeNode>(*child));
     adopt();
   }
@@ -74,6 +78,7 @@ class RuntimeNode {
         mount(other.mount),
         warnings(std::move(other.warnings)),
         view(std::move(other.view)),
+        live(std::move(other.live)),
         profile(std::exchange(other.profile, nullptr)),
         entries_(std::move(other.entries_)),
         children_(std::move(other.children_)) {
@@ -84,6 +89,7 @@ class RuntimeNode {
     mount = other.mount;
     warnings.swap(other.warnings);
     view.swap(other.view);
+    std::swap(live, other.live);
     entries_.swap(other.entries_);
     children_.swap(other.children_);
     adopt();
@@ -231,6 +237,7 @@ class RuntimeNode {
 
   void adopt() {
     for (auto& child : children_) child->parent_ = this;
+    live.bound = false;
     clearEnds();
     refresh();
   }

@@ -28,18 +28,24 @@ extern template detail::BlockTarget detail::block_target(CompressedRowSparseMatr
 extern template detail::ProjectionTarget detail::projection_target<CompressedRowSparseMatrixMat3x3d>();
 extern template detail::ProjectionTarget detail::projection_target<CompressedRowSparseMatrixMat3x3f>();
 extern template detail::ProjectionTarget detail::projection_target<CompressedRowSparseMatrixd>();
-extern template void detail::place_block<AssemblyPhase::add>(
-    detail::BlockTarget const&, int, int, int, double const*, int, double const*, Mat<double, 1> const&);
-extern template void detail::place_block<AssemblyPhase::add>(
-    detail::BlockTarget const&, int, int, int, double const*, int, double const*, Mat<double, 2> const&);
-extern template void detail::place_block<AssemblyPhase::add>(
-    detail::BlockTarget const&, int, int, int, double const*, int, double const*, Mat<double, 3> const&);
-extern template void detail::place_block<AssemblyPhase::add>(
-    detail::BlockTarget const&, int, int, int, double const*, int, double const*, Mat<double, 6> const&);
-extern template void detail::place_block<AssemblyPhase::add>(
-    detail::BlockTarget const&, int, int, int, double const*, int, double const*, Mat<float, 3> const&);
-extern template void detail::place_block<AssemblyPhase::add>(
-    detail::BlockTarget const&, int, int, int, double const*, int, double const*, Mat<float, 6> const&);
+extern template void detail::place_block<AssemblyPhase::add>(detail::BlockTarget const&, int, int, int,
+                                                             double const*, int, double const*,
+                                                             Mat<double, 1> const&);
+extern template void detail::place_block<AssemblyPhase::add>(detail::BlockTarget const&, int, int, int,
+                                                             double const*, int, double const*,
+                                                             Mat<double, 2> const&);
+extern template void detail::place_block<AssemblyPhase::add>(detail::BlockTarget const&, int, int, int,
+                                                             double const*, int, double const*,
+                                                             Mat<double, 3> const&);
+extern template void detail::place_block<AssemblyPhase::add>(detail::BlockTarget const&, int, int, int,
+                                                             double const*, int, double const*,
+                                                             Mat<double, 6> const&);
+extern template void detail::place_block<AssemblyPhase::add>(detail::BlockTarget const&, int, int, int,
+                                                             double const*, int, double const*,
+                                                             Mat<float, 3> const&);
+extern template void detail::place_block<AssemblyPhase::add>(detail::BlockTarget const&, int, int, int,
+                                                             double const*, int, double const*,
+                                                             Mat<float, 6> const&);
 extern template void RuntimeScope<Standard>::expand(int, JacobianVisitor const&) const;
 
 extern template struct StateVectors<RuntimeScope<Standard>>;
@@ -60,13 +66,16 @@ extern template void MechanicalOperations<RuntimeScope<Standard>>::split();
 extern template void MechanicalOperations<RuntimeScope<Standard>>::formPattern();
 extern template void MechanicalOperations<RuntimeScope<Standard>>::solveSystem(MatrixFactors, MultiVecDeriv&,
                                                                                MultiVecDeriv&);
-extern template bool MechanicalOperations<RuntimeScope<Standard>>::solveSystemIfAny(MatrixFactors, MultiVecDeriv&,
+extern template bool MechanicalOperations<RuntimeScope<Standard>>::solveSystemIfAny(MatrixFactors,
+                                                                                    MultiVecDeriv&,
                                                                                     MultiVecDeriv&);
-extern template bool MechanicalOperations<RuntimeScope<Standard>>::solveSystemAgain(MatrixFactors, MultiVecDeriv&,
+extern template bool MechanicalOperations<RuntimeScope<Standard>>::solveSystemAgain(MatrixFactors,
+                                                                                    MultiVecDeriv&,
                                                                                     MultiVecDeriv&);
 extern template double MechanicalOperations<RuntimeScope<Standard>>::kineticEnergy();
 extern template double MechanicalOperations<RuntimeScope<Standard>>::potentialEnergy();
-extern template void SystemMatrix<RuntimeScope<Standard>>::preallocate(AnyMatrix&, MechanicalParams const&) const;
+extern template void SystemMatrix<RuntimeScope<Standard>>::preallocate(AnyMatrix&,
+                                                                       MechanicalParams const&) const;
 extern template void SystemMatrix<RuntimeScope<Standard>>::bind(AnyMatrix&, MechanicalParams const&) const;
 extern template void SystemMatrix<RuntimeScope<Standard>>::fill(AnyMatrix&, MechanicalParams const&) const;
 
@@ -81,6 +90,8 @@ extern template void ConstrainedStep<RuntimeScope<Standard>>::findCompliance(Con
 extern template void Step<RuntimeScope<Standard>>::detectContacts() const;
 extern template TopologyChange Simulation<RuntimeNode<Standard>>::removeElements(std::string_view,
                                                                                  ElementNumbers const&);
+extern template TopologyChange Simulation<RuntimeNode<Standard>>::addElements(std::string_view,
+                                                                              AddedElements const&);
 extern template void Simulation<RuntimeNode<Standard>>::animate(double);
 extern template void Simulation<RuntimeNode<Standard>>::reset();
 extern template void Simulation<RuntimeNode<Standard>>::finish();

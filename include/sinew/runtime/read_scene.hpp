@@ -5,6 +5,7 @@
 #include <sinew/runtime/scene_files.hpp>
 #include <sinew/runtime/scene_reader/classes.hpp>
 #include <sinew/runtime/scene_reader/collect.hpp>
+#include <sinew/runtime/scene_reader/live_links.hpp>
 #include <sinew/runtime/scene_reader/set_attribute.hpp>
 #include <sinew/runtime/scene_reader/values.hpp>
 #include <sinew/runtime/scope.hpp>
@@ -64,6 +65,7 @@ class SceneReader {
         dataOnly_.insert(&item);
     });
     ReadScene<R> scene{RuntimeNode<R>(top.name)};
+    if (messages_.errors.empty()) scene.root.live = detail::LiveLinks<R>(messages_).find(top);
     readNode(top, scene);
     fill(top, scene.root);
     scene.root.view = std::move(view_);

@@ -6,6 +6,7 @@
 #include <sinew/runtime/read_scene.hpp>
 #include <sinew/runtime/scene_files.hpp>
 
+#include <map>
 #include <pugixml.hpp>
 #include <sstream>
 
@@ -29,6 +30,7 @@ class SceneWriter {
       set(node, "step", std::to_string(step));
     }
     view_ = &root.view;
+    gatherLive(root, "");
     fill(node, root, {});
     std::ostringstream bytes;
     document.save(bytes, "  ");
@@ -38,9 +40,33 @@ class SceneWriter {
  private:
   std::vector<ClassInfo> table_ = make_class_table<R>();
   std::vector<ViewElement> const* view_ = nullptr;
+  // attributes that follow others while the scene runs, by their components
+  std::map<void const*, std::map<std::string, std::string>> live_{};
 
   static void set(pugi::xml_node& node, std::string_view name, std::string const& value) {
     node.append_attribute(std::string(name).c_str()) = value.c_str();
+  }
+
+  void gatherLive(RuntimeNode<R> const& node, std::string const& path) {
+    for (auto const& target : node.live.targets) {
+      RuntimeNode<R>* const at = const_cast<RuntimeNode<R>&>(node).find_node(target.node);
+      auto* const entry = at ? at->find(target.component) : nullptr;
+      if (!entry) continue;
+      for (LiveLink const& link : target.links) {
+        // a topology whose points come and go is not written
+        RuntimeNode<R>* const from = at->top().resolve(text(path, '/', link.from.node));
+        if (link.ofEdits && (!from || pointsChange(*from))) continue;
+        live_[entry->component.address()][link.to.field] = text('@',
+                                                                path,
+                                                                '/',
+                                                                link.from.node,
+                                                                link.from.node.empty() ? "" : "/",
+                                                                link.from.component,
+                                                                '.',
+                                                                link.from.field);
+      }
+    }
+    for (auto const& child : node.children()) gatherLive(*child, text(path, '/', child->name));
   }
 
   // what the solvers above keep from step to step: how many auxiliary vectors, and whether dx
@@ -71,7 +97,9 @@ class SceneWriter {
       });
     for (auto const& entry : node.components()) {
       ClassInfo const& info = table_[std::size_t(entry.component.type())];
-      if (info.role == RoleKind::engine) continue;  // what it made is in the fields of others
+      const auto follows = live_.find(entry.component.address());
+      // what an engine made at the start is in the fields of others
+      if (info.role == RoleKind::engine && follows == live_.end()) continue;
       if (info.role == RoleKind::topology && pointsChange(node)) continue;  // it has no more than the points
       if (info.role == RoleKind::context && !node.parent()) {
         set(to, "gravity", info.field("gravity")->write(entry.component.address()));
@@ -92,8 +120,11 @@ class SceneWriter {
             names += text(names.empty() ? "" : " ", absolute(name));
           value = names;
         }
+        if (follows != live_.end() && follows->second.count(std::string(field.name))) continue;
         if (value != field.defaultValue) set(element, field.name, value);
       }
+      if (follows != live_.end())
+        for (auto const& [name, link] : follows->second) set(element, name, link);
       if (info.role == RoleKind::visualModel)
         for (ViewElement const& v : *view_)
           if (has_looks(v))

@@ -4,6 +4,7 @@
 #include <sinew/core/workers.hpp>
 #include <sinew/runtime/erased_assembly.hpp>
 #include <sinew/runtime/node.hpp>
+#include <sinew/scene/live_engines.hpp>
 #include <sinew/scene/scope.hpp>
 
 #include <new>
@@ -24,6 +25,7 @@ struct RuntimeScope {
   static constexpr bool provedAtInit = true, isVisual = false;
   static constexpr bool profiled = true;  // where the top node has a profile
   static constexpr bool threaded = true;  // where a node says so
+  static constexpr bool distributed = requires { typename R::Distribution; };
   NodeType& node;
   bool atMount = false;
   Profile* profile = nullptr;
@@ -31,6 +33,13 @@ struct RuntimeScope {
   RuntimeScope(NodeType& n, bool above = false, Profile* timer = nullptr)
       : node(n), atMount(above), profile(timer) {}
   RuntimeScope(NodeType& top, NoScope const&) : node(top), profile(top.profile) { top.mount = {}; }
+  /// Of a distributed scene, whose registry says what is known of its parts.
+  template <class A>
+  requires(A::distributed)
+  RuntimeScope(NodeType& top, A const& above) : node(top), profile(top.profile) {
+    top.mount = {};
+    top.mount.distribution = &above.distribution();
+  }
   template <class N, class A>
   RuntimeScope(NodeType& top, Scope<N, A> const& typed) : node(top) {
     using S = Scope<N, A>;
@@ -41,6 +50,12 @@ struct RuntimeScope {
                  [](void const* s) { return static_cast<S const*>(s)->topology(); },
                  [](void const* s) { return static_cast<S const*>(s)->topologyAddress(); },
                  nullptr};
+    top.mount.body = [](void const* s, BodySearch next) { return static_cast<S const*>(s)->body(next); };
+    static_assert(
+        S::distributed == distributed,
+        "Sinew: a runtime tree in a distributed scene needs a registry that has `using Distribution = "
+        "mpi::Distribution`, and one in another scene a registry without it.");
+    if constexpr (S::distributed) top.mount.distribution = &typed.distribution();
     if constexpr (S::threaded) top.mount.workers = typed.workers().workers;
     if constexpr (S::hasState) {
       auto& state = typed.stateScope().node.state();
@@ -98,6 +113,9 @@ struct RuntimeScope {
       }
     return {node.top().mount.workers};
   }
+  auto& distribution() const {
+    return *static_cast<typename R::Distribution*>(node.top().mount.distribution);
+  }
   TopologyView topology() const {
     if (atMount) return mount().scope ? mount().topology(mount().scope) : TopologyView{};
     if (node.topology()) {
@@ -132,6 +150,25 @@ struct RuntimeScope {
   template <class D>
   InitContext<D> context() const {
     return detail::init_context<D>(path(), state<D>(), topology());
+  }
+  BodyView body(BodySearch next = BodySearch::values) const {
+    if (atMount) return mount().scope ? mount().body(mount().scope, next) : BodyView{};
+    const bool topologyHere = node.topology() && next != BodySearch::state;
+    if (topologyHere && next == BodySearch::values) return {};
+    BodyView found;
+    if (topologyHere) next = BodySearch::state;
+    if (node.state() && next == BodySearch::values)
+      next = BodySearch::topology;
+    else if (node.state() && next == BodySearch::state)
+      node.state()->component.template visit<role::State>([&](auto const& s) {
+        if constexpr (BodyView::inSpace<std::decay_t<decltype(s)>>) found = BodyView::over(s);
+      });
+    if (!found.state) found = above().body(next);
+    if (topologyHere) {
+      found.topology = topology();
+      found.topologyAddress = topologyAddress();
+    }
+    return found;
   }
   RuntimeScope parentScope() const { return above().stateScope(); }
   template <class D>
@@ -246,6 +283,10 @@ struct RuntimeScope {
     std::vector<void const*> all;
     if (entry.component.template is<role::State>() && !mapped()) return all;
     addSurroundings(all);
+    if (const BodyView found = body(); found.state) {
+      all.push_back(found.state);
+      all.push_back(found.topologyAddress);
+    }
     for (auto* end : endsOf(entry))
       if (end) RuntimeScope(*end).addSurroundings(all);
     // masses that it may have asked for
@@ -304,6 +345,17 @@ struct RuntimeScope {
       f(RuntimeDofs<D::size, typename D::Real>{{owner.template state<D>().dofOffset}});
   }
 
+  /// Values that follow others take theirs, below this top node; `follow()` moves what is mapped from a state
+  /// that has moved.
+  template <class F>
+  void updateLive(bool first, F const& follow) const {
+    if (first || !node.live.bound) bindLive();
+    for (NodeType* graph : node.live.graphs)
+      for (auto& target : graph->live.targets)
+        if (target.entry)
+          RuntimeScope(*target.at, false, profile).updateTarget(target, first, FunctionRef(follow));
+  }
+
   /// A matrix as components see it.
   template <class Matrix>
   static AnyMatrix assembled(Matrix& matrix) {
@@ -360,6 +412,73 @@ struct RuntimeScope {
         : f(&function), call([](void const* p) { (*static_cast<F const*>(p))(); }) {}
     void operator()() const { call(f); }
   };
+  // finds what follows what; a link from a component that was removed is no more
+  void bindLive() const {
+    node.live.graphs.clear();
+    addGraphs(node);
+    node.live.bound = true;
+  }
+  void addGraphs(NodeType& from) const {
+    if (!from.live.targets.empty()) node.live.graphs.push_back(&from);
+    for (auto& target : from.live.targets) {
+      target.at = from.find_node(target.node);
+      target.entry = target.at ? target.at->find(target.component) : nullptr;
+      if (!target.entry) continue;
+      std::erase_if(target.links, [&](LiveLink& link) {
+        link.value = static_cast<char*>(target.entry->component.address()) + link.to.offset;
+        NodeType* const at = from.find_node(link.from.node);
+        RuntimeEntry<R> const* const source = at ? at->find(link.from.component) : nullptr;
+        if (source)
+          link.source = static_cast<char const*>(source->component.address()) + link.from.offset;
+        else if (!link.ofEdits)
+          RuntimeScope(*target.at)
+              .warn(*target.entry,
+                    text(link.to.field,
+                         " followed '",
+                         link.from.component,
+                         "', which is not there any more; it keeps the value that it has"));
+        return !source;
+      });
+    }
+    for (auto const& child : from.children()) addGraphs(*child);
+  }
+  void updateTarget(typename LiveGraph<R>::Target& target, bool first, FunctionRef follow) const {
+    auto const& component = target.entry->component;
+    const auto label = [&] { return text(path(), ": ", node.labelOf(*target.entry)); };
+    for (LiveLink& link : target.links) {
+      if (link.ofEdits && !first) continue;
+      if (link.ofEdits && !std::exchange(link.seen, true)) {
+        link.from.numbers.get(link.source, link.from.list, link.numbers);
+        continue;
+      }
+      if (first && !link.ofEdits) link.to.numbers.get(link.value, link.to.list, link.numbers);
+      if (!link.look()) continue;
+      if (link.keepsCount && link.next.size() != link.numbers.size())
+        check_count_stays(label(),
+                          link.to.field,
+                          text("'", link.from.component, "'"),
+                          link.next.size(),
+                          link.numbers.size());
+      if (!link.to.numbers.set(link.value, link.to.list, link.next))
+        throw Error(label(),
+                    text(link.to.field,
+                         " follows ",
+                         link.from.field,
+                         " of '",
+                         link.from.component,
+                         "', which has ",
+                         link.next.size(),
+                         " numbers now; these are no value of it"));
+      std::swap(link.numbers, link.next);
+      target.pending = true;
+    }
+    if (!target.pending) return;
+    bool moved = false;
+    component.template visit<role::Engine>([&](auto& c) { evaluate_engine(c, *this); });
+    component.template visit<AnyRole>([&](auto& c) { moved = take_values(c, *this); });
+    target.pending = false;
+    if (moved) follow();
+  }
   void locate(void const* c, FunctionRef f) const {
     auto const& entry = node.entryOf(c);
     try {

@@ -290,7 +290,8 @@ constexpr Rule too_many() {
                       N::template count<role::Intersection>,
                       N::template count<role::ContactManager>})
     if (n > 1) return Rule::secondStage;
-  if (N::template count < role::AnimationLoop >> 1 || N::template count < role::ConstraintSolver >> 1)
+  if (N::template count < role::AnimationLoop >> 1 || N::template count < role::ConstraintSolver >> 1 ||
+      N::template count < role::StepDivision >> 1)
     return Rule::secondLoop;
   return N::childNamesDiffer() ? Rule::none : Rule::sameNames;
 }

@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <sinew/core/follow.hpp>
-#include <sinew/scene/scope.hpp>
-#include <sinew/scene/states_of.hpp>
+#include <sinew/scene/body_of_points.hpp>
 #include <sinew/topology/blade_crossings.hpp>
 #include <sinew/topology/cut_plan.hpp>
 
-#include <set>
-#include <string>
-#include <string_view>
 #include <vector>
 
 namespace sinew {
@@ -31,26 +26,18 @@ struct Cut {
   CutFront front{};          // what the blade is not done with
 };
 
-/// A body that is cut: all states that have its points, one by one, with the topologies and visual models
-/// over them.
+/// A body that is cut: tetrahedra or triangles over points in space.
 template <class RootScope>
-class CutBody {
+class CutBody : public BodyOfPoints<RootScope> {
  public:
-  struct Body {
-    void const* address;  // of a topology or a visual model
-    TopologyView view;
-    bool editable;
-    std::string path;
-  };
-  std::set<void const*> states{};  // and visual models
-  std::vector<Body> bodies{};
+  using typename BodyOfPoints<RootScope>::Body;
+  using BodyOfPoints<RootScope>::states, BodyOfPoints<RootScope>::bodies;
 
   /// Throws Error where something stands on these points that cannot follow.
-  CutBody(RootScope const& root, void const* topology, void const* state) : root_(root), topology_(topology) {
-    states.insert(state);
-    collectStates();
-    collectBodies();
-    traverse(root_, on<AnyRole>([this](auto& c, auto const& scope) { this->check(c, scope); }));
+  CutBody(RootScope const& root, void const* topology, void const* state)
+      : BodyOfPoints<RootScope>(root, state), root_(root), topology_(topology) {
+    checkBodies();
+    this->checkValues("its body is to be cut");
     traverse(root_, on<role::State>([&](auto& s, auto const& scope) {
                if (static_cast<void const*>(&s) == state) take(s, scope.path());
              }));
@@ -66,7 +53,7 @@ class CutBody {
     for (std::size_t t = 0; t < bodies.size(); ++t) {
       if (bodies[t].address == topology_) first = t;
       views.push_back(bodies[t].view);
-      grows.push_back(!mechanical_.contains(bodies[t].address));
+      grows.push_back(!this->mechanical.contains(bodies[t].address));
     }
     TopologyView const& body = views[first];
     if (!order.before.empty() && order.before.size() != x_.size())
@@ -86,32 +73,14 @@ class CutBody {
  private:
   RootScope const& root_;
   void const* topology_;
-  std::set<void const*> mechanical_{};  // topologies on which forces and masses act
   std::vector<Eigen::Vector3d> x_{}, rest_{};
 
-  void collectStates() {
-    traverse(root_, on<role::Mapping>([this](auto& mapping, auto const& scope) {
-               scope.withMapped(mapping, [&](auto& part, auto& child, auto& parent) {
-                 if (!states.contains(&parent)) return;
-                 if constexpr (requires { std::decay_t<decltype(part)>::samePoints; }) {
-                   states.insert(&child);
-                   if constexpr (HasRole<std::decay_t<decltype(child)>, role::VisualModel>)
-                     add(child, child.mesh, scope.path());
-                 }
-               });
-             }));
-  }
-  template <class C>
-  void add(C const& model, Mesh const& mesh, std::string path) {
-    bodies.push_back({&model, {.edges = mesh.edges, .triangles = mesh.triangles}, true, std::move(path)});
-  }
-  void collectBodies() {
+  void checkBodies() const {
     traverse(root_, on<role::Topology>([this](auto& t, auto const& scope) {
                if (!states.contains(scope.pointsAddress())) return;
                using T = std::decay_t<decltype(t)>;
                constexpr bool editable = requires { t.edit(); };
                const TopologyView view = t.view();
-               bodies.push_back({&t, view, editable, scope.path()});
                if (!view.hexahedra.empty() || !view.quads.empty())
                  throw Error(text(scope.path(), ": ", component_name<T>()),
                              "hexahedra and quads are not cut; give the body tetrahedra "
@@ -126,30 +95,6 @@ class CutBody {
                  throw Error(text(scope.path(), ": ", component_name<T>()),
                              "there are neither tetrahedra nor triangles to cut; give it some");
              }));
-    traverse(root_, on<role::ForceField, role::Mass>([this](auto&, auto const& scope) {
-               mechanical_.insert(scope.topologyAddress());
-             }));
-  }
-
-  // what has a value for each point, or each element, that cannot be shared out among those that come
-  template <class C, class S>
-  void check(C& c, S const& scope) const {
-    auto refuse = [&](std::string_view why) {
-      throw Error(text(scope.path(), ": ", component_name<C>()), text(why, ", and its body is to be cut"));
-    };
-    if constexpr (HasRole<C, role::Mapping>) {
-      if constexpr (over_parent<C>)
-        scope.withMapped(c, [&](auto&, auto&, auto& parent) {
-          if (states.contains(&parent)) refuse("it maps a value from each element; take it away");
-        });
-    } else if constexpr (ActsOnState<C> && !JoinsTwo<C> && !HasRole<C, role::ProjectiveConstraint>) {
-      if (!states.contains(scope.stateAddress())) return;
-      for_each_field(c, [&](auto const& fd, auto const& value) {
-        if constexpr (detail::is_list<std::decay_t<decltype(value)>>)
-          if (fd.entries == Of::points && !fd.numbers && value.size() > 1)
-            refuse(text(fd.name, " has a value for each point; give one for all, or a density"));
-      });
-    }
   }
 
   template <class State>

@@ -96,7 +96,7 @@ struct Cutting {
   std::vector<Eigen::Vector3d> positionsOf(Body const& body) const {
     std::vector<Eigen::Vector3d> x;
     traverse(root, on<role::State>([&](auto const& s, auto const&) {
-               if (static_cast<void const*>(&s) == body.state) x = centers(s);
+               if (static_cast<void const*>(&s) == body.state) x = centers_of(s, s.position);
              }));
     return x;
   }
@@ -111,21 +111,12 @@ struct Cutting {
   std::vector<Eigen::Vector3d> bladeOf(C const& c) const {
     std::vector<Eigen::Vector3d> all, blade;
     traverse(root, on<role::State>([&](auto const& s, auto const& scope) {
-               if (scope.path() == c.tool) all = centers(s);
+               if (scope.path() == c.tool) all = centers_of(s, s.position);
              }));
     if (c.indices.empty()) return all;
     for (const int i : c.indices)
       if (std::size_t(i) < all.size()) blade.push_back(all[std::size_t(i)]);
     return blade;
-  }
-  template <class State>
-  static std::vector<Eigen::Vector3d> centers(State const& s) {
-    using D = typename State::DataTypes;
-    std::vector<Eigen::Vector3d> all(s.position.size(), Eigen::Vector3d::Zero());
-    if constexpr (D::spatial <= 3 && requires { D::center(s.position[0]); })
-      for (std::size_t i = 0; i < all.size(); ++i)
-        all[i].template head<D::spatial>() = D::center(s.position[i]).template cast<double>();
-    return all;
   }
   template <class F>
   void at(int number, F&& f) const {

@@ -39,6 +39,8 @@ class Initialisation {
   bool constrained_ = false;           // the scene solves constraints by multipliers
 
   void checkFields();
+  // steps in parts
+  void checkDivision();
   // topologies are made first; then states, parents before children
   void initStates();
   template <class S>
@@ -71,8 +73,8 @@ class Initialisation {
               "of the state of its node");
         child.place(scope.path(), scope.topology().positions);
         child.takeGiven();
-        initMapping(c, scope, child.position, child.position);
         mapsRest = child.restPosition.empty();
+        initMapping(c, scope, mapsRest ? child.position : child.restPosition, child.position);
         if (mapsRest) child.restPosition.assign(child.position.size(), C::Out::zero());
       }
     });
@@ -136,10 +138,17 @@ class Initialisation {
   struct Given {
     InitContext<D> context;
     std::vector<double> masses{};
+    std::vector<Eigen::Vector3d> places{};
 
     template <class S>
     explicit Given(S const& scope) : context(scope.template context<D>()) {
       if constexpr (needs_masses<C>) context.masses = masses = massesOf(scope, context);
+      if constexpr (over_body<C>)
+        if (const BodyView body = scope.body(); body.state) {
+          body.placesOf(body.state, places);
+          context.topology = body.topology;
+          context.body = places;
+        }
     }
   };
   // of the points of a state: the sums of the rows of M; empty where there is no mass
@@ -148,7 +157,7 @@ class Initialisation {
     std::vector<double> masses;
     scope.stateScope().withMass([&](auto& mass) {
       if constexpr (std::is_same_v<typename std::decay_t<decltype(mass)>::DataTypes, D>) {
-        mass.init(context);
+        mass.init(Given<std::decay_t<decltype(mass)>, D>(scope).context);
         typename D::VecDeriv along(context.rest.size(), D::Deriv::Unit(0)),
             sums(along.size(), D::Deriv::Zero());
         mass.addMDx(sums, context.rest, along, 1.0);
@@ -237,6 +246,8 @@ void Initialisation<RootScope>::run() {
   root_.raise();
   checkFields();
   ChangingPoints<RootScope>{root_}.begin();
+  if constexpr (holds<typename RootScope::NodeType, role::TopologicalChange>())
+    if (again_.touched.empty()) TopologicalChanges<RootScope>{root_}.begin();
   initStates();
   initComponents();
   ChangingPoints<RootScope>{root_}.init();
@@ -250,10 +261,27 @@ void Initialisation<RootScope>::run() {
   FluidBoundaries<RootScope>{root_}.init();
   ImmersedBodies<RootScope>{root_}.init();
   initSolvers();
+  checkDivision();
   root_.raise();
   if constexpr (collides<RootScope>) Collision<RootScope>{root_}.findCarriers();
   LooseInteractions<RootScope>{root_}.init();
   root_.settled();
+}
+
+template <class RootScope>
+void Initialisation<RootScope>::checkDivision() {
+  bool impacts = false;
+  traverse(root_, on<role::Intersection>([&](auto const& intersection, auto const&) {
+             impacts = impacts || intersection.continuous;
+           }));
+  with_first<role::StepDivision>(root_, [&](auto const& division) {
+    if (division.integrationSteps > 1 && (constrained_ || impacts))
+      throw Error(text(root_.path(), ": ", component_name<std::decay_t<decltype(division)>>()),
+                  text("integrationSteps is ",
+                       division.integrationSteps,
+                       constrained_ ? ", but constraints by multipliers" : ", but contacts by impacts",
+                       " are those of one integration; leave it at 1, and raise collisionSteps"));
+  });
 }
 
 template <class RootScope>

@@ -5,6 +5,7 @@
 #include <sinew/core/element_force.hpp>
 #include <sinew/core/vec_id.hpp>
 #include <sinew/scene/scope.hpp>
+#include <sinew/scene/state_vectors.hpp>
 #include <sinew/scene/states_of.hpp>
 
 #include <type_traits>
@@ -22,31 +23,43 @@ struct MechanicalForces {
       traverse(root, on<role::ForceField>([&](auto& c, auto const&) {
                  if constexpr (shares_work<std::decay_t<decltype(c)>>) split_work(c, root.workers().count());
                }));
+    if constexpr (Root::distributed)
+      traverse(root, on<role::ForceField>([&](auto& c, auto const& scope) {
+                 if constexpr (takes_elements<std::decay_t<decltype(c)>>)
+                   with_states_of(c, scope, [&](auto& s) { c.driver.setGhosts(s.owned()); });
+               }));
   }
 
   /// f += forces at (x, v)
   void add(DerivId f, CoordId x, DerivId v, MechanicalParams const& p) const {
-    forEach([&](auto& c, auto const& scope) {
-      MechanicalParams own = p;
-      if constexpr (HasRole<std::decay_t<decltype(c)>, role::Mass>) own.gravity = scope.gravity();
-      with_states_of(c, scope, [&](auto&... s) {
-        inShares(
-            c, own, [&](MechanicalParams const& part) { add_force(c, part, s[f]..., s[x]..., s[v]...); });
-      });
-    });
+    forEachWithGhosts(
+        [&](auto& c, auto const& scope, Elements elements) {
+          MechanicalParams own = p;
+          own.share.elements = elements;
+          if constexpr (HasRole<std::decay_t<decltype(c)>, role::Mass>) own.gravity = scope.gravity();
+          with_states_of(c, scope, [&](auto&... s) {
+            inShares(
+                c, own, [&](MechanicalParams const& part) { add_force(c, part, s[f]..., s[x]..., s[v]...); });
+          });
+        },
+        x,
+        v);
   }
   /// r += (m M + b B + k K) dx
   void addProducts(DerivId r, DerivId dx, MechanicalParams const& p) const {
-    forEach([&](auto& c, auto const& scope) {
-      constexpr bool isMass = HasRole<std::decay_t<decltype(c)>, role::Mass>;
-      if (isMass ? p.m == 0 : p.k == 0 && p.b == 0) return;
-      with_states_of(c, scope, [&](auto&... s) {
-        if constexpr (isMass)
-          c.addMDx(s[r]..., s[vec_id::position]..., s[dx]..., p.m);
-        else
-          inShares(c, p, [&](MechanicalParams const& part) { add_dforce(c, part, s[r]..., s[dx]...); });
-      });
-    });
+    forEachWithGhosts(
+        [&](auto& c, auto const& scope, Elements elements) {
+          constexpr bool isMass = HasRole<std::decay_t<decltype(c)>, role::Mass>;
+          if (isMass ? p.m == 0 : p.k == 0 && p.b == 0) return;
+          auto&& own = partOf(p, elements);
+          with_states_of(c, scope, [&](auto&... s) {
+            if constexpr (isMass)
+              c.addMDx(s[r]..., s[vec_id::position]..., s[dx]..., p.m);
+            else
+              inShares(c, own, [&](MechanicalParams const& part) { add_dforce(c, part, s[r]..., s[dx]...); });
+          });
+        },
+        dx);
   }
   /// matrix += m M + b B + k K, or its pattern
   template <AssemblyPhase Phase, class Matrix>
@@ -108,6 +121,34 @@ struct MechanicalForces {
     traverse(root,
              on<role::ForceField, role::Mass, role::InteractionForceField>(
                  [&](auto& c, auto const& scope) { f(c, scope); }));
+  }
+  // the parameters for some of the elements; themselves where the scene is not distributed
+  static decltype(auto) partOf(MechanicalParams const& p, [[maybe_unused]] Elements elements) {
+    if constexpr (Root::distributed) {
+      MechanicalParams own = p;
+      own.share.elements = elements;
+      return own;
+    } else {
+      return static_cast<MechanicalParams const&>(p);
+    }
+  }
+  // f(component, scope, elements): in a distributed scene ghost points of these vectors come meanwhile, and
+  // elements that need none of them go first
+  template <class F, class... Ids>
+  void forEachWithGhosts(F&& f, [[maybe_unused]] Ids... ids) const {
+    if constexpr (Root::distributed) {
+      const StateVectors<Root> vectors{root};
+      root.distribution().begin(vectors, ids...);
+      forEach([&](auto& c, auto const& scope) {
+        if constexpr (takes_elements<std::decay_t<decltype(c)>>) f(c, scope, Elements::inner);
+      });
+      root.distribution().end(vectors, ids...);
+      forEach([&](auto& c, auto const& scope) {
+        f(c, scope, takes_elements<std::decay_t<decltype(c)>> ? Elements::outer : Elements::all);
+      });
+    } else {
+      forEach([&](auto& c, auto const& scope) { f(c, scope, Elements::all); });
+    }
   }
   // f(params) for a component as a whole, or for each share of it, pass by pass
   template <class C, class F>

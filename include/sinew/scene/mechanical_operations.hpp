@@ -219,11 +219,13 @@ bool MechanicalOperations<Root>::solveSystemAgain(MatrixFactors factors, MultiVe
 
 template <class Root>
 double MechanicalOperations<Root>::kineticEnergy() {
+  static_assert(!Root::distributed, "Sinew: the energies of a distributed scene are not added up yet.");
   return forces().kineticEnergy();
 }
 
 template <class Root>
 double MechanicalOperations<Root>::potentialEnergy() {
+  static_assert(!Root::distributed, "Sinew: the energies of a distributed scene are not added up yet.");
   return forces().potentialEnergy();
 }
 

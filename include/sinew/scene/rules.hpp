@@ -89,8 +89,8 @@ struct Kind {
   bool acts = false;     // on the state of its node
   bool watches = false;  // looks at it only
   bool constrains = false;
-  bool byMultipliers = false;  // a constraint
-  bool loop = false;
+  bool byMultipliers = false;          // a constraint
+  bool loop = false, divides = false;  // an animation loop; divides steps
   bool collides = false;
   bool maps = false, severalParents = false;
   bool stage = false, pipeline = false;  // of collision detection; composes its stages
@@ -105,6 +105,7 @@ constexpr Kind kind_of() {
   kind.constrains = HasRole<C, role::ProjectiveConstraint>;
   kind.byMultipliers = HasRole<C, role::LagrangianConstraint>;
   kind.loop = HasRole<C, role::AnimationLoop>;
+  kind.divides = HasRole<C, role::StepDivision>;
   kind.collides = HasRole<C, role::CollisionModel>;
   kind.acts = ActsOnState<C> && !JoinsTwo<C>;
   kind.maps = HasRole<C, role::Mapping>;
@@ -174,6 +175,8 @@ constexpr Broken broken(Facts const& facts) {
     if (!facts.inRoot()) return {Rule::loopNotInRoot};
     if (!facts.constraintSolver()) return {Rule::noConstraintSolver};
     if (facts.severalConstraintSolvers()) return {Rule::severalConstraintSolvers};
+  } else if constexpr (kind.divides) {
+    if (!facts.inRoot()) return {Rule::loopNotInRoot};
   } else if constexpr (kind.stage) {
     if (!facts.pipelineHere()) return {Rule::loneStage};
   } else if constexpr (kind.pipeline) {

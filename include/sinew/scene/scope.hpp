@@ -15,11 +15,13 @@ namespace sinew {
 
 /// What is above the root of a scene.
 struct NoScope {
-  static constexpr bool hasState = false, isMapped = false, profiled = false, threaded = false;
+  static constexpr bool hasState = false, isMapped = false, profiled = false, threaded = false,
+                        distributed = false;
   static std::string path() { return ""; }
   static Eigen::Vector3d gravity() { return Eigen::Vector3d::Zero(); }
   static TopologyView topology() { return {}; }
   static void const* topologyAddress() { return nullptr; }
+  static BodyView body(BodySearch) { return {}; }
   static constexpr OneThread workers() { return {}; }
   template <class F>
   static void withLinearSolverIfAny(F&&) {}
@@ -107,6 +109,8 @@ struct Scope {
   static constexpr bool isVisual = N::template count<role::VisualModel> > 0;
   static constexpr bool profiled = A::profiled;
   static constexpr bool threaded = A::threaded || N::template count<role::Execution> > 0;
+  /// Other processes have other parts of the scene: sinew/mpi/distribution.hpp.
+  static constexpr bool distributed = A::distributed;
 
   /// The node has a component of this role, whatever happens at run time.
   template <class R>
@@ -162,6 +166,9 @@ struct Scope {
       return above.workers();
   }
 
+  /// What is known of the parts of a distributed scene.
+  auto& distribution() const { return above.distribution(); }
+
   /// The nearest topology upwards, of the nodes that share this node's points.
   TopologyView topology() const {
     if constexpr (always<role::Topology>)
@@ -208,6 +215,19 @@ struct Scope {
   template <class D>
   InitContext<D> context() const {
     return detail::init_context<D>(path(), state<D>(), topology());
+  }
+  /// The body on which the values of the state of this node lie.
+  BodyView body(BodySearch next = BodySearch::values) const {
+    if constexpr (always<role::Topology>) {
+      if (next == BodySearch::values) return {};
+      if (next == BodySearch::topology) {
+        BodyView found = bodyState(BodySearch::state);
+        found.topology = topology();
+        found.topologyAddress = topologyAddress();
+        return found;
+      }
+    }
+    return bodyState(next);
   }
   /// The scope that owns the state that the mapping of this node follows.
   auto const& parentScope() const { return above.stateScope(); }
@@ -407,6 +427,15 @@ struct Scope {
   }
 
  private:
+  BodyView bodyState(BodySearch next) const {
+    if constexpr (ownsState) {
+      using S = std::decay_t<decltype(node.state())>;
+      if (next == BodySearch::values) return above.body(BodySearch::topology);
+      if constexpr (BodyView::inSpace<S>)
+        if (next == BodySearch::state) return BodyView::over(node.state());
+    }
+    return above.body(next);
+  }
   template <class Child>
   auto below(Child& child) const {
     return typename ScopeBelow<Child, Scope>::type{child, *this};

@@ -145,6 +145,18 @@ class Simulation {
   /// nothing has changed then.
   TopologyChange removeElements(std::string_view path, ElementNumbers const& elements);
 
+  /// Puts elements behind those of the topology of the node at a path from the root, over its points and new
+  /// ones between these. A point comes where it lies between its own, in place, at rest and in velocity; an
+  /// element has its shape at rest from the rest positions, and the values of its ancestor, where it has one.
+  /// What was there before moves on as it did. Masses by density grow by what comes, which has the velocities
+  /// of its points. All that refers to the body follows: topologies and visual models with the same elements,
+  /// with its whole border, or with two triangles for each of its quads get those that come (plan_addition),
+  /// constraints hold points between those that they held, and the rest is initialised again from the rest
+  /// positions. Returns what became of points and elements. Throws Error where a number leads nowhere, an
+  /// element has a point twice or is there already, is flat or inside out, or something has a value for each
+  /// element or point that what comes would not have: nothing has changed then.
+  TopologyChange addElements(std::string_view path, AddedElements const& elements);
+
   /// Cuts the topology of the node at a path from the root ("liver"), tetrahedra or else triangles, along
   /// what a blade sweeps, where the body is now (plan_cut): elements through which it goes are parted, their
   /// points are there twice, and what comes is between what there was, in place, at rest and in velocity. All
@@ -217,7 +229,7 @@ class Simulation {
   static constexpr NoScope above_{};
 
   static RootScope scopeOf(Root& root) {
-    if constexpr (RootScope::profiled && requires { root.aboveRoot; })
+    if constexpr ((RootScope::profiled || RootScope::distributed) && requires { root.aboveRoot; })
       return {root, root.aboveRoot};
     else
       return {root, above_};
@@ -228,6 +240,10 @@ class Simulation {
     if (!initialised_)
       throw Error(text("Simulation::", what), "the scene is not initialised; call init() first");
   }
+  template <class Order>
+  TopologyChange editTopology(std::string_view path, Order const& order);
+  template <class StepOf>
+  void changeTopology(StepOf const& step);
   template <class F>
   auto picking(F&& f) {
     const auto scope = rootScope();
@@ -241,6 +257,8 @@ class Simulation {
   }
 
   void propagate();
+  // a part of a step
+  void advance(Step<RootScope> const& step, bool detects);
 };
 
 // Outside the class, so that a program may have them instantiated in one place: runtime/precompiled.hpp.
@@ -261,15 +279,27 @@ void Simulation<Root>::init(double time, long step) {
 template <class Root>
 TopologyChange Simulation<Root>::removeElements(std::string_view path, ElementNumbers const& elements) {
   initialisedFor("removeElements");
+  return editTopology(path, elements);
+}
+
+template <class Root>
+TopologyChange Simulation<Root>::addElements(std::string_view path, AddedElements const& elements) {
+  initialisedFor("addElements");
+  return editTopology(path, elements);
+}
+
+template <class Root>
+template <class Order>
+TopologyChange Simulation<Root>::editTopology(std::string_view path, Order const& order) {
   TopologyChange change;
   if constexpr (proved) {
     Root next(root_);
     const auto scope = scopeOf(next);
     scope.settled();
-    TopologyEdit removal(scope, path, elements);
-    removal.apply();
-    Initialisation<RootScope>(scope, removal.touched()).run();
-    change = removal.change();
+    TopologyEdit edit(scope, path, order);
+    edit.apply();
+    Initialisation<RootScope>(scope, edit.touched()).run();
+    change = edit.change();
     root_ = std::move(next);
     propagate();
   }
@@ -288,16 +318,31 @@ Cut Simulation<Root>::cut(std::string_view path, CutOrder const& order) {
       done = {edit.change(), edit.cut().elements, edit.cut().faces, edit.cut().front};
       if (!edit.cut().changes()) return done;
     }
-    Root next(root_);
-    const auto scope = scopeOf(next);
-    scope.settled();
-    TopologyEdit edit(scope, path, order);
-    edit.apply();
-    Initialisation<RootScope>(scope, edit.touched()).run();
-    root_ = std::move(next);
-    propagate();
+    editTopology(path, order);
   }
   return done;
+}
+
+// all that a step changes, or nothing of it
+template <class Root>
+template <class StepOf>
+void Simulation<Root>::changeTopology(StepOf const& step) {
+  std::optional<Root> before;
+  try {
+    step.changeTopology([&](auto const& path, auto const& order) {
+      if (!before) before.emplace(root_);
+      using Order = std::decay_t<decltype(order)>;
+      if constexpr (std::is_same_v<Order, CutOrder>)
+        return cut(path, order);
+      else if constexpr (std::is_same_v<Order, AddedElements>)
+        addElements(path, order);
+      else
+        removeElements(path, order);
+    });
+  } catch (...) {
+    if (before) root_ = std::move(*before);
+    throw;
+  }
 }
 
 template <class Root>
@@ -308,24 +353,39 @@ void Simulation<Root>::animate(double dt) {
   if constexpr (proved) {
     const auto scope = rootScope();
     [[maybe_unused]] const auto span = scope.span(Phase::step);
-    const Step<RootScope> step{scope, step_ + 1, time_, dt, warnings_};
-    if constexpr (holds<Root, role::TopologicalChange>())
-      step.changeTopology([&](auto const& path, auto const& elements) { removeElements(path, elements); });
-    step.begin();
-    if constexpr (holds<Root, role::Cutting>())
-      step.cut([&](auto const& path, auto const& order) { return cut(path, order); });
-    if constexpr (collides<RootScope>) step.detectContacts();
-    if constexpr (collides<RootScope> && holds<Root, role::Carving>())
-      if (step.carve([&](auto const& path, auto const& elements) { removeElements(path, elements); }))
-        step.detectContacts();
-    step.computeLoose();
-    step.stepModels();
-    step.integrate(keepsForces_);
-    time_ += dt;
+    long detections = 1, integrations = 1;
+    with_first<role::StepDivision>(scope, [&](auto const& division) {
+      detections = division.collisionSteps, integrations = division.integrationSteps;
+    });
+    const double begin = time_, parts = double(detections) * double(integrations);
+    long part = 0;
+    for (long i = 0; i < detections; ++i)
+      for (long k = 0; k < integrations; ++k) {
+        advance({scope, step_ + 1, time_, dt / parts, warnings_, step_ + part == 0}, k == 0);
+        time_ = begin + dt * (double(++part) / parts);
+      }
     ++step_;
     visualsAreCurrent_ = false;
-    step.end();
+    const Step<RootScope> whole{scope, step_, begin, dt, warnings_};
+    whole.follow();
+    whole.end();
   }
+}
+
+template <class Root>
+void Simulation<Root>::advance(Step<RootScope> const& step, bool detects) {
+  if constexpr (holds<Root, role::TopologicalChange>()) changeTopology(step);
+  step.begin();
+  if constexpr (holds<Root, role::Cutting>())
+    step.cut([&](auto const& path, auto const& order) { return cut(path, order); });
+  if constexpr (collides<RootScope>)
+    if (detects) step.detectContacts();
+  if constexpr (collides<RootScope> && holds<Root, role::Carving>())
+    if (step.carve([&](auto const& path, auto const& elements) { removeElements(path, elements); }))
+      step.detectContacts();
+  step.computeLoose();
+  step.stepModels();
+  step.integrate(keepsForces_);
 }
 
 template <class Root>
@@ -387,6 +447,10 @@ void Simulation<Root>::propagate() {
     o.propagate(vec_id::position, vec_id::velocity);
     return 0;
   });
+  if constexpr (proved) {
+    const auto scope = rootScope();
+    LiveEngines<RootScope>{scope, time_}.update(true);
+  }
   visualsAreCurrent_ = false;
 }
 

@@ -148,8 +148,19 @@ void StateVectors<Root>::teq(DerivId r, double f) const {
 template <class Root>
 double StateVectors<Root>::dot(DerivId a, DerivId b) const {
   double sum = 0;
-  forEachIndependent([&](auto& s) { sum += Vectors<decltype(s)>::dot(workers(), s[a], s[b]); });
-  return sum;
+  if constexpr (Root::distributed) {
+    forEachIndependent([&](auto& s) {
+      const auto u = vec::flat(s[a]), v = vec::flat(s[b]);
+      const Eigen::Index own = Eigen::Index(s.owned()) * DataTypesOf<decltype(s)>::size;
+      sum += vec::sum_pieces(OneThread{}, own, [&](Eigen::Index i, Eigen::Index n) {
+        return vec::dot_piece(u.data() + i, v.data() + i, n);
+      });
+    });
+    return root.distribution().sum(sum);
+  } else {
+    forEachIndependent([&](auto& s) { sum += Vectors<decltype(s)>::dot(workers(), s[a], s[b]); });
+    return sum;
+  }
 }
 
 template <class Root>
@@ -159,10 +170,17 @@ void StateVectors<Root>::xpay(DerivId r, DerivId a, double f) const {
 
 template <class Root>
 double StateVectors<Root>::advance(DerivId x, DerivId p, DerivId r, DerivId q, double f) const {
-  double sum = 0;
-  forEachIndependent(
-      [&](auto& s) { sum += Vectors<decltype(s)>::advance(workers(), s[x], s[p], s[r], s[q], real(s, f)); });
-  return sum;
+  if constexpr (Root::distributed) {
+    peq(x, p, f);
+    peq(r, q, -f);
+    return dot(r, r);
+  } else {
+    double sum = 0;
+    forEachIndependent([&](auto& s) {
+      sum += Vectors<decltype(s)>::advance(workers(), s[x], s[p], s[r], s[q], real(s, f));
+    });
+    return sum;
+  }
 }
 
 template <class Root>

@@ -8,6 +8,7 @@
 #include <sinew/scene/cutting.hpp>
 #include <sinew/scene/fluid_boundaries.hpp>
 #include <sinew/scene/immersed_bodies.hpp>
+#include <sinew/scene/live_engines.hpp>
 #include <sinew/scene/loose_interactions.hpp>
 #include <sinew/scene/mechanical_operations.hpp>
 #include <sinew/scene/overlap_warnings.hpp>
@@ -33,6 +34,7 @@ struct Step {
   long number;      // of the step, from 1
   double time, dt;  // at its start, and its length [s]
   StepWarnings& warnings;
+  bool first = number == 1;  // nothing was integrated before since init or reset
 
   /// What acts before a step: all may look at the scene, points go and come, then it may be moved.
   void begin() const {
@@ -60,17 +62,14 @@ struct Step {
   /// bodies that start in each other, or come there before a contact is seen.
   void detectContacts() const;
 
-  /// Removes elements whose time has come, or that are where none may be, by remove(path, elements).
-  template <class Remove>
-  void changeTopology(Remove&& remove) const {
-    TopologicalChanges<RootScope>{root}.make(time, notes(), [&](auto const& path, auto const& elements) {
-      try {
-        remove(path, elements);
-      } catch (Error const& error) {
-        throw Error(text("the topological change at step ", number - 1, " (time ", time, " s)"),
-                    text("elements of '", path, "' cannot be removed: ", error.what()));
-      }
-    });
+  /// Changes topologies where the time has come, or elements are where none may be, by edit(path, order).
+  template <class Edit>
+  void changeTopology(Edit&& edit) const {
+    try {
+      TopologicalChanges<RootScope>{root}.make(time, notes(), edit);
+    } catch (Error const& error) {
+      throw Error(text("the topological change at step ", number - 1, " (time ", time, " s)"), error.what());
+    }
   }
 
   /// Removes what tools touch, by remove(path, elements); says whether something went.
@@ -132,7 +131,20 @@ struct Step {
         with_first<role::AnimationLoop>(root, [&](auto& loop) { integrateConstrained(loop, keepsForces); });
     if (!constrained)
       for_each_solver(root, [&](auto& ode, auto const& scope) { solve(ode, scope, keepsForces); });
-    if (number == 1) warnOfThresholds();
+    if (first) warnOfThresholds();
+  }
+
+  /// What follows other values takes those at the end of the step.
+  void follow() const {
+    if constexpr (holds<typename RootScope::NodeType, role::DataLink>()) {
+      try {
+        LiveEngines<RootScope>{root, time + dt}.update(false);
+      } catch (Error const& error) {
+        const StepInfo info{number, time + dt, dt};
+        traverse(root, on<role::State>([&](auto& state, auto const& s) { end(state, s, info); }));
+        throw Error(text("step ", number, " (time ", time + dt, " s)"), error.what());
+      }
+    }
   }
 
   /// Checks states, and calls what watches them. The time is that of the end of the step.
@@ -278,7 +290,7 @@ void Step<RootScope>::detectContacts() const {
     });
   };
   // in the first step the host looks at all that may start in each other
-  Collision<RootScope>{root}.detect(dt, number > 1, newPattern, [&](auto const& where, std::string_view why) {
+  Collision<RootScope>{root}.detect(dt, !first, newPattern, [&](auto const& where, std::string_view why) {
     notes().warn(where, "contacts of bodies on a device are found on the host", [&] {
       return text("contacts of bodies on a device are found on the host, from copies: ", why);
     });

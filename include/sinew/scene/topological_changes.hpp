@@ -5,49 +5,65 @@
 #include <sinew/scene/topology_edit.hpp>
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace sinew {
 
-/// What the components of a scene take out of its topologies before a step.
+/// What the components of a scene change of its topologies before a step.
 template <class RootScope>
 struct TopologicalChanges {
   RootScope const& root;
 
-  /// Throws Error where there is no topology whose elements can be removed.
-  void prepare() const {
-    traverse(
-        root, on<role::TopologicalChange>([this](auto& c, auto const& scope) {
-          const std::string where = text(scope.path(), ": ", component_name<std::decay_t<decltype(c)>>());
-          if (!scope.topologyAddress())
-            throw Error(where,
-                        "neither its node nor one above has a topology; give one of them a MeshTopology");
-          if (!this->place(scope).editable)
-            throw Error(where,
-                        "the elements of its topology are made from a few numbers, and none of them can be "
-                        "removed; give the node a MeshTopology with these elements");
-          c.prepare(where, scope.topology());
-        }));
+  /// Before all else: which topologies may be without elements, since some may come.
+  void begin() const {
+    traverse(root, on<role::Topology>([](auto& t, auto const&) {
+               if constexpr (requires { t.grows; }) t.grows = false;
+             }));
+    traverse(root, on<role::TopologicalChange>([this](auto& c, auto const& scope) {
+               if constexpr (MayAddElements<std::decay_t<decltype(c)>>)
+                 if (c.mayAdd(whereOf(c, scope)) && scope.topologyAddress())
+                   markGrowing(scope.topologyAddress());
+             }));
   }
 
-  /// By remove(path, elements), after which the scene is another one, at the same place. Says whether
-  /// something went.
-  template <class Remove>
-  bool make(double time, StepNotes const& notes, Remove&& remove) const {
+  /// Throws Error where there is no topology whose elements can be removed.
+  void prepare() const {
+    traverse(root, on<role::TopologicalChange>([this](auto& c, auto const& scope) {
+               const std::string where = whereOf(c, scope);
+               if (!scope.topologyAddress())
+                 throw Error(
+                     where, "neither its node nor one above has a topology; give one of them a MeshTopology");
+               if (!this->place(scope).editable)
+                 throw Error(
+                     where,
+                     "the elements of its topology are made from a few numbers, and none of them can be "
+                     "removed; give the node a MeshTopology with these elements");
+               c.prepare(where, scope.topology());
+             }));
+  }
+
+  /// By edit(path, order), which returns what a cut has done, and after which the scene is another one, at
+  /// the same place. Says whether something has changed.
+  template <class Edit>
+  bool make(double time, StepNotes const& notes, Edit&& edit) const {
     int count = 0;
     traverse(root, on<role::TopologicalChange>([&](auto const&, auto const&) { ++count; }));
     bool any = false;
     for (int number = 0; number < count; ++number)
       for (bool due = true; due;) {
-        std::string path;
-        ElementNumbers elements;
+        Place here;
+        TopologicalOrder order;
+        std::optional<CutOrder> cut;
         bool keepsLast = false;
         at(number, [&](auto& c, auto const& scope) {
-          due = find(c, scope, time, elements);
-          path = this->place(scope).path;
-          keepsLast = due && keepOne(scope.topology(), elements);
+          here = this->place(scope);
+          due = find(c, scope, here.points, time, order);
+          if (due && !order.box.empty())
+            addThoseIn(order.box, scope.topology(), positionsOf(scope.pointsAddress()), order.gone);
+          keepsLast = due && order.removes() && keepOne(scope.topology(), order.gone);
           if (keepsLast)
             notes.warn(scope.path(), "the last element of a body stays", [] {
               return "the last element of a body stays: a body keeps one element; take its node out of the "
@@ -56,13 +72,27 @@ struct TopologicalChanges {
           if constexpr (NoticesChange<std::decay_t<decltype(c)>>)
             if (const std::string_view what = c.notice(); !what.empty())
               notes.warn(scope.path(), what, [&] { return std::string(what); });
+          if (due && !order.incision.empty()) cut = this->incision(c, scope, order.incision);
         });
         if (!due) break;
-        bool some = false;
-        for (auto const* list : elements.lists()) some = some || !list->empty();
-        if (some) remove(path, elements);
+        const bool some = order.removes() || !order.added.empty() || cut;
+        if (cut) {
+          const Cut done = edit(here.path, *cut);
+          at(number, [&](auto& c, auto const&) {
+            if constexpr (requires { c.front; }) c.front = done.front;
+          });
+        } else if (order.removes()) {
+          edit(here.path, order.gone);
+        } else if (!order.added.empty()) {
+          edit(here.path, order.added);
+        }
         any = any || some;
-        at(number, [](auto& c, auto const&) { c.elementsRemoved(); });
+        at(number, [](auto& c, auto const&) {
+          if constexpr (FindsChanges<std::decay_t<decltype(c)>>)
+            c.changeMade();
+          else
+            c.elementsRemoved();
+        });
         if (keepsLast) break;  // it would be found again
       }
     return any;
@@ -72,18 +102,86 @@ struct TopologicalChanges {
   struct Place {
     std::string path{};  // from the root
     bool editable = false;
+    std::size_t points = 0;  // of the state
   };
+  template <class C, class S>
+  static std::string whereOf(C const&, S const& scope) {
+    return text(scope.path(), ": ", component_name<C>());
+  }
   template <class S>
   Place place(S const& scope) const {
     Place found;
-    void const* const address = scope.topologyAddress();
+    void const *const address = scope.topologyAddress(), *state = nullptr;
     traverse(root, on<role::Topology>([&](auto& t, auto const& at) {
                if (static_cast<void const*>(&t) != address) return;
                const std::string path = at.path();
                found = {path.substr(std::min(path.size(), root.path().size() + 1)),
                         editable_topology<std::decay_t<decltype(t)>>};
+               state = at.pointsAddress();
+             }));
+    traverse(root, on<role::State>([&](auto& s, auto const&) {
+               if (static_cast<void const*>(&s) == state) found.points = s.size();
              }));
     return found;
+  }
+  // a topology, and those over its points that are made from others
+  void markGrowing(void const* address) const {
+    void const* points = nullptr;
+    traverse(root, on<role::Topology>([&](auto& t, auto const& scope) {
+               if (static_cast<void const*>(&t) == address) points = scope.pointsAddress();
+             }));
+    const auto states = same_points(root, points);
+    traverse(root, on<role::Topology>([&](auto& t, auto const& scope) {
+               if constexpr (requires { t.grows; })
+                 if (static_cast<void const*>(&t) == address ||
+                     (states.contains(scope.pointsAddress()) && !t.conversion.empty()))
+                   t.grows = true;
+             }));
+  }
+  std::vector<Eigen::Vector3d> positionsOf(void const* state) const {
+    std::vector<Eigen::Vector3d> x;
+    traverse(root, on<role::State>([&](auto const& s, auto const&) {
+               if (static_cast<void const*>(&s) == state) x = centers_of(s, s.position);
+             }));
+    return x;
+  }
+  // elements of the highest dimension all of whose points are in a box
+  static void addThoseIn(std::vector<Vec<double, 6>> const& box, TopologyView const& t,
+                         std::vector<Eigen::Vector3d> const& x, ElementNumbers& gone) {
+    auto isIn = [&](Index i) {
+      return std::any_of(box.begin(), box.end(), [&](auto const& b) {
+        Eigen::Array3d const p = x[std::size_t(i)].array(), a = b.template head<3>().array(),
+                             c = b.template tail<3>().array();
+        return (p >= a.min(c)).all() && (p <= a.max(c)).all();
+      });
+    };
+    auto add = [&](auto const& list, std::vector<Index>& numbers) {
+      for (std::size_t e = 0; e < list.size(); ++e)
+        if (std::all_of(list[e].begin(), list[e].end(), isIn)) numbers.push_back(Index(e));
+    };
+    if (!t.tetrahedra.empty() || !t.hexahedra.empty())
+      add(t.tetrahedra, gone.tetrahedra), add(t.hexahedra, gone.hexahedra);
+    else if (!t.triangles.empty() || !t.quads.empty())
+      add(t.triangles, gone.triangles), add(t.quads, gone.quads);
+    else
+      add(t.edges, gone.edges);
+  }
+  template <class C, class S>
+  std::optional<CutOrder> incision(C& c, S const& scope, std::vector<Eigen::Vector3d> const& path) const {
+    std::optional<CutOrder> cut;
+    if constexpr (requires { c.incise(path, path, path, TopologyView{}); }) {
+      std::vector<Eigen::Vector3d> x, rest;
+      traverse(root, on<role::State>([&](auto const& s, auto const&) {
+                 if (static_cast<void const*>(&s) != scope.pointsAddress()) return;
+                 x = centers_of(s, s.position), rest = centers_of(s, s.restPosition);
+               }));
+      try {
+        cut = CutOrder{c.incise(path, x, rest, scope.topology()), c.rules(), c.front, {}};
+      } catch (Error const& error) {
+        throw Error(whereOf(c, scope), error.what());
+      }
+    }
+    return cut;
   }
   // Leaves the first element out where all of the highest dimension would go.
   static bool keepOne(TopologyView const& topology, ElementNumbers& elements) {
@@ -94,7 +192,7 @@ struct TopologicalChanges {
     };
     auto keep = [&](auto const& a, std::vector<Index>& ofA, auto const& b, std::vector<Index>& ofB) {
       const bool allOfA = all(a, ofA), allOfB = all(b, ofB);
-      if (!allOfA || !allOfB) return false;
+      if (!allOfA || !allOfB || (ofA.empty() && ofB.empty())) return false;
       auto& from = ofA.empty() ? ofB : ofA;
       from.erase(from.begin());
       return true;
@@ -115,12 +213,19 @@ struct TopologicalChanges {
              }));
   }
   template <class C, class S>
-  static bool find(C& c, S const& scope, double time, ElementNumbers& elements) {
-    if constexpr (HasDataTypes<C>)
+  static bool find(C& c, S const& scope, std::size_t points, double time, TopologicalOrder& order) {
+    if constexpr (FindsChanges<C>) {
+      try {
+        return c.findChange(scope.topology(), points, time, order);
+      } catch (Error const& error) {
+        throw Error(whereOf(c, scope), error.what());
+      }
+    } else if constexpr (HasDataTypes<C>) {
       return c.findRemoved(
-          scope.topology(), scope.template state<typename C::DataTypes>().position, time, elements);
-    else
-      return c.findRemoved(scope.topology(), time, elements);
+          scope.topology(), scope.template state<typename C::DataTypes>().position, time, order.gone);
+    } else {
+      return c.findRemoved(scope.topology(), time, order.gone);
+    }
   }
 };
 

@@ -21,16 +21,17 @@ namespace sinew {
 template <class T>
 inline constexpr bool editable_topology = requires(T t) { t.edit(); };
 
-/// Takes elements out of one topology of a scene, or cuts them, with all that refers to them; the scene then
-/// has to be initialised again where touched() says. Triangles and quads that are the whole border of the
-/// volume, of a visual model or of a topology on which no forces act, become that of what is left; others
-/// only go. Works on a scene that may be thrown away: an Error leaves it half changed.
+/// Takes elements out of one topology of a scene, puts some into it, or cuts them, with all that refers to
+/// them; the scene then has to be initialised again where touched() says. Triangles and quads that are the
+/// whole border of the volume, of a visual model or of a topology on which no forces act, become that of what
+/// is left; others only go. Works on a scene that may be thrown away: an Error leaves it half changed.
 template <class RootScope>
 class TopologyEdit {
  public:
   /// Throws Error where there is no topology at `path`, or no element of a number in it.
   TopologyEdit(RootScope const& root, std::string_view path, ElementNumbers const& gone) : root_(root) {
     find(path);
+    refuseValues();
     check(path, gone);
     plan(gone);
     planMapped();
@@ -40,7 +41,15 @@ class TopologyEdit {
   /// that cannot follow, and where there would be too many of them.
   TopologyEdit(RootScope const& root, std::string_view path, CutOrder const& order) : root_(root) {
     find(path);
+    refuseValues();
     planCut(order);
+  }
+
+  /// Throws Error where there is no topology at `path` that can get these elements, and where something
+  /// stands on its points that cannot follow.
+  TopologyEdit(RootScope const& root, std::string_view path, AddedElements const& added) : root_(root) {
+    find(path);
+    planAddition(added);
   }
 
   /// What a cut has done; there is nothing to apply where no element is cut.
@@ -79,9 +88,12 @@ class TopologyEdit {
   std::set<void const*> mechanical_{};     // topologies on which forces and masses act
   RemovedBorder border_{};
   std::map<void const*, BorderLists> borders_{};  // of the topologies and visual models that are the border
+  std::map<void const*, void const*> copies_{};   // of visual models with the faces of a topology: that
   CutPlan cut_{};
-  std::function<bool(Index&, Index&)> joined_{};             // of what joins points of the body that is cut
-  std::map<void const*, CutPlan::Lists const*> cutLists_{};  // of topologies and visual models that are cut
+  std::function<bool(Index&, Index&)> joined_{};  // of what joins points of the body that is cut
+  std::vector<AddPlan::Lists> added_{};           // of topologies and visual models to which elements come
+  // what topologies and visual models have that are cut, or to which elements come
+  std::map<void const*, AddPlan::Lists const*> lists_{};
 
   void find(std::string_view path) {
     const std::string wanted = text(root_.path(), path.empty() ? "" : "/", path);
@@ -105,6 +117,19 @@ class TopologyEdit {
              }));
   }
 
+  // values on the body, such as temperatures, have no law for points that go and come
+  void refuseValues() const {
+    traverse(
+        root_, on<role::ForceField, role::Mass>([this](auto& c, auto const& scope) {
+          if constexpr (over_body<std::decay_t<decltype(c)>>)
+            if (scope.body().state == state_)
+              throw Error(
+                  text(scope.path(), ": ", component_name<std::decay_t<decltype(c)>>()),
+                  "it is over values on the points of a body, and elements cannot go from that body, nor "
+                  "be cut; take the body or the values out of the scene");
+        }));
+  }
+
   std::vector<Topology> topologiesOver(void const* state) const {
     std::vector<Topology> all;
     traverse(root_, on<role::Topology>([&](auto& t, auto const& scope) {
@@ -118,6 +143,16 @@ class TopologyEdit {
     const auto lists = gone.lists();
     for (Topology const& t : topologiesOver(state_)) {
       if (t.address != topology_) continue;
+      for (const Index i : gone.points)
+        if (i < 0 || std::size_t(i) >= points_)
+          throw Error(t.path,
+                      text("point ",
+                           i,
+                           " cannot be removed: '",
+                           path,
+                           "' has ",
+                           points_,
+                           ", numbered from 0; correct the number"));
       if (!t.editable)
         throw Error(t.path,
                     "the elements of this topology are made from a few numbers, and none of them "
@@ -155,10 +190,10 @@ class TopologyEdit {
                mechanical_.insert(scope.topologyAddress());
              }));
     record(state_, std::move(whole), all);
-    const bool left = std::any_of(change().elements.begin(), change().elements.end(), [](auto const& kind) {
-      return !kind.kept.empty();
-    });
-    if (!left)
+    auto const& kinds = change().elements;
+    const bool some = std::any_of(kinds.begin(), kinds.end(), [](auto const& k) { return !k.now.empty(); });
+    const bool left = std::any_of(kinds.begin(), kinds.end(), [](auto const& k) { return !k.kept.empty(); });
+    if (some ? !left : change().points.kept.empty())
       throw Error(all[first].path,
                   "no element would be left; take the node out of the scene instead (Simulation::change)");
   }
@@ -190,16 +225,118 @@ class TopologyEdit {
     for (void const* state : samePoints_) ofState_[state] = cut_.points;
     for (std::size_t t = 0; t < body.bodies.size(); ++t) {
       ofTopology_[body.bodies[t].address] = cut_.ofTopology[t];
-      cutLists_[body.bodies[t].address] = &cut_.lists[t];
+      lists_[body.bodies[t].address] = &cut_.lists[t];
       if (cut_.ofTopology[t].changes() && !body.bodies[t].editable)
         throw Error(body.bodies[t].path,
                     "this topology is made from a few numbers, and cannot be cut; take a MeshTopology");
     }
+    touchMapped();
+  }
+  void touchMapped() {
     traverse(root_, on<role::Mapping>([this](auto& mapping, auto const& scope) {
                scope.withMapped(mapping, [&](auto&, auto& child, auto& parent) {
                  if (touchedStates_.contains(&parent)) touchedStates_.insert(&child);
                });
              }));
+  }
+
+  // the same where elements come
+  void planAddition(AddedElements const& added) {
+    BodyOfPoints<RootScope> body(root_, state_);
+    std::vector<TopologyOfBody> topologies;
+    std::size_t first = 0;
+    auto numberOf = [&](void const* address) {
+      const auto found = std::find_if(
+          body.bodies.begin(), body.bodies.end(), [&](auto const& b) { return b.address == address; });
+      return found == body.bodies.end() ? -1 : int(found - body.bodies.begin());
+    };
+    for (auto const& b : body.bodies) {
+      if (b.address == topology_) first = topologies.size();
+      topologies.push_back({b.view, b.conversion, b.copies ? numberOf(b.copies) : -1});
+    }
+    const std::string& path = body.bodies[first].path;
+    AddPlan plan;
+    try {
+      plan = plan_addition(points_, topologies, first, added);
+    } catch (Error const& error) {
+      throw Error(path, error.what());
+    }
+    added_ = std::move(plan.lists);
+    samePoints_ = body.states;
+    touchedStates_ = samePoints_;
+    for (void const* state : samePoints_) ofState_[state] = plan.points;
+    for (std::size_t t = 0; t < body.bodies.size(); ++t) {
+      ofTopology_[body.bodies[t].address] = plan.ofTopology[t];
+      if (!plan.ofTopology[t].changes()) continue;
+      if (!body.bodies[t].editable)
+        throw Error(
+            body.bodies[t].path,
+            "this topology is made from a few numbers, and nothing can come to it; take a MeshTopology");
+      lists_[body.bodies[t].address] = &added_[t];
+    }
+    if (plan.points.changes()) {
+      body.checkValues("points are to come to its body");
+      traverse(root_, on<role::State>([&](auto& s, auto const& scope) {
+                 if constexpr (std::decay_t<decltype(s)>::DataTypes::rigid)
+                   if (static_cast<void const*>(&s) == state_)
+                     throw Error(scope.path(), "its points are frames, and none can come between them");
+               }));
+    }
+    traverse(root_, on<AnyRole>([this](auto& c, auto const& scope) { this->checkElementValues(c, scope); }));
+    touchMapped();
+  }
+  // what has a value for each element, where one comes that has none
+  template <class C, class S>
+  void checkElementValues(C const& c, S const& scope) const {
+    if constexpr (HasRole<C, role::Mapping>) {
+      if constexpr (over_parent<C>) {
+        bool maps = false;
+        scope.withMapped(c, [&](auto&, auto&, auto& parent) { maps = samePoints_.contains(&parent); });
+        void const* const own = scope.topologyAddress();
+        if (maps && comes(ofTopology(own ? own : scope.parentScope().topologyAddress()), Of::elements))
+          throw Error(text(scope.path(), ": ", component_name<C>()),
+                      "it maps a value from each element, and some are to come; take it away");
+      }
+    } else if constexpr (ActsOnState<C> && !JoinsTwo<C>) {
+      TopologyChange const& here = ofTopology(scope.topologyAddress());
+      for_each_field(c, [&](auto const& fd, auto const& value) {
+        if constexpr (detail::is_list<std::decay_t<decltype(value)>>)
+          if (!fd.numbers && value.size() > 1 && comes(here, fd.entries))
+            throw Error(
+                text(scope.path(), ": ", component_name<C>()),
+                text(fd.name,
+                     " has a value for each element, and one is to come without an ancestor whose value "
+                     "it could have; give one value for all, or ancestors"));
+      });
+    }
+  }
+  // whether elements of a kind come that are parts of none
+  static bool comes(TopologyChange const& change, Of what) {
+    auto kinds = [&](std::initializer_list<int> all) {
+      return std::any_of(all.begin(), all.end(), [&](int kind) {
+        auto const& come = change.elements[std::size_t(kind)].come;
+        return std::any_of(come.begin(), come.end(), [](Origin const& o) { return o.isNone(); });
+      });
+    };
+    switch (what) {
+      case Of::edges:
+      case Of::lines:
+        return kinds({0});
+      case Of::triangles:
+        return kinds({1});
+      case Of::quads:
+        return kinds({2});
+      case Of::surfaces:
+        return kinds({1, 2});
+      case Of::hexahedra:
+        return kinds({4});
+      case Of::volumes:
+        return kinds({3, 4});
+      case Of::elements:
+        return kinds({0, 1, 2, 3, 4});
+      default:
+        return false;
+    }
   }
 
   // what becomes of the states that are mapped from it, parents first
@@ -212,7 +349,7 @@ class TopologyEdit {
                  if (!touchedStates_.contains(&parent)) return;
                  mapped = &child;
                  if constexpr (requires { std::decay_t<decltype(part)>::samePoints; })
-                   if (samePoints_.contains(&parent)) copyOfBody(child);
+                   if (samePoints_.contains(&parent)) copyOfBody(child, scope.topologyAddress());
                  stays.resize(sizeOf(child), true);
                  const std::vector<bool> here = pointsThatStay(part, scope, child, parent);
                  for (std::size_t i = 0; i < stays.size(); ++i) stays[i] = stays[i] && here[i];
@@ -229,11 +366,23 @@ class TopologyEdit {
              }));
   }
   template <class Child>
-  void copyOfBody(Child const& child) {
+  void copyOfBody(Child const& child, void const* above) {
     samePoints_.insert(&child);
-    if constexpr (HasRole<Child, role::VisualModel>)
-      if (const BorderLists lists = border_.listed(child.mesh.triangles, child.mesh.quads); lists.any())
+    if constexpr (HasRole<Child, role::VisualModel>) {
+      if (const BorderLists lists = border_.listed(child.mesh.triangles, child.mesh.quads); lists.any()) {
         borders_[&child] = lists;
+        return;
+      }
+      traverse(root_, on<role::Topology>([&](auto& t, auto const&) {
+                 if (static_cast<void const*>(&t) != above) return;
+                 const TopologyView view = t.view();
+                 auto same = [](auto const& a, auto const& b) {
+                   return std::equal(a.begin(), a.end(), b.begin(), b.end());
+                 };
+                 if (same(child.mesh.triangles, view.triangles) && same(child.mesh.quads, view.quads))
+                   copies_[&child] = above;
+               }));
+    }
   }
   template <class M, class S, class Child, class Parent>
   std::vector<bool> pointsThatStay(M const& mapping, S const& scope, Child const& child,
@@ -288,11 +437,11 @@ class TopologyEdit {
   template <class C, class S>
   void follow(C& c, S const& scope) const {
     if constexpr (HasRole<C, role::VisualModel>)
-      if (const auto found = cutLists_.find(&c); found != cutLists_.end())
-        return c.follow(ofState(&c), found->second->triangles, found->second->edges);
+      if (const auto found = lists_.find(&c); found != lists_.end())
+        return c.follow(ofState(&c), found->second->triangles, found->second->quads, found->second->edges);
     if constexpr (HasRole<C, role::Topology> && editable_topology<C>)
-      if (const auto found = cutLists_.find(&c); found != cutLists_.end())
-        return give(c.edit(), *found->second);
+      if (const auto found = lists_.find(&c); found != lists_.end())
+        return give(c.edit(), *found->second, ofTopology(&c).points);
     if constexpr (HasRole<C, role::State> || HasRole<C, role::VisualModel>) {
       const auto border = borders_.find(&c);
       [[maybe_unused]] auto changeFaces = [&](auto&& edit) {
@@ -306,6 +455,14 @@ class TopologyEdit {
       };
       changeFaces(
           [&](auto const& of, auto& triangles, auto& quads) { border_.takeAway(of, triangles, quads); });
+      if constexpr (HasRole<C, role::VisualModel>)
+        if (const auto copy = copies_.find(&c); copy != copies_.end()) {
+          const auto triangles = c.mesh.triangles;
+          const auto quads = c.mesh.quads;
+          ofTopology(copy->second).of(ElementKind::triangle).filter(c.mesh.triangles);
+          ofTopology(copy->second).of(ElementKind::quad).filter(c.mesh.quads);
+          if constexpr (requires { c.facesWere(triangles, quads); }) c.facesWere(triangles, quads);
+        }
       if (ofState(&c).changes()) c.follow(ofState(&c));
       changeFaces([&](auto const& of, auto& triangles, auto& quads) {
         border_.exposeFaces(of, change().points, &triangles, &quads);
@@ -361,11 +518,13 @@ class TopologyEdit {
                        samePoints_.contains(scope.stateAddress()) ? joined_ : nullptr});
     }
   }
-  void give(ElementLists const& lists, CutPlan::Lists const& now) const {
-    if (lists.positions) cut_.points.filter(*lists.positions);
+  static void give(ElementLists const& lists, AddPlan::Lists const& now, Renumbering const& points) {
+    if (lists.positions) points.filter(*lists.positions);
     if (lists.edges) *lists.edges = now.edges;
     if (lists.triangles) *lists.triangles = now.triangles;
+    if (lists.quads) *lists.quads = now.quads;
     if (lists.tetrahedra) *lists.tetrahedra = now.tetrahedra;
+    if (lists.hexahedra) *lists.hexahedra = now.hexahedra;
   }
   static void follow(ElementLists const& lists, TopologyChange const& change) {
     if (lists.positions) change.points.filter(*lists.positions);

@@ -62,6 +62,23 @@ void let_states_solve(Solver& solver, Operations& operations, MatrixFactors fact
   });
 }
 
+/// The same with multigrid; false where these DataTypes cannot, and the host has to. `update`: the cycle is
+/// made anew; `again`: the matrix is that of the last solve.
+template <class Solver, class Operations>
+bool let_states_solve_by_multigrid(Solver& solver, Operations& operations, MatrixFactors factors,
+                                   MultiVecDeriv<Operations>& x, MultiVecDeriv<Operations>& b, bool update,
+                                   bool again) {
+  operations.reserve({.derivs = operations.derivsTaken + 4});
+  bool first = true, solved = false;
+  operations.forEachIndependent([&](auto& state) {
+    using D = typename std::decay_t<decltype(state)>::DataTypes;
+    if constexpr (SolvesSystems<D>)
+      if (std::exchange(first, false))
+        solved = VectorOperations<D>::solveByMultigrid(solver, operations, factors, x, b, update, again);
+  });
+  return solved;
+}
+
 /// What an iteration multiplies its result with where it meets a number that is not finite: the state says
 /// then that the simulation has diverged, where a method that stops would leave it standing still without a
 /// word.

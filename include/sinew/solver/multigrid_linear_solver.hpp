@@ -19,7 +19,8 @@ namespace sinew {
 /// by what joins them in the matrix, and the coarse unknowns of an aggregate are the six motions in which it
 /// stays rigid (constants, where the points are no places in space). The cycle works in float, what iterates
 /// in double. Aggregates and patterns are found in the first solve, and anew where points come to be held or
-/// are no longer; other solves fill them, without allocating.
+/// are no longer; other solves fill them, without allocating. Where all states are points in space on a
+/// device, so are matrix, cycle and what iterates, of the states' precision, but with `warp`.
 template <class Matrix = CompressedRowSparseMatrixMat3x3d>
 struct MultigridLinearSolver {
   using Role = role::LinearSolver;
@@ -66,19 +67,17 @@ struct MultigridLinearSolver {
   Multigrid multigrid{};
   PointRotations rotations{};
   Vector x{}, b{}, r{}, p{}, q{}, z{}, turned{};
-  int age = -1;  // solves since the cycle was made
+  MatrixFactors last{};   // of the last solve
+  int age = -1;           // solves since the cycle was made
+  bool onStates = false;  // the states solve
 
   template <class Operations>
   void init(Operations& operations) {
     reserve_residuals(residuals, iterations);
     age = -1;
-    operations.initMatrix(matrix);
     multigrid.settings = multigrid_settings(*this);
-    multigrid.init(matrix, some_workers(operations.workers()));
-    rigid_modes(operations, multigrid.modes);
-    if (warp) rotations.init(operations, matrix);
-    for (Vector* v : {&x, &b, &r, &p, &q, &z, &turned})
-      v->setZero(matrix.dofs() + 1);  // the last stays 0: multiply reads it
+    onStates = !warp && states_solve(operations, true, true);
+    if (!onStates) initMatrix(operations);
   }
 
   /// The cycle is made anew.
@@ -87,8 +86,17 @@ struct MultigridLinearSolver {
   template <class Operations>
   void solve(Operations& operations, MatrixFactors factors, MultiVecDeriv<Operations>& solution,
              MultiVecDeriv<Operations>& rhs) {
-    operations.assemble(matrix, factors);
+    last = factors;
     const bool update = age < 0 || (refresh > 0 && age + 1 >= refresh);
+    if (onStates) {
+      if (let_states_solve_by_multigrid(*this, operations, factors, solution, rhs, update, false)) {
+        age = update ? 0 : age + 1;
+        return;
+      }
+      onStates = false;
+      initMatrix(operations);
+    }
+    operations.assemble(matrix, factors);
     if (update) {
       [[maybe_unused]] const auto span = operations.root.span(Phase::factorisation);
       if (updateModes) rigid_modes(operations, multigrid.modes);
@@ -103,6 +111,10 @@ struct MultigridLinearSolver {
   template <class Operations>
   void solveAgain(Operations& operations, MultiVecDeriv<Operations>& solution,
                   MultiVecDeriv<Operations>& rhs) {
+    if (onStates) {
+      let_states_solve_by_multigrid(*this, operations, last, solution, rhs, false, true);
+      return;
+    }
     operations.gather(b, rhs.id);
     solveSystem(some_workers(operations.workers()));
     operations.scatter(solution.id, x);
@@ -138,6 +150,15 @@ struct MultigridLinearSolver {
   }
 
  private:
+  template <class Operations>
+  void initMatrix(Operations& operations) {
+    operations.initMatrix(matrix);
+    multigrid.init(matrix, some_workers(operations.workers()));
+    rigid_modes(operations, multigrid.modes);
+    if (warp) rotations.init(operations, matrix);
+    for (Vector* v : {&x, &b, &r, &p, &q, &z, &turned})
+      v->setZero(matrix.dofs() + 1);  // the last stays 0: multiply reads it
+  }
   void precondition(SomeWorkers const& workers) {
     if (!warp || age == 0) return multigrid.apply(workers, r, z);
     turned = r;

@@ -48,11 +48,13 @@ struct MechanicalObject {
         field("position",
               &M::position,
               "m",
-              "positions at the start; where there is one at most, those of the node's topology"),
+              "positions at the start; where there is one at most, those of the node's topology")
+            .whileRunning(),
         field("velocity",
               &M::velocity,
               "m/s",
-              "velocities at the start; where they are fewer than points, the others have the last"),
+              "velocities at the start; where they are fewer than points, the others have the last")
+            .whileRunning(),
         field("rest_position", &M::restPosition, "m", "undeformed positions"),
         field("reset_position",
               &M::resetPosition,
@@ -102,9 +104,14 @@ struct MechanicalObject {
   std::size_t capacity = 0;      // how many points there may be, where they come and go; 0: they do not
   PointChange<D> pointChange{};  // before a step
   int dofOffset = -1;            // first scalar of this state in the assembled system of its solver
-  int solver = -1;               // which of the ODE solvers of the scene moves it, in their order; -1: none
+  // of a distributed scene: points at the end that other processes own, and what is known of them
+  std::size_t ghosts = 0;
+  int halo = -1;
+  int solver = -1;  // which of the ODE solvers of the scene moves it, in their order; -1: none
 
   std::size_t size() const { return position.size(); }
+  /// Points that are not ghosts: the first ones.
+  std::size_t owned() const { return position.size() - ghosts; }
 
   /// Takes the points of a topology where no positions are given, or, as in SOFA, one only, and moves them as
   /// the fields say, once.

@@ -28,6 +28,12 @@ struct Adjacency {
 namespace detail {
 
 using EdgeCorners = std::array<std::size_t, 2>;
+inline constexpr std::array<EdgeCorners, 3> triangleSides{{{0, 1}, {1, 2}, {0, 2}}};
+inline constexpr std::array<EdgeCorners, 4> quadSides{{{0, 1}, {1, 2}, {2, 3}, {3, 0}}};
+inline constexpr std::array<EdgeCorners, 6> tetrahedronEdges{
+    {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+inline constexpr std::array<EdgeCorners, 12> hexahedronEdges{
+    {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}}};
 
 /// A face without its orientation, which is kept apart: the outward order is an even permutation of `points`,
 /// or odd.
@@ -122,26 +128,19 @@ inline Face sorted_face(Triangle t) {
 namespace sinew {
 
 SINEW_ONCE std::vector<Edge> edges_of(std::vector<Triangle> const& triangles) {
-  return detail::unique_edges(
-      "triangle", triangles, std::array<detail::EdgeCorners, 3>{{{0, 1}, {1, 2}, {0, 2}}});
+  return detail::unique_edges("triangle", triangles, detail::triangleSides);
 }
 
 SINEW_ONCE std::vector<Edge> edges_of(std::vector<Tetrahedron> const& tetrahedra) {
-  return detail::unique_edges(
-      "tetrahedron",
-      tetrahedra,
-      std::array<detail::EdgeCorners, 6>{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}});
+  return detail::unique_edges("tetrahedron", tetrahedra, detail::tetrahedronEdges);
 }
 
 SINEW_ONCE std::vector<Edge> edges_of(std::vector<Hexahedron> const& hexahedra) {
-  constexpr std::array<detail::EdgeCorners, 12> corners{
-      {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}}};
-  return detail::unique_edges("hexahedron", hexahedra, corners);
+  return detail::unique_edges("hexahedron", hexahedra, detail::hexahedronEdges);
 }
 
 SINEW_ONCE std::vector<Edge> edges_of_quads(std::vector<Quad> const& quads) {
-  return detail::unique_edges(
-      "quad", quads, std::array<detail::EdgeCorners, 4>{{{0, 1}, {1, 2}, {2, 3}, {3, 0}}});
+  return detail::unique_edges("quad", quads, detail::quadSides);
 }
 
 SINEW_ONCE std::vector<Triangle> boundary_triangles(std::vector<Tetrahedron> const& tetrahedra) {

@@ -3,6 +3,7 @@
 
 #include <sinew/core/compiled.hpp>
 #include <sinew/core/component.hpp>
+#include <sinew/topology/add_plan.hpp>
 #include <sinew/topology/cut_rules.hpp>
 
 #include <array>
@@ -13,11 +14,7 @@ namespace sinew {
 
 /// What becomes of the elements of all topologies over the points of a body that is cut.
 struct CutPlan {
-  struct Lists {
-    std::vector<Edge> edges{};
-    std::vector<Triangle> triangles{};
-    std::vector<Tetrahedron> tetrahedra{};
-  };
+  using Lists = AddPlan::Lists;
   Renumbering points{};
   std::vector<TopologyChange> ofTopology{};  // of each
   std::vector<Lists> lists{};                // what each has then
@@ -89,7 +86,7 @@ CutPlan plan_cut_of(std::vector<Eigen::Vector3d> const& rest, std::span<std::arr
                      "; raise the capacity, or cut less finely (snapping)"));
   for (std::size_t t = 0; t < topologies.size(); ++t) {
     TopologyView const& view = topologies[t];
-    CutPlan::Lists lists;
+    CutPlan::Lists lists{.quads = {view.quads.begin(), view.quads.end()}};  // of what is only looked at
     TopologyChange change{.points = plan.points};
     auto record = [&](ElementKind kind, auto const& before, std::vector<Origin> come) {
       change.elements[std::size_t(kind)] = Renumbering::grown(before.size(), std::move(come));

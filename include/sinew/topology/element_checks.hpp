@@ -39,6 +39,18 @@ void check_tetrahedra(std::string const& where, std::span<Tetrahedron const> tet
 /// Throws Error where an element of a topology refers to a point that the state has not.
 void check_element_indices(std::string const& where, TopologyView const& topology, std::size_t points);
 
+/// Throws Error where values lie on a body with another number of points.
+template <class D>
+void check_values_of_body(std::string const& where, InitContext<D> const& context) {
+  if (!context.body.empty() && context.body.size() != context.rest.size())
+    throw Error(where,
+                text("the state has ",
+                     context.rest.size(),
+                     " values, but the body on which they lie has ",
+                     context.body.size(),
+                     " points; give one value for each"));
+}
+
 /// Throws Error where the state has fewer points than the grid over which it is.
 inline void check_grid_state(std::string const& where, std::size_t grid, std::size_t state) {
   if (state < grid)

@@ -4,6 +4,7 @@
 #include <sinew/core/compiled.hpp>
 #include <sinew/topology/element_checks.hpp>
 
+#include <string>
 #include <vector>
 
 namespace sinew {
@@ -26,8 +27,11 @@ struct MeshTopology {
   std::vector<Tetrahedron> tetrahedra{};
   std::vector<Hexahedron> hexahedra{};
   DataFile filename{};
+  std::string conversion{};
 
-  static constexpr auto fields() {
+  // the lists, and more
+  template <class... More>
+  static constexpr auto listed(More... more) {
     using T = MeshTopology;
     return field_list(
         field("position", &T::position, "m", "points, for a state that is given none").also("points"),
@@ -38,9 +42,20 @@ struct MeshTopology {
         field("hexahedra", &T::hexahedra, "", "eight points each, in VTK's order", range::nonNegative)
             .also("hexas"),
         field("filename", &T::filename, "", "a file (.msh, .obj, .stl, .vtk) with what is not given here")
-            .also("fileTopology"));
+            .also("fileTopology"),
+        more...);
   }
-  static constexpr auto outputs() { return fields(); }
+  static constexpr auto fields() {
+    return listed(field(
+        "conversion",
+        &MeshTopology::conversion,
+        "",
+        "the class of the topological mapping that makes its elements of those of the topology above, by "
+        "which it follows that where it has none yet; in a scene file the mapping gives it"));
+  }
+  static constexpr auto outputs() { return listed(); }
+
+  bool grows = false;  // elements may come while the scene runs
 
   TopologyView view() const {
     return {.positions = position,
@@ -48,7 +63,8 @@ struct MeshTopology {
             .triangles = triangles,
             .quads = quads,
             .tetrahedra = tetrahedra,
-            .hexahedra = hexahedra};
+            .hexahedra = hexahedra,
+            .grows = grows};
   }
 
   /// The lists, for change: from here on they are no longer those of the file.

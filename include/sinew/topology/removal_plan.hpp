@@ -35,7 +35,7 @@ bool contains(std::span<Index const> outer, std::span<Index const> inner);
 ///     removed, and the simplices into which a quad or a hexahedron is split
 ///   - a point that has no element left of the highest dimension of those that it had: one of a volume does
 ///     not hang on by a wire
-///   - an element over such a point
+///   - an element over such a point, or over one that is to go itself
 /// All topologies are over the same points, and their indices are in range.
 RemovalPlan plan_element_removal(std::size_t points, std::vector<TopologyView> const& topologies,
                                  std::size_t first, ElementNumbers const& gone);
@@ -116,6 +116,14 @@ SINEW_ONCE RemovalPlan plan_element_removal(std::size_t points, std::vector<Topo
   for (std::size_t k = 0; k < element_kinds; ++k)
     for (const Index e : *lists[k]) plan.elements[first][k][std::size_t(e)] = false;
 
+  for (const Index i : gone.points) plan.points[std::size_t(i)] = false;
+  auto staysAt = [&](Index i) { return bool(plan.points[std::size_t(i)]); };
+  if (!gone.points.empty())
+    forEachElement([&](ElementOfBody const& e) {
+      if (!std::all_of(e.points.begin(), e.points.end(), staysAt))
+        plan.elements[e.topology][std::size_t(e.kind)][e.number] = false;
+    });
+
   // points of elements that go, and the elements around them
   std::vector<bool> touched(points, false);
   forEachElement([&](ElementOfBody const& e) {
@@ -149,9 +157,7 @@ SINEW_ONCE RemovalPlan plan_element_removal(std::size_t points, std::vector<Topo
     for (std::size_t i = 0; i < points; ++i)
       if (now[i] < before[i]) plan.points[i] = false;
     forEachElement([&](ElementOfBody const& e) {
-      if (!stays(e) ||
-          std::all_of(e.points.begin(), e.points.end(), [&](Index i) { return plan.points[std::size_t(i)]; }))
-        return;
+      if (!stays(e) || std::all_of(e.points.begin(), e.points.end(), staysAt)) return;
       plan.elements[e.topology][std::size_t(e.kind)][e.number] = false;
       changed = true;
     });

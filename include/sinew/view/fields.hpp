@@ -56,7 +56,8 @@ inline std::string why_fixed(FoundLine const& line, FieldInfo const& field) {
   auto has_file = [&] { return std::any_of(info.fields.begin(), info.fields.end(), names_file); };
   switch (info.role) {
     case RoleKind::engine:
-      return "what it makes was made when the scene was read";
+      return "an engine works with what it was given when the scene was read, and with what its links lead "
+             "to";
     case RoleKind::execution:
       return "its threads work already";
     case RoleKind::stepCallback:

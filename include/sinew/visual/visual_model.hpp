@@ -73,13 +73,19 @@ struct VisualModel {
   void follow(Renumbering const& points);
   /// Vertices come, and these are the faces and edges then. Those that are new have no looks of their own.
   void follow(Renumbering const& points, std::vector<Triangle> const& triangles,
-              std::vector<Edge> const& edges);
+              std::vector<Quad> const& quads, std::vector<Edge> const& edges);
   /// The mesh had these faces before: those that stay keep their looks, others have none.
   void facesWere(std::vector<Triangle> const& triangles, std::vector<Quad> const& quads);
 
   void init(std::string const& where);
+  /// The vertices are where those of the mesh are.
+  void takeValues(std::string_view, std::size_t) { place(); }
 
  private:
+  void place() {
+    position.clear();
+    for (auto const& p : mesh.positions) position.emplace_back(float(p[0]), float(p[1]), float(p[2]));
+  }
   bool facesHaveLooks() const {
     return !textureTriangles.empty() || !textureQuads.empty() || !faceMaterials.empty();
   }
@@ -192,14 +198,15 @@ SINEW_ONCE void VisualModel::follow(Renumbering const& points) {
 }
 
 SINEW_ONCE void VisualModel::follow(Renumbering const& points, std::vector<Triangle> const& triangles,
-                                    std::vector<Edge> const& edges) {
+                                    std::vector<Quad> const& quads, std::vector<Edge> const& edges) {
   const std::size_t before = mesh.positions.size();
   points.filter(mesh.positions);
   if (textureTriangles.empty() && textureQuads.empty() && texcoords.size() == before)
     points.filter(texcoords);
   const auto were = std::exchange(mesh.triangles, triangles);
+  const auto quadsWere = std::exchange(mesh.quads, quads);
   mesh.edges = edges;
-  facesWere(were, mesh.quads);
+  facesWere(were, quadsWere);
 }
 
 SINEW_ONCE void VisualModel::facesWere(std::vector<Triangle> const& triangles,
@@ -229,8 +236,7 @@ SINEW_ONCE void VisualModel::init(std::string const& where) {
   check_mesh(text(where, ": VisualModel"), mesh);
   if (const std::string wrong = wrongLooks(); !wrong.empty())
     throw Error(text(where, ": VisualModel"), wrong);
-  position.clear();
-  for (auto const& p : mesh.positions) position.emplace_back(float(p[0]), float(p[1]), float(p[2]));
+  place();
 }
 
 }  // namespace sinew

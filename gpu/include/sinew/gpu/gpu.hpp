@@ -8,6 +8,7 @@
 #include <sinew/gpu/data_types.hpp>
 #include <sinew/gpu/element_driver.hpp>
 #include <sinew/gpu/grid_loops.hpp>
+#include <sinew/gpu/multigrid_gradients.hpp>
 #include <sinew/gpu/point_weights.hpp>
 #include <sinew/gpu/rigid_loops.hpp>
 #include <sinew/gpu/sph_driver.hpp>

@@ -44,11 +44,11 @@ struct CudaScenes
                BoxROI<Vec3d>, BoxROI<Vec3f>, EulerExplicitSolver, EulerImplicitSolver, CGLinearSolver<>,
                CGLinearSolver<CompressedRowSparseMatrixMat3x3d>,
                CGLinearSolver<CompressedRowSparseMatrixMat3x3f>, ShewchukPCGLinearSolver<>,
-               ShewchukPCGLinearSolver<CompressedRowSparseMatrixMat3x3d>, DefaultPipeline,
-               BruteForceBroadPhase, BVHNarrowPhase, MinProximityIntersection, DefaultContactManager,
-               FreeMotionAnimationLoop, ConvexConstraintSolver, PointCollisionModel<Vec3d>,
-               TriangleCollisionModel<Vec3d>, SphereCollisionModel<Vec3d>, MechanicalObject<Vec3d>,
-               MechanicalObject<Vec3f>, Fluid2D<Vec2d>, Fluid3D<Vec3d>, ImmersedSolid<Vec3d>, CudaStandard> {
-};
+               ShewchukPCGLinearSolver<CompressedRowSparseMatrixMat3x3d>, MultigridLinearSolver<>,
+               DefaultPipeline, BruteForceBroadPhase, BVHNarrowPhase, MinProximityIntersection,
+               DefaultContactManager, FreeMotionAnimationLoop, ConvexConstraintSolver,
+               PointCollisionModel<Vec3d>, TriangleCollisionModel<Vec3d>, SphereCollisionModel<Vec3d>,
+               MechanicalObject<Vec3d>, MechanicalObject<Vec3f>, Fluid2D<Vec2d>, Fluid3D<Vec3d>,
+               ImmersedSolid<Vec3d>, CudaStandard> {};
 
 }  // namespace sinew

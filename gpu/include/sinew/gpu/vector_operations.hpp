@@ -29,6 +29,8 @@ struct CgScalars {
 
 template <class Operations, class Solver, class MultiVec>
 void conjugate_gradients(Operations&, Solver&, MatrixFactors, MultiVec&, MultiVec&, DeviceVector<double>&);
+template <class D, class Operations, class Solver, class MultiVec>
+bool multigrid_gradients(Operations&, Solver&, MatrixFactors, MultiVec&, MultiVec&, bool, bool);
 template <class Operations>
 bool can_assemble(Operations&, bool);
 
@@ -130,6 +132,15 @@ struct VectorOperations<CudaTypes<H>> {
   static void solve(Solver& solver, Operations& operations, MatrixFactors factors, MultiVec& x, MultiVec& b,
                     gpu::DeviceVector<double>& numbers) {
     gpu::conjugate_gradients(operations, solver, factors, x, b, numbers);
+  }
+  /// Solves with multigrid; false where that has to be done by the host.
+  template <class Solver, class Operations, class MultiVec>
+  static bool solveByMultigrid(Solver& solver, Operations& operations, MatrixFactors factors, MultiVec& x,
+                               MultiVec& b, bool update, bool again) {
+    if constexpr (solvesMotions)
+      return gpu::multigrid_gradients<D>(operations, solver, factors, x, b, update, again);
+    else
+      return false;
   }
 
   static std::size_t scalars(VecDeriv const& v) { return v.size() * std::size_t(D::size); }

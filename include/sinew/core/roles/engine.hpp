@@ -7,7 +7,8 @@
 
 namespace sinew {
 
-// Makes data of other components before the scene starts: loaders, selections. The shortest:
+// Makes data of other components, before the scene starts and when what it follows changes: loaders,
+// selections. The shortest:
 //
 //   /// The numbers from 0 on.
 //   struct FirstNumbers {
@@ -34,8 +35,9 @@ concept HasOutputs = requires { C::outputs(); };
 template <class C>
 concept HasUpdate = requires(C c, std::string where) { c.update(where); };
 
-/// Files to read and points to select, turned into data of other components before the scene starts:
-/// update(where) makes what outputs() lists, as fields() does, from the fields.
+/// Files to read and points to select, turned into data of other components: update(where) makes what
+/// outputs() lists, as fields() does, from the fields alone, as often as these change. Where it throws, the
+/// outputs stay.
 template <class C>
 concept Engine = HasRole<C, role::Engine> && HasOutputs<C> && HasUpdate<C>;
 

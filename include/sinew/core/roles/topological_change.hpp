@@ -7,8 +7,24 @@
 
 #include <concepts>
 #include <string>
+#include <vector>
 
 namespace sinew {
+
+/// One change of a topology while a scene runs: one of these is given.
+struct TopologicalOrder {
+  ElementNumbers gone{};
+  std::vector<Vec<double, 6>>
+      box{};  // elements in one of these go too: the lower corner, and the upper one [m]
+  AddedElements added{};
+  std::vector<Eigen::Vector3d> incision{};  // a path on the surface [m]
+
+  bool removes() const {
+    bool any = !gone.points.empty();
+    for (auto const* list : gone.lists()) any = any || !list->empty();
+    return any;
+  }
+};
 
 // Which elements of the topology of its node, or of the nearest above, go while a scene runs. The shortest:
 //
@@ -31,9 +47,8 @@ namespace sinew {
 
 /// prepare(where, topology) checks it at init, with "/path: Class" for messages.
 template <class C>
-concept PreparesRemoval = requires(C c, std::string const where, TopologyView const topology) {
-  c.prepare(where, topology);
-};
+concept PreparesRemoval =
+    requires(C c, std::string const where, TopologyView const topology) { c.prepare(where, topology); };
 /// findRemoved(topology, time, elements), before a step that begins at a time [s], lists elements that go, and
 /// returns whether it has done so; over DataTypes with the positions of the state of the node,
 /// findRemoved(topology, positions, time, elements). The elements are taken out, with all that refers to them;
@@ -49,11 +64,26 @@ concept FindsRemovedElements =
       c.elementsRemoved();
     };
 
+/// One that does more than to remove: findChange(topology, points, time, order) fills one change over so many
+/// points and returns whether there is one; changeMade() says that it was made, and it is asked again.
+template <class C>
+concept FindsChanges = requires(C c, TopologyView const topology, TopologicalOrder order) {
+  { c.findChange(topology, std::size_t(0), 0., order) } -> std::same_as<bool>;
+  c.changeMade();
+};
+
 template <class C>
 concept ChangesTopology =
-    HasRole<C, role::TopologicalChange> && PreparesRemoval<C> && FindsRemovedElements<C>;
+    HasRole<C, role::TopologicalChange> && PreparesRemoval<C> && (FindsRemovedElements<C> || FindsChanges<C>);
 
 // Hooks, what it may have beside these:
+
+/// mayAdd(where), before all else, whether elements may come: the topology, and those that follow it, may be
+/// without elements then.
+template <class C>
+concept MayAddElements = requires(C c, std::string const where) {
+  { c.mayAdd(where) } -> std::same_as<bool>;
+};
 
 /// followElements(change), where elements of its topology have gone, whoever took them.
 template <class C>
@@ -70,14 +100,15 @@ struct Promise<role::TopologicalChange> : NoPromise {
   static constexpr bool kept = ChangesTopology<C>;
   template <class C>
   struct Broken {
-    static constexpr bool prepares = PreparesRemoval<C>, finds = FindsRemovedElements<C>;
+    static constexpr bool prepares = PreparesRemoval<C>, finds = FindsRemovedElements<C> || FindsChanges<C>;
     static_assert(prepares,
                   "Sinew: a component with role::TopologicalChange has no 'void prepare(std::string const& "
                   "where, TopologyView const& topology)', which checks it.");
-    static_assert(finds,
-                  "Sinew: a component with role::TopologicalChange has no 'bool findRemoved(TopologyView const& "
-                  "topology, double time, ElementNumbers& elements)', which lists what goes, or no 'void "
-                  "elementsRemoved()', which is told that it has gone.");
+    static_assert(
+        finds,
+        "Sinew: a component with role::TopologicalChange has no 'bool findRemoved(TopologyView const& "
+        "topology, double time, ElementNumbers& elements)', which lists what goes, or no 'void "
+        "elementsRemoved()', which is told that it has gone; nor findChange and changeMade.");
   };
 };
 

@@ -265,6 +265,11 @@ class SceneClasses {
       for (auto const& made : item.info->fields)
         if (!made.isInput && output->info->field(made.name) && !output->element->attribute(made.name))
           output->element->set(made.name, text(link_to(item), '.', made.name));
+      if (output->info->field("conversion")) {
+        auto const* flips = item.element->attribute("flipNormals");
+        const bool flipped = flips && flips->value != "0" && flips->value != "false";
+        output->element->set("conversion", text(item.info->name, flipped ? " flipNormals" : ""));
+      }
     });
   }
 };

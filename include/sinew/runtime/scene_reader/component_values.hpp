@@ -92,6 +92,10 @@ class ComponentValues {
       return words;
     if (item.info->dataTypes.find("Rigid3") != std::string_view::npos) return every(words, 3, 3, "0 0 0 1 ");
     if (item.info->dataTypes.find("Rigid2") != std::string_view::npos) return every(words, 3, 2, "0 ");
+    // a file of values has them as the first coordinates of its points
+    if (item.info->dataTypes.find("Vec1") != std::string_view::npos && from &&
+        from->kind == "list of 3 numbers")
+      return every(words, 3, 1, "");
     return words;
   }
   /// The last topology of a node that has points; null where none has.
@@ -115,8 +119,8 @@ class ComponentValues {
   std::function<void(SceneItem&)> resolve_;
   std::map<SceneItem const*, AnyComponent<R>> components_{};
 
-  // a state takes its points from the topology of its node, and rests where it starts, at init; here it has
-  // to be known before
+  // a state takes its points from the topology of its node, and rests where it starts, with a velocity for
+  // each point, at init; here it has to be known before
   std::string stateValue(SceneItem& item, FieldInfo const& field) {
     AnyComponent<R> copy(component(item));
     std::vector<Eigen::Vector3d> points;
@@ -126,6 +130,13 @@ class ComponentValues {
     std::string words;
     copy.template visit<role::State>([&](auto& state) {
       if constexpr (requires { state.place("", points); }) state.place("", points);
+      if constexpr (requires { state.velocity.back(); })
+        if (field.name == "velocity") {
+          using Deriv = typename std::decay_t<decltype(state)>::DataTypes::Deriv;
+          const Deriv last = state.velocity.empty() ? Deriv(Deriv::Zero()) : Deriv(state.velocity.back());
+          if (state.velocity.size() < state.position.size())
+            state.velocity.resize(state.position.size(), last);
+        }
       words = field.write(&state);
       if (words.empty() && field.name == "rest_position") words = item.info->field("position")->write(&state);
     });

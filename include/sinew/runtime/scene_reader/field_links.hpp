@@ -43,6 +43,19 @@ inline void press_none(SceneItem& item, XmlAttribute const& a, std::string_view 
                                 "; no element bears the load by its number, as in SOFA"));
 }
 
+/// The BoxROI over points that move of which a list of elements to remove is; null for another list.
+inline SceneItem const* moving_box(SceneItem const& item, FieldInfo const& field, LinkTarget const& target) {
+  if (!field.name.ends_with("ToRemove") || !item.info->field("box") || !target.item || !target.item->info ||
+      target.item->info->name != "BoxROI")
+    return nullptr;
+  auto const* position = target.item->element->attribute("position");
+  if (!position || !is_link(position->value)) return nullptr;
+  const LinkTarget points = follow_link(*target.item, position->value);
+  const bool moving = points.item && points.item->info && points.item->info->role == RoleKind::state &&
+                      points.data == "position";
+  return moving ? target.item : nullptr;
+}
+
 /// Where the link of a field leads; false where an element does without.
 inline bool follow_field(SceneItem& item, FieldInfo const& field, XmlAttribute const& a, LinkTarget& target,
                          SceneMessages& messages) {

@@ -50,6 +50,31 @@ class ImpliedValues {
     }
   }
 
+  /// Whether a link leads to what an engine makes that goes on in each step, from a component that has all
+  /// that the engine is given but the places of points.
+  static bool takesLaw(SceneItem const& item, LinkTarget const& target) {
+    if (!target.item || !target.item->info || target.item->info->traits.law.empty() ||
+        target.item->info->traits.law != target.data || item.info->role == RoleKind::engine)
+      return false;
+    auto const& fields = target.item->info->fields;
+    return std::all_of(fields.begin(), fields.end(), [&](FieldInfo const& field) {
+      return !field.isInput || field.name == "position" || field.name == "rest_position" ||
+             item.info->field(field.name);
+    });
+  }
+  /// The component takes all that the engine was given, and does it itself.
+  void law(SceneItem& item, FieldInfo const& linked, SceneItem& engine, std::set<std::string_view>& given) {
+    for (auto const& field : item.info->fields) {
+      if (!field.isInput || field.name == linked.name || item.element->attribute(field.name)) continue;
+      FieldInfo const* const from = engine.info->field(field.name);
+      if (!from || !from->isInput) continue;
+      const std::string name(field.name);
+      field.read(item.address, values_.valueOf({&engine, nullptr, name}));
+      if (engine.element->attribute(name)) item.links[name] = text(link_to(engine), '.', name);
+      given.insert(field.name);
+    }
+  }
+
   /// What a selection is not told, it takes from the state and the topology around it.
   void surroundings(SceneItem& item, std::set<std::string_view>& given) {
     SceneItem* named = nullptr;  // the topology that it names
@@ -62,9 +87,10 @@ class ImpliedValues {
       for (ScenePlace* at = item.place; at; at = at->parent) {
         SceneItem* from = nullptr;
         std::string data(field.name);
-        if (field.name == "position" && !item.info->dataTypes.empty()) {
+        const bool besides = field.name == "rest_position" && !item.info->traits.law.empty();
+        if ((field.name == "position" || besides) && !item.info->dataTypes.empty()) {
           from = at->ofRole(RoleKind::state);
-          data = item.info->traits.ofPositions ? "position" : "rest_position";
+          data = item.info->traits.ofPositions && !besides ? "position" : "rest_position";
           if (!from) from = at->ofRole(RoleKind::topology), data = "position";
         } else if (dialect::has(topologyLists, field.name)) {
           from = named && named->info ? named : at->ofRole(RoleKind::topology);

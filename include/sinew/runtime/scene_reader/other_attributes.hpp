@@ -55,7 +55,56 @@ class OtherAttributes {
                                      "', the last topology of the nearest node that has one"));
   }
 
+  /// `geometryState`, a link to the points of the elements of a mass, and `tagMechanics`, a tag of those of
+  /// a diffusion: the points are those of the state, or of the body on which its values lie.
+  void geometry(SceneItem& item, XmlAttribute const& a) {
+    ScenePlace const *const used = placeOfPoints(item), *named = nullptr;
+    if (a.name == "tagMechanics") {
+      named = tagged(*item.place, a.value);
+    } else if (is_link(a.value)) {
+      try {
+        const LinkTarget target = follow_link(item, a.value);
+        named = target.item ? target.item->place : target.place;
+      } catch (Error const&) {
+        return;  // as in SOFA, the points of the topology then
+      }
+    }
+    if (!named || !used || named == used) return;
+    item.failed = true;
+    messages_.addError(item.element->place(a),
+                       text('<',
+                            item.tag,
+                            ">: ",
+                            a.name,
+                            " leads to the points of '",
+                            named->name,
+                            "', but its elements are over those of '",
+                            used->name,
+                            "'; put it below the node of the points"));
+  }
+
  private:
+  // the node of the points of the elements of a component (BodyView)
+  static ScenePlace const* placeOfPoints(SceneItem const& item) {
+    ScenePlace const* at = item.place;
+    for (; at; at = at->parent)
+      if (at->ofRole(RoleKind::topology) || !at->state.empty()) break;
+    if (!at || at->ofRole(RoleKind::topology) || at->state.starts_with("Vec3")) return item.place->owner();
+    for (at = at->parent; at && !at->ofRole(RoleKind::topology);) at = at->parent;
+    while (at && !at->state.starts_with("Vec3")) at = at->parent;
+    return at;
+  }
+  // the nearest node upwards whose state in space has a tag
+  static ScenePlace const* tagged(ScenePlace const& place, std::string_view tag) {
+    for (ScenePlace const* at = &place; at; at = at->parent) {
+      SceneItem const* const state = at->state.starts_with("Vec3") ? at->ofRole(RoleKind::state) : nullptr;
+      auto const* tags = state ? state->element->attribute("tags") : nullptr;
+      for (Words words(tags ? std::string_view(tags->value) : std::string_view()); !words.end();)
+        if (words.next() == tag) return at;
+    }
+    return nullptr;
+  }
+
   bool lenient_;
   SceneMessages& messages_;
 

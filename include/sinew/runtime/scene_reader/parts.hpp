@@ -27,6 +27,7 @@ struct SceneItem {
   void* address = nullptr;  // of the component, when it is made (SceneValues)
   Progress progress = Progress::fresh;
   std::map<std::string, std::string, std::less<>> links{};
+  std::string moved{};  // the link from which positions come that are moved once more
   std::array<std::string, 2> ends{};
   std::vector<std::string> parents{};  // of a mapping with several
   ScenePlace* home = nullptr;          // of an interaction: the node above both its ends, where it belongs

@@ -136,7 +136,10 @@ class SceneValues {
       read_value(position.write(item.address), engine.inputPosition);
       engine.update(item.name);
       position.read(item.address, write_value(engine.outputPosition));
-      item.links.erase("position");
+      if (const auto link = item.links.find("position"); link != item.links.end()) {
+        item.moved = link->second;
+        item.links.erase(link);
+      }
     });
   }
 
@@ -146,6 +149,9 @@ class SceneValues {
     if (a.name == "object1" || a.name == "object2") return;
     if ((a.name == "topology" || a.name == "useRestPosition") && item.info->role == RoleKind::engine) return;
     if (a.name == "topology") return others_.otherTopology(item, a);
+    if ((a.name == "geometryState" && item.info->role == RoleKind::mass) ||
+        (a.name == "tagMechanics" && item.info->role == RoleKind::forceField))
+      return others_.geometry(item, a);
     const bool maps = item.info->role == RoleKind::mapping || item.info->traits.joinsTopologies;
     if (maps && (a.name == "input" || a.name == "output")) return;
     FieldInfo const* field = nullptr;
@@ -168,10 +174,16 @@ class SceneValues {
       } else if (is_link(a.value)) {
         LinkTarget target;
         if (!follow_field(item, *field, a, target, messages_)) return;
+        if (implied_.takesLaw(item, target)) return implied_.law(item, *field, *target.item, given);
         if (item.info->traits.sizedValues && given.insert("size").second)
           if (const std::size_t size = values_.sizeOfValues(target); size > 0)
             item.info->field("size")->read(item.address, std::to_string(size));
+        SceneItem const* const box = moving_box(item, *field, target);
         linked = values_.linkedValue(item, *field, std::move(target));
+        if (box) {  // what is in it at the time
+          item.info->field("box")->read(item.address, box->info->field("box")->write(box->address));
+          linked.clear();
+        }
         item.links[number < 0 ? std::string(field->name) : a.name] = a.value;
         if (Words(linked).end() && chooses_loaded(*field)) press_none(item, a, "names no element", messages_);
       }

@@ -84,14 +84,15 @@ struct IsFused : std::disjunction<IsState<C>, IsMass<C>, IsForceField<C>, IsCons
 /// What takes part in mechanics and has no place in a fused step, such as a force field that steps change. (A
 /// mapping has one, where it leads to no state.)
 template <class C>
-struct IsForeign : std::bool_constant<HasRole<C, role::InteractionForceField> || HasRole<C, role::Carving> ||
-                                      HasRole<C, role::Cutting> || HasRole<C, role::LagrangianConstraint> ||
-                                      HasRole<C, role::ConstraintCorrection> ||
-                                      (HasRole<C, role::AnimationLoop> && !IsLoop<C>::value) ||
-                                      (HasRole<C, role::ConstraintSolver> && !IsConstraintSolver<C>::value) ||
-                                      ActsBeforeStep<C> || (HasRole<C, role::ForceField> && Resettable<C>) ||
-                                      (HasRole<C, role::OdeSolver> && !IsOdeSolver<C>::value) ||
-                                      (HasRole<C, role::LinearSolver> && !IsLinearSolver<C>::value)> {};
+struct IsForeign
+    : std::bool_constant<
+          HasRole<C, role::InteractionForceField> || HasRole<C, role::Carving> || HasRole<C, role::Cutting> ||
+          HasRole<C, role::StepDivision> || HasRole<C, role::LagrangianConstraint> ||
+          HasRole<C, role::ConstraintCorrection> || (HasRole<C, role::AnimationLoop> && !IsLoop<C>::value) ||
+          (HasRole<C, role::ConstraintSolver> && !IsConstraintSolver<C>::value) || ActsBeforeStep<C> ||
+          (HasRole<C, role::ForceField> && Resettable<C> && !IdleBeforeStep<C>) ||
+          (HasRole<C, role::OdeSolver> && !IsOdeSolver<C>::value) ||
+          (HasRole<C, role::LinearSolver> && !IsLinearSolver<C>::value)> {};
 
 }  // namespace detail
 

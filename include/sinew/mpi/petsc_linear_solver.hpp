@@ -1,0 +1,377 @@
+// SPDX-License-Identifier: BSL-1.0
+#pragma once
+
+// Needs PETSc (Debian: petsc-dev), which has a licence of its own (BSD), as have the libraries in it. Not in
+// sinew.hpp; CMake's target sinew::mpi, there where PETSc is installed, brings it.
+#include <sinew/core/phase.hpp>
+#include <sinew/mpi/petsc.hpp>
+#include <sinew/solver/linear_system.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sinew::mpi {
+
+/// Where the unknowns of a rank are in those of all: its rows are some blocks of its matrix, from `begin` on.
+struct PetscLayout {
+  std::vector<PetscInt> rows{};  // blocks of the matrix here whose rows are this rank's, in the order of all
+  std::vector<PetscInt> global{};  // of each block of the matrix here, its number among all
+  PetscInt begin = 0;
+  PetscInt blocks() const { return PetscInt(rows.size()); }
+};
+
+}  // namespace sinew::mpi
+
+namespace sinew {
+
+/// The assembled system, solved by one of PETSc's Krylov methods with one of its preconditioners, by the
+/// names that PETSc has for them (KSPSetType, PCSetType: Balay et al., PETSc/TAO users manual 3.18), and of a
+/// distributed scene by all ranks together. The residual is |b - A x|, where the method has that (cg, fcg,
+/// gmres, fgmres, bcgs, gcr), else what it takes by itself. `options` is what PETSc's command line would
+/// have, such as
+/// "-pc_hypre_type boomeramg"; for a direct method take solver="preonly" with preconditioner="cholesky", or
+/// "lu". The near null space of the matrix, which multigrid by aggregation (gamg) asks for, is the rigid
+/// motions of points in space. Throws Error at names and options that PETSc does not know, and where a solve
+/// does not converge. PETSc allocates in a solve.
+template <class Matrix = CompressedRowSparseMatrixMat3x3d>
+struct PetscLinearSolver {
+  using Role = role::LinearSolver;
+  static constexpr std::string_view className = "PetscLinearSolver";
+  static constexpr std::string_view header = "sinew/mpi/petsc_linear_solver.hpp";
+  static constexpr std::string_view templateName = Matrix::name;
+  static constexpr Auxiliary auxiliary{};
+
+  std::string solver = "cg", preconditioner = "pbjacobi";
+  double tolerance = 1e-8;
+  int iterations = 10000;
+  bool warmStart = false;
+  std::string matrix = "baij", options{};
+
+  static constexpr auto fields() {
+    using S = PetscLinearSolver;
+    return field_list(
+        field("solver", &S::solver, "", "PETSc's name of the method: cg, gmres, minres, preonly..."),
+        field("preconditioner",
+              &S::preconditioner,
+              "",
+              "PETSc's name of the preconditioner: pbjacobi, bjacobi, gamg, hypre, cholesky, none..."),
+        field("tolerance", &S::tolerance, "", "relative residual at which to stop", range::positive),
+        field("iterations",
+              &S::iterations,
+              "",
+              "largest number of iterations; one that ends there has not converged",
+              range::atLeast(1))
+            .also("maxIter"),
+        field("warmStart", &S::warmStart, "", "start from the solution of the last system, instead of 0"),
+        field("matrix", &S::matrix, "", "PETSc's name of the matrix: baij, in blocks, or aij, in scalars"),
+        field("options", &S::options, "", "others of PETSc, as on its command line: -name value ..."));
+  }
+
+  using Vector = Eigen::Matrix<typename Matrix::Real, Eigen::Dynamic, 1>;
+  Matrix local{};
+  Vector x{}, b{};
+  mpi::PetscLayout layout{};
+  mpi::Petsc<::Mat, MatDestroy> system{};
+  mpi::Petsc<::Vec, VecDestroy> solution{}, rightSide{};
+  mpi::Petsc<KSP, KSPDestroy> method{};
+  mpi::Petsc<PetscOptions, PetscOptionsDestroy> ofPetsc{};
+  std::vector<PetscInt> columns{};
+  std::vector<PetscScalar> values{};
+  std::string where{};
+  bool optionsAreRead = false;
+  // of the last solve
+  int iterationsTaken = 0;
+  double residual = 0;
+
+  template <class Operations>
+  void init(Operations& operations) {
+    where = text(operations.root.path(), ": ", className);
+    mpi::start_petsc();
+    checkName(KSPList, solver, "solver", "method");
+    checkName(PCList, preconditioner, "preconditioner", "preconditioner");
+    if (matrix != "baij" && matrix != "aij")
+      throw Error(where, text("matrix is '", matrix, "', but has to be baij or aij"));
+    if constexpr (std::decay_t<decltype(operations.root)>::distributed)
+      if (!operations.root.distribution().active()) return;  // the whole scene is about to be shared out
+    operations.initMatrix(local);
+    x.setZero(local.dofs());
+    b.setZero(local.dofs());
+    MPI_Comm ranks = PETSC_COMM_SELF;
+    if constexpr (std::decay_t<decltype(operations.root)>::distributed) {
+      ranks = operations.root.distribution().ranks().handle();
+      operations.root.distribution().layout(operations, layout, Matrix::blockSize, where);
+    } else {
+      const PetscInt n = local.rows();
+      layout.global.resize(std::size_t(n));
+      for (PetscInt i = 0; i < n; ++i) layout.global[std::size_t(i)] = i;
+      layout.rows = layout.global;
+      layout.begin = 0;
+    }
+    make(ranks, operations);
+  }
+
+  template <class Operations>
+  void solve(Operations& operations, MatrixFactors factors, MultiVecDeriv<Operations>& to,
+             MultiVecDeriv<Operations>& from) {
+    {
+      [[maybe_unused]] const auto span = operations.root.span(Phase::factorisation);
+      operations.assemble(local, factors);
+      meet(operations);
+      fill();
+    }
+    run(operations, to, from, warmStart);
+  }
+  template <class Operations>
+  void solveAgain(Operations& operations, MultiVecDeriv<Operations>& to, MultiVecDeriv<Operations>& from) {
+    meet(operations);
+    run(operations, to, from, false);
+  }
+
+ private:
+  static constexpr int B = Matrix::blockSize;
+
+  void check(PetscErrorCode code) const { mpi::check_petsc(code, where); }
+
+  // PETSc waits for other ranks without end: none goes there before all do
+  template <class Operations>
+  static void meet([[maybe_unused]] Operations& operations) {
+    if constexpr (std::decay_t<decltype(operations.root)>::distributed)
+      operations.root.distribution().ranks().meet("the other ranks, to solve a system by PETSc");
+  }
+
+  void checkName(PetscFunctionList list, std::string const& name, std::string_view field,
+                 std::string_view what) const {
+    const std::vector<std::string> known = mpi::names_of(list);
+    if (std::find(known.begin(), known.end(), name) != known.end()) return;
+    std::string all;
+    for (auto const& k : known) all += text(all.empty() ? "" : " ", k);
+    const std::string near = nearest_name(name, known);
+    throw Error(where,
+                text(field,
+                     " is '",
+                     name,
+                     "', and this PETSc has no ",
+                     what,
+                     " of that name",
+                     near.empty() ? std::string() : text("; did you mean '", near, "'?"),
+                     near.empty() ? "; it has: " : " It has: ",
+                     all));
+  }
+
+  template <class Operations>
+  void make(MPI_Comm ranks, Operations& operations) {
+    const PetscInt n = layout.blocks() * B;
+    // blocks of each row, left of the own columns or right of them, and among them
+    std::vector<PetscInt> own, other;
+    std::size_t longest = 0;
+    for (const PetscInt row : layout.rows) {
+      PetscInt here = 0, there = 0;
+      local.forEachInRow(int(row), [&](int column, int, bool) {
+        const PetscInt c = layout.global[std::size_t(column)] - layout.begin;
+        ++(c >= 0 && c < layout.blocks() ? here : there);
+      });
+      own.push_back(here);
+      other.push_back(there);
+      longest = std::max(longest, std::size_t(here + there));
+    }
+    columns.assign(longest, 0);
+    values.assign(longest * B * B, 0);
+    check(MatCreate(ranks, system.fresh()));
+    check(MatSetSizes(system, n, n, PETSC_DETERMINE, PETSC_DETERMINE));
+    check(MatSetType(system, matrix == "baij" ? MATBAIJ : MATAIJ));
+    check(MatSetBlockSize(system, B));
+    check(MatXAIJSetPreallocation(system, B, own.data(), other.data(), nullptr, nullptr));
+    check(MatSetOption(system, MAT_ROW_ORIENTED, PETSC_TRUE));
+    check(MatSetOption(system, MAT_SYMMETRIC, PETSC_TRUE));
+    check(MatSetOption(system, MAT_SYMMETRY_ETERNAL, PETSC_TRUE));
+    check(MatSetOption(system, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_TRUE));
+    check(MatCreateVecs(system, solution.fresh(), rightSide.fresh()));
+    giveRigidMotions(ranks, operations);
+
+    check(KSPCreate(ranks, method.fresh()));
+    check(KSPSetOperators(method, system, system));
+    check(KSPSetType(method, solver.c_str()));
+    constexpr std::array<std::string_view, 6> trueResidual{"cg", "fcg", "gmres", "fgmres", "bcgs", "gcr"};
+    if (std::find(trueResidual.begin(), trueResidual.end(), solver) != trueResidual.end())
+      check(KSPSetNormType(method, KSP_NORM_UNPRECONDITIONED));
+    check(KSPSetTolerances(method, tolerance, 0, PETSC_DEFAULT, iterations));
+    PC pc = nullptr;
+    check(KSPGetPC(method, &pc));
+    check(PCSetType(pc, preconditioner.c_str()));
+    check(PetscOptionsCreate(ofPetsc.fresh()));
+    check(PetscOptionsInsertString(ofPetsc, options.c_str()));
+    for (PetscObject o : {reinterpret_cast<PetscObject>(KSP(method)), reinterpret_cast<PetscObject>(pc)})
+      check(PetscObjectSetOptions(o, ofPetsc));
+    check(KSPSetFromOptions(method));
+    optionsAreRead = false;
+  }
+  // of points in space, at rest
+  template <class Operations>
+  void giveRigidMotions(MPI_Comm ranks, Operations& operations) {
+    bool points = B == 3;
+    std::vector<PetscScalar> places;
+    operations.forEachIndependent([&](auto& s) {
+      using D = typename std::decay_t<decltype(s)>::DataTypes;
+      if constexpr (!D::rigid && D::size == 3 && D::spatial == 3) {
+        for (std::size_t i = 0; i < s.owned(); ++i)
+          for (int c = 0; c < 3; ++c) places.push_back(PetscScalar(s.restPosition[i][c]));
+      } else {
+        points = false;
+      }
+    });
+    if (!points || PetscInt(places.size()) != layout.blocks() * B) return;
+    mpi::Petsc<::Vec, VecDestroy> coordinates;
+    mpi::Petsc<MatNullSpace, MatNullSpaceDestroy> rigid;
+    check(VecDuplicate(solution, coordinates.fresh()));
+    check(VecSetBlockSize(coordinates, 3));
+    put(coordinates, [&](PetscInt i) { return places[std::size_t(i)]; });
+    check(MatNullSpaceCreateRigidBody(coordinates, rigid.fresh()));
+    check(MatSetNearNullSpace(system, rigid));
+    static_cast<void>(ranks);
+  }
+
+  void fill() {
+    PetscInt row = layout.begin;
+    for (const PetscInt here : layout.rows) {
+      // a row of blocks, each scalar row over all of them
+      std::size_t n = 0;
+      local.forEachInRow(int(here),
+                         [&](int column, int, bool) { columns[n++] = layout.global[std::size_t(column)]; });
+      std::size_t k = 0;
+      local.forEachInRow(int(here), [&](int, int slot, bool transposed) {
+        auto const* const block = std::as_const(local).block(slot);
+        for (std::size_t r = 0; r < B; ++r)
+          for (std::size_t c = 0; c < B; ++c)
+            values[r * n * B + k * B + c] = PetscScalar(block[transposed ? c * B + r : r * B + c]);
+        ++k;
+      });
+      check(MatSetValuesBlocked(system, 1, &row, PetscInt(n), columns.data(), values.data(), INSERT_VALUES));
+      ++row;
+    }
+    check(MatAssemblyBegin(system, MAT_FINAL_ASSEMBLY));
+    check(MatAssemblyEnd(system, MAT_FINAL_ASSEMBLY));
+    check(KSPSetOperators(method, system, system));
+  }
+
+  // f(i) of each scalar of a vector that is this rank's
+  template <class F>
+  void put(::Vec vector, F&& f) const {
+    PetscScalar* to = nullptr;
+    PetscInt n = 0;
+    check(VecGetLocalSize(vector, &n));
+    check(VecGetArray(vector, &to));
+    for (PetscInt i = 0; i < n; ++i) to[i] = f(i);
+    check(VecRestoreArray(vector, &to));
+  }
+  std::size_t dofOf(PetscInt i) const {
+    return std::size_t(layout.rows[std::size_t(i / B)]) * B + std::size_t(i % B);
+  }
+
+  template <class Operations>
+  void run(Operations& operations, MultiVecDeriv<Operations>& to, MultiVecDeriv<Operations>& from,
+           bool warm) {
+    [[maybe_unused]] const auto span = operations.root.span(Phase::substitution);
+    operations.gather(b, from.id);
+    put(rightSide, [&](PetscInt i) { return PetscScalar(b[Eigen::Index(dofOf(i))]); });
+    if (warm) {
+      operations.projectResponse(to.id);
+      operations.gather(x, to.id);
+      put(solution, [&](PetscInt i) { return PetscScalar(x[Eigen::Index(dofOf(i))]); });
+    }
+    check(KSPSetInitialGuessNonzero(method, warm ? PETSC_TRUE : PETSC_FALSE));
+    check(KSPSolve(method, rightSide, solution));
+    refuseUnread();
+    refuseUnconverged();
+    PetscScalar const* found = nullptr;
+    check(VecGetArrayRead(solution, &found));
+    x.setZero();
+    for (PetscInt i = 0; i < layout.blocks() * B; ++i)
+      x[Eigen::Index(dofOf(i))] = typename Matrix::Real(found[i]);
+    check(VecRestoreArrayRead(solution, &found));
+    operations.scatter(to.id, x);
+  }
+
+  // (some are read when the preconditioner is made, in the first solve)
+  void refuseUnread() {
+    if (optionsAreRead) return;
+    optionsAreRead = true;
+    PetscInt count = 0;
+    char **names = nullptr, **given = nullptr;
+    check(PetscOptionsLeftGet(ofPetsc, &count, &names, &given));
+    const std::string first = count > 0 ? names[0] : "";
+    check(PetscOptionsLeftRestore(ofPetsc, &count, &names, &given));
+    if (!first.empty())
+      throw Error(where,
+                  text("options has -",
+                       first,
+                       ", which PETSc's ",
+                       solver,
+                       " with ",
+                       preconditioner,
+                       " does not read; correct its name, or leave it out"));
+  }
+  void refuseUnconverged() {
+    KSPConvergedReason reason{};
+    PetscInt taken = 0;
+    PetscReal norm = 0, whole = 0;
+    check(KSPGetConvergedReason(method, &reason));
+    check(KSPGetIterationNumber(method, &taken));
+    check(KSPGetResidualNorm(method, &norm));
+    check(VecNorm(rightSide, NORM_2, &whole));
+    iterationsTaken = int(taken);
+    residual = whole > 0 ? norm / whole : norm;
+    if (reason >= 0) return;
+    const std::string name = text("PETSc's ", solver, " with ", preconditioner);
+    if (!std::isfinite(whole))
+      throw Error(where,
+                  "the right-hand side has values that are not finite: the simulation diverged before; take "
+                  "a smaller "
+                  "dt, more damping or a softer material");
+    switch (reason) {
+      case KSP_DIVERGED_ITS:
+        throw Error(where,
+                    text(name,
+                         " has not converged in ",
+                         taken,
+                         " iterations: |b - A x| is ",
+                         residual,
+                         " |b|, and tolerance is ",
+                         tolerance,
+                         "; give it more iterations, or take another preconditioner"));
+      case KSP_DIVERGED_INDEFINITE_PC:
+      case KSP_DIVERGED_INDEFINITE_MAT:
+        throw Error(where,
+                    text(name,
+                         " needs a positive definite ",
+                         reason == KSP_DIVERGED_INDEFINITE_MAT ? "matrix" : "preconditioner",
+                         ", and this one is not; take solver minres or gmres, a smaller dt, or fix points of "
+                         "the body"));
+      case KSP_DIVERGED_PC_FAILED:
+        throw Error(where,
+                    text(name,
+                         " found no preconditioner: a pivot vanishes; fix points of the body, give it mass "
+                         "or stiffness, "
+                         "or take another preconditioner"));
+      default: {
+        char const* words = nullptr;
+        check(KSPGetConvergedReasonString(method, &words));
+        throw Error(where,
+                    text(name,
+                         " has not converged (",
+                         words ? words : "",
+                         ") after ",
+                         taken,
+                         " iterations, with |b - A x| of ",
+                         residual,
+                         " |b|; take another solver or preconditioner"));
+      }
+    }
+  }
+};
+
+}  // namespace sinew
