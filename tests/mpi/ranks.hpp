@@ -42,12 +42,12 @@ auto bar(Ode ode, Linear linear, More... more) {
 }
 
 using Positions = std::vector<Eigen::Vector3d>;
-double distance(Positions const& a, Positions const& b) {
+inline double distance(Positions const& a, Positions const& b) {
   double sum = a.size() == b.size() ? 0 : INFINITY;
   for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) sum += (a[i] - b[i]).squaredNorm();
   return std::sqrt(sum);
 }
-double length(Positions const& a) { return distance(a, Positions(a.size(), Eigen::Vector3d::Zero())); }
+inline double length(Positions const& a) { return distance(a, Positions(a.size(), Eigen::Vector3d::Zero())); }
 
 template <class Node>
 Positions velocities_in_one(Node scene, int steps, double dt) {
@@ -73,7 +73,7 @@ std::string error_of(F&& f) {
   }
   return "nothing was said";
 }
-bool says(std::string const& message, std::initializer_list<std::string> words) {
+inline bool says(std::string const& message, std::initializer_list<std::string> words) {
   for (auto const& word : words)
     if (message.find(word) == std::string::npos) return false;
   return true;
