@@ -56,7 +56,7 @@ TEST_CASE("what a component says of its fields") {
   const SeenComponent fem = view::seen_component(sim, line_of(sim, "TetrahedronFEMForceField<Vec3d>"));
   CHECK(fem.path == "/root/block");
   CHECK(fem.role == "force field");
-  REQUIRE(fem.fields.size() == 3);
+  REQUIRE(fem.fields.size() == 7);  // three of plasticity, and its strain
   SeenField const& young = fem.fields[0];
   CHECK(young.name == "youngModulus");
   CHECK(young.value == "5000");
