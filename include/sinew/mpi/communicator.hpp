@@ -70,12 +70,12 @@ class Communicator {
   // messages, of which none is complete before wait()
 
   MPI_Request send(int to, void const* data, std::size_t bytes, int tag = 0) const {
-    MPI_Request request;
+    MPI_Request request = MPI_REQUEST_NULL;
     MPI_Isend(data, int(bytes), MPI_BYTE, to, tag, comm_, &request);
     return request;
   }
   MPI_Request receive(int from, void* data, std::size_t bytes, int tag = 0) const {
-    MPI_Request request;
+    MPI_Request request = MPI_REQUEST_NULL;
     MPI_Irecv(data, int(bytes), MPI_BYTE, from, tag, comm_, &request);
     return request;
   }
@@ -92,7 +92,7 @@ class Communicator {
 
   /// The sum over all ranks, added in their order.
   double sum(double value, std::string_view what = "a sum over all ranks") {
-    MPI_Request request;
+    MPI_Request request = MPI_REQUEST_NULL;
     buffers_->term = value;
     MPI_Iallgather(&buffers_->term, 1, MPI_DOUBLE, buffers_->terms.data(), 1, MPI_DOUBLE, comm_, &request);
     wait({&request, 1}, what);
@@ -102,7 +102,7 @@ class Communicator {
   }
   /// All ranks have come here.
   void meet(std::string_view what) {
-    MPI_Request request;
+    MPI_Request request = MPI_REQUEST_NULL;
     MPI_Ibarrier(comm_, &request);
     wait({&request, 1}, what);
   }
@@ -111,7 +111,7 @@ class Communicator {
   void broadcast(std::vector<T>& values, std::string_view what) {
     auto& b = *buffers_;
     b.count = values.size();
-    MPI_Request request;
+    MPI_Request request = MPI_REQUEST_NULL;
     MPI_Ibcast(&b.count, int(sizeof b.count), MPI_BYTE, 0, comm_, &request);
     wait({&request, 1}, what);
     values.resize(b.count);
@@ -136,7 +136,7 @@ class Communicator {
     const auto bytes = reinterpret_cast<std::byte const*>(own.data());
     b.own.assign(bytes, bytes + b.counts[std::size_t(rank_)]);
     b.all.resize(std::size_t(end));
-    MPI_Request request;
+    MPI_Request request = MPI_REQUEST_NULL;
     MPI_Iallgatherv(b.own.data(),
                     int(b.own.size()),
                     MPI_BYTE,
