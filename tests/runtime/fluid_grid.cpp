@@ -33,7 +33,8 @@ constexpr char const* scene =
 
 std::vector<double> flow_of(Few_simulation& sim) {
   std::vector<double> flow;
-  sim.visit<role::BehaviorModel>([&](auto const& model, auto const&) { flow = model.flow; });
+  sim.visit<role::BehaviorModel>(
+      [&](auto const& model, auto const&) { flow.assign(model.flow.begin(), model.flow.end()); });
   return flow;
 }
 Few_simulation started(ReadScene<Few> read) {

@@ -8,7 +8,6 @@
 #include <sinew/force/stiff_spring.hpp>
 #include <sinew/mass/uniform_mass.hpp>
 #include <sinew/runtime/checks.hpp>
-#include <sinew/runtime/precompiled.hpp>
 #include <sinew/runtime/scope.hpp>
 #include <sinew/scene/profiled.hpp>
 #include <sinew/scene/simulation.hpp>
@@ -22,7 +21,8 @@ using namespace sinew;
 
 namespace {
 
-using Few = Standard;
+struct Few : Registry<Gravity, MechanicalObject<Vec3d>, UniformMass<Vec3d>, StiffSpringForceField<Vec3d>,
+                      EulerImplicitSolver, CGLinearSolver<>> {};
 
 const MechanicalObject<Vec3d> points{.position = {{0, 0, 0}, {1, 0, 0}, {2, 0.1, 0}}};
 const StiffSpringForceField<Vec3d> springs{{{0, 1, 100, 0.1, 1}, {1, 2, 100, 0.1, 1}}};
