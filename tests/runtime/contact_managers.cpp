@@ -11,7 +11,6 @@
 #include <sinew/lagrangian/block_gauss_seidel_constraint_solver.hpp>
 #include <sinew/lagrangian/free_motion_animation_loop.hpp>
 #include <sinew/mass/uniform_mass.hpp>
-#include <sinew/runtime/precompiled.hpp>
 #include <sinew/runtime/read_scene.hpp>
 #include <sinew/runtime/runtime.hpp>
 #include <sinew/runtime/save_scene.hpp>
@@ -41,7 +40,11 @@ struct ConstantContact {
 };
 using ConstantContactManager = ContactManager<PenalityContactForceField, ConstantContact>;
 
-using Mine = Standard;
+struct Mine
+    : Registry<Gravity, DefaultPipeline, BruteForceBroadPhase, BVHNarrowPhase, MinProximityIntersection,
+               DefaultContactManager, ConstantContactManager, EulerImplicitSolver, CGLinearSolver<>,
+               MechanicalObject<Vec3d>, UniformMass<Vec3d>, SphereCollisionModel<Vec3d>,
+               FreeMotionAnimationLoop, BlockGaussSeidelConstraintSolver> {};
 
 // two balls of 2 kg, 0.9 m apart and 1 m wide
 std::string balls(std::string const& manager) {
