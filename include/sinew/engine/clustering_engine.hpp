@@ -113,11 +113,11 @@ void ClusteringEngine<D>::update(std::string_view where) {
 
 #if SINEW_DEFINES
 #include <sinew/io/text_reader.hpp>
+#include <sinew/topology/cells_along_edges.hpp>
 
 #include <algorithm>
 #include <limits>
 #include <numeric>
-#include <set>
 #include <utility>
 
 namespace sinew {
@@ -145,19 +145,9 @@ SINEW_ONCE std::vector<std::vector<int>> ClusterPoints::clusters() const {
             distance[i] = d, cell[i] = c;
         return;
       }
-      std::set<std::pair<double, std::size_t>> front{{0, center}};  // Dijkstra 1959
+      detail::EdgeFront front{{0, center}};
       distance[center] = 0, cell[center] = c;
-      while (!front.empty()) {
-        const std::size_t from = front.begin()->second;
-        front.erase(front.begin());
-        for (const std::size_t to : around[from]) {
-          const double d = distance[from] + (position[from] - position[to]).norm();
-          if (!(distance[to] > d)) continue;
-          front.erase({distance[to], to});
-          cell[to] = cell[from], distance[to] = d;
-          front.insert({d, to});
-        }
-      }
+      detail::spread_cells(std::move(front), position, around, distance, cell);
     };
     centers = {0};
     measure();

@@ -45,8 +45,9 @@ struct MeshSampler {
 }  // namespace sinew
 
 #if SINEW_DEFINES
+#include <sinew/topology/cells_along_edges.hpp>
+
 #include <limits>
-#include <set>
 #include <utility>
 
 namespace sinew {
@@ -73,22 +74,12 @@ SINEW_ONCE void MeshSampler::update(std::string_view where) {
             distance[i] = d, cell[i] = c;
       return;
     }
-    std::set<std::pair<double, std::size_t>> front;  // Dijkstra 1959
+    detail::EdgeFront front;
     for (std::size_t c = 0; c < chosen.size(); ++c) {
       front.insert({0, chosen[c]});
       distance[chosen[c]] = 0, cell[chosen[c]] = c;
     }
-    while (!front.empty()) {
-      const std::size_t from = front.begin()->second;
-      front.erase(front.begin());
-      for (const std::size_t to : around[from]) {
-        const double d = distance[from] + (position[from] - position[to]).norm();
-        if (!(distance[to] > d)) continue;
-        front.erase({distance[to], to});
-        cell[to] = cell[from], distance[to] = d;
-        front.insert({d, to});
-      }
-    }
+    detail::spread_cells(std::move(front), position, around, distance, cell);
   };
   measure();
   while (chosen.size() < std::min(n, std::size_t(number))) {
