@@ -118,6 +118,14 @@ TEST_CASE("quads become triangles, fronts are turned over, unused points left ou
       loaded(MeshGmshLoader{.filename = {folder.write("a.msh", samples::gmsh2)}, .createSubelements = true});
   CHECK(solid.triangles.size() == 4);  // one of the tetrahedron's four was there
   CHECK(solid.edges.size() == 1 + 4 + 4);
+  // the sides of its triangles, in SOFA's order
+  const auto lone =
+      loaded(MeshGmshLoader{.filename = {folder.write("lone.msh",
+                                                      "$NOD\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$ENDNOD\n"
+                                                      "$ELM\n1\n1 4 1 1 4 1 2 3 4\n$ENDELM\n")},
+                            .createSubelements = true});
+  CHECK(lone.triangles == std::vector<Triangle>{{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}});
+  CHECK(lone.edges == std::vector<Edge>{{2, 1}, {1, 0}, {0, 2}, {1, 3}, {3, 0}, {3, 2}});
 }
 
 TEST_CASE("normals look outwards; points of no face have none") {

@@ -152,10 +152,10 @@ struct MeshLoader {
     if (mirrors) detail::turn_volumes(mesh);
     if (mirrors != flipNormals)
       detail::turn_faces(mesh.triangles, mesh.quads), detail::turn_faces(looks.triangles, looks.quads);
-    if (createSubelements) {
-      constexpr std::size_t ofTetrahedron[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
-      constexpr std::size_t ofTriangle[3][2] = {{0, 1}, {1, 2}, {2, 0}};
-      constexpr std::size_t ofQuad[4][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}};
+    if (createSubelements) {  // in the order of SOFA, which numbers the edges
+      constexpr std::size_t ofTetrahedron[4][3] = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+      constexpr std::size_t ofTriangle[3][2] = {{1, 2}, {2, 0}, {0, 1}};
+      constexpr std::size_t ofQuad[4][2] = {{1, 2}, {2, 3}, {3, 0}, {0, 1}};
       detail::add_sides(mesh.quads, mesh.hexahedra, hexahedronFaces);
       detail::add_sides(mesh.triangles, mesh.tetrahedra, ofTetrahedron);
       detail::add_sides(mesh.edges, mesh.quads, ofQuad);
