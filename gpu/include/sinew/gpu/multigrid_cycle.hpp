@@ -4,6 +4,7 @@
 #include <sinew/core/workers.hpp>
 #include <sinew/gpu/block_rows.hpp>
 #include <sinew/gpu/multigrid_loops.hpp>
+#include <sinew/gpu/multigrid_team.hpp>
 #include <sinew/gpu/reduction.hpp>
 #include <sinew/gpu/row_teams.hpp>
 #include <sinew/linalg/multigrid.hpp>
@@ -163,6 +164,21 @@ struct Level {
   }
   std::size_t scalars() const { return std::size_t(points) * stride<R>; }
   double const* bound() const { return numbers.data(); }
+  LevelView<R> view() const {
+    return {points,
+            rows,
+            product.data(),
+            x.data(),
+            r.data(),
+            {d[0].data(), d[1].data()},
+            bound(),
+            down.start.data(),
+            down.columns.data(),
+            down.turnedStart.data(),
+            down.turnedRows.data(),
+            down.turnedSlots.data(),
+            down.p.data()};
+  }
 
   void findBound() {
     double *const diagonal = numbers.data() + 1, *const squares = diagonal + FindBound::steps;
@@ -311,6 +327,25 @@ class MultigridCycle {
     sum_indices(std::size_t(n),
                 multigrid::Leave<D>{fine_.unit.data(), fine_.x.data(), numbers_.data() + 3, square, n, r, z},
                 along);
+  }
+
+  /// Whether solves are one kernel (team()).
+  bool isWhole() const {
+    return coarse_.size() <= std::size_t(MultigridTeam<D>::mostLevels) &&
+           std::size_t(fine_.points) <= most_points_of_whole_multigrid();
+  }
+  /// The cycle as the threads of a team see it, without what iterates.
+  MultigridTeam<D> team() const {
+    MultigridTeam<D> t{};
+    t.fine = fine_.view();
+    for (std::size_t k = 0; k < coarse_.size(); ++k) t.coarse[k] = coarse_[k].view();
+    t.levels = int(coarse_.size());
+    t.dense = dense_.data();
+    t.unknowns = unknowns_;
+    t.degree = settings.degree;
+    t.unit = fine_.unit.data();
+    t.diagonalSize = numbers_.data() + 3;
+    return t;
   }
 
   // what threads do

@@ -48,6 +48,19 @@ class WholeTeam {
   __device__ void eachRow(int n, F&& f) const {
     for (int i = firstRow(); i < n; i += int(gridDim.x * blockDim.x) / lanes) f(i, lane());
   }
+  /// f(i, lane, Lanes, joined) by the Lanes threads that share i, also for some i from n on, so that all of a
+  /// warp are there: joined(sum) makes of each of its numbers the sum over the lanes. Warps of all blocks
+  /// take turns.
+  template <int Lanes, class F>
+  __device__ void eachTeamOf(int n, F&& f) const {
+    const int lane = int(threadIdx.x) % 32, warp = int(threadIdx.x / 32 * gridDim.x + blockIdx.x);
+    constexpr int ofWarp = 32 / Lanes;
+    for (int first = warp * ofWarp; first < n; first += int(gridDim.x * blockDim.x) / Lanes)
+      f(first + lane / Lanes, lane % Lanes, Lanes, [](auto& sum) {
+        for (int offset = Lanes / 2; offset > 0; offset /= 2)
+          for (auto& s : sum) s += __shfl_xor_sync(0xffffffffu, s, offset);
+      });
+  }
   __device__ int firstRow() const { return int(blockIdx.x * blockDim.x + threadIdx.x) / lanes; }
   __device__ int lane() const { return int(threadIdx.x) % lanes; }
   /// The sums over the threads of a row, in each of them.
@@ -194,6 +207,10 @@ class WholeTeam {
   void eachRow(int n, F&& f) const {
     for (int i = n - 1 - thread_; i >= 0; i -= threads_) f(i, 0);
   }
+  template <int, class F>
+  void eachTeamOf(int n, F&& f) const {
+    eachRow(n, [&](int i, int) { f(i, 0, 1, [](auto&) {}); });
+  }
   int firstRow() const { return -1; }  // keeps none
   int lane() const { return 0; }
   int kept() const { return 0; }
@@ -255,7 +272,7 @@ inline bool has_row_for_each([[maybe_unused]] std::size_t rows) {
 template <class Body>
 void run_whole_team(std::size_t rows, Body const& body, TeamMemory& memory) {
 #if SINEW_CUDA
-  char const* const what = "a step with constraints on the GPU";
+  char const* const what = "a kernel over the whole GPU";
   int device = 0;
   check(cudaGetDevice(&device), what);
   // over the whole GPU, in warps
@@ -273,7 +290,9 @@ void run_whole_team(std::size_t rows, Body const& body, TeamMemory& memory) {
   constexpr std::size_t ofSums = 4096;
   const std::size_t entry = threads * Body::entryBytes;
   const std::size_t kept =  // in pairs
-      std::min<std::size_t>(WholeTeam::mostKept, (std::size_t(sharedMost) - ofSums) / entry) / 2 * 2;
+      entry == 0
+          ? 0
+          : std::min<std::size_t>(WholeTeam::mostKept, (std::size_t(sharedMost) - ofSums) / entry) / 2 * 2;
   const std::size_t shared = kept * entry;
   check(cudaFuncSetAttribute(
             detail::whole_kernel<Body>, cudaFuncAttributeMaxDynamicSharedMemorySize, int(shared)),
