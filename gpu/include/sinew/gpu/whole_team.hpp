@@ -61,8 +61,14 @@ class WholeTeam {
           for (auto& s : sum) s += __shfl_xor_sync(0xffffffffu, s, offset);
       });
   }
+  /// The first i of a thread there.
+  template <int Lanes>
+  __device__ int firstOf() const {
+    return int(threadIdx.x / 32 * gridDim.x + blockIdx.x) * (32 / Lanes) + int(threadIdx.x) % 32 / Lanes;
+  }
   __device__ int firstRow() const { return int(blockIdx.x * blockDim.x + threadIdx.x) / lanes; }
   __device__ int lane() const { return int(threadIdx.x) % lanes; }
+  __device__ int laneOfWarp() const { return int(threadIdx.x) % 32; }
   /// The sums over the threads of a row, in each of them.
   template <int N>
   __device__ void sumOfRow(double (&value)[N]) const {
@@ -211,8 +217,13 @@ class WholeTeam {
   void eachTeamOf(int n, F&& f) const {
     eachRow(n, [&](int i, int) { f(i, 0, 1, [](auto&) {}); });
   }
-  int firstRow() const { return -1; }  // keeps none
+  template <int>
+  int firstOf() const {
+    return -1;  // keeps none
+  }
+  int firstRow() const { return -1; }
   int lane() const { return 0; }
+  int laneOfWarp() const { return 0; }
   int kept() const { return 0; }
   template <class T>
   T& keeps(std::size_t, int) const {
@@ -266,9 +277,16 @@ inline bool has_row_for_each([[maybe_unused]] std::size_t rows) {
 #endif
 }
 
+/// Bytes of shared memory that a body needs for each thread, besides those of entries.
+template <class Body>
+inline constexpr std::size_t fixed_bytes = 0;
+template <class Body>
+requires requires { Body::threadBytes; }
+inline constexpr std::size_t fixed_bytes<Body> = Body::threadBytes;
+
 /// body(team) in all threads of a team, for work with so many rows; body is an object whose operator() is
 /// SINEW_HD, waits for the team once at least, and says how many bytes of shared memory an entry of a row
-/// needs, `entryBytes`.
+/// needs, `entryBytes`, and a thread besides, `threadBytes`.
 template <class Body>
 void run_whole_team(std::size_t rows, Body const& body, TeamMemory& memory) {
 #if SINEW_CUDA
@@ -288,12 +306,10 @@ void run_whole_team(std::size_t rows, Body const& body, TeamMemory& memory) {
   int sharedMost = 0;
   check(cudaDeviceGetAttribute(&sharedMost, cudaDevAttrMaxSharedMemoryPerBlockOptin, device), what);
   constexpr std::size_t ofSums = 4096;
-  const std::size_t entry = threads * Body::entryBytes;
+  const std::size_t entry = threads * Body::entryBytes, fixed = threads * fixed_bytes<Body>;
   const std::size_t kept =  // in pairs
-      entry == 0
-          ? 0
-          : std::min<std::size_t>(WholeTeam::mostKept, (std::size_t(sharedMost) - ofSums) / entry) / 2 * 2;
-  const std::size_t shared = kept * entry;
+      std::min<std::size_t>(WholeTeam::mostKept, (std::size_t(sharedMost) - ofSums - fixed) / entry) / 2 * 2;
+  const std::size_t shared = kept * entry + fixed;
   check(cudaFuncSetAttribute(
             detail::whole_kernel<Body>, cudaFuncAttributeMaxDynamicSharedMemorySize, int(shared)),
         what);
