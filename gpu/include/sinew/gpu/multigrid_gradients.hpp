@@ -148,6 +148,8 @@ bool multigrid_gradients(Operations& operations, Solver& solver, MatrixFactors f
         team.p = state[p.id].overwrite();
         team.q = state[q.id].overwrite();
         team.z = state[z.id].overwrite();
+        mine.product.resize(points);
+        team.s = mine.product.data();
         team.iterations = solver.iterations;
         team.tolerance = solver.tolerance;
         team.residuals = numbers;

@@ -18,6 +18,7 @@ struct MultigridSolver {
   DeviceArray<unsigned char> held{};
   DeviceArray<double> numbers{};
   std::vector<double> found{};  // what comes back of a solve that is one kernel
+  DeviceArray<typename D::Deriv> product{};
   TeamMemory team{};
 
   MultigridSolver() = default;
