@@ -88,21 +88,24 @@ CutPlan plan_cut_of(std::vector<Eigen::Vector3d> const& rest, std::span<std::arr
     TopologyView const& view = topologies[t];
     CutPlan::Lists lists{.quads = {view.quads.begin(), view.quads.end()}};  // of what is only looked at
     TopologyChange change{.points = plan.points};
-    auto record = [&](ElementKind kind, auto const& before, std::vector<Origin> come) {
+    // (nvcc looks names up again where it instantiates, and sinew::detail may have got an ElementKind by
+    // then)
+    using Kind = sinew::ElementKind;
+    auto record = [&](Kind kind, auto const& before, std::vector<Origin> come) {
       change.elements[std::size_t(kind)] = Renumbering::grown(before.size(), std::move(come));
     };
     std::vector<Origin> come;
     lists.edges = cut.template follow<2>(view.edges, come);
-    record(ElementKind::edge, view.edges, std::exchange(come, {}));
+    record(Kind::edge, view.edges, std::exchange(come, {}));
     if (N == 3 && t == first) {
       if constexpr (N == 3) lists.triangles = cut.elements(come);
     } else {
       lists.triangles = cut.template follow<3>(view.triangles, come);
     }
-    record(ElementKind::triangle, view.triangles, std::exchange(come, {}));
+    record(Kind::triangle, view.triangles, std::exchange(come, {}));
     if constexpr (N == 4) {
       lists.tetrahedra = t == first ? cut.elements(come) : cut.template follow<4>(view.tetrahedra, come);
-      record(ElementKind::tetrahedron, view.tetrahedra, std::exchange(come, {}));
+      record(Kind::tetrahedron, view.tetrahedra, std::exchange(come, {}));
     }
     if (growsBorder[t]) {
       if constexpr (N == 4)

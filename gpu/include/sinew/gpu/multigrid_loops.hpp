@@ -479,41 +479,54 @@ struct StartVector {
     return double(value) * double(value);
   }
 };
-/// d /= its length
-struct Normalise {
-  float* d;
-  double const* square;
-  SINEW_HD void operator()(int i) const { d[i] *= float(1 / std::sqrt(*square)); }
-};
-/// q = A d of a row
+/// 1 / the length of a direction, from its square
+SINEW_INLINE float over_length(double square) { return float(1 / std::sqrt(square)); }
+/// q = A d / |d| of a row
 template <int R>
 struct Multiply {
   using Real = float;
   static constexpr int sums = R;
   Rows<R> rows;
   float const *values, *d;
+  double const* square;  // d.d
   float* q;
   SINEW_HD void part(int i, int lane, int lanes, float* sum) const {
     add_row<R>(rows, values, d, i, lane, lanes, sum);
   }
   SINEW_HD void finish(int i, float const* sum) const {
-    for (int c = 0; c < R; ++c) q[stride<R> * std::ptrdiff_t(i) + c] = sum[c];
+    const float over = over_length(*square);
+    for (int c = 0; c < R; ++c) q[stride<R> * std::ptrdiff_t(i) + c] = over * sum[c];
   }
 };
+/// d.q / |d|
 struct Dot {
-  float const *a, *b;
-  SINEW_HD double operator()(int i) const { return double(a[i]) * double(b[i]); }
+  float const *d, *q;
+  double const* square;
+  struct OfThread {
+    float const *d, *q;
+    float over;
+    SINEW_HD double operator()(int i) const { return double(over * d[i]) * double(q[i]); }
+  };
+  SINEW_HD OfThread ofThread() const { return {d, q, over_length(*square)}; }
 };
-/// The next direction q - own d - last x, which becomes d, and d the one before, x; its square.
+/// With e = d / |d| the next direction q - own e - |d| x, which becomes d, and e the one before, x; its
+/// square.
 struct NextDirection {
   float *d, *q, *x;
-  double const *own, *lastSquare;  // lastSquare: null in the first step
-  SINEW_HD double operator()(int i) const {
-    const float last = lastSquare ? float(std::sqrt(*lastSquare)) : 0.f;
-    const float next = q[i] - (float(*own) * d[i] + last * x[i]);
-    x[i] = d[i];
-    d[i] = next;
-    return double(next) * double(next);
+  double const *own, *square;
+  bool later;  // there is one before
+  struct OfThread {
+    float *d, *q, *x;
+    float own, over, last;
+    SINEW_HD double operator()(int i) const {
+      const float e = over * d[i], next = q[i] - (own * e + last * x[i]);
+      x[i] = e;
+      d[i] = next;
+      return double(next) * double(next);
+    }
+  };
+  SINEW_HD OfThread ofThread() const {
+    return {d, q, x, float(*own), over_length(*square), later ? float(std::sqrt(*square)) : 0.f};
   }
 };
 /// 1.05 times the largest eigenvalue of what the steps have found; squares[k] is that before step k.
