@@ -84,13 +84,15 @@ struct HexahedronCompositeFEMMapping {
     std::vector<Eigen::Vector3d> points;  // of the grid
     for (auto const& x : parent.rest) points.push_back(x.template cast<double>());
     for (auto const& h : topology.hexahedra) {
-      Element& e = elements.emplace_back(Element{h, {}, {}});
+      Element e;
+      e.points = h;
       Eigen::Vector3d x[8];
       for (std::size_t k = 0; k < 8; ++k) x[k] = points[std::size_t(h[k])];
       const Eigen::Matrix3d jacobian = hexahedron_jacobian<double>(x),
                             frame = hexahedron_rest_frame(method, jacobian);
       for (std::size_t k = 0; k < 8; ++k) e.corner[k] = frame.transpose() * (x[k] - x[0]);
       e.center = jacobian.inverse();
+      elements.push_back(e);
     }
     // children lie with the grid before the state is moved, as for BarycentricMapping
     if (topology.places.size() == points.size())
@@ -165,7 +167,7 @@ struct HexahedronCompositeFEMMapping {
       }
       starts.push_back(parts.size());
     }
-    spins.assign(elements.size(), {});
+    spins.resize(elements.size());
     rotations.assign(elements.size(), Eigen::Matrix3d::Identity());
     used.assign(elements.size(), 0);
     for (Part const& p : parts) used[std::size_t(p.hexahedron)] = 1;

@@ -165,7 +165,7 @@ struct MeshMatrixMass {
   template <class F>
   std::size_t forEachElement(InitContext<D> const& context, F&& f) const {
     auto at = [&context](Index i) { return context.place(i); };
-    auto corners = [&at]<std::size_t N>(std::array<Index, N> const& e) {
+    auto cornersOf = [&at]<std::size_t N>(std::array<Index, N> const& e) {
       Eigen::Matrix<double, 3, int(N)> x;
       for (std::size_t k = 0; k < N; ++k) x.col(Eigen::Index(k)) = at(e[k]);
       return x;
@@ -196,7 +196,7 @@ struct MeshMatrixMass {
         const bool weighted = fillWeighted && t.massFill.size() == t.hexahedra.size();
         f(t.hexahedra[h],
           number++,
-          ((weighted ? t.massFill[h] : 1) * multilinear_mass<3>(corners(t.hexahedra[h]))).eval());
+          ((weighted ? t.massFill[h] : 1) * multilinear_mass<3>(cornersOf(t.hexahedra[h]))).eval());
       }
     // the triangles of a grid are the halves of its quads
     if (have(MassElements::triangles, surfaces && (t.grid[0] == 0 || t.quads.empty())))
@@ -204,7 +204,7 @@ struct MeshMatrixMass {
         return (at(e[1]) - at(e[0])).cross(at(e[2]) - at(e[0])).norm() / 2;
       });
     if (have(MassElements::quads, surfaces))
-      for (auto const& e : t.quads) f(e, number++, multilinear_mass<2>(corners(e)));
+      for (auto const& e : t.quads) f(e, number++, multilinear_mass<2>(cornersOf(e)));
     if (have(MassElements::edges, !volumes && !surfaces))
       simplices(t.edges, [&](Edge const& e) { return (at(e[1]) - at(e[0])).norm(); });
     return number;
