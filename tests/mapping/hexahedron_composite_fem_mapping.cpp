@@ -38,10 +38,14 @@ Grid octahedron(int levels, double hard = 50) {
 
 Points places(TopologyView const& t) { return {t.positions.begin(), t.positions.end()}; }
 
-const Points inside = {
-    {0.1, 0.2, 0.3}, {-0.5, 0.1, 0.2}, {0.3, -0.3, 0.25}, {0.02, 0.01, -0.6}, {0.6, 0.2, 0.1}};
+const Points given = {{0.1, 0.2, 0.3},
+                      {-0.5, 0.1, 0.2},
+                      {0.3, -0.3, 0.25},
+                      {0.02, 0.01, -0.6},
+                      {0.6, 0.2, 0.1},
+                      {1.3, 0.9, -0.8}};  // the last outside of all cells
 
-Mapping mapped(Mapping mapping, TopologyView const& t, Points const& rest, Points child = inside) {
+Mapping mapped(Mapping mapping, TopologyView const& t, Points const& rest, Points child = given) {
   const Points childRest = child;
   mapping.init(InitContext<Vec3d>{"body", rest, t}, InitContext<Vec3d>{"body/skin", childRest, {}}, child);
   return mapping;
@@ -71,16 +75,16 @@ TEST_CASE("points of composite hexahedra are at rest where they are given, and t
     const Points rest = places(grid.view());
     for_each_setting([&](Mapping const& settings) {
       Mapping m = mapped(settings, grid.view(), rest);
-      Points x(inside.size());
+      Points x(given.size());
       m.apply(x, rest);
-      for (std::size_t i = 0; i < x.size(); ++i) CHECK((x[i] - inside[i]).norm() < 1e-12);
+      for (std::size_t i = 0; i < x.size(); ++i) CHECK((x[i] - given[i]).norm() < 1e-12);
       if (settings.method == HexahedronMethod::small) return;
       const Matrix3d q = Eigen::AngleAxisd(2.1, Vector3d(2, -1, 2) / 3).matrix();
       Points turned = rest;
       for (auto& p : turned) p = q * p + Vector3d(1, 2, 3);
       m.apply(x, turned);
       for (std::size_t i = 0; i < x.size(); ++i)
-        CHECK((x[i] - q * inside[i] - Vector3d(1, 2, 3)).norm() < 1e-12);
+        CHECK((x[i] - q * given[i] - Vector3d(1, 2, 3)).norm() < 1e-12);
       // and with its velocity
       const Vector3d spin(0.3, -0.5, 0.7);
       Vec3d::VecDeriv v, out(x.size());
@@ -103,16 +107,16 @@ TEST_CASE(
   for_each_setting([&](Mapping const& settings) {
     Mapping m = mapped(settings, grid.view(), rest);
     const double h = 1e-5;
-    Points ahead = at, behind = at, plus(inside.size()), minus(inside.size()), x(inside.size());
+    Points ahead = at, behind = at, plus(given.size()), minus(given.size()), x(given.size());
     for (std::size_t i = 0; i < at.size(); ++i) ahead[i] += h * dx[i], behind[i] -= h * dx[i];
     m.apply(plus, ahead);
     m.apply(minus, behind);
     m.apply(x, at);
-    Vec3d::VecDeriv rate(inside.size()), pulled(rest.size(), Vector3d::Zero());
+    Vec3d::VecDeriv rate(given.size()), pulled(rest.size(), Vector3d::Zero());
     m.applyJ(rate, dx);
     for (std::size_t i = 0; i < x.size(); ++i)
       CHECK((rate[i] - (plus[i] - minus[i]) / (2 * h)).norm() < 1e-8 * (1 + rate[i].norm()));
-    const Vec3d::VecDeriv force = shaken(Points(inside.size(), Vector3d::Zero()), 2);
+    const Vec3d::VecDeriv force = shaken(Points(given.size(), Vector3d::Zero()), 2);
     m.applyJT(pulled, force);
     double work = 0, above = 0;
     Vector3d sum = Vector3d::Zero(), torque = Vector3d::Zero();
@@ -192,7 +196,7 @@ TEST_CASE("bad composite mappings are refused") {
     return "";
   };
   auto contains = [](std::string const& all, std::string_view part) { return all.find(part) != all.npos; };
-  CHECK(contains(said({}, {}, rest), "body/skin: HexahedronCompositeFEMMapping<Vec3d,Vec3d>"));
+  CHECK(contains(said({}, {}, rest), "body/skin: HexahedronCompositeFEMMapping<Vec3d, Vec3d>"));
   CHECK(contains(said({}, {}, rest), "no hexahedron"));
   CHECK(contains(said({.nbVirtualFinerLevels = 2}, grid.view(), rest), "the grid has 1 finer levels"));
   CHECK(contains(said({.poissonRatio = 0.5}, grid.view(), rest), "poissonRatio is 0.5"));

@@ -127,7 +127,8 @@ struct HexahedronCompositeFEMMapping {
       if (cellOf[i] < 0)
         throw Error(where, text("the cells of ", parent.where, " are all flat and carry no point"));
       auto const& cell = corners[std::size_t(cellOf[i])];
-      const auto weights = MultilinearFit<3>(lattice, cell).fit(p).weights;
+      const auto weights =
+          level ? weightsInBox(lattice, cell, p) : MultilinearFit<3>(lattice, cell).fit(p).weights;
       for (std::size_t k = 0; k < 8; ++k) {
         inCell[i][k] = weights[Eigen::Index(k)];
         needed[std::size_t(cell[k])] = 1;
@@ -295,6 +296,15 @@ struct HexahedronCompositeFEMMapping {
   }
   static Eigen::Vector3d corner(Eigen::Matrix3d const& edges, std::size_t k) {
     return edges * Eigen::Vector3d(hexahedronCorners[k][0], hexahedronCorners[k][1], hexahedronCorners[k][2]);
+  }
+
+  // of the corners of a box, at a place that may be outside
+  static Eigen::Matrix<double, 8, 1> weightsInBox(std::vector<Eigen::Vector3d> const& lattice,
+                                                  Hexahedron const& cell, Eigen::Vector3d const& p) {
+    auto at = [&](std::size_t k) { return lattice[std::size_t(cell[k])]; };
+    Eigen::Matrix3d edges;
+    edges << at(1) - at(0), at(3) - at(0), at(4) - at(0);
+    return MultilinearShape<3>(edges.inverse() * (p - at(0))).weights;
   }
 
   // finds the cell of a level around a place: where several lie at one place, by the finest of all
