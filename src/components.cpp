@@ -78,6 +78,7 @@
 #include <sinew/engine/voxel_grid_loader.hpp>
 #include <sinew/fluid/fluid2d.hpp>
 #include <sinew/fluid/fluid3d.hpp>
+#include <sinew/force/composite_cells.hpp>
 #include <sinew/force/element_pressure.hpp>
 #include <sinew/force/hyperelastic_material.hpp>
 #include <sinew/force/viscoelastic_material.hpp>

@@ -63,6 +63,23 @@ constexpr std::string_view jelly = R"(
   <ShapeMatching name="matching" cluster="@clustering.cluster"/>
   <PositionBasedDynamicsProjectiveConstraint stiffness="0.3" position="@matching.targetPosition"/>
 </Node>)";
+// a soft body with a stiff one in it, in few hexahedra
+constexpr std::string_view composite = R"(
+<Node name="fruit" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <SparseGridMultipleTopology n="4 4 4" nbVirtualFinerLevels="2" finestConnectivity="false" stiffnessCoefs="1 100"
+                              massCoefs="1 2" fileTopologies="data/ball.obj data/organ.obj"/>
+  <MechanicalObject/>
+  <HexahedronCompositeFEMForceField youngModulus="500000" poissonRatio="0.3"/>
+  <HexahedronCompositeFEMMass massDensity="1000" poissonRatio="0.3"/>
+  <FixedConstraint indices="0 1 2"/>
+  <Node name="stone">
+    <MeshOBJLoader name="surface" filename="data/organ.obj"/>
+    <VisualModel src="@surface"/>
+    <HexahedronCompositeFEMMapping poissonRatio="0.3"/>
+  </Node>
+</Node>)";
 // a body that another one follows
 constexpr std::string_view carrier = R"(
 <Node name="body" gravity="0 -9.81 0">
@@ -394,6 +411,7 @@ constexpr auto classExamples = std::to_array<ClassExample>({
 
     {"BeamMass", "", beams, ""},
     {"DiagonalMass", R"(<DiagonalMass massDensity="1000"/>)"},
+    {"HexahedronCompositeFEMMass", "", composite, ""},
     {"MeshMatrixMass", R"(<MeshMatrixMass massDensity="1000"/>)"},
     {"UniformMass", "", softBody, ""},
 
@@ -436,6 +454,7 @@ constexpr auto classExamples = std::to_array<ClassExample>({
   <GearSpringForceField spring="BEGIN_SPRING 0 0 1 1 AXIS 2 2 KS_T 1000 KS_R 100 1000 KD 0.001 RATIO 0.5 END_SPRING"/>
 </Node>)"},
     {"HexahedronFEMForceField", R"(<HexahedronFEMForceField youngModulus="50000" poissonRatio="0.3"/>)"},
+    {"HexahedronCompositeFEMForceField", "", composite, ""},
     {"JointSpringForceField", R"(
 <Node name="links" gravity="0 -9.81 0">
   <EulerImplicitSolver rayleighStiffness="0.01"/>
@@ -889,6 +908,7 @@ constexpr auto classExamples = std::to_array<ClassExample>({
     <ConstantForceField forces="-0.5"/>
   </Node>
 </Node>)"},
+    {"HexahedronCompositeFEMMapping", "", composite, ""},
     {"IdentityMapping",
      R"(
 <Node name="skin">

@@ -41,6 +41,7 @@
 #include <sinew/force/fast_triangular_bending_springs.hpp>
 #include <sinew/force/fluid_boundary.hpp>
 #include <sinew/force/gear_spring.hpp>
+#include <sinew/force/hexahedron_composite_fem.hpp>
 #include <sinew/force/hexahedron_fem.hpp>
 #include <sinew/force/immersed_solid.hpp>
 #include <sinew/force/joint_spring.hpp>
@@ -76,6 +77,7 @@
 #include <sinew/mapping/distance_from_target_mapping.hpp>
 #include <sinew/mapping/distance_mapping.hpp>
 #include <sinew/mapping/distance_to_plane_mapping.hpp>
+#include <sinew/mapping/hexahedron_composite_fem_mapping.hpp>
 #include <sinew/mapping/identity_mapping.hpp>
 #include <sinew/mapping/identity_multi_mapping.hpp>
 #include <sinew/mapping/rigid_mapping.hpp>
@@ -89,6 +91,7 @@
 #include <sinew/mapping/volume_mapping.hpp>
 #include <sinew/mass/beam_mass.hpp>
 #include <sinew/mass/diagonal_mass.hpp>
+#include <sinew/mass/hexahedron_composite_fem_mass.hpp>
 #include <sinew/mass/mesh_matrix_mass.hpp>
 #include <sinew/mass/uniform_mass.hpp>
 #include <sinew/solver/bdf2.hpp>

@@ -39,9 +39,9 @@ using Fluids = Registry<SPHFluidForceField<D>, FluidBoundary<D>, ImmersedSolid<D
                         ParticlesRepulsionForceField<D>, Particles<D>>;
 template <class D>
 using ElementForces =
-    Registry<TetrahedronFEMForceField<D>, HexahedronFEMForceField<D>, TriangleFEMForceField<D>,
-             SurfacePressureForceField<D>, TrianglePressureForceField<D>, QuadPressureForceField<D>,
-             EdgePressureForceField<D>, TriangularQuadraticSpringsForceField<D>,
+    Registry<TetrahedronFEMForceField<D>, HexahedronFEMForceField<D>, HexahedronCompositeFEMForceField<D>,
+             TriangleFEMForceField<D>, SurfacePressureForceField<D>, TrianglePressureForceField<D>,
+             QuadPressureForceField<D>, EdgePressureForceField<D>, TriangularQuadraticSpringsForceField<D>,
              TriangularBiquadraticSpringsForceField<D>, TriangularTensorMassForceField<D>,
              QuadBendingFEMForceField<D>>;
 template <class D>
@@ -73,8 +73,8 @@ using PointComponents = Registry<MechanicalObject<D>, UniformMass<D>, DiagonalMa
                                  PointSprings<D>, PointLoads<D>, PointConstraints<D>>;
 template <class D>
 using SpatialComponents =
-    Registry<PointComponents<D>, SpatialLoads<D>, ElementForces<D>, HyperelasticForces<D>, SpatialSprings<D>,
-             Fluids<D>, PatchTestMovementProjectiveConstraint<D>>;
+    Registry<PointComponents<D>, HexahedronCompositeFEMMass<D>, SpatialLoads<D>, ElementForces<D>,
+             HyperelasticForces<D>, SpatialSprings<D>, Fluids<D>, PatchTestMovementProjectiveConstraint<D>>;
 template <class D>
 using RigidComponents =
     Registry<MechanicalObject<D>, UniformMass<D>, DiagonalMass<D>, RigidLoads<D>, PointConstraints<D>>;
@@ -87,7 +87,8 @@ using RigidMappings =
 template <class In, class Out>
 using PointMappings = Registry<IdentityMapping<In, Out>, SubsetMapping<In, Out>>;
 template <class In, class Out>
-using SpatialMappings = Registry<PointMappings<In, Out>, BarycentricMapping<In, Out>>;
+using SpatialMappings =
+    Registry<PointMappings<In, Out>, BarycentricMapping<In, Out>, HexahedronCompositeFEMMapping<In, Out>>;
 
 // values on the points of a body, such as temperatures
 template <class D>

@@ -23,6 +23,7 @@
 #include "samples/fluid_boundary.hpp"
 #include "samples/gear_spring.hpp"
 #include "samples/hermite_spline.hpp"
+#include "samples/hexahedron_composite_fem.hpp"
 #include "samples/identity_multi_mapping.hpp"
 #include "samples/immersed_solid.hpp"
 #include "samples/joint_spring.hpp"

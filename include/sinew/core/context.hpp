@@ -20,6 +20,15 @@ struct FinerCells {
   std::span<Index const> parents{};
 };
 
+/// Cells of half the length of those one level above: the parts of a hexahedron of a grid over a surface.
+/// They have points of their own, which cells share where they are joined.
+struct CellLevel {
+  std::vector<Hexahedron> hexahedra{};
+  std::vector<Index> parents{};            // the cell above, or the hexahedron, of which each is an eighth
+  std::vector<int> octants{};              // the corner of that at which it lies
+  std::vector<double> fill{}, massFill{};  // the part that counts as filled, for its stiffness and its mass
+};
+
 /// Elements over the points of one node, as components see them at init. Empty where there is no topology. A
 /// topology that has to be made first offers generate(where), which init calls before all else. One whose
 /// elements may be removed while the scene runs offers edit(), its ElementLists.
@@ -37,6 +46,8 @@ struct TopologyView {
   // and its mass; empty where all are
   std::span<double const> fill{}, massFill{};
   FinerCells finer{};
+  std::span<CellLevel const>
+      levels{};        // of a grid over a surface: halves of the hexahedra, halves of these...
   bool grows = false;  // it may be without elements: some may come while the scene runs
 };
 

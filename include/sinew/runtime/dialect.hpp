@@ -139,14 +139,20 @@ inline constexpr std::array ofViews = std::to_array<std::string_view>({"VisualSt
 /// Shows values of a state by colours of its own: what is mapped onto it is a picture, too.
 inline constexpr std::string_view shownByColours = "DataDisplay";
 
-/// Forces that have the mass of their elements with them: a force and a MeshMatrixMass.
+/// Forces that have the mass of their elements with them: a force and a mass.
 struct ForceAndMass {
-  std::string_view name, force;
-  bool fillWeighted;  // cells of a grid over a surface weigh by how filled they are
+  std::string_view name, force, mass;
+  bool fillWeighted;               // cells of a grid over a surface weigh by how filled they are
+  std::string_view interpolation;  // of hexahedra that are made of finer cells; empty for others
 };
-inline constexpr std::array forcesAndMasses =
-    std::to_array<ForceAndMass>({{"HexahedronFEMForceFieldAndMass", "HexahedronFEMForceField", true},
-                                 {"HexahedralFEMForceFieldAndMass", "HexahedronFEMForceField", false}});
+inline constexpr std::string_view compositeForce = "HexahedronCompositeFEMForceField",
+                                  compositeMass = "HexahedronCompositeFEMMass",
+                                  compositeMapping = "HexahedronCompositeFEMMapping";
+inline constexpr std::array forcesAndMasses = std::to_array<ForceAndMass>(
+    {{"HexahedronFEMForceFieldAndMass", "HexahedronFEMForceField", "MeshMatrixMass", true, ""},
+     {"HexahedralFEMForceFieldAndMass", "HexahedronFEMForceField", "MeshMatrixMass", false, ""},
+     {"HexahedronCompositeFEMForceFieldAndMass", compositeForce, compositeMass, false, "condensed"},
+     {"NonUniformHexahedronFEMForceFieldAndMass", compositeForce, compositeMass, false, "trilinear"}});
 constexpr ForceAndMass const* force_and_mass(std::string_view tag) {
   for (auto const& both : forcesAndMasses)
     if (both.name == tag) return &both;

@@ -4,7 +4,9 @@
 #include <sinew/core/compiled.hpp>
 #include <sinew/core/mesh.hpp>
 
+#include <Eigen/LU>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -65,6 +67,26 @@ struct MultilinearShape {
     }
   }
 };
+
+/// The integrals of N_i N_j over the multilinear quad or hexahedron with these corners. Three Gauss points a
+/// direction are exact to degree five; N_i N_j det J has four at most.
+template <int Dim>
+Eigen::Matrix<double, 1 << Dim, 1 << Dim> multilinear_mass(Eigen::Matrix<double, 3, 1 << Dim> const& x) {
+  constexpr int corners = 1 << Dim;
+  Eigen::Matrix<double, corners, corners> mass;
+  mass.setZero();
+  const double node[3] = {0.5 - std::sqrt(0.15), 0.5, 0.5 + std::sqrt(0.15)},
+               weight[3] = {5. / 18, 4. / 9, 5. / 18};
+  for (int q = 0; q < (Dim == 3 ? 27 : 9); ++q) {
+    Eigen::Matrix<double, Dim, 1> place;
+    double w = 1;
+    for (int c = 0, rest = q; c < Dim; ++c, rest /= 3) place[c] = node[rest % 3], w *= weight[rest % 3];
+    const MultilinearShape<Dim> shape(place);
+    const Eigen::Matrix<double, 3, Dim> J = x * shape.derivatives;
+    mass += w * std::sqrt((J.transpose() * J).determinant()) * shape.weights * shape.weights.transpose();
+  }
+  return mass;
+}
 
 }  // namespace sinew
 

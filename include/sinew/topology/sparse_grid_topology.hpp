@@ -37,6 +37,7 @@ struct SparseGridTopology {
   std::vector<Edge> edges{};
   std::vector<Hexahedron> hexahedra{};
   std::vector<double> fill{}, massFill{};
+  std::vector<CellLevel> levels{};
 
   static constexpr auto outputs() { return sparse_grid_outputs<SparseGridTopology>(); }
 
