@@ -82,7 +82,7 @@ TEST_CASE("read_vtk brings VTK's cells into the node order of the mesh") {
   check_says(error_of([] { one_cell(-1, "0 1 2 3"); }), "f:9", "cell type -1");
   check_says(
       error_of([] { one_cell(13, "0 1 2 3 4"); }), "f:9", "has 5 points, but VTK's cell type 13 has 6");
-  check_says(error_of([] { one_cell(14, "0 1 2 3 9"); }), "f", "pyramid 0 refers to point 9");
+  check_says(error_of([] { one_cell(14, "0 1 2 3 9"); }), "f:8", "point 9 is not among the 9 points");
   check_says(error_of([] { one_cell(10, "0 1 2"); }), "f:9", "has 3 points, but VTK's cell type 10 has 4");
 }
 

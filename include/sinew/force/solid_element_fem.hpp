@@ -17,10 +17,13 @@
 namespace sinew {
 
 /// How the rotation of a corotational element is found.
-///   polar   nearest to H = sum_i x_i (X_i - mean X)', with X_i the nodes at rest, as SOFA's "polar"
-///   small   none: linear elasticity
-enum class ElementRotation { polar, small };
-inline constexpr std::array<std::string_view, 2> enum_names(ElementRotation) { return {"polar", "small"}; }
+///   polar    nearest to H = sum_i x_i (X_i - mean X)', with X_i the nodes at rest, as SOFA's "polar"
+///   small    none: linear elasticity
+///   nearest  nearest to H S^-1, S being H at rest: to the deformation gradient of an affine motion
+enum class ElementRotation { polar, small, nearest };
+inline constexpr std::array<std::string_view, 3> enum_names(ElementRotation) {
+  return {"polar", "small", "nearest"};
+}
 
 /// An element of an isotropic material with the shape functions N_i of any Shape
 /// (topology/element_shapes.hpp), corotational (Felippa & Haugen 2005). With the deformation gradient F =
@@ -40,10 +43,11 @@ struct SolidElementFEM {
   static constexpr bool usesVelocity = false;
 
   struct Rest {
-    Mat3 inverse[G];  // J^-1 in each Gauss point [1/m]
-    Real weight[G];   // its weight times det J [m^3]
-    Vec3 node[N];     // X_i - mean X over the sum of the squares of all [1/m]
-    Real mu, lambda;  // [Pa]
+    Mat3 inverse[G];   // J^-1 in each Gauss point [1/m]
+    Real weight[G];    // its weight times det J [m^3]
+    Vec3 node[N];      // X_i - mean X over the sum of the squares of all [1/m]
+    Mat3 inverseRest;  // S^-1 times that sum, for `nearest`
+    Real mu, lambda;   // [Pa]
   };
   struct Tangent {
     Mat3 rotation;
@@ -108,7 +112,7 @@ struct SolidElementFEM {
     for (int g = 0; g < points; ++g) {
       Mat3 j = Mat3::Zero();
       for (int i = 0; i < arity; ++i)
-        for (int k = 0; k < 3; ++k) j.col(k) += Vec3(x[i] - x[0]) * Real(slopes(g, i, k));
+        for (int k = 0; k < 3; ++k) j.col(k) += Vec3(x[i] - x[0]) * slopes(g, i, k);
       rest.inverse[g] = j.inverse();
       rest.weight[g] = Real(Shape::weight) * j.determinant();
     }
@@ -121,14 +125,21 @@ struct SolidElementFEM {
       rest.node[i] = Vec3(x[i] - x[0]) - mean;
       squares += rest.node[i].squaredNorm();
     }
-    for (int i = 0; i < arity; ++i) rest.node[i] /= squares;
+    Mat3 atRest = Mat3::Zero();
+    for (int i = 0; i < arity; ++i) {
+      atRest += rest.node[i] * rest.node[i].transpose() / squares;
+      rest.node[i] /= squares;
+    }
+    rest.inverseRest = atRest.inverse();
     rest.mu = mu;
     rest.lambda = lambda;
     return rest;
   }
 
  private:
-  static constexpr double slopes(int g, int i, int k) { return shape_slopes<Shape>.at[g][i][k]; }
+  SINEW_INLINE static Real slopes(int g, int i, int k) {
+    return Real(static_cast<lane_scalar<Real>>(shape_slopes<Shape>.at[g][i][k]));
+  }
 
   SINEW_INLINE Mat3 rotation(Rest const& rest, Coord const (&x)[N]) const {
     Mat3 r;
@@ -142,7 +153,13 @@ struct SolidElementFEM {
       for (int c = 0; c < 3; ++c)
         for (int k = 0; k < 3; ++k) r(k, c) += d[k] * rest.node[i][c];
     }
-    return nearest_rotation(r);
+    if (method == ElementRotation::polar) return nearest_rotation(r);
+    Mat3 f;
+    for (int c = 0; c < 3; ++c)
+      for (int k = 0; k < 3; ++k)
+        f(k, c) = r(k, 0) * rest.inverseRest(0, c) + r(k, 1) * rest.inverseRest(1, c) +
+                  r(k, 2) * rest.inverseRest(2, c);
+    return nearest_rotation(f);
   }
   // y = R'(x - x_0)
   SINEW_INLINE static void rotateBack(Mat3 const& r, Coord const (&x)[N], Vec3 (&y)[N]) {
@@ -157,7 +174,7 @@ struct SolidElementFEM {
     for (int c = 0; c < 9; ++c) column(c) = Real(0);
     for (int i = 1; i < arity; ++i)
       for (int k = 0; k < 3; ++k) {
-        const Real slope(slopes(g, i, k));
+        const Real slope = slopes(g, i, k);
         for (int c = 0; c < 3; ++c) column(c, k) += y[i][c] * slope;
       }
     Mat3 const& inverse = rest.inverse[g];
@@ -188,7 +205,7 @@ struct SolidElementFEM {
                        pressure * inverse(k, c);
       for (int i = 0; i < arity; ++i)
         for (int k = 0; k < 3; ++k) {
-          const Real slope(slopes(g, i, k));
+          const Real slope = slopes(g, i, k);
           for (int c = 0; c < 3; ++c) sum[i][c] += pull(c, k) * slope;
         }
     }
@@ -198,7 +215,7 @@ struct SolidElementFEM {
   // of shape function i in Gauss point g
   SINEW_INLINE static Vec3 gradient(Rest const& rest, int g, int i) {
     Mat3 const& inverse = rest.inverse[g];
-    const Real r(slopes(g, i, 0)), s(slopes(g, i, 1)), t(slopes(g, i, 2));
+    const Real r = slopes(g, i, 0), s = slopes(g, i, 1), t = slopes(g, i, 2);
     Vec3 h;
     for (int j = 0; j < 3; ++j) h[j] = r * inverse(0, j) + s * inverse(1, j) + t * inverse(2, j);
     return h;
@@ -237,7 +254,8 @@ struct SolidElementFEMForceField {
             "method",
             &F::method,
             "",
-            "rotation of an element: polar: the nearest to its deformation; small: none, linear elasticity"));
+            "rotation of an element: polar: as in SOFA, the nearest to the places of its nodes; small: none, "
+            "linear elasticity; nearest: the nearest to its deformation"));
   }
 
   ForceProperties properties() const {

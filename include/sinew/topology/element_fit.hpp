@@ -116,7 +116,7 @@ struct CollapsedFit : MultilinearFit<3> {
 
   CollapsedFit(std::span<Eigen::Vector3d const> x, Points const& points)
       : MultilinearFit<3>(x, as_hexahedron(points)) {
-    this->most[points.size() == 5 ? 2 : 1] = 1 - 1e-7;
+    this->most[points.size() == 5 ? 2 : 1] = 1 - 1e-4;
   }
   ElementFit<int(std::tuple_size_v<Element>)> fit(Eigen::Vector3d const& p) const {
     constexpr int nodes = int(std::tuple_size_v<Element>);

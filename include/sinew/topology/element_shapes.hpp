@@ -17,12 +17,15 @@ using ReferencePlaces = std::array<std::array<double, 3>, N>;
 /// Prism: the triangle (0, 0), (1, 0), (0, 1) of r and s times the line of t from 0 to 1. With the weights
 /// L = (1 - r - s, r, s) of the triangle
 ///   N_i = L_i (1 - t),   N_(i + 3) = L_i t
-/// and two Gauss points above the centre of the triangle, as in SOFA and Abaqus (C3D6).
+/// and six Gauss points, three of degree two in the triangle above each other. (SOFA has two, above its
+/// centre, which do not feel that the two triangles turn against each other.)
 struct PrismShape {
-  static constexpr std::size_t nodes = 6, points = 2;
-  static constexpr double high = 0.78867513459481288225;  // (1 + 1/sqrt 3)/2
-  static constexpr ReferencePlaces<2> places{{{1. / 3, 1. / 3, 1 - high}, {1. / 3, 1. / 3, high}}};
-  static constexpr double weight = 0.25;
+  static constexpr std::size_t nodes = 6, points = 6;
+  static constexpr double a = 1. / 6, b = 2. / 3;
+  static constexpr double low = 0.21132486540518711775, high = 1 - low;  // (1 -+ 1/sqrt 3)/2
+  static constexpr ReferencePlaces<6> places{
+      {{a, a, low}, {b, a, low}, {a, b, low}, {a, a, high}, {b, a, high}, {a, b, high}}};
+  static constexpr double weight = 1. / 12;
 
   static constexpr double slope(int i, int k, std::array<double, 3> const& q) {
     const double corner[3] = {1 - q[0] - q[1], q[0], q[1]}, byCorner[3][2] = {{-1, -1}, {1, 0}, {0, 1}};
