@@ -455,6 +455,32 @@ constexpr auto classExamples = std::to_array<ClassExample>({
 </Node>)"},
     {"HexahedronFEMForceField", R"(<HexahedronFEMForceField youngModulus="50000" poissonRatio="0.3"/>)"},
     {"HexahedronCompositeFEMForceField", "", composite, ""},
+    {"PrismFEMForceField",
+     R"(<PrismFEMForceField youngModulus="5000" poissonRatio="0.3"/>)",
+     R"(
+<Node name="wedge" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <SparseLDLSolver/>
+  <MeshTopology prisms="0 1 2  3 4 5  3 4 5  6 7 8"/>
+  <MechanicalObject position="0 0 0  0.1 0 0  0 0.1 0   0 0 0.1  0.1 0 0.1  0 0.1 0.1   0 0 0.2  0.1 0 0.2  0 0.1 0.2"/>
+  <MeshMatrixMass massDensity="1000"/>
+  <FixedConstraint indices="0 1 2"/>
+  <HERE/>
+</Node>)",
+     "HERE"},
+    {"PyramidFEMForceField",
+     R"(<PyramidFEMForceField youngModulus="5000" poissonRatio="0.3"/>)",
+     R"(
+<Node name="cube" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <SparseLDLSolver/>
+  <MeshTopology pyramids="0 1 2 3 8  7 6 5 4 8  0 4 5 1 8  1 5 6 2 8  2 6 7 3 8  3 7 4 0 8"/>
+  <MechanicalObject position="0 0 0  0.1 0 0  0.1 0.1 0  0 0.1 0   0 0 0.1  0.1 0 0.1  0.1 0.1 0.1  0 0.1 0.1   0.05 0.05 0.05"/>
+  <MeshMatrixMass massDensity="1000"/>
+  <FixedConstraint indices="2 3 6 7"/>
+  <HERE/>
+</Node>)",
+     "HERE"},
     {"JointSpringForceField", R"(
 <Node name="links" gravity="0 -9.81 0">
   <EulerImplicitSolver rayleighStiffness="0.01"/>
@@ -1789,6 +1815,24 @@ constexpr auto classExamples = std::to_array<ClassExample>({
   <TetrahedronTopology name="container"/>
   <Hexa2TetraTopologicalMapping input="@../grid" output="@container"/>
   <TetrahedronFEMForceField youngModulus="20000" poissonRatio="0.3"/>
+</Node>)",
+     R"(
+<Node name="beam" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <SparseLDLSolver/>
+  <RegularGridTopology name="grid" n="5 3 3" max="0.4 0.1 0.1"/>
+  <MechanicalObject/>
+  <UniformMass totalMass="4"/>
+  <FixedConstraint indices="0 5 10 15 20 25 30 35 40"/>
+  <HERE/>
+</Node>)",
+     "HERE"},
+    {"Hexa2PrismTopologicalMapping",
+     R"(
+<Node name="volume">
+  <MeshTopology name="container"/>
+  <Hexa2PrismTopologicalMapping input="@../grid" output="@container"/>
+  <PrismFEMForceField youngModulus="20000" poissonRatio="0.3"/>
 </Node>)",
      R"(
 <Node name="beam" gravity="0 -9.81 0">

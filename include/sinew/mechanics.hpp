@@ -51,9 +51,12 @@
 #include <sinew/force/plane_force_field.hpp>
 #include <sinew/force/polynomial_rest_shape_springs.hpp>
 #include <sinew/force/polynomial_springs.hpp>
+#include <sinew/force/prism_fem.hpp>
+#include <sinew/force/pyramid_fem.hpp>
 #include <sinew/force/quad_bending_fem.hpp>
 #include <sinew/force/regular_grid_spring.hpp>
 #include <sinew/force/rest_shape_springs.hpp>
+#include <sinew/force/solid_element_fem.hpp>
 #include <sinew/force/sph_fluid.hpp>
 #include <sinew/force/sphere_force_field.hpp>
 #include <sinew/force/stiff_spring.hpp>

@@ -40,8 +40,9 @@ using Fluids = Registry<SPHFluidForceField<D>, FluidBoundary<D>, ImmersedSolid<D
 template <class D>
 using ElementForces =
     Registry<TetrahedronFEMForceField<D>, HexahedronFEMForceField<D>, HexahedronCompositeFEMForceField<D>,
-             TriangleFEMForceField<D>, SurfacePressureForceField<D>, TrianglePressureForceField<D>,
-             QuadPressureForceField<D>, EdgePressureForceField<D>, TriangularQuadraticSpringsForceField<D>,
+             PyramidFEMForceField<D>, PrismFEMForceField<D>, TriangleFEMForceField<D>,
+             SurfacePressureForceField<D>, TrianglePressureForceField<D>, QuadPressureForceField<D>,
+             EdgePressureForceField<D>, TriangularQuadraticSpringsForceField<D>,
              TriangularBiquadraticSpringsForceField<D>, TriangularTensorMassForceField<D>,
              QuadBendingFEMForceField<D>>;
 template <class D>
@@ -173,9 +174,9 @@ using SpatialEngines = Registry<Regions<D>, PlaneROI<D>, TransformEngine<D>, Sub
 using StandardEngines =
     Registry<MeshGmshLoader, MeshOBJLoader, MeshSTLLoader, MeshVTKLoader, MeshOffLoader, GIDMeshLoader,
              MeshTrianLoader, VoxelGridLoader, SphereLoader, MeshEngines, ListEngines, PlacingEngines,
-             GenerateRigidMass<Rigid3d>, Hexa2TetraTopologicalMapping, Tetra2TriangleTopologicalMapping,
-             Hexa2QuadTopologicalMapping, Quad2TriangleTopologicalMapping, Triangle2EdgeTopologicalMapping,
-             Edge2QuadTopologicalMapping, Mesh2PointTopologicalMapping,
+             GenerateRigidMass<Rigid3d>, Hexa2TetraTopologicalMapping, Hexa2PrismTopologicalMapping,
+             Tetra2TriangleTopologicalMapping, Hexa2QuadTopologicalMapping, Quad2TriangleTopologicalMapping,
+             Triangle2EdgeTopologicalMapping, Edge2QuadTopologicalMapping, Mesh2PointTopologicalMapping,
              SimpleTesselatedTetraTopologicalMapping, SpatialEngines<Vec3d>, PointsFromIndices<Vec3d>,
              ClusteringEngine<Vec3d>, ShapeMatching<Vec3d>, Regions<Vec3f>, SpatialEngines<Rigid3d>,
              BoxROI<Vec1d>, Regions<Vec2d>, Regions<Rigid2d>>;

@@ -149,6 +149,21 @@ TEST_CASE("mirrored volumes stay positive") {
         }));
 }
 
+TEST_CASE("prisms and pyramids are loaded, turned where they are mirrored, and have sides") {
+  const files::TempFolder folder;
+  const std::string path =
+      folder.write("a.msh",
+                   "$NOD\n7\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 1 0 1\n6 0 1 1\n7 2 2 0.5\n"
+                   "$ENDNOD\n$ELM\n2\n1 6 1 1 6 1 2 3 4 5 6\n2 7 1 1 5 2 3 6 5 7\n$ENDELM");
+  const auto mesh =
+      loaded(MeshGmshLoader{.filename = {path}, .scale3d = {1, 1, -1}, .createSubelements = true});
+  CHECK(mesh.prisms == std::vector<Prism>{{3, 4, 5, 0, 1, 2}});
+  CHECK(mesh.pyramids == std::vector<Pyramid>{{1, 4, 5, 2, 6}});
+  CHECK(mesh.quads.size() == 3);  // one of them is of both
+  CHECK(mesh.triangles.size() == 2 + 4);
+  CHECK(mesh.edges.size() == 9 + 4);
+}
+
 TEST_CASE("loaders say what is wrong, and keep what they had") {
   const files::TempFolder folder;
   auto mesh = loaded(MeshOBJLoader{.filename = {folder.write("cube.obj", cube)}});

@@ -33,6 +33,7 @@ struct MeshCollisionModel {
   static constexpr std::string_view className = Kind::className;
   static constexpr std::string_view aliases = Kind::aliases;
   static constexpr Shape shape = Kind::shape;
+  static constexpr bool overElements = shape != Shape::point;
 
   bool active = true, moving = true, simulated = true, selfCollision = false, bothSide = false;
   std::vector<int> group{};

@@ -55,6 +55,8 @@ enum class Of {
   triangles,
   quads,
   hexahedra,
+  pyramids,
+  prisms,
   lines,     // elements of one dimension,
   surfaces,  // two,
   volumes,   // three,

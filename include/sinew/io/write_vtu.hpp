@@ -111,6 +111,10 @@ inline void write_vtu(std::string const& path, Mesh const& mesh, PointData const
   cells.add(mesh.quads, 9);
   cells.add(mesh.tetrahedra, 10);
   cells.add(mesh.hexahedra, 12);
+  std::vector<Prism> wedges = mesh.prisms;  // VTK's first triangle is seen from outside
+  for (Prism& p : wedges) std::swap_ranges(p.begin(), p.begin() + 3, p.begin() + 3);
+  cells.add(wedges, 13);
+  cells.add(mesh.pyramids, 14);
   if (cells.types.empty()) {
     std::vector<std::array<Index, 1>> vertices(mesh.positions.size());
     for (std::size_t i = 0; i < vertices.size(); ++i) vertices[i][0] = Index(i);

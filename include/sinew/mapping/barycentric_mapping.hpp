@@ -14,12 +14,13 @@ namespace sinew {
 
 /// Each point of the child is carried by the element of the parent that contains it at rest, or by the
 /// nearest one: x = sum_k w_k x_k. The weights are barycentric coordinates in tetrahedra and triangles,
-/// multilinear ones in hexahedra, quads and edges. Volumes carry where the parent has some, else surfaces,
-/// else edges; on the latter two the child follows its projection. Affine motion of the parent is reproduced
-/// exactly. Where the parent has the points of its RegularGridTopology or SparseGridTopology, the child is
-/// looked for in the cells as they lie before translation, rotation and scale3d of the parent, as in SOFA:
-/// these put the child into place with the grid. Where hexahedra of a SparseGridRamificationTopology are at
-/// one place, a point goes with the one whose finer cell is around it.
+/// multilinear ones in hexahedra, quads and edges, and the shape functions of pyramids and prisms. Volumes
+/// carry where the parent has some, else surfaces, else edges; on the latter two the child follows its
+/// projection. Affine motion of the parent is reproduced exactly. Where the parent has the points of its
+/// RegularGridTopology or SparseGridTopology, the child is looked for in the cells as they lie before
+/// translation, rotation and scale3d of the parent, as in SOFA: these put the child into place with the grid.
+/// Where hexahedra of a SparseGridRamificationTopology are at one place, a point goes with the one whose
+/// finer cell is around it.
 ///
 /// Points of the child are looked for where they are given, among elements at rest. With `useRestPosition`
 /// they are looked for where they rest: a child that starts elsewhere is then carried from there to its
@@ -48,7 +49,7 @@ struct BarycentricMapping {
                             "whether points of the child are looked for where they rest"));
   }
 
-  // of each point; the other four points of hexahedra, empty where there is none
+  // of each point; the other points of elements with more than four, empty where there is none
   std::vector<Carrier<Weight>> carriers{}, others{};
   CarriedPoints<In, Out> together{};
 
@@ -78,12 +79,14 @@ struct BarycentricMapping {
         if (choices[i].score < 0)
           choices[i].consider(locator.locate(places[i].template cast<double>()), elements);
     };
-    if (!topology.tetrahedra.empty() || !topology.hexahedra.empty()) {
+    if (dimension_of(topology) == 3) {
       offer(std::type_identity<TetrahedronFit>{}, topology.tetrahedra);
       if (topology.finer.hexahedra.empty() || !topology.tetrahedra.empty())
         offer(std::type_identity<MultilinearFit<3>>{}, topology.hexahedra);
       else
         chooseByFinerCells(choices, points, topology, places);
+      offer(std::type_identity<CollapsedFit<Pyramid>>{}, topology.pyramids);
+      offer(std::type_identity<CollapsedFit<Prism>>{}, topology.prisms);
     } else if (!topology.triangles.empty() || !topology.quads.empty()) {
       offer(std::type_identity<TriangleFit>{}, topology.triangles);
       offer(std::type_identity<MultilinearFit<2>>{}, topology.quads);
@@ -96,7 +99,8 @@ struct BarycentricMapping {
     }
 
     carriers.assign(choices.size(), {});
-    others.assign(topology.hexahedra.empty() ? 0 : choices.size(), {});
+    const bool more = !topology.hexahedra.empty() || !topology.pyramids.empty() || !topology.prisms.empty();
+    others.assign(more ? choices.size() : 0, {});
     for (std::size_t i = 0; i < choices.size(); ++i) {
       if (choices[i].score == Choice{}.score)
         throw Error(

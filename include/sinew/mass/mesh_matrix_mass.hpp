@@ -15,16 +15,16 @@
 namespace sinew {
 
 /// Which elements of a topology have mass; `highest`: those of the highest dimension.
-enum class MassElements { highest, edges, triangles, quads, tetrahedra, hexahedra };
-inline constexpr std::array<std::string_view, 6> enum_names(MassElements) {
-  return {"highest", "edges", "triangles", "quads", "tetrahedra", "hexahedra"};
+enum class MassElements { highest, edges, triangles, quads, tetrahedra, hexahedra, pyramids, prisms };
+inline constexpr std::array<std::string_view, 8> enum_names(MassElements) {
+  return {"highest", "edges", "triangles", "quads", "tetrahedra", "hexahedra", "pyramids", "prisms"};
 }
 
 /// The consistent mass of the elements of the topology (Archer 1963): with N_i the shape functions and rho
 /// the density,
 ///   M_ij = integral of rho N_i N_j over the undeformed body         [kg], times the identity
-/// for tetrahedra and hexahedra; where there are none, for triangles and quads (rho is that of an area); else
-/// for edges (that of a length); or for those of one kind. `lumping` keeps its row sums only, on the
+/// for elements in space; where there are none, for triangles and quads (rho is that of an area); else for
+/// edges (that of a length); or for those of one kind. `lumping` keeps its row sums only, on the
 /// diagonal. Without a density the body has a total of 1 kg.
 ///
 /// Over values with fewer coordinates than space, such as temperatures, that stand in a child node of the
@@ -58,8 +58,7 @@ struct MeshMatrixMass {
               &M::massDensity,
               "kg/m^3",
               "density, [kg/m^2] of a surface, [kg/m] of a wire: one for all elements, or one for each, "
-              "tetrahedra "
-              "before hexahedra and triangles before quads",
+              "tetrahedra before hexahedra, pyramids and prisms, and triangles before quads",
               range::positive)
             .oneEach(Of::elements),
         field("totalMass", &M::totalMass, "kg", "mass of the body", range::positive).also("totalmass"),
@@ -184,8 +183,7 @@ struct MeshMatrixMass {
     };
     TopologyView const& t = context.topology;
     const bool highest = elements == MassElements::highest;
-    const bool volumes = !t.tetrahedra.empty() || !t.hexahedra.empty(),
-               surfaces = !volumes && (!t.triangles.empty() || !t.quads.empty());
+    const bool volumes = dimension_of(t) == 3, surfaces = dimension_of(t) == 2;
     auto have = [&](MassElements kind, bool ofHighest) { return highest ? ofHighest : elements == kind; };
     if (have(MassElements::tetrahedra, volumes))
       simplices(t.tetrahedra, [&](Tetrahedron const& e) {
@@ -198,6 +196,14 @@ struct MeshMatrixMass {
           number++,
           ((weighted ? t.massFill[h] : 1) * multilinear_mass<3>(cornersOf(t.hexahedra[h]))).eval());
       }
+    auto collapsed = [&](auto const& all) {
+      for (auto const& e : all) {
+        const Hexahedron h = as_hexahedron(e);
+        f(h, number++, multilinear<3>(h, at));
+      }
+    };
+    if (have(MassElements::pyramids, volumes)) collapsed(t.pyramids);
+    if (have(MassElements::prisms, volumes)) collapsed(t.prisms);
     // the triangles of a grid are the halves of its quads
     if (have(MassElements::triangles, surfaces && (t.grid[0] == 0 || t.quads.empty())))
       simplices(t.triangles, [&](Triangle const& e) {

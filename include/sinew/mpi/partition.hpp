@@ -20,11 +20,6 @@
 namespace sinew::mpi {
 
 namespace detail {
-/// f(kind, list) for the lists of elements of a topology.
-template <class F>
-void for_each_kind(TopologyView const& t, F&& f) {
-  f(0, t.edges), f(1, t.triangles), f(2, t.quads), f(3, t.tetrahedra), f(4, t.hexahedra);
-}
 /// f(points) for each element of some topologies over the same points.
 template <class F>
 void for_each_element(std::span<TopologyView const> topologies, F&& f) {
@@ -168,7 +163,7 @@ inline Part part_of(std::string_view where, std::vector<int> parts, std::span<To
   for (TopologyView const& t : topologies) {
     TopologyChange& change = part.topologies.emplace_back();
     change.points = part.points;
-    detail::for_each_kind(t, [&](int kind, auto const& list) {
+    for_each_kind(t, [&](int kind, auto const& list) {
       std::vector<Index> inner, border;
       for (std::size_t e = 0; e < list.size(); ++e) {
         bool any = false, all = true;

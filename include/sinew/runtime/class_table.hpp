@@ -83,6 +83,7 @@ struct ClassTraits {
   bool ofPositions = false;         // an engine over points as they are, where others take those at rest
   bool sizedValues = false;         // an engine over values of any size (engine/values.hpp)
   std::string_view law;             // an output of an engine that goes on in each step, by what takes it
+  bool overElements = false;        // a collision model that is nothing without elements
   bool joinsTopologies = false;  // an engine that makes the elements of its `output` of those of its `input`
 };
 
@@ -287,6 +288,7 @@ constexpr ClassTraits class_traits() {
   if constexpr (requires { C::ofPositions; }) traits.ofPositions = C::ofPositions;
   if constexpr (requires { C::sizedValues; }) traits.sizedValues = C::sizedValues;
   if constexpr (requires { C::law; }) traits.law = C::law;
+  if constexpr (requires { C::overElements; }) traits.overElements = C::overElements;
   if constexpr (requires { C::joinsTopologies; }) traits.joinsTopologies = C::joinsTopologies;
   return traits;
 }

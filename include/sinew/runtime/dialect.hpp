@@ -266,13 +266,19 @@ struct OverElements {
 inline constexpr std::array overElements = std::to_array<OverElements>(
     {{"CorotationalFEMForceField", "Hexahedron", "HexahedronFEMForceField", "method", "large"},
      {"CorotationalFEMForceField", "Tetrahedron", "TetrahedronFEMForceField", "method", "large"},
+     {"CorotationalFEMForceField", "Prism", "PrismFEMForceField", "method", "polar"},
+     {"CorotationalFEMForceField", "Pyramid", "PyramidFEMForceField", "method", "polar"},
      {"LinearSmallStrainFEMForceField", "Hexahedron", "HexahedronFEMForceField", "method", "small"},
      {"LinearSmallStrainFEMForceField", "Tetrahedron", "TetrahedronFEMForceField", "method", "small"},
+     {"LinearSmallStrainFEMForceField", "Prism", "PrismFEMForceField", "method", "small"},
+     {"LinearSmallStrainFEMForceField", "Pyramid", "PyramidFEMForceField", "method", "small"},
      {"FEMMass", "Edge", "MeshMatrixMass", "elements", "edges"},
      {"FEMMass", "Triangle", "MeshMatrixMass", "elements", "triangles"},
      {"FEMMass", "Quad", "MeshMatrixMass", "elements", "quads"},
      {"FEMMass", "Tetrahedron", "MeshMatrixMass", "elements", "tetrahedra"},
-     {"FEMMass", "Hexahedron", "MeshMatrixMass", "elements", "hexahedra"}});
+     {"FEMMass", "Hexahedron", "MeshMatrixMass", "elements", "hexahedra"},
+     {"FEMMass", "Prism", "MeshMatrixMass", "elements", "prisms"},
+     {"FEMMass", "Pyramid", "MeshMatrixMass", "elements", "pyramids"}});
 constexpr bool is_over_elements(std::string_view tag) {
   for (auto const& o : overElements)
     if (o.name == tag) return true;

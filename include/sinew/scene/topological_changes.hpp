@@ -159,12 +159,7 @@ struct TopologicalChanges {
       for (std::size_t e = 0; e < list.size(); ++e)
         if (std::all_of(list[e].begin(), list[e].end(), isIn)) numbers.push_back(Index(e));
     };
-    if (!t.tetrahedra.empty() || !t.hexahedra.empty())
-      add(t.tetrahedra, gone.tetrahedra), add(t.hexahedra, gone.hexahedra);
-    else if (!t.triangles.empty() || !t.quads.empty())
-      add(t.triangles, gone.triangles), add(t.quads, gone.quads);
-    else
-      add(t.edges, gone.edges);
+    for_each_highest(t, [&](int kind, auto const& list) { add(list, gone.of(kind)); });
   }
   template <class C, class S>
   std::optional<CutOrder> incision(C& c, S const& scope, std::vector<Eigen::Vector3d> const& path) const {
@@ -185,25 +180,18 @@ struct TopologicalChanges {
   }
   // Leaves the first element out where all of the highest dimension would go.
   static bool keepOne(TopologyView const& topology, ElementNumbers& elements) {
-    auto all = [](auto const& list, std::vector<Index>& numbers) {
+    bool all = true;
+    std::vector<Index>* some = nullptr;
+    for_each_highest(topology, [&](int kind, auto const& list) {
+      std::vector<Index>& numbers = elements.of(kind);
       std::sort(numbers.begin(), numbers.end());
       numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-      return numbers.size() == list.size();
-    };
-    auto keep = [&](auto const& a, std::vector<Index>& ofA, auto const& b, std::vector<Index>& ofB) {
-      const bool allOfA = all(a, ofA), allOfB = all(b, ofB);
-      if (!allOfA || !allOfB || (ofA.empty() && ofB.empty())) return false;
-      auto& from = ofA.empty() ? ofB : ofA;
-      from.erase(from.begin());
-      return true;
-    };
-    auto const& t = topology;
-    if (!t.tetrahedra.empty() || !t.hexahedra.empty())
-      return keep(t.tetrahedra, elements.tetrahedra, t.hexahedra, elements.hexahedra);
-    if (!t.triangles.empty() || !t.quads.empty())
-      return keep(t.triangles, elements.triangles, t.quads, elements.quads);
-    std::vector<Index> none;
-    return keep(t.edges, elements.edges, std::vector<Edge>{}, none);
+      all = all && numbers.size() == list.size();
+      if (!some && !numbers.empty()) some = &numbers;
+    });
+    if (!all || !some) return false;
+    some->erase(some->begin());
+    return true;
   }
   template <class F>
   void at(int number, F&& f) const {

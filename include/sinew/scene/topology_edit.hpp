@@ -158,7 +158,7 @@ class TopologyEdit {
                     "the elements of this topology are made from a few numbers, and none of them "
                     "can be removed; give "
                     "the node a MeshTopology with these elements");
-      detail::for_each_kind(t.view, [&](int kind, auto const& list) {
+      for_each_kind(t.view, [&](int kind, auto const& list) {
         for (const Index e : *lists[std::size_t(kind)])
           if (e < 0 || std::size_t(e) >= list.size())
             throw Error(t.path,
@@ -332,7 +332,7 @@ class TopologyEdit {
         return kinds({4});
       case Of::volumes:
         return kinds({3, 4});
-      case Of::elements:
+      case Of::elements:  // pyramids and prisms never come
         return kinds({0, 1, 2, 3, 4});
       default:
         return false;
@@ -408,8 +408,8 @@ class TopologyEdit {
     ofState_[state] = Renumbering::of(plan.points);
     for (std::size_t t = 0; t < topologies.size(); ++t) {
       Topology const& here = topologies[t];
-      if (samePoints_.contains(state) && here.editable && here.view.tetrahedra.empty() &&
-          here.view.hexahedra.empty() && !mechanical_.contains(here.address)) {
+      if (samePoints_.contains(state) && here.editable && dimension_of(here.view) < 3 &&
+          !mechanical_.contains(here.address)) {
         const BorderLists lists = border_.listed(here.view.triangles, here.view.quads);
         if (lists.any()) borders_[here.address] = lists;
         border_.mark(lists, here.view, plan.elements[t]);
@@ -525,6 +525,8 @@ class TopologyEdit {
     if (lists.quads) *lists.quads = now.quads;
     if (lists.tetrahedra) *lists.tetrahedra = now.tetrahedra;
     if (lists.hexahedra) *lists.hexahedra = now.hexahedra;
+    if (lists.pyramids) *lists.pyramids = now.pyramids;
+    if (lists.prisms) *lists.prisms = now.prisms;
   }
   static void follow(ElementLists const& lists, TopologyChange const& change) {
     if (lists.positions) change.points.filter(*lists.positions);

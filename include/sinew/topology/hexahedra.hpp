@@ -21,6 +21,16 @@ inline constexpr int hexahedronCorners[8][3] = {
 inline constexpr std::size_t hexahedronFaces[6][4] = {
     {0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
 
+/// A pyramid or prism as the hexahedron that it is where corners coincide: the upper four are its apex, or
+/// those at y = 1 are two. Its shape functions are the sums of those of the corners that do.
+constexpr Hexahedron as_hexahedron(Hexahedron const& h) { return h; }
+constexpr Hexahedron as_hexahedron(Pyramid const& p) {
+  return {p[0], p[1], p[2], p[3], p[4], p[4], p[4], p[4]};
+}
+constexpr Hexahedron as_hexahedron(Prism const& p) {
+  return {p[0], p[1], p[2], p[2], p[3], p[4], p[5], p[5]};
+}
+
 /// Six tetrahedra for each hexahedron, which match those of all neighbours: a face is cut from its
 /// lowest-numbered corner, whichever side one looks from. The lowest corner of the cell is joined to the six
 /// triangles of the three faces that it is not on. Positively oriented where the hexahedra are convex; a

@@ -101,12 +101,13 @@ class KnownBorders {
         for (const Index i : element) key = (key ^ std::uint64_t(i)) * 1099511628211u;
       key = (key ^ elements.size()) * 1099511628211u;
     };
-    add(topology.tetrahedra);
-    add(topology.hexahedra);
+    for_each_kind(topology, [&](int kind, auto const& elements) {
+      if (dimension_of_kind(kind) == 3) add(elements);
+    });
     constexpr std::size_t enough = 256;  // of a body that is carved, those of long ago go
     if (known_.size() >= enough && !known_.count(key)) known_.clear();
     const auto [found, isNew] = known_.try_emplace(key);
-    if (isNew) found->second = border_of(topology.tetrahedra, topology.hexahedra);
+    if (isNew) found->second = border_of(topology);
     return found->second;
   }
   /// The faces of the convex hull of points.
@@ -130,7 +131,7 @@ std::vector<T> listed(std::span<T const> elements) {
   return {elements.begin(), elements.end()};
 }
 inline void show_elements(TopologyView const& topology, KnownBorders& borders, SeenBody& body) {
-  if (!topology.tetrahedra.empty() || !topology.hexahedra.empty()) {
+  if (dimension_of(topology) == 3) {
     Border const& border = borders.of(topology);
     body.triangles = border.triangles;
     body.quads = border.quads;

@@ -43,6 +43,17 @@ inline void press_none(SceneItem& item, XmlAttribute const& a, std::string_view 
                                 "; no element bears the load by its number, as in SOFA"));
 }
 
+/// What a value is whose link leads nowhere, where it is as without the attribute; empty where that is a
+/// mistake.
+inline std::string_view without_link(SceneItem const& item, FieldInfo const& field) {
+  if (item.info->role == RoleKind::engine && field.name == "position" && !item.info->dataTypes.empty())
+    return "the points of its node are taken, where SOFA's would choose none";
+  if (item.info->role == RoleKind::state && field.name == "rest_position" &&
+      item.place->ofRole(RoleKind::mapping))
+    return "its points are at rest where the mapping has them then";
+  return "";
+}
+
 /// The BoxROI over points that move of which a list of elements to remove is; null for another list.
 inline SceneItem const* moving_box(SceneItem const& item, FieldInfo const& field, LinkTarget const& target) {
   if (!field.name.ends_with("ToRemove") || !item.info->field("box") || !target.item || !target.item->info ||
@@ -62,8 +73,14 @@ inline bool follow_field(SceneItem& item, FieldInfo const& field, XmlAttribute c
   try {
     target = follow_link(item, a.value);
   } catch (Error const& error) {
-    if (!chooses_loaded(field)) throw;
-    press_none(item, a, error.what(), messages);
+    const std::string_view otherwise = without_link(item, field);
+    if (chooses_loaded(field))
+      press_none(item, a, error.what(), messages);
+    else if (otherwise.empty())
+      throw;
+    else
+      messages.warnings.insert(
+          text(item.element->place(a), ": <", item.tag, ">: ", a.name, ": ", otherwise, ": ", error.what()));
     return false;
   }
   if (field.name == "external_rest_shape") {

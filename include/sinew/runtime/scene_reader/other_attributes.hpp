@@ -22,6 +22,14 @@ class OtherAttributes {
     if (dialect::without_effect(item.info->name, a.name)) return;
     if (auto const* known = dialect::not_simulated(item.info->name, a.name))
       return notSimulated(item, a, *known);
+    if (a.name.starts_with('_'))  // how scenes switch an attribute off
+      return void(messages_.warnings.insert(
+          text(item.element->place(a),
+               ": <",
+               item.tag,
+               ">: ",
+               a.name,
+               " has no effect, as in SOFA, where nothing is called so; remove it, or its underscore")));
     std::vector<std::string_view> names;
     for (auto const& f : item.info->fields)
       if (f.isInput) {
