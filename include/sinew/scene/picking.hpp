@@ -7,6 +7,7 @@
 #include <sinew/scene/collision.hpp>
 #include <sinew/scene/scope.hpp>
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>
@@ -96,10 +97,13 @@ struct Picking {
                auto const& state = scope.template state<D>();
                update_vertices<D>(s, state.position, state.velocity);
                a.contact.b = pick.place;
-               a.contact.b.surface = numberBelowManager(s);
                a.target = pick.point;
                if (!s.rigid) a.offset = pick.point - position_of(pick.place, s);
+               bool attached = false;  // several managers may have the model
                scope.withContacts([&](auto& manager) {
+                 if (std::exchange(attached, true)) return;
+                 auto const& all = manager.surfaces;
+                 a.contact.b.surface = int(std::find(all.begin(), all.end(), &s) - all.begin());
                  manager.attach(a);
                  manager.lastAttachment = a.id;
                });
@@ -167,6 +171,8 @@ struct Picking {
         return ray_triangle(ray, s.template corner<3>(s.position, e), s.elements[std::size_t(e)]);
       case Shape::sphere:
         return ray_sphere(ray, s.template corner<1>(s.position, e)[0], s.radiusOf(e));
+      case Shape::capsule:
+        return ray_capsule(ray, s.template corner<2>(s.position, e), s.radiusOf(e));
     }
     return {};
   }
@@ -187,18 +193,6 @@ struct Picking {
     const Eigen::Vector3d place = position_of(side, s);
     if (s.shape == Shape::line || s.shape == Shape::point) pick.point = place;
     if (s.rigid) side.lever = s.orientation[std::size_t(side.vertices[0])].conjugate() * (pick.point - place);
-  }
-  // surfaces are numbered from the pipeline on that they are below
-  int numberBelowManager(CollisionSurface const& wanted) const {
-    int found = -1;
-    traverse(root, on<role::ContactManager>([&](auto&, auto const& scope) {
-               int number = 0;
-               traverse(scope, on<role::CollisionModel>([&](auto& model, auto const&) {
-                          if (&model.surface == &wanted) found = number;
-                          ++number;
-                        }));
-             }));
-    return found;
   }
 };
 

@@ -165,7 +165,7 @@ struct StateContacts {
   // (those of models over such DataTypes are marked as `elsewhere` before)
   static bool moves(CollisionSurface const& s) { return s.elsewhere; }
   static bool stands(CollisionSurface const& s) {
-    return s.solver < 0 && !s.rigid && s.shape != Shape::hull && !s.elsewhere;
+    return s.solver < 0 && !s.rigid && (is_simplex(s.shape) || s.shape == Shape::sphere) && !s.elsewhere;
   }
 
  private:
