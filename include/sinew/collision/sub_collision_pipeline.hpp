@@ -19,6 +19,7 @@ namespace sinew {
 /// which of these pipelines there are (subCollisionPipelines); others are left out then, as in SOFA. It has
 /// no component of its own, and nothing changes with its parallelDetection.
 struct SubCollisionPipeline : DefaultPipeline {
+  using Role = role::CollisionPipeline;
   static constexpr std::string_view className = "SubCollisionPipeline";
   static constexpr std::string_view aliases = "";
 
