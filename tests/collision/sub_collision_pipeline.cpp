@@ -20,7 +20,6 @@ auto ball(V const& x, V const& v = {0, 0, 0}) {
                     CGLinearSolver<>{.iterations = 50, .tolerance = 1e-12},
                     MechanicalObject<Vec3d>{.position = {x}, .velocity = {v}},
                     UniformMass<Vec3d>{.vertexMass = 1},
-                    UncoupledConstraintCorrection<Vec3d>{},
                     SphereCollisionModel<Vec3d>{.contactStiffness = 100, .radius = 0.5});
 }
 template <FixedString Name>
@@ -84,7 +83,7 @@ TEST_CASE("each pipeline has its models, distances and response, and the floor i
 
 TEST_CASE("multipliers and penalties stand side by side, and balls of one pipeline meet") {
   Simulation sim{node<"root">(FreeMotionAnimationLoop{},
-                              BlockGaussSeidelConstraintSolver{.tolerance = 1e-10, .maxIterations = 1000},
+                              BlockGaussSeidelConstraintSolver{.maxIterations = 1000, .tolerance = 1e-10},
                               Gravity{{0, 0, -10}},
                               pipeline<"hard">("a floor", narrow, "FrictionContactConstraint"),
                               pipeline<"soft">("a b", wide),

@@ -60,10 +60,10 @@ constexpr bool lists_below(std::type_identity<Node<Name, Cs, hana::tuple<Ns...>>
 }
 template <class S>
 constexpr bool has_listing() {
-  if constexpr (std::is_same_v<typename S::Above, NoScope>)
-    return lists_below(std::type_identity<typename S::NodeType>{});
-  else
+  if constexpr (requires { typename S::Above::NodeType; })
     return has_listing<typename S::Above>();
+  else
+    return lists_below(std::type_identity<typename S::NodeType>{});
 }
 
 /// Tetrahedra are in reach of components of this scope that act on its points.

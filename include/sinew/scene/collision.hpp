@@ -115,7 +115,7 @@ struct Collision {
   template <class F, class G>
   void detect(double dt, bool byStates, F&& newPattern, G&& byHost) const {
     traverse(root, on<role::CollisionPipeline>([&](auto& pipeline, auto const& scope) {
-               if (!begin(pipeline, scope, byStates, byHost)) clearTouched(pipeline);
+               if (!begin(pipeline, scope, byStates, byHost)) clearTouched(modelsOf(pipeline, scope));
              }));
     traverse(root, on<role::CollisionPipeline>([&](auto& pipeline, auto const& scope) {
                if constexpr (StateContacts<std::decay_t<decltype(scope)>>::possible)
@@ -140,7 +140,7 @@ struct Collision {
                    });
                    [[maybe_unused]] const auto span = root.span(Phase::response);
                    if (found == Found::others) {
-                     clearTouched(pipeline);
+                     clearTouched(modelsOf(pipeline, scope));
                      manager.manage(dt);
                    } else {
                      manager.goOn(dt);
@@ -185,14 +185,16 @@ struct Collision {
   }
   // models that collide with nothing, since no pipeline has them
   void warnOfUnlisted([[maybe_unused]] std::vector<CollisionSurface*> all) const {
-    bool everything = false;
+    bool everything = false, listing = false;
     traverse(root, on<role::CollisionPipeline>([&](auto const& pipeline, auto const&) {
-               if constexpr (ListsModels<std::decay_t<decltype(pipeline)>>)
+               if constexpr (ListsModels<std::decay_t<decltype(pipeline)>>) {
+                 listing = true;
                  std::erase_if(all, [&](auto const* s) { return pipeline.takes(*s); });
-               else
+               } else {
                  everything = true;
+               }
              }));
-    if (everything) return;
+    if (everything || !listing) return;
     traverse(root, on<role::CollisionModel>([&](auto& model, auto const& s) {
                if constexpr (requires { s.warn(&model, std::string_view()); })
                  if (std::find(all.begin(), all.end(), &model.surface) != all.end())
@@ -200,9 +202,10 @@ struct Collision {
              }));
   }
   // (several pipelines may have one model)
-  template <class Pipeline>
-  static void clearTouched(Pipeline& pipeline) {
-    for (auto* s : pipeline.surfaces) s->clearTouched();
+  template <class S>
+  static void clearTouched(S const& models) {
+    traverse(models,
+             on<role::CollisionModel>([](auto& model, auto const&) { model.surface.clearTouched(); }));
   }
   // f(intersection method) where it is one that a device has
   template <class S, class F>

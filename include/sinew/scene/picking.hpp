@@ -99,14 +99,14 @@ struct Picking {
                a.contact.b = pick.place;
                a.target = pick.point;
                if (!s.rigid) a.offset = pick.point - position_of(pick.place, s);
-               bool attached = false;  // several managers may have the model
-               scope.withContacts([&](auto& manager) {
-                 if (std::exchange(attached, true)) return;
-                 auto const& all = manager.surfaces;
-                 a.contact.b.surface = int(std::find(all.begin(), all.end(), &s) - all.begin());
-                 manager.attach(a);
-                 manager.lastAttachment = a.id;
-               });
+               const std::pair<int, int> place = managerOf(s);
+               a.contact.b.surface = place.second;
+               int at = 0;
+               traverse(root, on<role::ContactManager>([&](auto& manager, auto const&) {
+                          if (at++ != place.first) return;
+                          manager.attach(a);
+                          manager.lastAttachment = a.id;
+                        }));
              }));
     if (!known) wrong("this place is no longer there; pick again");
     return a.id;
@@ -193,6 +193,22 @@ struct Picking {
     const Eigen::Vector3d place = position_of(side, s);
     if (s.shape == Shape::line || s.shape == Shape::point) pick.point = place;
     if (s.rigid) side.lever = s.orientation[std::size_t(side.vertices[0])].conjugate() * (pick.point - place);
+  }
+  // the number of the manager that has a model, of several the innermost one, and that of the model in it
+  std::pair<int, int> managerOf(CollisionSurface const& wanted) const {
+    std::pair<int, int> found{-1, -1};
+    int manager = 0;
+    traverse(root, on<role::ContactManager>([&](auto&, auto const& scope) {
+               int number = 0;
+               with_collision_scope(scope, root, [&](auto const& models) {
+                 traverse(models, on<role::CollisionModel>([&](auto& model, auto const&) {
+                            if (&model.surface == &wanted) found = {manager, number};
+                            ++number;
+                          }));
+               });
+               ++manager;
+             }));
+    return found;
   }
 };
 
