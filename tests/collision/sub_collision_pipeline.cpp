@@ -131,8 +131,6 @@ TEST_CASE("wrong lists say what is wrong") {
              Contains("'flor'") && Contains("floor/TriangleCollisionModel"));
   CHECK_THAT(with(pipeline<"p">("a/TriangleCollisionModel", narrow)),
              Contains("where there is no collision model"));
-  CHECK_THAT(with(node<"deep">(pipeline<"p">("a", narrow))),
-             Contains("deep/p") && Contains("right below the root"));
   Simulation sim{node<"root">(pipeline<"p">("a", narrow),
                               node<"other">(DefaultPipeline{},
                                             BruteForceBroadPhase{},

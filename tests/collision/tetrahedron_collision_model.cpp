@@ -28,7 +28,7 @@ struct Block {
   std::vector<V> points;
   MeshTopology topology;
 };
-/// The cube of half side 1, as n^3 cells of six tetrahedra each, one of two of them inside out.
+/// The cube of half side 1 as n^3 cells of six tetrahedra each.
 Block block(int n) {
   Block b;
   auto at = [n](int x, int y, int z) { return x + (n + 1) * (y + (n + 1) * z); };
@@ -47,6 +47,7 @@ Block block(int n) {
             ++c[std::size_t(order[k])];
             t[k + 1] = at(c[0], c[1], c[2]);
           }
+          if ((order[1] - order[0] + 3) % 3 != 1) std::swap(t[2], t[3]);  // an odd order turns it inside out
           b.topology.tetrahedra.push_back(t);
         }
   return b;

@@ -180,6 +180,21 @@ TEST_CASE("what a composite does not list does nothing, and what no pipeline lis
   CHECK(both.back()[2] > 0.4);
 }
 
+TEST_CASE("a pipeline that lists models stands right below the root") {
+  auto scene = read(
+      "<Node name='deep'><Node name='p'>" +
+      stages.substr(0, stages.find("<MinProximityIntersection name=\"close\"")) +
+      "<DefaultContactManager/><SubCollisionPipeline collisionModels='a floor'/></Node></Node>" + bodies);
+  Simulation sim{scene.root};
+  std::string message;
+  try {
+    sim.init();
+  } catch (Error const& error) {
+    message = error.what();
+  }
+  CHECK_THAT(message, Contains("deep/p") && Contains("a node right below the root"));
+}
+
 TEST_CASE("wrong links of pipelines are said, each with its place") {
   const std::string list = "@a/ball @floor/faces";
   CHECK_THAT(wrong(stages + pipeline("p", "@a/bal @floor", "wide", "first") + bodies),

@@ -5,6 +5,7 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace sinew {
@@ -18,10 +19,9 @@ namespace sinew {
 /// it is, or are there once more where several have them. A CompositeCollisionPipeline in a scene file says
 /// which of these pipelines there are (subCollisionPipelines); others are left out then, as in SOFA. It has
 /// no component of its own, and nothing changes with its parallelDetection.
-struct SubCollisionPipeline : DefaultPipeline {
+struct SubCollisionPipeline {
   using Role = role::CollisionPipeline;
   static constexpr std::string_view className = "SubCollisionPipeline";
-  static constexpr std::string_view aliases = "";
 
   std::string collisionModels{};
 
@@ -34,7 +34,10 @@ struct SubCollisionPipeline : DefaultPipeline {
         "of one model by the path of its node and its name or class, as in 'tool floor/Sphere'"));
   }
 
-  std::vector<char> listed{};  // whether each of the surfaces is meant
+  std::vector<CollisionSurface*> surfaces{};  // of the step, all of the scene
+  std::vector<std::pair<int, int>> near{};    // pairs of those that are meant
+  std::vector<char> listed{};                 // whether each of the surfaces is
+  DefaultPipeline search{};
 
   bool takes(CollisionSurface const& s) const { return listed[std::size_t(s.number)] != 0; }
   /// Throws Error where nothing is listed, and where a path leads to no model.
@@ -42,10 +45,17 @@ struct SubCollisionPipeline : DefaultPipeline {
 
   template <class Broad>
   void findNear(Broad& broad) {
-    DefaultPipeline::findNear(broad);
-    std::erase_if(near, [&](auto const& pair) {
+    search.surfaces.assign(surfaces.begin(), surfaces.end());
+    search.findNear(broad);
+    std::erase_if(search.near, [&](auto const& pair) {
       return !takes(*surfaces[std::size_t(pair.first)]) || !takes(*surfaces[std::size_t(pair.second)]);
     });
+    near.assign(search.near.begin(), search.near.end());
+  }
+  template <Shape... Known, class Narrow, class Intersection, class Manager>
+  void findContacts(ShapeList<Known...> known, Narrow& narrow, Intersection const& intersection,
+                    Manager& manager, double dt) {
+    search.findContacts(known, narrow, intersection, manager, dt);
   }
 };
 
@@ -59,6 +69,8 @@ namespace sinew {
 SINEW_ONCE void SubCollisionPipeline::choose(std::string const& where) {
   const std::string name = text(where, ": ", component_name<SubCollisionPipeline>());
   listed.assign(surfaces.size(), 0);
+  search.surfaces.reserve(surfaces.size());
+  search.near.reserve(surfaces.size() * (surfaces.size() + 1) / 2);
   const std::string root = where.substr(0, std::min(where.find('/', 1), where.size()));
   auto isBelow = [](std::string_view path, std::string_view top) {
     return path == top || (path.starts_with(top) && path[top.size()] == '/');

@@ -118,7 +118,7 @@ struct Collision {
                if (!begin(pipeline, scope, byStates, byHost)) clearTouched(modelsOf(pipeline, scope));
              }));
     traverse(root, on<role::CollisionPipeline>([&](auto& pipeline, auto const& scope) {
-               if constexpr (StateContacts<std::decay_t<decltype(scope)>>::possible)
+               if constexpr (requires { pipeline.begun; })
                  if (pipeline.begun) return;
                detectOnHost(pipeline, scope, dt, newPattern);
              }));
@@ -129,7 +129,7 @@ struct Collision {
   void finish(double dt, F&& f) const {
     traverse(root, on<role::CollisionPipeline>([&](auto& pipeline, auto const& scope) {
                using S = std::decay_t<decltype(scope)>;
-               if constexpr (StateContacts<S>::possible) {
+               if constexpr (StateContacts<S>::possible && !ListsModels<std::decay_t<decltype(pipeline)>>) {
                  using Found = typename StateContacts<S>::Found;
                  auto found = Found::others;
                  if (!std::exchange(pipeline.begun, false)) return;
@@ -218,7 +218,6 @@ struct Collision {
   template <class Pipeline, class S, class G>
   bool begin(Pipeline& pipeline, S const& scope, bool byStates, G&& byHost) const {
     if constexpr (!StateContacts<S>::possible || ListsModels<Pipeline>) {
-      if constexpr (requires { pipeline.begun; }) pipeline.begun = false;
       return false;
     } else {
       [[maybe_unused]] const auto span = root.span(Phase::narrowPhase);
