@@ -20,7 +20,7 @@ auto ball(V const& x, V const& v = {0, 0, 0}) {
                     CGLinearSolver<>{.iterations = 50, .tolerance = 1e-12},
                     MechanicalObject<Vec3d>{.position = {x}, .velocity = {v}},
                     UniformMass<Vec3d>{.vertexMass = 1},
-                    SphereCollisionModel<Vec3d>{.contactStiffness = 100, .radius = 0.5});
+                    SphereCollisionModel<Vec3d>{.contactStiffness = 100, .contactDamping = 20, .radius = 0.5});
 }
 template <FixedString Name>
 auto pipeline(std::string const& models, Method method,

@@ -54,8 +54,8 @@ template <class N>
 constexpr bool lists_models = false;
 template <class Name, class... Cs, class Ns>
 constexpr bool lists_models<Node<Name, hana::tuple<Cs...>, Ns>> = (ListsModels<Cs> || ...);
-template <class Name, class Cs, class... Ns>
-constexpr bool lists_below(std::type_identity<Node<Name, Cs, hana::tuple<Ns...>>>) {
+template <class Cs, class... Ns>
+constexpr bool lists_below(NodeParts<Cs, hana::tuple<Ns...>> const*) {
   return (lists_models<Ns> || ...);
 }
 template <class S>
@@ -63,7 +63,7 @@ constexpr bool has_listing() {
   if constexpr (requires { typename S::Above::NodeType; })
     return has_listing<typename S::Above>();
   else
-    return lists_below(std::type_identity<typename S::NodeType>{});
+    return lists_below(static_cast<typename S::NodeType const*>(nullptr));
 }
 
 /// Tetrahedra are in reach of components of this scope that act on its points.

@@ -31,8 +31,8 @@ constexpr Shapes shapes_of() {
 /// has.
 template <class S>
 constexpr Shapes shapes_below();
-template <class S, class Name, class... Cs, class... Ns>
-constexpr Shapes shapes_below(std::type_identity<Node<Name, hana::tuple<Cs...>, hana::tuple<Ns...>>>) {
+template <class S, class... Cs, class... Ns>
+constexpr Shapes shapes_below(NodeParts<hana::tuple<Cs...>, hana::tuple<Ns...>> const*) {
   return (Shapes{} | ... | shapes_of<Cs>()) |
          (Shapes{} | ... | shapes_below<typename ScopeOf<Ns, S>::type>());
 }
@@ -43,7 +43,7 @@ constexpr Shapes shapes_below() {
     for_each_registered<typename S::Classes>([&]<class C>() constexpr { shapes = shapes | shapes_of<C>(); });
     return shapes;
   } else {
-    return shapes_below<S>(std::type_identity<typename S::NodeType>{});
+    return shapes_below<S>(static_cast<typename S::NodeType const*>(nullptr));
   }
 }
 
