@@ -1973,6 +1973,120 @@ constexpr auto classExamples = std::to_array<ClassExample>({
 <PointCollisionModel contactStiffness="20"/>)",
      friction,
      "PointCollisionModel"},
+    {"OBBCollisionModel", R"(
+<Node name="root" gravity="0 -9.81 0">
+  <DefaultPipeline/>
+  <BruteForceBroadPhase/>
+  <BVHNarrowPhase/>
+  <MinProximityIntersection alarmDistance="0.05" contactDistance="0.01"/>
+  <DefaultContactManager/>
+  <Node name="slab">
+    <MechanicalObject template="Rigid3d" position="0 -0.1 0  0 0 0 1"/>
+    <OBBCollisionModel extents="1 0.1 1" moving="false" simulated="false" contactStiffness="100"/>
+  </Node>
+  <Node name="bricks">
+    <EulerImplicitSolver/>
+    <CGLinearSolver iterations="50" tolerance="1e-8"/>
+    <MechanicalObject template="Rigid3d" position="0 0.22 0  0 0 0 1  0.5 0.4 0  0.1 0 0 0.995"/>
+    <UniformMass vertexMass="1 1  0.01 0 0  0 0.01 0  0 0 0.01"/>
+    <OBBCollisionModel extents="0.2 0.1 0.1  0.1 0.1 0.1" contactStiffness="100" contactDamping="2"/>
+  </Node>
+</Node>)"},
+    {"CapsuleCollisionModel", R"(
+<Node name="root" gravity="0 -9.81 0">
+  <DefaultPipeline/>
+  <BruteForceBroadPhase/>
+  <BVHNarrowPhase/>
+  <MinProximityIntersection alarmDistance="0.05" contactDistance="0.01"/>
+  <DefaultContactManager/>
+  <Node name="floor">
+    <MeshTopology triangles="0 1 2  0 2 3"/>
+    <MechanicalObject position="-1 0 1  1 0 1  1 0 -1  -1 0 -1"/>
+    <TriangleCollisionModel moving="false" simulated="false" contactStiffness="100"/>
+  </Node>
+  <Node name="rope">
+    <EulerImplicitSolver/>
+    <CGLinearSolver iterations="50" tolerance="1e-8"/>
+    <MeshTopology edges="0 1  1 2"/>
+    <MechanicalObject position="-0.2 0.2 0  0 0.3 0  0.2 0.3 0"/>
+    <UniformMass vertexMass="0.1"/>
+    <MeshSpringForceField stiffness="500" damping="1"/>
+    <CapsuleCollisionModel listCapsuleRadii="0.02 0.04" contactStiffness="10" contactDamping="1"/>
+  </Node>
+</Node>)"},
+    {"TetrahedronCollisionModel", R"(
+<Node name="root" gravity="0 -9.81 0">
+  <DefaultPipeline/>
+  <BruteForceBroadPhase/>
+  <BVHNarrowPhase/>
+  <MinProximityIntersection alarmDistance="0.05" contactDistance="0.01"/>
+  <DefaultContactManager/>
+  <Node name="block">
+    <EulerImplicitSolver rayleighStiffness="0.01"/>
+    <CGLinearSolver iterations="50" tolerance="1e-8"/>
+    <RegularGridTopology n="3 3 3" max="0.4 0.4 0.4"/>
+    <MechanicalObject/>
+    <UniformMass totalMass="4"/>
+    <TetrahedronFEMForceField youngModulus="50000" poissonRatio="0.3"/>
+    <FixedConstraint indices="0 1 2 9 10 11 18 19 20"/>
+    <TetrahedronCollisionModel contactStiffness="10"/>
+  </Node>
+  <Node name="ball">
+    <EulerImplicitSolver/>
+    <CGLinearSolver iterations="50" tolerance="1e-8"/>
+    <MechanicalObject position="0.25 0.3 0.2"/>
+    <UniformMass totalMass="0.1"/>
+    <SphereCollisionModel radius="0.05" contactStiffness="10" contactDamping="1"/>
+  </Node>
+</Node>)"},
+    {"RayTraceNarrowPhase", R"(
+<Node name="root" gravity="0 0 0">
+  <DefaultPipeline/>
+  <BruteForceBroadPhase/>
+  <RayTraceNarrowPhase/>
+  <MinProximityIntersection alarmDistance="0.05" contactDistance="0.01"/>
+  <DefaultContactManager/>
+  <Node name="left">
+    <EulerImplicitSolver rayleighStiffness="0.01"/>
+    <CGLinearSolver iterations="50" tolerance="1e-8"/>
+    <RegularGridTopology n="3 3 3" max="0.4 0.4 0.4"/>
+    <MechanicalObject/>
+    <UniformMass totalMass="4"/>
+    <TetrahedronFEMForceField youngModulus="50000" poissonRatio="0.3"/>
+    <TriangleCollisionModel contactStiffness="5"/>
+  </Node>
+  <Node name="right">
+    <EulerImplicitSolver rayleighStiffness="0.01"/>
+    <CGLinearSolver iterations="50" tolerance="1e-8"/>
+    <RegularGridTopology n="3 3 3" min="0.3 0.1 0.1" max="0.7 0.5 0.5"/>
+    <MechanicalObject/>
+    <UniformMass totalMass="4"/>
+    <TetrahedronFEMForceField youngModulus="50000" poissonRatio="0.3"/>
+    <TriangleCollisionModel contactStiffness="5"/>
+  </Node>
+</Node>)"},
+    {"SubCollisionPipeline", R"(
+<Node name="root" gravity="0 -9.81 0">
+  <Node name="pipeline">
+    <SubCollisionPipeline collisionModels="ball floor"/>
+    <BruteForceBroadPhase/>
+    <BVHNarrowPhase/>
+    <MinProximityIntersection alarmDistance="0.05" contactDistance="0.01"/>
+    <DefaultContactManager/>
+  </Node>
+  <Node name="floor">
+    <MeshTopology triangles="0 1 2  0 2 3"/>
+    <MechanicalObject position="-1 0 1  1 0 1  1 0 -1  -1 0 -1"/>
+    <TriangleCollisionModel moving="false" simulated="false" contactStiffness="100"/>
+  </Node>
+  <Node name="ball">
+    <EulerImplicitSolver/>
+    <CGLinearSolver iterations="50" tolerance="1e-8"/>
+    <MechanicalObject position="0 0.3 0"/>
+    <UniformMass totalMass="1"/>
+    <SphereCollisionModel radius="0.1" contactStiffness="100" contactDamping="5"/>
+  </Node>
+</Node>)"},
     {"ConvexCollisionModel", R"(
 <Node name="root" gravity="0 -9.81 0">
   <DefaultPipeline/>

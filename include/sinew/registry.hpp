@@ -16,6 +16,8 @@
 // them
 #ifdef SINEW_CCD
 #include <sinew/collision/convex_collision_model.hpp>
+#include <sinew/collision/obb_collision_model.hpp>
+#include <sinew/collision/rigid_capsule_collision_model.hpp>
 #endif
 
 namespace sinew {
@@ -189,15 +191,17 @@ using MadeMeshes = Registry<CubeTopology, CylinderGridTopology, SphereGridTopolo
 
 template <class D>
 using PointCollisionModels = Registry<PointCollisionModel<D>, LineCollisionModel<D>,
-                                      TriangleCollisionModel<D>, SphereCollisionModel<D>>;
+                                      TriangleCollisionModel<D>, SphereCollisionModel<D>,
+                                      CapsuleCollisionModel<D>, TetrahedronCollisionModel<D>>;
 #ifdef SINEW_CCD
-using ConvexCollisionModels = Registry<ConvexCollisionModel<Rigid3d>>;
+using ConvexCollisionModels = Registry<ConvexCollisionModel<Rigid3d>, OBBCollisionModel<Rigid3d>,
+                                       CapsuleCollisionModel<Rigid3d>>;
 #else
 using ConvexCollisionModels = Registry<>;
 #endif
 using StandardCollision =
-    Registry<DefaultPipeline, BruteForceBroadPhase, TreeBroadPhase, BVHNarrowPhase, LocalMinDistance,
-             MinProximityIntersection, DiscreteIntersection, ContinuousIntersection, DefaultContactManager,
+    Registry<DefaultPipeline, SubCollisionPipeline, BruteForceBroadPhase, TreeBroadPhase, BVHNarrowPhase,
+             RayTraceNarrowPhase, LocalMinDistance, MinProximityIntersection, DiscreteIntersection, ContinuousIntersection, DefaultContactManager,
              CarvingManager, CuttingManager, PointCollisionModels<Vec3d>, SphereCollisionModel<Rigid3d>,
              ConvexCollisionModels>;
 

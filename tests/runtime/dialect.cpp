@@ -558,16 +558,17 @@ TEST_CASE("a collision model over as many points as the topology above has its e
   CHECK(fewer.root.find_node("n")->get<MeshTopology>() == nullptr);
 }
 
-TEST_CASE("tetrahedra collide with nothing, as in SOFA, unless its method tests them against points") {
-  const std::string pipeline =
-                        "<DefaultPipeline/><BruteForceBroadPhase/><BVHNarrowPhase/><DefaultContactManager/>",
-                    model = "<MechanicalObject position='0 0 0'/><TetrahedronCollisionModel/>";
-  auto scene = node(pipeline + "<MinProximityIntersection/><PointCollisionModel/>" + model);
-  CHECK(has(scene.warnings, "<TetrahedronCollisionModel> collides with nothing, as in SOFA"));
-  CHECK(
-      has(node(pipeline + "<DiscreteIntersection/>" + model).warnings, "collides with nothing, as in SOFA"));
-  CHECK_THAT(wrong(pipeline + "<DiscreteIntersection/><PointCollisionModel/>" + model),
-             Catch::Contains("collides with points in SOFA, and with nothing here"));
+TEST_CASE("what collides in another way than in SOFA is there, and a warning says what differs") {
+  const std::string
+      pipeline = "<DefaultPipeline/><BruteForceBroadPhase/><DefaultContactManager/>",
+      model =
+          "<MeshTopology tetrahedra='0 1 2 3'/><MechanicalObject position='0 0 0 1 0 0 0 1 0 0 0 1'/>"
+          "<TetrahedronModel/>";
+  auto scene = node(pipeline + "<RayTraceNarrowPhase/><MinProximityIntersection/>" + model);
+  CHECK(has(scene.warnings, "keeps points and spheres out of its inside"));
+  CHECK(in<TetrahedronCollisionModel<Vec3d>>(scene).active);
+  CHECK_THAT(wrong(pipeline + "<RayTraceDetection/>"),
+             Catch::Contains("take BruteForceBroadPhase and RayTraceNarrowPhase"));
 }
 
 TEST_CASE("what has no effect on a picture, or on a response that is named, is taken") {

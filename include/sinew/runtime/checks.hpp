@@ -92,6 +92,9 @@ struct RuntimeFacts {
   bool pipelineAbove() const {
     for (auto* n = &scope.node; n; n = n->parent())
       if (Scope(*n).template has<role::CollisionPipeline>()) return true;
+    for (auto const& child : scope.node.top().children())
+      for (auto const& entry : child->components())
+        if (Scope::lists_models(entry.component)) return true;
     return false;
   }
   bool pipelineHere() const { return scope.template has<role::CollisionPipeline>(); }

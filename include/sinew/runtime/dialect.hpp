@@ -171,16 +171,11 @@ constexpr ClassesLeftOut const* left_out(auto const& list, std::string_view tag)
 
 /// What changes the motion in SOFA, and would be missed.
 inline constexpr std::array notYet = std::to_array<ClassesLeftOut>(
-    {{"OBBModel CapsuleModel CylinderModel RayModel "
-      "RayCollisionModel",
-      "collides with nothing here; take triangles, lines, points, spheres or convex hulls"},
+    {{"CylinderModel RayModel RayCollisionModel",
+      "collides with nothing here; take triangles, lines, points, spheres, capsules, boxes or convex hulls"},
      {"DirectSAPNarrowPhase", "is no stage here; take BVHNarrowPhase, which finds the same pairs"},
-     {"RayTraceDetection RayTraceNarrowPhase CompositeCollisionPipeline",
-      "is no stage of collision here; take DefaultPipeline, BVHNarrowPhase and DefaultContactManager"}});
-
-/// Collide in SOFA with points, and only where DiscreteIntersection tests them
-/// (TetrahedronDiscreteIntersection.cpp).
-inline constexpr std::string_view tetrahedronModels = "TetrahedronModel TetrahedronCollisionModel";
+     {"RayTraceDetection",
+      "is two stages here, as it is in SOFA by now; take BruteForceBroadPhase and RayTraceNarrowPhase"}});
 
 /// What prepares or solves something that the scene may not have at all.
 inline constexpr std::array inert = std::to_array<ClassesLeftOut>(
@@ -203,7 +198,8 @@ struct ClassOfPackage {
 };
 inline constexpr std::array classesOfPackages = std::to_array<ClassOfPackage>(
     {{"ConvexCollisionModel TBulletConvexHullModel BulletConvexHullModel BtConvexHullModel BulletConvexHull "
-      "BtConvexHull",
+      "BtConvexHull OBBCollisionModel OBBModel TOBBModel OBB RigidCapsuleCollisionModel RigidCapsuleModel "
+      "RigidCapsule",
       "libccd",
       "libccd-dev"}});
 
@@ -309,6 +305,12 @@ inline constexpr std::array anotherMethod = std::to_array<AnotherMethod>(
       "the matrix is factorised as L D L', as with SparseLDLSolver, and has to be symmetric"},
      {"SparseLUSolver",
       "the matrix is factorised as L D L', as with SparseLDLSolver, and has to be symmetric"},
+     {"TetrahedronCollisionModel",
+      "it collides by its surface with all models, and keeps points and spheres out of its inside; SOFA "
+      "tests it only by DiscreteIntersection, against points"},
+     {"TetrahedronModel",
+      "it collides by its surface with all models, and keeps points and spheres out of its inside; SOFA "
+      "tests it only by DiscreteIntersection, against points"},
      {"SVDLinearSolver",
       "the matrix is factorised as L D L', and has to be symmetric and not singular; SOFA's takes the "
       "singular "

@@ -388,10 +388,32 @@ struct RuntimeScope {
   }
   template <class F>
   void withContacts(F&& f) const {
+    withNearestContacts(f);
+    if (atMount) return;
+    NodeType& top = node.top();
+    for (const std::size_t child : top.listing)
+      for (auto& entry : top.children()[child]->components())
+        if (entry.component.template visit<role::ContactManager>(f)) break;
+  }
+  template <class F>
+  void withNearestContacts(F&& f) const {
     if (atMount) return;
     for (auto& entry : node.components())
       if (entry.component.template visit<role::ContactManager>(f)) return;
-    above().withContacts(f);
+    above().withNearestContacts(f);
+  }
+  /// Finds the children of this top node whose pipelines list their models.
+  void findListing() const {
+    node.listing.clear();
+    for (std::size_t i = 0; i < node.children().size(); ++i)
+      for (auto& entry : node.children()[i]->components())
+        if (lists_models(entry.component)) node.listing.push_back(i);
+  }
+  static bool lists_models(AnyComponent<R> const& component) {
+    bool lists = false;
+    const_cast<AnyComponent<R>&>(component).template visit<role::CollisionPipeline>(
+        [&](auto const& pipeline) { lists = ListsModels<std::decay_t<decltype(pipeline)>>; });
+    return lists;
   }
 
  private:

@@ -49,6 +49,23 @@ constexpr bool has_above() {
     return S::NodeType::template count<R> > 0 || has_above<typename S::Above, R>();
 }
 
+/// A pipeline of a node right below the root of S lists its models.
+template <class N>
+constexpr bool lists_models = false;
+template <class Name, class... Cs, class Ns>
+constexpr bool lists_models<Node<Name, hana::tuple<Cs...>, Ns>> = (ListsModels<Cs> || ...);
+template <class Cs, class... Ns>
+constexpr bool lists_below(NodeParts<Cs, hana::tuple<Ns...>> const*) {
+  return (lists_models<Ns> || ...);
+}
+template <class S>
+constexpr bool has_listing() {
+  if constexpr (requires { typename S::Above::NodeType; })
+    return has_listing<typename S::Above>();
+  else
+    return lists_below(static_cast<typename S::NodeType const*>(nullptr));
+}
+
 /// Tetrahedra are in reach of components of this scope that act on its points.
 template <class S>
 constexpr bool has_tetrahedra() {
@@ -195,7 +212,9 @@ struct Facts {
   static constexpr bool constraintSolver() { return N::template holds<role::ConstraintSolver>; }
   static constexpr bool severalConstraintSolvers() { return count_below<N, role::ConstraintSolver>() > 1; }
   static constexpr bool loopInRoot() { return has_above<S, role::AnimationLoop>(); }
-  static constexpr bool pipelineAbove() { return has_above<S, role::CollisionPipeline>(); }
+  static constexpr bool pipelineAbove() {
+    return has_above<S, role::CollisionPipeline>() || has_listing<S>();
+  }
   static constexpr bool pipelineHere() { return N::template count<role::CollisionPipeline> > 0; }
   static constexpr bool allStages() {
     return N::template count < role::BroadPhase >> 0 && N::template count < role::NarrowPhase >> 0 &&

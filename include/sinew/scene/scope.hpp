@@ -26,7 +26,7 @@ struct NoScope {
   template <class F>
   static void withLinearSolverIfAny(F&&) {}
   template <class F>
-  static void withContacts(F&&) {}
+  static void withNearestContacts(F&&) {}
   static constexpr NotTimed span(Phase) { return {}; }
   template <class S, class C>
   static constexpr NotTimed visit(S const&, C const&) {
@@ -417,13 +417,31 @@ struct Scope {
     else
       above.withLinearSolverIfAny(f);
   }
-  /// f(contact manager) with the nearest one, from this node upwards, if there is one.
+  /// f(contact manager) with those that may have contacts of models here: the nearest one, from this node
+  /// upwards, if there is one, and those of pipelines that list their models.
   template <class F>
   void withContacts(F&& f) const {
+    withNearestContacts(f);
+    withListedContacts(f);
+  }
+  template <class F>
+  void withNearestContacts(F&& f) const {
     if constexpr (always<role::ContactManager>)
       f(node.template first<role::ContactManager>());
     else
-      above.withContacts(f);
+      above.withNearestContacts(f);
+  }
+  template <class F>
+  void withListedContacts(F&& f) const {
+    if constexpr (requires { above.withListedContacts(f); })
+      above.withListedContacts(f);
+    else
+      forEachChild<role::ContactManager>([&](auto const& child) {
+        with_first<role::CollisionPipeline>(child, [&](auto const& pipeline) {
+          if constexpr (ListsModels<std::decay_t<decltype(pipeline)>>)
+            with_first<role::ContactManager>(child, f);
+        });
+      });
   }
 
  private:

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/core/follow.hpp>
+#include <sinew/scene/collision_models.hpp>
 #include <sinew/scene/cut_body.hpp>
 #include <sinew/scene/removed_border.hpp>
 #include <sinew/scene/scope.hpp>
@@ -485,9 +486,11 @@ class TopologyEdit {
           c.followElements(change);
     } else if constexpr (HasRole<C, role::ContactManager>) {
       std::vector<Renumbering const*> surfaces;
-      traverse(scope, on<role::CollisionModel>([&](auto&, auto const& s) {
-                 surfaces.push_back(&ofState(s.stateAddress()));
-               }));
+      with_collision_scope(scope, root_, [&](auto const& models) {
+        traverse(models, on<role::CollisionModel>([&](auto&, auto const& s) {
+                   surfaces.push_back(&ofState(s.stateAddress()));
+                 }));
+      });
       c.follow([&](int s) -> Renumbering const& { return *surfaces[std::size_t(s)]; });
     } else if constexpr (HasRole<C, role::Mapping>) {
       void const* mapped = nullptr;
