@@ -73,8 +73,10 @@
 #include <sinew/mapping/barycentric_mapping.hpp>
 #include <sinew/mapping/beam_linear_mapping.hpp>
 #include <sinew/mapping/center_of_mass_mapping.hpp>
+#include <sinew/mapping/deformable_on_rigid_frame_mapping.hpp>
 #include <sinew/mapping/distance_from_target_mapping.hpp>
 #include <sinew/mapping/distance_mapping.hpp>
+#include <sinew/mapping/distance_multi_mapping.hpp>
 #include <sinew/mapping/distance_to_plane_mapping.hpp>
 #include <sinew/mapping/identity_mapping.hpp>
 #include <sinew/mapping/identity_multi_mapping.hpp>
@@ -102,6 +104,7 @@
 #include <sinew/solver/multigrid_linear_solver.hpp>
 #include <sinew/solver/newmark_implicit.hpp>
 #include <sinew/solver/pcg_linear_solver.hpp>
+#include <sinew/solver/precomputed_linear_solver.hpp>
 #include <sinew/solver/runge_kutta2.hpp>
 #include <sinew/solver/runge_kutta4.hpp>
 #include <sinew/solver/runge_kutta45.hpp>

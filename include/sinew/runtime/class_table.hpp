@@ -92,7 +92,7 @@ struct ClassInfo {
   std::string_view name, aliases;
   RoleKind role;
   std::string dataTypes;  // "Vec3d"; "Rigid3d,Vec3d" of a mapping; the matrix of a linear solver; or nothing
-  std::string_view in, out;  // of a mapping
+  std::string_view in, in2, out;  // of a mapping; in2: of the second of its two parents
   std::string cppName;       // "UniformMass<Vec3d>"
   bool joins = false;        // has ends object1 and object2
   std::vector<FieldInfo> fields;
@@ -292,7 +292,7 @@ constexpr ClassTraits class_traits() {
 }
 
 struct ClassRow {
-  std::string_view name, aliases, dataTypes, in, out;
+  std::string_view name, aliases, dataTypes, in, in2, out;
   RoleKind role;
   bool joins, severalParents;
   ClassTraits traits;
@@ -306,6 +306,7 @@ constexpr ClassRow class_row() {
                .aliases = class_aliases<C>(),
                .dataTypes = {},
                .in = {},
+               .in2 = {},
                .out = {},
                .role = role_kind<typename C::Role>(),
                .joins = HasLinkedEnds<C>,
@@ -317,6 +318,7 @@ constexpr ClassRow class_row() {
   if constexpr (requires { typename C::In; }) {
     row.in = data_types_name<typename C::In>::value;
     row.out = data_types_name<typename C::Out>::value;
+    if constexpr (requires { typename C::In2; }) row.in2 = data_types_name<typename C::In2>::value;
   } else if constexpr (requires { C::templateName; }) {
     row.dataTypes = C::templateName;
   } else if constexpr (requires { typename C::DataTypes; } && !HasRole<C, role::VisualModel>) {
@@ -335,8 +337,11 @@ inline ClassInfo class_info(int type, ClassRow const& row, std::string cppName, 
                  .name = row.name,
                  .aliases = row.aliases,
                  .role = row.role,
-                 .dataTypes = row.in.empty() ? std::string(row.dataTypes) : text(row.in, ',', row.out),
+                 .dataTypes = row.in.empty()    ? std::string(row.dataTypes)
+                              : row.in2.empty() ? text(row.in, ',', row.out)
+                                                : text(row.in, ',', row.in2, ',', row.out),
                  .in = row.in,
+                 .in2 = row.in2,
                  .out = row.out,
                  .cppName = row.role == RoleKind::visualModel ? std::string(row.name) : std::move(cppName),
                  .joins = row.joins,

@@ -93,9 +93,11 @@ class SceneClasses {
     switch (first.role) {
       case RoleKind::mapping: {
         ScenePlace const* parent = item.place->parent ? item.place->parent->owner() : nullptr;
+        std::vector<ScenePlace const*> parents;
         if (first.severalParents) {
-          parent = firstOfParents(item);
-          if (!parent) return nullptr;
+          parents = parentsOf(item);
+          if (parents.empty()) return nullptr;
+          parent = parents[0];
         }
         if (!parent)
           return messages_.addError(
@@ -112,6 +114,22 @@ class SceneClasses {
                      "has no child: its node has neither a MechanicalObject nor an OglModel; add one"),
                  nullptr;
         const std::string out = item.place->state.empty() ? "Vec3f" : item.place->state;
+        if (!first.in2.empty() && parents.size() == 2)
+          return withTypes(item,
+                           text(parent->state, ',', parents[1]->state, ',', out),
+                           text(", from the states of '",
+                                parent->name,
+                                "' and '",
+                                parents[1]->name,
+                                "' to that of '",
+                                item.place->name,
+                                "'"));
+        if (!first.in2.empty())
+          return messages_.addError(*item.element,
+                                    text("follows two parents, and names ",
+                                         parents.size(),
+                                         "; name both: input1=\"@../points\" input2=\"@../frame\"")),
+                 nullptr;
         return withTypes(
             item,
             text(parent->state, ',', out),
@@ -190,26 +208,27 @@ class SceneClasses {
     });
     return known ? host : text(std::string_view(host).substr(0, host.size() - 1), 'd');
   }
-  // the node of the first of the parents that `input` names: "@left @../right/corner"
-  ScenePlace const* firstOfParents(SceneItem& item) {
-    auto const* input = item.element->attribute("input");
-    if (!input || !is_link(input->value))
-      return messages_.addError(*item.element, "names no parents; name them: input=\"@../left @../right\""),
-             nullptr;
-    ScenePlace const* firstParent = nullptr;
-    XmlAttribute one = *input;
-    std::string_view rest = input->value;
-    for (std::size_t at = rest.find('@'); at != rest.npos;) {
-      const std::size_t next = rest.find('@', at + 1);
-      one.value = std::string(rest.substr(at, next == rest.npos ? next : next - at));
-      at = next;
-      one.value.erase(one.value.find_last_not_of(" \t\r\n") + 1);
-      ScenePlace const* const parent = follow_to_node(item, one, messages_);
-      if (!parent) return nullptr;
-      if (!firstParent) firstParent = parent;
-      item.parents.push_back(from_top(*parent));
+  // the nodes of the parents that `input` names, or input1 and input2: "@left @../right/corner"
+  std::vector<ScenePlace const*> parentsOf(SceneItem& item) {
+    std::vector<ScenePlace const*> parents;
+    for (std::string_view const name : {"input", "input1", "input2"}) {
+      auto const* const input = item.element->attribute(name);
+      if (!input || !is_link(input->value)) continue;
+      XmlAttribute one = *input;
+      std::string_view const rest = input->value;
+      for (std::size_t at = rest.find('@'); at != rest.npos;) {
+        const std::size_t next = rest.find('@', at + 1);
+        one.value = std::string(rest.substr(at, next == rest.npos ? next : next - at));
+        at = next;
+        one.value.erase(one.value.find_last_not_of(" \t\r\n") + 1);
+        parents.push_back(follow_to_node(item, one, messages_));
+        if (!parents.back()) return {};
+        item.parents.push_back(from_top(*parents.back()));
+      }
     }
-    return firstParent;
+    if (parents.empty())
+      messages_.addError(*item.element, "names no parents; name them: input=\"@../left @../right\"");
+    return parents;
   }
   static bool allStatesAre(ScenePlace const& place, std::string_view kind) {
     return (place.state.empty() || place.state.starts_with(kind) || place.ofRole(RoleKind::mapping)) &&
