@@ -21,7 +21,7 @@ TEST_CASE("points move in the axes of their frame") {
   Mapping mapping;
   Vec3d::VecCoord child;
   const Vec3d::VecCoord p = {{1, 0, 0}, {0, 0, 2}};
-  const Rigid3d::VecCoord frames = {turned({5, 6, 7}, {0, 0, EIGEN_PI / 2})};
+  const Rigid3d::VecCoord frames = {turned({5, 6, 7}, {0, 0, double(EIGEN_PI) / 2})};
   mapping.init({"points", p, {}}, {"frames", frames, {}}, {"child", child, {}}, child);
   REQUIRE(child.size() == 2);
   auto points = mapping.part(ParentNumber<0>{});
@@ -55,7 +55,7 @@ auto scene(Linear linear, RotationalStiffness stiffness, Fix fix) {
       linear,
       node<"frame">(MechanicalObject<Rigid3d>{.position = {turned({1, 2, 0}, {0.3, -0.2, 0.5})},
                                               .velocity = {(Rigid3d::Deriv() << 0, 1, 0, 1, 2, -1).finished()}},
-                    UniformMass<Rigid3d>{.vertexMass = {2}}),
+                    UniformMass<Rigid3d>{.vertexMass = RigidMass<double, 3>{.mass = 2}}),
       node<"body">(MechanicalObject<Vec3d>{.position = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
                    UniformMass<Vec3d>{.vertexMass = 0.5},
                    fix,
@@ -98,7 +98,7 @@ TEST_CASE("a body that does not deform is carried as by a RigidMapping") {
       node<"frame">(
           MechanicalObject<Rigid3d>{.position = {turned({1, 2, 0}, {0.3, -0.2, 0.5})},
                                     .velocity = {(Rigid3d::Deriv() << 0, 1, 0, 1, 2, -1).finished()}},
-          UniformMass<Rigid3d>{.vertexMass = {2}},
+          UniformMass<Rigid3d>{.vertexMass = RigidMass<double, 3>{.mass = 2}},
           node<"world">(MechanicalObject<Vec3d>{.position = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
                         RigidMapping<Rigid3d, Vec3d>{.geometricStiffness = RotationalStiffness::symmetrized},
                         RestShapeSpringsForceField<Vec3d>{.stiffness = {200}},
@@ -132,7 +132,7 @@ TEST_CASE("a frame of several, from the end, and one for some points each") {
   CHECK(firstOf({.repartition = {1, 3}}) == std::vector<double>{2, 3, 3, 3});
 }
 
-TEST_CASE("what does not fit is named") {
+TEST_CASE("what does not fit a DeformableOnRigidFrameMapping is named") {
   const Vec3d::VecCoord p(4, Eigen::Vector3d::Zero());
   const Rigid3d::VecCoord frames(2);
   auto with = [&](Mapping mapping, std::size_t children = 0) {

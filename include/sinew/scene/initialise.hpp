@@ -14,6 +14,7 @@
 #include <sinew/scene/topological_changes.hpp>
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -99,12 +100,12 @@ class Initialisation {
     using In = typename C::In;
     const InitContext<typename C::Out> own{scope.path(), rest, scope.topology()};
     if constexpr (HasTwoKindsOfParents<C>) {
-      InitContext<In> first;
+      std::optional<InitContext<In>> first;
       scope.forEachParent(c, [&](auto k, auto const& parent) {
         if constexpr (k == 0)
-          first = parent.template context<In>();
+          first.emplace(parent.template context<In>());
         else
-          c.init(first, parent.template context<typename C::In2>(), own, positions);
+          c.init(*first, parent.template context<typename C::In2>(), own, positions);
       });
     } else if constexpr (HasParents<C>) {
       std::vector<InitContext<In>> parents;
