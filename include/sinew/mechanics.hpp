@@ -43,6 +43,7 @@
 #include <sinew/force/gear_spring.hpp>
 #include <sinew/force/hexahedron_fem.hpp>
 #include <sinew/force/immersed_solid.hpp>
+#include <sinew/force/interaction_ellipsoid_force_field.hpp>
 #include <sinew/force/joint_spring.hpp>
 #include <sinew/force/linear_force_field.hpp>
 #include <sinew/force/mesh_spring.hpp>

@@ -31,7 +31,8 @@ using RigidLoads =
 template <class D>
 using PointLoads = Registry<RigidLoads<D>, SphereForceField<D>>;
 template <class D>
-using SpatialLoads = Registry<ConicalForceField<D>, TaitSurfacePressureForceField<D>, EllipsoidForceField<D>>;
+using SpatialLoads = Registry<ConicalForceField<D>, TaitSurfacePressureForceField<D>, EllipsoidForceField<D>,
+                              InteractionEllipsoidForceField<D>>;
 template <class D>
 using Particles = Registry<ParticleSource<D>, ParticleSink<D>>;
 template <class D>
@@ -135,8 +136,8 @@ using SkinningMappings = Registry<SkinningMapping<Rigid3d, Vec3d>, SkinningMappi
 using StandardMappings =
     Registry<MultiMappings, SkinningMappings, SurfaceMappings, MeasuringMappings,
              SpatialMappings<Vec3d, Vec3d>, SpatialMappings<Vec3d, Vec3f>, SpatialMappings<Vec3f, Vec3f>,
-             SpatialMappings<Vec3f, Vec3d>, BarycentricMapping<Vec3d, Rigid3d>, PointMappings<Vec1d, Vec1d>, PointMappings<Vec2d, Vec2d>,
-             PointMappings<Vec6d, Vec6d>, RigidMappings<Rigid3d, Vec3d, Vec3f>,
+             SpatialMappings<Vec3f, Vec3d>, BarycentricMapping<Vec3d, Rigid3d>, PointMappings<Vec1d, Vec1d>,
+             PointMappings<Vec2d, Vec2d>, PointMappings<Vec6d, Vec6d>, RigidMappings<Rigid3d, Vec3d, Vec3f>,
              RigidMappings<Rigid3f, Vec3f, Vec3d>, IdentityMapping<Rigid2d, Rigid2d>,
              RigidMapping<Rigid2d, Rigid2d>, RigidMapping<Rigid2d, Vec2d>>;
 template <template <class> class Solver>

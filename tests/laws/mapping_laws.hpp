@@ -189,15 +189,18 @@ struct OfOneParent : M {
   template <class F>
   void forEachJacobianBlock(int point, F&& f) const {
     const_cast<OfOneParent*>(this)->self().forEachPart([&](auto& part, auto const& cut) {
-      part.forEachJacobianBlock(point, [&](int above, auto const& j) { f(cut.first + above, cut.widened(j)); });
+      part.forEachJacobianBlock(point,
+                                [&](int above, auto const& j) { f(cut.first + above, cut.widened(j)); });
     });
   }
   void updateK(typename Out::VecDeriv const& f)
-    requires(GathersParents<PartOf<M>>) {
+  requires(GathersParents<PartOf<M>>)
+  {
     self().forEachPart([&](auto& part, auto const&) { part.updateK(f); });
   }
   void addKx(typename In::VecDeriv& df, typename In::VecDeriv const& dx, double k) const
-    requires(GathersParents<PartOf<M>>) {
+  requires(GathersParents<PartOf<M>>)
+  {
     auto& own = const_cast<OfOneParent*>(this)->self();
     own.forEachPart([&](auto& part, auto const& cut) { part.gather(cut.derivs(dx)); });
     own.forEachPart([&](auto& part, auto const& cut) {
@@ -259,7 +262,8 @@ struct Cut {
     return own;
   }
   void giveBack(typename In::VecDeriv& all, typename D::VecDeriv const& own) const {
-    for (int i = 0; i < count; ++i) all[std::size_t(first + i)].template head<D::size>() = own[std::size_t(i)];
+    for (int i = 0; i < count; ++i)
+      all[std::size_t(first + i)].template head<D::size>() = own[std::size_t(i)];
   }
   template <class J>
   Mat<typename J::Scalar, J::RowsAtCompileTime, In::size> widened(J const& j) const {

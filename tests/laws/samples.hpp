@@ -27,6 +27,7 @@
 #include "samples/hermite_spline.hpp"
 #include "samples/identity_multi_mapping.hpp"
 #include "samples/immersed_solid.hpp"
+#include "samples/interaction_ellipsoid_force_field.hpp"
 #include "samples/joint_spring.hpp"
 #include "samples/linear_movement.hpp"
 #include "samples/linear_velocity.hpp"

@@ -14,7 +14,8 @@ using Frames = BarycentricMapping<Vec3d, Rigid3d>;
 
 const Vec3d::VecCoord corners{{0, 0, 0}, {2, 0, 0}, {0, 1, 0}, {0, 0, 3}};
 const std::vector<Tetrahedron> tetrahedra{{0, 1, 2, 3}};
-const Vec3d::VecCoord box{{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}, {0, 0, 3}, {2, 0, 3}, {2, 1, 3}, {0, 1, 3}};
+const Vec3d::VecCoord box{
+    {0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}, {0, 0, 3}, {2, 0, 3}, {2, 1, 3}, {0, 1, 3}};
 const std::vector<Hexahedron> hexahedra{{0, 1, 2, 3, 4, 5, 6, 7}};
 
 Rigid3d::Coord frame() {
@@ -39,7 +40,8 @@ TEST_CASE("frames turn as elements do, and stretching does not turn them") {
   Vec3d::VecCoord moved;
   for (auto const& x : rest) moved.push_back(turn * (stretch * x) + Eigen::Vector3d(1, 2, 3));
   one.mapping.apply(one.child, moved);
-  CHECK((one.child[0].center - (turn * (stretch * frame().center) + Eigen::Vector3d(1, 2, 3))).norm() < 1e-13);
+  CHECK((one.child[0].center - (turn * (stretch * frame().center) + Eigen::Vector3d(1, 2, 3))).norm() <
+        1e-13);
   CHECK(one.child[0].orientation.angularDistance(turn * frame().orientation) < 1e-12);
 
   // the velocities of a rigid motion are those of the frame

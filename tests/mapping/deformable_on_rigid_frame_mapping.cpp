@@ -53,9 +53,10 @@ auto scene(Linear linear, RotationalStiffness stiffness, Fix fix) {
       Gravity{{0, -10, 0}},
       EulerImplicitSolver{.rayleighStiffness = 0.02},
       linear,
-      node<"frame">(MechanicalObject<Rigid3d>{.position = {turned({1, 2, 0}, {0.3, -0.2, 0.5})},
-                                              .velocity = {(Rigid3d::Deriv() << 0, 1, 0, 1, 2, -1).finished()}},
-                    UniformMass<Rigid3d>{.vertexMass = RigidMass<double, 3>{.mass = 2}}),
+      node<"frame">(
+          MechanicalObject<Rigid3d>{.position = {turned({1, 2, 0}, {0.3, -0.2, 0.5})},
+                                    .velocity = {(Rigid3d::Deriv() << 0, 1, 0, 1, 2, -1).finished()}},
+          UniformMass<Rigid3d>{.vertexMass = RigidMass<double, 3>{.mass = 2}}),
       node<"body">(MechanicalObject<Vec3d>{.position = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
                    UniformMass<Vec3d>{.vertexMass = 0.5},
                    fix,
@@ -90,7 +91,8 @@ TEST_CASE("a system with and without matrix moves both bodies alike") {
 
 TEST_CASE("a body that does not deform is carried as by a RigidMapping") {
   const FixedConstraint<Vec3d> all{.indices = {0, 1, 2}};
-  Simulation held{scene(SparseLDLSolver<CompressedRowSparseMatrixd>{}, RotationalStiffness::symmetrized, all)};
+  Simulation held{
+      scene(SparseLDLSolver<CompressedRowSparseMatrixd>{}, RotationalStiffness::symmetrized, all)};
   Simulation rigid{node<"root">(
       Gravity{{0, -10, 0}},
       EulerImplicitSolver{.rayleighStiffness = 0.02},
@@ -141,11 +143,13 @@ TEST_CASE("what does not fit a DeformableOnRigidFrameMapping is named") {
       mapping.init({"points", p, {}}, {"/frames", frames, {}}, {"child", child, {}}, child);
     });
   };
-  CHECK_THAT(with({.index = 2}), Catch::Contains("child: DeformableOnRigidFrameMapping<Vec3d, Rigid3d, Vec3d") &&
-                                     Catch::Contains("index"));
+  CHECK_THAT(with({.index = 2}),
+             Catch::Contains("child: DeformableOnRigidFrameMapping<Vec3d, Rigid3d, Vec3d") &&
+                 Catch::Contains("index"));
   CHECK_THAT(with({.repartition = {1, 2, 1}}),
              Catch::Contains("repartition has 3 entries for 2 rigid bodies of /frames"));
-  CHECK_THAT(with({.repartition = {1}}), Catch::Contains("gives the rigid bodies 2 points, and points has 4"));
+  CHECK_THAT(with({.repartition = {1}}),
+             Catch::Contains("gives the rigid bodies 2 points, and points has 4"));
   CHECK_THAT(with({}, 3), Catch::Contains("the child has 3 points, and points has 4"));
 }
 

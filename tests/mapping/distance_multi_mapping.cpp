@@ -41,11 +41,10 @@ TEST_CASE("distances between bodies with springs are springs between them") {
   auto springs = scene(
       SparseLDLSolver<>{},
       MechanicalObject<Vec3d>{},
-      SubsetMultiMapping<Vec3d, Vec3d, Parents<"../a", "../b">>{.indexPairs = {{0, 0}, {0, 1}, {1, 0}, {1, 1}}},
-      StiffSpringForceField<Vec3d>{.springs = {{0, 2, 300, 0, 0.8},
-                                               {1, 3, 300, 0, 1.2},
-                                               {0, 1, 300, 0, 0.9},
-                                               {3, 0, 300, 0, 1.3}}});
+      SubsetMultiMapping<Vec3d, Vec3d, Parents<"../a", "../b">>{
+          .indexPairs = {{0, 0}, {0, 1}, {1, 0}, {1, 1}}},
+      StiffSpringForceField<Vec3d>{
+          .springs = {{0, 2, 300, 0, 0.8}, {1, 3, 300, 0, 1.2}, {0, 1, 300, 0, 0.9}, {3, 0, 300, 0, 1.3}}});
   Simulation expected{springs};
   Simulation direct{measured(SparseLDLSolver<>{}, GeometricStiffness::exact)};
   Simulation iterated{
@@ -129,7 +128,9 @@ TEST_CASE("a point of an edge cannot go") {
   mapping.follow(none, {&first, &none});
   CHECK(mapping.indexPairs[0] == std::array<int, 2>{0, 0});
   mapping.indexPairs[0] = {0, 1};
-  CHECK_THAT(error_of([&] { mapping.follow(none, {&second, &none}); }),
+  CHECK_THAT(error_of([&] {
+               mapping.follow(none, {&second, &none});
+             }),
              Catch::Contains("point 1 of its parent 0 is to go"));
 }
 

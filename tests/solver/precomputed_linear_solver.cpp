@@ -10,13 +10,13 @@ using namespace sinew;
 // a chain along x that springs hold and gravity stretches: its matrix does not change
 template <class Linear>
 auto chain(double dt, int steps, double dtAfter = 0) {
-  Simulation sim{node<"root">(
-      Gravity{{-9.81, 0, 0}},
-      EulerImplicitSolver{.rayleighStiffness = 0.01},
-      Linear{},
-      MechanicalObject<Vec1d>{.position = {Vec1d::Coord(0), Vec1d::Coord(1), Vec1d::Coord(2)}},
-      UniformMass<Vec1d>{.vertexMass = 2},
-      RestShapeSpringsForceField<Vec1d>{.stiffness = {100}})};
+  Simulation sim{
+      node<"root">(Gravity{{-9.81, 0, 0}},
+                   EulerImplicitSolver{.rayleighStiffness = 0.01},
+                   Linear{},
+                   MechanicalObject<Vec1d>{.position = {Vec1d::Coord(0), Vec1d::Coord(1), Vec1d::Coord(2)}},
+                   UniformMass<Vec1d>{.vertexMass = 2},
+                   RestShapeSpringsForceField<Vec1d>{.stiffness = {100}})};
   sim.init();
   for (int i = 0; i < steps; ++i) sim.animate(dt);
   for (int i = 0; i < steps && dtAfter > 0; ++i) sim.animate(dtAfter);
@@ -42,7 +42,9 @@ TEST_CASE("a matrix that stays has the solutions of one factorised each step") {
   CHECK(chain<Kept>(0.01, 50) == chain<Each>(0.01, 50));
 }
 
-TEST_CASE("another dt has another system") { CHECK(chain<Kept>(0.01, 20, 0.03) == chain<Each>(0.01, 20, 0.03)); }
+TEST_CASE("another dt has another system") {
+  CHECK(chain<Kept>(0.01, 20, 0.03) == chain<Each>(0.01, 20, 0.03));
+}
 
 TEST_CASE("a matrix that changes is that of the first step") {
   Simulation kept{pendulum<PrecomputedLinearSolver<>>()};
@@ -52,7 +54,8 @@ TEST_CASE("a matrix that changes is that of the first step") {
   kept.animate(0.01);
   each.animate(0.01);
   CHECK(kept.root().state().position == each.root().state().position);
-  // M v1 = M v0 + h f(x1) with the old K: across the spring the first matrix is m alone, also when it has turned
+  // M v1 = M v0 + h f(x1) with the old K: across the spring the first matrix is m alone, also when it has
+  // turned
   for (int i = 0; i < 9; ++i) {
     const Eigen::Vector3d x = kept.root().state().position[1], v = kept.root().state().velocity[1];
     const double k = 1000, c = 5, h = 0.01, l = x.norm();
@@ -89,7 +92,8 @@ TEST_CASE("a body that nothing holds is named") {
                               StiffSpringForceField<Vec3d>{.springs = {{0, 1, 1000, 5, 1}}},
                               ConstantForceField<Vec3d>{.indices = {1}, .forces = {{0, 1, 0}}})};
   sim.init();
-  CHECK_THROWS_WITH(sim.animate(0.01), Catch::Contains("/root: PrecomputedLinearSolver: the matrix is singular at"));
+  CHECK_THROWS_WITH(sim.animate(0.01),
+                    Catch::Contains("/root: PrecomputedLinearSolver: the matrix is singular at"));
 }
 
 }  // namespace test_precomputed_linear_solver

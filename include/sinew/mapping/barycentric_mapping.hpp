@@ -23,12 +23,12 @@ namespace sinew {
 /// these put the child into place with the grid. Where hexahedra of a SparseGridRamificationTopology are at
 /// one place, a point goes with the one whose finer cell is around it.
 ///
-/// Frames (Rigid3) are carried by tetrahedra and hexahedra: their centres as points are, and they turn with the
-/// rotation R of the polar decomposition F = R S of the deformation gradient where they are,
+/// Frames (Rigid3) are carried by tetrahedra and hexahedra: their centres as points are, and they turn with
+/// the rotation R of the polar decomposition F = R S of the deformation gradient where they are,
 ///   w = R (tr(S) I - S)^-1 sum_k g_k x R' v_k        (g_k: gradient of w_k at rest)
-/// of which forces have the transpose: they do the same work on both, and what it adds to the stiffness of the parent
-/// is left out. SOFA has another angular velocity, sum_k X_k x v_k of the four places in the world, which is no
-/// derivative of the orientation and depends on where the origin is.
+/// of which forces have the transpose: they do the same work on both, and what it adds to the stiffness of
+/// the parent is left out. SOFA has another angular velocity, sum_k X_k x v_k of the four places in the
+/// world, which is no derivative of the orientation and depends on where the origin is.
 ///
 /// Points of the child are looked for where they are given, among elements at rest. With `useRestPosition`
 /// they are looked for where they rest: a child that starts elsewhere is then carried from there to its

@@ -13,9 +13,9 @@
 
 namespace sinew {
 
-/// The loops of a mapping whose frames are carried by tetrahedra and hexahedra of the parent, as CarriedPoints
-/// has them for points. The centre is a weighted sum, and the orientation turns with the rotation R of the
-/// element where the frame is:
+/// The loops of a mapping whose frames are carried by tetrahedra and hexahedra of the parent, as
+/// CarriedPoints has them for points. The centre is a weighted sum, and the orientation turns with the
+/// rotation R of the element where the frame is:
 ///   x = sum_k w_k X_k,  o = R o_0,  F = sum_k X_k g_k' = R S      (g_k: gradient of w_k at rest)
 ///   v = sum_k w_k V_k,  w = sum_k A_k V_k,  A_k = R (tr(S) I - S)^-1 [g_k]x R'
 ///   F_k += w_k f + A_k' torque
@@ -59,8 +59,7 @@ struct CarriedFrames {
       for (int k = 0; k < frame.corners; ++k)
         j += points[std::size_t(corner(i, k, carriers, others))] * slopes[std::size_t(k)].transpose();
       const Matrix back = j.inverse().transpose();
-      for (int k = 0; k < frame.corners; ++k)
-        frame.gradients[std::size_t(k)] = back * slopes[std::size_t(k)];
+      for (int k = 0; k < frame.corners; ++k) frame.gradients[std::size_t(k)] = back * slopes[std::size_t(k)];
       frames.push_back(frame);
     }
   }
@@ -75,8 +74,7 @@ struct CarriedFrames {
       Eigen::Vector3d center = Eigen::Vector3d::Zero();
       Matrix gradient = Matrix::Zero();
       for (int k = 0; k < frame.corners; ++k) {
-        const Eigen::Vector3d x =
-            in[std::size_t(corner(i, k, carriers, others))].template cast<double>();
+        const Eigen::Vector3d x = in[std::size_t(corner(i, k, carriers, others))].template cast<double>();
         center += double(weight(i, k, carriers, others)) * x;
         gradient += x * frame.gradients[std::size_t(k)].transpose();
       }
@@ -147,8 +145,7 @@ struct CarriedFrames {
     }
     frame.rotation = u * v.transpose();
     Eigen::Vector3d inverse(s[1] + s[2], s[0] + s[2], s[0] + s[1]);
-    for (int c = 0; c < 3; ++c)
-      inverse[c] = std::abs(inverse[c]) > 1e-12 * s[0] ? 1 / inverse[c] : 0.0;
+    for (int c = 0; c < 3; ++c) inverse[c] = std::abs(inverse[c]) > 1e-12 * s[0] ? 1 / inverse[c] : 0.0;
     frame.turning = u * inverse.asDiagonal() * v.transpose();
   }
   Mat<Real, 6, 3> jacobian(std::size_t i, int k, Carriers const& carriers, Carriers const& others) const {

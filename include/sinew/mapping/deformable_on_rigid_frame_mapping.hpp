@@ -21,8 +21,8 @@ namespace sinew {
 /// inertia of both: what the deformation does to the moments of inertia of the frame, and Coriolis forces on
 /// the points, are left out, as in SOFA. As the frame turns, so do forces in its axes, which
 /// `geometricStiffness` adds:
-///   K_g = R' [f]x between p and the angle, 1/2 ([f]x [r]x + [r]x [f]x) of the angle; in the plane R' (f_y, -f_x)
-///   and -f.r
+///   K_g = R' [f]x between p and the angle, 1/2 ([f]x [r]x + [r]x [f]x) of the angle; in the plane R' (f_y,
+///   -f_x) and -f.r
 template <class I, class R, class O, class P = LinkedParents>
 struct DeformableOnRigidFrameMapping {
   using Role = role::Mapping;

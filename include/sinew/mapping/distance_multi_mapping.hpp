@@ -15,12 +15,12 @@ namespace sinew {
 /// rest:
 ///   c = l - L,  l = |d|,  d = x1 - x0       J = (-u', u'),  u = d/l
 ///   K_g = f/l (I - u u') (1 -1; -1 1)       with f the force on c
-/// `indexPairs` chooses points: entry i is point indexPairs[i][1] of parent indexPairs[i][0], or the centre of
-/// that rigid body. The edges of the topology in the node of the mapping are over these entries, and each is a
-/// distance. Two points in one place have no direction: J and K_g are zero there. `stabilized` has no K_g for
-/// distances that push (f > 0), where it is not negative. The parents stand before the node of the mapping in
-/// the tree; they are named by paths from it (`P` = Parents<"../a", "../b/c">), or at run time (`P` =
-/// LinkedParents).
+/// `indexPairs` chooses points: entry i is point indexPairs[i][1] of parent indexPairs[i][0], or the centre
+/// of that rigid body. The edges of the topology in the node of the mapping are over these entries, and each
+/// is a distance. Two points in one place have no direction: J and K_g are zero there. `stabilized` has no
+/// K_g for distances that push (f > 0), where it is not negative. The parents stand before the node of the
+/// mapping in the tree; they are named by paths from it (`P` = Parents<"../a", "../b/c">), or at run time
+/// (`P` = LinkedParents).
 template <class I, class O, class P = LinkedParents>
 struct DistanceMultiMapping {
   using Role = role::Mapping;
@@ -189,8 +189,9 @@ struct DistanceMultiMapping {
     }
     auto const& edges = child.topology.edges;
     if (edges.empty())
-      throw Error(where,
-                  "there are no edges between the points of indexPairs; add a topology with edges to its node");
+      throw Error(
+          where,
+          "there are no edges between the points of indexPairs; add a topology with edges to its node");
     if (!restLengths.empty() && restLengths.size() != edges.size())
       throw Error(where,
                   text("restLengths has ",

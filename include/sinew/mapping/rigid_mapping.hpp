@@ -159,7 +159,8 @@ struct RigidMapping {
     if (geometricStiffness == RotationalStiffness::none) return;
     for (auto& k : stiffness) k.setZero();
     for (std::size_t i = 0; i < local.size(); ++i) {
-      stiffness[body_of(i)] += Frame::stiffness(rotated[i], f[i].template head<N>()).template cast<typename In::Real>();
+      stiffness[body_of(i)] +=
+          Frame::stiffness(rotated[i], f[i].template head<N>()).template cast<typename In::Real>();
     }
   }
   void addKx(typename In::VecDeriv& df, typename In::VecDeriv const& dx, double k) const {

@@ -66,7 +66,7 @@ struct RuntimeFacts {
   Scope const& scope;
   RuntimeEntry<R>& entry;
   std::string_view dataTypes{}, in{}, in2{}, out{};  // of the component
-  std::vector<std::string> paths{};           // of its ends or parents
+  std::vector<std::string> paths{};                  // of its ends or parents
   Rule wrongNames = Rule::none;
 
   Rule named() const { return wrongNames; }
@@ -151,7 +151,8 @@ struct RuntimeFacts {
       case Rule::parentWithoutState:
         return text("at '", paths[which], "'");
       case Rule::parentOfOtherDataTypes:
-        return text(inOf(which), " from ", data_types_at(Scope(*nodes()[which])), ", at '", paths[which], "'");
+        return text(
+            inOf(which), " from ", data_types_at(Scope(*nodes()[which])), ", at '", paths[which], "'");
       case Rule::endOfOtherDataTypes:
         return text(dataTypes,
                     " on ",

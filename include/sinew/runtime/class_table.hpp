@@ -84,6 +84,7 @@ struct ClassTraits {
   bool sizedValues = false;         // an engine over values of any size (engine/values.hpp)
   std::string_view law;             // an output of an engine that goes on in each step, by what takes it
   bool joinsTopologies = false;  // an engine that makes the elements of its `output` of those of its `input`
+  std::string_view followsObject2;  // the field that has the positions of the state that `object2` names
 };
 
 /// What scene files, messages and reference pages know of one class of a registry.
@@ -93,8 +94,8 @@ struct ClassInfo {
   RoleKind role;
   std::string dataTypes;  // "Vec3d"; "Rigid3d,Vec3d" of a mapping; the matrix of a linear solver; or nothing
   std::string_view in, in2, out;  // of a mapping; in2: of the second of its two parents
-  std::string cppName;       // "UniformMass<Vec3d>"
-  bool joins = false;        // has ends object1 and object2
+  std::string cppName;            // "UniformMass<Vec3d>"
+  bool joins = false;             // has ends object1 and object2
   std::vector<FieldInfo> fields;
   bool severalParents = false;  // a mapping
   ClassTraits traits{};
@@ -288,6 +289,7 @@ constexpr ClassTraits class_traits() {
   if constexpr (requires { C::sizedValues; }) traits.sizedValues = C::sizedValues;
   if constexpr (requires { C::law; }) traits.law = C::law;
   if constexpr (requires { C::joinsTopologies; }) traits.joinsTopologies = C::joinsTopologies;
+  if constexpr (requires { C::followsObject2; }) traits.followsObject2 = C::followsObject2;
   return traits;
 }
 

@@ -228,7 +228,8 @@ struct Facts {
       if constexpr (std::is_same_v<typename C::Parents, LinkedParents>)
         return Rule::parentsByLinks;
       else
-        return HasTwoKindsOfParents<C> && count_of(typename C::Parents{}) != 2 ? Rule::notTwoParents : Rule::none;
+        return HasTwoKindsOfParents<C> && count_of(typename C::Parents{}) != 2 ? Rule::notTwoParents
+                                                                               : Rule::none;
     } else {
       return std::is_same_v<typename C::Ends, Linked> ? Rule::endsByLinks : Rule::none;
     }

@@ -13,12 +13,12 @@ namespace sinew {
 /// The first system of a scene, factorised once as L D L', answers all later ones too: a step costs a
 /// substitution, and no assembly. That is exact where the matrix m M + b B + k K stays what it is: masses,
 /// linear springs along fixed directions, FEM with method="small" and linear dampers, in steps of one length.
-/// Where elements turn or stiffen, contacts come, or geometric stiffness acts, the matrix is that of the start:
-/// forces are exact all the same, so that what is in balance is right, and a step is one of Newton's method
-/// with an old derivative. Turned by much more than a few degrees, or stiffened, a body then moves too slowly, or
-/// the simulation diverges. A step of another length, or another solver in time, has a system with other
-/// factors, which is assembled and factorised anew. SOFA has the inverse as a dense matrix, n^2 numbers, which has the
-/// same solutions, and goes on with it where dt changes.
+/// Where elements turn or stiffen, contacts come, or geometric stiffness acts, the matrix is that of the
+/// start: forces are exact all the same, so that what is in balance is right, and a step is one of Newton's
+/// method with an old derivative. Turned by much more than a few degrees, or stiffened, a body then moves too
+/// slowly, or the simulation diverges. A step of another length, or another solver in time, has a system with
+/// other factors, which is assembled and factorised anew. SOFA has the inverse as a dense matrix, n^2
+/// numbers, which has the same solutions, and goes on with it where dt changes.
 template <class Matrix = CompressedRowSparseMatrixMat3x3d>
 struct PrecomputedLinearSolver {
   using Role = role::LinearSolver;
@@ -60,8 +60,7 @@ struct PrecomputedLinearSolver {
   template <class Operations>
   void solve(Operations& operations, MatrixFactors factors, MultiVecDeriv<Operations>& solution,
              MultiVecDeriv<Operations>& rhs) {
-    const bool same =
-        massFactor == factors.m && dampingFactor == factors.b && stiffnessFactor == factors.k;
+    const bool same = massFactor == factors.m && dampingFactor == factors.b && stiffnessFactor == factors.k;
     if (system.size() != matrix.values.size() || !same) {
       operations.assemble(matrix, factors);
       system.assign(matrix.values.begin(), matrix.values.end());

@@ -89,10 +89,10 @@ concept HasInitOfMany =
                                typename C::Out::VecCoord positions) { c.init(parents, child, positions); };
 template <class C>
 concept HasInitOfTwo =
-    HasInAndOut<C> && requires(C c, InitContext<typename C::In> const first,
-                               InitContext<typename C::In2> const second,
-                               InitContext<typename C::Out> const child,
-                               typename C::Out::VecCoord positions) { c.init(first, second, child, positions); };
+    HasInAndOut<C> &&
+    requires(C c, InitContext<typename C::In> const first, InitContext<typename C::In2> const second,
+             InitContext<typename C::Out> const child,
+             typename C::Out::VecCoord positions) { c.init(first, second, child, positions); };
 }  // namespace detail
 /// The DataTypes of the parent with a number of type K.
 template <class C, class K>
@@ -123,8 +123,9 @@ concept HasGeometricStiffness =
 /// addToMatrix(params, a, b, sink), adds the rows of parent a and the columns of parent b by
 /// sink.add<0, 1>(i, j, block).
 template <class PartMapping>
-concept GathersParents = HasGeometricStiffness<PartMapping> &&
-                         requires(PartMapping m, typename PartMapping::In::VecDeriv const dx) { m.gather(dx); };
+concept GathersParents =
+    HasGeometricStiffness<PartMapping> &&
+    requires(PartMapping m, typename PartMapping::In::VecDeriv const dx) { m.gather(dx); };
 /// A mapping for which the elements of the topology in its node are over the points of its parent. Its points
 /// are elements of that topology, or of the parent's where the node has none: pointsThatStay(before, change)
 /// says which stay when elements are removed.

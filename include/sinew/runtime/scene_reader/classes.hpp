@@ -188,6 +188,7 @@ class SceneClasses {
                                          acted->state,
                                          "; give both the same")),
                  nullptr;
+        if (!first.traits.followsObject2.empty() && !followsObject2(item, *acted)) return nullptr;
         return withTypes(item, acted->state, text(", as the state it acts on, in '", acted->name, "'"));
       }
       case RoleKind::engine:
@@ -241,6 +242,23 @@ class SceneClasses {
     return a.substr(0, a.size() - 1) == b.substr(0, b.size() - 1);
   }
 
+  // a force on the state of its node, which object1 may name, follows the state that object2 names
+  bool followsObject2(SceneItem& item, ScenePlace const& acted) {
+    auto const *a = item.element->attribute("object1"), *b = item.element->attribute("object2");
+    if (a && follow_to_node(item, *a, messages_) != &acted)
+      return messages_.addError(item.element->place(*a),
+                                text('<',
+                                     item.tag,
+                                     ">: object1 leads to another state than that of its node, '",
+                                     acted.name,
+                                     "', on which it acts; put it into the node of object1")),
+             false;
+    if (!b) return true;
+    ScenePlace const* const followed = follow_to_node(item, *b, messages_);
+    SceneItem const* const state = followed ? followed->ofRole(RoleKind::state) : nullptr;
+    if (state) item.element->set(item.candidates[0]->traits.followsObject2, link_to(*state) + ".position");
+    return state != nullptr;
+  }
   // an interaction joins two bodies, unless both its ends are the state of its own node
   bool endsDiffer(SceneItem& item) {
     auto const *a = item.element->attribute("object1"), *b = item.element->attribute("object2");

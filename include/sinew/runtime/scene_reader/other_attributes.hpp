@@ -106,8 +106,8 @@ class OtherAttributes {
     return nullptr;
   }
 
-  // Whether there are forces, masses or constraints (`map`: mapForces, mapMasses, mapConstraints) on the mapped
-  // state of a node, or on what follows it.
+  // Whether there are forces, masses or constraints (`map`: mapForces, mapMasses, mapConstraints) on the
+  // mapped state of a node, or on what follows it.
   static bool bringsBack(ScenePlace const& mapped, std::string_view map) {
     ScenePlace const* top = &mapped;
     while (top->parent) top = top->parent;
@@ -117,7 +117,8 @@ class OtherAttributes {
       auto leadsHere = [&](std::string const& end) {
         return end == path || std::string_view(end).starts_with(text(path, '/'));
       };
-      const bool here = mapped.above(*item.place) || std::any_of(item.ends.begin(), item.ends.end(), leadsHere);
+      const bool here =
+          mapped.above(*item.place) || std::any_of(item.ends.begin(), item.ends.end(), leadsHere);
       switch (item.info->role) {
         case RoleKind::mapping:
           return std::any_of(item.parents.begin(), item.parents.end(), leadsHere);
