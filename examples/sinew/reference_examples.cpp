@@ -1009,6 +1009,64 @@ constexpr auto classExamples = std::to_array<ClassExample>({
     <StiffSpringForceField spring="0 1 50 0.2 0.5"/>
   </Node>
 </Node>)"},
+    {"InteractionEllipsoidForceField", R"(
+<Node name="root" gravity="0 -9.81 0">
+  <Node name="obstacle">
+    <EulerExplicitSolver/>
+    <MechanicalObject template="Rigid3" position="0 -1 0  0 0 0 1" velocity="0 0 0  0 0 1"/>
+    <UniformMass vertexMass="1"/>
+    <PartialFixedConstraint indices="0" fixedDirections="1 1 1 0 0 0"/>
+  </Node>
+  <Node name="body">
+    <EulerImplicitSolver/>
+    <SparseLDLSolver/>
+    <MechanicalObject position="-0.3 -0.8 0  0.3 -0.8 0"/>
+    <UniformMass vertexMass="0.1"/>
+    <InteractionEllipsoidForceField object2="@../obstacle" object2_forces="0" vradius="0.6 0.4 0.5" stiffness="50" damping="1"/>
+  </Node>
+</Node>)"},
+    {"DeformableOnRigidFrameMapping", R"(
+<Node name="root" gravity="0 -9.81 0">
+  <EulerImplicitSolver/>
+  <SparseLDLSolver template="CompressedRowSparseMatrixd"/>
+  <Node name="frame">
+    <MechanicalObject template="Rigid3" position="0 0 0  0 0 0 1"/>
+    <UniformMass vertexMass="1"/>
+    <PartialFixedConstraint indices="0" fixedDirections="1 1 1 0 0 0"/>
+  </Node>
+  <Node name="body">
+    <MechanicalObject position="0 0 0  1 0 0"/>
+    <UniformMass vertexMass="0.1"/>
+    <StiffSpringForceField spring="0 1 100 0.1 1"/>
+    <FixedConstraint indices="0"/>
+    <Node name="world">
+      <MechanicalObject/>
+      <DeformableOnRigidFrameMapping input1="@.." input2="@../../frame"/>
+      <ConstantForceField indices="1" force="0 2 0"/>
+    </Node>
+  </Node>
+</Node>)"},
+    {"DistanceMultiMapping", R"(
+<Node name="root" gravity="0 -9.81 0">
+  <EulerImplicitSolver/>
+  <SparseLDLSolver/>
+  <Node name="upper">
+    <MechanicalObject position="0 0 0  0 -0.5 0"/>
+    <UniformMass vertexMass="0.1"/>
+    <StiffSpringForceField spring="0 1 100 0.1 0.5"/>
+    <FixedConstraint indices="0"/>
+  </Node>
+  <Node name="lower">
+    <MechanicalObject position="0 -1 0"/>
+    <UniformMass vertexMass="0.1"/>
+  </Node>
+  <Node name="joint">
+    <MechanicalObject template="Vec1"/>
+    <MeshTopology edges="0 1"/>
+    <DistanceMultiMapping input="@../upper @../lower" indexPairs="0 1  1 0"/>
+    <RestShapeSpringsForceField stiffness="50"/>
+  </Node>
+</Node>)"},
     {"IdentityMultiMapping", R"(
 <Node name="root" gravity="0 -9.81 0">
   <EulerImplicitSolver/>

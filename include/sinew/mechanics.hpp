@@ -44,6 +44,7 @@
 #include <sinew/force/hexahedron_composite_fem.hpp>
 #include <sinew/force/hexahedron_fem.hpp>
 #include <sinew/force/immersed_solid.hpp>
+#include <sinew/force/interaction_ellipsoid_force_field.hpp>
 #include <sinew/force/joint_spring.hpp>
 #include <sinew/force/linear_force_field.hpp>
 #include <sinew/force/mesh_spring.hpp>
@@ -77,8 +78,10 @@
 #include <sinew/mapping/barycentric_mapping.hpp>
 #include <sinew/mapping/beam_linear_mapping.hpp>
 #include <sinew/mapping/center_of_mass_mapping.hpp>
+#include <sinew/mapping/deformable_on_rigid_frame_mapping.hpp>
 #include <sinew/mapping/distance_from_target_mapping.hpp>
 #include <sinew/mapping/distance_mapping.hpp>
+#include <sinew/mapping/distance_multi_mapping.hpp>
 #include <sinew/mapping/distance_to_plane_mapping.hpp>
 #include <sinew/mapping/hexahedron_composite_fem_mapping.hpp>
 #include <sinew/mapping/identity_mapping.hpp>
@@ -108,6 +111,7 @@
 #include <sinew/solver/multigrid_linear_solver.hpp>
 #include <sinew/solver/newmark_implicit.hpp>
 #include <sinew/solver/pcg_linear_solver.hpp>
+#include <sinew/solver/precomputed_linear_solver.hpp>
 #include <sinew/solver/runge_kutta2.hpp>
 #include <sinew/solver/runge_kutta4.hpp>
 #include <sinew/solver/runge_kutta45.hpp>

@@ -33,7 +33,8 @@ using RigidLoads =
 template <class D>
 using PointLoads = Registry<RigidLoads<D>, SphereForceField<D>>;
 template <class D>
-using SpatialLoads = Registry<ConicalForceField<D>, TaitSurfacePressureForceField<D>, EllipsoidForceField<D>>;
+using SpatialLoads = Registry<ConicalForceField<D>, TaitSurfacePressureForceField<D>, EllipsoidForceField<D>,
+                              InteractionEllipsoidForceField<D>>;
 template <class D>
 using Particles = Registry<ParticleSource<D>, ParticleSink<D>>;
 template <class D>
@@ -131,14 +132,16 @@ using MeasuringMappings =
 using MultiMappings = Registry<SubsetMultiMapping<Vec3d, Vec3d>, SubsetMultiMapping<Vec2d, Vec2d>,
                                SubsetMultiMapping<Vec1d, Vec1d>, SubsetMultiMapping<Rigid3d, Rigid3d>,
                                SubsetMultiMapping<Rigid3d, Vec3d>, SubsetMultiMapping<Vec3d, Vec3f>,
-                               IdentityMultiMapping<Vec3d, Vec3d>, IdentityMultiMapping<Rigid3d, Rigid3d>>;
+                               IdentityMultiMapping<Vec3d, Vec3d>, IdentityMultiMapping<Rigid3d, Rigid3d>,
+                               DistanceMultiMapping<Vec3d, Vec1d>, DistanceMultiMapping<Rigid3d, Vec1d>,
+                               DeformableOnRigidFrameMapping<Vec3d, Rigid3d, Vec3d>>;
 using SurfaceMappings = Registry<SPHFluidSurfaceMapping<Vec3d, Vec3f>>;
 using SkinningMappings = Registry<SkinningMapping<Rigid3d, Vec3d>, SkinningMapping<Rigid3d, Vec3f>>;
 using StandardMappings =
     Registry<MultiMappings, SkinningMappings, SurfaceMappings, MeasuringMappings,
              SpatialMappings<Vec3d, Vec3d>, SpatialMappings<Vec3d, Vec3f>, SpatialMappings<Vec3f, Vec3f>,
-             SpatialMappings<Vec3f, Vec3d>, PointMappings<Vec1d, Vec1d>, PointMappings<Vec2d, Vec2d>,
-             PointMappings<Vec6d, Vec6d>, RigidMappings<Rigid3d, Vec3d, Vec3f>,
+             SpatialMappings<Vec3f, Vec3d>, BarycentricMapping<Vec3d, Rigid3d>, PointMappings<Vec1d, Vec1d>,
+             PointMappings<Vec2d, Vec2d>, PointMappings<Vec6d, Vec6d>, RigidMappings<Rigid3d, Vec3d, Vec3f>,
              RigidMappings<Rigid3f, Vec3f, Vec3d>, IdentityMapping<Rigid2d, Rigid2d>,
              RigidMapping<Rigid2d, Rigid2d>, RigidMapping<Rigid2d, Vec2d>>;
 template <template <class> class Solver>
@@ -151,7 +154,8 @@ using StandardSolvers =
              AssembledSolvers<CGLinearSolver>, CGLinearSolver<CompressedRowSparseMatrixMat3x3f>,
              MinResLinearSolver<>, AssembledSolvers<MinResLinearSolver>, ShewchukPCGLinearSolver<>,
              AssembledSolvers<ShewchukPCGLinearSolver>, AssembledSolvers<MultigridLinearSolver>,
-             AssembledSolvers<SparseLDLSolver>, AssembledSolvers<CholeskySolver>>;
+             AssembledSolvers<SparseLDLSolver>, AssembledSolvers<CholeskySolver>,
+             AssembledSolvers<PrecomputedLinearSolver>>;
 template <class D>
 using Regions = Registry<BoxROI<D>, SphereROI<D>, PairBoxROI<D>, NearestPointROI<D>>;
 // meshes made, merged and divided, and what is known of them

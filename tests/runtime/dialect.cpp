@@ -577,9 +577,18 @@ TEST_CASE("what has no effect on a picture, or on a response that is named, is t
       "response='PenalityContactForceField' responseParams='mu=0.5'/>"
       "<Node name='n'><OglModel/><IdentityMapping mapForces='0' mapMasses='0'/></Node>");
   CHECK(scene.warnings.empty());
-  CHECK_THAT(wrong("<MechanicalObject position='0 0 0'/><Node name='n'><MechanicalObject/><IdentityMapping "
-                   "mapForces='0'/></Node>"),
-             Catch::Contains("mapForces is not simulated"));
+  const std::string mapped =
+      "<MechanicalObject position='0 0 0'/><Node name='n'><MechanicalObject name='child'/><IdentityMapping ";
+  CHECK(node(mapped + "mapForces='0' mapMasses='0' mapConstraints='0'/></Node>").warnings.empty());
+  for (std::string const below :
+       {"<UniformMass/></Node>",
+        "<Node name='m'><ConstantForceField indices='0' force='0 1 0'/></Node></Node>",
+        "</Node><Node name='j'><MechanicalObject/><SubsetMultiMapping input='@/n' indexPairs='0 0'/></Node>"})
+    CHECK_THAT(wrong(mapped + "mapForces='0'/>" + below), Catch::Contains("mapForces is not simulated"));
+  CHECK_THAT(wrong(mapped + "mapMasses='0'/><UniformMass/></Node>"),
+             Catch::Contains("mapMasses is not simulated"));
+  CHECK(node(mapped + "mapMasses='0'/><ConstantForceField indices='0' force='0 1 0'/></Node>")
+            .warnings.empty());
 }
 
 TEST_CASE("what old scenes say beside is ignored") {

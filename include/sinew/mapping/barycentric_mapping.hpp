@@ -2,12 +2,14 @@
 #pragma once
 
 #include <sinew/core/component.hpp>
+#include <sinew/mapping/carried_frames.hpp>
 #include <sinew/mapping/carried_points.hpp>
 #include <sinew/topology/element_checks.hpp>
 #include <sinew/topology/point_location.hpp>
 
 #include <array>
 #include <limits>
+#include <type_traits>
 #include <vector>
 
 namespace sinew {
@@ -22,6 +24,13 @@ namespace sinew {
 /// Where hexahedra of a SparseGridRamificationTopology are at one place, a point goes with the one whose
 /// finer cell is around it.
 ///
+/// Frames (Rigid3) are carried by tetrahedra and hexahedra: their centres as points are, and they turn with
+/// the rotation R of the polar decomposition F = R S of the deformation gradient where they are,
+///   w = R (tr(S) I - S)^-1 sum_k g_k x R' v_k        (g_k: gradient of w_k at rest)
+/// of which forces have the transpose: they do the same work on both, and what it adds to the stiffness of
+/// the parent is left out. SOFA has another angular velocity, sum_k X_k x v_k of the four places in the
+/// world, which is no derivative of the orientation and depends on where the origin is.
+///
 /// Points of the child are looked for where they are given, among elements at rest. With `useRestPosition`
 /// they are looked for where they rest: a child that starts elsewhere is then carried from there to its
 /// parent.
@@ -32,8 +41,8 @@ struct BarycentricMapping {
   using Out = O;
   using Real = typename Out::Real;
   using Weight = typename In::Real;
-  static_assert(!In::rigid && !Out::rigid && In::size == 3 && Out::size == 3,
-                "BarycentricMapping joins points in space");
+  static_assert(!In::rigid && In::size == 3 && Out::spatial == 3 && (Out::rigid || Out::size == 3),
+                "BarycentricMapping joins points, or frames, to points in space");
   static constexpr std::string_view className = "BarycentricMapping";
   // points that lie in elements of the parent
   static constexpr std::string_view aliases =
@@ -51,7 +60,7 @@ struct BarycentricMapping {
 
   // of each point; the other points of elements with more than four, empty where there is none
   std::vector<Carrier<Weight>> carriers{}, others{};
-  CarriedPoints<In, Out> together{};
+  std::conditional_t<Out::rigid, CarriedFrames<In, Out>, CarriedPoints<In, Out>> together{};
 
   void init(InitContext<In> const& parent, InitContext<Out> const& child, typename Out::VecCoord& positions) {
     const std::string where = text(child.where, ": ", component_name<BarycentricMapping>());
@@ -77,16 +86,24 @@ struct BarycentricMapping {
       const ElementLocator<Fit> locator(points, elements);
       for (std::size_t i = 0; i < choices.size() && !elements.empty(); ++i)
         if (choices[i].score < 0)
-          choices[i].consider(locator.locate(places[i].template cast<double>()), elements);
+          choices[i].consider(locator.locate(Out::center(places[i]).template cast<double>()), elements);
     };
+    if (Out::rigid && topology.tetrahedra.empty() && topology.hexahedra.empty())
+      throw Error(where,
+                  text("the topology of ",
+                       parent.where,
+                       " has neither tetrahedra nor hexahedra, with which frames would turn; give the parent "
+                       "some, or map to points"));
     if (dimension_of(topology) == 3) {
       offer(std::type_identity<TetrahedronFit>{}, topology.tetrahedra);
       if (topology.finer.hexahedra.empty() || !topology.tetrahedra.empty())
         offer(std::type_identity<MultilinearFit<3>>{}, topology.hexahedra);
       else
         chooseByFinerCells(choices, points, topology, places);
-      offer(std::type_identity<CollapsedFit<Pyramid>>{}, topology.pyramids);
-      offer(std::type_identity<CollapsedFit<Prism>>{}, topology.prisms);
+      if constexpr (!Out::rigid) {
+        offer(std::type_identity<CollapsedFit<Pyramid>>{}, topology.pyramids);
+        offer(std::type_identity<CollapsedFit<Prism>>{}, topology.prisms);
+      }
     } else if (!topology.triangles.empty() || !topology.quads.empty()) {
       offer(std::type_identity<TriangleFit>{}, topology.triangles);
       offer(std::type_identity<MultilinearFit<2>>{}, topology.quads);
@@ -115,9 +132,10 @@ struct BarycentricMapping {
         }
     }
     together.init(parent.rest.size(), carriers, others);
+    if constexpr (Out::rigid) together.place(points, places, carriers, others);
   }
 
-  void apply(typename Out::VecCoord& out, typename In::VecCoord const& in) const {
+  void apply(typename Out::VecCoord& out, typename In::VecCoord const& in) {
     together.apply(out, in, carriers, others);
   }
   void ask(typename Out::VecCoord const& out, typename In::VecCoord const& in) const {
@@ -131,12 +149,15 @@ struct BarycentricMapping {
   }
   template <class F>
   void forEachJacobianBlock(int point, F&& f) const {
-    for (auto const* list : {&carriers, &others})
-      for (std::size_t k = 0; k < 4 && !list->empty(); ++k) {
-        auto const& carrier = (*list)[std::size_t(point)];
-        if (carrier.weights[k] != 0)
-          f(carrier.points[k], Mat<Real, 3>(Mat<Real, 3>::Identity() * Real(carrier.weights[k])));
-      }
+    if constexpr (Out::rigid)
+      together.forEachJacobianBlock(point, carriers, others, f);
+    else
+      for (auto const* list : {&carriers, &others})
+        for (std::size_t k = 0; k < 4 && !list->empty(); ++k) {
+          auto const& carrier = (*list)[std::size_t(point)];
+          if (carrier.weights[k] != 0)
+            f(carrier.points[k], Mat<Real, 3>(Mat<Real, 3>::Identity() * Real(carrier.weights[k])));
+        }
   }
 
  private:
@@ -166,7 +187,7 @@ struct BarycentricMapping {
     using Fit = MultilinearFit<3>;
     const ElementLocator<Fit> locator(topology.finer.positions, topology.finer.hexahedra);
     for (std::size_t i = 0; i < choices.size(); ++i) {
-      const Eigen::Vector3d p = positions[i].template cast<double>();
+      const Eigen::Vector3d p = Out::center(positions[i]).template cast<double>();
       const int cell = locator.locate(p).element;
       if (cell < 0) continue;
       const Index parent = topology.finer.parents[std::size_t(cell)];

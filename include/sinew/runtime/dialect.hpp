@@ -242,7 +242,8 @@ inline constexpr std::array standsFor = std::to_array<StandsFor>(
      {"TetrahedralTensorMassForceField", "TetrahedronFEMForceField", "method", "small"},
      {"TetrahedralTensorMassForceField", "TetrahedronFEMForceField", "youngModulus", "1000"},
      {"TetrahedralTensorMassForceField", "TetrahedronFEMForceField", "poissonRatio", "0.3"},
-     {"NodalLinearDampingForceField", "UniformVelocityDampingForceField", "implicit", "1"}});
+     {"NodalLinearDampingForceField", "UniformVelocityDampingForceField", "implicit", "1"},
+     {"InteractionEllipsoidForceField", "InteractionEllipsoidForceField", "object2_forces", "1"}});
 
 /// Words that such a class has for values of an attribute of the other one.
 struct OtherWord {

@@ -194,9 +194,15 @@ constexpr Place place_before() {
   if constexpr (!std::is_same_v<P, NoScope>) found.before = comes_before<S, Path>();
   return found;
 }
-template <class S, class D, FixedString... Paths>
+template <class S, class C, FixedString... Paths>
 constexpr std::array<Place, sizeof...(Paths)> places_before(Parents<Paths...>) {
-  return {place_before<S, D, Paths>()...};
+  return []<std::size_t... K>(std::index_sequence<K...>) {
+    return std::array<Place, sizeof...(Paths)>{place_before<S, InOfParent<C, ParentNumber<K>>, Paths>()...};
+  }(std::index_sequence_for<Named<Paths>...>{});
+}
+template <FixedString... Paths>
+constexpr std::size_t count_of(Parents<Paths...>) {
+  return sizeof...(Paths);
 }
 
 /// What rules::broken asks about a component C of a typed node.
@@ -238,7 +244,11 @@ struct Facts {
   }
   static constexpr Rule named() {
     if constexpr (HasParents<C>) {
-      return std::is_same_v<typename C::Parents, LinkedParents> ? Rule::parentsByLinks : Rule::none;
+      if constexpr (std::is_same_v<typename C::Parents, LinkedParents>)
+        return Rule::parentsByLinks;
+      else
+        return HasTwoKindsOfParents<C> && count_of(typename C::Parents{}) != 2 ? Rule::notTwoParents
+                                                                               : Rule::none;
     } else {
       return std::is_same_v<typename C::Ends, Linked> ? Rule::endsByLinks : Rule::none;
     }
@@ -252,7 +262,7 @@ struct Facts {
   }
   static constexpr auto parents() {
     if constexpr (named() == Rule::none)
-      return places_before<S, typename C::In>(typename C::Parents{});
+      return places_before<S, C>(typename C::Parents{});
     else
       return std::array<Place, 0>{};
   }

@@ -14,6 +14,7 @@
 #include <sinew/scene/topological_changes.hpp>
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -78,9 +79,13 @@ class Initialisation {
         if (mapsRest) child.restPosition.assign(child.position.size(), C::Out::zero());
       }
     });
+    if (mapsRest)
+      scope.withMapped(c, [&](auto& mapping, auto& child, auto& parent) {
+        if constexpr (HasRole<std::decay_t<decltype(child)>, role::State>)
+          mapping.apply(child.restPosition, parent.restPosition);
+      });
     scope.withMapped(c, [&](auto& mapping, auto& child, auto& parent) {
       if constexpr (HasRole<std::decay_t<decltype(child)>, role::State>) {
-        if (mapsRest) mapping.apply(child.restPosition, parent.restPosition);
         mapping.apply(child.position, parent.position);
       } else {
         follow_mapping(mapping, child, parent);
@@ -94,7 +99,15 @@ class Initialisation {
   static void initMapping(C& c, S const& scope, VecCoord const& rest, VecCoord& positions) {
     using In = typename C::In;
     const InitContext<typename C::Out> own{scope.path(), rest, scope.topology()};
-    if constexpr (HasParents<C>) {
+    if constexpr (HasTwoKindsOfParents<C>) {
+      std::optional<InitContext<In>> first;
+      scope.forEachParent(c, [&](auto k, auto const& parent) {
+        if constexpr (k == 0)
+          first.emplace(parent.template context<In>());
+        else
+          c.init(*first, parent.template context<typename C::In2>(), own, positions);
+      });
+    } else if constexpr (HasParents<C>) {
       std::vector<InitContext<In>> parents;
       scope.forEachParent(
           c, [&](std::size_t, auto const& parent) { parents.push_back(parent.template context<In>()); });

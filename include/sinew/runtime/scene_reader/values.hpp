@@ -176,6 +176,7 @@ class SceneValues {
       return others_.geometry(item, a);
     const bool maps = item.info->role == RoleKind::mapping || item.info->traits.joinsTopologies;
     if (maps && (a.name == "input" || a.name == "output")) return;
+    if (!item.info->in2.empty() && (a.name == "input1" || a.name == "input2")) return;
     FieldInfo const* field = nullptr;
     int number = -1;  // of a list among several
     for (auto const& f : item.info->fields) {
