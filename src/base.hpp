@@ -67,3 +67,4 @@
 #include <sinew/topology/subdivision.hpp>
 #include <sinew/topology/surface_cells.hpp>
 #include <sinew/topology/surface_sampling.hpp>
+#include <sinew/topology/tear_plan.hpp>

@@ -2189,6 +2189,19 @@ constexpr auto classExamples = std::to_array<ClassExample>({
   <FixedConstraint indices="0 1"/>
   <TopologyBoundingTrasher box="-1 -1 -0.5 2 3 1"/>
 </Node>)"},
+    {"TearingEngine", R"(
+<Node name="sheet" gravity="0 0 0">
+  <EulerImplicitSolver rayleighStiffness="0.01" rayleighMass="1"/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <GridMeshCreator name="grid" resolution="8 8" trianglePattern="1"/>
+  <MeshTopology triangles="@grid.triangles"/>
+  <MechanicalObject src="@grid"/>
+  <DiagonalMass massDensity="1"/>
+  <TriangleFEMForceField youngModulus="1000" poissonRatio="0.3" thickness="0.01"/>
+  <FixedConstraint indices="0 1 2 3 4 5 6 7"/>
+  <LinearMovementConstraint indices="56 57 58 59 60 61 62 63" keyTimes="0 1" movements="0 0 0  0 1 0"/>
+  <TearingEngine stressThreshold="300" fractureMaxLength="0.3" step="2"/>
+</Node>)"},
     {"CuttingManager", R"(
 <Node name="root" gravity="0 0 -9.81">
   <CuttingManager toolModel="@blade" bodyModel="@sheet"/>

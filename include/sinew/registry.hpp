@@ -231,7 +231,8 @@ using StandardMultipliers =
              LagrangianConstraints>;
 
 using GridFluids = Registry<Fluid2D<Vec2d>, Fluid3D<Vec3d>, Fluid3D<Vec3f>>;
-using ChangingTopologies = Registry<TopologicalChangeProcessor, TopologyBoundingTrasher<Vec3d>>;
+using ChangingTopologies =
+    Registry<TopologicalChangeProcessor, TopologyBoundingTrasher<Vec3d>, TearingEngine<Vec3d>>;
 
 /// Every component that Sinew brings, over the DataTypes that scenes use.
 struct Standard

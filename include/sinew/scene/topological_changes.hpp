@@ -42,6 +42,7 @@ struct TopologicalChanges {
                      "the elements of its topology are made from a few numbers, and none of them can be "
                      "removed; give the node a MeshTopology with these elements");
                c.prepare(where, scope.topology());
+               if constexpr (TearsElements<std::decay_t<decltype(c)>>) this->prepareTearing(where, scope);
              }));
   }
 
@@ -60,7 +61,12 @@ struct TopologicalChanges {
         bool keepsLast = false;
         at(number, [&](auto& c, auto const& scope) {
           here = this->place(scope);
-          due = find(c, scope, here.points, time, order);
+          if constexpr (TearsElements<std::decay_t<decltype(c)>>) {
+            cut = this->tear(c, scope);
+            due = cut.has_value();
+          } else {
+            due = find(c, scope, here.points, time, order);
+          }
           if (due && !order.box.empty())
             addThoseIn(order.box, scope.topology(), positionsOf(scope.pointsAddress()), order.gone);
           keepsLast = due && order.removes() && keepOne(scope.topology(), order.gone);
@@ -76,8 +82,10 @@ struct TopologicalChanges {
         });
         if (!due) break;
         const bool some = order.removes() || !order.added.empty() || cut;
+        bool changes = true;
         if (cut) {
           const Cut done = edit(here.path, *cut);
+          changes = done.change.changes();
           at(number, [&](auto& c, auto const&) {
             if constexpr (requires { c.front; }) c.front = done.front;
           });
@@ -87,13 +95,18 @@ struct TopologicalChanges {
           edit(here.path, order.added);
         }
         any = any || some;
-        at(number, [](auto& c, auto const&) {
-          if constexpr (FindsChanges<std::decay_t<decltype(c)>>)
+        bool again = !keepsLast;  // else it would be found again
+        at(number, [&](auto& c, auto const&) {
+          if constexpr (TearsElements<std::decay_t<decltype(c)>>) {
+            c.changeMade(changes);
+            again = false;
+          } else if constexpr (FindsChanges<std::decay_t<decltype(c)>>) {
             c.changeMade();
-          else
+          } else {
             c.elementsRemoved();
+          }
         });
-        if (keepsLast) break;  // it would be found again
+        if (!again) break;
       }
     return any;
   }
@@ -177,6 +190,52 @@ struct TopologicalChanges {
       }
     }
     return cut;
+  }
+  template <class S>
+  void prepareTearing(std::string const& where, S const& scope) const {
+    bool any = false;
+    traverse(root, on<role::ForceField>([&](auto const& force, auto const& at) {
+               any = any || (GivesStress<std::decay_t<decltype(force)>> && actsThere(at, scope));
+             }));
+    if (!any)
+      throw Error(where,
+                  "no force field of its node says what stresses the elements are under, and so none would "
+                  "tear; give the node a TriangleFEMForceField or a TetrahedronFEMForceField");
+    CutBody<RootScope>(root, scope.topologyAddress(), scope.pointsAddress());
+  }
+  template <class F, class S>
+  static bool actsThere(F const& at, S const& scope) {
+    return at.topologyAddress() == scope.topologyAddress() && at.stateAddress() == scope.pointsAddress();
+  }
+  template <class C, class S>
+  std::optional<CutOrder> tear(C& c, S const& scope) const {
+    using D = typename C::DataTypes;
+    if (!c.looks(scope.topology())) return {};
+    traverse(root, on<role::ForceField>([&](auto const& force, auto const& at) {
+               using F = std::decay_t<decltype(force)>;
+               if constexpr (GivesStress<F>)
+                 if (actsThere(at, scope)) {
+                   auto const& state = at.template state<typename F::DataTypes>();
+                   force.addStress({{}, state.restPosition, at.topology()}, state.position, c.stress);
+                 }
+             }));
+    if (!c.overloaded()) return {};
+    auto const& state = scope.template state<D>();
+    std::vector<bool> held(state.size(), false);
+    traverse(root, on<role::ProjectiveConstraint>([&](auto const& constraint, auto const& at) {
+               using P = std::decay_t<decltype(constraint)>;
+               if constexpr (!JoinsTwo<P>)
+                 if constexpr (std::is_same_v<typename P::DataTypes, D>)
+                   if (at.stateAddress() == scope.pointsAddress()) {
+                     typename D::VecDeriv moves(state.size(), D::Deriv::Ones());
+                     constraint.projectResponse(moves);
+                     for (std::size_t i = 0; i < held.size(); ++i)
+                       held[i] = held[i] || moves[i].squaredNorm() == 0;
+                   }
+             }));
+    const auto stroke = c.tear(scope.topology(), centers_of(state, state.position), held);
+    if (!stroke) return {};
+    return CutOrder{*stroke, c.rules(), c.front, {}};
   }
   // Leaves the first element out where all of the highest dimension would go.
   static bool keepOne(TopologyView const& topology, ElementNumbers& elements) {

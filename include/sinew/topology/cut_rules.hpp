@@ -37,6 +37,8 @@ struct CutFront {
   /// Faces that part when the cut goes on there, since all their points are in its end: in rising order, of a
   /// surface edges with -1 behind.
   std::vector<Triangle> faces{};
+  /// The same of surfaces that the body carries, in the order of their mappings.
+  std::vector<CutFront> carried{};
 };
 
 }  // namespace sinew
