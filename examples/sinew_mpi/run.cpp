@@ -174,7 +174,9 @@ class Effort {
     for (std::size_t i = 0; i < n.size(); ++i) n[i] -= start_[i];
     double points = 0, ghosts = 0;
     traverse(sim.scope(), on<role::State>([&](auto& s, auto const&) {
-               points += double(s.owned()), ghosts += double(s.ghosts);
+               mpi::Halo const& halo = sim.halo(s);
+               for (const Index i : halo.numbers)
+                 ++(halo.parts[std::size_t(i)] == ranks.rank() ? points : ghosts);
              }));
     // the shortest of many sums over all ranks
     double latency = 1e9;

@@ -268,6 +268,7 @@ class ShareOut {
   // a state that no other moves
   void share(State& s) {
     const int rank = to_.ranks().rank(), ranks = to_.ranks().size();
+    compare(s);
     if (!s.moves) return keepWhole(s);
     Points everywhere;
     std::vector<Points> together = s.joined;
@@ -287,7 +288,6 @@ class ShareOut {
       });
     }
     once(everywhere);
-    compare(s);
     std::vector<int> parts;
     if (rank == 0) parts = parts_of_points(s.where, s.points, s.views, ranks, together);
     to_.ranks().broadcast(parts, "the parts of the scene, from rank 0");
