@@ -61,8 +61,24 @@ struct BarycentricMapping {
   // of each point; the other points of elements with more than four, empty where there is none
   std::vector<Carrier<Weight>> carriers{}, others{};
   std::conditional_t<Out::rigid, CarriedFrames<In, Out>, CarriedPoints<In, Out>> together{};
+  bool shared = false;
+
+  /// In a scene whose ranks have parts of both states, a point stays with the element that it had in the
+  /// whole one.
+  void shareOut(Renumbering const& points, Renumbering const& parents) {
+    points.filter(carriers), points.filter(others);
+    for (auto* list : {&carriers, &others})
+      for (auto& carrier : *list)
+        for (std::size_t k = 0; k < 4; ++k) {
+          parents.renumber(carrier.points[k]);
+          if (carrier.points[k] < 0) carrier.points[k] = 0;  // of no weight
+        }
+    shared = true;
+  }
 
   void init(InitContext<In> const& parent, InitContext<Out> const& child, typename Out::VecCoord& positions) {
+    if (shared && carriers.size() == positions.size())
+      return together.init(parent.rest.size(), carriers, others);
     const std::string where = text(child.where, ": ", component_name<BarycentricMapping>());
     TopologyView const& topology = parent.topology;
     check_element_indices(text(where, ": ", parent.where), topology, parent.rest.size());
