@@ -65,7 +65,9 @@ struct BarycentricMapping {
 
   /// In a scene whose ranks have parts of both states, a point stays with the element that it had in the
   /// whole one.
-  void shareOut(Renumbering const& points, Renumbering const& parents) {
+  void shareOut(Renumbering const& points, Renumbering const& parents)
+  requires(!Out::rigid)
+  {
     points.filter(carriers), points.filter(others);
     for (auto* list : {&carriers, &others})
       for (auto& carrier : *list)
