@@ -199,7 +199,7 @@ struct MeshMatrixMass {
     auto collapsed = [&](auto const& all) {
       for (auto const& e : all) {
         const Hexahedron h = as_hexahedron(e);
-        f(h, number++, multilinear<3>(h, at));
+        f(h, number++, multilinear_mass<3>(cornersOf(h)).eval());
       }
     };
     if (have(MassElements::pyramids, volumes)) collapsed(t.pyramids);
