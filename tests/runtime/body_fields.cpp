@@ -5,6 +5,7 @@
 
 #include <sinew/engines.hpp>
 #include <sinew/mechanics.hpp>
+#include <sinew/runtime/precompiled.hpp>
 #include <sinew/runtime/read_scene.hpp>
 #include <sinew/runtime/runtime.hpp>
 #include <sinew/runtime/save_scene.hpp>
@@ -17,12 +18,7 @@ using namespace sinew;
 
 namespace {
 
-struct Mine
-    : Registry<Gravity, EulerImplicitSolver, CGLinearSolver<>, SparseLDLSolver<CompressedRowSparseMatrixd>,
-               MeshTopology, MechanicalObject<Vec3d>, MechanicalObject<Vec1d>, UniformMass<Vec3d>,
-               MeshMatrixMass<Vec3d>, MeshMatrixMass<Vec1d>, DiagonalMass<Vec1d>, FixedConstraint<Vec1d>,
-               LinearMovementConstraint<Vec1d>, TetrahedronDiffusionFEMForceField<Vec1d>, MeshOBJLoader,
-               BoxROI<Vec3d>> {};
+using Mine = Standard;
 
 /// Two tetrahedra along x, and what stands in the node of the temperatures.
 std::string scene(std::string const& inside,

@@ -5,6 +5,7 @@
 
 #include <sinew/engines.hpp>
 #include <sinew/mechanics.hpp>
+#include <sinew/runtime/precompiled.hpp>
 #include <sinew/runtime/read_scene.hpp>
 #include <sinew/runtime/runtime.hpp>
 #include <sinew/runtime/save_scene.hpp>
@@ -18,14 +19,7 @@ using namespace sinew;
 
 namespace {
 
-struct Mine
-    : Registry<Gravity, EulerImplicitSolver, CGLinearSolver<>, MeshTopology, RegularGridTopology,
-               SparseGridTopology, SparseGridMultipleTopology, MechanicalObject<Vec3d>,
-               MechanicalObject<Rigid3d>, UniformMass<Rigid3d>, UniformMass<Vec3d>, MeshMatrixMass<Vec3d>,
-               HexahedronFEMForceField<Vec3d>, HexahedronCompositeFEMForceField<Vec3d>,
-               HexahedronCompositeFEMMass<Vec3d>, HexahedronCompositeFEMMapping<Vec3d, Vec3d>,
-               RigidMapping<Rigid3d, Vec3d>, IdentityMapping<Vec3d, Vec3d>, IdentityMapping<Vec3d, Vec3f>,
-               BoxROI<Vec3d>, VisualModel> {};
+using Mine = Standard;
 
 ReadScene<Mine> read(std::string const& inside) {
   return parse_scene<Mine>("test.scn", "<Node gravity='0 0 -10'>" + inside + "</Node>");

@@ -6,6 +6,7 @@
 #include <sinew/contact.hpp>
 #include <sinew/engines.hpp>
 #include <sinew/mechanics.hpp>
+#include <sinew/runtime/precompiled.hpp>
 #include <sinew/runtime/read_scene.hpp>
 #include <sinew/runtime/runtime.hpp>
 #include <sinew/runtime/save_scene.hpp>
@@ -19,15 +20,7 @@ using namespace sinew;
 
 namespace {
 
-struct Few
-    : Registry<Gravity, DefaultPipeline, BruteForceBroadPhase, BVHNarrowPhase, MinProximityIntersection,
-               DefaultContactManager, CuttingManager, RegularGridTopology, MeshTopology, EulerImplicitSolver,
-               CGLinearSolver<>, Hexa2TetraTopologicalMapping, Tetra2TriangleTopologicalMapping,
-               TransformEngine<Vec3d>, BoxROI<Vec3d>, MechanicalObject<Vec3d>, MechanicalObject<Rigid3d>,
-               DiagonalMass<Vec3d>, MeshMatrixMass<Vec3d>, TetrahedronFEMForceField<Vec3d>,
-               FixedConstraint<Vec3d>, LinearForceField<Vec3d>, LinearMovementConstraint<Vec3d>,
-               LinearMovementConstraint<Rigid3d>, TriangleCollisionModel<Vec3d>, VisualModel,
-               IdentityMapping<Vec3d, Vec3f>, RigidMapping<Rigid3d, Vec3d>> {};
+using Few = Standard;
 using Sim = Simulation<RuntimeNode<Few>>;
 
 struct Started {

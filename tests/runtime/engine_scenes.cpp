@@ -5,6 +5,7 @@
 #include "error_of.hpp"
 
 #include <sinew/registry.hpp>
+#include <sinew/runtime/precompiled.hpp>
 #include <sinew/runtime/read_scene.hpp>
 #include <sinew/runtime/runtime.hpp>
 
@@ -19,12 +20,7 @@ using Points = std::vector<Eigen::Vector3d>;
 
 namespace {
 
-struct Mine : Registry<Gravity, EulerImplicitSolver, CGLinearSolver<>, MeshTopology, RegularGridTopology,
-                       MeshOBJLoader, MechanicalObject<Vec3d>, MechanicalObject<Rigid3d>, UniformMass<Vec3d>,
-                       UniformMass<Rigid3d>, LinearMovementConstraint<Vec3d>, FixedConstraint<Vec3d>,
-                       MergeMeshes<Vec3d>, MergeVectors, MeshSplittingEngine, ValuesFromIndices,
-                       DifferenceEngine, NormEngine, HausdorffDistance, NearestPointROI<Vec3d>, BoxROI<Vec3d>,
-                       QuatToRigidEngine, SelectLabelROI, SmoothMeshEngine, VolumeFromTriangles<Vec3d>> {};
+using Mine = Standard;
 
 ReadScene<Mine> read(std::string const& content) {
   return parse_scene<Mine>("test.scn", "<Node>" + content + "</Node>");

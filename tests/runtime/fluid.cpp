@@ -5,6 +5,7 @@
 
 #include <sinew/core/registry.hpp>
 #include <sinew/mechanics.hpp>
+#include <sinew/runtime/precompiled.hpp>
 #include <sinew/runtime/read_scene.hpp>
 #include <sinew/runtime/runtime.hpp>
 #include <sinew/solver/dfsph.hpp>
@@ -15,9 +16,7 @@ namespace test_fluid {
 
 using namespace sinew;
 
-struct Mine : Registry<Gravity, DFSPHSolver, EulerExplicitSolver, CubeTopology, SurfaceSampling,
-                       MechanicalObject<Vec3d>, MechanicalObject<Rigid3d>, UniformMass<Vec3d>,
-                       UniformMass<Rigid3d>, FluidBoundary<Vec3d>, RigidMapping<Rigid3d, Vec3d>> {};
+using Mine = Standard;
 
 TEST_CASE("a drop falls on a box, in a scene file and in a typed scene, with the same bits") {
   Simulation read{parse_scene<Mine>("test.scn", R"(<Node gravity="0 -10 0">

@@ -10,6 +10,7 @@
 #include <sinew/fluid/fluid2d.hpp>
 #include <sinew/fluid/fluid3d.hpp>
 #include <sinew/runtime/checks.hpp>
+#include <sinew/runtime/precompiled.hpp>
 #include <sinew/runtime/read_scene.hpp>
 #include <sinew/runtime/save_scene.hpp>
 #include <sinew/scene/simulation.hpp>
@@ -22,7 +23,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-struct Few : Registry<Gravity, Threads, Fluid2D<Vec2d>, Fluid3D<Vec3d>> {};
+using Few = Standard;
 using Few_simulation = Simulation<RuntimeNode<Few>>;
 
 constexpr char const* scene =
@@ -32,7 +33,8 @@ constexpr char const* scene =
 
 std::vector<double> flow_of(Few_simulation& sim) {
   std::vector<double> flow;
-  sim.visit<role::BehaviorModel>([&](auto const& model, auto const&) { flow = model.flow; });
+  sim.visit<role::BehaviorModel>(
+      [&](auto const& model, auto const&) { flow.assign(model.flow.begin(), model.flow.end()); });
   return flow;
 }
 Few_simulation started(ReadScene<Few> read) {

@@ -7,6 +7,7 @@
 #include <sinew/fluid/fluid3d.hpp>
 #include <sinew/mechanics.hpp>
 #include <sinew/registry.hpp>
+#include <sinew/runtime/precompiled.hpp>
 #include <sinew/runtime/read_scene.hpp>
 #include <sinew/runtime/runtime.hpp>
 #include <sinew/solver/dfsph.hpp>
@@ -17,18 +18,7 @@ using namespace sinew;
 
 namespace {
 
-struct Few
-    : Registry<Gravity, Threads, Fluid2D<Vec2d>, Fluid3D<Vec3d>, DFSPHSolver, EulerExplicitSolver,
-               EulerImplicitSolver, CGLinearSolver<>, CGLinearSolver<CompressedRowSparseMatrixMat3x3d>,
-               CubeTopology, MeshTopology, RegularGridTopology, SparseGridTopology, MechanicalObject<Vec3d>,
-               MechanicalObject<Rigid3d>, MechanicalObject<Vec3f>, UniformMass<Vec3d>, UniformMass<Rigid3d>,
-               HexahedronFEMForceField<Vec3d>, SPHFluidForceField<Vec3d>, PlaneForceField<Vec3d>,
-               ConstantForceField<Rigid3d>, FluidBoundary<Vec3d>, ImmersedSolid<Vec3d>,
-               FixedConstraint<Vec3d>, PartialFixedConstraint<Rigid3d>, ParticleSource<Vec3d>,
-               ParticleSink<Vec3d>, RigidMapping<Rigid3d, Vec3d>, BarycentricMapping<Vec3d, Vec3d>,
-               BarycentricMapping<Vec3d, Vec3f>, IdentityMapping<Vec3d, Vec3f>,
-               SPHFluidSurfaceMapping<Vec3d, Vec3f>, VisualModel, MeshOBJLoader, SurfaceSampling,
-               BoxROI<Vec3d>> {};
+using Few = Standard;
 
 auto started(std::string const& name) {
   auto read = read_scene<Few>(std::string(SINEW_EXAMPLE_SCENES) + "/" + name);

@@ -3,6 +3,7 @@
 #include "catch.hpp"
 
 #include <sinew/mechanics.hpp>
+#include <sinew/runtime/precompiled.hpp>
 #include <sinew/runtime/read_scene.hpp>
 #include <sinew/runtime/runtime.hpp>
 #include <sinew/runtime/save_scene.hpp>
@@ -13,10 +14,7 @@ using namespace sinew;
 
 namespace {
 
-struct Mine : Registry<Gravity, EulerImplicitSolver, CGLinearSolver<>, RegularGridTopology,
-                       MechanicalObject<Vec3d>, MechanicalObject<Rigid3d>, UniformMass<Vec3d>,
-                       UniformMass<Rigid3d>, TetrahedronFEMForceField<Vec3d>, FixedConstraint<Vec3d>,
-                       GearSpringForceField<Rigid3d>, GearSpringForceField<Rigid3d, Linked>> {};
+using Mine = Standard;
 
 template <class D>
 void goes_on(std::string const& words, int before) {

@@ -9,6 +9,7 @@
 #include <sinew/mapping/rigid_mapping.hpp>
 #include <sinew/mass/uniform_mass.hpp>
 #include <sinew/runtime/bake.hpp>
+#include <sinew/runtime/precompiled.hpp>
 #include <sinew/runtime/read_scene.hpp>
 #include <sinew/runtime/runtime.hpp>
 #include <sinew/runtime/save_scene.hpp>
@@ -28,20 +29,7 @@ using namespace sinew;
 
 namespace {
 
-template <template <class, class> class C, class D>
-using Either = Registry<C<D, Within>, C<D, Linked>>;
-
-struct Mine
-    : Registry<Gravity, FreeMotionAnimationLoop, BlockGaussSeidelConstraintSolver, ConvexConstraintSolver,
-               EulerExplicitSolver, EulerImplicitSolver, SparseLDLSolver<>, MeshTopology,
-               MechanicalObject<Vec1d>, MechanicalObject<Vec3d>, MechanicalObject<Rigid3d>,
-               UniformMass<Vec1d>, UniformMass<Vec3d>, UniformMass<Rigid3d>, ConstantForceField<Vec1d>,
-               FixedConstraint<Vec3d>, DistanceMapping<Vec3d, Vec1d>, RigidMapping<Rigid3d, Vec3d>,
-               FixedLagrangianConstraint<Rigid3d>, UniformLagrangianConstraint<Vec1d>,
-               StopperLagrangianConstraint<Vec1d>, Either<BilateralLagrangianConstraint, Vec3d>,
-               Either<BilateralLagrangianConstraint, Rigid3d>, Either<SlidingLagrangianConstraint, Vec3d>,
-               Either<UnilateralLagrangianConstraint, Vec3d>, Either<AugmentedLagrangianConstraint, Vec3d>> {
-};
+using Mine = Standard;
 
 // each constraint once; what moves is in nodes of its own
 const std::string xml = R"(<Node name="root" gravity="0 -10 0" dt="0.01">

@@ -7,6 +7,7 @@
 #include <sinew/control/write_state.hpp>
 #include <sinew/core/registry.hpp>
 #include <sinew/mechanics.hpp>
+#include <sinew/runtime/precompiled.hpp>
 #include <sinew/runtime/runtime.hpp>
 #include <sinew/runtime/save_scene.hpp>
 #include <sinew/view/seen_scene.hpp>
@@ -16,10 +17,7 @@ namespace test_runtime_particles {
 using namespace sinew;
 using Catch::Contains;
 
-struct Mine
-    : Registry<Gravity, EulerExplicitSolver, EulerImplicitSolver, CGLinearSolver<>, MechanicalObject<Vec3d>,
-               UniformMass<Vec3d>, SPHFluidForceField<Vec3d>, PlaneForceField<Vec3d>, FixedConstraint<Vec3d>,
-               RegularGridTopology, ParticleSource<Vec3d>, ParticleSink<Vec3d>, WriteState<Vec3d>> {};
+using Mine = Standard;
 using Running = Simulation<RuntimeNode<Mine>>;
 
 namespace {

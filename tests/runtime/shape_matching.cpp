@@ -5,6 +5,7 @@
 
 #include <sinew/engines.hpp>
 #include <sinew/mechanics.hpp>
+#include <sinew/runtime/precompiled.hpp>
 #include <sinew/runtime/read_scene.hpp>
 #include <sinew/runtime/runtime.hpp>
 #include <sinew/runtime/save_scene.hpp>
@@ -16,8 +17,7 @@ using namespace sinew;
 namespace {
 
 using Pbd = PositionBasedDynamicsProjectiveConstraint<Vec3d>;
-struct Mine : Registry<Gravity, EulerImplicitSolver, CGLinearSolver<>, MeshTopology, MechanicalObject<Vec3d>,
-                       UniformMass<Vec3d>, Pbd, ClusteringEngine<Vec3d>, ShapeMatching<Vec3d>> {};
+using Mine = Standard;
 
 std::string scene(std::string const& engines, std::string const& constraint) {
   return "<Node dt='0.05' gravity='0 -1 0'><EulerImplicitSolver/><CGLinearSolver iterations='25' "

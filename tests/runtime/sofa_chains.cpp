@@ -7,6 +7,7 @@
 #include <sinew/lagrangian.hpp>
 #include <sinew/mechanics.hpp>
 #include <sinew/registry.hpp>
+#include <sinew/runtime/precompiled.hpp>
 #include <sinew/runtime/read_scene.hpp>
 #include <sinew/runtime/runtime.hpp>
 
@@ -16,13 +17,7 @@ using namespace sinew;
 
 namespace {
 
-struct Mine
-    : Registry<Gravity, StringMeshCreator, FreeMotionAnimationLoop, BlockGaussSeidelConstraintSolver,
-               PreconditionedConjugateResidual, LCPConstraintSolver, EulerImplicitSolver, SparseLDLSolver<>,
-               SparseLDLSolver<CompressedRowSparseMatrixd>, MeshTopology, MechanicalObject<Vec3d>,
-               MechanicalObject<Vec1d>, MechanicalObject<Rigid3d>, UniformMass<Vec3d>, UniformMass<Rigid3d>,
-               FixedConstraint<Vec3d>, FixedConstraint<Rigid3d>, DistanceMapping<Vec3d, Vec1d>,
-               RestShapeSpringsForceField<Rigid3d>, UniformLagrangianConstraint<Vec1d>> {};
+using Mine = Standard;
 
 // a string of 6 points that swings from its first one
 std::string string_of(std::string const& constraintSolver, std::string const& linear) {

@@ -3,6 +3,7 @@
 #include "catch.hpp"
 
 #include <sinew/runtime/checks.hpp>
+#include <sinew/runtime/precompiled.hpp>
 #include <sinew/runtime/read_scene.hpp>
 #include <sinew/runtime/scope.hpp>
 #include <sinew/scene/simulation.hpp>
@@ -14,8 +15,7 @@ using namespace sinew;
 
 namespace {
 
-struct Small : Registry<Threads, Gravity, RegularGridTopology, MechanicalObject<Vec3d>, UniformMass<Vec3d>,
-                        EulerImplicitSolver, CGLinearSolver<>, MeshSpringForceField<Vec3d>> {};
+using Small = Standard;
 
 auto simulation(std::string const& threads, std::string const& below) {
   auto scene = parse_scene<Small>(
