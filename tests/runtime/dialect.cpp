@@ -417,6 +417,14 @@ TEST_CASE("a grid becomes prisms, and pyramids are listed, with forces and masse
       "<MechanicalObject position='0 0 0 1 0 0 1 1 0 0 1 0 0.5 0.5 1 1 0 1 1 1 1'/>");
   CHECK(in<MeshTopology>(listed).pyramids == std::vector<Pyramid>{{0, 1, 2, 3, 4}});
   CHECK(in<MeshTopology>(listed).prisms == std::vector<Prism>{{0, 1, 2, 4, 5, 6}});
+  // SOFA's containers of one kind have none
+  auto container = node(
+      "<MeshTopology name='all' tetrahedra='0 1 2 3' prisms='0 1 2 4 5 6'/><Node name='n'>"
+      "<TetrahedronSetTopologyContainer src='@../all'/><MechanicalObject "
+      "position='0 0 0 1 0 0 0 1 0 0 0 1 1 0 1 0 1 1 1 1 1'/></Node>"
+      "<MechanicalObject position='0 0 0 1 0 0 0 1 0 0 0 1 0 0 2 1 0 2 0 1 2'/>");
+  CHECK(in<MeshTopology>(container, "n").tetrahedra.size() == 1);
+  CHECK(in<MeshTopology>(container, "n").prisms.empty());
 }
 
 TEST_CASE("FEM of tetrahedra has more names, with words and defaults of their own") {

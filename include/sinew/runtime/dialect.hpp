@@ -404,6 +404,7 @@ inline bool container_holds(std::string_view tag, std::string_view list) {
   if (list == "triangles") return is("TriangleSet") || is("TetrahedronSet");
   if (list == "quads") return is("QuadSet") || is("HexahedronSet");
   if (list == "tetrahedra") return is("TetrahedronSet");
+  if (list == "pyramids" || list == "prisms") return false;
   return list != "hexahedra" || is("HexahedronSet");
 }
 inline bool class_without_meaning(std::string_view name) {

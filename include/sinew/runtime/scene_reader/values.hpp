@@ -59,11 +59,14 @@ class SceneValues {
     spell_out(item);
     if (item.failed) return void(item.progress = SceneItem::Progress::done);
     if (SceneItem* loader = add_loader(item, items_, messages_)) values_.make(*loader);
-    if (SceneItem* above = topology_above(item); above && hasPointsOf(*item.place, *above))
+    messages_.locate(item, [&] {
+      SceneItem* const above = topology_above(item);
+      if (!above || !hasPointsOf(*item.place, *above)) return;
       if (SceneItem* topology = add_topology(item, *above, items_)) {
         values_.make(*topology);
         resolve(*topology);  // nothing links to it
       }
+    });
     const std::vector<XmlAttribute> placing = take_placing(item);
     const std::vector<XmlAttribute> more = take_second_translation(item);
     std::set<std::string_view> given;
