@@ -736,8 +736,7 @@ SINEW_INLINE void invert_in_place(double* a, int n, double* row, Each&& each, Sy
 #if SINEW_CUDA
 namespace detail {
 inline constexpr int invertingThreads = 1024;
-template <int R>
-__global__ void __launch_bounds__(invertingThreads) invert_kernel(double* a, int n, double* row) {
+inline __global__ void __launch_bounds__(invertingThreads) invert_kernel(double* a, int n, double* row) {
   invert_in_place(
       a,
       n,
@@ -747,13 +746,76 @@ __global__ void __launch_bounds__(invertingThreads) invert_kernel(double* a, int
       },
       [] { __syncthreads(); });
 }
+inline constexpr int sweepingWarps = 16;
+/// The same for up to 16 Rows unknowns, with the lower triangle in registers: a warp has each 16th row, a
+/// lane each 32nd column. The steps are those of the symmetric sweep, a -> -a^-1 (Beaton 1964): with the
+/// pivot d = a_kk, a_ij -= a_ik a_kj / d, a_ik = a_ik / d, a_kk = -1 / d.
+template <int Rows>
+__global__ void __launch_bounds__(32 * sweepingWarps, 1) sweep_kernel(double* a, int n) {
+  constexpr int warps = sweepingWarps, tiles = (Rows + 1) / 2;
+  __shared__ double columns[2][32 * tiles];  // column k, as all threads read it, of two steps in turn
+  const int warp = int(threadIdx.x) / 32, lane = int(threadIdx.x) % 32;
+  double own[Rows][tiles];
+#pragma unroll
+  for (int r = 0; r < Rows; ++r)
+#pragma unroll
+    for (int c = 0; c <= r / 2; ++c) {
+      const int i = warp + warps * r, j = lane + 32 * c;
+      own[r][c] = i < n && j <= i ? a[std::ptrdiff_t(i) * n + j] : 0;
+    }
+#pragma unroll
+  for (int strip = 0; strip < Rows; ++strip)
+#pragma unroll 1
+    for (int within = 0; within < warps; ++within) {
+      const int k = warps * strip + within;
+      if (k >= n) break;
+      double* const column = columns[k % 2];
+      if (warp == within)
+#pragma unroll
+        for (int c = 0; c <= strip / 2; ++c)
+          if (lane + 32 * c <= k) column[lane + 32 * c] = own[strip][c];
+      if (lane == k % 32)
+#pragma unroll
+        for (int r = strip; r < Rows; ++r)
+          if (warp + warps * r > k) column[warp + warps * r] = own[r][strip / 2];
+      __syncthreads();
+      const double pivot = column[k];
+      const double inverse = pivot > 1e-12 ? 1 / pivot : 0;
+#pragma unroll
+      for (int r = 0; r < Rows; ++r) {
+        const int i = warp + warps * r;
+        const double scaled = column[i] * inverse;
+#pragma unroll
+        for (int c = 0; c <= r / 2; ++c) {
+          const double other = column[lane + 32 * c];
+          const bool across = lane + 32 * c == k;
+          own[r][c] =
+              i == k ? (across ? -inverse : other * inverse) : (across ? scaled : own[r][c] - scaled * other);
+        }
+      }
+    }
+#pragma unroll
+  for (int r = 0; r < Rows; ++r)
+#pragma unroll
+    for (int c = 0; c <= r / 2; ++c) {
+      const int i = warp + warps * r, j = lane + 32 * c;
+      if (i < n && j <= i) a[std::ptrdiff_t(i) * n + j] = a[std::ptrdiff_t(j) * n + i] = -own[r][c];
+    }
+}
 }  // namespace detail
 #endif
 /// The same by one block of a GPU, or on the host.
-template <int R>
-void invert(double* a, int n, double* row) {
+inline void invert(double* a, int n, double* row) {
 #if SINEW_CUDA
-  detail::invert_kernel<R><<<1, detail::invertingThreads, 0, stream()>>>(a, n, row);
+  constexpr int threads = 32 * detail::sweepingWarps;
+  if (n <= 64)
+    detail::sweep_kernel<4><<<1, threads, 0, stream()>>>(a, n);
+  else if (n <= 128)
+    detail::sweep_kernel<8><<<1, threads, 0, stream()>>>(a, n);
+  else if (n <= 208)
+    detail::sweep_kernel<13><<<1, threads, 0, stream()>>>(a, n);
+  else
+    detail::invert_kernel<<<1, detail::invertingThreads, 0, stream()>>>(a, n, row);
   check(cudaGetLastError(), "a factor on the GPU");
 #else
   invert_in_place(
