@@ -737,7 +737,8 @@ SINEW_INLINE void invert_in_place(double* a, int n, double* row, Each&& each, Sy
 #if SINEW_CUDA
 namespace detail {
 inline constexpr int invertingThreads = 1024;
-inline __global__ void __launch_bounds__(invertingThreads) invert_kernel(double* a, int n, double* row) {
+template <class Number>
+__global__ void __launch_bounds__(invertingThreads) invert_kernel(Number* a, int n, Number* row) {
   invert_in_place(
       a,
       n,
