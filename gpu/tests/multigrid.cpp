@@ -21,6 +21,8 @@
 #include <sinew/topology/mesh_topology.hpp>
 #include <sinew/topology/regular_grid.hpp>
 
+#include <Eigen/Dense>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -192,6 +194,38 @@ TEST_CASE("a solve that is one kernel has the iterations and residuals of one wi
   threads = 1;
   CHECK(difference(three, alone) < 1e-6);
 #endif
+}
+
+TEST_CASE("the coarsest matrix is inverted") {
+  for (const int n : {1, 3, 54, 64, 66, 128, 156, 198, 224, 231, 300}) {
+    CAPTURE(n);
+    // symmetric, positive definite, with unit diagonal
+    Eigen::MatrixXd root(n, n);
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j) root(i, j) = std::sin(1 + 3.7 * i + 1.3 * j * j) + (i == j ? 4 : 0);
+    Eigen::MatrixXd a = root * root.transpose();
+    const Eigen::VectorXd scale = a.diagonal().cwiseSqrt().cwiseInverse();
+    a = scale.asDiagonal() * a * scale.asDiagonal();
+    auto inverted = [n](Eigen::MatrixXd of) {
+      gpu::DeviceArray<double> there;
+      there.resize(std::size_t(n) * std::size_t(n + 2));
+      gpu::copy_to_device(there.data(), of.data(), std::size_t(n) * std::size_t(n));
+      gpu::multigrid::invert(there.data(), n, there.data() + std::ptrdiff_t(n) * n);
+      gpu::copy_to_host(of.data(), there.data(), std::size_t(n) * std::size_t(n));
+      return of;
+    };
+    const double condition = a.norm() * a.inverse().norm();
+    CHECK((inverted(a) * a - Eigen::MatrixXd::Identity(n, n)).norm() < 1e-14 * condition);
+    if (n < 3) continue;
+    // an unknown without a pivot gets nothing, and the others what they had without it
+    Eigen::MatrixXd without = a;
+    without.row(1).setZero(), without.col(1).setZero();
+    const Eigen::MatrixXd inverse = inverted(without);
+    CHECK(inverse.row(1).norm() + inverse.col(1).norm() == 0);
+    Eigen::MatrixXd one = inverse * without;
+    one(1, 1) += 1;
+    CHECK((one - Eigen::MatrixXd::Identity(n, n)).norm() < 1e-14 * condition);
+  }
 }
 
 TEST_CASE("a cycle on the device is kept, and its modes too") {

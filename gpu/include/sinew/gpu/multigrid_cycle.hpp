@@ -559,7 +559,7 @@ class MultigridCycle {
     double* const row = dense_.data() + std::ptrdiff_t(unknowns_) * unknowns_;
     for_each_index(std::size_t(unknowns_),
                    multigrid::DenseRow<R>{level.rows, level.matrix.data(), unknowns_, dense_.data()});
-    multigrid::invert<R>(dense_.data(), unknowns_, row);
+    multigrid::invert(dense_.data(), unknowns_, row);
   }
 
   // x from r of a level, whose first step has been made

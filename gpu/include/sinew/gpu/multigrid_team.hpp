@@ -277,7 +277,7 @@ struct MultigridTeam {
 /// Points of the largest bodies whose solves are one kernel; larger ones are as fast by a launch for each
 /// loop. Tests ask for others.
 inline std::size_t& most_points_of_whole_multigrid() {
-  static thread_local std::size_t most = 40000;
+  static thread_local std::size_t most = 36000;
   return most;
 }
 
