@@ -19,7 +19,7 @@ namespace sinew {
 /// How the corners of finer cells follow those of the cell that they are in.
 ///   condensed  as in the static equilibrium of the finer cells, all other points being free, in which empty
 ///              cells are rigid. Of that, points on an edge or a face follow the corners of that alone, along
-///              each axis by itself, and with weights of sum 1, so that neighbours fit (Nesme, Kry,
+///              each axis by itself, with weights above 0 and of sum 1, so that neighbours fit (Nesme, Kry,
 ///              Jerabkova, Faure 2009)
 ///   trilinear  along straight lines, as if the material were one (Nesme, Payan, Faure 2006)
 enum class CellInterpolation { condensed, trilinear };
@@ -80,13 +80,21 @@ CellComposition cell_composition(T const& t) {
   return c;
 }
 
-/// A rotation of an element by the displacements of its corners: spin = sum_m by[m] dx_m, dR = [spin] R.
-struct HexahedronSpin {
-  std::array<Eigen::Matrix3d, 8> by;
+/// How a hexahedron turns: by the mean of the deformation where it is stiff, so that corners that hardly
+/// any of its cells follow do not turn it. A = sum_m x_m slopes_m, with slopes_m the mean over its finest
+/// cells, by their stiffness, of the derivatives of the shape function of corner m by the coordinates of the
+/// reference cube; where all cells are alike, those in its centre.
+struct HexahedronFrame {
+  HexahedronMethod method;
+  Eigen::Matrix<double, 8, 3> slopes;
+  Eigen::Matrix3d rest, center;  // frame of the method at rest, A_rest^-1
+
+  Eigen::Matrix3d jacobian(Eigen::Vector3d const (&x)[8]) const;
+  /// From the rest frame of the method to the world.
+  Eigen::Matrix3d rotation(Eigen::Vector3d const (&x)[8]) const;
+  /// Its change by the displacements of the corners: spin = sum_m by[m] dx_m, dR = [spin] R.
+  std::array<Eigen::Matrix3d, 8> spin(Eigen::Vector3d const (&x)[8]) const;
 };
-/// At the positions x of the corners, of the rotation that `hexahedron_rotation` gives. Of `small`: none.
-HexahedronSpin hexahedron_spin(HexahedronMethod method, Eigen::Matrix3d const& center,
-                               Eigen::Vector3d const (&x)[8]);
 
 class CompositeCells {
  public:
@@ -101,6 +109,7 @@ class CompositeCells {
   struct Cell {
     Matrix24 stiffness;  // for 1 Pa, in the rest frame of the method
     Matrix8 mass;        // for 1 kg/m^3, times the identity
+    HexahedronFrame frame;
     std::vector<FinestCell> finest{};
   };
 
@@ -110,6 +119,9 @@ class CompositeCells {
   /// A hexahedron, whose corners at rest are x. Throws Error where it is flat or inside out, and where it is
   /// no box though it has finer cells. `finest` is filled where it is asked for.
   Cell cell(std::size_t hexahedron, Eigen::Vector3d const (&x)[8], bool finest) const;
+
+  /// The frame of a hexahedron alone, whose corners at rest are x.
+  HexahedronFrame frame(std::size_t hexahedron, Eigen::Vector3d const (&x)[8]) const;
 
   /// How many finer levels count, and the finest of these; none where the hexahedra are the finest.
   std::size_t levels() const { return levels_; }
@@ -180,35 +192,43 @@ SINEW_ONCE Eigen::Matrix<double, 8, 1> trilinear_weights(Eigen::Vector3d const& 
 
 }  // namespace detail
 
+SINEW_ONCE Eigen::Matrix3d HexahedronFrame::jacobian(Eigen::Vector3d const (&x)[8]) const {
+  Eigen::Matrix3d a = Eigen::Matrix3d::Zero();
+  for (int m = 0; m < 8; ++m) a += (x[m] - x[0]) * slopes.row(m);
+  return a;
+}
+SINEW_ONCE Eigen::Matrix3d HexahedronFrame::rotation(Eigen::Vector3d const (&x)[8]) const {
+  if (method == HexahedronMethod::small) return Eigen::Matrix3d::Identity();
+  return rotation_of_jacobian<double>(method, center, jacobian(x));
+}
+
 /// large: with a_0, a_1 the first columns of A and e_k the axes of the frame,
 ///   e_2.spin = e_1.da_0/|a_0|,  e_1.spin = -e_2.da_0/|a_0|,
 ///   e_0.spin = (e_2.da_1 + (e_0.a_1) e_1.spin)/(e_1.a_1)
 /// nearest and polar: with F = A C, C = A_rest^-1 or I, and M = F R',
 ///   (tr(M) I - M) spin = sum_c r_c x dF_c
-SINEW_ONCE HexahedronSpin hexahedron_spin(HexahedronMethod method, Eigen::Matrix3d const& center,
-                                          Eigen::Vector3d const (&x)[8]) {
+SINEW_ONCE std::array<Eigen::Matrix3d, 8> HexahedronFrame::spin(Eigen::Vector3d const (&x)[8]) const {
   using Eigen::Matrix3d, Eigen::Vector3d;
-  Matrix3d by[3];  // by the columns of A
-  for (auto& m : by) m.setZero();
-  const Matrix3d a = hexahedron_jacobian<double>(x), r = hexahedron_rotation<double>(method, center, x);
+  Matrix3d byColumn[3];  // of A
+  for (auto& m : byColumn) m.setZero();
+  const Matrix3d a = jacobian(x), r = rotation(x);
   if (method == HexahedronMethod::large) {
     const double length = a.col(0).norm();
     const Vector3d e0 = r.col(0), e1 = r.col(1), e2 = r.col(2);
     const Eigen::RowVector3d second = -e2.transpose() / length;
-    by[0] = e2 * e1.transpose() / length + e1 * second + e0 * (e0.dot(a.col(1)) / e1.dot(a.col(1)) * second);
-    by[1] = e0 * e2.transpose() / e1.dot(a.col(1));
+    byColumn[0] =
+        e2 * e1.transpose() / length + e1 * second + e0 * (e0.dot(a.col(1)) / e1.dot(a.col(1)) * second);
+    byColumn[1] = e0 * e2.transpose() / e1.dot(a.col(1));
   } else if (method != HexahedronMethod::small) {
     const Matrix3d c = method == HexahedronMethod::polar ? Matrix3d(Matrix3d::Identity()) : center;
     const Matrix3d m = a * c * r.transpose(), symmetric = (m + m.transpose()) / 2;
     const Matrix3d inverse = (m.trace() * Matrix3d::Identity() - symmetric).inverse();
-    for (int k = 0; k < 3; ++k) by[k] = inverse * detail::cross_matrix(r * c.row(k).transpose());
+    for (int k = 0; k < 3; ++k) byColumn[k] = inverse * detail::cross_matrix(r * c.row(k).transpose());
   }
-  HexahedronSpin spin;
-  for (std::size_t m = 0; m < 8; ++m) {
-    spin.by[m].setZero();
-    for (int k = 0; k < 3; ++k) spin.by[m] += (hexahedronCorners[m][k] == 1 ? 0.125 : -0.125) * by[k];
-  }
-  return spin;
+  std::array<Matrix3d, 8> by;
+  for (int m = 0; m < 8; ++m)
+    by[std::size_t(m)] = slopes(m, 0) * byColumn[0] + slopes(m, 1) * byColumn[1] + slopes(m, 2) * byColumn[2];
+  return by;
 }
 
 SINEW_ONCE CompositeCells::CompositeCells(std::string where, TopologyView const& topology,
@@ -245,6 +265,39 @@ SINEW_ONCE CompositeCells::CompositeCells(std::string where, TopologyView const&
   }
 }
 
+SINEW_ONCE HexahedronFrame CompositeCells::frame(std::size_t hexahedron,
+                                                 Eigen::Vector3d const (&x)[8]) const {
+  HexahedronFrame frame;
+  frame.method = composition_.method;
+  Eigen::Matrix<double, 8, 3> sum = sum.Zero();
+  double all = 0;
+  // of a cell: the derivatives in its centre, which are their mean over it
+  auto add = [&](double stiff, Eigen::Vector3d const& low, double size) {
+    const Eigen::Vector3d middle = low + Eigen::Vector3d::Constant(size / 2);
+    sum += stiff * 0.5 * MultilinearShape<3>(middle).derivatives;
+    all += stiff;
+  };
+  auto visit = [&](auto&& self, std::size_t level, Index cell, Eigen::Vector3d const& low) -> void {
+    const double size = std::ldexp(1.0, -int(level));
+    if (level == levels_)
+      return add(level == 0 ? 1 : topology_.levels[level - 1].fill[std::size_t(cell)], low, size);
+    for (int c = first_[level][std::size_t(cell)]; c < first_[level][std::size_t(cell) + 1]; ++c) {
+      const int child = order_[level][std::size_t(c)];
+      Eigen::Vector3d corner = low;
+      for (int k = 0; k < 3; ++k)
+        corner[k] += size / 2 * hexahedronCorners[topology_.levels[level].octants[std::size_t(child)]][k];
+      self(self, level + 1, child, corner);
+    }
+  };
+  visit(visit, 0, Index(hexahedron), Eigen::Vector3d::Zero());
+  if (!(all > 0)) sum.setZero(), all = 0, add(1, Eigen::Vector3d::Zero(), 1);
+  frame.slopes = sum / all;
+  const Eigen::Matrix3d jacobian = frame.jacobian(x);
+  frame.rest = hexahedron_rest_frame(frame.method, jacobian);
+  frame.center = jacobian.inverse();
+  return frame;
+}
+
 SINEW_ONCE CompositeCells::Cell CompositeCells::cell(std::size_t hexahedron, Eigen::Vector3d const (&x)[8],
                                                      bool finest) const {
   using Eigen::Matrix3d, Eigen::Vector3d;
@@ -253,7 +306,8 @@ SINEW_ONCE CompositeCells::Cell CompositeCells::cell(std::size_t hexahedron, Eig
     throw Error(where_, text("hexahedron ", hexahedron, ' ', why));
   };
   const HexahedronMethod method = composition_.method;
-  const Matrix3d jacobian = hexahedron_jacobian<double>(x), frame = hexahedron_rest_frame(method, jacobian);
+  HexahedronFrame turns = frame(hexahedron, x);
+  const Matrix3d jacobian = hexahedron_jacobian<double>(x), frame = turns.rest;
   // the axes of the box, where the hexahedron is made of finer ones; else those of the frame
   Matrix3d axes = frame;
   Vector3d y[8];
@@ -293,7 +347,7 @@ SINEW_ONCE CompositeCells::Cell CompositeCells::cell(std::size_t hexahedron, Eig
   box.mass = multilinear_mass<3>(corners);
 
   Part part = partOf(box, 0, Index(hexahedron));
-  Cell cell{part.stiffness, part.mass, std::move(part.finest)};
+  Cell cell{part.stiffness, part.mass, turns, std::move(part.finest)};
   const Matrix3d turn = frame.transpose() * axes;
   auto turned = [&](Matrix24& m) {
     for (int i = 0; i < 8; ++i)
@@ -306,12 +360,13 @@ SINEW_ONCE CompositeCells::Cell CompositeCells::cell(std::size_t hexahedron, Eig
   // K is taken of what is left of a displacement when the element has turned with it: P'KP, (P u)_k = u_k -
   // spin(u) x y_k. That is what the element sees, and so nothing that turns it as a whole costs energy.
   for (int k = 0; k < 8; ++k) y[k] = frame.transpose() * (x[k] - x[0]);
-  const auto seen = method == HexahedronMethod::small ? HexahedronMethod::nearest : method;
-  const auto spin = hexahedron_spin(seen, hexahedron_jacobian<double>(y).inverse(), y);
+  if (method == HexahedronMethod::small) turns.method = HexahedronMethod::nearest;
+  turns.center = turns.jacobian(y).inverse();
+  const auto spin = turns.spin(y);
   Matrix24 project = Matrix24::Identity();
   for (int k = 0; k < 8; ++k)
     for (int m = 0; m < 8; ++m)
-      project.block<3, 3>(3 * k, 3 * m) += detail::cross_matrix(y[k]) * spin.by[std::size_t(m)];
+      project.block<3, 3>(3 * k, 3 * m) += detail::cross_matrix(y[k]) * spin[std::size_t(m)];
   cell.stiffness = (project.transpose() * cell.stiffness * project).eval();
   return cell;
 }
@@ -452,12 +507,12 @@ SINEW_ONCE CompositeCells::Part CompositeCells::merged(Box const& box, double sc
         const int p = freePoints[i];
         if (complete) shown.middleRows<3>(3 * p) = found.middleRows<3>(Eigen::Index(3 * i));
         for (int c = 0; c < 3; ++c) {
-          // corners of the edge or face on which the point lies: those with a trilinear weight
-          Eigen::Matrix<double, 1, 24> row = found.row(Eigen::Index(3 * i) + c);
+          // corners of the edge or face on which the point lies are those with a trilinear weight; each keeps
+          // a trace of it, so that none is left without mass
+          Eigen::Matrix<double, 1, 24> row = weights.row(3 * p + c);
           for (int k = 0; k < 24; ++k)
-            if (weights(3 * p + c, k) == 0) row[k] = 0;
-          // corners that pull hardly at all say nothing: there the weights stay trilinear
-          if (const double sum = row.sum(); sum > 1e-3) weights.row(3 * p + c) = row / sum;
+            if (row[k] > 0) row[k] = std::max(found(Eigen::Index(3 * i) + c, k), 1e-4 * row[k]);
+          weights.row(3 * p + c) = row / row.sum();
         }
       }
     if (!complete) shown = weights;

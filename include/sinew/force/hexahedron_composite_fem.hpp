@@ -13,8 +13,8 @@
 
 namespace sinew {
 
-/// Corotational hexahedron with a stiffness matrix K of its own. With y the corners at rest in the frame of
-/// the element, from corner 0 on, and R the rotation of the element:
+/// Corotational hexahedron with a stiffness matrix K of its own, that turns as HexahedronFrame says. With y
+/// the corners at rest in the frame of the element, from corner 0 on, and R the rotation of the element:
 ///   u_i = R'(x_i - x_0) - y_i,   E = u'K u/2 [J],   f_i = -R sum_j K_ij u_j [N]
 /// The tangent holds R fixed. K is symmetric, and nothing that moves the element as a whole costs energy.
 template <class D>
@@ -30,7 +30,8 @@ struct CompositeHexahedron {
   struct Rest {
     Real stiffness[300];  // on and above the diagonal, row by row [N/m]
     Vec3 corner[8];       // y [m]
-    Mat3 center;          // of the Jacobian in the centre at rest, the inverse, for `nearest`
+    Vec3 slope[8];        // A = sum_m x_m slope_m', see HexahedronFrame
+    Mat3 center;          // A_rest^-1, for `nearest`
   };
   struct Tangent {
     Mat3 rotation;
@@ -80,7 +81,15 @@ struct CompositeHexahedron {
 
  private:
   SINEW_INLINE Mat3 rotation(Rest const& rest, Coord const (&x)[8]) const {
-    return hexahedron_rotation<Real>(method, rest.center, x);
+    Mat3 a;
+    for (int c = 0; c < 9; ++c) a(c) = Real(method == HexahedronMethod::small && c % 4 == 0 ? 1 : 0);
+    if (method == HexahedronMethod::small) return a;
+    for (int m = 1; m < 8; ++m) {
+      const Vec3 d = x[m] - x[0];
+      for (int k = 0; k < 3; ++k)
+        for (int c = 0; c < 3; ++c) a(c, k) += d[c] * rest.slope[m][k];
+    }
+    return rotation_of_jacobian<Real>(method, rest.center, a);
   }
   // R'(x - x_0) - one y
   SINEW_INLINE static void displacement(Rest const& rest, Mat3 const& r, Coord const (&x)[8], Real one,
@@ -179,15 +188,15 @@ struct HexahedronCompositeFEMForceField {
       for (std::size_t k = 0; k < 8; ++k)
         x[k] = context.rest[std::size_t(hexahedra[e][k])].template cast<double>();
       const auto cell = cells.cell(e, x, false);
-      const Eigen::Matrix3d jacobian = hexahedron_jacobian<double>(x),
-                            frame = hexahedron_rest_frame(method, jacobian);
       for (int a = 0; a < 24; ++a)
         for (int b = a; b < 24; ++b)
           rest[e].stiffness[CompositeHexahedron<D>::place(a, b)] =
               Real(one_or_each(youngModulus, e) * (cell.stiffness(a, b) + cell.stiffness(b, a)) / 2);
-      for (int k = 0; k < 8; ++k)
-        rest[e].corner[k] = (frame.transpose() * (x[k] - x[0])).template cast<Real>();
-      rest[e].center = jacobian.inverse().template cast<Real>();
+      for (int k = 0; k < 8; ++k) {
+        rest[e].corner[k] = (cell.frame.rest.transpose() * (x[k] - x[0])).template cast<Real>();
+        rest[e].slope[k] = cell.frame.slopes.row(k).transpose().template cast<Real>();
+      }
+      rest[e].center = cell.frame.center.template cast<Real>();
     }
     driver.init({hexahedra.begin(), hexahedra.end()}, rest);
   }

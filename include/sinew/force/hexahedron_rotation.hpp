@@ -47,17 +47,13 @@ SINEW_INLINE Mat<Real, 3> hexahedron_jacobian(Vec<Real, 3> const (&x)[8]) {
   return a;
 }
 
-/// From the rest frame of the method to the world. `center`: A_rest^-1, for `nearest`.
+/// From the rest frame of the method to the world, where it is not `small`. `center`: A_rest^-1, for
+/// `nearest`.
 template <class Real>
-SINEW_INLINE Mat<Real, 3> hexahedron_rotation(HexahedronMethod method, Mat<Real, 3> const& center,
-                                              Vec<Real, 3> const (&x)[8]) {
+SINEW_INLINE Mat<Real, 3> rotation_of_jacobian(HexahedronMethod method, Mat<Real, 3> const& center,
+                                               Mat<Real, 3> const& a) {
   using Vec3 = Vec<Real, 3>;
   Mat<Real, 3> r;
-  if (method == HexahedronMethod::small) {
-    for (int c = 0; c < 9; ++c) r(c) = Real(c % 4 == 0 ? 1 : 0);
-    return r;
-  }
-  const Mat<Real, 3> a = hexahedron_jacobian(x);
   if (method == HexahedronMethod::large) return frame_of(Vec3(a.col(0)), Vec3(a.col(1)));
   if (method == HexahedronMethod::polar)
     r = a;
@@ -66,6 +62,14 @@ SINEW_INLINE Mat<Real, 3> hexahedron_rotation(HexahedronMethod method, Mat<Real,
       for (int i = 0; i < 3; ++i)
         r(i, j) = a(i, 0) * center(0, j) + a(i, 1) * center(1, j) + a(i, 2) * center(2, j);
   return nearest_rotation(r);
+}
+template <class Real>
+SINEW_INLINE Mat<Real, 3> hexahedron_rotation(HexahedronMethod method, Mat<Real, 3> const& center,
+                                              Vec<Real, 3> const (&x)[8]) {
+  if (method != HexahedronMethod::small) return rotation_of_jacobian(method, center, hexahedron_jacobian(x));
+  Mat<Real, 3> r;
+  for (int c = 0; c < 9; ++c) r(c) = Real(c % 4 == 0 ? 1 : 0);
+  return r;
 }
 
 /// The frame of the method at rest, in which displacements are measured.

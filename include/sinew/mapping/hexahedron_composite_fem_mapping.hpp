@@ -64,14 +64,14 @@ struct HexahedronCompositeFEMMapping {
   struct Element {
     Hexahedron points;
     std::array<Eigen::Vector3d, 8> corner;  // y
-    Eigen::Matrix3d center;                 // of the Jacobian in the centre at rest, the inverse
+    HexahedronFrame frame;
   };
   std::vector<Element> elements{};
   std::vector<Part> parts{};                 // point by point
   std::vector<std::size_t> starts{0};        // where those of each point begin, and the end
   std::vector<char> used{};                  // of each hexahedron, whether it carries a point
   std::vector<Eigen::Matrix3d> rotations{};  // and how it is turned, at the last apply
-  std::vector<HexahedronSpin> spins{};
+  std::vector<std::array<Eigen::Matrix3d, 8>> spins{};
 
   void init(InitContext<In> const& parent, InitContext<Out> const& child, typename Out::VecCoord& positions) {
     const std::string where = text(child.where, ": ", component_name<HexahedronCompositeFEMMapping>());
@@ -88,10 +88,8 @@ struct HexahedronCompositeFEMMapping {
       e.points = h;
       Eigen::Vector3d x[8];
       for (std::size_t k = 0; k < 8; ++k) x[k] = points[std::size_t(h[k])];
-      const Eigen::Matrix3d jacobian = hexahedron_jacobian<double>(x),
-                            frame = hexahedron_rest_frame(method, jacobian);
-      for (std::size_t k = 0; k < 8; ++k) e.corner[k] = frame.transpose() * (x[k] - x[0]);
-      e.center = jacobian.inverse();
+      e.frame = cells.frame(elements.size(), x);
+      for (std::size_t k = 0; k < 8; ++k) e.corner[k] = e.frame.rest.transpose() * (x[k] - x[0]);
       elements.push_back(e);
     }
     // children lie with the grid before the state is moved, as for BarycentricMapping
@@ -182,8 +180,8 @@ struct HexahedronCompositeFEMMapping {
     for (std::size_t e = 0; e < elements.size(); ++e) {
       if (!used[e]) continue;
       take(elements[e]);
-      rotations[e] = hexahedron_rotation<double>(method, elements[e].center, x);
-      spins[e] = hexahedron_spin(method, elements[e].center, x);
+      rotations[e] = elements[e].frame.rotation(x);
+      spins[e] = elements[e].frame.spin(x);
     }
     for (std::size_t i = 0; i + 1 < starts.size(); ++i) {
       Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -206,7 +204,7 @@ struct HexahedronCompositeFEMMapping {
         sum += part.share * x[0] + arm;
         for (std::size_t k = 0; k < 8; ++k)
           part.jacobian[k] =
-              (moving[k] + turning * spins[std::size_t(part.hexahedron)].by[k]).template cast<Real>();
+              (moving[k] + turning * spins[std::size_t(part.hexahedron)][k]).template cast<Real>();
       }
       out[i] = sum.template cast<Real>();
     }
