@@ -174,8 +174,7 @@ TEST_CASE("what a composite does not list does nothing, and what no pipeline lis
   CHECK(warned);
   // without a composite all act
   auto all = read(stages + both + bodies);
-  const auto both = places(all.root, 400);
-  CHECK(both.back()[2] > 0.4);
+  CHECK(places(all.root, 400).back()[2] > 0.4);
 }
 
 TEST_CASE("a pipeline that lists models stands right below the root") {
