@@ -16,7 +16,7 @@ class ConvexHull {
   /// Throws Error where there is no point, or one that is not finite.
   explicit ConvexHull(std::vector<Vec<double, 3>> corners, std::string_view where = "ConvexHull");
   /// The box of half such sides along the axes, around the origin.
-  static ConvexHull box(Vec<double, 3> const& half);
+  static ConvexHull box(Vec<double, 3> const& half, std::string_view where = "ConvexHull");
   std::vector<Vec<double, 3>> const& points() const { return points_; }
   Vec<double, 3> const& middle() const { return middle_; }
   /// Of the ball around middle().
@@ -59,11 +59,11 @@ SINEW_ONCE ConvexHull::ConvexHull(std::vector<Vec<double, 3>> corners, std::stri
   }
 }
 
-SINEW_ONCE ConvexHull ConvexHull::box(Vec<double, 3> const& half) {
+SINEW_ONCE ConvexHull ConvexHull::box(Vec<double, 3> const& half, std::string_view where) {
   std::vector<Vec<double, 3>> corners;
   for (int k = 0; k < 8; ++k)
     corners.push_back({k & 1 ? half[0] : -half[0], k & 2 ? half[1] : -half[1], k & 4 ? half[2] : -half[2]});
-  ConvexHull hull(std::move(corners));
+  ConvexHull hull(std::move(corners), where);
   hull.isBox_ = true;
   return hull;
 }

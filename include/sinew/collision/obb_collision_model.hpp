@@ -55,7 +55,8 @@ struct OBBCollisionModel {
     fill_up(extents, n, all, "extents", "rigids", where);
     surface.elements = points_of(context.topology, n);
     surface.hulls.clear();
-    for (std::size_t i = 0; i < n; ++i) surface.hulls.push_back(ConvexHull::box(each_or(extents, i, all)));
+    for (std::size_t i = 0; i < n; ++i)
+      surface.hulls.push_back(ConvexHull::box(each_or(extents, i, all), where));
     describe_surface(*this, surface, context.where, n);
   }
 };

@@ -38,7 +38,14 @@ class SubPipelines {
       if (isOf(item, className)) all.push_back(&item);
     });
     if (!composites_.empty()) leaveOutUnlisted(all);
-    for (SceneItem* item : all) giveNode(top, *item);
+    // all links are followed before anything moves
+    std::vector<std::vector<SceneItem*>> linked;
+    for (SceneItem* item : all) {
+      linked.push_back(stagesOf(*item));
+      nameModels(*item);
+    }
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (linked[i].size() == stages.size()) giveNode(top, *all[i], linked[i]);
   }
 
  private:
@@ -130,7 +137,8 @@ class SubPipelines {
     return taken;
   }
 
-  void giveNode(ScenePlace& top, SceneItem& pipeline) {
+  // the stages to which a pipeline links; none where they stand beside it
+  std::vector<SceneItem*> stagesOf(SceneItem& pipeline) {
     XmlElement& element = *pipeline.element;
     std::vector<SceneItem*> linked;
     std::string missing;
@@ -148,9 +156,11 @@ class SubPipelines {
     }
     if (!linked.empty() && !missing.empty())
       messages_.addError(element, text("it has no link to a stage: ", missing, "; give it"));
-    nameModels(pipeline);
-    if (linked.size() < stages.size()) return;  // its stages stand beside it
+    return linked;
+  }
 
+  void giveNode(ScenePlace& top, SceneItem& pipeline, std::vector<SceneItem*> const& linked) {
+    XmlElement& element = *pipeline.element;
     std::erase_if(element.attributes, [](XmlAttribute const& a) {
       return std::any_of(stages.begin(), stages.end(), [&](auto const& s) { return s.first == a.name; });
     });
