@@ -68,3 +68,4 @@
 #include <sinew/topology/surface_cells.hpp>
 #include <sinew/topology/surface_sampling.hpp>
 #include <sinew/topology/tear_plan.hpp>
+#include <sinew/topology/twins.hpp>

@@ -505,6 +505,12 @@ TEST_CASE("a load whose elements are chosen by a link to none is on none, which 
                     "<TrianglePressureForceField pressure='1 0 0' triangleList='@roi.triangleIndices'/>");
   CHECK(in<TrianglePressureForceField<Vec3d>>(empty).none);
   CHECK(has(empty.warnings, "triangleList: names no element; no element bears the load"));
+  CHECK(has(empty.warnings, "by its number, as in SOFA"));
+  auto volume = node(
+      "<MeshTopology position='0 0 0 1 0 0 0 1 0 0 0 1' tetrahedra='0 1 2 3' createTriangleArray='1'/>"
+      "<MechanicalObject/><BoxROI name='roi' box='-1 -1 -1 2 2 2'/>"
+      "<TrianglePressureForceField pressure='1 0 0' triangleList='@roi.triangleIndices'/>");
+  CHECK(has(volume.warnings, "by its number, while in SOFA those may that createTriangleArray makes"));
   auto nowhere =
       node(sheet + "<TrianglePressureForceField pressure='1 0 0' triangleList='@rol.triangleIndices'/>");
   CHECK(in<TrianglePressureForceField<Vec3d>>(nowhere).none);

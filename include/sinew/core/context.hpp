@@ -65,6 +65,8 @@ struct InitContext {
   /// Where the points of the body are at rest [m] on which the values of this state lie, for a component that
   /// asks for it by `overBody`; empty where the topology is over the points of this state.
   std::span<Eigen::Vector3d const> body{};
+  /// The triangles over the points that a mapping moves, also those of a visual model, for that mapping.
+  std::span<Triangle const> faces{};
 
   /// Where a point of the topology is at rest [m].
   Eigen::Vector3d place(Index i) const {

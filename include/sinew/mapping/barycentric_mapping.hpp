@@ -6,9 +6,12 @@
 #include <sinew/mapping/carried_points.hpp>
 #include <sinew/topology/element_checks.hpp>
 #include <sinew/topology/point_location.hpp>
+#include <sinew/topology/twins.hpp>
 
+#include <algorithm>
 #include <array>
 #include <limits>
+#include <span>
 #include <type_traits>
 #include <vector>
 
@@ -47,7 +50,7 @@ struct BarycentricMapping {
   // points that lie in elements of the parent
   static constexpr std::string_view aliases =
       "Mesh2PointMechanicalMapping SimpleTesselatedTetraMechanicalMapping";
-  static constexpr bool needsParentTetrahedra = true;
+  static constexpr bool needsParentTetrahedra = true, carriesPoints = true;
 
   bool useRestPosition = false;
 
@@ -133,6 +136,14 @@ struct BarycentricMapping {
           text("the topology of ", parent.where, " has no elements; give the parent a topology with some"));
     }
 
+    if constexpr (!Out::rigid)
+      if (!child.faces.empty() && topology.quads.empty() && topology.hexahedra.empty() &&
+          topology.pyramids.empty() && topology.prisms.empty()) {
+        if (!topology.tetrahedra.empty())
+          goWithNeighbours<TetrahedronFit>(choices, points, topology.tetrahedra, child.faces, places);
+        else if (!topology.triangles.empty())
+          goWithNeighbours<TriangleFit>(choices, points, topology.triangles, child.faces, places);
+      }
     carriers.assign(choices.size(), {});
     const bool more = !topology.hexahedra.empty() || !topology.pyramids.empty() || !topology.prisms.empty();
     others.assign(more ? choices.size() : 0, {});
@@ -198,6 +209,81 @@ struct BarycentricMapping {
       }
     }
   };
+
+  // Where the parent is cut, its points are there twice, and a point of the child near the cut may lie in an
+  // element on the other side of it: a surface is cut by the same blade, but a cut may be as far from that as
+  // snapping has it. So points go with elements that have points in common with those of their neighbours in
+  // the surface, from where it is clear on: from those that are as far from the cut as a part of an element.
+  template <class Fit, class Elements>
+  static void goWithNeighbours(std::vector<Choice>& choices, std::vector<Eigen::Vector3d> const& points,
+                               Elements const& elements, std::span<Triangle const> faces,
+                               typename Out::VecCoord const& places) {
+    constexpr double clear = 0.55;  // a cut passes through the nearer end of an edge
+    std::vector<char> isTwin(points.size(), 0);
+    for (const Index i : twins(points)) isTwin[std::size_t(i)] = 1;
+    std::vector<Index> near;
+    std::vector<Fit> fits;
+    for (std::size_t e = 0; e < elements.size(); ++e)
+      if (std::any_of(
+              elements[e].begin(), elements[e].end(), [&](Index i) { return isTwin[std::size_t(i)] != 0; }))
+        near.push_back(Index(e)), fits.emplace_back(points, elements[e]);
+    if (near.empty()) return;
+    std::vector<std::vector<Index>> beside(choices.size());
+    for (Triangle const& t : faces)
+      for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t l = 1; l < 3; ++l) beside[std::size_t(t[k])].push_back(t[(k + l) % 3]);
+    // what its element has of it beside the corners at a cut
+    auto clarity = [&](Choice const& c) {
+      double sum = 0;
+      for (std::size_t k = 0; k < c.points.size(); ++k)
+        if (!isTwin[std::size_t(c.points[k])]) sum += c.weights[k];
+      return sum;
+    };
+    auto common = [](auto const& element, Choice const& other) {
+      return std::any_of(element.begin(), element.end(), [&](Index i) {
+        return std::find(other.points.begin(), other.points.end(), i) != other.points.end();
+      });
+    };
+    std::vector<char> settled(choices.size(), 0);
+    std::vector<Index> queue, order;
+    for (std::size_t i = 0; i < choices.size(); ++i) {
+      if (clarity(choices[i]) >= clear || beside[i].empty())
+        settled[i] = 1, queue.push_back(Index(i));
+      else
+        order.push_back(Index(i));
+    }
+    std::stable_sort(order.begin(), order.end(), [&](Index i, Index j) {
+      return clarity(choices[std::size_t(i)]) > clarity(choices[std::size_t(j)]);
+    });
+    std::size_t next = 0;  // of those of a piece that is nowhere clear, the clearest one
+    for (std::size_t q = 0;; ++q) {
+      if (q == queue.size()) {
+        while (next < order.size() && settled[std::size_t(order[next])]) ++next;
+        if (next == order.size()) break;
+        settled[std::size_t(order[next])] = 1;
+        queue.push_back(order[next]);
+      }
+      for (const Index i : beside[std::size_t(queue[q])]) {
+        if (settled[std::size_t(i)]) continue;
+        const Eigen::Vector3d place = places[std::size_t(i)].template cast<double>();
+        int most = -1;
+        Choice best;
+        for (std::size_t n = 0; n < near.size(); ++n) {
+          auto const& element = elements[std::size_t(near[n])];
+          int count = 0;
+          for (const Index j : beside[std::size_t(i)])
+            count += settled[std::size_t(j)] && common(element, choices[std::size_t(j)]);
+          if (count < most) continue;
+          if (count > most) best = {};
+          most = count;
+          best.consider(typename ElementLocator<Fit>::Located{near[n], fits[n].fit(place)}, elements);
+        }
+        if (best.score != Choice{}.score) choices[std::size_t(i)] = best;
+        settled[std::size_t(i)] = 1;
+        queue.push_back(i);
+      }
+    }
+  }
 
   // where several hexahedra are at one place, each point goes with the one of its finer cell
   static void chooseByFinerCells(std::vector<Choice>& choices, std::vector<Eigen::Vector3d> const& points,

@@ -65,7 +65,7 @@ class Initialisation {
     scope.withChild(c, [&](auto& child) {
       if constexpr (HasRole<std::decay_t<decltype(child)>, role::VisualModel>) {
         child.init(scope.path());
-        initMapping(c, scope, child.position, child.position);
+        initMapping(c, scope, child.position, child.position, child.mesh.triangles);
       } else {
         if constexpr (MakesFaces<C>)
           throw Error(
@@ -75,7 +75,11 @@ class Initialisation {
         child.place(scope.path(), scope.topology().positions);
         child.takeGiven();
         mapsRest = child.restPosition.empty();
-        initMapping(c, scope, mapsRest ? child.position : child.restPosition, child.position);
+        initMapping(c,
+                    scope,
+                    mapsRest ? child.position : child.restPosition,
+                    child.position,
+                    scope.topology().triangles);
         if (mapsRest) child.restPosition.assign(child.position.size(), C::Out::zero());
       }
     });
@@ -96,9 +100,11 @@ class Initialisation {
     });
   }
   template <class C, class S, class VecCoord>
-  static void initMapping(C& c, S const& scope, VecCoord const& rest, VecCoord& positions) {
+  static void initMapping(C& c, S const& scope, VecCoord const& rest, VecCoord& positions,
+                          std::span<Triangle const> faces) {
     using In = typename C::In;
-    const InitContext<typename C::Out> own{scope.path(), rest, scope.topology()};
+    InitContext<typename C::Out> own{scope.path(), rest, scope.topology()};
+    own.faces = faces;
     if constexpr (HasTwoKindsOfParents<C>) {
       std::optional<InitContext<In>> first;
       scope.forEachParent(c, [&](auto k, auto const& parent) {

@@ -60,11 +60,12 @@ struct TopologicalChanges {
         std::optional<CutOrder> cut;
         bool keepsLast = false;
         at(number, [&](auto& c, auto const& scope) {
-          here = this->place(scope);
           if constexpr (TearsElements<std::decay_t<decltype(c)>>) {
             cut = this->tear(c, scope);
             due = cut.has_value();
+            if (due) here = this->place(scope);
           } else {
+            here = this->place(scope);
             due = find(c, scope, here.points, time, order);
           }
           if (due && !order.box.empty())

@@ -10,6 +10,7 @@
 #include <sinew/topology/removal_plan.hpp>
 
 #include <functional>
+#include <list>
 #include <map>
 #include <set>
 #include <string>
@@ -91,6 +92,7 @@ class TopologyEdit {
   std::map<void const*, BorderLists> borders_{};  // of the topologies and visual models that are the border
   std::map<void const*, void const*> copies_{};   // of visual models with the faces of a topology: that
   CutPlan cut_{};
+  std::list<CutPlan> carried_{};                  // of the surfaces that the body carries
   std::function<bool(Index&, Index&)> joined_{};  // of what joins points of the body that is cut
   std::vector<AddPlan::Lists> added_{};           // of topologies and visual models to which elements come
   // what topologies and visual models have that are cut, or to which elements come
@@ -204,6 +206,8 @@ class TopologyEdit {
   void planCut(CutOrder const& order) {
     CutBody<RootScope> body(root_, topology_, state_);
     cut_ = body.plan(order);
+    samePoints_ = body.states;
+    planCarried(order);
     if (cut_.elements == 0) {
       ofTopology_[topology_].points = cut_.points;
       return;
@@ -221,7 +225,6 @@ class TopologyEdit {
       }
       return !blade.crossing(x[std::size_t(i)], x[std::size_t(j)], Eigen::Vector3d::Zero());
     };
-    samePoints_ = body.states;
     touchedStates_ = samePoints_;
     for (void const* state : samePoints_) ofState_[state] = cut_.points;
     for (std::size_t t = 0; t < body.bodies.size(); ++t) {
@@ -232,6 +235,88 @@ class TopologyEdit {
                     "this topology is made from a few numbers, and cannot be cut; take a MeshTopology");
     }
     touchMapped();
+  }
+  // surfaces that the body carries are cut by the same blade, where it is
+  void planCarried(CutOrder const& order) {
+    std::size_t number = 0;
+    traverse(
+        root_, on<role::Mapping>([&](auto& mapping, auto const& scope) {
+          using M = std::decay_t<decltype(mapping)>;
+          if constexpr (carries_points<M>)
+            scope.withMapped(mapping, [&](auto&, auto& child, auto& parent) {
+              if (!samePoints_.contains(&parent)) return;
+              CutOrder ofChild{order.stroke, order.rules, {}, {}};
+              ofChild.rules.capacity = CutRules{}.capacity;
+              if (number < order.front.carried.size() &&
+                  order.front.carried[number].size == child.position.size())
+                ofChild.front = order.front.carried[number];
+              ++number;
+              typename M::In::VecCoord before;
+              for (auto const& x : order.before) before.push_back(x.template cast<typename M::In::Real>());
+              if (!before.empty()) ofChild.before = this->carried(mapping, child, before);
+              this->planCarried(
+                  child, this->carried(mapping, child, parent.position), mapping.useRestPosition, ofChild);
+              cut_.front.carried.push_back(std::move(ofChild.front));
+            });
+        }));
+  }
+  template <class M, class Child, class VecCoord>
+  static std::vector<Eigen::Vector3d> carried(M const& mapping, Child const& child, VecCoord const& parent) {
+    typename M::Out::VecCoord x(child.position.size());
+    mapping.apply(x, parent);
+    std::vector<Eigen::Vector3d> all;
+    for (auto const& p : x) all.push_back(p.template cast<double>());
+    return all;
+  }
+  template <class Child>
+  void planCarried(Child const& child, std::vector<Eigen::Vector3d> const& x, bool atRest, CutOrder& order) {
+    BodyOfPoints<RootScope> family(root_, &child);
+    std::vector<TopologyView> views;
+    std::vector<bool> grows;
+    std::size_t first = family.bodies.size();
+    auto dimension = [&](std::size_t t) {
+      return !views[t].tetrahedra.empty() ? 3 : !views[t].triangles.empty() ? 2 : 0;
+    };
+    for (std::size_t t = 0; t < family.bodies.size(); ++t) {
+      auto const& body = family.bodies[t];
+      views.push_back(body.view);
+      grows.push_back(!family.mechanical.contains(body.address));
+      if (!body.view.quads.empty() || !body.view.hexahedra.empty()) return;
+      if (dimension(t) > (first < t ? dimension(first) : 0)) first = t;
+    }
+    if (first == family.bodies.size()) return;
+    if (dimension(first) == 3)
+      add_crossings(views[first].tetrahedra, x, order.before, order.stroke, order.front);
+    else
+      add_crossings(views[first].triangles, x, order.before, order.stroke, order.front);
+    order.front.size = x.size();
+    if (!cut_.changes()) return;
+    CutPlan plan = plan_cut(placesOf(child, atRest), views, first, grows, order.front, order.rules);
+    order.front = plan.front;
+    order.front.size = plan.points.size();
+    if (!plan.changes()) return;
+    family.checkValues("the body that carries it is cut");
+    CutPlan const& kept = carried_.emplace_back(std::move(plan));
+    for (void const* state : family.states) ofState_[state] = kept.points;
+    for (std::size_t t = 0; t < family.bodies.size(); ++t) {
+      ofTopology_[family.bodies[t].address] = kept.ofTopology[t];
+      if (!kept.ofTopology[t].changes()) continue;
+      lists_[family.bodies[t].address] = &kept.lists[t];
+      if (!family.bodies[t].editable)
+        throw Error(family.bodies[t].path,
+                    "this topology is made from a few numbers, and cannot be cut with the body that carries "
+                    "it; take a MeshTopology");
+    }
+  }
+  // where its mapping looks for the points of a state or a visual model
+  template <class Child>
+  static std::vector<Eigen::Vector3d> placesOf(Child const& child, bool atRest) {
+    if constexpr (HasRole<Child, role::VisualModel>) {
+      return child.mesh.positions;
+    } else {
+      auto const& given = child.given ? *child.given : child.position;
+      return centers_of(child, atRest && child.givenRest ? *child.givenRest : given);
+    }
   }
   void touchMapped() {
     traverse(root_, on<role::Mapping>([this](auto& mapping, auto const& scope) {

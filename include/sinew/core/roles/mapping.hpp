@@ -140,6 +140,11 @@ template <class C>
 concept MakesFaces = requires(C const c) {
   { c.faces() } -> std::same_as<std::vector<Quad> const&>;
 };
+/// A mapping by which each point of the child goes with an element of the parent (`carriesPoints`), found
+/// from where it is given, or where it rests (`useRestPosition`): where the parent is cut, a surface of such
+/// points is cut with it, by the same blade.
+template <class C>
+inline constexpr bool carries_points = requires { C::carriesPoints; };
 /// f(point of the parent, block of J) for each block in the rows of a point: what solvers need that assemble
 /// a matrix.
 template <class PartMapping>
