@@ -109,10 +109,11 @@ def main():
         print(f"\nA message takes {latency:.2g} us, a second has room for {arguments.bandwidth:.3g} bytes. By the model:\n")
         print("| ranks | strong [ms] | speedup | weak [ms] | efficiency |\n| --- | --- | --- | --- | --- |")
         base = sum(modelled(strong[0], strong[1], 1, strong[0]["points"], latency, arguments.bandwidth))
+        one = sum(modelled(weak[0], weak[1], 1, weak[0]["points"], latency, arguments.bandwidth))
         for ranks in (1, 2, 4, 8, 16, 64, 256):
             s = sum(modelled(strong[0], strong[1], ranks, strong[0]["points"], latency, arguments.bandwidth))
             w = sum(modelled(weak[0], weak[1], ranks, weak[0]["points"] * ranks, latency, arguments.bandwidth))
-            print(f"| {ranks} | {s:.3g} | {base / s:.3g} | {w:.3g} | {base / w:.2f} |")
+            print(f"| {ranks} | {s:.3g} | {base / s:.3g} | {w:.3g} | {one / w:.2f} |")
     if arguments.table:
         pathlib.Path(arguments.table).write_text(json.dumps({"strong": strong, "weak": weak, "latency": latency,
                                                              "bandwidth": arguments.bandwidth}, indent=1) + "\n")

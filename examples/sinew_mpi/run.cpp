@@ -113,6 +113,7 @@ class Pictures {
   struct Body {
     Mesh mesh{};
     std::vector<std::size_t> points{};  // its own, and others of their elements
+    bool elements = false;              // of the body there are some
     std::optional<io::PvdSeries> series{};
   };
   std::string folder_;
@@ -132,6 +133,7 @@ class Pictures {
     };
     auto add = [&](auto& to, auto const& from) {
       for (auto element : from) {
+        body.elements = true;
         if (!isOwn(std::size_t(element[0]))) continue;
         for (Index& i : element) i = use(i);
         to.push_back(element);
@@ -157,7 +159,7 @@ class Pictures {
       rank.values.push_back(double(halo.parts[std::size_t(halo.numbers[i])]));
       number.values.push_back(double(halo.numbers[i]));
     }
-    body.series->addPiece(sim.time(), body.mesh, {velocity, rank, number}, rank_, ranks_);
+    body.series->addPiece(sim.time(), body.mesh, {velocity, rank, number}, {rank_, ranks_, !body.elements});
   }
 };
 

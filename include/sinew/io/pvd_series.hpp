@@ -6,6 +6,13 @@
 
 namespace sinew::io {
 
+/// Which piece of a mesh a process has, of how many. `vertices`: no piece has elements, and points are to be
+/// seen.
+struct VtuPiece {
+  int number = 0, count = 1;
+  bool vertices = true;
+};
+
 /// A simulation over time for ParaView: "out/liver" writes out/liver_0000.vtu, out/liver_0001.vtu... and
 /// out/liver.pvd, which lists them with their times [s] and is complete after each call of add().
 class PvdSeries {
@@ -21,7 +28,7 @@ class PvdSeries {
   /// The same of a mesh that several processes have pieces of, numbered from 0, each of which writes its own:
   /// out/liver_0000_3.vtu, and the first one out/liver_0000.pvtu, which names them all. Arrays of data have
   /// the same names in all pieces.
-  void addPiece(double time, Mesh const& mesh, PointData const& data, int piece, int pieces);
+  void addPiece(double time, Mesh const& mesh, PointData const& data, VtuPiece const& piece);
 
   std::size_t size() const { return count_; }
   std::string path() const { return stem_ + ".pvd"; }
@@ -58,13 +65,13 @@ SINEW_ONCE void PvdSeries::add(double time, Mesh const& mesh, PointData const& d
   list(time, name_ + end);
 }
 
-SINEW_ONCE void PvdSeries::addPiece(double time, Mesh const& mesh, PointData const& data, int piece,
-                                    int pieces) {
+SINEW_ONCE void PvdSeries::addPiece(double time, Mesh const& mesh, PointData const& data,
+                                    VtuPiece const& piece) {
   if (!std::isfinite(time))
     throw Error(path(), text("the time ", time, " is not a finite number; correct it"));
   const std::string end = text('_', number());
-  write_vtu(text(stem_, end, '_', piece, ".vtu"), mesh, data);
-  if (piece > 0) {
+  write_vtu(text(stem_, end, '_', piece.number, ".vtu"), mesh, data, piece.vertices);
+  if (piece.number > 0) {
     ++count_;
     return;
   }
@@ -81,7 +88,8 @@ SINEW_ONCE void PvdSeries::addPiece(double time, Mesh const& mesh, PointData con
   whole += array("Points", 3) + "    </PPoints>\n    <PPointData>\n";
   for (PointArray const& a : data) whole += array(a.name, a.components);
   whole += "    </PPointData>\n";
-  for (int i = 0; i < pieces; ++i) whole += text("    <Piece Source=\"", name_, end, '_', i, ".vtu\"/>\n");
+  for (int i = 0; i < piece.count; ++i)
+    whole += text("    <Piece Source=\"", name_, end, '_', i, ".vtu\"/>\n");
   write_file(text(stem_, end, ".pvtu"), whole + "  </PUnstructuredGrid>\n</VTKFile>\n");
   list(time, text(name_, end, ".pvtu"));
 }

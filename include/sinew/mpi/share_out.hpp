@@ -14,7 +14,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
-#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -148,6 +147,7 @@ class ShareOut {
     std::vector<Points> carriers{};     // of each point, those of the parent
     std::vector<Points> roots{};        // and those of the state above that is not mapped
     bool moves = false, whole = false;  // by a solver; on each rank
+    std::vector<bool> kept{};           // points of one that is mapped that come back to this rank
     Part part{};
 
     State& top() { return parent ? parent->top() : *this; }
@@ -305,7 +305,6 @@ class ShareOut {
   // Children last to first, since a point asks for those that carry it; then first to last, since some have
   // the points of their parent.
   void shareMapped() {
-    std::map<State const*, std::vector<bool>> kept;
     for (State& s : states_) {
       if (!s.parent) continue;
       compare(s);
@@ -315,7 +314,7 @@ class ShareOut {
         s.part.parts.push_back(roots.empty() ? 0 : s.top().part.parts[std::size_t(roots[0])]);
         ++s.part.ownedBy[std::size_t(s.part.parts.back())];
       }
-      kept[&s].assign(s.points, s.whole);
+      s.kept.assign(s.points, s.whole);
     }
     auto comesBack = [&](State& s, std::span<Index const> points) {
       return s.whole || std::any_of(points.begin(), points.end(), [&](Index i) {
@@ -325,7 +324,7 @@ class ShareOut {
     };
     for (auto s = states_.rbegin(); s != states_.rend(); ++s) {
       if (!s->parent) continue;
-      std::vector<bool>& mine = kept[&*s];
+      std::vector<bool>& mine = s->kept;
       for (std::size_t i = 0; i < s->points; ++i) {
         const Index point = Index(i);
         if (comesBack(*s, {&point, 1})) mine[i] = true;
@@ -337,11 +336,11 @@ class ShareOut {
       if (s->parent->parent)
         for (std::size_t i = 0; i < s->points; ++i)
           if (mine[i])
-            for (const Index c : s->carriers[i]) kept[s->parent][std::size_t(c)] = true;
+            for (const Index c : s->carriers[i]) s->parent->kept[std::size_t(c)] = true;
     }
     for (State& s : states_) {
       if (!s.parent) continue;
-      s.part.points = s.samePoints ? s.parent->part.points : Renumbering::of(kept[&s]);
+      s.part.points = s.samePoints ? s.parent->part.points : Renumbering::of(s.kept);
       for (TopologyView const& view : s.views) {
         TopologyChange& change = s.part.topologies.emplace_back();
         change.points = s.part.points;

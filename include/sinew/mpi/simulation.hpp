@@ -98,10 +98,13 @@ class DistributedSimulation {
   std::optional<DistributedNode<N>> whole_{};
   static constexpr NoScope above_{};
 
-  // lists that steps change, beside vectors of states
+  // contacts, which each rank finds, of points that it has in the order of the whole scene
+  template <class C>
+  static constexpr bool sameOnAll = HasRole<C, role::ContactManager>;
+  // other lists that steps change, beside vectors of states
   template <class C>
   static void refuseKept(C const& c, std::string const& where) {
-    if constexpr (requires { C::state(); })
+    if constexpr (requires { C::state(); } && !sameOnAll<C>)
       hana::for_each(C::state(), [&](auto const& fd) {
         auto const& value = c.*fd.member;
         if constexpr (requires { value.empty(); })
@@ -132,6 +135,8 @@ class DistributedSimulation {
                    c.position = parts.everywhere(from, from.position);
                    c.velocity = parts.everywhere(from, from.velocity);
                    c.dx = parts.everywhere(from, from.dx);
+                 } else if constexpr (sameOnAll<C>) {
+                   copy_fields(from, C::state(), c, C::state());
                  }
                }));
     } else {
