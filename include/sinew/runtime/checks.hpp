@@ -92,8 +92,8 @@ struct RuntimeFacts {
   bool pipelineAbove() const {
     for (auto* n = &scope.node; n; n = n->parent())
       if (Scope(*n).template has<role::CollisionPipeline>()) return true;
-    for (auto const& below : scope.node.top().children())
-      for (auto const& entry : below->components())
+    for (auto const& ofRoot : scope.node.top().children())
+      for (auto const& entry : ofRoot->components())
         if (Scope::lists_models(entry.component)) return true;
     return false;
   }
