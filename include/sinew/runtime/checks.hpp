@@ -93,8 +93,8 @@ struct RuntimeFacts {
     for (auto* n = &scope.node; n; n = n->parent())
       if (Scope(*n).template has<role::CollisionPipeline>()) return true;
     for (auto const& ofRoot : scope.node.top().children())
-      for (auto const& entry : ofRoot->components())
-        if (Scope::lists_models(entry.component)) return true;
+      for (auto const& part : ofRoot->components())
+        if (Scope::lists_models(part.component)) return true;
     return false;
   }
   bool pipelineHere() const { return scope.template has<role::CollisionPipeline>(); }
