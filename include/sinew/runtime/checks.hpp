@@ -92,9 +92,9 @@ struct RuntimeFacts {
   bool pipelineAbove() const {
     for (auto* n = &scope.node; n; n = n->parent())
       if (Scope(*n).template has<role::CollisionPipeline>()) return true;
-    for (auto const& below : scope.node.top().children())
-      for (auto const& entry : below->components())
-        if (Scope::lists_models(entry.component)) return true;
+    for (auto const& ofRoot : scope.node.top().children())
+      for (auto const& part : ofRoot->components())
+        if (Scope::lists_models(part.component)) return true;
     return false;
   }
   bool pipelineHere() const { return scope.template has<role::CollisionPipeline>(); }
