@@ -29,7 +29,8 @@ struct MappingSuite {
   void run() {
     INFO(component_name<M>());
     sample::for_each_variant<Component>(random, [&](Component const& sampled) {
-      M mapping{sampled};
+      M mapping{};
+      static_cast<Component&>(mapping) = sampled;
       typename Out::VecCoord child;
       for (std::size_t i = 0; i < sample::child_points(sampled); ++i)
         child.push_back(sample::coord<Out>(random, 1.5));

@@ -5,6 +5,7 @@
 #include <sinew/force/ellipsoid_penalty.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
