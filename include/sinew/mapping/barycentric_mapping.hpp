@@ -164,7 +164,15 @@ struct BarycentricMapping {
     if constexpr (Out::rigid) together.place(points, places, carriers, others);
   }
 
-  void apply(typename Out::VecCoord& out, typename In::VecCoord const& in) {
+  void apply(typename Out::VecCoord& out, typename In::VecCoord const& in) const
+  requires(!Out::rigid)
+  {
+    together.apply(out, in, carriers, others);
+  }
+  // frames keep where their elements are
+  void apply(typename Out::VecCoord& out, typename In::VecCoord const& in)
+  requires(Out::rigid)
+  {
     together.apply(out, in, carriers, others);
   }
   void ask(typename Out::VecCoord const& out, typename In::VecCoord const& in) const {

@@ -144,7 +144,7 @@ concept MakesFaces = requires(C const c) {
 /// from where it is given, or where it rests (`useRestPosition`): where the parent is cut, a surface of such
 /// points is cut with it, by the same blade.
 template <class C>
-inline constexpr bool carries_points = requires { C::carriesPoints; };
+inline constexpr bool carries_points = requires { C::carriesPoints; } && !C::Out::rigid;
 /// f(point of the parent, block of J) for each block in the rows of a point: what solvers need that assemble
 /// a matrix.
 template <class PartMapping>
